@@ -1,0 +1,20 @@
+//! The ground floor: what every room of the house stands on.
+//!
+//! Four subjects and no fifth: [`id`] (identity in arenas), [`text`] (files and spans),
+//! [`diagnostic`] (what is said to the user), [`number`] (the same bits on every machine).
+//!
+//! ```
+//! use base::{Diagnostic, FileId, Place, Span};
+//! let place = Place { file: FileId(0), span: Span::new(4, 9) };
+//! let d = Diagnostic::error("unknown-name", place, "no part named `cetner` in Rectangle")
+//!     .hint("did you mean `center`?");
+//! assert_eq!(d.code, "unknown-name");
+//! ```
+pub mod diagnostic;
+pub mod id;
+pub mod number;
+pub mod text;
+
+pub use diagnostic::{Diagnostic, Label, Severity};
+pub use id::{Id, IdVec};
+pub use text::{FileId, LineIndex, Name, Place, Span};

@@ -1,0 +1,2 @@
+//! The `thinglab` command.
+fn main() {}

@@ -1,0 +1,167 @@
+//! Elements: what a drawing is made of.
+
+/// A point on the sheet.
+#[derive(Clone, Copy, PartialEq, Debug, Default)]
+pub struct Point {
+    /// To the right.
+    pub x: f64,
+    /// Up or down, as the drawing says.
+    pub y: f64,
+}
+
+/// Which thing an element pictures: a number that whoever made the drawing can resolve.
+#[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, Debug, Default)]
+pub struct Tag(pub u32);
+
+/// Which way `y` runs.
+#[derive(Clone, Copy, PartialEq, Eq, Debug, Default)]
+pub enum Vertical {
+    /// Up, as in mathematics.
+    #[default]
+    Up,
+    /// Down, as on a screen.
+    Down,
+}
+
+/// In front of what an element lies: drawn in this order.
+#[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Debug, Default)]
+pub enum Layer {
+    /// Behind: fills, grids.
+    Back,
+    /// Lines and curves.
+    #[default]
+    Lines,
+    /// Points, which one grips.
+    Points,
+    /// Words.
+    Words,
+}
+
+/// A colour by its part in the picture, so that light and dark pages both read well.
+#[derive(Clone, PartialEq, Eq, Debug, Default)]
+pub enum Color {
+    /// The foreground.
+    #[default]
+    Ink,
+    /// A quieter foreground.
+    Faint,
+    /// The colour that catches the eye.
+    Accent,
+    /// A colour that the document names: a CSS name or `#rrggbb`.
+    Named(String),
+}
+
+/// How a line is drawn.
+#[derive(Clone, Copy, PartialEq, Eq, Debug, Default)]
+pub enum Line {
+    /// In one go.
+    #[default]
+    Solid,
+    /// In dashes: construction geometry.
+    Dashed,
+    /// In dots.
+    Dotted,
+    /// Not at all: a fill alone.
+    None,
+}
+
+/// How an element looks.
+#[derive(Clone, PartialEq, Debug, Default)]
+pub struct Style {
+    /// The colour of its line or text.
+    pub color: Color,
+    /// What it is filled with.
+    pub fill: Option<Color>,
+    /// How its line is drawn.
+    pub line: Line,
+    /// The line's width in screen pixels at a zoom of 1; 0 for the usual.
+    pub width: f64,
+}
+
+/// Which point of a text lies at its position.
+#[derive(Clone, Copy, PartialEq, Eq, Debug, Default)]
+pub enum Anchoring {
+    /// The left end of the base line.
+    #[default]
+    Start,
+    /// The middle of the base line.
+    Middle,
+    /// The right end of the base line.
+    End,
+}
+
+/// How a text lies on the sheet.
+#[derive(Clone, Copy, PartialEq, Debug)]
+pub enum Placement {
+    /// Its height is in the sheet's units and grows with the zoom.
+    OnSheet(f64),
+    /// Its height is in screen pixels, whatever the zoom.
+    OnScreen(f64),
+}
+
+/// What an element is. Curves are exact.
+#[derive(Clone, PartialEq, Debug)]
+pub enum Shape {
+    /// A dot of a constant size on the screen.
+    Dot(Point),
+    /// A straight segment.
+    Segment(Point, Point),
+    /// Straight segments in a row.
+    Polyline {
+        /// The corners.
+        points: Vec<Point>,
+        /// Whether the last is joined to the first.
+        closed: bool,
+    },
+    /// A circle.
+    Circle {
+        /// The centre.
+        center: Point,
+        /// The radius, not negative.
+        radius: f64,
+    },
+    /// A circular arc.
+    Arc {
+        /// The centre.
+        center: Point,
+        /// The radius, not negative.
+        radius: f64,
+        /// The angle of its start, in radians from the x axis towards the y axis.
+        start: f64,
+        /// The signed angle that it turns through, in radians.
+        sweep: f64,
+    },
+    /// A text in one or more lines.
+    Text {
+        /// Where its anchor point lies.
+        at: Point,
+        /// The words; lines end at `\n`.
+        text: String,
+        /// Which point of it lies there.
+        anchoring: Anchoring,
+        /// How high it is.
+        placement: Placement,
+    },
+}
+
+/// A shape with its style, its layer and the thing that it pictures.
+#[derive(Clone, PartialEq, Debug)]
+pub struct Element {
+    /// What it is.
+    pub shape: Shape,
+    /// How it looks.
+    pub style: Style,
+    /// In front of what.
+    pub layer: Layer,
+    /// What it pictures.
+    pub tag: Tag,
+}
+
+/// Elements in order; the layers first by [`Layer`], within a layer as listed.
+#[derive(Clone, PartialEq, Debug, Default)]
+pub struct Drawing {
+    /// The elements.
+    pub elements: Vec<Element>,
+    /// Which way `y` runs.
+    pub vertical: Vertical,
+}

@@ -1,0 +1,241 @@
+//! Classes: what the things of a kind have in common.
+
+use crate::path::Path;
+use crate::term::{OriginId, Term};
+use base::Name;
+use expr::dimension::Dimension;
+
+base::define_id!(ClassId, "c", "A class.");
+
+/// What is stored in a slot.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub enum Primitive {
+    /// A real number of a dimension: `Real`, `Length`, `Voltage`, …
+    Real(Dimension),
+    /// A whole number.
+    Integer,
+    /// A truth value, stored as 0 or 1.
+    Bool,
+    /// A text.
+    Text,
+    /// A colour, stored as its text: a name or `#rrggbb`.
+    Color,
+}
+
+impl Primitive {
+    /// Returns true if the slot holds a number (truth values included).
+    pub fn is_number(self) -> bool {
+        match self {
+            Self::Real(_) | Self::Integer | Self::Bool => true,
+            Self::Text | Self::Color => false,
+        }
+    }
+}
+
+/// What kind of class it is.
+#[derive(Clone, PartialEq, Debug)]
+pub enum ClassKind {
+    /// Its things have no parts of their own.
+    Primitive(Primitive),
+    /// Its things are made of named parts.
+    Composite,
+    /// `List of C`: its things are made of numbered parts.
+    List(ClassId),
+    /// `Set of C`: its things collect parts of others, by `insert … into`.
+    Set(ClassId),
+    /// `Path to C`, `ref`: its things name another.
+    Reference(ClassId),
+}
+
+/// How strongly a constraint wants to hold.
+#[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, Debug)]
+pub enum Strength {
+    /// Always.
+    Required,
+    /// Unless something required forbids it.
+    Strong,
+    /// Weaker than the wish of a drag.
+    Medium,
+    /// Weakest of those that are written.
+    Weak,
+}
+
+/// A class: part descriptions, constraints, merges, messages.
+#[derive(Clone, PartialEq, Debug)]
+pub struct Class {
+    /// Its name; for a class of one, the path of its thing; for the document, the document's title.
+    pub name: Name,
+    /// What `///` says of it.
+    pub doc: String,
+    /// What kind of class it is.
+    pub kind: ClassKind,
+    /// The superclasses, the primary one first. Empty only for `Object`.
+    pub supers: Vec<Superclass>,
+    /// True if it has no instances of its own.
+    pub is_abstract: bool,
+    /// The stored parts that it adds, in order of declaration.
+    pub parts: Vec<Part>,
+    /// Given values of its parts and subparts, in order of declaration; later ones win.
+    pub givens: Vec<Given>,
+    /// Messages and virtual parts.
+    pub messages: Vec<Message>,
+    /// The constraints that it adds.
+    pub constraints: Vec<Constraint>,
+    /// The merges that it adds.
+    pub merges: Vec<Merge>,
+    /// The set memberships that it adds.
+    pub inserts: Vec<Insert>,
+    /// Declared stays and anchors.
+    pub stays: Vec<Stay>,
+    /// Parts that stick to others when a thing of this class is placed, in order.
+    pub attachers: Vec<Path>,
+    /// Names of inherited constraints and merges that do not apply here.
+    pub without: Vec<Path>,
+    /// Where it was written.
+    pub origin: OriginId,
+}
+
+/// A superclass; all but the first are parts of the thing, reached by their name.
+#[derive(Clone, PartialEq, Debug)]
+pub struct Superclass {
+    /// The class.
+    pub class: ClassId,
+    /// The name of the superclass part.
+    pub name: Name,
+}
+
+/// A part description.
+#[derive(Clone, PartialEq, Debug)]
+pub struct Part {
+    /// Its name.
+    pub name: Name,
+    /// What `///` says of it.
+    pub doc: String,
+    /// The class of the part: a named class, a list class, or a class of one for a part with a body.
+    pub class: ClassId,
+    /// For lists, how many elements.
+    pub count: Option<Count>,
+    /// The values that an integer may take, both ends included.
+    pub range: Option<(i64, i64)>,
+    /// Where it was written.
+    pub origin: OriginId,
+}
+
+/// How many elements a list has.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub enum Count {
+    /// As the class says: `List of 12 C`.
+    Fixed(u32),
+    /// As many as the given list has elements.
+    Given,
+}
+
+/// A given value: `x = 3`, `p1.x = 3`, or a default of a part.
+#[derive(Clone, PartialEq, Debug)]
+pub struct Given {
+    /// From a thing of the class to the part.
+    pub path: Path,
+    /// Its value, in terms of the thing whose class says so.
+    pub value: Term,
+    /// Where it was written (the value alone).
+    pub origin: OriginId,
+}
+
+/// A message: its answer is an expression. Without parameters it is a virtual part.
+#[derive(Clone, PartialEq, Debug)]
+pub struct Message {
+    /// Its name.
+    pub name: Name,
+    /// What `///` says of it.
+    pub doc: String,
+    /// The parameters, in order.
+    pub parameters: Vec<Parameter>,
+    /// The answer.
+    pub answer: Term,
+    /// True if it gives way to any other definition.
+    pub is_default: bool,
+    /// True if superclasses' answers are combined where the class has none of its own.
+    pub is_combining: bool,
+    /// Where it was written.
+    pub origin: OriginId,
+}
+
+/// A parameter of a message: `scaled(by k: Real)`.
+#[derive(Clone, PartialEq, Debug)]
+pub struct Parameter {
+    /// The label at the call; the name where no other is written.
+    pub label: Name,
+    /// The name in the answer.
+    pub name: Name,
+    /// The class of the argument, where one is written.
+    pub class: Option<ClassId>,
+}
+
+/// A constraint: a rule, a strength, and methods where they were written.
+#[derive(Clone, PartialEq, Debug)]
+pub struct Constraint {
+    /// Its name, if it has one.
+    pub name: Option<Name>,
+    /// What `///` says of it.
+    pub doc: String,
+    /// What shall be true.
+    pub rule: Term,
+    /// How strongly.
+    pub strength: Strength,
+    /// The written methods, in order of preference. A written list is complete unless `derived`.
+    pub methods: Vec<Method>,
+    /// True if methods are derived from the rule too (always so where none is written).
+    pub derived: bool,
+    /// Parts that the constraint never writes.
+    pub reads: Vec<Path>,
+    /// How far its sides may differ, where that was written.
+    pub within: Option<Term>,
+    /// False while switched off.
+    pub enabled: bool,
+    /// Where it was written.
+    pub origin: OriginId,
+}
+
+/// A way to make a rule hold: `fahrenheit := celsius * 1.8 + 32`.
+#[derive(Clone, PartialEq, Debug)]
+pub struct Method {
+    /// The parts that it writes.
+    pub targets: Vec<Path>,
+    /// What it writes into each.
+    pub values: Vec<Term>,
+    /// Where it was written.
+    pub origin: OriginId,
+}
+
+/// Parts that are one part, reached by several paths.
+#[derive(Clone, PartialEq, Debug)]
+pub struct Merge {
+    /// Its name, by which it can be masked.
+    pub name: Option<Name>,
+    /// The paths, two or more.
+    pub paths: Vec<Path>,
+    /// Where it was written.
+    pub origin: OriginId,
+}
+
+/// A set membership: `insert current into node.currents`.
+#[derive(Clone, PartialEq, Debug)]
+pub struct Insert {
+    /// The part.
+    pub part: Path,
+    /// The set.
+    pub set: Path,
+    /// Where it was written.
+    pub origin: OriginId,
+}
+
+/// A declared stay, or an anchor.
+#[derive(Clone, PartialEq, Debug)]
+pub struct Stay {
+    /// The part that stays.
+    pub path: Path,
+    /// How strongly; `None` for an anchor, which only a `set` of exactly this path changes.
+    pub strength: Option<Strength>,
+    /// Where it was written.
+    pub origin: OriginId,
+}

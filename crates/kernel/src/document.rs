@@ -1,0 +1,155 @@
+//! A document: classes, the last word of which is the document's own.
+
+use crate::class::{Class, ClassId, ClassKind, Message, Part};
+use base::{IdVec, Name};
+
+/// Which way `y` runs on the sheet.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub enum Vertical {
+    /// Up, as in mathematics.
+    Up,
+    /// Down, as on a screen.
+    Down,
+}
+
+/// Everything that a text says: classes, and the class of the document itself.
+#[derive(Clone, PartialEq, Debug)]
+pub struct Document {
+    /// Every class in scope: the language's own, the libraries', the document's.
+    pub classes: IdVec<ClassId, Class>,
+    /// The unnamed class whose one instance is the document.
+    pub root: ClassId,
+    /// Which way `y` runs.
+    pub vertical: Vertical,
+    /// How many base units of length are in a metre: 1000 for `unit mm`, 1 without a unit line.
+    pub units_per_metre: f64,
+}
+
+/// A part as an instance has it: whose class it comes from and where in that class.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub struct PartRef {
+    /// The class that declares the part.
+    pub class: ClassId,
+    /// Its index among that class's parts; for a superclass part, among its superclasses.
+    pub index: usize,
+    /// Whether it is a declared part or stands for a superclass other than the primary one.
+    pub role: PartRole,
+}
+
+/// What a field of an instance stands for.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub enum PartRole {
+    /// A declared part.
+    Part,
+    /// A superclass other than the primary one.
+    Superclass,
+}
+
+impl Document {
+    /// Returns the class and its primary superclasses, from the class upwards.
+    pub fn primary_line(&self, class: ClassId) -> Vec<ClassId> {
+        let mut line = vec![class];
+        while let Some(above) = self.classes[line[line.len() - 1]].supers.first() {
+            if line.contains(&above.class) {
+                break;
+            }
+            line.push(above.class);
+        }
+        line
+    }
+    /// Returns the fields of an instance: inherited parts first, superclass parts where declared.
+    pub fn layout(&self, class: ClassId) -> Vec<PartRef> {
+        let mut layout = Vec::new();
+        for class in self.primary_line(class).into_iter().rev() {
+            let c = &self.classes[class];
+            let supers = (1..c.supers.len()).map(|index| PartRef {
+                class,
+                index,
+                role: PartRole::Superclass,
+            });
+            let parts =
+                (0..c.parts.len()).map(|index| PartRef { class, index, role: PartRole::Part });
+            layout.extend(supers.chain(parts));
+        }
+        layout
+    }
+    /// Returns the name of a field.
+    pub fn field_name(&self, field: PartRef) -> &Name {
+        match field.role {
+            PartRole::Part => &self.classes[field.class].parts[field.index].name,
+            PartRole::Superclass => &self.classes[field.class].supers[field.index].name,
+        }
+    }
+    /// Returns the class of a field.
+    pub fn field_class(&self, field: PartRef) -> ClassId {
+        match field.role {
+            PartRole::Part => self.classes[field.class].parts[field.index].class,
+            PartRole::Superclass => self.classes[field.class].supers[field.index].class,
+        }
+    }
+    /// Returns the declaration of a field that is a declared part.
+    pub fn declared(&self, field: PartRef) -> Option<&Part> {
+        match field.role {
+            PartRole::Part => Some(&self.classes[field.class].parts[field.index]),
+            PartRole::Superclass => None,
+        }
+    }
+    /// Returns every class that `class` is: itself, and all superclasses, nearest first, once each.
+    pub fn lineage(&self, class: ClassId) -> Vec<ClassId> {
+        let mut all = self.primary_line(class);
+        let mut i = 0;
+        while i < all.len() {
+            for s in self.classes[all[i]].supers.iter().skip(1) {
+                for above in self.primary_line(s.class) {
+                    if !all.contains(&above) {
+                        all.push(above);
+                    }
+                }
+            }
+            i += 1;
+        }
+        all
+    }
+    /// Returns true if every thing of `class` is a thing of `ancestor`.
+    pub fn is_a(&self, class: ClassId, ancestor: ClassId) -> bool {
+        self.lineage(class).contains(&ancestor)
+    }
+    /// Returns the class of this name, the last declared first.
+    pub fn class_named(&self, name: &str) -> Option<ClassId> {
+        self.classes.iter().rev().find(|(_, c)| c.name == name).map(|(id, _)| id)
+    }
+    /// Finds a message by the thesis's order: the class, its primary line, then all others.
+    ///
+    /// `above` begins the search above that class. A message marked `default` gives way to others.
+    /// **Source:** Borning 1979, chapter 3, "Message Behavior".
+    pub fn find_message(
+        &self,
+        class: ClassId,
+        name: &str,
+        above: Option<ClassId>,
+    ) -> Option<(ClassId, &Message)> {
+        let lineage = self.lineage(class);
+        let skip = above.and_then(|a| lineage.iter().position(|&c| c == a)).map_or(0, |p| p + 1);
+        let mut found = lineage[skip..].iter().filter_map(|&c| {
+            self.classes[c].messages.iter().rev().find(|m| m.name == name).map(|m| (c, m))
+        });
+        let first = found.next()?;
+        if !first.1.is_default {
+            return Some(first);
+        }
+        Some(found.find(|(_, m)| !m.is_default).unwrap_or(first))
+    }
+    /// Returns true if things of the class are a *place*: two or three stored parts, all real
+    /// numbers, no constraints. A place yields as one.
+    pub fn is_place(&self, class: ClassId) -> bool {
+        let layout = self.layout(class);
+        (2..=3).contains(&layout.len())
+            && layout.iter().all(|&f| {
+                matches!(
+                    self.classes[self.field_class(f)].kind,
+                    ClassKind::Primitive(crate::class::Primitive::Real(_))
+                )
+            })
+            && self.lineage(class).iter().all(|&c| self.classes[c].constraints.is_empty())
+    }
+}

@@ -1,0 +1,37 @@
+//! Classes, things, parts, paths, merges: the object model. No text, no arithmetic, no pixels.
+//!
+//! Three nouns. A [`Document`] is a set of classes, the last of which has the document itself as its
+//! one instance. [`instantiate`] makes its [`Structure`]: every thing of the document with its owner,
+//! its parts and what it is merged with, and a *slot* for every distinct primitive part.
+//! [`Values`] holds what is in the slots.
+//!
+//! **Invariants** ([`check`] states and tests them): a thing's parts follow it in its class's
+//! layout; merged things agree, recursively, on what they have from their nearest common ancestor;
+//! a slot belongs to one primitive thing, the first by declaration among those merged.
+//!
+//! Reading order: [`path`], [`term`], [`class`], [`document`], [`structure`], [`values`],
+//! [`command`], [`check`].
+pub mod check;
+pub mod class;
+pub mod command;
+pub mod document;
+mod instantiate;
+pub mod path;
+pub mod structure;
+pub mod term;
+pub mod values;
+
+pub use class::{
+    Class, ClassId, ClassKind, Constraint, Count, Given, Insert, Merge, Message, Method, Parameter,
+    Part, Primitive, Stay, Strength, Superclass,
+};
+pub use command::{Command, Literal};
+pub use document::{Document, PartRef, PartRole, Vertical};
+pub use instantiate::{Fault, FaultKind, instantiate};
+pub use path::{Path, Step};
+pub use structure::{
+    Astray, ConstraintInstance, DOCUMENT, GivenIn, Layout, Slot, SlotId, StayInstance, Structure,
+    Thing, ThingId,
+};
+pub use term::{Argument, BinaryOperator, OriginId, Term, UnaryOperator};
+pub use values::{Value, Values};

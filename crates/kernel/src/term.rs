@@ -1,0 +1,155 @@
+//! Terms: the language's expressions as data, names resolved as far as the text alone allows.
+//!
+//! A term is read in a class, for a thing of it: `Me` is that thing. `plan` lowers terms to
+//! equations over slots; `eval` computes their values. Neither sees text.
+
+use crate::class::ClassId;
+use base::Name;
+use expr::dimension::Dimension;
+
+base::define_id!(OriginId, "o", "Where a member was written: `lang` keeps the table of places.");
+
+/// An expression of the language.
+#[derive(Clone, PartialEq, Debug)]
+pub enum Term {
+    /// A number in the document's base units, with its dimension.
+    ///
+    /// `bare` numbers (written without a unit) take the dimension that the context wants.
+    Number {
+        /// The value in base units.
+        value: f64,
+        /// What it measures.
+        dimension: Dimension,
+        /// True if no unit was written.
+        bare: bool,
+    },
+    /// A text.
+    Text(String),
+    /// A truth value.
+    Bool(bool),
+    /// The thing that the expression belongs to.
+    Me,
+    /// The thing that `Me` is a part of.
+    Owner,
+    /// The document itself, for absolute references.
+    Document,
+    /// A `let` binding, a lambda's or a message's parameter.
+    Local(Name),
+    /// A part of a thing, or the answer to a message: `a.b`, `a.scaled(by: 2)`.
+    ///
+    /// `above` is set by `super.name`: the search begins above that class.
+    Send {
+        /// The receiver.
+        to: Box<Term>,
+        /// The name of the part or message.
+        name: Name,
+        /// The arguments; none for a part.
+        arguments: Vec<Argument>,
+        /// Where the search for the message begins, if above a class.
+        above: Option<ClassId>,
+    },
+    /// A function of the language: `sqrt(x)`, `segment(p, q)`.
+    Call {
+        /// The name of the function.
+        name: Name,
+        /// The arguments.
+        arguments: Vec<Argument>,
+    },
+    /// A new thing: `Point(1, 2)`, `Point(x: 1, y: 2)`.
+    Make {
+        /// Its class.
+        class: ClassId,
+        /// Its stored parts, by position (inherited first) or by name.
+        arguments: Vec<Argument>,
+    },
+    /// `(a, b)`: a thing of whatever class the context wants, by position.
+    Tuple(Vec<Term>),
+    /// `[a, b, c]`.
+    List(Vec<Term>),
+    /// `a..b`, both ends included.
+    Range(Box<Term>, Box<Term>),
+    /// An element of a list, counted from 0.
+    Index(Box<Term>, Box<Term>),
+    /// `-a`, `not a`.
+    Unary(UnaryOperator, Box<Term>),
+    /// `a + b`, `a <= b`, `a and b`; a chain of comparisons is a conjunction of these.
+    Binary(BinaryOperator, Box<Term>, Box<Term>),
+    /// `if c then a else b`.
+    If(Box<Term>, Box<Term>, Box<Term>),
+    /// `let a = e in g`.
+    Let(Name, Box<Term>, Box<Term>),
+    /// `x => e`, `(x, y) => e`.
+    Lambda(Vec<Name>, Box<Term>),
+    /// `x is C`.
+    IsA(Box<Term>, ClassId),
+    /// `all C`.
+    All(ClassId),
+    /// `copy of x`.
+    Copy(Box<Term>),
+}
+
+/// An argument of a message, function or constructor.
+#[derive(Clone, PartialEq, Debug)]
+pub struct Argument {
+    /// The label, where one was written.
+    pub label: Option<Name>,
+    /// The value.
+    pub value: Term,
+}
+
+/// An operator with one operand.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub enum UnaryOperator {
+    /// `-a`
+    Negate,
+    /// `not a`
+    Not,
+}
+
+/// An operator with two operands.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub enum BinaryOperator {
+    /// `a + b`; texts are joined
+    Add,
+    /// `a - b`
+    Subtract,
+    /// `a * b`
+    Multiply,
+    /// `a / b`
+    Divide,
+    /// `a ^ b`
+    Power,
+    /// `a = b`
+    Equal,
+    /// `a != b`
+    NotEqual,
+    /// `a < b`
+    Less,
+    /// `a <= b`
+    LessEqual,
+    /// `a > b`
+    Greater,
+    /// `a >= b`
+    GreaterEqual,
+    /// `a and b`
+    And,
+    /// `a or b`
+    Or,
+    /// `a in s`
+    In,
+}
+
+impl Term {
+    /// Makes the term for a part of `Me`, step by step.
+    pub fn part(names: &[&str]) -> Self {
+        names.iter().fold(Self::Me, |to, name| Self::send(to, name))
+    }
+    /// Makes the term that reads `name` of `to`.
+    pub fn send(to: Self, name: &str) -> Self {
+        Self::Send { to: Box::new(to), name: Name::new(name), arguments: Vec::new(), above: None }
+    }
+    /// Makes a bare number.
+    pub fn number(value: f64) -> Self {
+        Self::Number { value, dimension: Dimension::NONE, bare: true }
+    }
+}

@@ -1,0 +1,1 @@
+//! Names, dimensions, checking; Origins: things and text; tree edits from changes.

@@ -1,0 +1,270 @@
+//! Views: what there is to see of a document, as plain data.
+//!
+//! Paths are written as in the language (`q.outer.side1.p1`). Offsets are bytes in the text.
+//! Angles are radians, lengths the document's units; a number's `text` is what a person reads and
+//! may type back.
+
+use serde::{Deserialize, Serialize};
+
+/// Which open document.
+#[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Debug, Serialize, Deserialize)]
+pub struct DocumentId(pub u32);
+
+/// What an applied command did.
+#[derive(Clone, PartialEq, Debug, Default, Serialize)]
+pub struct Change {
+    /// What the undo list calls it: "move q.outer.side1.p1".
+    pub label: String,
+    /// The edits of the text, each relative to the text before any of them, in order.
+    pub edits: Vec<TextChange>,
+    /// The paths of the things whose values changed, in order of declaration.
+    pub moved: Vec<String>,
+    /// Whether classes, parts, constraints or merges changed, and not values alone.
+    pub structure: bool,
+}
+
+/// A replaced stretch of the text.
+#[derive(Clone, PartialEq, Eq, Debug, Serialize)]
+pub struct TextChange {
+    /// The first byte replaced.
+    pub start: u32,
+    /// The byte after the last replaced.
+    pub end: u32,
+    /// What stands there instead.
+    pub insert: String,
+}
+
+/// Why a command changed nothing.
+#[derive(Clone, PartialEq, Debug, Default, Serialize)]
+pub struct Refusal {
+    /// One sentence for the status line.
+    pub message: String,
+    /// The constraints that stand in the way, by path and name.
+    pub constraints: Vec<String>,
+    /// What is wrong with the text, where the text is what is wrong.
+    pub diagnostics: Vec<DiagnosticView>,
+    /// What would work.
+    pub repairs: Vec<String>,
+}
+
+/// A diagnostic as an editor shows it.
+#[derive(Clone, PartialEq, Eq, Debug, Serialize)]
+pub struct DiagnosticView {
+    /// `error`, `warning` or `note`.
+    pub severity: String,
+    /// The kebab-case code.
+    pub code: String,
+    /// What was found and what was wanted.
+    pub message: String,
+    /// What to do.
+    pub hint: Option<String>,
+    /// The file; empty for the document itself.
+    pub file: String,
+    /// The first byte.
+    pub start: u32,
+    /// The byte after the last.
+    pub end: u32,
+    /// The line, from 1.
+    pub line: u32,
+    /// The column in characters, from 1.
+    pub column: u32,
+}
+
+/// The state of a thing, as colour and word.
+#[derive(Clone, Copy, PartialEq, Eq, Debug, Serialize)]
+#[serde(rename_all = "lowercase")]
+pub enum Freedom {
+    /// It can still move.
+    Free,
+    /// Constraints, anchors or given numbers determine it.
+    Fixed,
+    /// A constraint on it does not hold.
+    Conflicting,
+    /// A constraint on it says nothing new.
+    Redundant,
+}
+
+/// The picture: a drawing, and what its tags mean.
+#[derive(Clone, Debug, Default)]
+pub struct PictureView {
+    /// What to paint.
+    pub drawing: drawing::Drawing,
+    /// For every tag, the path of the thing that it pictures.
+    pub paths: Vec<String>,
+    /// For every tag, its thing's freedom.
+    pub freedom: Vec<Option<Freedom>>,
+    /// What a pointer can grip, in the order of picking: points first.
+    pub grips: Vec<Grip>,
+}
+
+/// Something that a pointer can grip and drag.
+#[derive(Clone, PartialEq, Debug, Serialize)]
+pub struct Grip {
+    /// The thing's path.
+    pub path: String,
+    /// Where it is, on the sheet.
+    pub x: f64,
+    /// Where it is, on the sheet.
+    pub y: f64,
+    /// Whether an anchor holds it.
+    pub anchored: bool,
+}
+
+/// One row of the structure view, in pre-order: the accessible twin of the picture.
+#[derive(Clone, PartialEq, Debug, Serialize)]
+pub struct StructureRow {
+    /// The path; empty for the document.
+    pub path: String,
+    /// How deep it lies, 0 for the document.
+    pub depth: u32,
+    /// What kind of row it is.
+    pub kind: RowKind,
+    /// Its name.
+    pub name: String,
+    /// Its class, its rule or its paths, in the language.
+    pub detail: String,
+    /// What `///` says of it.
+    pub doc: String,
+    /// The value as text, for things that have one (a number, a text, a place).
+    pub value: Option<String>,
+    /// The path of the first thing that it is merged with, where it is not the first itself.
+    pub merged_with: Option<String>,
+    /// Its state.
+    pub freedom: Option<Freedom>,
+    /// Whether it is anchored.
+    pub anchored: bool,
+    /// How many rows below belong to it.
+    pub descendants: u32,
+    /// Where it is written, if it is in the document's own text.
+    pub span: Option<(u32, u32)>,
+}
+
+/// What a row of the structure view stands for.
+#[derive(Clone, Copy, PartialEq, Eq, Debug, Serialize)]
+#[serde(rename_all = "lowercase")]
+pub enum RowKind {
+    /// The document or a part.
+    Part,
+    /// A virtual part.
+    Virtual,
+    /// A constraint.
+    Constraint,
+    /// A merge.
+    Merge,
+}
+
+/// One row of the values view.
+#[derive(Clone, PartialEq, Debug, Serialize)]
+pub struct ValueRow {
+    /// The path.
+    pub path: String,
+    /// The class: `Length`, `Voltage`, `Text`, ….
+    pub class: String,
+    /// The value without its unit, as a person may type it back.
+    pub text: String,
+    /// The unit, or nothing.
+    pub unit: String,
+    /// The value in base units, for numbers.
+    pub number: Option<f64>,
+    /// Whether the text gives it (others are what the constraints make them).
+    pub given: bool,
+    /// Whether it is a virtual part.
+    pub is_virtual: bool,
+    /// Whether an anchor holds it.
+    pub anchored: bool,
+    /// Its state.
+    pub freedom: Option<Freedom>,
+    /// What `///` says of it.
+    pub doc: String,
+}
+
+/// The source and what is known of it.
+#[derive(Clone, PartialEq, Debug, Serialize)]
+pub struct TextView {
+    /// The text.
+    pub source: String,
+    /// The stretches to colour, in order.
+    pub tokens: Vec<TokenView>,
+    /// What is wrong with it.
+    pub diagnostics: Vec<DiagnosticView>,
+}
+
+/// A coloured stretch of the source.
+#[derive(Clone, PartialEq, Eq, Debug, Serialize)]
+pub struct TokenView {
+    /// The first byte.
+    pub start: u32,
+    /// The byte after the last.
+    pub end: u32,
+    /// `keyword`, `class`, `name`, `number`, `text`, `comment`, `doc`, `operator` or `error`.
+    pub kind: String,
+}
+
+/// What the status line says.
+#[derive(Clone, PartialEq, Debug, Default, Serialize)]
+pub struct Status {
+    /// Whether every required constraint holds.
+    pub satisfied: bool,
+    /// The degrees of freedom: in how many ways the things can still move.
+    pub freedom: u32,
+    /// The constraints that do not hold, by path and name, with their errors.
+    pub unmet: Vec<Unmet>,
+    /// Constraints that say nothing new.
+    pub redundant: Vec<String>,
+    /// One sentence: "all constraints hold; 8 degrees of freedom".
+    pub message: String,
+    /// Whether there is something to take back, and what.
+    pub undo: Option<String>,
+    /// Whether there is something to do again, and what.
+    pub redo: Option<String>,
+}
+
+/// A constraint that does not hold.
+#[derive(Clone, PartialEq, Debug, Serialize)]
+pub struct Unmet {
+    /// Its path and name.
+    pub constraint: String,
+    /// Its rule, in the language.
+    pub rule: String,
+    /// The difference of its sides, where it has one.
+    pub error: Option<f64>,
+    /// Its strength.
+    pub strength: String,
+    /// Where it is written, if in the document's own text.
+    pub span: Option<(u32, u32)>,
+}
+
+/// Where a drag has got to.
+#[derive(Clone, PartialEq, Debug, Default, Serialize)]
+pub struct DragState {
+    /// Whether the grip is where the pointer is.
+    pub reached: bool,
+    /// Why not, in one sentence.
+    pub message: Option<String>,
+}
+
+/// The plan and the reasons, in words.
+#[derive(Clone, PartialEq, Debug, Default, Serialize)]
+pub struct Explanation {
+    /// What was asked.
+    pub about: String,
+    /// One paragraph.
+    pub summary: String,
+    /// The steps, in order.
+    pub steps: Vec<ExplainedStep>,
+}
+
+/// One step of a plan.
+#[derive(Clone, PartialEq, Debug, Serialize)]
+pub struct ExplainedStep {
+    /// The paths that it computes.
+    pub targets: Vec<String>,
+    /// How: `written method`, `isolated`, `linear block of 4`, `Newton block of 14`, ….
+    pub method: String,
+    /// The formula or the constraints, in the language.
+    pub formula: String,
+    /// Why this way: the constraint it comes from and what decided its direction.
+    pub reason: String,
+    /// The values that it gave.
+    pub values: Vec<String>,
+}

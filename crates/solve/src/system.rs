@@ -1,0 +1,130 @@
+//! A system: one connected component, as the caller states it.
+//!
+//! In: relations among slots, each slot with the stay that it has in this edit. The system holds no
+//! values: a plan made of it serves all. Two systems that are equal have the same plan.
+
+use expr::{Arena, ExprId};
+
+/// A slot of the system: an unknown or a known. It is also the `expr::Var` of the same number.
+pub type SlotIndex = u32;
+
+/// How strongly a relation wants to hold, strongest first.
+#[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, Debug)]
+pub enum Level {
+    /// Required constraints, and what is `set` in this edit.
+    Required,
+    /// `strong`
+    Strong,
+    /// The wish of a drag.
+    Move,
+    /// `medium`
+    Medium,
+    /// `weak`
+    Weak,
+}
+
+/// What holds a slot where no relation moves it.
+#[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, Debug)]
+pub enum Stay {
+    /// Known: an anchor, a target of the edit. Never written by the plan.
+    Fixed,
+    /// A given number (level 5): constant unless a relation could not hold otherwise.
+    Given,
+    /// Everything else with a value (level 6). Slots with the same `group` are one place and yield
+    /// as one; groups are numbered in order of declaration, a lone number is a group of its own.
+    Kept {
+        /// The place or the lone number.
+        group: u32,
+    },
+    /// No stay: on opening, what is not given. It has no value before the plan has run; where
+    /// nothing determines it, it is the nearest to zero.
+    Free,
+}
+
+/// One slot.
+#[derive(Clone, PartialEq, Eq, PartialOrd, Ord, Hash, Debug)]
+pub struct Slot {
+    /// What holds it.
+    pub stay: Stay,
+    /// Slots of one scale have one extent in the measure of distance: all lengths, all voltages, ….
+    pub scale: u16,
+    /// True for a number that the plan can compute; false for a text, known to the host alone.
+    pub is_number: bool,
+    /// True for a number that can only be whole (or a truth value): it is never moved by degrees.
+    pub is_discrete: bool,
+}
+
+/// `left = right`, both expressions over slots.
+#[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, Debug)]
+pub struct Equation {
+    /// The left side.
+    pub left: ExprId,
+    /// The right side.
+    pub right: ExprId,
+}
+
+/// What a relation says.
+#[derive(Clone, PartialEq, Eq, PartialOrd, Ord, Hash, Debug)]
+pub enum RelationBody {
+    /// Equations that hold together: one for a number, two for a place, ….
+    Equations(Vec<Equation>),
+    /// Something that only the host can test (by the relation's `source`), over these slots:
+    /// text, or a rule without an error expression. It counts as one row.
+    Opaque {
+        /// The slots that it speaks of.
+        slots: Vec<SlotIndex>,
+    },
+}
+
+/// How a method computes its targets.
+#[derive(Clone, PartialEq, Eq, PartialOrd, Ord, Hash, Debug)]
+pub enum MethodBody {
+    /// One expression for each target.
+    Expressions(Vec<ExprId>),
+    /// The host computes them (by the relation's `source` and the method's index) from `reads`.
+    Opaque {
+        /// The slots that the host reads.
+        reads: Vec<SlotIndex>,
+    },
+}
+
+/// A way to make a relation hold by writing some of its slots.
+#[derive(Clone, PartialEq, Eq, PartialOrd, Ord, Hash, Debug)]
+pub struct Method {
+    /// The slots that it writes; never [`Stay::Fixed`] ones, or it is not possible.
+    pub targets: Vec<SlotIndex>,
+    /// How.
+    pub body: MethodBody,
+}
+
+/// A constraint, a wish or a declared stay.
+#[derive(Clone, PartialEq, Eq, PartialOrd, Ord, Hash, Debug)]
+pub struct Relation {
+    /// How strongly it wants to hold.
+    pub level: Level,
+    /// What it says.
+    pub body: RelationBody,
+    /// Written methods, in order of preference. The first that is possible is taken.
+    pub methods: Vec<Method>,
+    /// True if it may also be solved in ways that were not written (always so without methods).
+    pub derived: bool,
+    /// Slots that it never writes.
+    pub reads: Vec<SlotIndex>,
+    /// The tolerance of its sides, relative to the larger and at least of the unit, in bits.
+    pub within: u64,
+    /// What the caller calls it: the index of a constraint, a wish or a stay in the caller's table.
+    pub source: u32,
+}
+
+/// One connected component.
+///
+/// Relations stand in order of declaration; slots too.
+#[derive(Clone, Debug, Default)]
+pub struct System {
+    /// The expressions of all relations; `Var(i)` is slot `i`.
+    pub arena: Arena,
+    /// The slots.
+    pub slots: Vec<Slot>,
+    /// The relations.
+    pub relations: Vec<Relation>,
+}

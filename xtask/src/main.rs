@@ -1,0 +1,2 @@
+//! Builds the lab, opens it, verifies it.
+fn main() {}
