@@ -1,0 +1,229 @@
+//! The subcommands that work on documents: each returns what to print and whether all is well.
+//!
+//! With `--json` each prints one JSON object: `check` {files: [{path, diagnostics}]}, `test` {files:
+//! [{path, checks}], passed, failed}, `run` {path, values, status}, `explain` the explanation, `draw`
+//! {path, svg}, `fmt` {files: [{path, changed}]}. The shapes of their parts are those of
+//! `session::view`.
+
+use crate::documents::{OpenError, Opened, find, open};
+use serde_json::{Value, json};
+use session::view::{CheckReport, DiagnosticView, Explanation, ValueRow};
+use std::fmt::Write as _;
+use std::path::{Path, PathBuf};
+
+/// What a command has to say.
+pub(crate) struct Report {
+    /// For standard output.
+    pub(crate) text: String,
+    /// Whether the command found everything in order.
+    pub(crate) good: bool,
+}
+
+/// How a command answers.
+#[derive(Clone, Copy, PartialEq, Eq)]
+pub(crate) enum Form {
+    /// For people.
+    Words,
+    /// For programs.
+    Json,
+}
+
+fn report(form: Form, good: bool, words: String, json: &Value) -> Report {
+    let text = match form {
+        Form::Words => words,
+        Form::Json => format!("{json}\n"),
+    };
+    Report { text, good }
+}
+
+/// Prints the diagnostics of documents, with their source lines.
+///
+/// # Errors
+/// If a file cannot be read.
+pub(crate) fn check(arguments: &[PathBuf], form: Form) -> Result<Report, OpenError> {
+    let (mut words, mut files, mut errors, mut warnings) = (String::new(), Vec::new(), 0, 0);
+    for path in find(arguments)? {
+        let opened = open(&path)?;
+        let diagnostics = opened.session.text(opened.id).diagnostics;
+        for d in &diagnostics {
+            words.push_str(&show_diagnostic(&opened, d));
+            match d.severity.as_str() {
+                "error" => errors += 1,
+                _ => warnings += 1,
+            }
+        }
+        let status = opened.session.status(opened.id);
+        if !status.satisfied {
+            errors += status.unmet.len();
+            for unmet in &status.unmet {
+                let _ = writeln!(words, "{}: {} does not hold: {}", path.display(), unmet.constraint, unmet.rule);
+            }
+        }
+        files.push(json!({ "path": path, "diagnostics": diagnostics, "status": status }));
+    }
+    let _ = writeln!(words, "{} files, {errors} errors, {warnings} warnings", files.len());
+    Ok(report(form, errors == 0, words, &json!({ "files": files, "errors": errors, "warnings": warnings })))
+}
+
+fn show_diagnostic(opened: &Opened, d: &DiagnosticView) -> String {
+    let mut words = String::new();
+    let file = if d.file.is_empty() { opened.path.display().to_string() } else { d.file.clone() };
+    let _ = writeln!(words, "{}[{}]: {}", d.severity, d.code, d.message);
+    let _ = writeln!(words, "  --> {file}:{}:{}", d.line, d.column);
+    if d.file.is_empty() {
+        let line = opened.text.lines().nth(d.line as usize - 1).unwrap_or_default();
+        let before: String = line.chars().take(d.column as usize - 1).collect();
+        let marked = opened.text.get(d.start as usize..d.end as usize).unwrap_or_default();
+        let width = marked.lines().next().unwrap_or_default().chars().count().max(1);
+        let gutter = d.line.to_string();
+        let blank = " ".repeat(gutter.len());
+        let indent = " ".repeat(before.chars().count());
+        let _ = writeln!(words, "{blank} |\n{gutter} | {line}\n{blank} | {indent}{}", "^".repeat(width));
+    }
+    if let Some(hint) = &d.hint {
+        let _ = writeln!(words, "  hint: {hint}");
+    }
+    words.push('\n');
+    words
+}
+
+/// Runs the `check` blocks of documents.
+///
+/// # Errors
+/// If a file cannot be read.
+pub(crate) fn test(arguments: &[PathBuf], form: Form) -> Result<Report, OpenError> {
+    let (mut words, mut files, mut passed, mut failed) = (String::new(), Vec::new(), 0, 0);
+    for path in find(arguments)? {
+        let mut opened = open(&path)?;
+        let diagnostics: Vec<DiagnosticView> = opened.session.text(opened.id).diagnostics;
+        let broken: Vec<_> = diagnostics.iter().filter(|d| d.severity == "error").collect();
+        for d in &broken {
+            words.push_str(&show_diagnostic(&opened, d));
+        }
+        let checks = opened.session.run_checks(opened.id);
+        for check in &checks {
+            if check.passed { passed += 1 } else { failed += 1 }
+            words.push_str(&show_check(&path, check));
+        }
+        failed += usize::from(!broken.is_empty());
+        files.push(json!({ "path": path, "checks": checks, "diagnostics": diagnostics }));
+    }
+    let _ = writeln!(words, "{passed} passed, {failed} failed");
+    Ok(report(form, failed == 0, words, &json!({ "files": files, "passed": passed, "failed": failed })))
+}
+
+fn show_check(path: &Path, check: &CheckReport) -> String {
+    if check.passed {
+        return String::new();
+    }
+    let mut words = String::new();
+    let _ = writeln!(words, "{}:{}: check \"{}\" fell short", path.display(), check.line, check.title);
+    for shortfall in &check.shortfalls {
+        let _ = writeln!(words, "  line {}: {}", shortfall.line, shortfall.statement);
+        for line in shortfall.message.lines() {
+            let _ = writeln!(words, "    {line}");
+        }
+    }
+    words
+}
+
+/// Opens a document and prints its values.
+///
+/// # Errors
+/// If the file cannot be read.
+pub(crate) fn run(path: &Path, form: Form) -> Result<Report, OpenError> {
+    let opened = open(path)?;
+    let mut words = String::new();
+    let diagnostics = opened.session.text(opened.id).diagnostics;
+    for d in &diagnostics {
+        words.push_str(&show_diagnostic(&opened, d));
+    }
+    let rows: Vec<ValueRow> = opened.session.values(opened.id);
+    let width = rows.iter().map(|r| r.path.chars().count()).max().unwrap_or(0);
+    for row in &rows {
+        let mark = if row.anchored { "!" } else if row.given { "=" } else { " " };
+        let unit = if row.unit.is_empty() { String::new() } else { format!(" {}", row.unit) };
+        let _ = writeln!(words, "{:width$} {mark} {}{unit}", row.path, row.text);
+    }
+    let status = opened.session.status(opened.id);
+    let _ = writeln!(words, "{}", status.message);
+    let good = status.satisfied && diagnostics.iter().all(|d| d.severity != "error");
+    let json = json!({ "path": path, "values": rows, "status": status, "diagnostics": diagnostics });
+    Ok(report(form, good, words, &json))
+}
+
+/// Explains the plan of a document, or why one value is what it is.
+///
+/// # Errors
+/// If the file cannot be read.
+pub(crate) fn explain(path: &Path, about: Option<&str>, form: Form) -> Result<Report, OpenError> {
+    let opened = open(path)?;
+    let about = match about.map(session::parse_path) {
+        Some(None) => {
+            let words = "that is no path: write it as in the language, such as q.side1.p1.x\n".to_string();
+            return Ok(report(form, false, words.clone(), &json!({ "error": words })));
+        }
+        Some(path) => path,
+        None => None,
+    };
+    let explanation: Explanation = opened.session.explain(opened.id, about.as_ref());
+    let mut words = format!("{}\n", explanation.summary);
+    for (i, step) in explanation.steps.iter().enumerate() {
+        let _ = writeln!(words, "\n{:3}. {}: {}", i + 1, step.targets.join(", "), step.method);
+        if !step.formula.is_empty() {
+            let _ = writeln!(words, "       {}", step.formula.replace('\n', "\n       "));
+        }
+        if !step.reason.is_empty() {
+            let _ = writeln!(words, "     because {}", step.reason);
+        }
+        if !step.values.is_empty() {
+            let _ = writeln!(words, "     now {}", step.values.join(", "));
+        }
+    }
+    Ok(report(form, true, words, &json!(explanation)))
+}
+
+/// Draws a document as SVG.
+///
+/// # Errors
+/// If the file cannot be read.
+pub(crate) fn draw(path: &Path, form: Form) -> Result<Report, OpenError> {
+    let opened = open(path)?;
+    let svg = opened.session.svg(opened.id);
+    let json = json!({ "path": path, "svg": svg });
+    Ok(report(form, true, svg, &json))
+}
+
+/// Lays documents out as the language wants, keeping comments; `write` false only says which would change.
+///
+/// # Errors
+/// If a file cannot be read or written.
+pub(crate) fn fmt(arguments: &[PathBuf], mode: FormatMode, form: Form) -> Result<Report, OpenError> {
+    let (mut words, mut files, mut good) = (String::new(), Vec::new(), true);
+    for path in find(arguments)? {
+        let text = std::fs::read_to_string(&path)
+            .map_err(|source| OpenError::Unreadable { path: path.clone(), source })?;
+        let formatted = session::format(&text);
+        let changed = formatted != text;
+        if changed {
+            match mode {
+                FormatMode::Write => crate::disk::replace(&path, &formatted)
+                    .map_err(|source| OpenError::Unreadable { path: path.clone(), source })?,
+                FormatMode::Check => good = false,
+            }
+            let verb = if mode == FormatMode::Write { "formatted" } else { "would change" };
+            let _ = writeln!(words, "{verb} {}", path.display());
+        }
+        files.push(json!({ "path": path, "changed": changed }));
+    }
+    Ok(report(form, good, words, &json!({ "files": files })))
+}
+
+/// Whether `fmt` writes.
+#[derive(Clone, Copy, PartialEq, Eq)]
+pub(crate) enum FormatMode {
+    /// Writes what changes.
+    Write,
+    /// Only says so.
+    Check,
+}

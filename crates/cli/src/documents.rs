@@ -1,0 +1,92 @@
+//! Opening documents from the command line: files and folders in, open sessions out.
+
+use crate::embedded;
+use session::{DocumentId, Host, Session};
+use std::fs;
+use std::path::{Path, PathBuf};
+
+/// Why a file could not be opened.
+#[derive(Debug, thiserror::Error)]
+pub(crate) enum OpenError {
+    #[error("{path}: {source}")]
+    Unreadable { path: PathBuf, source: std::io::Error },
+    #[error("{0}: no document (NAME.thing) here")]
+    NoDocuments(PathBuf),
+}
+
+/// Reads what a document uses: the libraries that the command carries, and files beside the document.
+struct FilesBeside {
+    folder: PathBuf,
+}
+
+impl Host for FilesBeside {
+    fn read(&self, name: &str) -> Option<String> {
+        let plain = |part: &str| {
+            !part.is_empty() && part.chars().all(|c| c.is_alphanumeric() || c == '_' || c == '-')
+        };
+        if !name.split('.').all(plain) {
+            return None;
+        }
+        if let Some(text) = embedded::library(name) {
+            return Some(text.to_string());
+        }
+        let file = self.folder.join(name.replace('.', "/")).with_extension("thing");
+        fs::read_to_string(file).ok()
+    }
+}
+
+/// An opened document.
+pub(crate) struct Opened {
+    pub(crate) session: Session,
+    pub(crate) id: DocumentId,
+    pub(crate) path: PathBuf,
+    pub(crate) text: String,
+}
+
+/// Opens one file.
+///
+/// # Errors
+/// If it cannot be read as text.
+pub(crate) fn open(path: &Path) -> Result<Opened, OpenError> {
+    let text = fs::read_to_string(path)
+        .map_err(|source| OpenError::Unreadable { path: path.to_path_buf(), source })?;
+    let folder = path.parent().unwrap_or(Path::new(".")).to_path_buf();
+    let mut session = Session::new(Box::new(FilesBeside { folder }));
+    let name = path.file_stem().map_or_else(String::new, |s| s.to_string_lossy().into_owned());
+    let id = session.open(&name, &text);
+    Ok(Opened { session, id, path: path.to_path_buf(), text })
+}
+
+/// Lists the documents that the arguments name: files as they are, folders with all below them.
+///
+/// # Errors
+/// If a folder cannot be read or holds no document.
+pub(crate) fn find(arguments: &[PathBuf]) -> Result<Vec<PathBuf>, OpenError> {
+    let mut found = Vec::new();
+    for argument in arguments {
+        if !argument.is_dir() {
+            found.push(argument.clone());
+            continue;
+        }
+        let before = found.len();
+        collect(argument, &mut found)?;
+        if found.len() == before {
+            return Err(OpenError::NoDocuments(argument.clone()));
+        }
+        found[before..].sort();
+    }
+    Ok(found)
+}
+
+fn collect(folder: &Path, found: &mut Vec<PathBuf>) -> Result<(), OpenError> {
+    let unreadable = |source| OpenError::Unreadable { path: folder.to_path_buf(), source };
+    for entry in fs::read_dir(folder).map_err(unreadable)? {
+        let path = entry.map_err(unreadable)?.path();
+        if path.is_dir() && !path.is_symlink() {
+            collect(&path, found)?;
+        } else if path.extension().is_some_and(|e| e == "thing") {
+            found.push(path);
+        }
+    }
+    Ok(())
+}

@@ -1,0 +1,11 @@
+//! The files that the command carries in itself, as `build.rs` found them: the library, the gallery
+//! and the built page.
+
+include!(concat!(env!("OUT_DIR"), "/embedded.rs"));
+
+/// The page's file at an address of the server; `/` is the index.
+pub(crate) fn page_file(address: &str) -> Option<(&'static str, &'static [u8])> {
+    let address = if address == "/" { "/index.html" } else { address };
+    let index = PAGE.binary_search_by_key(&address, |(name, _)| name).ok()?;
+    Some(PAGE[index])
+}

@@ -1,0 +1,170 @@
+//! `thinglab serve`: the lab's page and the documents of one folder, for this machine alone.
+//!
+//! In: requests on a loopback port. [`guard`] refuses what does not come from the page itself, first
+//! of all and whatever is asked for; [`api`] answers the rest. The printed address carries the token
+//! in its fragment, which browsers never send.
+
+use std::io::{self, Write};
+use std::net::{Ipv4Addr, SocketAddr};
+use std::path::{Path, PathBuf};
+use std::process::{Command, ExitCode, Stdio};
+use std::rc::Rc;
+use std::time::Duration;
+
+use hyper::server::conn::http1;
+use hyper::service::service_fn;
+use hyper_util::rt::{TokioIo, TokioTimer};
+use tokio::net::{TcpListener, TcpStream};
+use tokio::sync::Semaphore;
+
+use crate::disk::Root;
+
+mod api;
+mod guard;
+
+/// How long a request's head may take to arrive, and how many connections there may be at once.
+const HEAD_TIME: Duration = Duration::from_secs(10);
+const MOST_CONNECTIONS: usize = 256;
+
+/// The longest head of a request, in bytes.
+const LONGEST_HEAD: usize = 16 << 10;
+
+#[derive(Debug, clap::Args)]
+pub(crate) struct Arguments {
+    /// The document to open; without it the gallery.
+    file: Option<PathBuf>,
+    /// The port on 127.0.0.1; 0 takes a free one.
+    #[arg(long, default_value_t = 0)]
+    port: u16,
+    /// The folder whose documents may be read and saved; else the current one, or FILE's where that
+    /// lies elsewhere.
+    #[arg(long)]
+    root: Option<PathBuf>,
+    /// Only print the address.
+    #[arg(long)]
+    no_open: bool,
+}
+
+/// What the requests share.
+struct Lab {
+    root: Root,
+    guard: guard::Guard,
+}
+
+/// Serves until it is stopped.
+pub(crate) fn run(arguments: &Arguments) -> ExitCode {
+    let runtime = tokio::runtime::Builder::new_current_thread().enable_io().enable_time().build();
+    match runtime
+        .and_then(|runtime| tokio::task::LocalSet::new().block_on(&runtime, open(arguments)))
+    {
+        Ok(()) => ExitCode::SUCCESS,
+        Err(error) => {
+            // Without a standard error there is nobody to tell.
+            let _ = writeln!(io::stderr(), "thinglab serve: {error}");
+            ExitCode::from(2)
+        }
+    }
+}
+
+async fn open(arguments: &Arguments) -> io::Result<()> {
+    let (root, document) = choose(arguments.root.as_deref(), arguments.file.as_deref())?;
+    let listener = TcpListener::bind((Ipv4Addr::LOCALHOST, arguments.port)).await?;
+    let address = listener.local_addr()?;
+    let guard = guard::Guard::new(address.port())?;
+    let page = page_address(address, document.as_deref(), guard.token());
+    announce(&page, root.folder())?;
+    if !arguments.no_open {
+        open_browser(&page);
+    }
+    accept(listener, Rc::new(Lab { root, guard })).await
+}
+
+/// The folder to serve, and the document's name in it.
+fn choose(root: Option<&Path>, file: Option<&Path>) -> io::Result<(Root, Option<String>)> {
+    let here = Root::open(root.unwrap_or(Path::new(".")))?;
+    let Some(file) = file else { return Ok((here, None)) };
+    let real = file
+        .canonicalize()
+        .map_err(|error| io::Error::new(error.kind(), format!("{}: {error}", file.display())))?;
+    let root = match real.parent() {
+        Some(folder) if root.is_none() && !real.starts_with(here.folder()) => Root::open(folder)?,
+        _ => here,
+    };
+    let name = real.strip_prefix(root.folder()).ok().and_then(Path::to_str);
+    let name = name.ok_or_else(|| {
+        let why = format!("{} is not below {}", file.display(), root.folder().display());
+        io::Error::new(io::ErrorKind::InvalidInput, why)
+    })?;
+    let name = name.replace(std::path::MAIN_SEPARATOR, "/");
+    crate::disk::check_name(&name).map_err(|error| {
+        io::Error::new(io::ErrorKind::InvalidInput, format!("{}: {error}", file.display()))
+    })?;
+    Ok((root, Some(name)))
+}
+
+/// The address to open: the document in the query, the token in the fragment.
+fn page_address(address: SocketAddr, document: Option<&str>, token: &str) -> String {
+    let query = document.map(|name| format!("?document={}", api::encoded(name)));
+    format!("http://{address}/{}#token={token}", query.unwrap_or_default())
+}
+
+fn announce(page: &str, folder: &Path) -> io::Result<()> {
+    let mut out = io::stdout().lock();
+    writeln!(out, "The lab is open at {page}")?;
+    writeln!(out, "It shows and saves the documents in {}; Ctrl+C closes it.", folder.display())?;
+    out.flush()
+}
+
+/// Opens the address in the browser, where there is a desktop with one; the printed address serves
+/// everywhere else.
+fn open_browser(page: &str) {
+    let opener = if cfg!(target_os = "macos") {
+        "open"
+    } else if std::env::var_os("DISPLAY").is_some() || std::env::var_os("WAYLAND_DISPLAY").is_some()
+    {
+        "xdg-open"
+    } else {
+        return;
+    };
+    let quiet = Command::new(opener)
+        .arg(page)
+        .stdin(Stdio::null())
+        .stdout(Stdio::null())
+        .stderr(Stdio::null())
+        .spawn();
+    // No opener, no browser: the address has been printed.
+    drop(quiet);
+}
+
+/// Takes connections, a bounded number at once; no client can hold one by being slow with its head.
+async fn accept(listener: TcpListener, lab: Rc<Lab>) -> io::Result<()> {
+    let places = Rc::new(Semaphore::new(MOST_CONNECTIONS));
+    loop {
+        let place = Rc::clone(&places);
+        let Ok((stream, _)) = listener.accept().await else {
+            // Out of descriptors, or the client has gone: the next one may do better.
+            tokio::time::sleep(Duration::from_millis(10)).await;
+            continue;
+        };
+        let lab = Rc::clone(&lab);
+        tokio::task::spawn_local(async move {
+            if let Ok(_place) = place.try_acquire() {
+                serve_connection(stream, lab).await;
+            }
+        });
+    }
+}
+
+async fn serve_connection(stream: TcpStream, lab: Rc<Lab>) {
+    let answer = service_fn(move |request| {
+        let lab = Rc::clone(&lab);
+        async move { Ok::<_, std::convert::Infallible>(api::answer(&lab, request).await) }
+    });
+    // A broken connection is the client's affair.
+    let _ = http1::Builder::new()
+        .timer(TokioTimer::new())
+        .header_read_timeout(HEAD_TIME)
+        .max_buf_size(LONGEST_HEAD)
+        .serve_connection(TokioIo::new(stream), answer)
+        .await;
+}

@@ -1,0 +1,5 @@
+//! The bundle's entry point.
+
+fn main() {
+    web::start();
+}
