@@ -1,2 +1,9 @@
 //! Expressions of numbers: hash-consed arena, simplify, isolate, derivatives, dimensions, tape.
+pub mod arena;
+pub mod derivative;
 pub mod dimension;
+pub mod op;
+
+pub use arena::{Arena, ExprId, Node, Var};
+pub use derivative::{derivative, gradient};
+pub use op::{Binary, Unary};

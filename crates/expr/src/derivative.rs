@@ -1,0 +1,359 @@
+//! Derivatives: exact, symbolic, of one expression by any number of variables at once.
+//!
+//! In: an expression and variables. Out: one expression for each. The derivative of the result by each
+//! inner node is carried from the result down to the variables (the reverse mode), so that the cost is
+//! that of the expression, however many variables there are.
+//!
+//! A choice (`select`, `min`, `max`) is differentiated branch by branch and chosen afterwards, never
+//! multiplied by 0: the branch that is not taken may have no derivative.
+//!
+//! **Source:** Griewank and Walther, *Evaluating Derivatives*, 2nd ed., §3.2 (adjoints).
+
+use crate::arena::{Arena, ExprId, Node, Set, Var, place};
+use crate::op::{Binary, Unary};
+use std::collections::BTreeMap;
+
+/// Derivatives by the variables on which there is a dependence, by position in the list of variables.
+type Sparse = BTreeMap<usize, ExprId>;
+
+/// Returns the derivative of an expression by one variable.
+///
+/// ```
+/// use expr::{Arena, Var, derivative};
+/// let mut arena = Arena::default();
+/// let x = arena.var(Var(0));
+/// let square = arena.square(x);
+/// let slope = derivative(&mut arena, square, Var(0));
+/// assert_eq!(arena.evaluate(slope, &[3.0]), 6.0);
+/// ```
+pub fn derivative(arena: &mut Arena, id: ExprId, var: Var) -> ExprId {
+    gradient(arena, id, &[var])[0]
+}
+
+/// Returns the derivatives of an expression by each of `vars`, in their order.
+///
+/// `floor`, `round`, `sign` and truth values have the derivative 0; where `abs` turns, it is 0; where
+/// `min` and `max` turn, it is that of the first operand. Nothing is guarded: where there is no
+/// derivative the result is not finite.
+pub fn gradient(arena: &mut Arena, id: ExprId, vars: &[Var]) -> Vec<ExprId> {
+    let order = arena.reachable(&[id]);
+    let wanted: BTreeMap<Var, usize> =
+        vars.iter().enumerate().rev().map(|(i, &v)| (v, i)).collect();
+    let mut depends = Vec::with_capacity(order.len());
+    for &e in &order {
+        let node = arena.node(e);
+        depends.push(match node {
+            Node::Var(var) => wanted.contains_key(&var),
+            _ if is_flat(node) => false,
+            Node::Select { then, otherwise, .. } => {
+                depends[place(&order, then)] || depends[place(&order, otherwise)]
+            }
+            _ => {
+                let mut any = false;
+                node.each_operand(|a| any |= depends[place(&order, a)]);
+                any
+            }
+        });
+    }
+    let mut pass = Pass { arena, order, depends, wanted, choices: BTreeMap::new() };
+    for i in 0..pass.order.len() {
+        if let Some((condition, then, otherwise)) = pass.choice(i) {
+            let (then, otherwise) = (pass.sweep(then), pass.sweep(otherwise));
+            let chosen = pass.choose(condition, &then, &otherwise);
+            pass.choices.insert(i, chosen);
+        }
+    }
+    let result = pass.sweep(id);
+    let zero = pass.arena.constant(0.0);
+    vars.iter().map(|v| result.get(&pass.wanted[v]).copied().unwrap_or(zero)).collect()
+}
+
+/// Returns true if the derivative of the node is 0 wherever there is one.
+fn is_flat(node: Node) -> bool {
+    match node {
+        Node::Constant(_) => true,
+        Node::Var(_) | Node::Select { .. } => false,
+        Node::Unary(op, _) => {
+            matches!(op, Unary::Floor | Unary::Round | Unary::Sign | Unary::Not)
+        }
+        Node::Binary(op, ..) => matches!(
+            op,
+            Binary::Less
+                | Binary::LessEqual
+                | Binary::Equal
+                | Binary::NotEqual
+                | Binary::And
+                | Binary::Or
+        ),
+    }
+}
+
+/// One expression being differentiated; nodes are named by their place in `order`.
+struct Pass<'a> {
+    arena: &'a mut Arena,
+    order: Set<ExprId>,
+    depends: Vec<bool>,
+    wanted: BTreeMap<Var, usize>,
+    /// The derivatives of the choices met so far.
+    choices: BTreeMap<usize, Sparse>,
+}
+
+impl Pass<'_> {
+    /// Returns the condition and branches of a choice that depends on the variables.
+    fn choice(&mut self, i: usize) -> Option<(ExprId, ExprId, ExprId)> {
+        if !self.depends[i] {
+            return None;
+        }
+        match self.arena.node(self.order[i]) {
+            Node::Select { condition, then, otherwise } => Some((condition, then, otherwise)),
+            Node::Binary(Binary::Min, a, b) => {
+                Some((self.arena.binary(Binary::LessEqual, a, b), a, b))
+            }
+            Node::Binary(Binary::Max, a, b) => {
+                Some((self.arena.binary(Binary::LessEqual, b, a), a, b))
+            }
+            Node::Constant(_) | Node::Var(_) | Node::Unary(..) | Node::Binary(..) => None,
+        }
+    }
+    fn choose(&mut self, condition: ExprId, then: &Sparse, otherwise: &Sparse) -> Sparse {
+        let zero = self.arena.constant(0.0);
+        let mut chosen = Sparse::new();
+        for &v in then.keys().chain(otherwise.keys()) {
+            let a = then.get(&v).copied().unwrap_or(zero);
+            let b = otherwise.get(&v).copied().unwrap_or(zero);
+            chosen.insert(v, self.arena.select(condition, a, b));
+        }
+        chosen
+    }
+    /// Carries the derivative 1 of `root` down to the variables, through choices met before.
+    fn sweep(&mut self, root: ExprId) -> Sparse {
+        let mut result = Sparse::new();
+        // Users stand after operands, so the last pending node has all its contributions.
+        let mut pending = Sparse::new();
+        let one = self.arena.constant(1.0);
+        self.contribute(&mut pending, root, one);
+        while let Some((i, adjoint)) = pending.pop_last() {
+            if let Some(choice) = self.choices.get(&i) {
+                for (v, d) in choice.clone() {
+                    let contribution = self.arena.mul(adjoint, d);
+                    self.accumulate(&mut result, v, contribution);
+                }
+                continue;
+            }
+            let id = self.order[i];
+            match self.arena.node(id) {
+                Node::Var(var) => self.accumulate(&mut result, self.wanted[&var], adjoint),
+                Node::Unary(op, a) => {
+                    let d = unary(self.arena, op, a, id, adjoint);
+                    self.contribute(&mut pending, a, d);
+                }
+                Node::Binary(op, a, b) => {
+                    if self.depends[place(&self.order, a)] {
+                        let d = first_operand(self.arena, op, a, b, adjoint);
+                        self.contribute(&mut pending, a, d);
+                    }
+                    if self.depends[place(&self.order, b)] && !(op == Binary::Mul && a == b) {
+                        let d = second_operand(self.arena, op, a, b, id, adjoint);
+                        self.contribute(&mut pending, b, d);
+                    }
+                }
+                Node::Constant(_) | Node::Select { .. } => {
+                    unreachable!("constants do not depend, selects are choices")
+                }
+            }
+        }
+        result
+    }
+    fn contribute(&mut self, pending: &mut Sparse, to: ExprId, contribution: ExprId) {
+        let i = place(&self.order, to);
+        if self.depends[i] {
+            self.accumulate(pending, i, contribution);
+        }
+    }
+    fn accumulate(&mut self, sums: &mut Sparse, key: usize, contribution: ExprId) {
+        let sum = match sums.get(&key) {
+            Some(&before) => self.arena.add(before, contribution),
+            None => contribution,
+        };
+        sums.insert(key, sum);
+    }
+}
+
+/// Returns `adjoint` times the derivative of `op(a)`, whose value is `id`, by `a`.
+fn unary(arena: &mut Arena, op: Unary, a: ExprId, id: ExprId, adjoint: ExprId) -> ExprId {
+    let one = arena.constant(1.0);
+    match op {
+        Unary::Neg => arena.neg(adjoint),
+        Unary::Abs => {
+            let sign = arena.unary(Unary::Sign, a);
+            arena.mul(adjoint, sign)
+        }
+        Unary::Sqrt => {
+            let half = arena.constant(0.5);
+            let half = arena.mul(half, adjoint);
+            arena.div(half, id)
+        }
+        Unary::Sin => {
+            let cos = arena.unary(Unary::Cos, a);
+            arena.mul(adjoint, cos)
+        }
+        Unary::Cos => {
+            let sin = arena.unary(Unary::Sin, a);
+            let d = arena.mul(adjoint, sin);
+            arena.neg(d)
+        }
+        Unary::Tan => {
+            let square = arena.square(id);
+            let slope = arena.add(one, square);
+            arena.mul(adjoint, slope)
+        }
+        Unary::Asin | Unary::Acos => {
+            // (1 - a)(1 + a) keeps its digits near the ends, where 1 - a² does not.
+            let (below, above) = (arena.sub(one, a), arena.add(one, a));
+            let product = arena.mul(below, above);
+            let root = arena.sqrt(product);
+            let d = arena.div(adjoint, root);
+            if op == Unary::Asin { d } else { arena.neg(d) }
+        }
+        Unary::Atan => {
+            let square = arena.square(a);
+            let below = arena.add(one, square);
+            arena.div(adjoint, below)
+        }
+        Unary::Exp => arena.mul(adjoint, id),
+        Unary::Ln => arena.div(adjoint, a),
+        Unary::Floor | Unary::Round | Unary::Sign | Unary::Not => arena.constant(0.0),
+    }
+}
+
+/// Returns `adjoint` times the derivative of `op(a, b)` by `a`; for `a * a`, by both at once.
+fn first_operand(arena: &mut Arena, op: Binary, a: ExprId, b: ExprId, adjoint: ExprId) -> ExprId {
+    match op {
+        Binary::Add | Binary::Sub | Binary::Remainder => adjoint,
+        Binary::Mul => {
+            let factor = if a == b {
+                let two = arena.constant(2.0);
+                arena.mul(two, a)
+            } else {
+                b
+            };
+            arena.mul(adjoint, factor)
+        }
+        Binary::Div => arena.div(adjoint, b),
+        Binary::Pow => {
+            let one = arena.constant(1.0);
+            let exponent = arena.sub(b, one);
+            let power = arena.pow(a, exponent);
+            let slope = arena.mul(b, power);
+            arena.mul(adjoint, slope)
+        }
+        Binary::Atan2 => {
+            let slope = over_square_of_radius(arena, b, a, b);
+            arena.mul(adjoint, slope)
+        }
+        Binary::Min
+        | Binary::Max
+        | Binary::Less
+        | Binary::LessEqual
+        | Binary::Equal
+        | Binary::NotEqual
+        | Binary::And
+        | Binary::Or => unreachable!("min and max are choices, truth values do not depend"),
+    }
+}
+
+/// Returns `adjoint` times the derivative of `op(a, b)`, whose value is `id`, by `b`.
+fn second_operand(
+    arena: &mut Arena,
+    op: Binary,
+    a: ExprId,
+    b: ExprId,
+    id: ExprId,
+    adjoint: ExprId,
+) -> ExprId {
+    match op {
+        Binary::Add => adjoint,
+        Binary::Sub => arena.neg(adjoint),
+        Binary::Mul => arena.mul(adjoint, a),
+        Binary::Div => {
+            let product = arena.mul(adjoint, id);
+            let d = arena.div(product, b);
+            arena.neg(d)
+        }
+        Binary::Pow => {
+            let ln = arena.unary(Unary::Ln, a);
+            let slope = arena.mul(id, ln);
+            arena.mul(adjoint, slope)
+        }
+        Binary::Atan2 => {
+            let slope = over_square_of_radius(arena, a, a, b);
+            let d = arena.mul(adjoint, slope);
+            arena.neg(d)
+        }
+        Binary::Remainder => {
+            let quotient = arena.div(a, b);
+            let times = arena.unary(Unary::Floor, quotient);
+            let d = arena.mul(adjoint, times);
+            arena.neg(d)
+        }
+        Binary::Min
+        | Binary::Max
+        | Binary::Less
+        | Binary::LessEqual
+        | Binary::Equal
+        | Binary::NotEqual
+        | Binary::And
+        | Binary::Or => unreachable!("min and max are choices, truth values do not depend"),
+    }
+}
+
+/// Returns `top / (a² + b²)`.
+fn over_square_of_radius(arena: &mut Arena, top: ExprId, a: ExprId, b: ExprId) -> ExprId {
+    let (a, b) = (arena.square(a), arena.square(b));
+    let sum = arena.add(a, b);
+    arena.div(top, sum)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_branch_not_taken_does_not_spoil_the_derivative() {
+        let mut arena = Arena::new();
+        let (x, zero) = (arena.var(Var(0)), arena.constant(0.0));
+        let positive = arena.binary(Binary::Less, zero, x);
+        let root = arena.sqrt(x);
+        let e = arena.select(positive, root, x);
+        let d = derivative(&mut arena, e, Var(0));
+        assert_eq!(arena.evaluate(d, &[4.0]), 0.25);
+        assert_eq!(arena.evaluate(d, &[-4.0]), 1.0);
+    }
+    #[test]
+    fn a_sum_of_many_variables_has_simple_derivatives() {
+        let mut arena = Arena::new();
+        let vars: Vec<Var> = (0..100_000).map(Var).collect();
+        let mut sum = arena.constant(0.0);
+        for &v in &vars {
+            let x = arena.var(v);
+            sum = arena.add(sum, x);
+        }
+        let before = arena.len();
+        let one = arena.constant(1.0);
+        let gradient = gradient(&mut arena, sum, &vars);
+        assert!(gradient.iter().all(|&d| d == one));
+        assert!(arena.len() <= before + 2);
+    }
+    #[test]
+    fn a_deep_chain_does_not_overflow() {
+        let mut arena = Arena::new();
+        let x = arena.var(Var(0));
+        let mut e = x;
+        for _ in 0..100_000 {
+            let sin = arena.unary(Unary::Sin, e);
+            e = arena.add(sin, x);
+        }
+        let d = derivative(&mut arena, e, Var(0));
+        assert!(arena.evaluate(d, &[0.1]).is_finite());
+    }
+}
