@@ -1,0 +1,138 @@
+//! The suite: documents that say what must come of them.
+//!
+//! Every file below `tests/suite`, `gallery` and `library` is opened. Lines that begin with `//~` say
+//! what is expected:
+//!
+//! - `//~ error[code] LINE:COLUMN` (place optional): a diagnostic; without any, there must be none
+//! - `//~ value PATH = TEXT`: what the values view shows, unit included
+//! - `//~ unsatisfied NAME`: a required constraint that does not hold; without any, all must hold
+//!
+//! The `check` blocks of every file must pass.
+
+use session::{DocumentId, Host, Session};
+use std::fmt::Write as _;
+use std::fs;
+use std::path::{Path, PathBuf};
+
+struct Library(PathBuf);
+
+impl Host for Library {
+    fn read(&self, name: &str) -> Option<String> {
+        fs::read_to_string(self.0.join("library").join(name).with_extension("thing")).ok()
+    }
+}
+
+fn root() -> PathBuf {
+    Path::new(env!("CARGO_MANIFEST_DIR")).parent().expect("tests stand in the project").to_path_buf()
+}
+
+fn documents(folder: &str) -> Vec<PathBuf> {
+    let mut found = Vec::new();
+    let mut folders = vec![root().join(folder)];
+    while let Some(folder) = folders.pop() {
+        for entry in fs::read_dir(&folder).expect("the folder is there") {
+            let path = entry.expect("its entries can be read").path();
+            if path.is_dir() {
+                folders.push(path);
+            } else if path.extension().is_some_and(|e| e == "thing") {
+                found.push(path);
+            }
+        }
+    }
+    found.sort();
+    assert!(!found.is_empty(), "there are documents in {folder}");
+    found
+}
+
+/// Opens a document and returns everything that differs from what it says of itself.
+fn differences(path: &Path) -> String {
+    let text = fs::read_to_string(path).expect("the document can be read");
+    let mut session = Session::new(Box::new(Library(root())));
+    let name = path.file_stem().expect("a document has a name").to_string_lossy().into_owned();
+    let id = session.open(&name, &text);
+    let mut out = String::new();
+    let wanted = |word: &str| {
+        let prefix = format!("//~ {word}");
+        let lines = text.lines().filter_map(|l| l.trim().strip_prefix(&prefix).map(str::to_string));
+        lines.collect::<Vec<String>>()
+    };
+    compare_diagnostics(&session, id, wanted("error["), &mut out);
+    for claim in wanted("value ") {
+        let (path, value) = claim.split_once(" = ").expect("a value claim is PATH = TEXT");
+        let rows = session.values(id);
+        let row = rows.iter().find(|r| r.path == path);
+        let found = row.map(|r| format!("{} {}", r.text, r.unit).trim().to_string());
+        if found.as_deref() != Some(value) {
+            let _ = writeln!(out, "  {path} is {found:?}, not {value}");
+        }
+    }
+    let broken = wanted("unsatisfied ");
+    let status = session.status(id);
+    for unmet in &status.unmet {
+        let named = broken.iter().any(|b| unmet.constraint.ends_with(b.as_str()));
+        if !named && unmet.strength == "required" {
+            let _ = writeln!(out, "  {} does not hold: {}", unmet.constraint, unmet.rule);
+        }
+    }
+    if !broken.is_empty() && status.satisfied {
+        let _ = writeln!(out, "  everything holds");
+    }
+    for check in session.run_checks(id).iter().filter(|c| !c.passed) {
+        let _ = writeln!(out, "  check \"{}\"", check.title);
+        for s in &check.shortfalls {
+            let _ = writeln!(out, "    line {}: {}: {}", s.line, s.statement, s.message);
+        }
+    }
+    out
+}
+
+fn compare_diagnostics(session: &Session, id: DocumentId, wanted: Vec<String>, out: &mut String) {
+    let mut found = session.text(id).diagnostics;
+    for claim in wanted {
+        let (code, place) = claim.split_once(']').expect("an error claim is error[code] PLACE");
+        let place: Vec<u32> = place.trim().split(':').filter_map(|n| n.parse().ok()).collect();
+        let same = |d: &session::view::DiagnosticView| {
+            d.code == code
+                && place.first().is_none_or(|&l| l == d.line)
+                && place.get(1).is_none_or(|&c| c == d.column)
+        };
+        if !found.iter().any(same) {
+            let _ = writeln!(out, "  no {code} at {place:?}");
+        }
+        if place.is_empty() {
+            found.retain(|d| !same(d));
+        } else if let Some(i) = found.iter().position(same) {
+            found.remove(i);
+        }
+    }
+    for d in found {
+        let _ = writeln!(out, "  {}:{} {}[{}]: {}", d.line, d.column, d.severity, d.code, d.message);
+    }
+}
+
+fn assert_as_written(folder: &str) {
+    let mut failures = String::new();
+    for path in documents(folder) {
+        let difference = differences(&path);
+        if !difference.is_empty() {
+            let shown = path.strip_prefix(root()).unwrap_or(&path).display();
+            let _ = write!(failures, "{shown}\n{difference}");
+        }
+    }
+    assert!(failures.is_empty(), "\n{failures}");
+}
+
+#[test]
+fn the_suite_comes_out_as_it_says() {
+    assert_as_written("tests/suite");
+}
+
+#[test]
+fn the_gallery_comes_out_as_it_says() {
+    assert_as_written("gallery");
+}
+
+#[test]
+fn the_library_has_no_faults() {
+    assert_as_written("library");
+}
