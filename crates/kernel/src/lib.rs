@@ -10,7 +10,8 @@
 //! a slot belongs to one primitive thing, the first by declaration among those merged.
 //!
 //! Reading order: [`path`], [`term`], [`class`], [`document`], [`structure`], [`values`],
-//! [`command`], [`check`].
+//! [`command`], [`builtin`], [`check`].
+pub mod builtin;
 pub mod check;
 pub mod class;
 pub mod command;

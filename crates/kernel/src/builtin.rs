@@ -1,0 +1,250 @@
+//! The language's own functions and messages: one table of names, signatures and meanings.
+//!
+//! `lang` checks calls against it, `eval` computes them, the manual prints it. A class's message
+//! of the same name comes first: what is here is what every number, text, list or picture knows.
+
+/// What an argument may be, or what an answer is.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub enum Kind {
+    /// A number that measures nothing: a ratio, an angle in radians, a count.
+    Plain,
+    /// A number of any dimension.
+    Number,
+    /// A number of the dimension of the first number, the receiver before the arguments.
+    Same,
+    /// A number whose square has the dimension of the first number.
+    Root,
+    /// A length.
+    Length,
+    /// A truth value.
+    Bool,
+    /// A text.
+    Text,
+    /// A colour: its name or `#rrggbb`.
+    Color,
+    /// A thing with an `x` and a `y`, or `(x, y)`.
+    Place,
+    /// A list or set.
+    List,
+    /// Numbers of one dimension: each an argument, or all in one list.
+    Numbers,
+    /// What the list holds.
+    Element,
+    /// What the function answers.
+    Answer,
+    /// A function: `x => x.width`.
+    Function,
+    /// A picture.
+    Picture,
+    /// Any value.
+    Any,
+}
+
+/// A parameter of a function or message.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub struct BuiltinParameter {
+    /// Its label at the call.
+    pub label: &'static str,
+    /// What it may be.
+    pub kind: Kind,
+    /// How often it is given.
+    pub given: Given,
+}
+
+/// How often an argument is given.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub enum Given {
+    /// Once.
+    Once,
+    /// Once, or not at all.
+    Perhaps,
+    /// Any number of times; the last parameter only.
+    Many,
+}
+
+/// A function of the language, or a message that a kind of value knows.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub struct Builtin<F: 'static> {
+    /// Which one it is.
+    pub function: F,
+    /// Its name.
+    pub name: &'static str,
+    /// What it is sent to; for a function, [`Kind::Any`].
+    pub receiver: Kind,
+    /// Its parameters.
+    pub parameters: &'static [BuiltinParameter],
+    /// What it answers.
+    pub result: Kind,
+    /// What it does, in one sentence.
+    pub doc: &'static str,
+}
+
+impl<F> Builtin<F> {
+    /// Returns true if it may be called with `n` arguments.
+    pub fn takes(&self, n: usize) -> bool {
+        let least = self.parameters.iter().filter(|p| p.given == Given::Once).count();
+        let many = self.parameters.last().is_some_and(|p| p.given == Given::Many);
+        least <= n && (many || n <= self.parameters.len())
+    }
+}
+
+const fn one(label: &'static str, kind: Kind) -> BuiltinParameter {
+    BuiltinParameter { label, kind, given: Given::Once }
+}
+const fn perhaps(label: &'static str, kind: Kind) -> BuiltinParameter {
+    BuiltinParameter { label, kind, given: Given::Perhaps }
+}
+const fn many(label: &'static str, kind: Kind) -> BuiltinParameter {
+    BuiltinParameter { label, kind, given: Given::Many }
+}
+
+macro_rules! table {
+    ($(#[$doc:meta])* $enum:ident, $table:ident: $($variant:ident $name:literal $receiver:ident [$($parameter:expr),*] $result:ident $says:literal;)*) => {
+        $(#[$doc])*
+        #[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Debug)]
+        pub enum $enum {
+            $(#[doc = $says] $variant,)*
+        }
+        #[doc = concat!("Every [`", stringify!($enum), "`], in the order of the manual.")]
+        pub const $table: &[Builtin<$enum>] = &[
+            $(Builtin {
+                function: $enum::$variant,
+                name: $name,
+                receiver: Kind::$receiver,
+                parameters: &[$($parameter),*],
+                result: Kind::$result,
+                doc: $says,
+            },)*
+        ];
+    };
+}
+
+table! {
+    /// A function of the language.
+    Function, FUNCTIONS:
+    Sqrt "sqrt" Any [one("x", Kind::Number)] Root "The square root.";
+    Abs "abs" Any [one("x", Kind::Number)] Same "The number without its sign.";
+    Sin "sin" Any [one("angle", Kind::Plain)] Plain "The sine of an angle in radians.";
+    Cos "cos" Any [one("angle", Kind::Plain)] Plain "The cosine of an angle in radians.";
+    Tan "tan" Any [one("angle", Kind::Plain)] Plain "The tangent of an angle in radians.";
+    Asin "asin" Any [one("x", Kind::Plain)] Plain "The angle from -π/2 to π/2 with this sine.";
+    Acos "acos" Any [one("x", Kind::Plain)] Plain "The angle from 0 to π with this cosine.";
+    Atan "atan" Any [one("x", Kind::Plain)] Plain "The angle from -π/2 to π/2 with this tangent.";
+    Atan2 "atan2" Any [one("y", Kind::Number), one("x", Kind::Same)] Plain "The angle of the direction (x, y), from -π to π.";
+    Exp "exp" Any [one("x", Kind::Plain)] Plain "e to the power of a number.";
+    Ln "ln" Any [one("x", Kind::Plain)] Plain "The natural logarithm.";
+    Floor "floor" Any [one("x", Kind::Plain)] Plain "The largest whole number that is not larger.";
+    Round "round" Any [one("x", Kind::Plain)] Plain "The nearest whole number, halves away from zero.";
+    Min "min" Any [many("x", Kind::Numbers)] Same "The smallest of some numbers, or of a list.";
+    Max "max" Any [many("x", Kind::Numbers)] Same "The largest of some numbers, or of a list.";
+    Pi "pi" Any [] Plain "Half the circumference of a circle of radius 1.";
+    AllDifferent "allDifferent" Any [many("x", Kind::Any)] Bool "Whether no two of some values, or of a list, are equal.";
+    Dot "dot" Any [one("x", Kind::Any), perhaps("y", Kind::Length)] Picture "A dot at a place, or at x and y.";
+    Segment "segment" Any [one("from", Kind::Place), one("to", Kind::Place)] Picture "A straight segment.";
+    Polyline "polyline" Any [many("corner", Kind::Any)] Picture "Segments from place to place, or through a list of places.";
+    Polygon "polygon" Any [many("corner", Kind::Any)] Picture "Segments from place to place and back to the first.";
+    Circle "circle" Any [one("center", Kind::Place), one("radius", Kind::Length)] Picture "A circle.";
+    Arc "arc" Any [one("center", Kind::Place), one("radius", Kind::Length), one("from", Kind::Plain), one("sweep", Kind::Plain)] Picture "An arc from an angle through a signed angle, in radians.";
+    Rectangle "rectangle" Any [one("corner", Kind::Place), one("opposite", Kind::Place)] Picture "An upright box between two opposite corners.";
+    Label "label" Any [one("at", Kind::Place), one("text", Kind::Text)] Picture "Words of one height on the screen, whatever the zoom.";
+    Text "text" Any [one("at", Kind::Place), one("text", Kind::Text), one("size", Kind::Length)] Picture "Words whose height is a length on the sheet.";
+    Picture "picture" Any [many("picture", Kind::Any)] Picture "Several pictures in one, later ones in front.";
+}
+
+table! {
+    /// A message that numbers know.
+    NumberMessage, NUMBER_MESSAGES:
+    Text "text" Number [perhaps("digits", Kind::Plain)] Text "The shortest decimal that reads back as the number, or rounded to so many decimals.";
+    Sqrt "sqrt" Number [] Root "The square root.";
+    Abs "abs" Number [] Same "The number without its sign.";
+    Floor "floor" Plain [] Plain "The largest whole number that is not larger.";
+    Round "round" Plain [] Plain "The nearest whole number, halves away from zero.";
+    Sign "sign" Number [] Plain "1, 0 or -1.";
+    Min "min" Number [one("x", Kind::Same)] Same "The smaller of two numbers.";
+    Max "max" Number [one("x", Kind::Same)] Same "The larger of two numbers.";
+}
+
+table! {
+    /// A message that texts know.
+    TextMessage, TEXT_MESSAGES:
+    Number "number" Text [] Plain "The number that the text spells; a fault where it spells none.";
+    Length "length" Text [] Plain "How many characters it has.";
+    Width "width" Text [one("size", Kind::Length)] Same "How wide its longest line is where the letters have this size.";
+    Height "height" Text [one("size", Kind::Length)] Same "How high its lines are where the letters have this size.";
+    Text "text" Text [] Text "The text itself.";
+}
+
+table! {
+    /// A message that lists and sets know.
+    ListMessage, LIST_MESSAGES:
+    Sum "sum" List [] Element "The sum of its numbers; 0 of any dimension where it is empty.";
+    Count "count" List [] Plain "How many elements it has.";
+    Map "map" List [one("function", Kind::Function)] List "What a function answers for every element.";
+    Filter "filter" List [one("function", Kind::Function)] List "The elements for which a function is true.";
+    First "first" List [] Element "Its first element.";
+    Last "last" List [] Element "Its last element.";
+    All "all" List [one("function", Kind::Function)] Bool "Whether a function is true for every element.";
+    Any "any" List [one("function", Kind::Function)] Bool "Whether a function is true for some element.";
+    Min "min" List [] Element "The smallest of its numbers.";
+    Max "max" List [] Element "The largest of its numbers.";
+    Zip "zip" List [one("other", Kind::List)] List "Pairs of its elements and those of another list, as long as both last.";
+    Neighbours "neighbours" List [] List "Every pair of an element and the next.";
+    Reversed "reversed" List [] List "Its elements from the last to the first.";
+}
+
+table! {
+    /// A message that pictures know.
+    PictureMessage, PICTURE_MESSAGES:
+    Dotted "dotted" Picture [] Picture "The picture in dotted lines.";
+    Dashed "dashed" Picture [] Picture "The picture in dashed lines.";
+    Faint "faint" Picture [] Picture "The picture in the quieter foreground.";
+    Accent "accent" Picture [] Picture "The picture in the colour that catches the eye.";
+    Thick "thick" Picture [] Picture "The picture in lines of double width.";
+    Filled "filled" Picture [perhaps("color", Kind::Color)] Picture "The picture with its closed shapes filled: with a colour, or faintly.";
+    Colored "colored" Picture [one("color", Kind::Color)] Picture "The picture in a colour.";
+    Centered "centered" Picture [] Picture "The picture with its words centred at their places.";
+}
+
+table! {
+    /// A message that every thing knows.
+    ThingMessage, THING_MESSAGES:
+    Picture "picture" Any [] Picture "The pictures of all its parts, unless its class says otherwise.";
+    Parts "parts" Any [] List "Its parts, in order.";
+    Class "class" Any [] Text "The name of its class.";
+    Owner "owner" Any [] Any "What it is a part of.";
+}
+
+/// Returns the entry of a table with this name.
+///
+/// ```
+/// use kernel::builtin::{FUNCTIONS, Function, find};
+/// let sqrt = find(FUNCTIONS, "sqrt").unwrap();
+/// assert_eq!(sqrt.function, Function::Sqrt);
+/// assert!(sqrt.takes(1) && !sqrt.takes(2));
+/// ```
+pub fn find<F>(table: &'static [Builtin<F>], name: &str) -> Option<&'static Builtin<F>> {
+    table.iter().find(|b| b.name == name)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn names_differ<F>(table: &[Builtin<F>]) -> bool {
+        table.iter().enumerate().all(|(i, b)| table[..i].iter().all(|c| c.name != b.name))
+    }
+
+    #[test]
+    fn no_table_says_a_name_twice() {
+        assert!(names_differ(FUNCTIONS) && names_differ(NUMBER_MESSAGES));
+        assert!(names_differ(TEXT_MESSAGES) && names_differ(LIST_MESSAGES));
+        assert!(names_differ(PICTURE_MESSAGES) && names_differ(THING_MESSAGES));
+    }
+    #[test]
+    fn arguments_are_counted() {
+        let takes = |name, n| find(FUNCTIONS, name).unwrap().takes(n);
+        assert!(takes("dot", 1) && takes("dot", 2) && !takes("dot", 3) && !takes("dot", 0));
+        assert!(takes("pi", 0) && !takes("pi", 1));
+        assert!(takes("picture", 0) && takes("picture", 9));
+    }
+}
