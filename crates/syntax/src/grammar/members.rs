@@ -1,0 +1,376 @@
+//! Members of a body: parts, assignments, messages, classes, merges and their kin.
+
+use super::expressions::{expression, path};
+use super::rules::{constraint, methods_if_any, rule, tolerance, when};
+use super::types::{class_name, domain, dotted_name, parameters, paths};
+use super::{Scope, body, programs, statements};
+use crate::kind::SyntaxKind::{
+    self, Anchor, Arrow, Assign, Attachers, Class, Colon, ColonEq, Comma, Dot, Eq, FatArrow, Ident,
+    IfKw, Insert, LBrace, LBracket, LParen, Merge, Message, Modify, Part, Ref, Replace, Side,
+    Slash, Stay, Superclass, Text, Toolbox, UnitLine, Use, View, Without, YLine,
+};
+use crate::parser::Parser;
+
+/// The words that begin a member, a statement or a clause.
+pub(crate) const KEYWORDS: &[&str] = &[
+    "unit",
+    "y",
+    "use",
+    "class",
+    "abstract",
+    "modify",
+    "constraint",
+    "required",
+    "strong",
+    "medium",
+    "weak",
+    "merge",
+    "stay",
+    "anchor",
+    "insert",
+    "default",
+    "combining",
+    "builtin",
+    "without",
+    "replace",
+    "for",
+    "repeat",
+    "while",
+    "next",
+    "when",
+    "ref",
+    "attachers",
+    "view",
+    "side",
+    "toolbox",
+    "lesson",
+    "program",
+    "family",
+    "check",
+    "set",
+    "move",
+    "unmerge",
+    "delete",
+    "edit",
+    "rename",
+    "promote",
+    "undo",
+    "redo",
+    "simulate",
+    "try",
+    "expect",
+    "say",
+    "task",
+    "hint",
+    "table",
+    "reads",
+];
+
+/// Returns true if `word` can begin a member or a statement.
+pub(super) fn is_keyword(word: &str) -> bool {
+    KEYWORDS.contains(&word)
+}
+
+/// A member, if one begins here.
+pub(super) fn member(p: &mut Parser<'_>) -> bool {
+    if !p.at(Ident) {
+        return false;
+    }
+    if p.names_itself(1) {
+        return named(p);
+    }
+    match p.word(0) {
+        "unit" if p.nth(1) == Ident => unit(p),
+        "y" if matches!(p.word(1), "down" | "up") => {
+            p.start_documented(YLine);
+            p.bump_keyword();
+            p.bump_keyword();
+            p.finish();
+        }
+        "use" => one(p, Use, |p| dotted_name(p, "the name of a library or file")),
+        "class" | "abstract" => class(p),
+        "modify" => one(p, Modify, |p| {
+            class_name(p);
+            body(p, Scope::Thing);
+        }),
+        "required" | "strong" | "medium" | "weak" => strengthened(p),
+        "constraint" => constraint(p),
+        "stay" => one(p, Stay, paths),
+        "when" => when(p),
+        "anchor" => one(p, Anchor, paths),
+        "merge" => one(p, Merge, merge),
+        "insert" => one(p, Insert, |p| {
+            path(p);
+            into(p, "into", path);
+        }),
+        "without" => one(p, Without, paths),
+        "replace" => one(p, Replace, |p| {
+            path(p);
+            p.expect(Colon, "expected-rule", "`:` and the rule in its place");
+            rule(p);
+            tolerance(p);
+            methods_if_any(p);
+        }),
+        "default" | "combining" | "builtin" => modified(p),
+        "ref" => one(p, Ref, reference),
+        "attachers" => one(p, Attachers, paths),
+        "view" => one(p, View, |p| {
+            p.expect(Text, "expected-text", "the view's name in quotes");
+            p.expect(FatArrow, "expected-value", "`=>` and what it shows");
+            expression(p);
+        }),
+        "side" => one(p, Side, |p| {
+            path(p);
+            p.expect(Colon, "expected-side", "`:` and the side");
+            p.expect(Ident, "expected-side", "a side");
+        }),
+        "toolbox" => one(p, Toolbox, toolbox),
+        _ if matches!(p.nth(1), LBracket | LParen) => return named(p),
+        _ => return false,
+    }
+    true
+}
+
+/// A node of a keyword and what follows it.
+pub(super) fn one(p: &mut Parser<'_>, kind: SyntaxKind, rest: impl FnOnce(&mut Parser<'_>)) {
+    p.start_documented(kind);
+    p.bump_keyword();
+    rest(p);
+    p.finish();
+}
+
+/// A word in the middle of a member, and what follows it.
+pub(super) fn into(p: &mut Parser<'_>, word: &'static str, rest: impl FnOnce(&mut Parser<'_>)) {
+    if p.eat_word(word) {
+        rest(p);
+    } else {
+        p.expected("expected-word", &format!("`{word}`"));
+    }
+}
+
+/// What begins with its own name: a part, a message, a value.
+fn named(p: &mut Parser<'_>) -> bool {
+    match p.nth(1) {
+        Colon | Comma => part(p),
+        FatArrow | LParen => {
+            p.start_documented(Message);
+            if !message(p) {
+                p.expected("expected-value", "`=>` and what the message answers");
+            }
+            p.finish();
+        }
+        Eq | Dot | LBracket => assign(p),
+        ColonEq => {
+            let start = p.pos();
+            p.start_documented(Assign);
+            path(p);
+            p.bump();
+            value(p);
+            p.finish();
+            let message = "found `:=` among members, wanted `=`".into();
+            let hint = "`:=` stands in the methods of a constraint and in `when`";
+            p.report_since(start, "assignment-outside-method", message, hint);
+        }
+        _ => return false,
+    }
+    true
+}
+
+/// `x, y: Length in 0..9 = 3 { … }`, `length: Length => …`
+fn part(p: &mut Parser<'_>) {
+    p.start_documented(Part);
+    p.bump();
+    while p.eat(Comma) {
+        p.expect(Ident, "expected-name", "a part's name");
+    }
+    if p.expect(Colon, "expected-class", "`:` and the parts' class") {
+        class_name(p);
+        domain(p);
+    }
+    if p.eat(Eq) {
+        value(p);
+    } else if p.eat(FatArrow) {
+        expression(p);
+    }
+    if p.at(LBrace) {
+        body(p, Scope::Thing);
+    }
+    p.finish();
+}
+
+/// `p1.x = 3`
+fn assign(p: &mut Parser<'_>) {
+    p.start_documented(Assign);
+    path(p);
+    if p.expect(Eq, "expected-value", "`=` and a value") {
+        value(p);
+    }
+    p.finish();
+}
+
+/// What a part or a step is: an expression, or a block of steps.
+fn value(p: &mut Parser<'_>) {
+    if p.at(IfKw) {
+        statements::conditional_value(p);
+    } else if !programs::block_value(p) {
+        expression(p);
+    }
+}
+
+/// `scaled(by k: Real): Rectangle => …`, after its modifiers; returns true if it says what it answers.
+fn message(p: &mut Parser<'_>) -> bool {
+    p.expect(Ident, "expected-name", "a message's name");
+    if p.at(LParen) {
+        parameters(p);
+    }
+    if p.eat(Colon) {
+        class_name(p);
+    }
+    let defined = p.eat(FatArrow);
+    if defined {
+        expression(p);
+    }
+    defined
+}
+
+/// `default picture => …`, `combining picture => …`, `builtin distance(to p: Point): Length`
+fn modified(p: &mut Parser<'_>) {
+    p.start_documented(Message);
+    let mut builtin = false;
+    while p.nth(1) == Ident && matches!(p.word(0), "default" | "combining" | "builtin") {
+        builtin |= p.word(0) == "builtin";
+        p.bump_keyword();
+    }
+    if !message(p) && !builtin {
+        p.expected("expected-value", "`=>` and what the message answers");
+    }
+    p.finish();
+}
+
+/// `unit mm`, `unit m/s`
+fn unit(p: &mut Parser<'_>) {
+    p.start_documented(UnitLine);
+    p.bump_keyword();
+    p.bump();
+    while p.at(Slash) && !p.begins_line(0) {
+        p.bump();
+        p.expect(Ident, "expected-unit", "a unit after `/`");
+    }
+    p.finish();
+}
+
+/// `abstract class A is B as b, C { … }`
+fn class(p: &mut Parser<'_>) {
+    p.start_documented(Class);
+    if p.eat_word("abstract") && !p.at_word(0, "class") {
+        p.expected("expected-class", "`class`");
+        p.finish();
+        return;
+    }
+    p.bump_keyword();
+    p.expect(Ident, "expected-name", "the class's name");
+    superclasses(p);
+    if p.at(LBrace) {
+        body(p, Scope::Thing);
+    }
+    p.finish();
+}
+
+/// `is B as b, C`
+pub(super) fn superclasses(p: &mut Parser<'_>) {
+    if !p.eat_word("is") {
+        return;
+    }
+    loop {
+        p.start(Superclass);
+        class_name(p);
+        if p.eat_word("as") {
+            p.expect(Ident, "expected-name", "a name for the superclass's part");
+        }
+        p.finish();
+        if !p.eat(Comma) {
+            break;
+        }
+    }
+}
+
+/// `weak constraint …`, `strong stay …`
+fn strengthened(p: &mut Parser<'_>) {
+    match p.word(1) {
+        "stay" => {
+            p.start_documented(Stay);
+            p.bump_keyword();
+            p.bump_keyword();
+            paths(p);
+            p.finish();
+        }
+        "constraint" => constraint(p),
+        _ => {
+            let message = format!("found `{}` alone, wanted a constraint after it", p.word(0));
+            p.report(
+                "strength-alone",
+                message,
+                Some("write `weak constraint a = b` or `weak stay a`".into()),
+            );
+            p.skip_line();
+        }
+    }
+}
+
+/// `apex: side2.p2 = side3.p2`, after `merge`
+fn merge(p: &mut Parser<'_>) {
+    if p.at(Ident) && p.nth(1) == Colon {
+        p.bump();
+        p.bump();
+    }
+    path(p);
+    if !p.at(Eq) {
+        p.expected("expected-merge", "`=` and what to merge it with");
+    }
+    while p.eat(Eq) {
+        path(p);
+    }
+}
+
+/// `target: Section -> document report.introduction`, after `ref`
+fn reference(p: &mut Parser<'_>) {
+    p.expect(Ident, "expected-name", "the reference's name");
+    if p.expect(Colon, "expected-class", "`:` and a class") {
+        class_name(p);
+    }
+    if p.eat(Arrow) {
+        if p.nth(1) == Ident && !p.begins_line(1) {
+            p.eat_word("document");
+        }
+        path(p);
+    }
+}
+
+/// `"Mechanics" { Spring, Beam }`, after `toolbox`
+fn toolbox(p: &mut Parser<'_>) {
+    p.expect(Text, "expected-text", "the toolbox's name in quotes");
+    if !p.expect(LBrace, "expected-body", "the tools in `{ }`") {
+        return;
+    }
+    while p.at(Ident) {
+        dotted_name(p, "a class");
+        p.eat(Comma);
+    }
+    p.expect(SyntaxKind::RBrace, "expected-brace", "a class or `}`");
+}
+
+/// Reports what begins no member, and skips its line.
+pub(super) fn unknown(p: &mut Parser<'_>) {
+    let hint = if p.at(Ident) {
+        Some(match base::diagnostic::nearest(p.word(0), KEYWORDS.iter().copied()) {
+            Some(word) if p.word(0) != word && p.nth(1) == Ident => {
+                format!("did you mean `{word}`?")
+            }
+            _ => "a part is written `name: Class`, a value `name = value`".into(),
+        })
+    } else {
+        None
+    };
+    p.expected_hint("expected-member", "a part, constraint, message or value", hint);
+    p.skip_line();
+}

@@ -1,0 +1,166 @@
+//! Programs, their blocks and families; `for` stands wherever members do.
+
+use super::expressions::{bracketed, expression};
+use super::members::{one, superclasses};
+use super::statements::text_body;
+use super::types::{class_name, parameters};
+use super::{Scope, body};
+use crate::kind::SyntaxKind::{
+    Binding, Check, Colon, Comma, Eq, Family, For, Ident, LBrace, LParen, Lesson, Next, Number,
+    Program, RParen, Repeat, Rows, Table, Text, TupleExpr, While, With,
+};
+use crate::parser::Parser;
+
+/// A member that holds steps or statements, if one begins here.
+pub(super) fn member(p: &mut Parser<'_>, scope: Scope) -> bool {
+    if !p.at(Ident) {
+        return false;
+    }
+    if scope == Scope::Family && p.word(0) == "rows" && p.nth(1) == Colon {
+        rows(p);
+        return true;
+    }
+    if p.names_itself(1) {
+        return false;
+    }
+    match p.word(0) {
+        "table" if scope == Scope::Family => one(p, Table, |p| {
+            p.expect(Text, "expected-text", "the name of a table's file in quotes");
+        }),
+        "program" => one(p, Program, |p| {
+            p.expect(Ident, "expected-name", "the program's name");
+            if p.at(LParen) {
+                parameters(p);
+            }
+            superclasses(p);
+            body(p, Scope::Thing);
+        }),
+        "family" => one(p, Family, |p| {
+            p.expect(Ident, "expected-name", "the family's name");
+            super::members::into(p, "of", class_name);
+            body(p, Scope::Family);
+        }),
+        "check" => one(p, Check, |p| text_body(p, Scope::Check)),
+        "lesson" => one(p, Lesson, |p| text_body(p, Scope::Lesson)),
+        "next" => one(p, Next, bindings),
+        "for" => {
+            p.start_documented(For);
+            for_rest(p, scope);
+            p.finish();
+        }
+        "repeat" => {
+            p.start_documented(Repeat);
+            repeat_rest(p, scope);
+            p.finish();
+        }
+        "while" => {
+            p.start_documented(While);
+            while_rest(p, scope);
+            p.finish();
+        }
+        _ => return false,
+    }
+    true
+}
+
+/// A block as a step's value, if one begins here: `column = repeat with … { … }`.
+pub(super) fn block_value(p: &mut Parser<'_>) -> bool {
+    if !p.at(Ident) || p.names_itself(1) || p.begins_line(1) && p.nth(1) != LBrace {
+        return false;
+    }
+    let follows = matches!(p.nth(1), Ident | Number | LBrace | LParen);
+    match p.word(0) {
+        "repeat" if follows => {
+            p.start(Repeat);
+            repeat_rest(p, Scope::Thing);
+        }
+        "while" if follows => {
+            p.start(While);
+            while_rest(p, Scope::Thing);
+        }
+        "for" if p.nth(1) == Ident => {
+            p.start(For);
+            for_rest(p, Scope::Thing);
+        }
+        _ => return false,
+    }
+    p.finish();
+    true
+}
+
+/// `for a, b in links.neighbours with … { … }`
+fn for_rest(p: &mut Parser<'_>, scope: Scope) {
+    p.bump_keyword();
+    loop {
+        p.expect(Ident, "expected-name", "a name");
+        if !p.eat(Comma) {
+            break;
+        }
+    }
+    super::members::into(p, "in", expression);
+    with(p);
+    body(p, scope);
+}
+
+/// `repeat 5 times with … { … } until c`
+fn repeat_rest(p: &mut Parser<'_>, scope: Scope) {
+    p.bump_keyword();
+    if !p.at(LBrace) && !p.at_word(0, "with") {
+        expression(p);
+        super::members::into(p, "times", |_| {});
+    }
+    with(p);
+    body(p, scope);
+    if p.eat_word("until") {
+        expression(p);
+    }
+}
+
+/// `while c with … { … }`
+fn while_rest(p: &mut Parser<'_>, scope: Scope) {
+    p.bump_keyword();
+    expression(p);
+    with(p);
+    body(p, scope);
+}
+
+/// `with under = floor, r = radius`
+fn with(p: &mut Parser<'_>) {
+    if p.at_word(0, "with") {
+        p.start(With);
+        p.bump_keyword();
+        bindings(p);
+        p.finish();
+    }
+}
+
+fn bindings(p: &mut Parser<'_>) {
+    loop {
+        p.start(Binding);
+        p.expect(Ident, "expected-name", "a name");
+        if p.expect(Eq, "expected-value", "`=` and a value") {
+            expression(p);
+        }
+        p.finish();
+        if !p.eat(Comma) {
+            break;
+        }
+    }
+}
+
+/// `rows: (40 mm, 2 mm)  (20 mm, 1 mm)`
+fn rows(p: &mut Parser<'_>) {
+    p.start_documented(Rows);
+    p.bump_keyword();
+    p.bump();
+    while p.at(LParen) {
+        p.start(TupleExpr);
+        bracketed(p, RParen, "`)` at the row's end", |p| {
+            expression(p);
+            1
+        });
+        p.finish();
+        p.eat(Comma);
+    }
+    p.finish();
+}

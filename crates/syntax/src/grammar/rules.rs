@@ -1,0 +1,135 @@
+//! Constraints: rules, tolerances, methods, and what happens `when` a condition becomes true.
+
+use super::expressions::{conditional_rest, expression, path};
+use super::types::paths;
+use super::{list, outside_brackets};
+use crate::kind::SyntaxKind::{
+    Colon, ColonEq, Comma, Constraint, Derived, Ellipsis, ElseKw, Ident, IfKw, IfRule, LBrace,
+    Method, MethodList, RBrace, Reads, RuleBlock, When, Within,
+};
+use crate::parser::Parser;
+
+/// `weak constraint home: x = 100 within 1e-6 { x := 100 }`
+pub(super) fn constraint(p: &mut Parser<'_>) {
+    p.start_documented(Constraint);
+    if !p.eat_word("constraint") {
+        p.bump_keyword();
+        p.bump_keyword();
+    }
+    if p.at(Ident) && p.nth(1) == Colon {
+        p.bump();
+        p.bump();
+    }
+    rule(p);
+    tolerance(p);
+    methods_if_any(p);
+    p.finish();
+}
+
+/// A rule: an expression, or `if c { rules } else { rules }`.
+pub(super) fn rule(p: &mut Parser<'_>) {
+    if !p.at(IfKw) {
+        expression(p);
+        return;
+    }
+    p.nested(|p| {
+        let start = p.checkpoint();
+        p.bump();
+        expression(p);
+        if !p.at(LBrace) {
+            conditional_rest(p, start);
+            return;
+        }
+        rule_block(p);
+        if p.at(ElseKw) {
+            p.bump();
+            if p.at(IfKw) { rule(p) } else { rule_block(p) }
+        }
+        p.start_at(start, IfRule);
+        p.finish();
+    });
+}
+
+/// `{ vout = gain * vin }`
+fn rule_block(p: &mut Parser<'_>) {
+    if !p.at(LBrace) {
+        p.expected("expected-body", "rules in `{ }`");
+        return;
+    }
+    outside_brackets(p, |p| {
+        p.start(RuleBlock);
+        p.bump();
+        list(p, |p| {
+            rule(p);
+            p.eat(Comma);
+        });
+        p.expect(RBrace, "expected-brace", "`}`");
+        p.finish();
+    });
+}
+
+/// `within 1e-9`
+pub(super) fn tolerance(p: &mut Parser<'_>) {
+    if p.at_word(0, "within") {
+        p.start(Within);
+        p.bump_keyword();
+        expression(p);
+        p.finish();
+    }
+}
+
+/// `{ a := e  reads b  ... }`, if it stands here.
+pub(super) fn methods_if_any(p: &mut Parser<'_>) {
+    if p.at(LBrace) {
+        methods(p);
+    }
+}
+
+fn methods(p: &mut Parser<'_>) {
+    if !p.at(LBrace) {
+        p.expected("expected-body", "methods in `{ }`");
+        return;
+    }
+    outside_brackets(p, |p| {
+        p.start(MethodList);
+        p.bump();
+        list(p, method);
+        p.expect(RBrace, "expected-brace", "`}`");
+        p.finish();
+    });
+}
+
+/// `r, theta := (sqrt(x^2 + y^2), atan2(y, x))`, `reads size`, `...`
+fn method(p: &mut Parser<'_>) {
+    if p.at(Ellipsis) {
+        p.start(Derived);
+        p.bump();
+        p.finish();
+    } else if p.at_word(0, "reads") {
+        p.start_documented(Reads);
+        p.bump_keyword();
+        paths(p);
+        p.finish();
+    } else if p.at(Ident) {
+        p.start_documented(Method);
+        path(p);
+        while p.eat(Comma) {
+            path(p);
+        }
+        if p.expect(ColonEq, "expected-method", "`:=` and a value") {
+            expression(p);
+        }
+        p.finish();
+    } else {
+        p.expected("expected-method", "a method: `part := value`");
+    }
+}
+
+/// `when y <= 0 m { v := -0.8 * v }`
+pub(super) fn when(p: &mut Parser<'_>) {
+    p.start_documented(When);
+    p.bump_keyword();
+    expression(p);
+    methods(p);
+    p.finish();
+}

@@ -1,0 +1,121 @@
+//! Classes where they are named, and the parts of a declaration that hang on them.
+
+use super::expressions::{self, expression};
+use crate::kind::SyntaxKind::{
+    Colon, Comma, Domain, Dot, DottedName, Eq, Ident, LParen, Number, Param, ParamList, RParen,
+    Text, Type, Unit,
+};
+use crate::parser::Parser;
+
+/// `List of 12 C`, `Set of C`, `Path to C`, `Placed of C`, `geometry.Line`.
+pub(super) fn class_name(p: &mut Parser<'_>) {
+    if !(p.at(Ident) || p.at(Unit)) || p.line_ended(0) && p.nth(1) == Colon {
+        p.expected("expected-class", "a class");
+        return;
+    }
+    p.nested(|p| {
+        p.start(Type);
+        let joiner = match p.word(0) {
+            "List" | "Set" | "Placed" => "of",
+            "Path" => "to",
+            _ => "",
+        };
+        if p.at(Ident) && !joiner.is_empty() && p.at_word(1, joiner) {
+            let counted = p.word(0) == "List";
+            p.bump_keyword();
+            p.bump_keyword();
+            if counted {
+                count(p);
+            }
+            class_name(p);
+        } else {
+            p.bump_as(Ident);
+            dotted_rest(p);
+        }
+        p.finish();
+    });
+}
+
+/// The number of elements in `List of 12 C`, `List of n C`, `List of (2 * n) C`.
+///
+/// A name counts where it is small and a class follows on its line.
+fn count(p: &mut Parser<'_>) {
+    let small = p.at(Ident) && p.word(0).starts_with(char::is_lowercase);
+    let counts = p.at(Number)
+        || p.at(LParen)
+        || small && p.nth(1) == Ident && !p.begins_line(1) && !p.names_itself(2);
+    if counts {
+        expressions::count(p);
+    }
+}
+
+/// `geometry.parts`
+pub(super) fn dotted_name(p: &mut Parser<'_>, wanted: &str) {
+    if !p.at(Ident) {
+        p.expected("expected-name", wanted);
+        return;
+    }
+    p.start(DottedName);
+    p.bump();
+    dotted_rest(p);
+    p.finish();
+}
+
+fn dotted_rest(p: &mut Parser<'_>) {
+    while p.eat(Dot) {
+        if !p.expect(Ident, "expected-name", "a name after `.`") {
+            break;
+        }
+    }
+}
+
+/// `in 0..9`
+pub(super) fn domain(p: &mut Parser<'_>) {
+    if p.at_word(0, "in") {
+        p.start(Domain);
+        p.bump_keyword();
+        expressions::range(p);
+        p.finish();
+    }
+}
+
+/// `(by k: Real, inner: Length in 1 mm..9 mm = 8.4 mm "prompt")`
+pub(super) fn parameters(p: &mut Parser<'_>) {
+    p.start(ParamList);
+    expressions::bracketed(p, RParen, "`)` after the parameters", |p| {
+        parameter(p);
+        1
+    });
+    p.finish();
+}
+
+fn parameter(p: &mut Parser<'_>) {
+    if !p.at(Ident) {
+        p.expected("expected-parameter", "a parameter: `name: Class`");
+        return;
+    }
+    p.start_documented(Param);
+    p.bump();
+    if p.at(Ident) {
+        p.bump();
+    }
+    if p.expect(Colon, "expected-class", "`:` and the parameter's class") {
+        class_name(p);
+        domain(p);
+    }
+    if p.eat(Eq) {
+        expression(p);
+    }
+    p.eat(Text);
+    p.finish();
+}
+
+/// `a, b, c`: names, each a path.
+pub(super) fn paths(p: &mut Parser<'_>) {
+    loop {
+        expressions::path(p);
+        if !p.eat(Comma) {
+            break;
+        }
+    }
+}

@@ -1,0 +1,269 @@
+//! From text to tokens: every byte lands in exactly one token, in order.
+//!
+//! Quantities are decided here, since a unit is a unit only right after its number.
+
+use crate::kind::SyntaxKind;
+use crate::units::unit_length;
+use base::Span;
+
+/// A token: it ends where the next one starts.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct RawToken {
+    pub(crate) kind: SyntaxKind,
+    pub(crate) start: u32,
+}
+
+/// What is wrong with a single token.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub(crate) enum Fault {
+    UnterminatedText,
+    UnterminatedComment,
+    UnknownCharacter,
+}
+
+/// The tokens of a text, the last one [`SyntaxKind::Eof`], and what is wrong with some of them.
+#[derive(Debug)]
+pub(crate) struct Lexed {
+    pub(crate) tokens: Vec<RawToken>,
+    pub(crate) faults: Vec<(Span, Fault)>,
+}
+
+/// Splits a text into tokens.
+///
+/// # Panics
+/// If the text is longer than 4 GiB, where spans end.
+pub(crate) fn lex(text: &str) -> Lexed {
+    assert!(u32::try_from(text.len()).is_ok(), "a text is shorter than 4 GiB");
+    let mut lexed = Lexed { tokens: Vec::with_capacity(text.len() / 3 + 2), faults: Vec::new() };
+    let mut at = 0;
+    let mut after_of = false;
+    while at < text.len() {
+        let (kind, length) = token(&text[at..]);
+        let end = at + length;
+        lexed.tokens.push(RawToken { kind, start: at as u32 });
+        if let Some(fault) = fault(kind, &text[at..end]) {
+            lexed.faults.push((Span::new(at as u32, end as u32), fault));
+        }
+        let start = at;
+        at = end;
+        if kind == SyntaxKind::Number && !after_of {
+            at = unit(text, end, &mut lexed.tokens);
+        }
+        if !kind.is_trivia() {
+            after_of = kind == SyntaxKind::Ident && &text[start..end] == "of";
+        }
+    }
+    lexed.tokens.push(RawToken { kind: SyntaxKind::Eof, start: at as u32 });
+    lexed
+}
+
+/// Adds the unit of the number that ends at `end`, if it has one; returns where to go on.
+fn unit(text: &str, end: usize, tokens: &mut Vec<RawToken>) -> usize {
+    let start = end + blanks(&text[end..]);
+    let length = unit_length(&text[start..]);
+    let after = start + length;
+    if length == 0 || text[after + blanks(&text[after..])..].starts_with(':') {
+        return end;
+    }
+    if start > end {
+        tokens.push(RawToken { kind: SyntaxKind::Whitespace, start: end as u32 });
+    }
+    tokens.push(RawToken { kind: SyntaxKind::Unit, start: start as u32 });
+    after
+}
+
+fn blanks(text: &str) -> usize {
+    text.bytes().take_while(|b| matches!(b, b' ' | b'\t')).count()
+}
+
+/// The kind and length of the token that a text, not empty, begins with.
+fn token(text: &str) -> (SyntaxKind, usize) {
+    let bytes = text.as_bytes();
+    let next = |n: usize| bytes.get(n).copied().unwrap_or(0);
+    match bytes[0] {
+        b' ' | b'\t' | b'\n' | b'\r' => (SyntaxKind::Whitespace, space_length(text)),
+        b'/' if next(1) == b'/' => {
+            let doc = next(2) == b'/' && next(3) != b'/';
+            let line = text.find('\n').unwrap_or(text.len());
+            let length = text[..line].trim_end_matches('\r').len();
+            (if doc { SyntaxKind::DocComment } else { SyntaxKind::LineComment }, length)
+        }
+        b'/' if next(1) == b'*' => {
+            let length = text[2..].find("*/").map_or(text.len(), |n| n + 4);
+            (SyntaxKind::BlockComment, length)
+        }
+        b'0'..=b'9' => (SyntaxKind::Number, number_length(bytes)),
+        b'"' => (SyntaxKind::Text, text_length(bytes)),
+        b'a'..=b'z' | b'A'..=b'Z' | b'_' => {
+            let length = ident_length(text);
+            (SyntaxKind::reserved(&text[..length]).unwrap_or(SyntaxKind::Ident), length)
+        }
+        0..=127 => punctuation(next(0), next(1), next(2)),
+        _ => {
+            let first = text.chars().next().expect("the text is not empty");
+            if first.is_alphabetic() {
+                (SyntaxKind::Ident, ident_length(text))
+            } else if first.is_whitespace() || first == '\u{feff}' {
+                (SyntaxKind::Whitespace, space_length(text))
+            } else {
+                (SyntaxKind::Unknown, first.len_utf8())
+            }
+        }
+    }
+}
+
+fn punctuation(first: u8, second: u8, third: u8) -> (SyntaxKind, usize) {
+    match (first, second, third) {
+        (b'.', b'.', b'.') => (SyntaxKind::Ellipsis, 3),
+        (b'.', b'.', _) => (SyntaxKind::DotDot, 2),
+        (b':', b'=', _) => (SyntaxKind::ColonEq, 2),
+        (b'=', b'>', _) => (SyntaxKind::FatArrow, 2),
+        (b'=', b'=', _) => (SyntaxKind::EqEq, 2),
+        (b'-', b'>', _) => (SyntaxKind::Arrow, 2),
+        (b'!', b'=', _) => (SyntaxKind::NotEq, 2),
+        (b'<', b'=', _) => (SyntaxKind::LessEq, 2),
+        (b'>', b'=', _) => (SyntaxKind::GreaterEq, 2),
+        (b'(', ..) => (SyntaxKind::LParen, 1),
+        (b')', ..) => (SyntaxKind::RParen, 1),
+        (b'[', ..) => (SyntaxKind::LBracket, 1),
+        (b']', ..) => (SyntaxKind::RBracket, 1),
+        (b'{', ..) => (SyntaxKind::LBrace, 1),
+        (b'}', ..) => (SyntaxKind::RBrace, 1),
+        (b',', ..) => (SyntaxKind::Comma, 1),
+        (b';', ..) => (SyntaxKind::Semicolon, 1),
+        (b':', ..) => (SyntaxKind::Colon, 1),
+        (b'=', ..) => (SyntaxKind::Eq, 1),
+        (b'<', ..) => (SyntaxKind::Less, 1),
+        (b'>', ..) => (SyntaxKind::Greater, 1),
+        (b'+', ..) => (SyntaxKind::Plus, 1),
+        (b'-', ..) => (SyntaxKind::Minus, 1),
+        (b'*', ..) => (SyntaxKind::Star, 1),
+        (b'/', ..) => (SyntaxKind::Slash, 1),
+        (b'^', ..) => (SyntaxKind::Caret, 1),
+        (b'.', ..) => (SyntaxKind::Dot, 1),
+        _ => (SyntaxKind::Unknown, 1),
+    }
+}
+
+fn space_length(text: &str) -> usize {
+    let ascii = text.bytes().take_while(|b| matches!(b, b' ' | b'\t' | b'\n' | b'\r')).count();
+    if text.as_bytes().get(ascii).is_none_or(u8::is_ascii) && ascii > 0 {
+        return ascii;
+    }
+    text.find(|c: char| !(c.is_whitespace() || c == '\u{feff}')).unwrap_or(text.len())
+}
+
+fn ident_length(text: &str) -> usize {
+    let ascii = text.bytes().take_while(|b| b.is_ascii_alphanumeric() || *b == b'_').count();
+    if text.as_bytes().get(ascii).is_none_or(u8::is_ascii) {
+        return ascii;
+    }
+    text.find(|c: char| !(c.is_alphanumeric() || c == '_')).unwrap_or(text.len())
+}
+
+/// `12`, `4.7`, `1e-9`; a dot or an `e` belongs to the number only where digits follow.
+fn number_length(bytes: &[u8]) -> usize {
+    let digits = |from: usize| bytes[from..].iter().take_while(|b| b.is_ascii_digit()).count();
+    let at = |n: usize| bytes.get(n).copied().unwrap_or(0);
+    let mut end = digits(0);
+    if at(end) == b'.' && at(end + 1).is_ascii_digit() {
+        end += 1 + digits(end + 1);
+    }
+    if matches!(at(end), b'e' | b'E') {
+        let sign = usize::from(matches!(at(end + 1), b'+' | b'-'));
+        if at(end + 1 + sign).is_ascii_digit() {
+            end += 1 + sign + digits(end + 1 + sign);
+        }
+    }
+    end
+}
+
+/// A text with its quotes; without the closing one it ends on its line.
+fn text_length(bytes: &[u8]) -> usize {
+    let mut end = 1;
+    while end < bytes.len() {
+        match bytes[end] {
+            b'"' => return end + 1,
+            b'\n' => return end - usize::from(bytes[end - 1] == b'\r' && end > 1),
+            b'\\'
+                if end + 1 < bytes.len() && bytes[end + 1] != b'\n' && bytes[end + 1] != b'\r' =>
+            {
+                end += 2;
+            }
+            _ => end += 1,
+        }
+    }
+    // An escape may have stepped over the first byte of a longer character, never past the end.
+    end.min(bytes.len())
+}
+
+fn fault(kind: SyntaxKind, text: &str) -> Option<Fault> {
+    match kind {
+        SyntaxKind::Unknown => Some(Fault::UnknownCharacter),
+        SyntaxKind::BlockComment if text.len() < 4 || !text.ends_with("*/") => {
+            Some(Fault::UnterminatedComment)
+        }
+        SyntaxKind::Text if !closed(text) => Some(Fault::UnterminatedText),
+        _ => None,
+    }
+}
+
+/// Returns true if a text token has its closing quote.
+fn closed(text: &str) -> bool {
+    let escapes = text.bytes().rev().skip(1).take_while(|b| *b == b'\\').count();
+    text.len() >= 2 && text.ends_with('"') && escapes % 2 == 0
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn check(text: &str, expected: &str) {
+        let lexed = lex(text);
+        let shown: Vec<String> = lexed
+            .tokens
+            .windows(2)
+            .filter(|w| w[0].kind != SyntaxKind::Whitespace)
+            .map(|w| format!("{:?} {}", w[0].kind, &text[w[0].start as usize..w[1].start as usize]))
+            .collect();
+        assert_eq!(shown.join(" | "), expected);
+    }
+
+    #[test]
+    fn a_unit_follows_its_number_on_the_same_line() {
+        check("9.81 m/s^2", "Number 9.81 | Unit m/s^2");
+        check("30deg", "Number 30 | Unit deg");
+        check("5\nm", "Number 5 | Ident m");
+        check("x m", "Ident x | Ident m");
+    }
+    #[test]
+    fn a_name_before_a_colon_is_no_unit() {
+        check("1 m: C", "Number 1 | Ident m | Colon : | Ident C");
+        check("1 s := 2", "Number 1 | Ident s | ColonEq := | Number 2");
+    }
+    #[test]
+    fn a_count_has_no_unit() {
+        check("List of 12 C", "Ident List | Ident of | Number 12 | Ident C");
+    }
+    #[test]
+    fn dots_after_numbers() {
+        check("0..7", "Number 0 | DotDot .. | Number 7");
+        check("1.5.text", "Number 1.5 | Dot . | Ident text");
+        check("1 mm..2 mm", "Number 1 | Unit mm | DotDot .. | Number 2 | Unit mm");
+        check("2e3 2e", "Number 2e3 | Number 2 | Ident e");
+    }
+    #[test]
+    fn a_text_ends_on_its_line() {
+        check("\"a\\\"b\" c", "Text \"a\\\"b\" | Ident c");
+        check("\"a\nb", "Text \"a | Ident b");
+        assert_eq!(lex("\"a\\\"").faults.len(), 1);
+        assert_eq!(lex("\"a\\\\\"").faults.len(), 0);
+    }
+    #[test]
+    fn comments() {
+        check(
+            "//// a\n/// b\n/*c*/ /*d",
+            "LineComment //// a | DocComment /// b | BlockComment /*c*/ | BlockComment /*d",
+        );
+    }
+}

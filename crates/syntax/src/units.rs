@@ -1,0 +1,80 @@
+//! The fixed table of unit spellings: what a word after a number must be to be its unit.
+//!
+//! Only spellings stand here; dimensions and factors are attached by the rooms that compute.
+//! An inch is `inch`: `in` is a word of the language.
+
+/// Every simple unit, by quantity. Compound ones join these with `*`, `/` and `^n`, without spaces.
+pub const UNITS: &[&str] = &[
+    // length
+    "nm", "um", "µm", "μm", "mm", "cm", "dm", "m", "km", "inch", "ft", "yd", // angle
+    "deg", "°", "rad", "mrad", "grad", // time, frequency
+    "ns", "us", "µs", "μs", "ms", "s", "min", "h", "Hz", "kHz", "MHz", "GHz",
+    // mass, force, pressure, energy, power
+    "mg", "g", "kg", "mN", "N", "kN", "MN", "Pa", "hPa", "kPa", "MPa", "GPa", "bar", "mJ", "J",
+    "kJ", "MJ", "mW", "W", "kW", "MW", // electricity
+    "nV", "uV", "µV", "μV", "mV", "V", "kV", "pA", "nA", "uA", "µA", "μA", "mA", "A", "kA", "mohm",
+    "ohm", "kohm", "Mohm", "mΩ", "Ω", "kΩ", "MΩ", "pF", "nF", "uF", "µF", "μF", "mF", "F", "nH",
+    "uH", "µH", "μH", "mH", "H", "nC", "uC", "µC", "μC", "mC", "C", "uS", "mS", "S", "T", "mT",
+    "Wb", // the rest
+    "K", "mol", "cd", "%",
+];
+
+/// Returns the length in bytes of the unit that `text` begins with, or 0 if it begins with none.
+///
+/// `m/s^2` is one unit; `m/width` begins with `m`; `mx` begins with none.
+///
+/// ```
+/// assert_eq!(syntax::units::unit_length("m/s^2 + 1"), 5);
+/// assert_eq!(syntax::units::unit_length("m/width"), 1);
+/// assert_eq!(syntax::units::unit_length("metre"), 0);
+/// ```
+pub fn unit_length(text: &str) -> usize {
+    let mut end = power_length(text);
+    if end == 0 {
+        return 0;
+    }
+    while text[end..].starts_with(['*', '/']) {
+        let next = power_length(&text[end + 1..]);
+        if next == 0 {
+            break;
+        }
+        end += 1 + next;
+    }
+    end
+}
+
+/// The length of a simple unit and its exponent: `s^2`, `m`, `s^-1`.
+fn power_length(text: &str) -> usize {
+    let word = word_length(text);
+    if word == 0 || !UNITS.contains(&&text[..word]) {
+        return 0;
+    }
+    let Some(rest) = text[word..].strip_prefix('^') else { return word };
+    let sign = usize::from(rest.starts_with('-'));
+    let digits = rest[sign..].bytes().take_while(u8::is_ascii_digit).count();
+    if digits == 0 { word } else { word + 1 + sign + digits }
+}
+
+/// The length of the run of characters that a unit can be written with.
+fn word_length(text: &str) -> usize {
+    if text.starts_with('%') {
+        return 1;
+    }
+    text.find(|c: char| !(c.is_alphanumeric() || c == '_' || c == '°')).unwrap_or(text.len())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_unit_is_a_whole_word() {
+        assert_eq!(unit_length("kohm"), 4);
+        assert_eq!(unit_length("kohms"), 0);
+        assert_eq!(unit_length("°"), 2);
+        assert_eq!(unit_length("N*m"), 3);
+        assert_eq!(unit_length("m^x"), 1);
+        assert_eq!(unit_length("s^-1"), 4);
+        assert_eq!(unit_length("in"), 0);
+    }
+}
