@@ -1,0 +1,30 @@
+//! `bindgen PAGE.wasm FOLDER`: writes the module `web.js` and its `web_bg.wasm` into the folder.
+
+use std::io::Write as _;
+use std::process::ExitCode;
+
+use wasm_bindgen_cli_support::Bindgen;
+
+fn main() -> ExitCode {
+    let mut arguments = std::env::args().skip(1);
+    let (Some(page), Some(folder)) = (arguments.next(), arguments.next()) else {
+        let _ = writeln!(std::io::stderr(), "bindgen PAGE.wasm FOLDER");
+        return ExitCode::from(2);
+    };
+    let mut bindgen = Bindgen::new();
+    // Without the default path the module cannot find its own .wasm.
+    let result = bindgen
+        .input_path(page)
+        .out_name("web")
+        .typescript(false)
+        .omit_default_module_path(false)
+        .web(true)
+        .and_then(|bindgen| bindgen.generate(folder));
+    match result {
+        Ok(()) => ExitCode::SUCCESS,
+        Err(error) => {
+            let _ = writeln!(std::io::stderr(), "bindgen: {error:#}");
+            ExitCode::FAILURE
+        }
+    }
+}

@@ -1,0 +1,140 @@
+//! The page's bundle: crates/web compiled for the browser, its JavaScript module, and the files of
+//! crates/web/assets, all in `dist/`; and the `thinglab` command that carries them.
+//!
+//! What is up to date is left alone, down to the modification times in `dist/`.
+
+use std::collections::BTreeMap;
+use std::io::{self, IsTerminal as _};
+use std::path::{Path, PathBuf};
+use std::process::{Command, Stdio};
+use std::{env, fs};
+
+use crate::tools::{self, WasmCompiler};
+use crate::{say, top};
+
+/// Builds `dist/`.
+///
+/// # Errors
+/// A sentence that says which step failed; the step's own messages are on the terminal.
+pub(crate) fn build(compiler: &WasmCompiler) -> Result<(), String> {
+    say!("page: compiling (minutes the first time)");
+    let made = target().join("wasm32-unknown-unknown/wasm-release/web.wasm");
+    run("the page did not compile", &mut compile_command(compiler))?;
+    let module = target().join("bindgen");
+    if is_older(&module.join("web_bg.wasm"), &made) {
+        say!("page: making its module");
+        let mut bindgen = tools::cargo(&["run", "--package", "bindgen", "--"]);
+        run("the page's module was not made", quiet(bindgen.arg(&made).arg(&module)))?;
+    }
+    let files = page_files(&module).and_then(|files| synchronise(&top().join("dist"), &files));
+    let size = files.map_err(|error| format!("dist/ could not be written: {error}"))?;
+    say!("page: {} kB in dist/", size / 1000);
+    Ok(())
+}
+
+/// Builds the command for release, with the page in it; gives its path.
+///
+/// # Errors
+/// As [`build`].
+pub(crate) fn build_command() -> Result<PathBuf, String> {
+    say!("thinglab: compiling");
+    let mut command = tools::cargo(&["build", "--release", "--package", "cli"]);
+    command.env("THINGLAB_DIST", top().join("dist"));
+    run("thinglab did not compile", quiet(&mut command))?;
+    let target =
+        env::var_os("CARGO_TARGET_DIR").map_or_else(|| top().join("target"), PathBuf::from);
+    Ok(top().join(target).join("release").join(format!("thinglab{}", env::consts::EXE_SUFFIX)))
+}
+
+/// The page has a target folder of its own: two compilers in one would undo each other's work.
+fn target() -> PathBuf {
+    top().join("target-web")
+}
+
+fn compile_command(compiler: &WasmCompiler) -> Command {
+    let mut command = match compiler {
+        WasmCompiler::Toolchain => tools::cargo(&["build"]),
+        WasmCompiler::Debian { linker } => debian_cargo(linker),
+    };
+    command.args(["--package", "web", "--bin", "web", "--profile", "wasm-release"]);
+    command.args(["--target", "wasm32-unknown-unknown", "--target-dir"]).arg(target());
+    quiet(&mut command);
+    command
+}
+
+/// Debian's cargo and rustc, free of what the toolchain that runs us has put into the environment;
+/// the standard library is built from source, which a stable compiler does only when told so.
+fn debian_cargo(linker: &Path) -> Command {
+    let mut command = Command::new("/usr/bin/cargo");
+    command.args(["build", "-Z", "build-std=std,panic_abort"]).current_dir(top());
+    let kept = ["CARGO_HOME", "CARGO_HTTP_", "CARGO_NET_", "CARGO_REGISTR", "CARGO_TERM_"];
+    for (name, _) in env::vars_os() {
+        let name = name.to_string_lossy();
+        let ours = name.starts_with("CARGO") || name.starts_with("RUST");
+        if ours && !kept.iter().any(|prefix| name.starts_with(prefix)) {
+            command.env_remove(&*name);
+        }
+    }
+    command
+        .env("PATH", "/usr/bin:/bin")
+        .env("RUSTC", "/usr/bin/rustc")
+        .env("RUSTC_BOOTSTRAP", "1")
+        .env("CARGO_TARGET_WASM32_UNKNOWN_UNKNOWN_LINKER", linker);
+    command
+}
+
+/// Cargo draws a bar on a terminal, and is silent elsewhere.
+fn quiet(command: &mut Command) -> &mut Command {
+    command.env("CARGO_TERM_QUIET", if io::stderr().is_terminal() { "false" } else { "true" })
+}
+
+fn run(failure: &str, command: &mut Command) -> Result<(), String> {
+    match command.stdin(Stdio::null()).status() {
+        Ok(status) if status.success() => Ok(()),
+        Ok(_) => Err(String::from(failure)),
+        Err(error) => Err(format!("{failure}: {error}")),
+    }
+}
+
+/// Whether a file is missing or was made before another.
+fn is_older(file: &Path, than: &Path) -> bool {
+    let time = |path: &Path| fs::metadata(path).and_then(|found| found.modified());
+    match (time(file), time(than)) {
+        (Ok(file), Ok(than)) => file < than,
+        (Err(_), _) | (_, Err(_)) => true,
+    }
+}
+
+/// The files of the page by their names: the module's, and those that lie directly in the assets
+/// (its folders hold sources).
+fn page_files(module: &Path) -> io::Result<BTreeMap<String, Vec<u8>>> {
+    let mut files = BTreeMap::new();
+    for folder in [top().join("crates/web/assets"), module.to_path_buf()] {
+        for entry in fs::read_dir(folder)? {
+            let path = entry?.path();
+            if path.is_file() {
+                let name = path.file_name().expect("listed by name").to_string_lossy().into_owned();
+                files.insert(name, fs::read(&path)?);
+            }
+        }
+    }
+    Ok(files)
+}
+
+/// Makes a folder hold exactly these files, writing only what differs; gives their size in bytes.
+fn synchronise(folder: &Path, files: &BTreeMap<String, Vec<u8>>) -> io::Result<usize> {
+    fs::create_dir_all(folder)?;
+    for entry in fs::read_dir(folder)? {
+        let entry = entry?;
+        if !files.contains_key(&*entry.file_name().to_string_lossy()) {
+            fs::remove_file(entry.path())?;
+        }
+    }
+    for (name, bytes) in files {
+        let path = folder.join(name);
+        if fs::read(&path).ok().as_ref() != Some(bytes) {
+            fs::write(&path, bytes)?;
+        }
+    }
+    Ok(files.values().map(Vec::len).sum())
+}

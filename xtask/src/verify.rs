@@ -1,0 +1,199 @@
+//! `cargo verify`: everything that can be checked, counted in one last line.
+//!
+//! Format, lints, documentation and the page's bundle count as one each, every test as one; a step
+//! that breaks off (a test that does not compile) counts as one failure.
+
+use std::ffi::OsString;
+use std::io::{BufRead as _, BufReader};
+use std::process::{Command, ExitCode, Stdio};
+
+use crate::tools::{self, Missing, Tool};
+use crate::{bundle, say};
+
+/// What the command line asks for.
+#[derive(Debug, PartialEq, Eq)]
+pub(crate) struct Wish {
+    missing: Missing,
+    browser: Browser,
+    length: Length,
+}
+
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+enum Browser {
+    Test,
+    LeaveOut,
+}
+
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+enum Length {
+    Usual,
+    Long,
+}
+
+/// How many checks passed and failed.
+#[derive(Debug, Default, Clone, Copy, PartialEq, Eq)]
+struct Count {
+    passed: usize,
+    failed: usize,
+}
+
+impl Count {
+    fn one(passed: bool) -> Count {
+        Count { passed: usize::from(passed), failed: usize::from(!passed) }
+    }
+
+    fn add(&mut self, other: Count) {
+        self.passed += other.passed;
+        self.failed += other.failed;
+    }
+}
+
+/// Reads the command line.
+///
+/// # Errors
+/// A sentence about the first argument that is not one.
+pub(crate) fn parse(arguments: &[String]) -> Result<Wish, String> {
+    let mut wish = Wish { missing: Missing::Name, browser: Browser::Test, length: Length::Usual };
+    for argument in arguments {
+        match argument.as_str() {
+            "--install" => wish.missing = Missing::Install,
+            "--no-browser" => wish.browser = Browser::LeaveOut,
+            "--long" => wish.length = Length::Long,
+            other => return Err(format!("unknown argument {other}")),
+        }
+    }
+    Ok(wish)
+}
+
+/// Runs everything, whatever fails on the way, and ends with the line that counts it.
+pub(crate) fn run(wish: &Wish) -> ExitCode {
+    let mut needed = vec![Tool::Rustfmt, Tool::Clippy];
+    if wish.browser == Browser::Test {
+        needed.extend([Tool::WasmCompiler, Tool::Browser]);
+    }
+    let lacking = tools::require(&needed, wish.missing);
+    if lacking > 0 {
+        say!("{}", last_line(Count { passed: 0, failed: lacking }, wish.browser));
+        return ExitCode::from(2);
+    }
+    let mut count = native(wish.length);
+    if wish.browser == Browser::Test {
+        count.add(in_browser(wish.length));
+    }
+    say!("{}", last_line(count, wish.browser));
+    if count.failed == 0 { ExitCode::SUCCESS } else { ExitCode::FAILURE }
+}
+
+fn last_line(count: Count, browser: Browser) -> String {
+    let Count { passed, failed } = count;
+    match browser {
+        Browser::Test => format!("{passed} passed, {failed} failed"),
+        Browser::LeaveOut => format!(
+            "{passed} passed, {failed} failed, 2 skipped (--no-browser: the page's bundle, the browser tests)"
+        ),
+    }
+}
+
+fn native(length: Length) -> Count {
+    let mut count = Count::default();
+    count.add(step("format", &mut tools::cargo(&["fmt", "--all", "--check"])));
+    let mut lints = tools::cargo(&["clippy", "--quiet", "--workspace", "--all-targets"]);
+    count.add(step("lints", lints.args(["--", "--deny", "warnings"])));
+    let mut documentation = tools::cargo(&["doc", "--quiet", "--no-deps"]);
+    count.add(step("documentation", documentation.env("RUSTDOCFLAGS", "--deny warnings")));
+    count.add(tests("tests", &[], &[], length));
+    count
+}
+
+fn in_browser(length: Length) -> Count {
+    say!("== bundle");
+    let compiler = tools::wasm_compiler().expect("required above");
+    let built = bundle::build(&compiler).and_then(|()| bundle::build_command());
+    let mut count = Count::one(built.is_ok());
+    match built {
+        Ok(thinglab) => {
+            let chromium = tools::browser().expect("required above");
+            let places: [(&str, OsString); 2] =
+                [("THINGLAB", thinglab.into()), ("CHROMIUM", chromium.into())];
+            count.add(tests("browser tests", &["--package", "browser"], &places, length));
+        }
+        Err(why) => {
+            say!("{why}; the browser tests cannot run");
+            count.add(Count::one(false));
+        }
+    }
+    count
+}
+
+fn step(name: &str, command: &mut Command) -> Count {
+    say!("== {name}");
+    let passed = command.stdin(Stdio::null()).status().is_ok_and(|status| status.success());
+    if !passed {
+        say!("{name} failed");
+    }
+    Count::one(passed)
+}
+
+/// Runs `cargo test` over the default members or the packages named, showing what it prints.
+fn tests(name: &str, packages: &[&str], places: &[(&str, OsString)], length: Length) -> Count {
+    say!("== {name}");
+    let mut command = tools::cargo(&["test", "--quiet", "--no-fail-fast"]);
+    command.args(packages).envs(places.iter().map(|(name, value)| (name, value)));
+    if length == Length::Long {
+        command.env("THINGLAB_LONG", "1");
+    }
+    let child = command.stdin(Stdio::null()).stdout(Stdio::piped()).spawn();
+    let Ok(mut child) = child else { return Count::one(false) };
+    let mut count = Count::default();
+    let printed = child.stdout.take().expect("piped");
+    for line in BufReader::new(printed).split(b'\n').map_while(Result::ok) {
+        let line = String::from_utf8_lossy(&line);
+        say!("{line}");
+        count.add(counted(&line).unwrap_or_default());
+    }
+    let ended_well = child.wait().is_ok_and(|status| status.success());
+    if !ended_well && count.failed == 0 {
+        say!("{name} broke off");
+        count.failed = 1;
+    }
+    count
+}
+
+/// What a test program's last line counts: `test result: ok. 3 passed; 0 failed; …`.
+fn counted(line: &str) -> Option<Count> {
+    let (_, figures) = line.strip_prefix("test result: ")?.split_once(". ")?;
+    let figure = |what: &str| {
+        let words = figures.split(';').find_map(|part| part.trim().strip_suffix(what))?;
+        words.trim().parse().ok()
+    };
+    Some(Count { passed: figure("passed")?, failed: figure("failed")? })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_test_programs_last_line_is_counted() {
+        let line =
+            "test result: FAILED. 12 passed; 3 failed; 0 ignored; 0 measured; 1 filtered out";
+        assert_eq!(counted(line), Some(Count { passed: 12, failed: 3 }));
+        assert_eq!(counted("test result"), None);
+        assert_eq!(counted("test some::test ... ok"), None);
+    }
+
+    #[test]
+    fn the_last_line_says_what_was_not_run() {
+        let count = Count { passed: 7, failed: 1 };
+        assert_eq!(last_line(count, Browser::Test), "7 passed, 1 failed");
+        assert_eq!(
+            last_line(count, Browser::LeaveOut),
+            "7 passed, 1 failed, 2 skipped (--no-browser: the page's bundle, the browser tests)"
+        );
+    }
+
+    #[test]
+    fn a_wrong_argument_is_named() {
+        assert_eq!(parse(&[String::from("--fast")]).unwrap_err(), "unknown argument --fast");
+    }
+}
