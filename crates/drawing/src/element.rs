@@ -157,6 +157,21 @@ pub struct Element {
     pub tag: Tag,
 }
 
+impl Element {
+    /// Makes an element of the usual style, in the layer where such shapes lie.
+    pub fn new(shape: Shape) -> Self {
+        let layer = match shape {
+            Shape::Dot(_) => Layer::Points,
+            Shape::Text { .. } => Layer::Words,
+            Shape::Segment(..)
+            | Shape::Polyline { .. }
+            | Shape::Circle { .. }
+            | Shape::Arc { .. } => Layer::Lines,
+        };
+        Self { shape, style: Style::default(), layer, tag: Tag::default() }
+    }
+}
+
 /// Elements in order; the layers first by [`Layer`], within a layer as listed.
 #[derive(Clone, PartialEq, Debug, Default)]
 pub struct Drawing {

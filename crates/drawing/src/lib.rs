@@ -2,8 +2,14 @@
 //!
 //! Coordinates are in the document's units of length on the sheet; `y` runs as the drawing says.
 //! Every element has a [`Tag`](element::Tag), which the session maps to the path of a thing.
+//!
+//! Reading order: [`element`], [`metrics`], [`mod@bounds`], [`svg`].
+pub mod bounds;
 pub mod element;
+pub mod metrics;
+pub mod svg;
 
+pub use bounds::{Bounds, bounds};
 pub use element::{
     Anchoring, Color, Drawing, Element, Layer, Line, Placement, Point, Shape, Style, Tag, Vertical,
 };

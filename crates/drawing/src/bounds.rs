@@ -1,0 +1,164 @@
+//! Bounds: the smallest upright box around a drawing.
+
+use crate::element::{Anchoring, Drawing, Element, Placement, Point, Shape, Vertical};
+use crate::metrics;
+use base::number::{cos, sin};
+use std::f64::consts::{FRAC_PI_2, TAU};
+
+/// An upright box, not empty.
+#[derive(Clone, Copy, PartialEq, Debug)]
+pub struct Bounds {
+    /// The corner with the smallest coordinates.
+    pub least: Point,
+    /// The corner with the largest coordinates.
+    pub most: Point,
+}
+
+impl Bounds {
+    /// Returns the box that holds one point.
+    pub fn at(p: Point) -> Self {
+        Self { least: p, most: p }
+    }
+    /// Returns the smallest box that holds this one and a point.
+    #[must_use]
+    pub fn with(self, p: Point) -> Self {
+        Self {
+            least: Point { x: self.least.x.min(p.x), y: self.least.y.min(p.y) },
+            most: Point { x: self.most.x.max(p.x), y: self.most.y.max(p.y) },
+        }
+    }
+    /// Returns how wide the box is.
+    pub fn width(self) -> f64 {
+        self.most.x - self.least.x
+    }
+    /// Returns how high the box is.
+    pub fn height(self) -> f64 {
+        self.most.y - self.least.y
+    }
+}
+
+/// Returns the smallest box around a drawing; nothing if it is empty.
+///
+/// Exact for segments, circles and arcs; line widths are not counted. What has a constant size on
+/// the screen counts as the point where it lies; words on the sheet are as large as
+/// [`metrics`] says.
+///
+/// ```
+/// use drawing::{Drawing, Element, Point, Shape, bounds};
+/// let center = Point { x: 1.0, y: 2.0 };
+/// let circle = Element::new(Shape::Circle { center, radius: 3.0 });
+/// let b = bounds(&Drawing { elements: vec![circle], ..Drawing::default() }).unwrap();
+/// assert_eq!((b.least.x, b.most.y, b.width()), (-2.0, 5.0, 6.0));
+/// ```
+pub fn bounds(drawing: &Drawing) -> Option<Bounds> {
+    let mut all: Option<Bounds> = None;
+    for element in &drawing.elements {
+        corners(element, drawing.vertical, &mut |p| {
+            all = Some(all.map_or(Bounds::at(p), |b| b.with(p)));
+        });
+    }
+    all
+}
+
+/// Names points whose smallest box is the element's.
+fn corners(element: &Element, vertical: Vertical, say: &mut dyn FnMut(Point)) {
+    match &element.shape {
+        Shape::Dot(p) => say(*p),
+        Shape::Segment(p, q) => [*p, *q].into_iter().for_each(say),
+        Shape::Polyline { points, .. } => points.iter().copied().for_each(say),
+        Shape::Circle { center, radius } => {
+            say(Point { x: center.x - radius, y: center.y - radius });
+            say(Point { x: center.x + radius, y: center.y + radius });
+        }
+        Shape::Arc { center, radius, start, sweep } => {
+            arc_corners(*center, *radius, *start, *sweep, say);
+        }
+        Shape::Text { at, text, anchoring, placement } => match placement {
+            Placement::OnScreen(_) => say(*at),
+            Placement::OnSheet(size) => {
+                let width = metrics::text_width(text, *size);
+                let left = match anchoring {
+                    Anchoring::Start => 0.0,
+                    Anchoring::Middle => -width / 2.0,
+                    Anchoring::End => -width,
+                };
+                let lines_below = text.split('\n').count() as f64 - 1.0;
+                let above = metrics::ASCENT * size;
+                let below = (metrics::DESCENT + lines_below * metrics::LINE_HEIGHT) * size;
+                let (top, bottom) = match vertical {
+                    Vertical::Up => (at.y + above, at.y - below),
+                    Vertical::Down => (at.y - above, at.y + below),
+                };
+                say(Point { x: at.x + left, y: top });
+                say(Point { x: at.x + left + width, y: bottom });
+            }
+        },
+    }
+}
+
+/// Names the ends of an arc, and the quarter points that it passes.
+fn arc_corners(center: Point, radius: f64, start: f64, sweep: f64, say: &mut dyn FnMut(Point)) {
+    say(point_on_circle(center, radius, start));
+    say(point_on_circle(center, radius, start + sweep));
+    let quarters = [(1.0, 0.0), (0.0, 1.0), (-1.0, 0.0), (0.0, -1.0)];
+    for (k, (x, y)) in quarters.into_iter().enumerate() {
+        let from_start = k as f64 * FRAC_PI_2 - start;
+        let turn = if sweep >= 0.0 { from_start } else { -from_start };
+        if turn.rem_euclid(TAU) <= sweep.abs() {
+            say(Point { x: center.x + radius * x, y: center.y + radius * y });
+        }
+    }
+}
+
+/// Returns the point of a circle at an angle, in radians from the x axis towards the y axis.
+pub fn point_on_circle(center: Point, radius: f64, angle: f64) -> Point {
+    Point { x: center.x + radius * cos(angle), y: center.y + radius * sin(angle) }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use std::f64::consts::PI;
+
+    fn of(shape: Shape) -> Option<Bounds> {
+        bounds(&Drawing { elements: vec![Element::new(shape)], ..Drawing::default() })
+    }
+    fn near(b: Bounds, expected: [f64; 4]) {
+        let found = [b.least.x, b.least.y, b.most.x, b.most.y];
+        for (a, e) in found.into_iter().zip(expected) {
+            assert!((a - e).abs() < 1e-12, "{found:?} is not {expected:?}");
+        }
+    }
+    const ORIGIN: Point = Point { x: 0.0, y: 0.0 };
+
+    #[test]
+    fn nothing_has_no_bounds() {
+        assert_eq!(bounds(&Drawing::default()), None);
+        assert_eq!(of(Shape::Polyline { points: Vec::new(), closed: true }), None);
+    }
+    #[test]
+    fn a_quarter_arc_does_not_reach_the_other_side() {
+        let arc = |start, sweep| Shape::Arc { center: ORIGIN, radius: 2.0, start, sweep };
+        near(of(arc(0.0, FRAC_PI_2)).unwrap(), [0.0, 0.0, 2.0, 2.0]);
+        near(of(arc(FRAC_PI_2, -FRAC_PI_2)).unwrap(), [0.0, 0.0, 2.0, 2.0]);
+    }
+    #[test]
+    fn an_arc_over_the_top_reaches_it() {
+        let h = 2.0 * sin(PI / 4.0);
+        let arc = Shape::Arc { center: ORIGIN, radius: 2.0, start: PI / 4.0, sweep: FRAC_PI_2 };
+        near(of(arc).unwrap(), [-h, h, h, 2.0]);
+        let back = Shape::Arc { center: ORIGIN, radius: 2.0, start: -PI / 4.0, sweep: -1.5 * PI };
+        near(of(back).unwrap(), [-2.0, -2.0, h, 2.0]);
+    }
+    #[test]
+    fn words_on_the_screen_count_as_a_point() {
+        let text = |placement| Shape::Text {
+            at: ORIGIN,
+            text: "MM".into(),
+            anchoring: Anchoring::Middle,
+            placement,
+        };
+        near(of(text(Placement::OnScreen(12.0))).unwrap(), [0.0; 4]);
+        near(of(text(Placement::OnSheet(10.0))).unwrap(), [-8.33, -2.07, 8.33, 7.18]);
+    }
+}
