@@ -152,7 +152,9 @@ impl<'d> Maker<'d> {
             ClassKind::Primitive(_) | ClassKind::Reference(_) | ClassKind::Set(_) => {
                 self.givens[thing] = whole;
             }
-            ClassKind::List(element) => self.make_list(thing, *element, &bindings, whole, origin),
+            ClassKind::List(element) => {
+                self.make_list(thing, *element, &bindings, whole.as_ref(), origin);
+            }
             ClassKind::Composite => self.make_fields(thing, bindings),
         }
     }
@@ -166,10 +168,10 @@ impl<'d> Maker<'d> {
         thing: ThingId,
         element: ClassId,
         bindings: &[Binding],
-        whole: Option<GivenIn>,
+        whole: Option<&GivenIn>,
         origin: OriginId,
     ) {
-        let given_count = whole.as_ref().map_or(0, |w| match &w.value {
+        let given_count = whole.map_or(0, |w| match &w.value {
             Term::List(items) => items.len(),
             _ => 0,
         });
@@ -535,7 +537,7 @@ impl<'d> Maker<'d> {
         let document = self.document;
         let mut seen = BTreeSet::new();
         let mut members: Vec<(ThingId, ThingId)> = Vec::new();
-        for thing in self.from_parts_to_owners() {
+        for thing in self.parts_first() {
             let class = self.structure.things[thing].class;
             for class in document.primary_line(class).into_iter().rev() {
                 let c = &document.classes[class];
@@ -565,7 +567,7 @@ impl<'d> Maker<'d> {
                     let set = self.structure.follow(thing, &insert.set);
                     match (part, set) {
                         (Ok(part), Ok(set)) => {
-                            members.push((self.structure.merged[set], self.structure.merged[part]))
+                            members.push((self.structure.merged[set], self.structure.merged[part]));
                         }
                         _ => {
                             let paths = [insert.part.clone(), insert.set.clone()];
@@ -593,7 +595,7 @@ impl<'d> Maker<'d> {
     }
 
     /// Returns every thing, parts before their owner, siblings in order of declaration.
-    fn from_parts_to_owners(&self) -> Vec<ThingId> {
+    fn parts_first(&self) -> Vec<ThingId> {
         let mut order = Vec::with_capacity(self.structure.things.len());
         let mut stack = vec![ThingId(0)];
         while let Some(thing) = stack.pop() {
