@@ -3,7 +3,9 @@ pub mod arena;
 pub mod derivative;
 pub mod dimension;
 pub mod op;
+pub mod tape;
 
 pub use arena::{Arena, ExprId, Node, Var};
 pub use derivative::{derivative, gradient};
 pub use op::{Binary, Unary};
+pub use tape::Tape;

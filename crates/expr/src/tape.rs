@@ -1,0 +1,360 @@
+//! The tape: expressions lowered to a flat list of operations, to be run again and again.
+//!
+//! In: an arena and the expressions wanted. Out: runs of equal operations, each writing the registers
+//! that follow those of the run before (single assignment). The operation is looked up once a run, so
+//! that a wide tape costs about as much as its arithmetic; an operation may read what its own run
+//! wrote, so that a chain of equal operations is one run too.
+//!
+//! Every operation is that of [`Unary::apply`] and [`Binary::apply`]: a tape computes the same bits as
+//! [`Arena::evaluate`].
+
+use crate::arena::{Arena, ExprId, Node, place};
+use crate::op::{Binary, Unary};
+use base::{Id, number};
+use std::collections::VecDeque;
+use std::fmt;
+
+/// What the operations of a run do.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+enum Operation {
+    /// Reads a value; the operand is the variable.
+    Load,
+    Unary(Unary),
+    Binary(Binary),
+    Select,
+}
+
+impl Operation {
+    const COUNT: usize = Unary::ALL.len() + Binary::ALL.len() + 1;
+
+    fn from_place(place: usize) -> Self {
+        let after_unary = place.wrapping_sub(Unary::ALL.len());
+        match (Unary::ALL.get(place), Binary::ALL.get(after_unary)) {
+            (Some(&op), _) => Self::Unary(op),
+            (None, Some(&op)) => Self::Binary(op),
+            (None, None) => Self::Select,
+        }
+    }
+    fn arity(self) -> usize {
+        match self {
+            Self::Load | Self::Unary(_) => 1,
+            Self::Binary(_) => 2,
+            Self::Select => 3,
+        }
+    }
+}
+
+/// Equal operations on registers that follow one another.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+struct Run {
+    operation: Operation,
+    /// The register that the first operation writes.
+    first: u32,
+    count: u32,
+}
+
+/// Expressions to be run again and again.
+///
+/// ```
+/// use expr::{Arena, Tape, Var};
+/// let mut arena = Arena::default();
+/// let (x, y) = (arena.var(Var(0)), arena.var(Var(1)));
+/// let sum = arena.add(x, y);
+/// let product = arena.mul(sum, x);
+/// let tape = Tape::compile(&arena, &[sum, product]);
+/// let (mut registers, mut out) = (Vec::new(), [0.0; 2]);
+/// tape.run(&[3.0, 4.0], &mut registers, &mut out);
+/// assert_eq!(out, [7.0, 21.0]);
+/// ```
+#[derive(Clone, PartialEq, Debug, Default)]
+pub struct Tape {
+    /// The first registers.
+    constants: Vec<f64>,
+    runs: Vec<Run>,
+    /// The operands of every operation, one after the other.
+    operands: Vec<u32>,
+    /// The register of every output.
+    outputs: Vec<u32>,
+    registers: usize,
+}
+
+impl Tape {
+    /// Lowers the nodes that `outputs` are made of.
+    pub fn compile(arena: &Arena, outputs: &[ExprId]) -> Self {
+        let order = arena.reachable(outputs);
+        let mut lowering =
+            Lowering { tape: Self::default(), register: vec![u32::MAX; order.len()] };
+        let (mut loads, mut inner) = (Vec::new(), Vec::new());
+        for (i, &id) in order.iter().enumerate() {
+            match arena.node(id) {
+                Node::Constant(bits) => {
+                    lowering.assign(i);
+                    lowering.tape.constants.push(f64::from_bits(bits));
+                }
+                Node::Var(var) => loads.push((i, var)),
+                Node::Unary(..) | Node::Binary(..) | Node::Select { .. } => inner.push(i),
+            }
+        }
+        for (i, var) in loads {
+            lowering.emit(Operation::Load, i, &[var.index() as u32]);
+        }
+        // Operands still to be computed, and who waits for each node.
+        let mut missing = vec![0_u32; order.len()];
+        let mut users: Vec<Vec<u32>> = vec![Vec::new(); order.len()];
+        let mut ready: Vec<VecDeque<usize>> = vec![VecDeque::new(); Operation::COUNT];
+        for i in inner {
+            arena.node(order[i]).each_operand(|a| {
+                let a = place(&order, a);
+                if lowering.register[a] == u32::MAX {
+                    missing[i] += 1;
+                    users[a].push(i as u32);
+                }
+            });
+            if missing[i] == 0 {
+                ready[queue_of(arena.node(order[i]))].push_back(i);
+            }
+        }
+        // The longest queue next: it runs dry before another operation is looked up.
+        while let Some(queue) = (0..Operation::COUNT)
+            .rev()
+            .max_by_key(|&q| ready[q].len())
+            .filter(|&q| !ready[q].is_empty())
+        {
+            while let Some(i) = ready[queue].pop_front() {
+                let (mut operands, mut count) = ([0; 3], 0);
+                arena.node(order[i]).each_operand(|a| {
+                    operands[count] = lowering.register[place(&order, a)];
+                    count += 1;
+                });
+                lowering.emit(Operation::from_place(queue), i, &operands[..count]);
+                for &user in &users[i] {
+                    let user = user as usize;
+                    missing[user] -= 1;
+                    if missing[user] == 0 {
+                        ready[queue_of(arena.node(order[user]))].push_back(user);
+                    }
+                }
+            }
+        }
+        let register = &lowering.register;
+        lowering.tape.outputs = outputs.iter().map(|&id| register[place(&order, id)]).collect();
+        lowering.tape
+    }
+
+    /// Returns the number of operations, reading of values included.
+    pub fn len(&self) -> usize {
+        self.registers - self.constants.len()
+    }
+    /// Returns true if the tape computes nothing: every output is a constant.
+    pub fn is_empty(&self) -> bool {
+        self.len() == 0
+    }
+
+    /// Computes every output.
+    ///
+    /// `registers` is working space, of any content; it grows if it is too small, and serves many
+    /// tapes. Nothing is allocated where it is large enough.
+    ///
+    /// # Panics
+    /// If a variable has no value, or `out` has not the length of the outputs.
+    pub fn run(&self, values: &[f64], registers: &mut Vec<f64>, out: &mut [f64]) {
+        assert_eq!(out.len(), self.outputs.len(), "there is a place for every output");
+        if registers.len() < self.registers {
+            registers.resize(self.registers, 0.0);
+        }
+        let registers = &mut registers[..self.registers];
+        registers[..self.constants.len()].copy_from_slice(&self.constants);
+        let mut operands = self.operands.as_slice();
+        for run in &self.runs {
+            let (mine, rest) = operands.split_at(run.count as usize * run.operation.arity());
+            operands = rest;
+            let first = run.first as usize;
+            match run.operation {
+                Operation::Load => {
+                    for (register, &var) in registers[first..].iter_mut().zip(mine) {
+                        *register = values[var as usize];
+                    }
+                }
+                Operation::Unary(op) => run_unary(op, registers, first, mine),
+                Operation::Binary(op) => run_binary(op, registers, first, mine),
+                Operation::Select => {
+                    for (i, operand) in mine.as_chunks::<3>().0.iter().enumerate() {
+                        let [condition, then, otherwise] = operand.map(|r| registers[r as usize]);
+                        registers[first + i] = if condition != 0.0 { then } else { otherwise };
+                    }
+                }
+            }
+        }
+        for (out, &register) in out.iter_mut().zip(&self.outputs) {
+            *out = registers[register as usize];
+        }
+    }
+
+    /// Returns the tape as text: one line an operation, with its meaning.
+    pub fn describe(&self) -> String {
+        self.to_string()
+    }
+}
+
+/// Returns where a node waits for its turn.
+fn queue_of(node: Node) -> usize {
+    match node {
+        Node::Unary(op, _) => op as usize,
+        Node::Binary(op, ..) => Unary::ALL.len() + op as usize,
+        Node::Select { .. } => Unary::ALL.len() + Binary::ALL.len(),
+        Node::Constant(_) | Node::Var(_) => unreachable!("constants and variables do not wait"),
+    }
+}
+
+/// A tape being written.
+struct Lowering {
+    tape: Tape,
+    /// The register of every node, or `u32::MAX`.
+    register: Vec<u32>,
+}
+
+impl Lowering {
+    fn assign(&mut self, node: usize) -> u32 {
+        let register = self.tape.registers as u32;
+        self.register[node] = register;
+        self.tape.registers += 1;
+        register
+    }
+    fn emit(&mut self, operation: Operation, node: usize, operands: &[u32]) {
+        let first = self.assign(node);
+        self.tape.operands.extend(operands);
+        match self.tape.runs.last_mut() {
+            Some(run) if run.operation == operation => run.count += 1,
+            _ => self.tape.runs.push(Run { operation, first, count: 1 }),
+        }
+    }
+}
+
+fn run_unary(op: Unary, registers: &mut [f64], first: usize, operands: &[u32]) {
+    macro_rules! each {
+        ($($op:ident)*) => {
+            match op {
+                $(Unary::$op => for (i, &a) in operands.iter().enumerate() {
+                    registers[first + i] = Unary::$op.apply(registers[a as usize]);
+                })*
+            }
+        };
+    }
+    each!(Neg Abs Sqrt Sin Cos Tan Asin Acos Atan Exp Ln Floor Round Sign Not);
+}
+
+fn run_binary(op: Binary, registers: &mut [f64], first: usize, operands: &[u32]) {
+    let operands = operands.as_chunks::<2>().0;
+    macro_rules! each {
+        ($($op:ident)*) => {
+            match op {
+                $(Binary::$op => for (i, &[a, b]) in operands.iter().enumerate() {
+                    let (a, b) = (registers[a as usize], registers[b as usize]);
+                    registers[first + i] = Binary::$op.apply(a, b);
+                })*
+            }
+        };
+    }
+    each!(Add Sub Mul Div Pow Atan2 Min Max Remainder Less LessEqual Equal NotEqual And Or);
+}
+
+impl fmt::Display for Tape {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let name = |register: u32| match self.constants.get(register as usize) {
+            Some(&constant) => number::shortest(constant),
+            None => format!("r{register}"),
+        };
+        let mut operands = self.operands.as_slice();
+        for run in &self.runs {
+            for register in run.first..run.first + run.count {
+                let (mine, rest) = operands.split_at(run.operation.arity());
+                operands = rest;
+                write!(f, "r{register} = ")?;
+                match (run.operation, mine) {
+                    (Operation::Unary(op), &[a]) => writeln!(f, "{} {}", op.name(), name(a))?,
+                    (Operation::Binary(op), &[a, b]) if op.is_infix() => {
+                        writeln!(f, "{} {} {}", name(a), op.name(), name(b))?;
+                    }
+                    (Operation::Binary(op), &[a, b]) => {
+                        writeln!(f, "{} {} {}", op.name(), name(a), name(b))?;
+                    }
+                    (Operation::Select, &[c, a, b]) => {
+                        writeln!(f, "if {} then {} else {}", name(c), name(a), name(b))?;
+                    }
+                    (_, mine) => writeln!(f, "v{}", mine[0])?,
+                }
+            }
+        }
+        for (i, &register) in self.outputs.iter().enumerate() {
+            writeln!(f, "out {i} = {}", name(register))?;
+        }
+        Ok(())
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::Var;
+
+    fn run(tape: &Tape, values: &[f64], outputs: usize) -> Vec<f64> {
+        let mut out = vec![0.0; outputs];
+        tape.run(values, &mut Vec::new(), &mut out);
+        out
+    }
+    #[test]
+    fn nothing_and_constants_only() {
+        let mut arena = Arena::new();
+        assert_eq!(run(&Tape::compile(&arena, &[]), &[], 0), []);
+        let two = arena.constant(2.0);
+        let tape = Tape::compile(&arena, &[two, two]);
+        assert!(tape.is_empty());
+        assert_eq!(run(&tape, &[], 2), [2.0, 2.0]);
+    }
+    #[test]
+    fn what_is_not_reached_is_not_computed() {
+        let mut arena = Arena::new();
+        let (x, y) = (arena.var(Var(0)), arena.var(Var(7)));
+        let unused = arena.mul(x, y);
+        let used = arena.sqrt(x);
+        assert_ne!(unused, used);
+        let tape = Tape::compile(&arena, &[used]);
+        assert_eq!(tape.len(), 2);
+        assert_eq!(run(&tape, &[9.0], 1), [3.0]);
+    }
+    #[test]
+    fn a_chain_of_equal_operations_is_one_run() {
+        let mut arena = Arena::new();
+        let x = arena.var(Var(0));
+        let mut e = x;
+        for _ in 0..50_000 {
+            e = arena.add(e, x);
+        }
+        let tape = Tape::compile(&arena, &[e]);
+        assert_eq!(tape.runs.len(), 2);
+        assert_eq!(run(&tape, &[1.0], 1), [50_001.0]);
+    }
+    #[test]
+    fn a_tape_reads_like_a_page() {
+        let mut arena = Arena::new();
+        let (x, y, two) = (arena.var(Var(0)), arena.var(Var(1)), arena.constant(2.0));
+        let square = arena.square(x);
+        let less = arena.binary(Binary::Less, square, y);
+        let doubled = arena.mul(two, y);
+        let e = arena.select(less, square, doubled);
+        let text = Tape::compile(&arena, &[e]).describe();
+        let wanted = "r1 = v0\nr2 = v1\nr3 = r1 * r1\nr4 = r2 * 2\nr5 = r3 < r2\n\
+                      r6 = if r5 then r3 else r4\nout 0 = r6\n";
+        assert_eq!(text, wanted);
+    }
+    #[test]
+    fn old_registers_of_another_tape_do_no_harm() {
+        let mut arena = Arena::new();
+        let (x, two) = (arena.var(Var(0)), arena.constant(2.0));
+        let e = arena.mul(two, x);
+        let tape = Tape::compile(&arena, &[e]);
+        let (mut registers, mut out) = (vec![f64::NAN; 100], [0.0]);
+        tape.run(&[4.0], &mut registers, &mut out);
+        assert_eq!((out, registers.len()), ([8.0], 100));
+    }
+}
