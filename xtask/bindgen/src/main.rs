@@ -17,6 +17,8 @@ fn main() -> ExitCode {
         .input_path(page)
         .out_name("web")
         .typescript(false)
+        .remove_name_section(true)
+        .remove_producers_section(true)
         .omit_default_module_path(false)
         .web(true)
         .and_then(|bindgen| bindgen.generate(folder));

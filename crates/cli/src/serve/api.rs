@@ -135,6 +135,7 @@ fn kind_of(name: &str) -> &'static str {
         "css" => "text/css; charset=utf-8",
         "js" => "text/javascript; charset=utf-8",
         "svg" => "image/svg+xml",
+        "txt" => "text/plain; charset=utf-8",
         "wasm" => "application/wasm",
         "json" | "webmanifest" => "application/json",
         "woff2" => "font/woff2",
