@@ -1,12 +1,232 @@
 //! Dimensions: what a number measures, as exponents of the SI base quantities.
 
+use std::fmt;
+
 /// Exponents of length, mass, time, current, temperature, amount, luminous intensity.
+///
+/// ```
+/// use expr::Dimension;
+/// assert_eq!(Dimension::CURRENT.times(Dimension::RESISTANCE), Dimension::VOLTAGE);
+/// assert_eq!(Dimension::VOLTAGE.to_string(), "kg*m^2/s^3/A");
+/// assert_eq!(Dimension::VOLTAGE.named(), Some("Voltage"));
+/// ```
 #[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, Debug, Default)]
 pub struct Dimension(pub [i8; 7]);
+
+/// Names of quantities; of several names for one dimension the first is shown.
+const NAMES: [(&str, Dimension); 36] = [
+    ("Real", Dimension::NONE),
+    ("Angle", Dimension::ANGLE),
+    ("Length", Dimension::LENGTH),
+    ("Area", Dimension::AREA),
+    ("Volume", Dimension::VOLUME),
+    ("Mass", Dimension::MASS),
+    ("Time", Dimension::TIME),
+    ("Current", Dimension::CURRENT),
+    ("Temperature", Dimension::TEMPERATURE),
+    ("Amount", Dimension::AMOUNT),
+    ("LuminousIntensity", Dimension::LUMINOUS_INTENSITY),
+    ("Velocity", Dimension::VELOCITY),
+    ("Speed", Dimension::VELOCITY),
+    ("Acceleration", Dimension::ACCELERATION),
+    ("Momentum", Dimension::MOMENTUM),
+    ("Force", Dimension::FORCE),
+    ("Pressure", Dimension::PRESSURE),
+    ("Stress", Dimension::PRESSURE),
+    ("Energy", Dimension::ENERGY),
+    ("Moment", Dimension::MOMENT),
+    ("Torque", Dimension::MOMENT),
+    ("Power", Dimension::POWER),
+    ("Voltage", Dimension::VOLTAGE),
+    ("Resistance", Dimension::RESISTANCE),
+    ("Conductance", Dimension::CONDUCTANCE),
+    ("Capacitance", Dimension::CAPACITANCE),
+    ("Inductance", Dimension::INDUCTANCE),
+    ("Charge", Dimension::CHARGE),
+    ("Frequency", Dimension::FREQUENCY),
+    ("AngularVelocity", Dimension::FREQUENCY),
+    ("AngularAcceleration", Dimension::ANGULAR_ACCELERATION),
+    ("Stiffness", Dimension::STIFFNESS),
+    ("Damping", Dimension::DAMPING),
+    ("Density", Dimension::DENSITY),
+    ("MomentOfInertia", Dimension::MOMENT_OF_INERTIA),
+    ("SecondMomentOfArea", Dimension::SECOND_MOMENT_OF_AREA),
+];
+
+/// The base units in the order in which they are written, each with its place in a dimension.
+const BASE_UNITS: [(&str, usize); 7] =
+    [("kg", 1), ("m", 0), ("s", 2), ("A", 3), ("K", 4), ("mol", 5), ("cd", 6)];
 
 impl Dimension {
     /// A plain number.
     pub const NONE: Self = Self([0; 7]);
-    /// A length.
+    /// Length, m.
     pub const LENGTH: Self = Self([1, 0, 0, 0, 0, 0, 0]);
+    /// Area, m².
+    pub const AREA: Self = Self([2, 0, 0, 0, 0, 0, 0]);
+    /// Volume, m³.
+    pub const VOLUME: Self = Self([3, 0, 0, 0, 0, 0, 0]);
+    /// Angle: a plain number, in radians.
+    pub const ANGLE: Self = Self::NONE;
+    /// Mass, kg.
+    pub const MASS: Self = Self([0, 1, 0, 0, 0, 0, 0]);
+    /// Time, s.
+    pub const TIME: Self = Self([0, 0, 1, 0, 0, 0, 0]);
+    /// Electric current, A.
+    pub const CURRENT: Self = Self([0, 0, 0, 1, 0, 0, 0]);
+    /// Temperature, K.
+    pub const TEMPERATURE: Self = Self([0, 0, 0, 0, 1, 0, 0]);
+    /// Amount of substance, mol.
+    pub const AMOUNT: Self = Self([0, 0, 0, 0, 0, 1, 0]);
+    /// Luminous intensity, cd.
+    pub const LUMINOUS_INTENSITY: Self = Self([0, 0, 0, 0, 0, 0, 1]);
+    /// Velocity, m/s.
+    pub const VELOCITY: Self = Self([1, 0, -1, 0, 0, 0, 0]);
+    /// Acceleration, m/s².
+    pub const ACCELERATION: Self = Self([1, 0, -2, 0, 0, 0, 0]);
+    /// Momentum, N·s.
+    pub const MOMENTUM: Self = Self([1, 1, -1, 0, 0, 0, 0]);
+    /// Force, N.
+    pub const FORCE: Self = Self([1, 1, -2, 0, 0, 0, 0]);
+    /// Pressure and stress, Pa.
+    pub const PRESSURE: Self = Self([-1, 1, -2, 0, 0, 0, 0]);
+    /// Energy, J.
+    pub const ENERGY: Self = Self([2, 1, -2, 0, 0, 0, 0]);
+    /// Moment of a force (torque), N·m.
+    pub const MOMENT: Self = Self::ENERGY;
+    /// Power, W.
+    pub const POWER: Self = Self([2, 1, -3, 0, 0, 0, 0]);
+    /// Voltage, V.
+    pub const VOLTAGE: Self = Self([2, 1, -3, -1, 0, 0, 0]);
+    /// Electric resistance, Ω.
+    pub const RESISTANCE: Self = Self([2, 1, -3, -2, 0, 0, 0]);
+    /// Electric conductance, S.
+    pub const CONDUCTANCE: Self = Self([-2, -1, 3, 2, 0, 0, 0]);
+    /// Capacitance, F.
+    pub const CAPACITANCE: Self = Self([-2, -1, 4, 2, 0, 0, 0]);
+    /// Inductance, H.
+    pub const INDUCTANCE: Self = Self([2, 1, -2, -2, 0, 0, 0]);
+    /// Electric charge, C.
+    pub const CHARGE: Self = Self([0, 0, 1, 1, 0, 0, 0]);
+    /// Frequency and angular velocity, 1/s.
+    pub const FREQUENCY: Self = Self([0, 0, -1, 0, 0, 0, 0]);
+    /// Angular acceleration, 1/s².
+    pub const ANGULAR_ACCELERATION: Self = Self([0, 0, -2, 0, 0, 0, 0]);
+    /// Stiffness of a spring, N/m.
+    pub const STIFFNESS: Self = Self([0, 1, -2, 0, 0, 0, 0]);
+    /// Damping, N·s/m.
+    pub const DAMPING: Self = Self([0, 1, -1, 0, 0, 0, 0]);
+    /// Density, kg/m³.
+    pub const DENSITY: Self = Self([-3, 1, 0, 0, 0, 0, 0]);
+    /// Moment of inertia, kg·m².
+    pub const MOMENT_OF_INERTIA: Self = Self([2, 1, 0, 0, 0, 0, 0]);
+    /// Second moment of area, m⁴.
+    pub const SECOND_MOMENT_OF_AREA: Self = Self([4, 0, 0, 0, 0, 0, 0]);
+
+    /// Returns true for a plain number.
+    pub fn is_none(self) -> bool {
+        self == Self::NONE
+    }
+    fn map(self, exponent: impl Fn(usize, i8) -> i8) -> Self {
+        Self(std::array::from_fn(|i| exponent(i, self.0[i])))
+    }
+    /// Returns the dimension of a product. Exponents stop at the ends of `i8`.
+    #[must_use]
+    pub fn times(self, other: Self) -> Self {
+        self.map(|i, e| e.saturating_add(other.0[i]))
+    }
+    /// Returns the dimension of a quotient.
+    #[must_use]
+    pub fn over(self, other: Self) -> Self {
+        self.map(|i, e| e.saturating_sub(other.0[i]))
+    }
+    /// Returns the dimension of the `n`th power.
+    #[must_use]
+    pub fn power(self, n: i8) -> Self {
+        self.map(|_, e| e.saturating_mul(n))
+    }
+    /// Returns the dimension of the `n`th root, if its exponents are whole.
+    pub fn root(self, n: i8) -> Option<Self> {
+        let is_whole = n != 0 && self.0.iter().all(|e| e.wrapping_rem(n) == 0);
+        is_whole.then(|| self.map(|_, e| e.saturating_div(n)))
+    }
+    /// Returns the name of the quantity, if it has one: `Voltage`.
+    pub fn named(self) -> Option<&'static str> {
+        NAMES.iter().find(|(_, dimension)| *dimension == self).map(|(name, _)| *name)
+    }
+    /// Returns the dimension of a named quantity; `Angle` and `Real` are plain numbers.
+    pub fn by_name(name: &str) -> Option<Self> {
+        NAMES.iter().find(|(n, _)| *n == name).map(|(_, dimension)| *dimension)
+    }
+    /// Returns the names of all quantities.
+    pub fn names() -> impl Iterator<Item = &'static str> {
+        NAMES.iter().map(|(name, _)| *name)
+    }
+}
+
+/// Writes base units: `kg*m^2/s^3/A`, `1/s`; a plain number is `1`.
+impl fmt::Display for Dimension {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let mut above = 0;
+        for (unit, place) in BASE_UNITS {
+            let exponent = self.0[place];
+            if exponent > 0 {
+                let times = if above > 0 { "*" } else { "" };
+                write!(f, "{times}{unit}")?;
+                above += 1;
+            }
+            if exponent > 1 {
+                write!(f, "^{exponent}")?;
+            }
+        }
+        if above == 0 {
+            write!(f, "1")?;
+        }
+        for (unit, place) in BASE_UNITS {
+            let exponent = self.0[place];
+            if exponent < 0 {
+                write!(f, "/{unit}")?;
+            }
+            if exponent < -1 {
+                write!(f, "^{}", exponent.unsigned_abs())?;
+            }
+        }
+        Ok(())
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn roots_are_whole_or_none() {
+        assert_eq!(Dimension::AREA.root(2), Some(Dimension::LENGTH));
+        assert_eq!(Dimension::LENGTH.root(2), None);
+        assert_eq!(Dimension::LENGTH.root(0), None);
+        assert_eq!(Dimension([i8::MIN; 7]).root(-1), Some(Dimension([i8::MAX; 7])));
+    }
+    #[test]
+    fn laws_of_physics_agree() {
+        let d = Dimension::CHARGE.over(Dimension::VOLTAGE);
+        assert_eq!(d, Dimension::CAPACITANCE);
+        assert_eq!(Dimension::NONE.over(Dimension::RESISTANCE), Dimension::CONDUCTANCE);
+        assert_eq!(Dimension::RESISTANCE.times(Dimension::TIME), Dimension::INDUCTANCE);
+        assert_eq!(Dimension::FORCE.times(Dimension::VELOCITY), Dimension::POWER);
+        assert_eq!(Dimension::STIFFNESS.times(Dimension::LENGTH), Dimension::FORCE);
+        assert_eq!(Dimension::VELOCITY.power(2).times(Dimension::MASS), Dimension::ENERGY);
+    }
+    #[test]
+    fn huge_powers_stop_at_the_end() {
+        let huge = Dimension::LENGTH.power(100);
+        assert_eq!(huge.times(huge), Dimension([i8::MAX, 0, 0, 0, 0, 0, 0]));
+    }
+    #[test]
+    fn written_in_base_units() {
+        assert_eq!(Dimension::NONE.to_string(), "1");
+        assert_eq!(Dimension::FREQUENCY.to_string(), "1/s");
+        assert_eq!(Dimension::PRESSURE.to_string(), "kg/m/s^2");
+        assert_eq!(Dimension::by_name("Torque"), Some(Dimension::ENERGY));
+        assert_eq!(Dimension::by_name("Colour"), None);
+    }
 }

@@ -4,8 +4,10 @@ pub mod derivative;
 pub mod dimension;
 pub mod op;
 pub mod tape;
+pub mod units;
 
 pub use arena::{Arena, ExprId, Node, Var};
 pub use derivative::{derivative, gradient};
+pub use dimension::Dimension;
 pub use op::{Binary, Unary};
 pub use tape::Tape;
