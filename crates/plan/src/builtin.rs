@@ -1,0 +1,178 @@
+//! The language's own functions and messages, opened symbolically.
+
+use crate::evaluate::{Given, Opening, kind};
+use crate::fault::{FaultKind, Trouble};
+use crate::meaning::Meaning;
+use base::Name;
+use expr::{Binary, ExprId, Unary};
+
+type Answer<'a> = Result<Meaning<'a>, Trouble>;
+
+impl<'a> Opening<'a, '_> {
+    /// Calls a function of the language: `sqrt(x)`, `max(a, b, c)`.
+    pub(crate) fn call(&mut self, name: &Name, arguments: &[Given<'a>]) -> Answer<'a> {
+        let arguments: Vec<Meaning<'a>> = arguments.iter().map(|a| a.1.clone()).collect();
+        if let (Some(operator), [x]) = (unary_named(name), arguments.as_slice()) {
+            return self.apply_unary(operator, x);
+        }
+        match (name.as_str(), arguments.as_slice()) {
+            ("pi", []) => Ok(self.number(std::f64::consts::PI)),
+            ("atan2", [y, x]) => self.fold(Binary::Atan2, &[y.clone(), x.clone()]),
+            ("min", [list @ Meaning::List(_)]) => {
+                let items = self.items(list)?;
+                self.fold(Binary::Min, &items)
+            }
+            ("max", [list @ Meaning::List(_)]) => {
+                let items = self.items(list)?;
+                self.fold(Binary::Max, &items)
+            }
+            ("min", items) => self.fold(Binary::Min, items),
+            ("max", items) => self.fold(Binary::Max, items),
+            ("allDifferent", _) => Err(Trouble::not_yet("allDifferent is not planned yet")),
+            _ => Err(Trouble::new(
+                FaultKind::UnknownName,
+                format!("a rule cannot use `{name}` of {} arguments", arguments.len()),
+            )),
+        }
+    }
+
+    /// Sends a message that no class defines: those of numbers, texts and lists.
+    pub(crate) fn send_builtin(
+        &mut self,
+        to: &Meaning<'a>,
+        name: &Name,
+        arguments: &[Given<'a>],
+    ) -> Answer<'a> {
+        let arguments: Vec<Meaning<'a>> = arguments.iter().map(|a| a.1.clone()).collect();
+        match to {
+            Meaning::Number(_) => self.send_number(to, name, &arguments),
+            Meaning::Opaque(_) => Ok(self.opaque(arguments.iter().chain([to]))),
+            Meaning::List(_) => self.send_list(to, name, &arguments),
+            Meaning::Thing(_) if self.items(to).is_ok() => self.send_list(to, name, &arguments),
+            Meaning::Thing(t) => {
+                let class = self.structure.things[*t].class;
+                let class = &self.document.classes[class].name;
+                let message = format!("{class} has no part or message `{name}`");
+                Err(Trouble::new(FaultKind::UnknownName, message))
+            }
+            Meaning::Made(made) => {
+                let class = &self.document.classes[made.class].name;
+                let message = format!("{class} has no part or message `{name}`");
+                Err(Trouble::new(FaultKind::UnknownName, message))
+            }
+            Meaning::Lambda(_) => Err(Trouble::wrong(format!("a function has no `{name}`"))),
+        }
+    }
+
+    fn send_number(&mut self, to: &Meaning<'a>, name: &Name, arguments: &[Meaning<'a>]) -> Answer<'a> {
+        if let (Some(operator), []) = (unary_named(name), arguments) {
+            return self.apply_unary(operator, to);
+        }
+        match (name.as_str(), arguments) {
+            ("text", _) => Ok(self.opaque(arguments.iter().chain([to]))),
+            ("min", [x]) => self.fold(Binary::Min, &[to.clone(), x.clone()]),
+            ("max", [x]) => self.fold(Binary::Max, &[to.clone(), x.clone()]),
+            _ => {
+                let message = format!("a number has no message `{name}`");
+                Err(Trouble::new(FaultKind::UnknownName, message))
+            }
+        }
+    }
+
+    fn send_list(&mut self, to: &Meaning<'a>, name: &Name, arguments: &[Meaning<'a>]) -> Answer<'a> {
+        let items = self.items(to)?;
+        match (name.as_str(), arguments) {
+            ("count", []) => Ok(self.number(items.len() as f64)),
+            ("sum", []) if items.is_empty() => Ok(self.number(0.0)),
+            ("sum", []) => self.fold(Binary::Add, &items),
+            ("sum", [f]) => {
+                let mapped = self.map(&items, f)?;
+                self.send_list(&Meaning::List(mapped.into()), name, &[])
+            }
+            ("min", []) => self.fold(Binary::Min, &items),
+            ("max", []) => self.fold(Binary::Max, &items),
+            ("map", [f]) => Ok(Meaning::List(self.map(&items, f)?.into())),
+            ("first", []) => items.first().cloned().ok_or_else(|| empty(name)),
+            ("last", []) => items.last().cloned().ok_or_else(|| empty(name)),
+            ("filter", [f]) => {
+                let mut kept = Vec::new();
+                for item in items.iter() {
+                    let truth = self.apply(f, std::slice::from_ref(item))?;
+                    match self.decided(&truth) {
+                        Some(true) => kept.push(item.clone()),
+                        Some(false) => {}
+                        None => {
+                            let message = "a filter that depends on values is not planned yet";
+                            return Err(Trouble::not_yet(message));
+                        }
+                    }
+                }
+                Ok(Meaning::List(kept.into()))
+            }
+            ("all", [f]) => {
+                let truths = self.map(&items, f)?;
+                if truths.is_empty() { Ok(self.number(1.0)) } else { self.fold(Binary::And, &truths) }
+            }
+            ("any", [f]) => {
+                let truths = self.map(&items, f)?;
+                if truths.is_empty() { Ok(self.number(0.0)) } else { self.fold(Binary::Or, &truths) }
+            }
+            _ => {
+                let message = format!("a list has no message `{name}`");
+                Err(Trouble::new(FaultKind::UnknownName, message))
+            }
+        }
+    }
+
+    /// Applies a function to every element.
+    pub(crate) fn map(
+        &mut self,
+        items: &[Meaning<'a>],
+        function: &Meaning<'a>,
+    ) -> Result<Vec<Meaning<'a>>, Trouble> {
+        items.iter().map(|item| self.apply(function, std::slice::from_ref(item))).collect()
+    }
+
+    /// Joins numbers from the first to the last.
+    fn fold(&mut self, operator: Binary, items: &[Meaning<'a>]) -> Answer<'a> {
+        if items.iter().any(|m| matches!(m, Meaning::Opaque(_))) {
+            return Ok(self.opaque(items));
+        }
+        let ids: Result<Vec<ExprId>, _> = items.iter().map(|m| self.expression(m)).collect();
+        let joined = ids?.into_iter().reduce(|a, b| self.arena.binary(operator, a, b));
+        joined.map(Meaning::Number).ok_or_else(|| Trouble::wrong("the least of nothing"))
+    }
+
+    fn apply_unary(&mut self, operator: Unary, x: &Meaning<'a>) -> Answer<'a> {
+        match x {
+            Meaning::Number(id) => Ok(Meaning::Number(self.arena.unary(operator, *id))),
+            Meaning::Opaque(_) => Ok(self.opaque([x])),
+            Meaning::Thing(_) | Meaning::Made(_) | Meaning::List(_) | Meaning::Lambda(_) => {
+                Err(Trouble::wrong(format!("{} is not a number", kind(x))))
+            }
+        }
+    }
+}
+
+fn empty(name: &str) -> Trouble {
+    Trouble::wrong(format!("an empty list has no `{name}`"))
+}
+
+/// Returns the operation that the language calls by this name.
+fn unary_named(name: &str) -> Option<Unary> {
+    Some(match name {
+        "sqrt" => Unary::Sqrt,
+        "abs" => Unary::Abs,
+        "sin" => Unary::Sin,
+        "cos" => Unary::Cos,
+        "tan" => Unary::Tan,
+        "asin" => Unary::Asin,
+        "acos" => Unary::Acos,
+        "atan" => Unary::Atan,
+        "exp" => Unary::Exp,
+        "ln" => Unary::Ln,
+        "floor" => Unary::Floor,
+        "round" => Unary::Round,
+        _ => return None,
+    })
+}

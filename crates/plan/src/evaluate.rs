@@ -1,0 +1,601 @@
+//! Symbolic evaluation: a term in, its [`Meaning`] out.
+//!
+//! Messages and virtual parts are opened into their definitions, lists are expanded, conditions
+//! become selections. Nothing here looks at a value: the result serves every state.
+
+use crate::fault::{FaultKind, Trouble};
+use crate::meaning::{Closure, Frame, Made, Meaning, Opaque, collect_slots};
+use base::Name;
+use expr::{Arena, Binary, ExprId, Node, Unary, Var};
+use kernel::{
+    Argument, BinaryOperator, ClassId, ClassKind, DOCUMENT, Document, Message, SlotId, Structure,
+    Term, ThingId, UnaryOperator,
+};
+use std::collections::BTreeSet;
+use std::rc::Rc;
+
+/// How deep messages may call each other.
+const DEEPEST: u32 = 200;
+/// How many terms one rule may open into: what a mistyped recursion may cost.
+const MOST_TERMS: u32 = 1_000_000;
+
+/// An argument with its label, evaluated.
+pub(crate) type Given<'a> = (Option<Name>, Meaning<'a>);
+
+type Answer<'a> = Result<Meaning<'a>, Trouble>;
+
+/// The context of symbolic evaluation.
+pub(crate) struct Opening<'a, 'w> {
+    pub(crate) document: &'a Document,
+    pub(crate) structure: &'a Structure,
+    pub(crate) arena: &'w mut Arena,
+    depth: u32,
+    terms: u32,
+}
+
+impl<'a, 'w> Opening<'a, 'w> {
+    pub(crate) fn new(
+        document: &'a Document,
+        structure: &'a Structure,
+        arena: &'w mut Arena,
+    ) -> Self {
+        Self { document, structure, arena, depth: 0, terms: 0 }
+    }
+
+    /// Finds what a term stands for.
+    pub(crate) fn meaning(&mut self, term: &'a Term, frame: &Frame<'a>) -> Answer<'a> {
+        self.count_term()?;
+        match term {
+            Term::Number { value, .. } => Ok(self.number(*value)),
+            Term::Text(_) => Ok(Meaning::Opaque(Opaque::default())),
+            Term::Bool(b) => Ok(self.number(f64::from(u8::from(*b)))),
+            Term::Me => Ok(frame.me.clone()),
+            Term::Owner => self.owner(&frame.me),
+            Term::Document => Ok(Meaning::Thing(DOCUMENT)),
+            Term::Local(name) => frame.local(name).ok_or_else(|| {
+                Trouble::new(FaultKind::UnknownName, format!("nothing is named `{name}` here"))
+            }),
+            Term::Send { to, name, arguments, above } => {
+                let to = self.meaning(to, frame)?;
+                let arguments = self.arguments(arguments, frame)?;
+                self.send(&to, name, &arguments, *above)
+            }
+            Term::Call { name, arguments } => {
+                let arguments = self.arguments(arguments, frame)?;
+                self.call(name, &arguments)
+            }
+            Term::Make { class, arguments } => {
+                let arguments = self.arguments(arguments, frame)?;
+                self.make(*class, &arguments)
+            }
+            Term::Tuple(items) | Term::List(items) => {
+                let items: Result<Vec<_>, _> =
+                    items.iter().map(|t| self.meaning(t, frame)).collect();
+                Ok(Meaning::List(items?.into()))
+            }
+            Term::Range(from, to) => {
+                let from = self.whole(from, frame)?;
+                let to = self.whole(to, frame)?;
+                Ok(Meaning::List((from..=to).map(|i| self.number(i as f64)).collect()))
+            }
+            Term::Index(list, index) => {
+                let list = self.meaning(list, frame)?;
+                let items = self.items(&list)?;
+                let index = self.whole(index, frame)?;
+                usize::try_from(index).ok().and_then(|i| items.get(i)).cloned().ok_or_else(|| {
+                    Trouble::wrong(format!("there is no element {index} in {}", items.len()))
+                })
+            }
+            Term::Unary(operator, operand) => {
+                let operand = self.meaning(operand, frame)?;
+                let operator = match operator {
+                    UnaryOperator::Negate => Unary::Neg,
+                    UnaryOperator::Not => Unary::Not,
+                };
+                self.unary(operator, &operand)
+            }
+            Term::Binary(operator, a, b) => {
+                let a = self.meaning(a, frame)?;
+                let b = self.meaning(b, frame)?;
+                self.binary(*operator, &a, &b)
+            }
+            Term::If(condition, then, otherwise) => {
+                let condition = self.meaning(condition, frame)?;
+                match self.decided(&condition) {
+                    Some(true) => self.meaning(then, frame),
+                    Some(false) => self.meaning(otherwise, frame),
+                    None => {
+                        let then = self.meaning(then, frame)?;
+                        let otherwise = self.meaning(otherwise, frame)?;
+                        self.select(&condition, &then, &otherwise)
+                    }
+                }
+            }
+            Term::Let(name, bound, body) => {
+                let bound = self.meaning(bound, frame)?;
+                self.meaning(body, &frame.bind(name.clone(), bound))
+            }
+            Term::Lambda(parameters, body) => {
+                let frame = frame.clone();
+                Ok(Meaning::Lambda(Rc::new(Closure { parameters, body, frame })))
+            }
+            Term::IsA(thing, class) => {
+                let thing = self.meaning(thing, frame)?;
+                let is = self.is_a(&thing, *class);
+                Ok(self.number(f64::from(u8::from(is))))
+            }
+            Term::All(class) => Ok(self.all(*class)),
+            Term::Copy(term) => self.meaning(term, frame),
+        }
+    }
+
+    /// Counts one more term of the rule at hand.
+    pub(crate) fn count_term(&mut self) -> Result<(), Trouble> {
+        self.terms += 1;
+        if self.terms > MOST_TERMS {
+            return Err(Trouble::new(FaultKind::Endless, "more than a million terms"));
+        }
+        Ok(())
+    }
+
+    /// Begins the count for another rule.
+    pub(crate) fn begin(&mut self) {
+        self.terms = 0;
+        self.depth = 0;
+    }
+
+    pub(crate) fn number(&mut self, value: f64) -> Meaning<'a> {
+        Meaning::Number(self.arena.constant(value))
+    }
+
+    fn owner(&self, me: &Meaning<'a>) -> Answer<'a> {
+        match me {
+            Meaning::Thing(t) => match self.structure.things[*t].owner {
+                Some(owner) => Ok(Meaning::Thing(owner)),
+                None => Err(Trouble::wrong("the document is not a part of anything")),
+            },
+            other => Err(Trouble::wrong(format!("{} has no owner", kind(other)))),
+        }
+    }
+
+    fn arguments(
+        &mut self,
+        arguments: &'a [Argument],
+        frame: &Frame<'a>,
+    ) -> Result<Vec<Given<'a>>, Trouble> {
+        arguments.iter().map(|a| Ok((a.label.clone(), self.meaning(&a.value, frame)?))).collect()
+    }
+
+    /// Evaluates a term that must be a whole constant.
+    fn whole(&mut self, term: &'a Term, frame: &Frame<'a>) -> Result<i64, Trouble> {
+        let meaning = self.meaning(term, frame)?;
+        match self.constant(&meaning) {
+            Some(x) if x == x.trunc() && x.abs() < 1e15 => Ok(x as i64),
+            Some(_) => Err(Trouble::wrong("an index is a whole number")),
+            None => Err(Trouble::not_yet("an index that depends on values is not planned yet")),
+        }
+    }
+
+    /// Returns the number that a meaning is, if it is one whatever the values are.
+    pub(crate) fn constant(&self, meaning: &Meaning<'a>) -> Option<f64> {
+        match meaning {
+            Meaning::Number(id) => match self.arena.node(*id) {
+                Node::Constant(bits) => Some(f64::from_bits(bits)),
+                Node::Var(_) | Node::Unary(..) | Node::Binary(..) | Node::Select { .. } => None,
+            },
+            Meaning::Thing(_)
+            | Meaning::Made(_)
+            | Meaning::List(_)
+            | Meaning::Opaque(_)
+            | Meaning::Lambda(_) => None,
+        }
+    }
+
+    /// Returns the truth value that a meaning is, if it is one whatever the values are.
+    pub(crate) fn decided(&self, meaning: &Meaning<'a>) -> Option<bool> {
+        self.constant(meaning).map(|x| x != 0.0)
+    }
+
+    /// Returns what is stored in a part, or the part itself where it has parts.
+    pub(crate) fn part(&mut self, thing: ThingId) -> Answer<'a> {
+        if let Some(slot) = self.structure.slot_of[thing] {
+            return Ok(if self.structure.slots[slot].primitive.is_number() {
+                Meaning::Number(self.arena.var(Var(slot.0)))
+            } else {
+                Meaning::Opaque(Opaque::stored(slot))
+            });
+        }
+        match self.document.classes[self.structure.things[thing].class].kind {
+            ClassKind::Reference(_) => {
+                Err(Trouble::not_yet("a rule that runs through a reference is not planned yet"))
+            }
+            ClassKind::Primitive(_)
+            | ClassKind::Composite
+            | ClassKind::List(_)
+            | ClassKind::Set(_) => Ok(Meaning::Thing(thing)),
+        }
+    }
+
+    /// Sends a message, or reads a part.
+    pub(crate) fn send(
+        &mut self,
+        to: &Meaning<'a>,
+        name: &Name,
+        arguments: &[Given<'a>],
+        above: Option<ClassId>,
+    ) -> Answer<'a> {
+        if let Some(part) = self.stored_part(to, name, arguments, above)? {
+            return Ok(part);
+        }
+        if let Some(message) = self.message(to, name, above) {
+            let frame = bind_arguments(Frame::new(to.clone()), message, arguments)?;
+            return self.deeper(|opening| opening.meaning(&message.answer, &frame));
+        }
+        self.send_builtin(to, name, arguments)
+    }
+
+    /// Reads a stored part, where the message is nothing else.
+    fn stored_part(
+        &mut self,
+        to: &Meaning<'a>,
+        name: &Name,
+        arguments: &[Given<'a>],
+        above: Option<ClassId>,
+    ) -> Result<Option<Meaning<'a>>, Trouble> {
+        if !arguments.is_empty() || above.is_some() {
+            return Ok(None);
+        }
+        match to {
+            Meaning::Thing(t) => match self.structure.part_named(*t, name) {
+                Some(part) => self.part(part).map(Some),
+                None => Ok(None),
+            },
+            Meaning::Made(made) => {
+                Ok(made.fields.iter().find(|f| f.0 == *name).map(|f| f.1.clone()))
+            }
+            Meaning::Number(_) | Meaning::List(_) | Meaning::Opaque(_) | Meaning::Lambda(_) => {
+                Ok(None)
+            }
+        }
+    }
+
+    /// Finds the definition of a message, looking at everything that the thing is merged with.
+    pub(crate) fn message(
+        &self,
+        to: &Meaning<'a>,
+        name: &str,
+        above: Option<ClassId>,
+    ) -> Option<&'a Message> {
+        let document = self.document;
+        let find = |class| document.find_message(class, name, above).map(|found| found.1);
+        match to {
+            Meaning::Thing(t) => find(self.structure.things[*t].class).or_else(|| {
+                let alike = self.structure.merges.get(&self.structure.merged[*t])?;
+                alike.iter().find_map(|&t| find(self.structure.things[t].class))
+            }),
+            Meaning::Made(made) => find(made.class),
+            Meaning::Number(_) | Meaning::List(_) | Meaning::Opaque(_) | Meaning::Lambda(_) => None,
+        }
+    }
+
+    /// Runs one message call deeper.
+    pub(crate) fn deeper<T>(
+        &mut self,
+        run: impl FnOnce(&mut Self) -> Result<T, Trouble>,
+    ) -> Result<T, Trouble> {
+        if self.depth >= DEEPEST {
+            let message = format!("messages call each other more than {DEEPEST} deep");
+            return Err(Trouble::new(FaultKind::Endless, message));
+        }
+        self.depth += 1;
+        let answer = run(self);
+        self.depth -= 1;
+        answer
+    }
+
+    /// Calls a function of the language.
+    pub(crate) fn apply(
+        &mut self,
+        function: &Meaning<'a>,
+        arguments: &[Meaning<'a>],
+    ) -> Answer<'a> {
+        let Meaning::Lambda(closure) = function else {
+            return Err(Trouble::wrong(format!("{} is not a function", kind(function))));
+        };
+        let frame = self.closure_frame(closure, arguments)?;
+        self.deeper(|opening| opening.meaning(closure.body, &frame))
+    }
+
+    /// Binds the parameters of a function; one list serves several parameters.
+    pub(crate) fn closure_frame(
+        &mut self,
+        closure: &Closure<'a>,
+        arguments: &[Meaning<'a>],
+    ) -> Result<Frame<'a>, Trouble> {
+        let spread = match arguments {
+            [one] if closure.parameters.len() > 1 => self.items(one)?,
+            _ => arguments.into(),
+        };
+        if spread.len() != closure.parameters.len() {
+            return Err(Trouble::wrong(format!(
+                "a function of {} got {} arguments",
+                closure.parameters.len(),
+                spread.len()
+            )));
+        }
+        let bind = |frame: Frame<'a>, (name, m): (&Name, &Meaning<'a>)| {
+            frame.bind(name.clone(), m.clone())
+        };
+        Ok(closure.parameters.iter().zip(spread.iter()).fold(closure.frame.clone(), bind))
+    }
+
+    fn make(&mut self, class: ClassId, arguments: &[Given<'a>]) -> Answer<'a> {
+        let document = self.document;
+        let layout = document.layout(class);
+        let mut fields = Vec::with_capacity(layout.len());
+        for (i, &field) in layout.iter().enumerate() {
+            let name = document.field_name(field).clone();
+            let labelled =
+                arguments.iter().find(|a| a.0.as_ref().is_some_and(|l| *l == name));
+            let positional = || arguments.get(i).filter(|a| a.0.is_none());
+            let meaning = match labelled.or_else(positional) {
+                Some(argument) => argument.1.clone(),
+                None => self.default_field(class, &name, document.field_class(field), &fields)?,
+            };
+            fields.push((name, meaning));
+        }
+        Ok(Meaning::Made(Rc::new(Made { class, fields })))
+    }
+
+    /// Evaluates the value that a class gives to a field of its things; zero where it gives none.
+    fn default_field(
+        &mut self,
+        class: ClassId,
+        name: &Name,
+        field_class: ClassId,
+        so_far: &[(Name, Meaning<'a>)],
+    ) -> Answer<'a> {
+        let document = self.document;
+        let path = kernel::Path::of(&[name]);
+        let given = document.primary_line(class).into_iter().find_map(|c| {
+            document.classes[c].givens.iter().rev().find(|g| g.path == path)
+        });
+        if let Some(given) = given {
+            let me = Meaning::Made(Rc::new(Made { class, fields: so_far.to_vec() }));
+            return self.deeper(|opening| opening.meaning(&given.value, &Frame::new(me)));
+        }
+        match document.classes[field_class].kind {
+            ClassKind::Primitive(p) if p.is_number() => Ok(self.number(0.0)),
+            ClassKind::Primitive(_) => Ok(Meaning::Opaque(Opaque::default())),
+            ClassKind::Composite => self.deeper(|opening| opening.make(field_class, &[])),
+            ClassKind::List(_) | ClassKind::Set(_) => Ok(Meaning::List(Rc::from([]))),
+            ClassKind::Reference(_) => Err(Trouble::not_yet("a made reference is not planned yet")),
+        }
+    }
+
+    /// Returns the elements of a list, a set or a tuple.
+    pub(crate) fn items(&mut self, list: &Meaning<'a>) -> Result<Rc<[Meaning<'a>]>, Trouble> {
+        match list {
+            Meaning::List(items) => Ok(items.clone()),
+            Meaning::Thing(t) => {
+                let things: Vec<ThingId> = match self.structure_kind(*t) {
+                    ClassKind::List(_) => self.structure.parts(*t).collect(),
+                    ClassKind::Set(_) => {
+                        let members = self.structure.sets.get(&self.structure.merged[*t]);
+                        members.cloned().unwrap_or_default()
+                    }
+                    ClassKind::Primitive(_) | ClassKind::Composite | ClassKind::Reference(_) => {
+                        let class = self.structure.things[*t].class;
+                        let name = &self.document.classes[class].name;
+                        return Err(Trouble::wrong(format!("{name} is neither a list nor a set")));
+                    }
+                };
+                let items: Result<Vec<_>, _> = things.into_iter().map(|t| self.part(t)).collect();
+                Ok(items?.into())
+            }
+            Meaning::Number(_) | Meaning::Made(_) | Meaning::Opaque(_) | Meaning::Lambda(_) => {
+                Err(Trouble::wrong(format!("{} is neither a list nor a set", kind(list))))
+            }
+        }
+    }
+
+    fn structure_kind(&self, thing: ThingId) -> &'a ClassKind {
+        &self.document.classes[self.structure.things[thing].class].kind
+    }
+
+    fn is_a(&self, meaning: &Meaning<'a>, class: ClassId) -> bool {
+        match meaning {
+            Meaning::Thing(t) => {
+                let is = |t: ThingId| self.document.is_a(self.structure.things[t].class, class);
+                self.structure.merged_with(*t).into_iter().any(is)
+            }
+            Meaning::Made(made) => self.document.is_a(made.class, class),
+            Meaning::Number(_) | Meaning::List(_) | Meaning::Opaque(_) | Meaning::Lambda(_) => {
+                false
+            }
+        }
+    }
+
+    fn all(&self, class: ClassId) -> Meaning<'a> {
+        let mut seen = BTreeSet::new();
+        let things = self.structure.things.iter().filter(|(id, t)| {
+            self.document.is_a(t.class, class) && seen.insert(self.structure.merged[*id])
+        });
+        Meaning::List(things.map(|(id, _)| Meaning::Thing(id)).collect())
+    }
+
+    fn unary(&mut self, operator: Unary, operand: &Meaning<'a>) -> Answer<'a> {
+        match operand {
+            Meaning::Number(id) => Ok(Meaning::Number(self.arena.unary(operator, *id))),
+            Meaning::Opaque(_) => Ok(self.opaque([operand])),
+            other => Err(Trouble::wrong(format!("{} is not a number", kind(other)))),
+        }
+    }
+
+    fn binary(&mut self, operator: BinaryOperator, a: &Meaning<'a>, b: &Meaning<'a>) -> Answer<'a> {
+        if let (Meaning::Number(a), Meaning::Number(b)) = (a, b) {
+            let (a, b) = (*a, *b);
+            let (operator, a, b) = match operator {
+                BinaryOperator::Add => (Binary::Add, a, b),
+                BinaryOperator::Subtract => (Binary::Sub, a, b),
+                BinaryOperator::Multiply => (Binary::Mul, a, b),
+                BinaryOperator::Divide => (Binary::Div, a, b),
+                BinaryOperator::Power => (Binary::Pow, a, b),
+                BinaryOperator::Equal => (Binary::Equal, a, b),
+                BinaryOperator::NotEqual => (Binary::NotEqual, a, b),
+                BinaryOperator::Less => (Binary::Less, a, b),
+                BinaryOperator::LessEqual => (Binary::LessEqual, a, b),
+                BinaryOperator::Greater => (Binary::Less, b, a),
+                BinaryOperator::GreaterEqual => (Binary::LessEqual, b, a),
+                BinaryOperator::And => (Binary::And, a, b),
+                BinaryOperator::Or => (Binary::Or, a, b),
+                BinaryOperator::In => return Err(Trouble::wrong("a number has no members")),
+            };
+            return Ok(Meaning::Number(self.arena.binary(operator, a, b)));
+        }
+        match operator {
+            BinaryOperator::Equal => self.equal(a, b),
+            BinaryOperator::NotEqual => {
+                let equal = self.equal(a, b)?;
+                self.unary(Unary::Not, &equal)
+            }
+            BinaryOperator::In => self.is_in(a, b),
+            BinaryOperator::Add
+            | BinaryOperator::Subtract
+            | BinaryOperator::Multiply
+            | BinaryOperator::Divide
+            | BinaryOperator::Power
+            | BinaryOperator::Less
+            | BinaryOperator::LessEqual
+            | BinaryOperator::Greater
+            | BinaryOperator::GreaterEqual
+            | BinaryOperator::And
+            | BinaryOperator::Or => match (a, b) {
+                (Meaning::Opaque(_) | Meaning::Number(_), Meaning::Opaque(_))
+                | (Meaning::Opaque(_), Meaning::Number(_)) => Ok(self.opaque([a, b])),
+                _ => Err(Trouble::wrong(format!("{} and {}: numbers are wanted", kind(a), kind(b)))),
+            },
+        }
+    }
+
+    /// Says by an expression whether two meanings are equal, part by part.
+    fn equal(&mut self, a: &Meaning<'a>, b: &Meaning<'a>) -> Answer<'a> {
+        let mut truth = self.number(1.0);
+        for (a, b) in self.leaves(a, b)? {
+            let one = match (&a, &b) {
+                (Meaning::Number(a), Meaning::Number(b)) => {
+                    Meaning::Number(self.arena.binary(Binary::Equal, *a, *b))
+                }
+                _ => self.opaque([&a, &b]),
+            };
+            truth = self.binary(BinaryOperator::And, &truth, &one)?;
+        }
+        Ok(truth)
+    }
+
+    fn is_in(&mut self, a: &Meaning<'a>, b: &Meaning<'a>) -> Answer<'a> {
+        let mut truth = self.number(0.0);
+        for item in self.items(b)?.iter() {
+            let one = match (a, item) {
+                (Meaning::Thing(a), Meaning::Thing(b)) => {
+                    let same = self.structure.merged[*a] == self.structure.merged[*b];
+                    self.number(f64::from(u8::from(same)))
+                }
+                _ => self.equal(a, item)?,
+            };
+            truth = self.binary(BinaryOperator::Or, &truth, &one)?;
+        }
+        Ok(truth)
+    }
+
+    /// Takes one of two meanings by a condition that depends on values, part by part.
+    fn select(
+        &mut self,
+        condition: &Meaning<'a>,
+        then: &Meaning<'a>,
+        otherwise: &Meaning<'a>,
+    ) -> Answer<'a> {
+        match (condition, then, otherwise) {
+            (Meaning::Number(c), Meaning::Number(a), Meaning::Number(b)) => {
+                Ok(Meaning::Number(self.arena.select(*c, *a, *b)))
+            }
+            (_, Meaning::Thing(_) | Meaning::Made(_), Meaning::Thing(_) | Meaning::Made(_)) => {
+                let class = self.common_ancestor(then, otherwise)?;
+                let mut fields = Vec::new();
+                for name in self.field_names(class) {
+                    let a = self.send(then, &name, &[], None)?;
+                    let b = self.send(otherwise, &name, &[], None)?;
+                    fields.push((name, self.select(condition, &a, &b)?));
+                }
+                Ok(Meaning::Made(Rc::new(Made { class, fields })))
+            }
+            (_, Meaning::List(a), Meaning::List(b)) if a.len() == b.len() => {
+                let pairs = a.iter().zip(b.iter());
+                let items: Result<Vec<_>, _> =
+                    pairs.map(|(a, b)| self.select(condition, a, b)).collect();
+                Ok(Meaning::List(items?.into()))
+            }
+            _ => Ok(self.opaque([condition, then, otherwise])),
+        }
+    }
+
+    /// Makes the meaning of something that only the host can compute from these.
+    pub(crate) fn opaque<'m>(
+        &self,
+        from: impl IntoIterator<Item = &'m Meaning<'a>>,
+    ) -> Meaning<'a>
+    where
+        'a: 'm,
+    {
+        let mut slots: BTreeSet<SlotId> = BTreeSet::new();
+        from.into_iter().for_each(|m| collect_slots(self.arena, m, &mut slots));
+        Meaning::Opaque(Opaque::over(slots))
+    }
+
+    /// Wants a number that the planner can reason about.
+    pub(crate) fn expression(&self, meaning: &Meaning<'a>) -> Result<ExprId, Trouble> {
+        match meaning {
+            Meaning::Number(id) => Ok(*id),
+            other => Err(Trouble::wrong(format!("{} is not a number", kind(other)))),
+        }
+    }
+}
+
+/// Binds the parameters of a message to arguments, by label or by position.
+pub(crate) fn bind_arguments<'a>(
+    frame: Frame<'a>,
+    message: &'a Message,
+    arguments: &[Given<'a>],
+) -> Result<Frame<'a>, Trouble> {
+    if arguments.len() != message.parameters.len() {
+        return Err(Trouble::wrong(format!(
+            "`{}` takes {} arguments and got {}",
+            message.name,
+            message.parameters.len(),
+            arguments.len()
+        )));
+    }
+    let mut bound = frame;
+    for (i, parameter) in message.parameters.iter().enumerate() {
+        let labelled =
+            arguments.iter().find(|a| a.0.as_ref().is_some_and(|l| *l == parameter.label));
+        let argument = labelled
+            .or_else(|| arguments.get(i).filter(|a| a.0.is_none()))
+            .ok_or_else(|| {
+                Trouble::wrong(format!("`{}` wants `{}`", message.name, parameter.label))
+            })?;
+        bound = bound.bind(parameter.name.clone(), argument.1.clone());
+    }
+    Ok(bound)
+}
+
+/// Names the kind of a meaning, for messages.
+pub(crate) fn kind(meaning: &Meaning<'_>) -> &'static str {
+    match meaning {
+        Meaning::Number(_) => "a number",
+        Meaning::Thing(_) | Meaning::Made(_) => "a thing",
+        Meaning::List(_) => "a list",
+        Meaning::Opaque(_) => "a text",
+        Meaning::Lambda(_) => "a function",
+    }
+}

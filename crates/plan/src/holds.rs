@@ -1,0 +1,57 @@
+//! Whether rules hold: both sides of every equation, computed from the values alone.
+
+use crate::host::Host;
+use crate::rule::{Body, How, Rule, Source};
+use expr::Arena;
+use kernel::{Structure, Values};
+
+/// Returns nothing if the rule holds, else its error, where it has one.
+///
+/// A declared stay always holds: it only says what was.
+pub(crate) fn fails(
+    arena: &Arena,
+    structure: &Structure,
+    rule: &Rule,
+    values: &Values,
+    host: &mut dyn Host,
+) -> Option<Option<f64>> {
+    match &rule.body {
+        Body::Equations(equations) => {
+            let mut worst = None;
+            for e in equations {
+                let left = arena.evaluate(e.left, values.numbers.as_slice());
+                let right = arena.evaluate(e.right, values.numbers.as_slice());
+                if !agree(left, right, rule.within) {
+                    worst = larger(worst, Some((left - right).abs()));
+                }
+            }
+            worst.map(Some)
+        }
+        Body::Opaque(_) => {
+            let holds = match (rule.methods.as_slice(), rule.source) {
+                ([copy, ..], _) if matches!(copy.how, How::Copy) => {
+                    values.get(copy.targets[0]).same_bits(&values.get(copy.reads[0]))
+                }
+                (_, Source::Constraint(c)) => {
+                    host.holds(structure.constraints[c as usize], values)
+                }
+                (_, Source::Stay(_) | Source::Wish(_)) => true,
+            };
+            (!holds).then_some(None)
+        }
+        Body::Hold(_) => None,
+    }
+}
+
+/// Returns true if two sides agree to `within` of the larger, at least of the unit.
+pub(crate) fn agree(left: f64, right: f64, within: f64) -> bool {
+    left == right || (left - right).abs() <= within * left.abs().max(right.abs()).max(1.0)
+}
+
+/// Returns the larger of two errors; one without a number is the smallest.
+pub(crate) fn larger(a: Option<f64>, b: Option<f64>) -> Option<f64> {
+    match (a, b) {
+        (Some(a), Some(b)) => Some(if b > a || b.is_nan() { b } else { a }),
+        (some, None) | (None, some) => some,
+    }
+}

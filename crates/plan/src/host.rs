@@ -1,0 +1,34 @@
+//! The host: whoever can compute the value of any expression of the language.
+//!
+//! `plan` knows numbers and their equations. Texts, given terms and rules over them it asks for.
+
+use crate::rule::{How, Source, Way};
+use crate::task::{Origin, Task};
+use kernel::{ConstraintInstance, SlotId, Structure, Value, Values};
+
+/// What the planner asks of whoever evaluates expressions.
+pub trait Host {
+    /// Returns the given value of a slot; nothing where none is given or it cannot be computed.
+    fn given(&mut self, slot: SlotId, values: &Values) -> Option<Value>;
+    /// Computes what a method writes, and where.
+    ///
+    /// # Errors
+    /// Why it cannot, in the words for the user: `"hot".number`.
+    fn compute(
+        &mut self,
+        constraint: ConstraintInstance,
+        way: Way,
+        values: &Values,
+    ) -> Result<Vec<(SlotId, Value)>, String>;
+    /// Returns true if the constraint's rule is true.
+    fn holds(&mut self, constraint: ConstraintInstance, values: &Values) -> bool;
+}
+
+/// A method that could not be run.
+#[derive(Clone, PartialEq, Debug)]
+pub struct Failure {
+    /// Where the method comes from.
+    pub source: Source,
+    /// Why.
+    pub message: String,
+}

@@ -1,0 +1,151 @@
+//! The planner: rules lowered once for a structure, components, and plans by shape.
+
+use crate::component::{Component, Net};
+use crate::evaluate::Opening;
+use crate::fault::Fault;
+use crate::holds;
+use crate::host::Host;
+use crate::rule::{self, Rule, Source};
+use crate::task::{Holding, Plans, Setting, Task, Wish, task};
+use expr::Arena;
+use kernel::{Document, SlotId, Structure, Values};
+use solve::Level;
+use std::collections::BTreeSet;
+
+/// A document and its structure: what every question to the planner is about.
+#[derive(Clone, Copy, Debug)]
+pub struct Model<'a> {
+    /// The classes.
+    pub document: &'a Document,
+    /// The things.
+    pub structure: &'a Structure,
+}
+
+/// Rules, components and plans of one structure. Made anew when the structure changes.
+#[derive(Debug)]
+pub struct Planner {
+    pub(crate) arena: Arena,
+    pub(crate) rules: Vec<Rule>,
+    pub(crate) net: Net,
+    pub(crate) plans: Plans,
+    /// The tasks of the latest edit, and what it changed.
+    pub(crate) latest: Latest,
+    /// One task for each component, with nothing edited; made when first asked for.
+    resting: Option<Vec<Task>>,
+}
+
+/// What the latest edit planned.
+#[derive(Debug, Default)]
+pub(crate) struct Latest {
+    pub(crate) tasks: Vec<Task>,
+    /// The slots that the edit set or moved; nothing on opening, when everything is computed.
+    pub(crate) edited: Option<BTreeSet<SlotId>>,
+}
+
+impl Planner {
+    /// Lowers every constraint and declared stay. What cannot be planned is left out and reported.
+    ///
+    /// Cost: linear in what the rules open into.
+    pub fn new(model: Model<'_>) -> (Self, Vec<Fault>) {
+        let mut arena = Arena::new();
+        let mut rules = Vec::new();
+        let mut faults = Vec::new();
+        let mut opening = Opening::new(model.document, model.structure, &mut arena);
+        for (index, &instance) in (0..).zip(&model.structure.constraints) {
+            match rule::lower_constraint(&mut opening, index, instance) {
+                Ok(lowered) => rules.extend(lowered),
+                Err(fault) => faults.push(fault),
+            }
+        }
+        for (index, &stay) in (0..).zip(&model.structure.stays) {
+            rules.extend(rule::lower_stay(model.structure, index, stay));
+        }
+        let net = Net::new(model.structure, &rules);
+        let plans = Plans::default();
+        let latest = Latest::default();
+        (Self { arena, rules, net, plans, latest, resting: None }, faults)
+    }
+
+    /// Returns how many systems were planned, and how many found their plan made.
+    pub fn plan_counts(&self) -> PlanCounts {
+        PlanCounts { planned: self.plans.planned(), reused: self.plans.reused() }
+    }
+
+    /// Returns what holds a slot while nothing is edited.
+    pub(crate) fn resting_hold(structure: &Structure, slot: SlotId) -> Holding {
+        let s = &structure.slots[slot];
+        if s.anchored {
+            Holding::Fixed
+        } else if s.given.is_some() && s.place.is_none() {
+            Holding::Given
+        } else {
+            Holding::Kept
+        }
+    }
+
+    /// Plans these components.
+    pub(crate) fn tasks(
+        &mut self,
+        structure: &Structure,
+        components: &[Component],
+        holding: &dyn Fn(SlotId) -> Holding,
+        wishes: &[Wish],
+    ) -> Vec<Task> {
+        let setting =
+            Setting { structure, arena: &self.arena, rules: &self.rules, holding, wishes };
+        components.iter().map(|c| task(&mut self.plans, &setting, c)).collect()
+    }
+
+    /// Returns the tasks of all components with nothing edited.
+    pub(crate) fn resting(&mut self, structure: &Structure) -> &[Task] {
+        if self.resting.is_none() {
+            let holding = |s| Self::resting_hold(structure, s);
+            let components = self.net.all(&self.rules, &|s| holding(s) == Holding::Fixed);
+            self.resting = Some(self.tasks(structure, &components, &holding, &[]));
+        }
+        self.resting.as_deref().expect("it was just made")
+    }
+
+    /// Returns the rules among these that do not hold, in their order.
+    pub(crate) fn unmet(
+        &self,
+        model: Model<'_>,
+        rules: impl IntoIterator<Item = u32>,
+        values: &Values,
+        host: &mut dyn Host,
+    ) -> Vec<Unmet> {
+        let mut unmet: Vec<Unmet> = Vec::new();
+        for index in rules {
+            let rule = &self.rules[index as usize];
+            let Some(error) = holds::fails(&self.arena, model.structure, rule, values, host) else {
+                continue;
+            };
+            // A constraint of several rules is told once.
+            match unmet.iter_mut().find(|u| u.source == rule.source) {
+                Some(known) => known.error = holds::larger(known.error, error),
+                None => unmet.push(Unmet { source: rule.source, level: rule.level, error }),
+            }
+        }
+        unmet
+    }
+}
+
+/// A constraint that does not hold.
+#[derive(Clone, Copy, PartialEq, Debug)]
+pub struct Unmet {
+    /// Where it comes from.
+    pub source: Source,
+    /// How strongly it wants to hold.
+    pub level: Level,
+    /// The greatest difference of its sides, in base units; nothing where it has none.
+    pub error: Option<f64>,
+}
+
+/// How much was planned.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub struct PlanCounts {
+    /// Systems for which a plan was made.
+    pub planned: usize,
+    /// Systems whose plan was there already.
+    pub reused: usize,
+}

@@ -1,0 +1,153 @@
+//! Running a task: numbers out of the document, through the plan, and back.
+
+use crate::edit::{Aim, Conflict};
+use crate::host::{Failure, Host};
+use crate::planner::{Model, Planner};
+use crate::rule::{How, Source};
+use crate::task::{Origin, Task};
+use kernel::{SlotId, Value, Values};
+use solve::{Outcome, Reason, Runner, SlotIndex, Status};
+use std::collections::BTreeSet;
+
+/// What came of a task.
+#[derive(Debug, Default)]
+pub(crate) struct Ran {
+    pub(crate) conflicts: Vec<Conflict>,
+    pub(crate) failure: Option<Failure>,
+}
+
+/// Runs a task of an edit.
+///
+/// `start` is the state when the edit began; `values` has what the edit sets already in it.
+pub(crate) fn run(
+    planner: &Planner,
+    model: Model<'_>,
+    task: &Task,
+    aim: &Aim,
+    start: &Values,
+    values: &mut Values,
+    host: &mut dyn Host,
+) -> Ran {
+    let mut x0 = task.gather(&start.numbers);
+    let mut local = task.gather(&values.numbers);
+    for &(known, slot) in &task.holds {
+        local[known as usize] = start.numbers[slot];
+    }
+    let mut changed: Vec<SlotIndex> = Vec::new();
+    for &(known, wish, coordinate) in &task.targets {
+        let expression = aim.wishes[wish as usize].expressions[coordinate as usize];
+        x0[known as usize] = planner.arena.evaluate(expression, start.numbers.as_slice());
+        local[known as usize] = aim.wanted[wish as usize][coordinate as usize];
+        changed.push(known);
+    }
+    for (i, &slot) in (0..).zip(&task.component.slots) {
+        if !start.get(slot).same_bits(&values.get(slot)) {
+            changed.push(i);
+        }
+    }
+    let mut adapter = Adapter { planner, model, task, values, host };
+    let outcome =
+        solve::run(&task.plan, &mut Runner::new(), &x0, &mut local, &changed, &mut adapter);
+    scatter(task, &local, values);
+    ran(planner, task, &outcome)
+}
+
+/// Puts the numbers of a task's slots into the document's.
+pub(crate) fn scatter(task: &Task, local: &[f64], values: &mut Values) {
+    for (&slot, &x) in task.component.slots.iter().zip(local) {
+        values.numbers[slot] = x + 0.0;
+    }
+}
+
+/// Says in the document's terms what came of a run.
+pub(crate) fn ran(planner: &Planner, task: &Task, outcome: &Outcome) -> Ran {
+    let unmet: BTreeSet<u32> = outcome.unmet.iter().map(|u| u.relation).collect();
+    let source = |relation: u32| task.source(&planner.rules, relation);
+    let mut conflicts: Vec<Conflict> = Vec::new();
+    for rejected in task.plan.report.rejected.iter().filter(|r| unmet.contains(&r.relation)) {
+        let circuit: BTreeSet<Source> = rejected.circuit.iter().map(|c| source(c.0)).collect();
+        let circuit = circuit.into_iter().collect();
+        let conflict = Conflict { source: source(rejected.relation), circuit };
+        if !conflicts.contains(&conflict) {
+            conflicts.push(conflict);
+        }
+    }
+    let failure = match &outcome.status {
+        Status::Stopped(Reason::Method { step, message }) => {
+            let relation = task.plan.steps[*step as usize].relations.first().copied();
+            relation.map(|r| Failure { source: source(r), message: message.clone() })
+        }
+        Status::Solved
+        | Status::Stopped(
+            Reason::Limit { .. } | Reason::NoSolution { .. } | Reason::Conflict,
+        ) => None,
+    };
+    Ran { conflicts, failure }
+}
+
+/// The host as the solver sees it: relations by number, texts kept aside.
+pub(crate) struct Adapter<'r> {
+    pub(crate) planner: &'r Planner,
+    pub(crate) model: Model<'r>,
+    pub(crate) task: &'r Task,
+    pub(crate) values: &'r mut Values,
+    pub(crate) host: &'r mut dyn Host,
+}
+
+impl solve::Host for Adapter<'_> {
+    fn compute(
+        &mut self,
+        source: u32,
+        method: usize,
+        values: &[f64],
+        out: &mut [f64],
+    ) -> Result<(), String> {
+        let Origin::Rule(rule) = self.task.relations[source as usize] else {
+            return Err("a wish has no methods".into());
+        };
+        let rule = &self.planner.rules[rule as usize];
+        scatter(self.task, values, self.values);
+        let method = &rule.methods[method];
+        let written = match (&method.how, rule.source) {
+            (How::Copy, _) => vec![(method.targets[0], self.values.get(method.reads[0]))],
+            (How::Host(way), Source::Constraint(c)) => {
+                let constraint = self.model.structure.constraints[c as usize];
+                self.host.compute(constraint, *way, self.values)?
+            }
+            (How::Host(_) | How::Expressions(_), _) => {
+                return Err("this method is not the host's".into());
+            }
+        };
+        for (slot, value) in written {
+            self.write(&method.targets, slot, value, out)?;
+        }
+        Ok(())
+    }
+
+    fn holds(&mut self, source: u32, values: &[f64]) -> bool {
+        let Origin::Rule(rule) = self.task.relations[source as usize] else { return true };
+        scatter(self.task, values, self.values);
+        let rule = &self.planner.rules[rule as usize];
+        let structure = self.model.structure;
+        crate::holds::fails(&self.planner.arena, structure, rule, self.values, self.host).is_none()
+    }
+}
+
+impl Adapter<'_> {
+    fn write(
+        &mut self,
+        targets: &[SlotId],
+        slot: SlotId,
+        value: Value,
+        out: &mut [f64],
+    ) -> Result<(), String> {
+        let Some(position) = targets.iter().position(|&t| t == slot) else { return Ok(()) };
+        let wants_number = self.model.structure.slots[slot].primitive.is_number();
+        match value {
+            Value::Number(x) if wants_number && x.is_finite() => out[position] = x,
+            Value::Text(_) if !wants_number => self.values.put(slot, value),
+            Value::Number(_) | Value::Text(_) => return Err(format!("{value:?} does not fit")),
+        }
+        Ok(())
+    }
+}
