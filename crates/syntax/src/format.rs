@@ -225,7 +225,9 @@ fn space(pieces: &[Piece], i: usize) -> &'static str {
     if broken(left) || broken(right) {
         return kept;
     }
-    if right.starts && left.kind != SyntaxKind::LBrace && left.kind != SyntaxKind::Semicolon {
+    let divided =
+        matches!(left.kind, SyntaxKind::LBrace | SyntaxKind::Semicolon | SyntaxKind::Comma);
+    if right.starts && !divided {
         return if right.kind.is_trivia() || left.kind.is_trivia() { " " } else { "  " };
     }
     if arithmetic(right) {
@@ -250,8 +252,9 @@ fn arithmetic(piece: &Piece) -> bool {
         )
 }
 fn tight(pieces: &[Piece], i: usize) -> bool {
-    let after = pieces.get(i + 1).is_some_and(|p| !p.spaced && !p.kind.is_trivia());
-    !pieces[i].spaced && after && !pieces[i - 1].kind.is_trivia()
+    let operand = |p: &Piece| !p.kind.is_trivia() && !arithmetic(p);
+    let after = pieces.get(i + 1).is_some_and(|p| !p.spaced && !p.starts && operand(p));
+    !pieces[i].spaced && after && operand(&pieces[i - 1])
 }
 
 /// Returns true if no space stands between the two.
@@ -260,6 +263,7 @@ fn joins(left: &Piece, right: &Piece) -> bool {
         SyntaxKind::LParen | SyntaxKind::LBracket | SyntaxKind::Dot | SyntaxKind::DotDot => true,
         SyntaxKind::Caret => true,
         SyntaxKind::Minus | SyntaxKind::Plus => left.parent == SyntaxKind::UnaryExpr,
+        SyntaxKind::Slash => left.parent == SyntaxKind::UnitLine,
         _ => false,
     };
     let tight_right = match right.kind {
@@ -275,6 +279,7 @@ fn joins(left: &Piece, right: &Piece) -> bool {
             matches!(right.parent, SyntaxKind::ArgList | SyntaxKind::ParamList)
         }
         SyntaxKind::LBracket => right.parent == SyntaxKind::IndexExpr,
+        SyntaxKind::Slash => right.parent == SyntaxKind::UnitLine,
         SyntaxKind::Unit => matches!(right.text.as_str(), "°" | "%"),
         _ => false,
     };

@@ -17,7 +17,7 @@ fn find(text: &str, head: &str) -> SyntaxNode {
             let at = syntax::ast::span_without_doc(n).start as usize;
             text[at..].starts_with(head)
         })
-        .unwrap()
+        .expect("a node begins so")
 }
 fn check_delete(text: &str, head: &str, expected: &str) {
     assert_eq!(apply(text, &[delete_member(&find(text, head))]), expected);
