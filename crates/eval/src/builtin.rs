@@ -1,0 +1,402 @@
+//! The language's own functions and messages, as `kernel::builtin` lists them.
+
+use crate::answer::Answer;
+use crate::evaluator::{Evaluator, Given, Result, finite};
+use crate::fault::Fault;
+use crate::measure;
+use base::Name;
+use base::number::{acos, asin, atan, atan2, cos, exp, ln, rounded, shortest, sin, sqrt, tan};
+use drawing::metrics;
+use expr::dimension::Dimension;
+use kernel::builtin::{
+    Builtin, FUNCTIONS, Function, LIST_MESSAGES, ListMessage, NUMBER_MESSAGES, NumberMessage,
+    PICTURE_MESSAGES, TEXT_MESSAGES, THING_MESSAGES, TextMessage, ThingMessage, find,
+};
+use kernel::{ClassKind, ThingId};
+
+/// More decimals than a number has say nothing.
+const MOST_DIGITS: i64 = 17;
+
+impl<'a> Evaluator<'a> {
+    /// Calls a function of the language.
+    pub(crate) fn call(
+        &self,
+        name: &Name,
+        arguments: &[Given<'a>],
+        nearest: ThingId,
+    ) -> Result<Answer<'a>> {
+        let builtin = find(FUNCTIONS, name)
+            .ok_or_else(|| Fault::unknown(format!("there is no function `{name}`")))?;
+        let arguments = in_place(builtin, arguments)?;
+        let angle = |f: fn(f64) -> f64| finite(f(self.number(&arguments[0])?.0), Dimension::NONE);
+        match builtin.function {
+            Function::Sqrt => self.send_number(NumberMessage::Sqrt, &arguments[0], &[]),
+            Function::Abs => self.send_number(NumberMessage::Abs, &arguments[0], &[]),
+            Function::Floor => self.send_number(NumberMessage::Floor, &arguments[0], &[]),
+            Function::Round => self.send_number(NumberMessage::Round, &arguments[0], &[]),
+            Function::Sin => angle(sin),
+            Function::Cos => angle(cos),
+            Function::Tan => angle(tan),
+            Function::Asin => angle(asin),
+            Function::Acos => angle(acos),
+            Function::Atan => angle(atan),
+            Function::Exp => angle(exp),
+            Function::Ln => {
+                let (x, _) = self.number(&arguments[0])?;
+                if x <= 0.0 {
+                    let x = shortest(x);
+                    return Err(Fault::no_answer(format!("the logarithm of {x}")));
+                }
+                Ok(Answer::plain(ln(x)))
+            }
+            Function::Atan2 => {
+                let ((y, dy), (x, dx)) = (self.number(&arguments[0])?, self.number(&arguments[1])?);
+                measure::common(dy, dx)?;
+                Ok(Answer::plain(atan2(y, x)))
+            }
+            Function::Min => self.least(&self.several(&arguments)?, f64::min),
+            Function::Max => self.least(&self.several(&arguments)?, f64::max),
+            Function::Pi => Ok(Answer::plain(std::f64::consts::PI)),
+            Function::AllDifferent => self.all_different(&self.several(&arguments)?),
+            Function::Dot
+            | Function::Segment
+            | Function::Polyline
+            | Function::Polygon
+            | Function::Circle
+            | Function::Arc
+            | Function::Rectangle
+            | Function::Label
+            | Function::Text
+            | Function::Picture => self.draw(builtin.function, &arguments, nearest),
+        }
+    }
+
+    /// Sends a message that no class defines: those of numbers, texts, lists, pictures, all things.
+    pub(crate) fn send_builtin(
+        &self,
+        to: &Answer<'a>,
+        name: &Name,
+        arguments: &[Given<'a>],
+        nearest: ThingId,
+    ) -> Result<Answer<'a>> {
+        match to {
+            Answer::Number(..) => {
+                let builtin = self.known(NUMBER_MESSAGES, to, name)?;
+                self.send_number(builtin.function, to, &in_place(builtin, arguments)?)
+            }
+            Answer::Text(text) => {
+                let builtin = self.known(TEXT_MESSAGES, to, name)?;
+                self.send_text(builtin.function, text, &in_place(builtin, arguments)?)
+            }
+            Answer::Picture(elements) => {
+                let builtin = self.known(PICTURE_MESSAGES, to, name)?;
+                self.styled(builtin.function, elements, &in_place(builtin, arguments)?)
+            }
+            Answer::List(_) => self.send_list(to, name, arguments),
+            Answer::Thing(t) => match (find(THING_MESSAGES, name), self.class_kind(*t)) {
+                (None, ClassKind::List(_) | ClassKind::Set(_)) => {
+                    self.send_list(to, name, arguments)
+                }
+                _ => {
+                    let builtin = self.known(THING_MESSAGES, to, name)?;
+                    in_place(builtin, arguments)?;
+                    self.send_thing(builtin.function, to, nearest)
+                }
+            },
+            Answer::Made(_) => {
+                let builtin = self.known(THING_MESSAGES, to, name)?;
+                in_place(builtin, arguments)?;
+                self.send_thing(builtin.function, to, nearest)
+            }
+            Answer::Bool(b) if name == "text" && arguments.is_empty() => {
+                Ok(Answer::text(if *b { "true" } else { "false" }))
+            }
+            Answer::Bool(_) | Answer::Function(_) => Err(self.unknown(to, name)),
+        }
+    }
+
+    fn known<F>(
+        &self,
+        table: &'static [Builtin<F>],
+        to: &Answer<'a>,
+        name: &Name,
+    ) -> Result<&'static Builtin<F>> {
+        find(table, name).ok_or_else(|| self.unknown(to, name))
+    }
+
+    fn unknown(&self, to: &Answer<'a>, name: &Name) -> Fault {
+        Fault::unknown(format!("{} has no part or message `{name}`", self.kind(to)))
+    }
+
+    fn send_number(
+        &self,
+        message: NumberMessage,
+        to: &Answer<'a>,
+        arguments: &[Answer<'a>],
+    ) -> Result<Answer<'a>> {
+        let (x, dimension) = self.number(to)?;
+        match message {
+            NumberMessage::Text => {
+                let digits = arguments.first().map(|d| self.digits(d)).transpose()?;
+                Ok(Answer::text(&number_text(x, digits)))
+            }
+            NumberMessage::Sqrt if x < 0.0 => {
+                let x = shortest(x);
+                Err(Fault::no_answer(format!("the square root of {x}")))
+            }
+            NumberMessage::Sqrt => finite(sqrt(x), measure::power(dimension, 0.5)),
+            NumberMessage::Abs => Ok(Answer::Number(x.abs(), dimension)),
+            NumberMessage::Floor => Ok(Answer::Number(x.floor(), dimension)),
+            NumberMessage::Round => Ok(Answer::Number(x.round(), dimension)),
+            NumberMessage::Sign => {
+                Ok(Answer::plain(f64::from(u8::from(x > 0.0)) - f64::from(u8::from(x < 0.0))))
+            }
+            NumberMessage::Min => self.least(&[to.clone(), arguments[0].clone()], f64::min),
+            NumberMessage::Max => self.least(&[to.clone(), arguments[0].clone()], f64::max),
+        }
+    }
+
+    /// Reads how many decimals a text shall have.
+    pub(crate) fn digits(&self, answer: &Answer<'a>) -> Result<usize> {
+        let digits = self.whole(answer)?;
+        if (0..=MOST_DIGITS).contains(&digits) {
+            Ok(digits as usize)
+        } else {
+            let message = format!("{digits} digits, where 0 to {MOST_DIGITS} are possible");
+            Err(Fault::no_answer(message))
+        }
+    }
+
+    fn send_text(
+        &self,
+        message: TextMessage,
+        text: &str,
+        arguments: &[Answer<'a>],
+    ) -> Result<Answer<'a>> {
+        match message {
+            TextMessage::Number => read_number(text)
+                .map(Answer::plain)
+                .ok_or_else(|| Fault::no_answer(format!("`{text}` is no number"))),
+            TextMessage::Length => Ok(Answer::plain(text.chars().count() as f64)),
+            TextMessage::Width => {
+                let (size, dimension) = self.number(&arguments[0])?;
+                finite(metrics::text_width(text, size), dimension)
+            }
+            TextMessage::Height => {
+                let (size, dimension) = self.number(&arguments[0])?;
+                finite(metrics::text_height(text, size), dimension)
+            }
+            TextMessage::Text => Ok(Answer::text(text)),
+        }
+    }
+
+    fn send_list(
+        &self,
+        to: &Answer<'a>,
+        name: &Name,
+        arguments: &[Given<'a>],
+    ) -> Result<Answer<'a>> {
+        let builtin = self.known(LIST_MESSAGES, to, name)?;
+        let arguments = in_place(builtin, arguments)?;
+        let items = self.items(to)?;
+        let empty = || Fault::no_answer(format!("an empty list has no `{name}`"));
+        let holds = |item: &Answer<'a>| {
+            let answer = self.apply(&arguments[0], std::slice::from_ref(item))?;
+            self.truth_of(&answer)
+        };
+        match builtin.function {
+            ListMessage::Sum => {
+                let (mut sum, mut dimension) = (0.0, Dimension::NONE);
+                for item in items.iter() {
+                    let (x, d) = self.number(item)?;
+                    dimension = measure::common(dimension, d)?;
+                    sum += x;
+                }
+                finite(sum, dimension)
+            }
+            ListMessage::Count => Ok(Answer::plain(items.len() as f64)),
+            ListMessage::Map => items
+                .iter()
+                .map(|item| self.apply(&arguments[0], std::slice::from_ref(item)))
+                .collect::<Result<_>>()
+                .map(Answer::List),
+            ListMessage::Filter => {
+                let mut kept = Vec::new();
+                for item in items.iter() {
+                    if holds(item)? {
+                        kept.push(item.clone());
+                    }
+                }
+                Ok(Answer::List(kept.into()))
+            }
+            ListMessage::First => items.first().cloned().ok_or_else(empty),
+            ListMessage::Last => items.last().cloned().ok_or_else(empty),
+            ListMessage::All => {
+                for item in items.iter() {
+                    if !holds(item)? {
+                        return Ok(Answer::Bool(false));
+                    }
+                }
+                Ok(Answer::Bool(true))
+            }
+            ListMessage::Any => {
+                for item in items.iter() {
+                    if holds(item)? {
+                        return Ok(Answer::Bool(true));
+                    }
+                }
+                Ok(Answer::Bool(false))
+            }
+            ListMessage::Min => self.least(&items, f64::min),
+            ListMessage::Max => self.least(&items, f64::max),
+            ListMessage::Zip => {
+                let others = self.items(&arguments[0])?;
+                Ok(Answer::List(pairs(&items, &others)))
+            }
+            ListMessage::Neighbours => {
+                Ok(Answer::List(pairs(&items, items.get(1..).unwrap_or_default())))
+            }
+            ListMessage::Reversed => Ok(Answer::List(items.iter().rev().cloned().collect())),
+        }
+    }
+
+    fn send_thing(
+        &self,
+        message: ThingMessage,
+        to: &Answer<'a>,
+        nearest: ThingId,
+    ) -> Result<Answer<'a>> {
+        match (message, to) {
+            (ThingMessage::Picture, Answer::Thing(t)) => self.picture_of_parts(*t),
+            (ThingMessage::Picture, Answer::Made(made)) => {
+                let is_thing = |a: &&Answer<'a>| matches!(a, Answer::Thing(_) | Answer::Made(_));
+                let name = &self.tables.picture;
+                let picture = |a: &Answer<'a>| self.send(a, name, Vec::new(), None, nearest);
+                let parts = made.fields.iter().filter(is_thing).map(picture);
+                self.join_pictures(&parts.collect::<Result<Vec<_>>>()?)
+            }
+            (ThingMessage::Parts, _) => Ok(Answer::List(self.by_position(to)?.into())),
+            (ThingMessage::Owner, _) => self.owner(to),
+            (ThingMessage::Class, _) => {
+                let name = self.class_of(to).map(|c| &self.document.classes[c].name);
+                Ok(Answer::text(name.map_or("", |n| n)))
+            }
+            (ThingMessage::Picture, _) => {
+                Err(Fault::wrong(format!("{} has no picture", self.kind(to))))
+            }
+        }
+    }
+
+    /// Returns the arguments, or the elements of the one list that stands for them.
+    pub(crate) fn several(&self, arguments: &[Answer<'a>]) -> Result<Vec<Answer<'a>>> {
+        if let [one] = arguments
+            && let Ok(items) = self.items(one)
+        {
+            return Ok(items.to_vec());
+        }
+        Ok(arguments.to_vec())
+    }
+
+    fn least(&self, items: &[Answer<'a>], of: fn(f64, f64) -> f64) -> Result<Answer<'a>> {
+        let mut found: Option<(f64, Dimension)> = None;
+        for item in items {
+            let (x, d) = self.number(item)?;
+            found = Some(match found {
+                Some((y, e)) => (of(y, x), measure::common(e, d)?),
+                None => (x, d),
+            });
+        }
+        let (x, d) = found.ok_or_else(|| Fault::no_answer("the extreme of no numbers at all"))?;
+        Ok(Answer::Number(x, d))
+    }
+
+    fn all_different(&self, items: &[Answer<'a>]) -> Result<Answer<'a>> {
+        for (i, a) in items.iter().enumerate() {
+            for b in &items[..i] {
+                self.burn()?;
+                let mut equal = true;
+                self.leaves(a, b, &mut |a, b| {
+                    equal = equal && self.same_leaf(a, b)?;
+                    Ok(())
+                })?;
+                if equal {
+                    return Ok(Answer::Bool(false));
+                }
+            }
+        }
+        Ok(Answer::Bool(true))
+    }
+}
+
+/// Returns the arguments in the order of the parameters.
+fn in_place<'a, F>(builtin: &Builtin<F>, arguments: &[Given<'a>]) -> Result<Vec<Answer<'a>>> {
+    if !builtin.takes(arguments.len()) {
+        let n = arguments.len();
+        let wanted: Vec<&str> = builtin.parameters.iter().map(|p| p.label).collect();
+        let wanted = if wanted.is_empty() { "nothing".into() } else { wanted.join(", ") };
+        let message = format!("`{}` wants {wanted}, and here are {n} arguments", builtin.name);
+        return Err(Fault::wrong(message));
+    }
+    let mut placed: Vec<Option<Answer<'a>>> = vec![None; arguments.len()];
+    for (position, (label, answer)) in arguments.iter().enumerate() {
+        let place = match label {
+            Some(label) => builtin.parameters.iter().position(|p| *p.label == ***label),
+            None => Some(position),
+        };
+        match place.and_then(|i| placed.get_mut(i)) {
+            Some(slot) if slot.is_none() => *slot = Some(answer.clone()),
+            Some(_) | None => {
+                let what = label.map_or("this argument", |l| l);
+                return Err(Fault::wrong(format!("`{}` does not take {what}", builtin.name)));
+            }
+        }
+    }
+    Ok(placed.into_iter().flatten().collect())
+}
+
+fn pairs<'a>(a: &[Answer<'a>], b: &[Answer<'a>]) -> std::rc::Rc<[Answer<'a>]> {
+    let pair = |(a, b): (&Answer<'a>, &Answer<'a>)| {
+        Answer::List([a.clone(), b.clone()].into_iter().collect())
+    };
+    a.iter().zip(b).map(pair).collect()
+}
+
+/// Writes a number: the shortest decimal, or rounded to so many decimals.
+pub(crate) fn number_text(x: f64, digits: Option<usize>) -> String {
+    match digits {
+        Some(digits) => rounded(x, digits),
+        None => shortest(x),
+    }
+}
+
+/// Reads a decimal number, spaces around it allowed; `inf` and `nan` are none.
+pub(crate) fn read_number(text: &str) -> Option<f64> {
+    let text = text.trim();
+    let digits = |c: char| c.is_ascii_digit() || matches!(c, '+' | '-' | '.' | 'e' | 'E');
+    // People and pictures write the true minus sign too.
+    let text = text.replace('\u{2212}', "-");
+    if !text.chars().all(digits) {
+        return None;
+    }
+    text.parse().ok().filter(|x: &f64| x.is_finite()).map(|x| x + 0.0)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn numbers_are_read_as_people_write_them() {
+        assert_eq!(read_number(" 45.50 "), Some(45.5));
+        assert_eq!(read_number("\u{2212}3e2"), Some(-300.0));
+        assert_eq!(read_number("-0").map(f64::to_bits), Some(0));
+        for wrong in ["", "hot", "inf", "nan", "1e999", "3 4", "0x10"] {
+            assert_eq!(read_number(wrong), None, "{wrong}");
+        }
+    }
+    #[test]
+    fn numbers_are_written_short() {
+        assert_eq!(number_text(2.0, None), "2");
+        assert_eq!(number_text(2.0 / 3.0, Some(3)), "0.667");
+    }
+}

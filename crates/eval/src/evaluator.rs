@@ -1,0 +1,672 @@
+//! The evaluator: a term and the thing that it is read in come in, its answer goes out.
+//!
+//! Straight recursion over terms. Depth and steps are bounded, so that no document can hang the lab
+//! or overflow its stack; everything looked up by class and name is looked up once.
+
+use crate::answer::{Answer, Closure, Frame};
+use crate::fault::{Fault, FaultKind};
+use crate::measure;
+use base::number::{close, pow};
+use base::{IdVec, Name};
+use expr::dimension::Dimension;
+use kernel::{
+    Argument, BinaryOperator, ClassId, ClassKind, DOCUMENT, Document, Layout, Message, Primitive,
+    SlotId, Structure, Term, ThingId, UnaryOperator, Values,
+};
+use std::cell::{Cell, RefCell};
+use std::collections::{BTreeMap, BTreeSet};
+use std::rc::Rc;
+
+/// How deep messages may call each other.
+pub const DEEPEST_MESSAGES: u32 = 200;
+/// How deep terms may be nested in each other, those of opened messages included.
+const DEEPEST_TERMS: u32 = 1500;
+/// How many terms one question may evaluate: what a mistyped recursion may cost.
+pub const MOST_TERMS: u64 = 50_000_000;
+/// How many elements a range may have.
+const LONGEST_RANGE: f64 = 1_000_000.0;
+
+pub(crate) type Result<T> = std::result::Result<T, Fault>;
+
+/// An argument with its label, evaluated.
+pub(crate) type Given<'a> = (Option<&'a Name>, Answer<'a>);
+
+/// Computes the value of any expression on the things of a document in one state.
+///
+/// Terms must live as long as the evaluator; those of the document do.
+#[derive(Debug)]
+pub struct Evaluator<'a> {
+    /// The classes.
+    pub document: &'a Document,
+    /// The things.
+    pub structure: &'a Structure,
+    /// What is in their slots.
+    pub values: &'a Values,
+    pub(crate) tables: Rc<Tables>,
+    messages: Cell<u32>,
+    terms: Cell<u32>,
+    fuel: Cell<u64>,
+    /// What went wrong in parts whose siblings went on without them.
+    pub(crate) faults: RefCell<Vec<Fault>>,
+    /// The slots read since someone began to listen.
+    reads: RefCell<Option<BTreeSet<SlotId>>>,
+}
+
+/// The class that answers a message, and the message's index there.
+type Found = Option<(ClassId, usize)>;
+
+/// What has been looked up so far.
+#[derive(Debug)]
+pub(crate) struct Tables {
+    layouts: RefCell<IdVec<ClassId, Option<Rc<Layout>>>>,
+    messages: RefCell<IdVec<ClassId, BTreeMap<Name, Found>>>,
+    order: RefCell<Option<Rc<[ThingId]>>>,
+    /// Names that the evaluator itself asks for.
+    pub(crate) x: Name,
+    pub(crate) y: Name,
+    pub(crate) picture: Name,
+}
+
+impl Tables {
+    pub(crate) fn new(document: &Document) -> Self {
+        let n = document.classes.len();
+        Self {
+            layouts: RefCell::new(IdVec::filled(None, n)),
+            messages: RefCell::new(IdVec::filled(BTreeMap::new(), n)),
+            order: RefCell::new(None),
+            x: Name::new("x"),
+            y: Name::new("y"),
+            picture: Name::new("picture"),
+        }
+    }
+}
+
+impl<'a> Evaluator<'a> {
+    /// Makes an evaluator for one state.
+    pub fn new(document: &'a Document, structure: &'a Structure, values: &'a Values) -> Self {
+        Self::with_tables(document, structure, values, Rc::new(Tables::new(document)))
+    }
+
+    /// Makes an evaluator for another state of the same things; what was looked up stays known.
+    pub fn in_state<'b>(&self, values: &'b Values) -> Evaluator<'b>
+    where
+        'a: 'b,
+    {
+        Evaluator::with_tables(self.document, self.structure, values, self.tables.clone())
+    }
+
+    pub(crate) fn with_tables(
+        document: &'a Document,
+        structure: &'a Structure,
+        values: &'a Values,
+        tables: Rc<Tables>,
+    ) -> Self {
+        Self {
+            document,
+            structure,
+            values,
+            tables,
+            messages: Cell::new(0),
+            terms: Cell::new(0),
+            fuel: Cell::new(MOST_TERMS),
+            faults: RefCell::new(Vec::new()),
+            reads: RefCell::new(None),
+        }
+    }
+
+    /// Computes the value of a term in which `Me` is the thing `me`.
+    ///
+    /// # Errors
+    /// Why it has none.
+    pub fn evaluate(&self, term: &'a Term, me: ThingId) -> Result<Answer<'a>> {
+        self.begin();
+        self.term(term, &Frame::of(me))
+    }
+
+    /// Computes the value of a term in which some names stand for values already known.
+    ///
+    /// # Errors
+    /// Why it has none.
+    pub fn evaluate_with(
+        &self,
+        term: &'a Term,
+        me: ThingId,
+        locals: &[(&'a Name, Answer<'a>)],
+    ) -> Result<Answer<'a>> {
+        self.begin();
+        let bind = |frame: Frame<'a>, (name, answer): &(&'a Name, Answer<'a>)| {
+            frame.bind(name, answer.clone())
+        };
+        self.term(term, &locals.iter().fold(Frame::of(me), bind))
+    }
+
+    /// Sends a message without arguments to a thing, or reads a part of it.
+    ///
+    /// # Errors
+    /// Why there is no answer.
+    pub fn ask(&self, thing: ThingId, name: &Name) -> Result<Answer<'a>> {
+        self.begin();
+        self.send(&Answer::Thing(thing), name, Vec::new(), None, thing)
+    }
+
+    /// Asks something, and returns the slots that were read for the answer too.
+    pub(crate) fn listening<T>(&self, ask: impl FnOnce() -> T) -> (T, BTreeSet<SlotId>) {
+        let before = self.reads.replace(Some(BTreeSet::new()));
+        let answer = ask();
+        let reads = self.reads.replace(before).unwrap_or_default();
+        (answer, reads)
+    }
+
+    /// Begins another question, with fuel of its own.
+    pub(crate) fn begin(&self) {
+        self.messages.set(0);
+        self.terms.set(0);
+        self.fuel.set(MOST_TERMS);
+    }
+
+    /// Computes the value of a term.
+    pub(crate) fn term(&self, term: &'a Term, frame: &Frame<'a>) -> Result<Answer<'a>> {
+        self.burn()?;
+        let depth = self.terms.get();
+        if depth >= DEEPEST_TERMS {
+            let message = format!("an expression nested more than {DEEPEST_TERMS} deep");
+            return Err(Fault::new(FaultKind::Endless, message));
+        }
+        self.terms.set(depth + 1);
+        let answer = self.term_here(term, frame);
+        self.terms.set(depth);
+        answer
+    }
+
+    fn term_here(&self, term: &'a Term, frame: &Frame<'a>) -> Result<Answer<'a>> {
+        match term {
+            Term::Number { value, dimension, .. } => Ok(Answer::Number(*value, *dimension)),
+            Term::Text(text) => Ok(Answer::text(text)),
+            Term::Bool(b) => Ok(Answer::Bool(*b)),
+            Term::Me => Ok(frame.me.clone()),
+            Term::Owner => self.owner(&frame.me),
+            Term::Document => Ok(Answer::Thing(DOCUMENT)),
+            Term::Local(name) => frame
+                .local(name)
+                .cloned()
+                .ok_or_else(|| Fault::unknown(format!("nothing is named `{name}` here"))),
+            Term::Send { to, name, arguments, above } => {
+                let to = self.term(to, frame)?;
+                let arguments = self.arguments(arguments, frame)?;
+                self.send(&to, name, arguments, *above, frame.nearest)
+            }
+            Term::Call { name, arguments } => {
+                let arguments = self.arguments(arguments, frame)?;
+                self.call(name, &arguments, frame.nearest)
+            }
+            Term::Make { class, arguments } => {
+                let arguments = self.arguments(arguments, frame)?;
+                self.make(*class, &arguments, frame.nearest)
+            }
+            Term::Tuple(items) | Term::List(items) => {
+                let items: Result<_> = items.iter().map(|t| self.term(t, frame)).collect();
+                Ok(Answer::List(items?))
+            }
+            Term::Range(from, to) => self.range(from, to, frame),
+            Term::Index(list, index) => {
+                let list = self.term(list, frame)?;
+                let index = self.whole(&self.term(index, frame)?)?;
+                self.element(&list, index)
+            }
+            Term::Unary(operator, operand) => unary(*operator, &self.term(operand, frame)?),
+            Term::Binary(operator, a, b) => self.binary(*operator, a, b, frame),
+            Term::If(condition, then, otherwise) => {
+                let branch = if self.truth(condition, frame)? { then } else { otherwise };
+                self.term(branch, frame)
+            }
+            Term::Let(name, bound, body) => {
+                let bound = self.term(bound, frame)?;
+                self.term(body, &frame.bind(name, bound))
+            }
+            Term::Lambda(parameters, body) => {
+                let frame = frame.clone();
+                Ok(Answer::Function(Rc::new(Closure { parameters, body, frame })))
+            }
+            Term::IsA(thing, class) => {
+                let thing = self.term(thing, frame)?;
+                Ok(Answer::Bool(self.is_a(&thing, *class)))
+            }
+            Term::All(class) => Ok(Answer::List(self.all(*class))),
+            Term::Copy(term) => self.term(term, frame),
+        }
+    }
+
+    /// Counts one more step of the question at hand.
+    pub(crate) fn burn(&self) -> Result<()> {
+        match self.fuel.get().checked_sub(1) {
+            Some(left) => {
+                self.fuel.set(left);
+                Ok(())
+            }
+            None => {
+                let message = format!("more than {MOST_TERMS} steps without an end");
+                Err(Fault::new(FaultKind::Endless, message))
+            }
+        }
+    }
+
+    /// Runs one message call deeper.
+    pub(crate) fn deeper<T>(&self, run: impl FnOnce() -> Result<T>) -> Result<T> {
+        let depth = self.messages.get();
+        if depth >= DEEPEST_MESSAGES {
+            let message = format!("messages call each other more than {DEEPEST_MESSAGES} deep");
+            return Err(Fault::new(FaultKind::Endless, message));
+        }
+        self.messages.set(depth + 1);
+        let answer = run();
+        self.messages.set(depth);
+        answer
+    }
+
+    pub(crate) fn owner(&self, me: &Answer<'a>) -> Result<Answer<'a>> {
+        match me {
+            Answer::Thing(t) => match self.structure.things[*t].owner {
+                Some(owner) => Ok(Answer::Thing(owner)),
+                None => Err(Fault::wrong("the document is not a part of anything")),
+            },
+            other => Err(Fault::wrong(format!("{} has no owner", self.kind(other)))),
+        }
+    }
+
+    pub(crate) fn arguments(
+        &self,
+        arguments: &'a [Argument],
+        frame: &Frame<'a>,
+    ) -> Result<Vec<Given<'a>>> {
+        let value = |a: &'a Argument| Ok((a.label.as_ref(), self.term(&a.value, frame)?));
+        arguments.iter().map(value).collect()
+    }
+
+    fn range(&self, from: &'a Term, to: &'a Term, frame: &Frame<'a>) -> Result<Answer<'a>> {
+        let from = self.whole(&self.term(from, frame)?)?;
+        let to = self.whole(&self.term(to, frame)?)?;
+        if (to - from) as f64 > LONGEST_RANGE {
+            return Err(Fault::no_answer(format!("{from}..{to} has more than a million elements")));
+        }
+        Ok(Answer::List((from..=to).map(|i| Answer::plain(i as f64)).collect()))
+    }
+
+    /// Reads a whole number.
+    pub(crate) fn whole(&self, answer: &Answer<'a>) -> Result<i64> {
+        let (x, _) = self.number(answer)?;
+        if x.fract() == 0.0 && x.abs() < 1e15 {
+            Ok(x as i64)
+        } else {
+            let x = base::number::shortest(x);
+            Err(Fault::wrong(format!("{x} where a whole number is wanted")))
+        }
+    }
+
+    fn element(&self, list: &Answer<'a>, index: i64) -> Result<Answer<'a>> {
+        let missing =
+            |n: usize| Fault::no_answer(format!("there is no element {index} in a list of {n}"));
+        let at = usize::try_from(index).ok();
+        if let Answer::Thing(t) = list
+            && matches!(self.class_kind(*t), ClassKind::List(_))
+        {
+            let mut parts = self.structure.parts(*t);
+            let n = parts.len();
+            return self.part(at.and_then(|i| parts.nth(i)).ok_or_else(|| missing(n))?);
+        }
+        let items = self.items(list)?;
+        at.and_then(|i| items.get(i)).cloned().ok_or_else(|| missing(items.len()))
+    }
+
+    /// Returns the elements of a list or set.
+    pub(crate) fn items(&self, answer: &Answer<'a>) -> Result<Rc<[Answer<'a>]>> {
+        match answer {
+            Answer::List(items) => Ok(items.clone()),
+            Answer::Thing(t) => match self.class_kind(*t) {
+                ClassKind::List(_) => self.structure.parts(*t).map(|p| self.part(p)).collect(),
+                ClassKind::Set(_) => {
+                    let members = self.structure.sets.get(&self.structure.merged[*t]);
+                    members.into_iter().flatten().map(|&m| self.part(m)).collect()
+                }
+                ClassKind::Primitive(_) | ClassKind::Composite | ClassKind::Reference(_) => {
+                    Err(Fault::wrong(format!("{} where a list is wanted", self.kind(answer))))
+                }
+            },
+            other => Err(Fault::wrong(format!("{} where a list is wanted", self.kind(other)))),
+        }
+    }
+
+    /// Returns what is stored in a part, or the part itself where it has parts.
+    pub(crate) fn part(&self, thing: ThingId) -> Result<Answer<'a>> {
+        match self.structure.slot_of[thing] {
+            Some(slot) => Ok(self.stored(slot)),
+            None => match self.class_kind(thing) {
+                ClassKind::Reference(_) => self.referent(thing),
+                ClassKind::Primitive(_)
+                | ClassKind::Composite
+                | ClassKind::List(_)
+                | ClassKind::Set(_) => Ok(Answer::Thing(thing)),
+            },
+        }
+    }
+
+    /// Returns what is stored in a slot.
+    pub(crate) fn stored(&self, slot: SlotId) -> Answer<'a> {
+        if let Some(reads) = &mut *self.reads.borrow_mut() {
+            reads.insert(slot);
+        }
+        let number = self.values.numbers[slot];
+        match self.structure.slots[slot].primitive {
+            Primitive::Real(dimension) => Answer::Number(number, dimension),
+            Primitive::Integer => Answer::plain(number),
+            Primitive::Bool => Answer::Bool(number != 0.0),
+            Primitive::Text | Primitive::Color => match &self.values.texts[slot] {
+                Some(text) => Answer::Text(text.clone()),
+                None => Answer::text(""),
+            },
+        }
+    }
+
+    /// Follows a reference to the thing that it names.
+    fn referent(&self, reference: ThingId) -> Result<Answer<'a>> {
+        let document = self.document;
+        let t = &self.structure.things[reference];
+        let name = self.structure.field_name(document, reference);
+        let (Some(owner), Some(name)) = (t.owner, name) else {
+            return Err(Fault::wrong("a reference that is no part of a class"));
+        };
+        let path = kernel::Path::of(&[name]);
+        let line = document.primary_line(self.structure.things[owner].class);
+        let given = line
+            .into_iter()
+            .find_map(|c| document.classes[c].givens.iter().rev().find(|g| g.path == path));
+        let given = given.ok_or_else(|| Fault::no_answer(format!("`{name}` names nothing yet")))?;
+        self.deeper(|| self.term(&given.value, &Frame::of(owner)))
+            .map_err(|f| f.within(given.origin))
+    }
+
+    pub(crate) fn class_kind(&self, thing: ThingId) -> &'a ClassKind {
+        &self.document.classes[self.structure.things[thing].class].kind
+    }
+
+    /// Returns the layout of a class, made once.
+    pub(crate) fn layout(&self, class: ClassId) -> Rc<Layout> {
+        if let Some(layout) = &self.tables.layouts.borrow()[class] {
+            return layout.clone();
+        }
+        let known = self.structure.layouts.get(&class).cloned();
+        let layout = known.unwrap_or_else(|| Rc::new(Layout::new(self.document, class)));
+        self.tables.layouts.borrow_mut()[class] = Some(layout.clone());
+        layout
+    }
+
+    /// Returns the part of a thing that a bare name means.
+    pub(crate) fn part_named(&self, thing: ThingId, name: &Name) -> Option<ThingId> {
+        let s = self.structure;
+        let own = |thing: ThingId| {
+            let t = &s.things[thing];
+            let layout = self.layout(t.class);
+            match layout.index.get(name) {
+                Some(&i) => Some(ThingId(t.first_part.0 + i)),
+                None if layout.own_names.is_empty() && layout.superclasses.is_empty() => None,
+                None => s.part_named(thing, name),
+            }
+        };
+        own(thing).or_else(|| s.merges.get(&s.merged[thing])?.iter().find_map(|&t| own(t)))
+    }
+
+    /// Finds a class's message by the thesis's order, once for every class and name.
+    pub(crate) fn class_message(&self, class: ClassId, name: &Name) -> Option<&'a Message> {
+        let document = self.document;
+        let message = |(c, i): (ClassId, usize)| &document.classes[c].messages[i];
+        if let Some(found) = self.tables.messages.borrow()[class].get(name) {
+            return found.map(message);
+        }
+        let found = document.find_message(class, name, None).and_then(|(c, found)| {
+            let i = document.classes[c].messages.iter().position(|m| std::ptr::eq(m, found))?;
+            Some((c, i))
+        });
+        self.tables.messages.borrow_mut()[class].insert(name.clone(), found);
+        found.map(message)
+    }
+
+    pub(crate) fn is_a(&self, answer: &Answer<'a>, class: ClassId) -> bool {
+        let is = |c: ClassId| self.document.is_a(c, class);
+        match answer {
+            Answer::Thing(t) => is(self.structure.things[*t].class),
+            Answer::Made(made) => is(made.class),
+            Answer::Number(..) => match self.document.classes[class].kind {
+                ClassKind::Primitive(p) => p.is_number() && p != Primitive::Bool,
+                ClassKind::Composite
+                | ClassKind::List(_)
+                | ClassKind::Set(_)
+                | ClassKind::Reference(_) => false,
+            },
+            Answer::Bool(_) => {
+                self.document.classes[class].kind == ClassKind::Primitive(Primitive::Bool)
+            }
+            Answer::Text(_) => {
+                self.document.classes[class].kind == ClassKind::Primitive(Primitive::Text)
+            }
+            Answer::List(_) | Answer::Picture(_) | Answer::Function(_) => false,
+        }
+    }
+
+    /// Returns the things of a class in order of declaration, merged ones once.
+    fn all(&self, class: ClassId) -> Rc<[Answer<'a>]> {
+        let is: BTreeMap<ClassId, bool> =
+            self.structure.layouts.keys().map(|&c| (c, self.document.is_a(c, class))).collect();
+        let of_class = |t: &ThingId| {
+            let c = self.structure.things[*t].class;
+            self.structure.merged[*t] == *t
+                && is.get(&c).copied().unwrap_or_else(|| self.document.is_a(c, class))
+        };
+        let things = self.in_order();
+        things.iter().filter(|t| of_class(t)).filter_map(|&t| self.part(t).ok()).collect()
+    }
+
+    /// Returns every thing in order of declaration.
+    pub(crate) fn in_order(&self) -> Rc<[ThingId]> {
+        if let Some(order) = &*self.tables.order.borrow() {
+            return order.clone();
+        }
+        let mut order = Vec::with_capacity(self.structure.things.len());
+        let mut stack: Vec<ThingId> = self.structure.things.ids().take(1).collect();
+        while let Some(thing) = stack.pop() {
+            order.push(thing);
+            stack.extend(self.structure.parts(thing).rev());
+        }
+        let order: Rc<[ThingId]> = order.into();
+        *self.tables.order.borrow_mut() = Some(order.clone());
+        order
+    }
+
+    /// Says what a value is, by its class where it has one.
+    pub(crate) fn kind(&self, answer: &Answer<'a>) -> String {
+        let class = |c: ClassId| {
+            let name = &self.document.classes[c].name;
+            if name.is_empty() { "the document".to_string() } else { format!("a {name}") }
+        };
+        match answer {
+            Answer::Thing(t) => class(self.structure.things[*t].class),
+            Answer::Made(made) => class(made.class),
+            other => other.kind().to_string(),
+        }
+    }
+
+    pub(crate) fn number(&self, answer: &Answer<'a>) -> Result<(f64, Dimension)> {
+        match answer {
+            Answer::Number(x, dimension) => Ok((*x, *dimension)),
+            other => Err(Fault::wrong(format!("{} where a number is wanted", self.kind(other)))),
+        }
+    }
+
+    /// Computes a truth value.
+    pub(crate) fn truth(&self, term: &'a Term, frame: &Frame<'a>) -> Result<bool> {
+        self.truth_of(&self.term(term, frame)?)
+    }
+
+    pub(crate) fn truth_of(&self, answer: &Answer<'a>) -> Result<bool> {
+        match answer {
+            Answer::Bool(b) => Ok(*b),
+            other => {
+                Err(Fault::wrong(format!("{} where a truth value is wanted", self.kind(other))))
+            }
+        }
+    }
+
+    fn binary(
+        &self,
+        operator: BinaryOperator,
+        a: &'a Term,
+        b: &'a Term,
+        frame: &Frame<'a>,
+    ) -> Result<Answer<'a>> {
+        use BinaryOperator as B;
+        let both = || Ok((self.term(a, frame)?, self.term(b, frame)?));
+        let numbers = || {
+            let (a, b) = both()?;
+            Ok((self.number(&a)?, self.number(&b)?))
+        };
+        let order = || both().and_then(|(a, b)| self.order(&a, &b));
+        let holds = match operator {
+            B::Add => return self.sum(&both()?),
+            B::Subtract => {
+                let ((x, dx), (y, dy)) = numbers()?;
+                return finite(x - y, measure::common(dx, dy)?);
+            }
+            B::Multiply => {
+                let ((x, dx), (y, dy)) = numbers()?;
+                return finite(x * y, dx.times(dy));
+            }
+            B::Divide => {
+                let ((x, dx), (y, dy)) = numbers()?;
+                if y == 0.0 {
+                    let x = base::number::shortest(x);
+                    return Err(Fault::no_answer(format!("{x} divided by zero")));
+                }
+                return finite(x / y, dx.over(dy));
+            }
+            B::Power => {
+                let ((x, dx), (y, _)) = numbers()?;
+                return finite(power(x, y), measure::power(dx, y));
+            }
+            B::And => self.truth(a, frame)? && self.truth(b, frame)?,
+            B::Or => self.truth(a, frame)? || self.truth(b, frame)?,
+            B::Equal => both().and_then(|(a, b)| self.equal(&a, &b))?,
+            B::NotEqual => !both().and_then(|(a, b)| self.equal(&a, &b))?,
+            B::In => both().and_then(|(a, b)| self.contains(&b, &a))?,
+            B::Less => order()?.is_lt(),
+            B::LessEqual => order()?.is_le(),
+            B::Greater => order()?.is_gt(),
+            B::GreaterEqual => order()?.is_ge(),
+        };
+        Ok(Answer::Bool(holds))
+    }
+
+    /// Adds numbers, or joins texts.
+    fn sum(&self, (a, b): &(Answer<'a>, Answer<'a>)) -> Result<Answer<'a>> {
+        if let (Answer::Text(a), Answer::Text(b)) = (a, b) {
+            return Ok(Answer::text(&format!("{a}{b}")));
+        }
+        if let (Answer::Text(_), Answer::Number(..)) | (Answer::Number(..), Answer::Text(_)) =
+            (a, b)
+        {
+            let message = "a text and a number are not joined: write `.text` after the number";
+            return Err(Fault::wrong(message));
+        }
+        let ((x, dx), (y, dy)) = (self.number(a)?, self.number(b)?);
+        finite(x + y, measure::common(dx, dy)?)
+    }
+
+    /// Returns true if two values are equal: numbers to the rule tolerance, things part by part.
+    fn equal(&self, a: &Answer<'a>, b: &Answer<'a>) -> Result<bool> {
+        let mut equal = true;
+        self.leaves(a, b, &mut |a, b| {
+            equal = equal && self.same_leaf(a, b)?;
+            Ok(())
+        })?;
+        Ok(equal)
+    }
+
+    /// Returns true if two values without parts are equal.
+    pub(crate) fn same_leaf(&self, a: &Answer<'a>, b: &Answer<'a>) -> Result<bool> {
+        match (a, b) {
+            (Answer::Number(x, dx), Answer::Number(y, dy)) => {
+                measure::common(*dx, *dy)?;
+                Ok(close(*x, *y))
+            }
+            (Answer::Bool(x), Answer::Bool(y)) => Ok(x == y),
+            (Answer::Text(x), Answer::Text(y)) => Ok(x == y),
+            _ => {
+                let message = format!("{} and {} are never equal", self.kind(a), self.kind(b));
+                Err(Fault::wrong(message))
+            }
+        }
+    }
+
+    /// Compares numbers exactly, or texts by their characters.
+    pub(crate) fn order(&self, a: &Answer<'a>, b: &Answer<'a>) -> Result<std::cmp::Ordering> {
+        if let (Answer::Text(a), Answer::Text(b)) = (a, b) {
+            return Ok(a.cmp(b));
+        }
+        let ((x, dx), (y, dy)) = (self.number(a)?, self.number(b)?);
+        measure::common(dx, dy)?;
+        // Answers are finite, so that the order is total up to the sign of zero.
+        Ok((x + 0.0).total_cmp(&(y + 0.0)))
+    }
+
+    /// Returns true if a list or set has an element: a thing by identity, a value by equality.
+    fn contains(&self, list: &Answer<'a>, wanted: &Answer<'a>) -> Result<bool> {
+        for item in self.items(list)?.iter() {
+            self.burn()?;
+            let found = match (item, wanted) {
+                (Answer::Thing(a), Answer::Thing(b)) => {
+                    self.structure.merged[*a] == self.structure.merged[*b]
+                }
+                (Answer::Thing(_), _) | (_, Answer::Thing(_)) => false,
+                _ => self.equal(item, wanted)?,
+            };
+            if found {
+                return Ok(true);
+            }
+        }
+        Ok(false)
+    }
+}
+
+fn unary<'a>(operator: UnaryOperator, operand: &Answer<'a>) -> Result<Answer<'a>> {
+    match (operator, operand) {
+        (UnaryOperator::Negate, Answer::Number(x, dimension)) => {
+            Ok(Answer::Number(0.0 - x, *dimension))
+        }
+        (UnaryOperator::Not, Answer::Bool(b)) => Ok(Answer::Bool(!b)),
+        (UnaryOperator::Negate, other) => {
+            Err(Fault::wrong(format!("{} where a number is wanted", other.kind())))
+        }
+        (UnaryOperator::Not, other) => {
+            Err(Fault::wrong(format!("{} where a truth value is wanted", other.kind())))
+        }
+    }
+}
+
+/// Computes a power; small whole exponents by multiplication, so that squares are exact.
+fn power(x: f64, y: f64) -> f64 {
+    if y == 2.0 {
+        x * x
+    } else if y == 1.0 {
+        x
+    } else {
+        pow(x, y)
+    }
+}
+
+/// Returns a number, if it is one.
+pub(crate) fn finite<'a>(value: f64, dimension: Dimension) -> Result<Answer<'a>> {
+    if value.is_finite() {
+        Ok(Answer::Number(value, dimension))
+    } else if value.is_nan() {
+        Err(Fault::no_answer("a number that is not defined, as the square root of -1"))
+    } else {
+        Err(Fault::no_answer("a number too large to be written"))
+    }
+}

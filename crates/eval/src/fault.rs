@@ -1,0 +1,62 @@
+//! Faults: an expression that has no value, and why.
+
+use kernel::OriginId;
+
+/// Why an expression has no value: lower case, what was found and what was wanted.
+#[derive(Clone, PartialEq, Debug)]
+pub struct Fault {
+    /// The member whose expression it is; of several, the innermost.
+    pub origin: Option<OriginId>,
+    /// What kind of fault it is.
+    pub kind: FaultKind,
+    /// What was found and what was wanted.
+    pub message: String,
+}
+
+/// The kinds of faults.
+#[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Debug)]
+pub enum FaultKind {
+    /// A name that leads nowhere.
+    UnknownName,
+    /// A value of one kind where another was wanted.
+    WrongKind,
+    /// Numbers of two dimensions where one was wanted.
+    WrongDimension,
+    /// An operation that has no answer for these values: a division by zero, `"hot".number`.
+    NoAnswer,
+    /// Messages that call each other without end.
+    Endless,
+}
+
+impl FaultKind {
+    /// Returns the kebab-case code of its diagnostic.
+    pub fn code(self) -> &'static str {
+        match self {
+            Self::UnknownName => "unknown-name",
+            Self::WrongKind => "wrong-kind",
+            Self::WrongDimension => "wrong-dimension",
+            Self::NoAnswer => "no-answer",
+            Self::Endless => "endless-messages",
+        }
+    }
+}
+
+impl Fault {
+    pub(crate) fn new(kind: FaultKind, message: impl Into<String>) -> Self {
+        Self { origin: None, kind, message: message.into() }
+    }
+    pub(crate) fn unknown(message: impl Into<String>) -> Self {
+        Self::new(FaultKind::UnknownName, message)
+    }
+    pub(crate) fn wrong(message: impl Into<String>) -> Self {
+        Self::new(FaultKind::WrongKind, message)
+    }
+    pub(crate) fn no_answer(message: impl Into<String>) -> Self {
+        Self::new(FaultKind::NoAnswer, message)
+    }
+    /// Names the member, where no inner one is named yet.
+    pub(crate) fn within(mut self, origin: OriginId) -> Self {
+        self.origin.get_or_insert(origin);
+        self
+    }
+}

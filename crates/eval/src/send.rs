@@ -1,0 +1,245 @@
+//! Messages: whose definition answers, with what arguments.
+//!
+//! A stored part comes first, then the class's messages in the thesis's order, then what every
+//! number, text, list and picture knows. A combining message that a class with several superclasses
+//! does not define combines what all of them say.
+
+use crate::answer::{Answer, Closure, Frame};
+use crate::evaluator::{Evaluator, Given, Result};
+use crate::fault::Fault;
+use base::Name;
+use kernel::{ClassId, ClassKind, Message, PartRole, ThingId};
+use std::rc::Rc;
+
+impl<'a> Evaluator<'a> {
+    /// Sends a message, or reads a part. `nearest` is the thing whose message sends it.
+    pub(crate) fn send(
+        &self,
+        to: &Answer<'a>,
+        name: &Name,
+        arguments: Vec<Given<'a>>,
+        above: Option<ClassId>,
+        nearest: ThingId,
+    ) -> Result<Answer<'a>> {
+        self.burn()?;
+        if arguments.is_empty()
+            && above.is_none()
+            && let Some(part) = self.stored_part(to, name)
+        {
+            return part;
+        }
+        if let Answer::Thing(thing) = to
+            && let Some(answer) = self.combined(*thing, name, above)?
+        {
+            return Ok(answer);
+        }
+        match self.message(to, name, above) {
+            Some(message) => self.answer(to, message, arguments, nearest),
+            None => self.send_builtin(to, name, &arguments, nearest),
+        }
+    }
+
+    /// Reads a stored part, if the thing has one of this name.
+    fn stored_part(&self, to: &Answer<'a>, name: &Name) -> Option<Result<Answer<'a>>> {
+        match to {
+            Answer::Thing(t) => self.part_named(*t, name).map(|part| self.part(part)),
+            Answer::Made(made) => {
+                let i = *self.layout(made.class).index.get(name)?;
+                made.fields.get(i as usize).cloned().map(Ok)
+            }
+            Answer::Number(..)
+            | Answer::Bool(_)
+            | Answer::Text(_)
+            | Answer::List(_)
+            | Answer::Picture(_)
+            | Answer::Function(_) => None,
+        }
+    }
+
+    /// Finds the definition of a message, looking at everything that the thing is merged with.
+    pub(crate) fn message(
+        &self,
+        to: &Answer<'a>,
+        name: &Name,
+        above: Option<ClassId>,
+    ) -> Option<&'a Message> {
+        let s = self.structure;
+        let find = |class| match above {
+            None => self.class_message(class, name),
+            Some(_) => self.document.find_message(class, name, above).map(|found| found.1),
+        };
+        match to {
+            Answer::Thing(t) => find(s.things[*t].class).or_else(|| {
+                let alike = s.merges.get(&s.merged[*t])?;
+                alike.iter().find_map(|&t| find(s.things[t].class))
+            }),
+            Answer::Made(made) => find(made.class),
+            Answer::Number(..)
+            | Answer::Bool(_)
+            | Answer::Text(_)
+            | Answer::List(_)
+            | Answer::Picture(_)
+            | Answer::Function(_) => None,
+        }
+    }
+
+    /// Computes what a message answers.
+    fn answer(
+        &self,
+        to: &Answer<'a>,
+        message: &'a Message,
+        arguments: Vec<Given<'a>>,
+        nearest: ThingId,
+    ) -> Result<Answer<'a>> {
+        let frame = self.bind(Frame::sent(to.clone(), nearest), message, arguments)?;
+        self.deeper(|| self.term(&message.answer, &frame)).map_err(|f| f.within(message.origin))
+    }
+
+    /// Binds the arguments of a message to its parameters, by label or by position.
+    pub(crate) fn bind(
+        &self,
+        mut frame: Frame<'a>,
+        message: &'a Message,
+        arguments: Vec<Given<'a>>,
+    ) -> Result<Frame<'a>> {
+        let parameters = &message.parameters;
+        let mut bound: Vec<Option<Answer<'a>>> = vec![None; parameters.len()];
+        for (label, answer) in arguments {
+            let place = match label {
+                Some(label) => {
+                    parameters.iter().position(|p| p.label == *label || p.name == *label)
+                }
+                None => bound.iter().position(Option::is_none),
+            };
+            match place.and_then(|i| bound.get_mut(i)) {
+                Some(slot) if slot.is_none() => *slot = Some(answer),
+                Some(_) | None => {
+                    let what = label.map_or("one more argument".into(), |l| format!("`{l}`"));
+                    return Err(Fault::wrong(format!("`{}` does not take {what}", message.name)));
+                }
+            }
+        }
+        for (parameter, answer) in parameters.iter().zip(bound) {
+            let Some(answer) = answer else {
+                let (name, label) = (&message.name, &parameter.label);
+                return Err(Fault::wrong(format!("`{name}` wants `{label}`")));
+            };
+            let answer = match parameter.class {
+                Some(class) => self.as_class(answer, class, frame.nearest)?,
+                None => answer,
+            };
+            frame = frame.bind(&parameter.name, answer);
+        }
+        Ok(frame)
+    }
+
+    /// Calls a function of the language; one list serves several parameters.
+    pub(crate) fn apply(
+        &self,
+        function: &Answer<'a>,
+        arguments: &[Answer<'a>],
+    ) -> Result<Answer<'a>> {
+        let Answer::Function(closure) = function else {
+            let kind = self.kind(function);
+            return Err(Fault::wrong(format!("{kind} where a function is wanted")));
+        };
+        let Closure { parameters, body, frame } = closure.as_ref();
+        let spread = match arguments {
+            [one] if parameters.len() > 1 => self.items(one)?,
+            _ => arguments.into(),
+        };
+        if spread.len() != parameters.len() {
+            let (n, m) = (parameters.len(), spread.len());
+            return Err(Fault::wrong(format!("a function of {n} got {m} arguments")));
+        }
+        let bind =
+            |f: Frame<'a>, (name, answer): (&'a Name, &Answer<'a>)| f.bind(name, answer.clone());
+        let frame = parameters.iter().zip(spread.iter()).fold(frame.clone(), bind);
+        self.deeper(|| self.term(body, &frame))
+    }
+
+    /// Combines what several superclasses say, where that is what the message means.
+    ///
+    /// Of the primary line the nearest definition speaks; classes passed on the way there add what
+    /// their other superclasses say. Without any definition, pictures combine those of all parts.
+    fn combined(
+        &self,
+        thing: ThingId,
+        name: &Name,
+        above: Option<ClassId>,
+    ) -> Result<Option<Answer<'a>>> {
+        let class = self.structure.things[thing].class;
+        let layout = self.layout(class);
+        if layout.superclasses.is_empty() {
+            return Ok(None);
+        }
+        let document = self.document;
+        let found = self.message(&Answer::Thing(thing), name, None);
+        if name != "picture" && !found.is_some_and(|m| m.is_combining) {
+            return Ok(None);
+        }
+        let line = document.primary_line(class);
+        let from = above.and_then(|a| line.iter().position(|&c| c == a));
+        let search = from.map_or(0, |i| i + 1);
+        let own = line[search..].iter().enumerate().find_map(|(i, &c)| {
+            let message = document.classes[c].messages.iter().rev().find(|m| m.name == *name)?;
+            (!message.is_default).then_some((search + i, message))
+        });
+        let passed = &line[from.unwrap_or(0)..own.map_or(line.len(), |(i, _)| i)];
+        let mut answers = Vec::new();
+        if let Some((_, message)) = own {
+            answers.push(self.answer(&Answer::Thing(thing), message, Vec::new(), thing)?);
+        } else if name == "picture" {
+            return self.picture_of_parts(thing).map(Some);
+        }
+        for (i, field) in layout.fields.iter().enumerate() {
+            if field.role == PartRole::Superclass && passed.contains(&field.class) {
+                let part =
+                    Answer::Thing(ThingId(self.structure.things[thing].first_part.0 + i as u32));
+                if name == "picture" || self.message(&part, name, None).is_some() {
+                    answers.push(self.send(&part, name, Vec::new(), None, thing)?);
+                }
+            }
+        }
+        if answers.len() < 2 {
+            return Ok(answers.pop());
+        }
+        if name == "picture" {
+            return self.join_pictures(&answers).map(Some);
+        }
+        let mut all = Vec::new();
+        for answer in answers {
+            match self.items(&answer) {
+                Ok(items) => all.extend(items.iter().cloned()),
+                Err(_) => all.push(answer),
+            }
+        }
+        Ok(Some(Answer::List(all.into())))
+    }
+
+    /// Combines the pictures of all parts; where one has a fault, the others go on without it.
+    pub(crate) fn picture_of_parts(&self, thing: ThingId) -> Result<Answer<'a>> {
+        let mut elements = Vec::new();
+        for part in self.structure.parts(thing) {
+            match self.class_kind(part) {
+                ClassKind::Primitive(_) | ClassKind::Set(_) | ClassKind::Reference(_) => continue,
+                ClassKind::Composite | ClassKind::List(_) => {}
+            }
+            let to = Answer::Thing(part);
+            match self.deeper(|| self.send(&to, &self.tables.picture, Vec::new(), None, part)) {
+                Ok(Answer::Picture(picture)) => match Rc::try_unwrap(picture) {
+                    Ok(more) if elements.is_empty() => elements = more,
+                    Ok(more) => elements.extend(more),
+                    Err(shared) => elements.extend(shared.iter().cloned()),
+                },
+                Ok(other) => {
+                    let kind = self.kind(&other);
+                    let fault = Fault::wrong(format!("{kind} where a picture is wanted"));
+                    self.faults.borrow_mut().push(fault);
+                }
+                Err(fault) => self.faults.borrow_mut().push(fault),
+            }
+        }
+        Ok(Answer::Picture(Rc::new(elements)))
+    }
+}

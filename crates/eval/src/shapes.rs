@@ -1,0 +1,181 @@
+//! Pictures: the functions that draw, and the messages that change how a picture looks.
+
+use crate::answer::Answer;
+use crate::evaluator::{Evaluator, Result};
+use crate::fault::Fault;
+use base::Name;
+use drawing::{Anchoring, Color, Element, Layer, Line, Placement, Point, Shape, Tag};
+use kernel::ThingId;
+use kernel::builtin::{Function, PictureMessage};
+use std::rc::Rc;
+
+/// How high a label's letters are, in pixels.
+const LABEL_PIXELS: f64 = 13.0;
+/// How wide a thick line is, in pixels.
+const THICK_PIXELS: f64 = 3.0;
+
+impl<'a> Evaluator<'a> {
+    /// Draws: calls one of the functions whose answer is a picture.
+    pub(crate) fn draw(
+        &self,
+        function: Function,
+        arguments: &[Answer<'a>],
+        nearest: ThingId,
+    ) -> Result<Answer<'a>> {
+        let place = |i: usize| self.place(&arguments[i]);
+        let number = |i: usize| self.number(&arguments[i]).map(|(x, _)| x);
+        let shape = match function {
+            Function::Dot if arguments.len() == 2 => {
+                Shape::Dot(Point { x: number(0)?, y: number(1)? })
+            }
+            Function::Dot => Shape::Dot(place(0)?),
+            Function::Segment => Shape::Segment(place(0)?, place(1)?),
+            Function::Polyline => self.corners(arguments, false)?,
+            Function::Polygon => self.corners(arguments, true)?,
+            Function::Circle => Shape::Circle { center: place(0)?, radius: number(1)?.abs() },
+            Function::Arc => Shape::Arc {
+                center: place(0)?,
+                radius: number(1)?.abs(),
+                start: number(2)?,
+                sweep: number(3)?,
+            },
+            Function::Rectangle => {
+                let (a, c) = (place(0)?, place(1)?);
+                let (b, d) = (Point { x: c.x, y: a.y }, Point { x: a.x, y: c.y });
+                Shape::Polyline { points: vec![a, b, c, d], closed: true }
+            }
+            Function::Label => self.words(arguments, Placement::OnScreen(LABEL_PIXELS))?,
+            Function::Text => self.words(arguments, Placement::OnSheet(number(2)?.abs()))?,
+            Function::Picture => return self.join_pictures(arguments),
+            Function::Sqrt
+            | Function::Abs
+            | Function::Sin
+            | Function::Cos
+            | Function::Tan
+            | Function::Asin
+            | Function::Acos
+            | Function::Atan
+            | Function::Atan2
+            | Function::Exp
+            | Function::Ln
+            | Function::Floor
+            | Function::Round
+            | Function::Min
+            | Function::Max
+            | Function::Pi
+            | Function::AllDifferent => {
+                return Err(Fault::wrong("a number where a picture is wanted"));
+            }
+        };
+        let element = Element { tag: Tag(self.structure.merged[nearest].0), ..Element::new(shape) };
+        Ok(Answer::Picture(Rc::new(vec![element])))
+    }
+
+    fn corners(&self, arguments: &[Answer<'a>], closed: bool) -> Result<Shape> {
+        let places = match arguments {
+            [one @ Answer::List(_)] if self.place(one).is_err() => self.several(arguments)?,
+            [Answer::Thing(_)] => self.several(arguments)?,
+            _ => arguments.to_vec(),
+        };
+        let points = places.iter().map(|p| self.place(p)).collect::<Result<_>>()?;
+        Ok(Shape::Polyline { points, closed })
+    }
+
+    fn words(&self, arguments: &[Answer<'a>], placement: Placement) -> Result<Shape> {
+        let at = self.place(&arguments[0])?;
+        let Answer::Text(text) = &arguments[1] else {
+            let kind = self.kind(&arguments[1]);
+            return Err(Fault::wrong(format!("{kind} where a text is wanted")));
+        };
+        let (text, anchoring) = (text.to_string(), Anchoring::Start);
+        Ok(Shape::Text { at, text, anchoring, placement })
+    }
+
+    /// Reads a place: a thing with `x` and `y`, or `(x, y)`.
+    pub(crate) fn place(&self, answer: &Answer<'a>) -> Result<Point> {
+        let (x, y) = match answer {
+            Answer::List(items) if items.len() == 2 => (items[0].clone(), items[1].clone()),
+            Answer::Thing(_) | Answer::Made(_) => {
+                let nearest = if let Answer::Thing(t) = answer { *t } else { kernel::DOCUMENT };
+                let ask = |name: &Name| self.send(answer, name, Vec::new(), None, nearest);
+                (ask(&self.tables.x)?, ask(&self.tables.y)?)
+            }
+            Answer::Number(..)
+            | Answer::Bool(_)
+            | Answer::Text(_)
+            | Answer::List(_)
+            | Answer::Picture(_)
+            | Answer::Function(_) => {
+                return Err(Fault::wrong(format!("{} where a place is wanted", self.kind(answer))));
+            }
+        };
+        Ok(Point { x: self.number(&x)?.0, y: self.number(&y)?.0 })
+    }
+
+    /// Makes several pictures, or lists of pictures, one.
+    pub(crate) fn join_pictures(&self, pictures: &[Answer<'a>]) -> Result<Answer<'a>> {
+        let mut all = Vec::new();
+        self.gather(pictures, &mut all)?;
+        Ok(Answer::Picture(Rc::new(all)))
+    }
+
+    fn gather(&self, pictures: &[Answer<'a>], all: &mut Vec<Element>) -> Result<()> {
+        for picture in pictures {
+            match picture {
+                Answer::Picture(elements) => all.extend(elements.iter().cloned()),
+                Answer::List(items) => self.deeper(|| self.gather(items, all))?,
+                other => {
+                    let kind = self.kind(other);
+                    return Err(Fault::wrong(format!("{kind} where a picture is wanted")));
+                }
+            }
+        }
+        Ok(())
+    }
+
+    /// Changes how a picture looks.
+    pub(crate) fn styled(
+        &self,
+        message: PictureMessage,
+        elements: &Rc<Vec<Element>>,
+        arguments: &[Answer<'a>],
+    ) -> Result<Answer<'a>> {
+        let color = arguments.first().map(|a| self.color(a)).transpose()?;
+        let mut elements = Vec::clone(elements);
+        for element in &mut elements {
+            let style = &mut element.style;
+            match message {
+                PictureMessage::Dotted => style.line = Line::Dotted,
+                PictureMessage::Dashed => style.line = Line::Dashed,
+                PictureMessage::Faint => style.color = Color::Faint,
+                PictureMessage::Accent => style.color = Color::Accent,
+                PictureMessage::Thick => style.width = THICK_PIXELS,
+                PictureMessage::Colored => style.color = color.clone().unwrap_or_default(),
+                PictureMessage::Filled => {
+                    style.fill = Some(color.clone().unwrap_or(Color::Faint));
+                    if element.layer == Layer::Lines {
+                        element.layer = Layer::Back;
+                    }
+                }
+                PictureMessage::Centered => {
+                    if let Shape::Text { anchoring, .. } = &mut element.shape {
+                        *anchoring = Anchoring::Middle;
+                    }
+                }
+            }
+        }
+        Ok(Answer::Picture(Rc::new(elements)))
+    }
+
+    fn color(&self, answer: &Answer<'a>) -> Result<Color> {
+        match answer {
+            Answer::Text(name) => Ok(match &**name {
+                "ink" => Color::Ink,
+                "faint" => Color::Faint,
+                "accent" => Color::Accent,
+                name => Color::Named(name.into()),
+            }),
+            other => Err(Fault::wrong(format!("{} where a colour is wanted", self.kind(other)))),
+        }
+    }
+}

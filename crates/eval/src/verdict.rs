@@ -1,0 +1,261 @@
+//! Verdicts: whether a rule holds, and how far its sides are apart.
+//!
+//! A rule holds to 1e-9 of its larger side unless `within` says otherwise; whole numbers, truth
+//! values and texts exactly. Messages that answer a truth value are opened, so that the same
+//! measure serves their comparisons.
+
+use crate::answer::{Answer, Frame};
+use crate::builtin::{number_text, read_number};
+use crate::evaluator::{Evaluator, Result};
+use crate::measure;
+use base::number::{RULE_TOLERANCE, close, shortest};
+use kernel::{BinaryOperator, ConstraintInstance, Term, ThingId, UnaryOperator};
+
+/// What a test found.
+#[derive(Clone, PartialEq, Debug, Default)]
+pub struct Verdict {
+    /// True if the rule holds.
+    pub holds: bool,
+    /// The left side less the right one, of several comparisons the farthest; none where the sides
+    /// are not numbers. For an inequality that holds, zero.
+    pub error: Option<f64>,
+    /// The left side as text, for a single comparison.
+    pub left: Option<String>,
+    /// The right side as text, for a single comparison.
+    pub right: Option<String>,
+}
+
+impl Verdict {
+    fn of(holds: bool) -> Self {
+        Self { holds, ..Self::default() }
+    }
+}
+
+impl<'a> Evaluator<'a> {
+    /// Tests the rule of a constraint.
+    ///
+    /// # Errors
+    /// Why the rule has no value, named by the constraint's origin or an inner one.
+    pub fn test(&self, constraint: ConstraintInstance) -> Result<Verdict> {
+        let class = &self.document.classes[constraint.class];
+        let written = &class.constraints[constraint.index as usize];
+        self.test_rule(&written.rule, written.within.as_ref(), constraint.owner)
+            .map_err(|f| f.within(written.origin))
+    }
+
+    /// Tests any rule in which `Me` is the thing `me`, to `within` where that is written.
+    ///
+    /// # Errors
+    /// Why the rule has no value.
+    pub fn test_rule(
+        &self,
+        rule: &'a Term,
+        within: Option<&'a Term>,
+        me: ThingId,
+    ) -> Result<Verdict> {
+        self.begin();
+        let frame = Frame::of(me);
+        let within = match within {
+            Some(term) => Some(self.number(&self.term(term, &frame)?)?.0.abs()),
+            None => None,
+        };
+        self.judge(rule, &frame, within)
+    }
+
+    fn judge(&self, rule: &'a Term, frame: &Frame<'a>, within: Option<f64>) -> Result<Verdict> {
+        self.burn()?;
+        use BinaryOperator as B;
+        match rule {
+            Term::Binary(B::And, a, b) => {
+                let a = self.deeper(|| self.judge(a, frame, within))?;
+                let b = self.deeper(|| self.judge(b, frame, within))?;
+                Ok(both(&a, &b))
+            }
+            Term::Binary(B::Or, a, b) => {
+                let a = self.deeper(|| self.judge(a, frame, within))?;
+                if a.holds { Ok(a) } else { self.deeper(|| self.judge(b, frame, within)) }
+            }
+            Term::Binary(B::Equal, a, b) => self.judge_equal(a, b, frame, within),
+            Term::Binary(B::Less | B::LessEqual, a, b) => {
+                let strict = matches!(rule, Term::Binary(B::Less, ..));
+                self.judge_order(&self.term(a, frame)?, &self.term(b, frame)?, within, strict)
+            }
+            Term::Binary(B::Greater | B::GreaterEqual, a, b) => {
+                let strict = matches!(rule, Term::Binary(B::Greater, ..));
+                let (a, b) = (self.term(a, frame)?, self.term(b, frame)?);
+                let verdict = self.judge_order(&b, &a, within, strict)?;
+                let error = verdict.error.map(|e| 0.0 - e);
+                Ok(Verdict { error, left: verdict.right, right: verdict.left, ..verdict })
+            }
+            Term::If(condition, then, otherwise) => {
+                let branch = if self.truth(condition, frame)? { then } else { otherwise };
+                self.deeper(|| self.judge(branch, frame, within))
+            }
+            Term::Let(name, bound, body) => {
+                let frame = frame.bind(name, self.term(bound, frame)?);
+                self.deeper(|| self.judge(body, &frame, within))
+            }
+            Term::Send { to, name, arguments, above } => {
+                let to = self.term(to, frame)?;
+                let part = matches!(to, Answer::Thing(t) if self.part_named(t, name).is_some());
+                match self.message(&to, name, *above) {
+                    Some(message) if !part || above.is_some() => {
+                        let arguments = self.arguments(arguments, frame)?;
+                        let inner = Frame::sent(to.clone(), frame.nearest);
+                        let inner = self.bind(inner, message, arguments)?;
+                        self.deeper(|| self.judge(&message.answer, &inner, within))
+                            .map_err(|f| f.within(message.origin))
+                    }
+                    _ => self.truth(rule, frame).map(Verdict::of),
+                }
+            }
+            Term::Unary(UnaryOperator::Not, inner) => {
+                let verdict = self.deeper(|| self.judge(inner, frame, within))?;
+                Ok(Verdict { holds: !verdict.holds, error: None, ..verdict })
+            }
+            Term::Binary(
+                B::NotEqual | B::In | B::Add | B::Subtract | B::Multiply | B::Divide | B::Power,
+                ..,
+            )
+            | Term::Unary(UnaryOperator::Negate, _)
+            | Term::Number { .. }
+            | Term::Text(_)
+            | Term::Bool(_)
+            | Term::Me
+            | Term::Owner
+            | Term::Document
+            | Term::Local(_)
+            | Term::Call { .. }
+            | Term::Make { .. }
+            | Term::Tuple(_)
+            | Term::List(_)
+            | Term::Range(..)
+            | Term::Index(..)
+            | Term::Lambda(..)
+            | Term::IsA(..)
+            | Term::All(_)
+            | Term::Copy(_) => self.truth(rule, frame).map(Verdict::of),
+        }
+    }
+
+    fn judge_equal(
+        &self,
+        left: &'a Term,
+        right: &'a Term,
+        frame: &Frame<'a>,
+        within: Option<f64>,
+    ) -> Result<Verdict> {
+        let (a, b) = (self.term(left, frame)?, self.term(right, frame)?);
+        let mut verdict = Verdict {
+            holds: true,
+            error: None,
+            left: Some(self.text_of(&a)),
+            right: Some(self.text_of(&b)),
+        };
+        if let (Answer::Text(s), Answer::Text(t)) = (&a, &b) {
+            verdict.holds =
+                s == t || self.reads_as(s, right, frame)? || self.reads_as(t, left, frame)?;
+            return Ok(verdict);
+        }
+        self.leaves(&a, &b, &mut |a, b| {
+            if let (Answer::Number(x, dx), Answer::Number(y, dy)) = (a, b) {
+                measure::common(*dx, *dy)?;
+                let error = x - y;
+                verdict.holds = verdict.holds && near(*x, *y, within);
+                if verdict.error.is_none_or(|e| e.abs() < error.abs()) {
+                    verdict.error = Some(error);
+                }
+            } else {
+                verdict.holds = verdict.holds && self.same_leaf(a, b)?;
+            }
+            Ok(())
+        })?;
+        Ok(verdict)
+    }
+
+    /// Returns true if a text reads as the number whose text a term asks for, to the digits asked for.
+    fn reads_as(&self, text: &str, term: &'a Term, frame: &Frame<'a>) -> Result<bool> {
+        let Term::Send { to, name, arguments, above: None } = term else { return Ok(false) };
+        if name != "text" {
+            return Ok(false);
+        }
+        let (Answer::Number(x, _), Some(read)) = (self.term(to, frame)?, read_number(text)) else {
+            return Ok(false);
+        };
+        match arguments.first() {
+            None => Ok(close(read, x)),
+            Some(digits) => {
+                let digits = self.digits(&self.term(&digits.value, frame)?)?;
+                Ok(number_text(read, Some(digits)) == number_text(x, Some(digits)))
+            }
+        }
+    }
+
+    fn judge_order(
+        &self,
+        less: &Answer<'a>,
+        more: &Answer<'a>,
+        within: Option<f64>,
+        strict: bool,
+    ) -> Result<Verdict> {
+        let order = self.order(less, more)?;
+        let (left, right) = (Some(self.text_of(less)), Some(self.text_of(more)));
+        let (Answer::Number(x, _), Answer::Number(y, _)) = (less, more) else {
+            let holds = if strict { order.is_lt() } else { order.is_le() };
+            return Ok(Verdict { holds, error: None, left, right });
+        };
+        // What is strictly less does not become so by tolerance.
+        let holds = order.is_lt() || (!strict && near(*x, *y, within));
+        Ok(Verdict { holds, error: Some((x - y).max(0.0)), left, right })
+    }
+
+    /// Writes a value for people: numbers short, things by their paths.
+    pub fn text_of(&self, answer: &Answer<'a>) -> String {
+        match answer {
+            Answer::Number(x, _) => shortest(*x),
+            Answer::Bool(b) => b.to_string(),
+            Answer::Text(text) => format!("\"{text}\""),
+            Answer::Thing(thing) => match self.by_position(answer) {
+                Ok(parts) if self.is_flat(&parts) => self.listed(&parts, '(', ')'),
+                _ => self.structure.path(self.document, *thing).to_string(),
+            },
+            Answer::Made(made) => {
+                let name = &self.document.classes[made.class].name;
+                format!("{name}{}", self.listed(&made.fields, '(', ')'))
+            }
+            Answer::List(items) => self.listed(items, '[', ']'),
+            Answer::Picture(_) | Answer::Function(_) => answer.kind().to_string(),
+        }
+    }
+
+    fn is_flat(&self, parts: &[Answer<'a>]) -> bool {
+        (1..=3).contains(&parts.len()) && parts.iter().all(|p| matches!(p, Answer::Number(..)))
+    }
+
+    fn listed(&self, items: &[Answer<'a>], open: char, close: char) -> String {
+        /// A longer list ends in dots.
+        const MOST: usize = 12;
+        let mut words: Vec<String> = items.iter().take(MOST).map(|a| self.text_of(a)).collect();
+        if items.len() > MOST {
+            words.push("…".into());
+        }
+        format!("{open}{}{close}", words.join(", "))
+    }
+}
+
+fn near(x: f64, y: f64, within: Option<f64>) -> bool {
+    match within {
+        // The written measure itself is met up to rounding.
+        Some(within) => (x - y).abs() <= within * (1.0 + RULE_TOLERANCE),
+        None => close(x, y),
+    }
+}
+
+fn both(a: &Verdict, b: &Verdict) -> Verdict {
+    let error = match (a.error, b.error) {
+        (Some(x), Some(y)) if y.abs() > x.abs() => Some(y),
+        (Some(x), _) => Some(x),
+        (None, y) => y,
+    };
+    Verdict { holds: a.holds && b.holds, error, left: None, right: None }
+}

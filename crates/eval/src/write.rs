@@ -1,0 +1,186 @@
+//! What written methods and given values put into slots.
+
+use crate::answer::{Answer, Frame};
+use crate::evaluator::{Evaluator, Result, Tables};
+use crate::fault::{Fault, FaultKind};
+use crate::measure;
+use kernel::{
+    ClassKind, ConstraintInstance, Document, GivenIn, Primitive, SlotId, Structure, ThingId, Value,
+    Values,
+};
+use std::collections::BTreeSet;
+use std::rc::Rc;
+
+impl<'a> Evaluator<'a> {
+    /// Computes what a written method of a constraint puts into its targets, things part by part.
+    ///
+    /// All values are computed from the state before; nothing is written here.
+    ///
+    /// # Errors
+    /// Why a target has no value, named by the method.
+    pub fn method(
+        &self,
+        constraint: ConstraintInstance,
+        index: usize,
+    ) -> Result<Vec<(SlotId, Value)>> {
+        let class = &self.document.classes[constraint.class];
+        let method = &class.constraints[constraint.index as usize].methods[index];
+        self.begin();
+        let frame = Frame::of(constraint.owner);
+        let mut written = Vec::new();
+        let mut write = || {
+            for (path, term) in method.targets.iter().zip(&method.values) {
+                let target = self.structure.follow(constraint.owner, path);
+                let target = target
+                    .map_err(|_| Fault::unknown(format!("the target {path} leads nowhere")))?;
+                let value = self.term(term, &frame)?;
+                self.share(target, &value, &mut written)?;
+            }
+            Ok(())
+        };
+        write().map_err(|f: Fault| f.within(method.origin))?;
+        Ok(written)
+    }
+
+    /// Computes the given value of a slot; none where nothing is given.
+    ///
+    /// # Errors
+    /// Why it has no value, or one that the slot cannot hold; named by the given value.
+    pub fn given(&self, slot: SlotId) -> Result<Option<Value>> {
+        match &self.structure.slots[slot].given {
+            Some(given) => self.given_in(given, slot).map(Some),
+            None => Ok(None),
+        }
+    }
+
+    /// Computes a given value for a slot.
+    ///
+    /// # Errors
+    /// Why it has no value, or one that the slot cannot hold; named by the given value.
+    pub fn given_in(&self, given: &'a GivenIn, slot: SlotId) -> Result<Value> {
+        self.begin();
+        let value = || {
+            let mut answer = self.term(&given.value, &Frame::of(given.me))?;
+            if let Answer::Thing(_) | Answer::Made(_) | Answer::List(_) = answer {
+                let field = self.structure.things[self.structure.slots[slot].thing].field;
+                let parts = self.by_position(&answer)?;
+                answer = parts.get(field as usize).cloned().ok_or_else(|| {
+                    Fault::wrong(format!("{} where more parts are wanted", self.kind(&answer)))
+                })?;
+            }
+            self.value_for(slot, &answer)
+        };
+        value().map_err(|f: Fault| f.within(given.origin))
+    }
+
+    /// Hands a value to the slots of a thing: itself, by position, or part by part.
+    pub(crate) fn share(
+        &self,
+        target: ThingId,
+        value: &Answer<'a>,
+        written: &mut Vec<(SlotId, Value)>,
+    ) -> Result<()> {
+        self.burn()?;
+        if let Some(slot) = self.structure.slot_of[target] {
+            written.push((slot, self.value_for(slot, value)?));
+            return Ok(());
+        }
+        let by_name = matches!(value, Answer::Thing(_) | Answer::Made(_))
+            && matches!(self.class_kind(target), ClassKind::Composite);
+        if by_name {
+            let class = self.common_ancestor(&Answer::Thing(target), value)?;
+            let layout = self.layout(class);
+            return self.deeper(|| {
+                layout.fields.iter().try_for_each(|&field| {
+                    let name = self.document.field_name(field);
+                    let part = self.part_named(target, name);
+                    let part = part.ok_or_else(|| Fault::unknown(format!("no part `{name}`")))?;
+                    let value = self.send(value, name, Vec::new(), None, target)?;
+                    self.share(part, &value, written)
+                })
+            });
+        }
+        let parts = self.structure.parts(target);
+        let values = self.by_position(value)?;
+        if parts.len() != values.len() {
+            let message = format!("{} values for {} parts", values.len(), parts.len());
+            return Err(Fault::wrong(message));
+        }
+        self.deeper(|| parts.zip(&values).try_for_each(|(p, v)| self.share(p, v, written)))
+    }
+
+    /// Returns a value as a slot holds it.
+    fn value_for(&self, slot: SlotId, answer: &Answer<'a>) -> Result<Value> {
+        let wrong = |wanted: &str| {
+            Err(Fault::wrong(format!("{} where {wanted} is wanted", self.kind(answer))))
+        };
+        match (self.structure.slots[slot].primitive, answer) {
+            (Primitive::Real(wanted), Answer::Number(x, found)) => {
+                measure::common(wanted, *found)?;
+                Ok(Value::Number(x + 0.0))
+            }
+            (Primitive::Integer, Answer::Number(x, _)) if x.fract() == 0.0 => {
+                Ok(Value::Number(x + 0.0))
+            }
+            (Primitive::Integer, Answer::Number(x, _)) => {
+                let x = base::number::shortest(*x);
+                Err(Fault::wrong(format!("{x} where a whole number is wanted")))
+            }
+            (Primitive::Bool, Answer::Bool(b)) => Ok(Value::Number(f64::from(u8::from(*b)))),
+            (Primitive::Text | Primitive::Color, Answer::Text(text)) => {
+                Ok(Value::Text(text.clone()))
+            }
+            (Primitive::Real(_) | Primitive::Integer, _) => wrong("a number"),
+            (Primitive::Bool, _) => wrong("a truth value"),
+            (Primitive::Text, _) => wrong("a text"),
+            (Primitive::Color, _) => wrong("a colour"),
+        }
+    }
+}
+
+/// Computes the given values of all slots, each after those that it speaks of.
+///
+/// What is not given is zero, false or empty; so are values that have a fault, and those given in
+/// terms of each other in a ring.
+///
+/// Cost: linear where values speak of earlier ones, a pass more for each step backwards.
+pub fn given_values(document: &Document, structure: &Structure) -> (Values, Vec<Fault>) {
+    let mut values = Values::new(structure.slots.len());
+    for (id, slot) in structure.slots.iter() {
+        if !slot.primitive.is_number() {
+            values.put(id, Value::Text("".into()));
+        }
+    }
+    let tables = Rc::new(Tables::new(document));
+    let is_given = structure.slots.iter().filter(|(_, s)| s.given.is_some()).map(|(id, _)| id);
+    let mut waiting: BTreeSet<SlotId> = is_given.collect();
+    let mut faults = Vec::new();
+    loop {
+        let before = waiting.len();
+        for slot in waiting.clone() {
+            let evaluator = Evaluator::with_tables(document, structure, &values, tables.clone());
+            let (found, reads) = evaluator.listening(|| evaluator.given(slot));
+            if reads.iter().any(|r| waiting.contains(r)) {
+                continue;
+            }
+            waiting.remove(&slot);
+            match found {
+                Ok(Some(value)) => values.put(slot, value),
+                Ok(None) => {}
+                Err(fault) => faults.push(fault),
+            }
+        }
+        if waiting.is_empty() {
+            return (values, faults);
+        }
+        if waiting.len() == before {
+            for slot in waiting {
+                let message = "a given value that depends on itself";
+                let fault = Fault::new(FaultKind::Endless, message);
+                let origin = structure.slots[slot].given.as_ref().map(|g| g.origin);
+                faults.push(Fault { origin, ..fault });
+            }
+            return (values, faults);
+        }
+    }
+}
