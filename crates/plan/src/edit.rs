@@ -1,6 +1,7 @@
 //! Edits: opening a document, setting values, moving parts; and what came of it.
 
 use crate::component::Component;
+use crate::drag::move_at_once;
 use crate::evaluate::Opening;
 use crate::fault::Trouble;
 use crate::holds::agree;
@@ -149,35 +150,42 @@ impl Planner {
             Ok(aim) => aim,
             Err(refusal) => return EditReport { refusal: Some(refusal), ..EditReport::default() },
         };
+        match kind {
+            EditKind::Move => move_at_once(self, model, values, aim, host),
+            EditKind::Set => self.set(model, values, &aim, host),
+        }
+    }
+
+    fn set(
+        &mut self,
+        model: Model<'_>,
+        values: &mut Values,
+        aim: &Aim,
+        host: &mut dyn Host,
+    ) -> EditReport {
         let mut scratch = values.clone();
-        let tasks = self.plan_edit(model, &aim);
+        let tasks = self.plan_edit(model, aim);
         for (&slot, value) in &aim.fixed {
             scratch.put(slot, value.clone());
         }
         let mut report = EditReport::default();
         for task in &tasks {
-            let ran = run(self, model, task, &aim, values, &mut scratch, host);
+            let ran = run(self, model, task, aim, values, &mut scratch, host);
             note(&mut report, ran);
         }
-        let components: Vec<Component> = tasks.iter().map(|t| t.component.clone()).collect();
+        let rules: BTreeSet<u32> =
+            tasks.iter().flat_map(|t| t.component.rules.iter().copied()).collect();
         self.latest = Latest { tasks, edited: Some(aim.slots()) };
-        if kind == EditKind::Move && report.refusal.is_none() {
-            let settled = self.settle(model, &components, &mut scratch, host);
-            report.refusal = settled.map(RefusalReason::Method);
-        }
-        let rules: BTreeSet<u32> = components.iter().flat_map(|c| c.rules.iter().copied()).collect();
         report.unmet = self.unmet(model, rules.iter().copied(), &scratch, host);
         let was_unmet = self.unmet(model, rules, values, host);
-        let new = |u: &&Unmet| {
+        let is_new = |u: &Unmet| {
             u.level == Level::Required && was_unmet.iter().all(|w| w.source != u.source)
         };
-        let broken = report.unmet.iter().any(|u| new(&u));
-        let set_unreached = kind == EditKind::Set && !self.reached(&aim, &scratch);
-        if report.refusal.is_none() && (broken || set_unreached) {
+        report.reached = self.reached(aim, &scratch);
+        if report.refusal.is_none() && (report.unmet.iter().any(is_new) || !report.reached) {
             report.refusal = Some(RefusalReason::Unmet);
         }
         if report.refusal.is_none() {
-            report.reached = self.reached(&aim, &scratch);
             report.changed = scratch.changed(values).collect();
             *values = scratch;
         }
@@ -268,6 +276,10 @@ impl Planner {
                         let message = format!("{value:?} is no value for {primitive:?}");
                         return Err(RefusalReason::Target(message));
                     }
+                    (Leaf::Slot(_), Value::Text(_)) if kind == EditKind::Move => {
+                        let message = "a text is set, not moved";
+                        return Err(RefusalReason::Target(message.into()));
+                    }
                     (Leaf::Slot(slot), Value::Number(x)) if kind == EditKind::Move => {
                         aim.alone.insert(slot);
                         wish.expressions.push(self.arena.var(expr::Var(slot.0)));
@@ -304,6 +316,17 @@ impl Planner {
         Ok(aim)
     }
 
+    /// Aims a wish at one number, whatever it shall be.
+    pub(crate) fn aim_at(&mut self, slot: SlotId) -> Aim {
+        let variable = self.arena.var(expr::Var(slot.0));
+        Aim {
+            fixed: BTreeMap::new(),
+            wishes: vec![Wish { level: Level::Move, expressions: vec![variable] }],
+            wanted: vec![vec![0.0]],
+            alone: BTreeSet::from([slot]),
+        }
+    }
+
     /// Returns the slots and expressions of a target, in order.
     fn leaves(&mut self, model: Model<'_>, target: Target<'_>) -> Result<Vec<Leaf>, Trouble> {
         match target {
@@ -333,6 +356,27 @@ impl Aim {
     pub(crate) fn slots(&self) -> BTreeSet<SlotId> {
         self.fixed.keys().copied().chain(self.alone.iter().copied()).collect()
     }
+}
+
+/// Gives every target the values that it has.
+pub(crate) fn with_present_values<'t>(
+    planner: &mut Planner,
+    model: Model<'_>,
+    values: &Values,
+    targets: &[Target<'t>],
+) -> Result<Vec<(Target<'t>, Vec<Value>)>, RefusalReason> {
+    let present = |target: &Target<'t>| {
+        let leaves = planner.leaves(model, *target)?;
+        let value = |leaf: Leaf| match leaf {
+            Leaf::Slot(slot) => values.get(slot),
+            Leaf::Expression(id) => {
+                Value::Number(planner.arena.evaluate(id, values.numbers.as_slice()))
+            }
+        };
+        Ok((*target, leaves.into_iter().map(value).collect()))
+    };
+    let present: Result<Vec<_>, Trouble> = targets.iter().map(present).collect();
+    present.map_err(|t| RefusalReason::Target(t.message))
 }
 
 /// What an edit can give a value to.

@@ -2,9 +2,8 @@
 //!
 //! `plan` knows numbers and their equations. Texts, given terms and rules over them it asks for.
 
-use crate::rule::{How, Source, Way};
-use crate::task::{Origin, Task};
-use kernel::{ConstraintInstance, SlotId, Structure, Value, Values};
+use crate::rule::{Source, Way};
+use kernel::{ConstraintInstance, SlotId, Value, Values};
 
 /// What the planner asks of whoever evaluates expressions.
 pub trait Host {

@@ -96,14 +96,18 @@ impl Planner {
         components.iter().map(|c| task(&mut self.plans, &setting, c)).collect()
     }
 
-    /// Returns the tasks of all components with nothing edited.
-    pub(crate) fn resting(&mut self, structure: &Structure) -> &[Task] {
+    /// Plans every component with nothing edited, unless that was done.
+    pub(crate) fn plan_resting(&mut self, structure: &Structure) {
         if self.resting.is_none() {
             let holding = |s| Self::resting_hold(structure, s);
             let components = self.net.all(&self.rules, &|s| holding(s) == Holding::Fixed);
             self.resting = Some(self.tasks(structure, &components, &holding, &[]));
         }
-        self.resting.as_deref().expect("it was just made")
+    }
+
+    /// Returns the tasks of all components with nothing edited, once they are planned.
+    pub(crate) fn resting(&self) -> &[Task] {
+        self.resting.as_deref().unwrap_or_default()
     }
 
     /// Returns the rules among these that do not hold, in their order.

@@ -131,6 +131,8 @@ struct Making<'s> {
     local: BTreeMap<SlotId, SlotIndex>,
     /// For every slot of the component, its variable.
     variables: Vec<ExprId>,
+    /// Expressions of the document that are in the system's arena, and where.
+    copied: BTreeMap<ExprId, ExprId>,
     system: System,
     holds: Vec<(SlotIndex, SlotId)>,
     targets: Vec<(SlotIndex, u32, u32)>,
@@ -171,6 +173,7 @@ impl<'s> Making<'s> {
         Self {
             setting,
             variables,
+            copied: BTreeMap::new(),
             local: component.slots.iter().copied().zip(0..).collect(),
             system,
             holds: Vec::new(),
@@ -183,10 +186,48 @@ impl<'s> Making<'s> {
         slots.iter().map(|s| self.local[s]).collect()
     }
 
+    /// Copies an expression into the system's arena.
+    ///
+    /// Operands are made constants first, then as they stand: which other expressions the document
+    /// has does not matter, so that equal components get equal arenas.
     fn import(&mut self, id: ExprId) -> ExprId {
-        let (local, variables) = (&self.local, &self.variables);
-        let to_local = &mut |v: Var| variables[local[&SlotId(v.0)] as usize];
-        self.system.arena.import(self.setting.arena, id, to_local)
+        let from = self.setting.arena;
+        let mut waiting = vec![id];
+        while let Some(&old) = waiting.last() {
+            if self.copied.contains_key(&old) {
+                waiting.pop();
+                continue;
+            }
+            let before = waiting.len();
+            let mut constants = Vec::new();
+            from.node(old).each_operand(|a| match from.node(a) {
+                _ if self.copied.contains_key(&a) => {}
+                Node::Constant(_) => constants.push(a),
+                Node::Var(_) | Node::Unary(..) | Node::Binary(..) | Node::Select { .. } => {
+                    waiting.push(a);
+                }
+            });
+            waiting[before..].reverse();
+            waiting.extend(constants.into_iter().rev());
+            if waiting.len() > before {
+                continue;
+            }
+            waiting.pop();
+            let arena = &mut self.system.arena;
+            let new = match from.node(old) {
+                Node::Constant(bits) => arena.constant(f64::from_bits(bits)),
+                Node::Var(v) => self.variables[self.local[&SlotId(v.0)] as usize],
+                Node::Unary(op, a) => arena.unary(op, self.copied[&a]),
+                Node::Binary(op, a, b) => arena.binary(op, self.copied[&a], self.copied[&b]),
+                Node::Select { condition, then, otherwise } => arena.select(
+                    self.copied[&condition],
+                    self.copied[&then],
+                    self.copied[&otherwise],
+                ),
+            };
+            self.copied.insert(old, new);
+        }
+        self.copied[&id]
     }
 
     /// Adds a known slot of the same kind as another.

@@ -102,7 +102,8 @@ fn a_given_number_is_kept_while_another_can_yield() {
     builder.constraint(root, equal(sub(p("b"), p("a")), p("size")));
     let mut lab = builder.open(root);
     assert_eq!(lab.number("b"), 90.0);
-    lab.move_to("b", &[100.0]);
+    let report = lab.move_to("b", &[100.0]);
+    assert_eq!(report.refusal, None, "{report:?}");
     assert_eq!(lab.number("b"), 100.0);
     assert_eq!(lab.number("a") + lab.number("size"), 100.0);
 }

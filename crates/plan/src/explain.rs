@@ -1,0 +1,271 @@
+//! Explanations: the latest plan and the reasons for a value, as data.
+
+use crate::edit::Conflict;
+use crate::planner::{Model, Planner};
+use crate::rule::Source;
+use crate::task::{Holding, Task};
+use kernel::SlotId;
+use solve::{Step, StepKind, System};
+use std::collections::BTreeSet;
+
+/// One step of a plan, in the document's terms.
+#[derive(Clone, PartialEq, Debug)]
+pub struct ExplainedStep {
+    /// How the targets are computed.
+    pub kind: ExplainedKind,
+    /// The slots that it computes.
+    pub targets: Vec<SlotId>,
+    /// The slots that it reads.
+    pub reads: Vec<SlotId>,
+    /// The constraints, stays and wishes that hold by it.
+    pub sources: Vec<Source>,
+}
+
+/// How a step computes its targets.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub enum ExplainedKind {
+    /// A part takes the value of another that equals it, or a number.
+    Alias,
+    /// A written method.
+    Method {
+        /// Which one, counted from 0.
+        index: u32,
+        /// How many were written.
+        of: u32,
+    },
+    /// An equation solved for one unknown by formula.
+    Isolated {
+        /// How many solutions the formula has.
+        roots: u32,
+    },
+    /// Linear equations solved together.
+    Linear {
+        /// How many unknowns.
+        unknowns: u32,
+    },
+    /// Equations solved together by Newton's method.
+    Newton {
+        /// How many unknowns.
+        unknowns: u32,
+    },
+    /// Fewer equations than unknowns: the least change that makes them hold.
+    LeastChange {
+        /// How many unknowns.
+        unknowns: u32,
+    },
+    /// Wishes that cannot all be had, met as nearly as they can be.
+    Compromise {
+        /// How many unknowns.
+        unknowns: u32,
+    },
+}
+
+/// The heaviest kind of step in a plan.
+#[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Debug)]
+pub enum PlanKind {
+    /// Every step computes its targets by a formula or a method.
+    OnePass,
+    /// Equations are solved together.
+    Block,
+    /// The answer is approached: least change or compromise.
+    Relaxation,
+}
+
+/// Why a slot has its value.
+#[derive(Clone, PartialEq, Debug, Default)]
+pub struct Why {
+    /// The steps that lead to it, in order.
+    pub steps: Vec<ExplainedStep>,
+    /// Where they begin.
+    pub roots: Vec<Root>,
+}
+
+/// A value that nothing else explains.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub struct Root {
+    /// The slot.
+    pub slot: SlotId,
+    /// What holds it there.
+    pub kind: RootKind,
+}
+
+/// What holds a value that nothing else explains.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub enum RootKind {
+    /// An anchor.
+    Anchored,
+    /// It is written in the text.
+    Given,
+    /// It was there before.
+    Kept,
+    /// The latest edit wanted it.
+    Edited,
+}
+
+impl Planner {
+    /// Returns the steps of the latest edit, in order: those downstream of it. All, after opening.
+    pub fn explain(&self) -> Vec<ExplainedStep> {
+        let mut explained = Vec::new();
+        for task in &self.latest.tasks {
+            explained.extend(self.ran(task).map(|step| self.in_words(task, step)));
+        }
+        explained
+    }
+
+    /// Returns the heaviest kind of step of the latest edit; nothing to do is one pass.
+    pub fn plan_kind(&self) -> PlanKind {
+        let steps = self.explain();
+        steps.iter().map(|s| s.kind.plan_kind()).max().unwrap_or(PlanKind::OnePass)
+    }
+
+    /// Returns the steps that lead to a slot's value, and where they begin.
+    ///
+    /// The plan of the latest edit is asked where it computed the slot, else that of the document at
+    /// rest.
+    pub fn why(&mut self, model: Model<'_>, slot: SlotId) -> Why {
+        self.plan_resting(model.structure);
+        let computes = |t: &&Task| local(t, slot).is_some_and(|s| producer(t, s).is_some());
+        let task = self
+            .latest
+            .tasks
+            .iter()
+            .find(computes)
+            .or_else(|| self.resting().iter().find(|t| local(t, slot).is_some()));
+        let Some(task) = task else {
+            return Why { steps: Vec::new(), roots: vec![self.root(model, slot)] };
+        };
+        let mut wanted: BTreeSet<u32> = local(task, slot).into_iter().collect();
+        let mut roots = Vec::new();
+        let mut steps = Vec::new();
+        for step in task.plan.steps.iter().rev() {
+            if !step.targets.iter().any(|t| wanted.contains(t)) {
+                continue;
+            }
+            step.targets.iter().for_each(|t| {
+                wanted.remove(t);
+            });
+            wanted.extend(&step.reads);
+            steps.push(self.in_words(task, step));
+        }
+        steps.reverse();
+        for local in wanted {
+            if let Some(&slot) = task.component.slots.get(local as usize) {
+                roots.push(self.root(model, slot));
+            }
+        }
+        Why { steps, roots }
+    }
+
+    /// Returns what stands against a slot's moving: the rules that its own wish would depend on.
+    ///
+    /// Empty where the slot can move, where it is a text, or where an anchor holds it.
+    pub fn why_not(&mut self, model: Model<'_>, slot: SlotId) -> Vec<Conflict> {
+        if !model.structure.slots[slot].primitive.is_number() {
+            return Vec::new();
+        }
+        let aim = self.aim_at(slot);
+        let tasks = self.plan_edit(model, &aim);
+        let mut conflicts = Vec::new();
+        for task in &tasks {
+            for rejected in &task.plan.report.rejected {
+                let source = task.source(&self.rules, rejected.relation);
+                if source != Source::Wish(0) {
+                    continue;
+                }
+                let circuit: BTreeSet<Source> =
+                    rejected.circuit.iter().map(|c| task.source(&self.rules, c.0)).collect();
+                conflicts.push(Conflict { source, circuit: circuit.into_iter().collect() });
+            }
+        }
+        conflicts
+    }
+
+    fn root(&self, model: Model<'_>, slot: SlotId) -> Root {
+        let edited = self.latest.edited.as_ref().is_some_and(|e| e.contains(&slot));
+        let kind = match Self::resting_hold(model.structure, slot) {
+            _ if edited => RootKind::Edited,
+            Holding::Fixed => RootKind::Anchored,
+            Holding::Given => RootKind::Given,
+            Holding::Kept | Holding::Alone | Holding::Free => {
+                if model.structure.slots[slot].given.is_some() {
+                    RootKind::Given
+                } else {
+                    RootKind::Kept
+                }
+            }
+        };
+        Root { slot, kind }
+    }
+
+    /// Returns the steps of a task that the latest edit ran.
+    fn ran<'t>(&self, task: &'t Task) -> impl Iterator<Item = &'t Step> + use<'t> {
+        let everything = self.latest.edited.is_none();
+        let mut touched: BTreeSet<u32> = task.targets.iter().map(|t| t.0).collect();
+        for &slot in self.latest.edited.iter().flatten() {
+            touched.extend(local(task, slot));
+        }
+        task.plan.steps.iter().filter(move |step| {
+            let runs = everything || step.reads.iter().any(|r| touched.contains(r));
+            if runs {
+                touched.extend(&step.targets);
+            }
+            runs
+        })
+    }
+
+    fn in_words(&self, task: &Task, step: &Step) -> ExplainedStep {
+        let known = |slots: &[u32]| -> Vec<SlotId> {
+            slots.iter().filter_map(|&i| task.component.slots.get(i as usize).copied()).collect()
+        };
+        let mut sources: Vec<Source> = Vec::new();
+        for &relation in &step.relations {
+            let source = task.source(&self.rules, relation);
+            if !sources.contains(&source) {
+                sources.push(source);
+            }
+        }
+        ExplainedStep {
+            kind: kind(&task.system, step),
+            targets: known(&step.targets),
+            reads: known(&step.reads),
+            sources,
+        }
+    }
+}
+
+impl ExplainedKind {
+    /// Returns what kind of plan a plan is at least that has such a step.
+    pub fn plan_kind(self) -> PlanKind {
+        match self {
+            Self::Alias | Self::Method { .. } | Self::Isolated { .. } => PlanKind::OnePass,
+            Self::Linear { unknowns } | Self::Newton { unknowns } => {
+                if unknowns > 1 { PlanKind::Block } else { PlanKind::OnePass }
+            }
+            Self::LeastChange { .. } | Self::Compromise { .. } => PlanKind::Relaxation,
+        }
+    }
+}
+
+fn kind(system: &System, step: &Step) -> ExplainedKind {
+    let unknowns = step.targets.len() as u32;
+    match step.kind {
+        StepKind::Alias => ExplainedKind::Alias,
+        StepKind::Method { relation, method } | StepKind::Opaque { relation, method } => {
+            let of = system.relations[relation as usize].methods.len() as u32;
+            ExplainedKind::Method { index: method, of }
+        }
+        StepKind::Inverse { roots } => ExplainedKind::Isolated { roots },
+        StepKind::Linear => ExplainedKind::Linear { unknowns },
+        StepKind::Newton => ExplainedKind::Newton { unknowns },
+        StepKind::LeastChange => ExplainedKind::LeastChange { unknowns },
+        StepKind::Compromise => ExplainedKind::Compromise { unknowns },
+    }
+}
+
+fn local(task: &Task, slot: SlotId) -> Option<u32> {
+    task.component.slots.binary_search(&slot).ok().map(|i| i as u32)
+}
+
+fn producer(task: &Task, slot: u32) -> Option<&Step> {
+    task.plan.steps.iter().find(|s| s.targets.contains(&slot))
+}
