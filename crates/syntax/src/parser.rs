@@ -272,7 +272,7 @@ impl<'t> Parser<'t> {
     }
     /// Reports a fault at the current token, unless something was reported there already.
     pub(crate) fn report(&mut self, code: &'static str, message: String, hint: Option<String>) {
-        if self.last_error != Some(self.pos) {
+        if self.last_error != Some(self.pos) && !self.at(SyntaxKind::Unknown) {
             let mut diagnostic = Diagnostic::error(code, self.place_here(), message);
             diagnostic.hint = hint;
             self.diagnostics.push(diagnostic);
@@ -291,9 +291,10 @@ impl<'t> Parser<'t> {
         let place = Place { file: self.file, span: Span::new(from, self.last_end().max(from)) };
         self.diagnostics.push(Diagnostic::error(code, place, message).hint(hint));
     }
-    /// Takes `kind`, or reports that it was wanted.
+    /// Takes `kind`, or reports that it was wanted; a name that begins the next member is left to it.
     pub(crate) fn expect(&mut self, kind: SyntaxKind, code: &'static str, wanted: &str) -> bool {
-        let found = self.eat(kind);
+        let next_member = kind == Ident && self.line_ended(0) && self.names_itself(1);
+        let found = !next_member && self.eat(kind);
         if !found {
             self.expected(code, wanted);
         }

@@ -80,7 +80,7 @@ pub(super) fn member(p: &mut Parser<'_>) -> bool {
         return named(p);
     }
     match p.word(0) {
-        "unit" if p.nth(1) == Ident => unit(p),
+        "unit" => unit(p),
         "y" if matches!(p.word(1), "down" | "up") => {
             p.start_documented(YLine);
             p.bump_keyword();
@@ -251,7 +251,7 @@ fn modified(p: &mut Parser<'_>) {
 fn unit(p: &mut Parser<'_>) {
     p.start_documented(UnitLine);
     p.bump_keyword();
-    p.bump();
+    p.expect(Ident, "expected-unit", "a unit");
     while p.at(Slash) && !p.begins_line(0) {
         p.bump();
         p.expect(Ident, "expected-unit", "a unit after `/`");
@@ -362,7 +362,8 @@ fn toolbox(p: &mut Parser<'_>) {
 /// Reports what begins no member, and skips its line.
 pub(super) fn unknown(p: &mut Parser<'_>) {
     let hint = if p.at(Ident) {
-        Some(match base::diagnostic::nearest(p.word(0), KEYWORDS.iter().copied()) {
+        let words = KEYWORDS.iter().copied().filter(|word| word.len() > 2);
+        Some(match base::diagnostic::nearest(p.word(0), words) {
             Some(word) if p.word(0) != word && p.nth(1) == Ident => {
                 format!("did you mean `{word}`?")
             }

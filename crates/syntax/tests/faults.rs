@@ -1,0 +1,194 @@
+//! What is wrong with a text is said once, at its place, and what stands around it is read.
+
+use base::FileId;
+use syntax::parse;
+
+fn check(text: &str, expected: &[&str]) {
+    let parse = parse(FileId(0), text);
+    let said: Vec<String> = parse
+        .diagnostics()
+        .iter()
+        .map(|d| format!("{} at `{}`: {}", d.code, &text[d.place.span.range()], d.message))
+        .collect();
+    assert_eq!(said, expected, "{text}");
+    assert_eq!(parse.text(), text);
+    if text.contains("\ny: Real") {
+        let last = parse.file().members().last().expect("the file has members");
+        let body =
+            syntax::edit::body_of(syntax::ast::AstNode::syntax(&last)).unwrap_or_else(|| {
+                syntax::ast::AstNode::syntax(&last).parent().expect("a member stands in a file")
+            });
+        let dump = syntax::dump(&body);
+        assert!(dump.contains("(Part y : (Type Real))"), "{dump}");
+    }
+}
+
+#[test]
+fn the_nearest_word_is_offered() {
+    let hint = |text: &str| parse(FileId(0), text).diagnostics()[0].hint.clone();
+    assert_eq!(hint("constrant a = b").as_deref(), Some("did you mean `constraint`?"));
+    assert_eq!(
+        hint("x Real").as_deref(),
+        Some("a part is written `name: Class`, a value `name = value`")
+    );
+}
+#[test]
+fn a_wrong_line_stands_between_right_ones() {
+    check(
+        "class A {\nx: Real\nconstrant a = b\ny: Real\n}",
+        &[
+            "expected-member at `constrant`: found `constrant`, wanted a part, constraint, message or value",
+        ],
+    );
+    check(
+        "x Real\ny: Real",
+        &["expected-member at `x`: found `x`, wanted a part, constraint, message or value"],
+    );
+    check(
+        "x: Real = 1 € 2\ny: Real",
+        &["unknown-character at `€`: found `€`, which begins nothing"],
+    );
+    check(
+        ") x\ny: Real",
+        &["expected-member at `)`: found `)`, wanted a part, constraint, message or value"],
+    );
+    check("x = 1 }\ny: Real", &["unexpected-brace at `}`: found `}`, which closes nothing"]);
+}
+#[test]
+fn an_unclosed_bracket_ends_with_its_line() {
+    check(
+        "x: Real = (1 + 2\ny: Real",
+        &["expected-bracket at `2`: found the end of the line, wanted `)`"],
+    );
+    check(
+        "x: Real = (1 +\ny: Real",
+        &["expected-expression at `+`: found the end of the line, wanted an expression"],
+    );
+    check(
+        "x = f(a, b\nc = d",
+        &["expected-bracket at `b`: found the end of the line, wanted `)` after the arguments"],
+    );
+    check(
+        "x = [1, [2\nclass A { p = (1, 2) }",
+        &["expected-bracket at `2`: found the end of the line, wanted `]` at the list's end"],
+    );
+    check(
+        "x = f(a b c)\ny: Real",
+        &["expected-bracket at `b`: found `b`, wanted `)` after the arguments"],
+    );
+}
+#[test]
+fn an_unclosed_body_is_reported_once() {
+    check(
+        "class A { x: Real\nclass B { }",
+        &["expected-brace at `}`: found the end of the text, wanted `}`"],
+    );
+    check(
+        "x = \"open\ny: Real",
+        &[r#"unterminated-text at `"open`: found the end of the line in a text"#],
+    );
+    check(
+        "x = 1 /* open",
+        &["unterminated-comment at `/*`: found the end of the text in a comment"],
+    );
+}
+#[test]
+fn what_is_missing_is_said() {
+    check(
+        "x =\ny: Real",
+        &["expected-expression at `=`: found the end of the line, wanted an expression"],
+    );
+    check(
+        "x = 3 +\nconstraint a = b",
+        &["expected-expression at `+`: found the end of the line, wanted an expression"],
+    );
+    check(
+        "x = a.\ny: Real",
+        &["expected-name at `.`: found the end of the line, wanted a name after `.`"],
+    );
+    check(
+        "x: List of\ny: Real",
+        &["expected-class at `of`: found the end of the line, wanted a class"],
+    );
+    check("class { x: Real }", &["expected-name at `{`: found `{`, wanted the class's name"]);
+    check(
+        "merge a\nb: B",
+        &["expected-merge at `a`: found the end of the line, wanted `=` and what to merge it with"],
+    );
+    check(
+        "constraint c: { a := 3 }",
+        &["expected-expression at `{`: found `{`, wanted an expression"],
+    );
+    check("unit\nx: Real", &["expected-unit at `unit`: found the end of the line, wanted a unit"]);
+    check(
+        "view \"v\" a\nx = a\n(b, c)",
+        &[
+            "expected-value at `a`: found `a`, wanted `=>` and what it shows",
+            "expected-member at `(`: found `(`, wanted a part, constraint, message or value",
+        ],
+    );
+    check("for i 0..3 { }", &["expected-word at `0`: found `0`, wanted `in`"]);
+    check(
+        "repeat { a = 1 } until",
+        &["expected-expression at `until`: found the end of the text, wanted an expression"],
+    );
+    check(
+        "x = if a then b\ny = 2",
+        &["expected-else at `b`: found the end of the line, wanted `else`"],
+    );
+    check(
+        "x = if a { y = 1 } else\nz: Real",
+        &["expected-body at `else`: found the end of the line, wanted a body in `{ }`"],
+    );
+    check("x = let a = 1 b", &["expected-in at `b`: found `b`, wanted `in` after the bindings"]);
+    check(
+        "program A(x Real, y) { }",
+        &[
+            "expected-class at `,`: found `,`, wanted `:` and the parameter's class",
+            "expected-class at `)`: found `)`, wanted `:` and the parameter's class",
+        ],
+    );
+    check("abstract x: Real", &["expected-class at `x`: found `x`, wanted `class`"]);
+    check("ref x -> a", &["expected-class at `->`: found `->`, wanted `:` and a class"]);
+    check("side a", &["expected-side at `a`: found the end of the text, wanted `:` and the side"]);
+    check("check { undo }", &["expected-text at `{`: found `{`, wanted a name in quotes"]);
+    check(
+        r#"lesson "l""#,
+        &[r#"expected-body at `"l"`: found the end of the text, wanted a body in `{ }`"#],
+    );
+    check("family F { }", &["expected-word at `{`: found `{`, wanted `of`"]);
+}
+#[test]
+fn what_stands_in_the_wrong_place_is_said() {
+    check(
+        "a := 3",
+        &["assignment-outside-method at `a := 3`: found `:=` among members, wanted `=`"],
+    );
+    check("set x to 3", &["statement-outside-check at `set x to 3`: found `set` outside a check"]);
+    check(
+        r#"say "hello""#,
+        &[r#"statement-outside-check at `say "hello"`: found `say` outside a lesson"#],
+    );
+    check(
+        "weak a = b",
+        &["strength-alone at `weak`: found `weak` alone, wanted a constraint after it"],
+    );
+    check("constraint a == b", &["double-equals at `==`: found `==`, wanted `=`"]);
+    check(
+        "constraint a = b { a = 3 }",
+        &["expected-method at `=`: found `=`, wanted `:=` and a value"],
+    );
+    check(r#"check "c" { expect moved a b }"#, &["expected-word at `b`: found `b`, wanted `only`"]);
+    check(
+        r#"check "c" { try x = 3 }"#,
+        &[
+            "expected-statement at `x`: found `x`, wanted a statement to try: `set`, `move`, `merge`, …",
+        ],
+    );
+    check(
+        "default x: Real",
+        &[
+            "expected-value at `Real`: found the end of the text, wanted `=>` and what the message answers",
+        ],
+    );
+}
