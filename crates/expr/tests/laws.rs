@@ -4,7 +4,7 @@
 //! also computed step by step without an arena, so that whatever folding does is seen.
 
 use base::Id;
-use expr::{Arena, Binary, ExprId, Tape, Unary, Var, gradient, isolate};
+use expr::{Arena, Binary, ExprId, Interval, Tape, Unary, Var, gradient, isolate};
 use proptest::prelude::*;
 use proptest::test_runner::RngSeed;
 
@@ -210,6 +210,30 @@ proptest! {
                     "by {var}: {slope}, quotient {quotient:?}"
                 );
             }
+        }
+    }
+
+    #[test]
+    fn an_enclosure_holds_every_value(
+        recipe in recipe(),
+        values in values(),
+        widths in prop::collection::vec(0.0..2.0, VARIABLES),
+        places in prop::collection::vec(0.0..=1.0, VARIABLES),
+    ) {
+        let mut arena = Arena::new();
+        let made = build(&mut arena, &recipe);
+        let ends = || values.iter().zip(&widths);
+        let boxes: Vec<Interval> =
+            ends().map(|(&low, width)| Interval { low, high: low + width }).collect();
+        let inside: Vec<f64> = boxes
+            .iter()
+            .zip(&places)
+            .map(|(b, place)| (b.low + place * (b.high - b.low)).clamp(b.low, b.high))
+            .collect();
+        for (&id, value) in made.iter().zip(compute(&recipe, &inside)) {
+            let Some(value) = value else { continue };
+            let enclosure = arena.enclose(id, &boxes);
+            prop_assert!(enclosure.contains(value), "{value} is not in {enclosure:?}");
         }
     }
 
