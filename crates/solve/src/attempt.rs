@@ -1,0 +1,387 @@
+//! One attempt: the steps of a plan, run once, from one state to the next.
+//!
+//! In: the state x0 that bits are kept from, the last state (the branch), new values of known slots.
+//! Out: the values, or the step that failed. A step whose reads are as in x0 and whose relations hold
+//! there keeps x0's bits.
+
+use crate::lower::{GuardKind, Program, Roots};
+use crate::measure::{Measure, Measured};
+use crate::outcome::{Host, Note, Reason};
+use crate::plan::{Plan, Step};
+use crate::rows::{Point, generic_number};
+use crate::square::{Solved, Square, SquareScratch, Trust};
+use crate::system::{SlotIndex, Stay};
+
+/// How a slot stands to x0.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub(crate) enum Motion {
+    /// The bits of x0.
+    Still,
+    /// It had no value in x0, and nothing that it comes from has moved.
+    Opened,
+    /// Other bits than in x0.
+    Moved,
+}
+
+/// Buffers that runs share.
+#[derive(Clone, Debug, Default)]
+pub(crate) struct Buffers {
+    pub(crate) registers: Vec<f64>,
+    pub(crate) out: Vec<f64>,
+    pub(crate) square: SquareScratch,
+    pub(crate) motion: Vec<Motion>,
+    pub(crate) sides: Vec<f64>,
+    pub(crate) approached: Vec<bool>,
+    pub(crate) notes: Vec<Note>,
+}
+
+/// What does not change during an edit.
+#[derive(Clone, Debug, Default)]
+pub(crate) struct Frame {
+    /// The state when the edit began.
+    pub(crate) x0: Vec<f64>,
+    /// The measure of every slot.
+    pub(crate) scales: Vec<f64>,
+    /// For every row, whether it holds in x0.
+    pub(crate) held: Vec<bool>,
+    /// Texts that the edit changed.
+    pub(crate) changed_texts: Vec<SlotIndex>,
+}
+
+/// Which regions are approached instead of met.
+#[derive(Clone, PartialEq, Eq, Debug)]
+pub(crate) enum Approach {
+    /// None.
+    Nowhere,
+    /// These, by number.
+    In(Vec<u32>),
+}
+
+/// Why an attempt failed.
+#[derive(Clone, PartialEq, Debug)]
+pub(crate) struct Failure {
+    pub(crate) reason: Reason,
+    /// The region of the failed step.
+    pub(crate) region: u32,
+}
+
+/// Runs all steps once. `values` comes with the last state in it, and the known slots set.
+pub(crate) fn attempt(
+    plan: &Plan,
+    frame: &Frame,
+    last: &[f64],
+    values: &mut [f64],
+    trust: Trust,
+    approach: &Approach,
+    buffers: &mut Buffers,
+    host: &mut dyn Host,
+) -> Result<(), Failure> {
+    begin(plan, frame, values, buffers);
+    for (index, step) in plan.steps.iter().enumerate() {
+        if let Approach::In(regions) = approach
+            && regions.contains(&step.region)
+            && !matches!(step.program, Program::Host { .. })
+        {
+            approach_region(plan, frame, step, index, values, buffers)?;
+            continue;
+        }
+        let mut run = Run { plan, frame, last, values, trust, buffers, host, index };
+        run.step(step)?;
+    }
+    Ok(())
+}
+
+fn begin(plan: &Plan, frame: &Frame, values: &mut [f64], buffers: &mut Buffers) {
+    buffers.notes.clear();
+    buffers.approached.clear();
+    buffers.approached.resize(plan.regions.len(), false);
+    for (root, members) in &plan.shared_given {
+        let first = frame.x0[members[0] as usize];
+        if members.iter().any(|&m| frame.x0[m as usize].to_bits() != first.to_bits()) {
+            let sum: f64 = members.iter().map(|&m| frame.x0[m as usize]).sum();
+            values[*root as usize] = sum / members.len() as f64;
+        }
+    }
+    buffers.motion.clear();
+    buffers.motion.extend(plan.slots.iter().zip(values.iter().zip(&frame.x0)).map(
+        |(slot, (value, start))| match slot.stay {
+            Stay::Free => Motion::Opened,
+            Stay::Fixed | Stay::Given if value.to_bits() != start.to_bits() => Motion::Moved,
+            Stay::Fixed | Stay::Given | Stay::Kept { .. } => Motion::Still,
+        },
+    ));
+    for &text in &frame.changed_texts {
+        buffers.motion[text as usize] = Motion::Moved;
+    }
+}
+
+fn approach_region(
+    plan: &Plan,
+    frame: &Frame,
+    step: &Step,
+    index: usize,
+    values: &mut [f64],
+    buffers: &mut Buffers,
+) -> Result<(), Failure> {
+    if std::mem::replace(&mut buffers.approached[step.region as usize], true) {
+        return Ok(());
+    }
+    let region = &plan.regions[step.region as usize];
+    let measure = region.approach.get_or_init(|| {
+        let mut arena = plan.arena.clone();
+        let given = |s: SlotIndex| plan.slots[s as usize].stay == Stay::Given;
+        Measure::compile(&mut arena, &region.problem, &given)
+    });
+    let registers = &mut buffers.registers;
+    let result = measure.solve(&frame.x0, values, &frame.scales, Trust::Any, registers);
+    if result == Measured::Failed {
+        let reason = Reason::NoSolution { step: index as u32 };
+        return Err(Failure { reason, region: step.region });
+    }
+    for &u in &measure.unknowns {
+        buffers.motion[u as usize] = motion(frame, values, u);
+    }
+    Ok(())
+}
+
+fn motion(frame: &Frame, values: &[f64], slot: SlotIndex) -> Motion {
+    let same = values[slot as usize].to_bits() == frame.x0[slot as usize].to_bits();
+    if same { Motion::Still } else { Motion::Moved }
+}
+
+struct Run<'a> {
+    plan: &'a Plan,
+    frame: &'a Frame,
+    last: &'a [f64],
+    values: &'a mut [f64],
+    trust: Trust,
+    buffers: &'a mut Buffers,
+    host: &'a mut dyn Host,
+    index: usize,
+}
+
+impl Run<'_> {
+    fn step(&mut self, step: &Step) -> Result<(), Failure> {
+        let mut inputs = Motion::Still;
+        for &r in &step.reads {
+            match self.buffers.motion[r as usize] {
+                Motion::Still => {}
+                Motion::Opened if inputs == Motion::Still => inputs = Motion::Opened,
+                Motion::Opened => {}
+                Motion::Moved => {
+                    inputs = Motion::Moved;
+                    break;
+                }
+            }
+        }
+        let valued = step.targets.iter().all(|&t| self.plan.slots[t as usize].stay != Stay::Free);
+        if inputs != Motion::Moved && valued && self.holds_in_x0(step, inputs) {
+            for &t in &step.targets {
+                self.values[t as usize] = self.frame.x0[t as usize];
+                self.buffers.motion[t as usize] = Motion::Still;
+            }
+            return Ok(());
+        }
+        self.compute(step)?;
+        for &t in &step.targets {
+            let slot = &self.plan.slots[t as usize];
+            let value = self.values[t as usize];
+            if slot.is_number
+                && (!value.is_finite() || slot.is_discrete && value.fract() != 0.0)
+            {
+                return self.fail(step);
+            }
+            self.buffers.motion[t as usize] = match slot.stay {
+                Stay::Free if inputs != Motion::Moved => Motion::Opened,
+                _ if !slot.is_number => Motion::Moved,
+                Stay::Free | Stay::Fixed | Stay::Given | Stay::Kept { .. } => {
+                    motion(self.frame, self.values, t)
+                }
+            };
+        }
+        Ok(())
+    }
+
+    fn fail<T>(&self, step: &Step) -> Result<T, Failure> {
+        let reason = Reason::NoSolution { step: self.index as u32 };
+        Err(Failure { reason, region: step.region })
+    }
+
+    /// Returns true if the step has nothing to do: its relations hold with x0's targets.
+    fn holds_in_x0(&mut self, step: &Step, inputs: Motion) -> bool {
+        if let Program::Measure(measure) = &step.program {
+            for &t in &step.targets {
+                self.values[t as usize] = self.frame.x0[t as usize];
+            }
+            let (x0, scales) = (&self.frame.x0, &self.frame.scales);
+            return measure.is_settled(x0, self.values, scales, &mut self.buffers.registers);
+        }
+        if inputs == Motion::Still {
+            return match &step.program {
+                Program::Constant(_) | Program::Copy => false,
+                Program::Formulas(_) | Program::Roots(_) | Program::Square(_) => {
+                    step.rows.iter().all(|&r| self.frame.held[r as usize])
+                }
+                Program::Host { source, .. } => self.host.holds(*source, self.values),
+                Program::Measure(_) => unreachable!("asked above"),
+            };
+        }
+        for &t in &step.targets {
+            self.values[t as usize] = self.frame.x0[t as usize];
+        }
+        let square = match &step.program {
+            Program::Square(square) => square,
+            Program::Roots(roots) => &roots.fallback,
+            Program::Host { source, .. } => return self.host.holds(*source, self.values),
+            Program::Formulas(tape) => {
+                let out = &mut self.buffers.out;
+                out.clear();
+                out.resize(step.targets.len(), 0.0);
+                tape.run(self.values, &mut self.buffers.registers, out);
+                return step.targets.iter().zip(out).all(|(&t, value)| {
+                    base::number::close(*value, self.frame.x0[t as usize])
+                });
+            }
+            Program::Constant(_) | Program::Copy | Program::Measure(_) => return false,
+        };
+        square.holds_at(self.values, &mut self.buffers.registers, &mut self.buffers.square)
+    }
+
+    fn compute(&mut self, step: &Step) -> Result<(), Failure> {
+        match &step.program {
+            Program::Constant(value) => self.values[step.targets[0] as usize] = *value,
+            Program::Copy => {
+                self.values[step.targets[0] as usize] = self.values[step.reads[0] as usize];
+            }
+            Program::Formulas(tape) => {
+                let out = &mut self.buffers.out;
+                out.clear();
+                out.resize(step.targets.len(), 0.0);
+                tape.run(self.values, &mut self.buffers.registers, out);
+                for (&t, &value) in step.targets.iter().zip(out.iter()) {
+                    self.values[t as usize] = value;
+                }
+            }
+            Program::Roots(roots) => return self.roots(step, roots),
+            Program::Square(square) => return self.square(step, square),
+            Program::Measure(measure) => return self.measure(step, measure),
+            Program::Host { source, method } => {
+                let out = &mut self.buffers.out;
+                out.clear();
+                out.extend(step.targets.iter().map(|&t| self.values[t as usize]));
+                let result = self.host.compute(*source, *method as usize, self.values, out);
+                if let Err(message) = result {
+                    let reason = Reason::Method { step: self.index as u32, message };
+                    return Err(Failure { reason, region: step.region });
+                }
+                for (&t, &value) in step.targets.iter().zip(out.iter()) {
+                    if self.plan.slots[t as usize].is_number {
+                        self.values[t as usize] = value;
+                    }
+                }
+            }
+        }
+        Ok(())
+    }
+
+    fn from_last(&mut self, targets: &[SlotIndex]) {
+        for &t in targets {
+            self.values[t as usize] = self.last[t as usize];
+        }
+    }
+
+    fn measure(&mut self, step: &Step, measure: &Measure) -> Result<(), Failure> {
+        self.from_last(&step.targets);
+        let Frame { x0, scales, .. } = self.frame;
+        let registers = &mut self.buffers.registers;
+        if measure.solve(x0, self.values, scales, self.trust, registers) == Measured::Least {
+            return Ok(());
+        }
+        self.fail(step)
+    }
+
+    fn square(&mut self, step: &Step, square: &Square) -> Result<(), Failure> {
+        let opening =
+            step.targets.iter().all(|&t| self.plan.slots[t as usize].stay == Stay::Free);
+        let tries = if opening && self.trust == Trust::Any { 8 } else { 1 };
+        for k in 0..tries {
+            self.from_last(&step.targets);
+            if k > 0 {
+                self.scatter(&step.targets, k);
+            }
+            let buffers = &mut *self.buffers;
+            let (registers, scratch) = (&mut buffers.registers, &mut buffers.square);
+            let (last, scales) = (self.last, &self.frame.scales);
+            match square.solve(last, self.values, scales, self.trust, registers, scratch) {
+                Solved::Regular => return Ok(()),
+                Solved::Double(at) => {
+                    let slot = square.unknowns[at as usize];
+                    self.buffers.notes.push(Note::DoubleRoot { slot });
+                    return Ok(());
+                }
+                Solved::Failed => {}
+            }
+        }
+        self.fail(step)
+    }
+
+    /// Moves the start of a search that found nothing; nothing is known about where to begin.
+    fn scatter(&mut self, targets: &[SlotIndex], k: u32) {
+        let point = if k % 2 == 1 { Point::Positive } else { Point::Mixed };
+        let reach = 0.25 * f64::from(1u32 << k);
+        for &t in targets {
+            let by = generic_number(u64::from(t) << 8 | u64::from(k), point);
+            self.values[t as usize] += reach * self.frame.scales[t as usize] * by;
+        }
+    }
+
+    fn roots(&mut self, step: &Step, roots: &Roots) -> Result<(), Failure> {
+        let target = step.targets[0] as usize;
+        let count = roots.guards.len();
+        let size = count + roots.guards.iter().map(Vec::len).sum::<usize>();
+        let buffers = &mut *self.buffers;
+        buffers.out.clear();
+        buffers.out.resize(2 * size, 0.0);
+        let (now, before) = buffers.out.split_at_mut(size);
+        roots.tape.run(self.values, &mut buffers.registers, now);
+        let at = |i: usize| roots.guards[..=i].iter().map(Vec::len).sum::<usize>() + i;
+        let previous = self.last[target];
+        let mut chosen = None;
+        if count == 1 {
+            chosen = Some(0);
+        } else {
+            roots.tape.run(self.last, &mut buffers.registers, before);
+            let off = |out: &[f64], i: usize| (out[at(i)] - previous).abs();
+            let near = 1e-6 * previous.abs().max(self.frame.scales[target]);
+            let on_branch: Vec<usize> = (0..count).filter(|&i| off(before, i) <= near).collect();
+            if let [one] = on_branch[..] {
+                chosen = Some(one);
+            } else if self.trust == Trust::Any || on_branch.len() > 1 {
+                chosen = (0..count)
+                    .filter(|&i| now[at(i)].is_finite())
+                    .min_by(|&a, &b| off(now, a).total_cmp(&off(now, b)));
+            }
+        }
+        if let Some(i) = chosen {
+            let end = at(i);
+            let start = end - roots.guards[i].len();
+            let value = now[end];
+            let guarded = roots.guards[i].iter().zip(&now[start..end]).all(|(kind, v)| match kind {
+                GuardKind::NonZero => v.abs() > 1e-30,
+                GuardKind::NonNegative => *v >= 0.0,
+                GuardKind::Positive => *v > 0.0,
+            });
+            if guarded && value.is_finite() {
+                self.values[target] = value;
+                let close = |j: usize| {
+                    (now[at(j)] - value).abs() <= 1e-6 * value.abs().max(self.frame.scales[target])
+                };
+                if (0..count).any(|j| j != i && close(j)) {
+                    buffers.notes.push(Note::DoubleRoot { slot: step.targets[0] });
+                }
+                return Ok(());
+            }
+        }
+        self.square(step, &roots.fallback)
+    }
+}

@@ -1,0 +1,163 @@
+//! Direction: which way each row is solved.
+//!
+//! In: accepted rows and unknown slots. Out: a matching that gives each row a slot of its own, and the
+//! written methods that were chosen: relations choose in order of declaration the first of their
+//! methods whose targets are all unknown and that leaves every other row a slot.
+
+use crate::accept::Acceptance;
+use crate::rows::Row;
+use crate::substitute::Classes;
+use crate::system::{SlotIndex, System};
+use std::collections::BTreeMap;
+
+/// Which way.
+#[derive(Clone, Debug, Default)]
+pub(crate) struct Direction {
+    /// For every row, the slot that it determines; none for a row that was not accepted.
+    pub(crate) slot_of_row: Vec<Option<SlotIndex>>,
+    /// For every slot, the row that determines it.
+    pub(crate) row_of_slot: Vec<Option<usize>>,
+    /// For every relation, the written method that was chosen.
+    pub(crate) method: BTreeMap<u32, usize>,
+    /// For every slot that a method writes beyond its relation's rows, that relation's first row.
+    pub(crate) written_by: BTreeMap<SlotIndex, usize>,
+}
+
+struct Matching<'a> {
+    rows: &'a [Row],
+    open: Vec<bool>,
+    fixed_row: Vec<bool>,
+    slot_of_row: Vec<Option<SlotIndex>>,
+    row_of_slot: Vec<Option<usize>>,
+    seen: Vec<u32>,
+    round: u32,
+}
+
+/// Matches rows and slots and chooses methods.
+pub(crate) fn direct(
+    system: &System,
+    classes: &Classes,
+    rows: &[Row],
+    acceptance: &Acceptance,
+) -> Direction {
+    let n = system.slots.len();
+    let mut m = Matching {
+        rows,
+        open: acceptance.unknown.clone(),
+        fixed_row: vec![false; rows.len()],
+        slot_of_row: vec![None; rows.len()],
+        row_of_slot: vec![None; n],
+        seen: vec![0; n],
+        round: 0,
+    };
+    for &r in &acceptance.accepted {
+        m.match_row(r);
+    }
+    let mut of_relation: BTreeMap<u32, Vec<usize>> = BTreeMap::new();
+    for &r in &acceptance.accepted {
+        of_relation.entry(rows[r].relation).or_default().push(r);
+    }
+    let mut method = BTreeMap::new();
+    let mut written_by = BTreeMap::new();
+    for (&relation, own) in &of_relation {
+        for (index, written) in system.relations[relation as usize].methods.iter().enumerate() {
+            let targets: Vec<SlotIndex> =
+                written.targets.iter().map(|&t| classes.representative[t as usize]).collect();
+            if m.force(own, &targets) {
+                method.insert(relation, index);
+                for &t in &targets[own.len()..] {
+                    written_by.insert(t, own[0]);
+                }
+                break;
+            }
+        }
+    }
+    Direction { slot_of_row: m.slot_of_row, row_of_slot: m.row_of_slot, method, written_by }
+}
+
+impl Matching<'_> {
+    /// Finds a slot for a row, moving other rows to other slots where that is needed.
+    fn match_row(&mut self, row: usize) -> bool {
+        self.round += 1;
+        // an explicit stack: (row, next column); the path is undone from its end
+        let mut stack = vec![(row, 0usize)];
+        let mut path: Vec<SlotIndex> = Vec::new();
+        while let Some(&(r, next)) = stack.last() {
+            let columns = &self.rows[r].columns;
+            let free = (next == 0)
+                .then(|| columns.iter().rev().map(|e| e.0).find(|&c| self.is_free(c)))
+                .flatten();
+            if let Some(c) = free {
+                path.push(c);
+                for (&(r, _), &c) in stack.iter().zip(&path) {
+                    self.slot_of_row[r] = Some(c);
+                    self.row_of_slot[c as usize] = Some(r);
+                }
+                return true;
+            }
+            let at = stack.len() - 1;
+            let found = (next..columns.len()).find(|&i| {
+                let c = columns[columns.len() - 1 - i].0;
+                self.open[c as usize]
+                    && self.seen[c as usize] != self.round
+                    && self.row_of_slot[c as usize].is_some_and(|o| !self.fixed_row[o])
+            });
+            match found {
+                Some(i) => {
+                    let c = columns[columns.len() - 1 - i].0;
+                    stack[at].1 = i + 1;
+                    self.seen[c as usize] = self.round;
+                    path.push(c);
+                    let owner = self.row_of_slot[c as usize].expect("the column was found taken");
+                    stack.push((owner, 0));
+                }
+                None => {
+                    stack.pop();
+                    path.pop();
+                }
+            }
+        }
+        false
+    }
+    fn is_free(&self, slot: SlotIndex) -> bool {
+        self.open[slot as usize] && self.row_of_slot[slot as usize].is_none()
+    }
+    /// Gives the rows of a relation the targets of a method, if every other row keeps a slot.
+    fn force(&mut self, own: &[usize], targets: &[SlotIndex]) -> bool {
+        let distinct = targets.iter().enumerate().all(|(i, t)| !targets[..i].contains(t));
+        let available = targets.iter().all(|&t| {
+            self.open[t as usize]
+                && self.row_of_slot[t as usize].is_none_or(|owner| !self.fixed_row[owner])
+        });
+        if !distinct || !available || targets.len() < own.len() {
+            return false;
+        }
+        let before = (self.slot_of_row.clone(), self.row_of_slot.clone());
+        let mut displaced = Vec::new();
+        for &row in own {
+            if let Some(slot) = self.slot_of_row[row].take() {
+                self.row_of_slot[slot as usize] = None;
+            }
+        }
+        for &t in targets {
+            if let Some(owner) = self.row_of_slot[t as usize].take() {
+                self.slot_of_row[owner] = None;
+                displaced.push(owner);
+            }
+            self.open[t as usize] = false;
+        }
+        if displaced.into_iter().all(|row| self.match_row(row)) {
+            for (&row, &t) in own.iter().zip(targets) {
+                self.slot_of_row[row] = Some(t);
+                self.row_of_slot[t as usize] = Some(row);
+                self.fixed_row[row] = true;
+            }
+            return true;
+        }
+        (self.slot_of_row, self.row_of_slot) = before;
+        for &t in targets {
+            self.open[t as usize] = true;
+        }
+        false
+    }
+}

@@ -1,0 +1,353 @@
+//! The plan: steps in order, readable, and what the planner found out on the way.
+//!
+//! In: a system. Out: a [`Plan`], a pure function of it: no value is consulted, so one plan serves
+//! every state of every component of that shape. Substitute, accept, direct, order, lower.
+
+use crate::accept::{self, Acceptance};
+use crate::direct::{self, Direction};
+use crate::lower::{self, Program, Region};
+use crate::order::{self, Block, Incidence};
+use crate::rows::{self, Row};
+use crate::substitute::{self, Classes};
+use crate::system::{Level, RelationBody, SlotIndex, Stay, System};
+use expr::{Arena, ExprId, Tape};
+use std::collections::{BTreeMap, BTreeSet};
+
+/// How a step computes its targets.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub enum StepKind {
+    /// A slot takes the value of another that equals it, or of a number.
+    Alias,
+    /// A written method of this relation.
+    Method {
+        /// The relation's index in the system.
+        relation: u32,
+        /// The method's index in the relation.
+        method: u32,
+    },
+    /// One equation solved for one slot by formula; of several roots the one on the present branch.
+    Inverse {
+        /// How many solutions the formula has.
+        roots: u32,
+    },
+    /// As many linear equations as unknowns.
+    Linear,
+    /// As many equations as unknowns, by damped Newton steps.
+    Newton,
+    /// Fewer equations than unknowns: they hold, and the distance from the start is least.
+    LeastChange,
+    /// Soft rows that cannot all hold: least squares, level by level, under the hard ones.
+    Compromise,
+    /// A written method of this relation that only the host can run.
+    Opaque {
+        /// The relation's index in the system.
+        relation: u32,
+        /// The method's index in the relation.
+        method: u32,
+    },
+}
+
+/// One step of a plan.
+#[derive(Debug)]
+pub struct Step {
+    /// How.
+    pub kind: StepKind,
+    /// The slots that it writes.
+    pub targets: Vec<SlotIndex>,
+    /// The slots that it reads.
+    pub reads: Vec<SlotIndex>,
+    /// The relations that it makes hold, by index in the system.
+    pub relations: Vec<u32>,
+    /// What is computed, over [`Plan::arena`]: a value for each target or root; for blocks `left -
+    /// right` of each row.
+    pub formulas: Vec<ExprId>,
+    pub(crate) program: Program,
+    /// Which region it lies in; regions share no unknown.
+    pub(crate) region: u32,
+    /// The rows that it makes hold, as indices of sides in [`Plan::sides`].
+    pub(crate) rows: Vec<u32>,
+}
+
+/// A row that depends on rows accepted before it.
+#[derive(Clone, PartialEq, Eq, Debug)]
+pub struct Rejected {
+    /// The relation's index in the system.
+    pub relation: u32,
+    /// Which of its equations.
+    pub row: u32,
+    /// The accepted rows (relation, equation) that it is a combination of: with it, a minimal
+    /// dependent set. Empty where it speaks of known slots alone.
+    pub circuit: Vec<(u32, u32)>,
+    /// True if it shares its level with a row of its circuit and compromises with it.
+    pub compromises: bool,
+}
+
+/// What the planner found out.
+#[derive(Clone, PartialEq, Eq, Debug, Default)]
+pub struct Report {
+    /// Rows that depend on others. Whether one is redundant or a conflict is seen when the plan runs:
+    /// a conflict is unmet.
+    pub rejected: Vec<Rejected>,
+    /// Motions that the required relations leave, with given numbers and anchors held.
+    pub freedom: usize,
+    /// Given numbers that have to yield.
+    pub yielded: Vec<SlotIndex>,
+    /// Slots without a stay that nothing determines.
+    pub free_slots: Vec<SlotIndex>,
+}
+
+/// What to do for one system in one edit, for any values.
+#[derive(Debug)]
+pub struct Plan {
+    /// The steps, in order.
+    pub steps: Vec<Step>,
+    /// What the planner found out.
+    pub report: Report,
+    /// The expressions that steps show.
+    pub arena: Arena,
+    pub(crate) slots: Vec<PlannedSlot>,
+    pub(crate) relations: Vec<PlannedRelation>,
+    /// Both sides of every equation, over all slots.
+    pub(crate) sides: Tape,
+    pub(crate) regions: Vec<Region>,
+    /// Classes of several given numbers: the representative and those numbers.
+    pub(crate) shared_given: Vec<(SlotIndex, Vec<SlotIndex>)>,
+    pub(crate) scale_classes: usize,
+    /// True if a step depends on the branch that the state is on.
+    pub(crate) has_branches: bool,
+}
+
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct PlannedSlot {
+    pub(crate) stay: Stay,
+    pub(crate) scale: u16,
+    pub(crate) is_number: bool,
+    pub(crate) is_discrete: bool,
+}
+
+#[derive(Clone, Debug)]
+pub(crate) struct PlannedRelation {
+    pub(crate) level: Level,
+    pub(crate) within: f64,
+    pub(crate) source: u32,
+    /// Its first row among the sides; an opaque relation has none.
+    pub(crate) first_row: u32,
+    pub(crate) rows: u32,
+    /// For an opaque relation, the slots that it speaks of.
+    pub(crate) opaque: Option<Vec<SlotIndex>>,
+}
+
+/// Everything known before blocks are lowered.
+pub(crate) struct Analysis<'a> {
+    pub(crate) system: &'a System,
+    pub(crate) classes: Classes,
+    pub(crate) rows: Vec<Row>,
+    pub(crate) acceptance: Acceptance,
+    pub(crate) direction: Direction,
+    pub(crate) method_reads: BTreeMap<u32, BTreeSet<SlotIndex>>,
+    /// For every relation, its first row among all sides.
+    pub(crate) first_row: Vec<u32>,
+}
+
+/// Plans a system. Equal systems have equal plans.
+pub fn plan(system: &System) -> Plan {
+    let mut arena = system.arena.clone();
+    let classes = substitute::substitute(system);
+    let rows = rows::rows(system, &classes, &mut arena);
+    let acceptance = accept::accept(system, &classes, &rows);
+    let direction = direct::direct(system, &classes, &rows, &acceptance);
+    let method_reads = direction
+        .method
+        .iter()
+        .map(|(&r, &m)| {
+            let body = &system.relations[r as usize].methods[m].body;
+            (r, rows::method_reads(&arena, &classes, body))
+        })
+        .collect();
+    let (relations, first_row, sides) = tests_of_relations(system);
+    let analysis =
+        Analysis { system, classes, rows, acceptance, direction, method_reads, first_row };
+    let (report, together) = report(&analysis);
+    let blocks = blocks(&analysis, &together);
+    let lowered = lower::lower(&analysis, &mut arena, &blocks);
+    let has_branches = lowered.steps.iter().any(|s| match s.kind {
+        StepKind::Inverse { roots } => roots > 1,
+        StepKind::Newton | StepKind::LeastChange | StepKind::Compromise => true,
+        StepKind::Alias
+        | StepKind::Method { .. }
+        | StepKind::Linear
+        | StepKind::Opaque { .. } => false,
+    });
+    Plan {
+        steps: lowered.steps,
+        report,
+        arena,
+        slots: planned_slots(&analysis),
+        relations,
+        sides,
+        regions: lowered.regions,
+        shared_given: shared_given(&analysis),
+        scale_classes: system.slots.iter().map(|s| s.scale as usize + 1).max().unwrap_or(0),
+        has_branches,
+    }
+}
+
+fn planned_slots(analysis: &Analysis<'_>) -> Vec<PlannedSlot> {
+    let one = |s: &crate::system::Slot| PlannedSlot {
+        stay: s.stay,
+        scale: s.scale,
+        is_number: s.is_number,
+        is_discrete: s.is_discrete,
+    };
+    analysis.system.slots.iter().map(one).collect()
+}
+
+fn tests_of_relations(system: &System) -> (Vec<PlannedRelation>, Vec<u32>, Tape) {
+    let mut relations = Vec::new();
+    let mut first = Vec::new();
+    let mut sides: Vec<ExprId> = Vec::new();
+    for relation in &system.relations {
+        let first_row = (sides.len() / 2) as u32;
+        let opaque = match &relation.body {
+            RelationBody::Equations(equations) => {
+                sides.extend(equations.iter().flat_map(|e| [e.left, e.right]));
+                None
+            }
+            RelationBody::Opaque { slots } => Some(slots.clone()),
+        };
+        relations.push(PlannedRelation {
+            level: relation.level,
+            within: f64::from_bits(relation.within),
+            source: relation.source,
+            first_row,
+            rows: (sides.len() / 2) as u32 - first_row,
+            opaque,
+        });
+        first.push(first_row);
+    }
+    (relations, first, Tape::compile(&system.arena, &sides))
+}
+
+/// States what was rejected, and which rows have to be solved together because they compromise.
+fn report(analysis: &Analysis<'_>) -> (Report, Vec<Vec<usize>>) {
+    let rows = &analysis.rows;
+    let mut together = Vec::new();
+    let mut rejected = Vec::new();
+    for dependent in &analysis.acceptance.dependent {
+        let row = &rows[dependent.row];
+        let level = row.level;
+        let compromises = level != Level::Required
+            && row.sides.is_some()
+            && dependent.circuit.iter().any(|&c| rows[c].level == level);
+        if compromises {
+            let mut set = vec![dependent.row];
+            set.extend(&dependent.circuit);
+            together.push(set);
+        }
+        rejected.push(Rejected {
+            relation: row.relation,
+            row: row.equation,
+            circuit: dependent
+                .circuit
+                .iter()
+                .map(|&c| (rows[c].relation, rows[c].equation))
+                .collect(),
+            compromises,
+        });
+    }
+    let slots = &analysis.system.slots;
+    let classes = &analysis.classes;
+    let mut yielded = analysis.acceptance.yielded.clone();
+    for members in classes.members.values() {
+        let given = |&&s: &&SlotIndex| slots[s as usize].stay == Stay::Given;
+        let root = classes.representative[members[0] as usize];
+        if classes.stay[root as usize] == Stay::Fixed || yielded.contains(&root) {
+            yielded.extend(members.iter().filter(given));
+        }
+    }
+    for &s in classes.constants.keys() {
+        if slots[s as usize].stay == Stay::Given {
+            yielded.push(s);
+        }
+    }
+    yielded.sort_unstable();
+    yielded.dedup();
+    let determined = |s: u32| {
+        analysis.direction.row_of_slot[s as usize].is_some()
+            || analysis.direction.written_by.contains_key(&s)
+    };
+    let free_slots = (0..slots.len() as u32)
+        .filter(|&s| {
+            analysis.acceptance.unknown[s as usize]
+                && classes.stay[s as usize] == Stay::Free
+                && !determined(s)
+        })
+        .collect();
+    (Report { rejected, freedom: analysis.acceptance.freedom, yielded, free_slots }, together)
+}
+
+fn blocks(analysis: &Analysis<'_>, together: &[Vec<usize>]) -> Vec<Block> {
+    let mut taking_part = analysis.acceptance.accepted.clone();
+    taking_part.extend(together.iter().map(|set| set[0]));
+    taking_part.sort_unstable();
+    taking_part.dedup();
+    order::order(&Incidence {
+        rows: &analysis.rows,
+        taking_part: &taking_part,
+        unknown: &analysis.acceptance.unknown,
+        direction: &analysis.direction,
+        method_reads: &analysis.method_reads,
+        together,
+    })
+}
+
+fn shared_given(analysis: &Analysis<'_>) -> Vec<(SlotIndex, Vec<SlotIndex>)> {
+    let classes = &analysis.classes;
+    let given = |members: &[SlotIndex]| -> Vec<SlotIndex> {
+        members
+            .iter()
+            .copied()
+            .filter(|&s| analysis.system.slots[s as usize].stay == Stay::Given)
+            .collect()
+    };
+    classes
+        .members
+        .iter()
+        .filter(|(root, _)| classes.stay[**root as usize] == Stay::Given)
+        .map(|(&root, members)| (root, given(members)))
+        .filter(|(_, members)| members.len() > 1)
+        .collect()
+}
+
+impl Plan {
+    /// Returns one line a step: kind, targets, what they come from, the relations that then hold.
+    pub fn describe(&self, name: &dyn Fn(SlotIndex) -> String) -> Vec<String> {
+        let list = |slots: &[SlotIndex]| {
+            slots.iter().map(|&s| name(s)).collect::<Vec<_>>().join(", ")
+        };
+        self.steps
+            .iter()
+            .map(|step| {
+                let kind = match step.kind {
+                    StepKind::Alias => "alias".to_owned(),
+                    StepKind::Method { method, .. } => format!("method {method}"),
+                    StepKind::Inverse { roots: 1 } => "inverse".to_owned(),
+                    StepKind::Inverse { roots } => format!("inverse of {roots} roots"),
+                    StepKind::Linear => "linear".to_owned(),
+                    StepKind::Newton => "newton".to_owned(),
+                    StepKind::LeastChange => "least change".to_owned(),
+                    StepKind::Compromise => "compromise".to_owned(),
+                    StepKind::Opaque { method, .. } => format!("host method {method}"),
+                };
+                let relations: Vec<String> =
+                    step.relations.iter().map(ToString::to_string).collect();
+                format!(
+                    "{} := {kind} from {} [{}]",
+                    list(&step.targets),
+                    list(&step.reads),
+                    relations.join(" ")
+                )
+            })
+            .collect()
+    }
+}

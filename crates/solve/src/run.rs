@@ -1,0 +1,431 @@
+//! Running a plan: one edit, or a drag.
+//!
+//! In: a plan, the state x0 when the edit began, new values of known slots. Out: the nearest state on
+//! the present branch in which everything required holds, and an [`Outcome`]. The way from the last
+//! state is taken in one stride where that is safe and in as many as needed where it is not; where
+//! the branch ends, soft wishes are met as nearly as they can be, and required ones stop the edit.
+
+use crate::attempt::{Approach, Buffers, Failure, Frame, attempt};
+use crate::lower::Program;
+use crate::outcome::{Host, Outcome, Reason, Status, Unmet};
+use crate::plan::Plan;
+use crate::square::Trust;
+use crate::system::{Level, SlotIndex, Stay};
+
+/// The shortest stride, as a part of the whole way.
+const SHORTEST: f64 = 1e-7;
+/// How many strides are tried before a way is given up.
+const STRIDES: usize = 600;
+
+/// Reusable storage for runs. One serves any number of plans, one after the other.
+#[derive(Clone, Debug, Default)]
+pub struct Runner {
+    frame: Frame,
+    buffers: Buffers,
+    last: Vec<f64>,
+    goal: Vec<f64>,
+    came: Vec<f64>,
+    trial: Vec<f64>,
+}
+
+impl Runner {
+    /// Makes an empty one.
+    pub fn new() -> Self {
+        Self::default()
+    }
+}
+
+/// Runs a plan for one edit.
+///
+/// `x0` is the state when the edit began; slots without a stay are searched from the value that they
+/// have there (zero where it is not a number) and measured from it. `values` comes as `x0` with the
+/// `changed` known slots set, and leaves as the solution; where a required relation cannot hold it
+/// is as it came. What is not downstream of a change keeps its bits. In a state that holds, the
+/// solution is the one on the present branch.
+pub fn run(
+    plan: &Plan,
+    runner: &mut Runner,
+    x0: &[f64],
+    values: &mut [f64],
+    changed: &[SlotIndex],
+    host: &mut dyn Host,
+) -> Outcome {
+    runner.came.clear();
+    runner.came.extend_from_slice(values);
+    let solved_before = start(plan, runner, x0, changed, host);
+    let Runner { frame, buffers, last, goal, came, trial } = runner;
+    last.clear();
+    last.extend_from_slice(&frame.x0);
+    goal.clear();
+    goal.extend_from_slice(&frame.x0);
+    for (i, slot) in plan.slots.iter().enumerate() {
+        if slot.stay == Stay::Fixed && slot.is_number {
+            goal[i] = came[i];
+        }
+    }
+    let trust = if solved_before && plan.has_branches { Trust::Branch } else { Trust::Any };
+    let mut way = Way { plan, frame, buffers, host, trial };
+    let result = way.go(last, goal, values, trust);
+    let mut outcome = match result {
+        Ok(()) => way.test(values, changed),
+        Err(stop) => Outcome {
+            status: Status::Stopped(stop.reason()),
+            unmet: way.test(goal, changed).unmet,
+            notes: Vec::new(),
+        },
+    };
+    outcome.notes.append(&mut buffers.notes);
+    if !outcome.is_solved() {
+        values.copy_from_slice(came);
+    }
+    outcome
+}
+
+/// A drag: from the press to the release, one wish after the other.
+///
+/// The result depends on the state at the press, the present wish and the branch, not on how many
+/// wishes came between.
+#[derive(Debug)]
+pub struct Drag {
+    runner: Runner,
+    inputs: Vec<SlotIndex>,
+    /// The last state in which every accepted row held: where the branch is followed from.
+    branch: Vec<f64>,
+    now: Vec<f64>,
+}
+
+impl Drag {
+    /// Begins a drag at the press, in state `x0`, which moves the known slots `inputs`.
+    pub fn begin(
+        plan: &Plan,
+        x0: &[f64],
+        inputs: &[SlotIndex],
+        host: &mut dyn Host,
+    ) -> Self {
+        let mut runner = Runner::new();
+        start(plan, &mut runner, x0, &[], host);
+        let state = runner.frame.x0.clone();
+        runner.trial = state.clone();
+        Self { runner, inputs: inputs.to_vec(), branch: state.clone(), now: state }
+    }
+
+    /// Returns the present state.
+    pub fn values(&self) -> &[f64] {
+        &self.now
+    }
+
+    /// Follows the wish: one target for each input, in their order.
+    ///
+    /// Where the required relations cannot follow, the drag stops at the limit and says so; a wish
+    /// that they do not allow is met as nearly as they do. Later wishes go on from there.
+    ///
+    /// # Panics
+    /// If there are not as many targets as inputs.
+    pub fn follow(&mut self, plan: &Plan, targets: &[f64], host: &mut dyn Host) -> Outcome {
+        assert_eq!(targets.len(), self.inputs.len(), "a wish names every input");
+        let Runner { frame, buffers, goal, trial, .. } = &mut self.runner;
+        goal.clear();
+        goal.extend_from_slice(&self.branch);
+        for (&slot, &target) in self.inputs.iter().zip(targets) {
+            goal[slot as usize] = target;
+        }
+        let trust = if plan.has_branches { Trust::Branch } else { Trust::Any };
+        let mut way = Way { plan, frame, buffers, host, trial };
+        let mut outcome;
+        match way.direct(&self.branch, goal, trust) {
+            Ok(()) => {
+                outcome = way.test_trial();
+                if outcome.is_solved() {
+                    std::mem::swap(way.trial, &mut self.now);
+                    self.branch.copy_from_slice(&self.now);
+                }
+            }
+            Err(failure) => {
+                let mut limit = self.branch.clone();
+                let fraction = way.walk(&mut limit, goal, trust);
+                if fraction == 1.0 {
+                    self.branch.copy_from_slice(&limit);
+                    self.now.copy_from_slice(&limit);
+                    outcome = way.test(&limit, &[]);
+                } else if way.approach(&limit, goal, &failure).is_ok() {
+                    outcome = way.test_trial();
+                    if outcome.is_solved() {
+                        std::mem::swap(way.trial, &mut self.now);
+                    }
+                } else {
+                    outcome = way.test(&limit, &[]);
+                    outcome.status = Status::Stopped(Reason::Limit { fraction });
+                    self.branch.copy_from_slice(&limit);
+                    self.now.copy_from_slice(&limit);
+                }
+            }
+        }
+        outcome.notes.append(&mut buffers.notes);
+        outcome
+    }
+}
+
+/// Fixes what does not change during the edit; returns true if x0 holds already.
+fn start(
+    plan: &Plan,
+    runner: &mut Runner,
+    x0: &[f64],
+    changed: &[SlotIndex],
+    host: &mut dyn Host,
+) -> bool {
+    let Runner { frame, buffers, .. } = runner;
+    frame.x0.clear();
+    frame.x0.extend(x0.iter().map(|&v| if v.is_finite() { v } else { 0.0 }));
+    measure_scales(plan, frame);
+    frame.changed_texts.clear();
+    frame
+        .changed_texts
+        .extend(changed.iter().copied().filter(|&c| !plan.slots[c as usize].is_number));
+    test_sides(plan, &frame.x0, buffers);
+    frame.held.clear();
+    let mut holds = plan.slots.iter().all(|s| s.stay != Stay::Free);
+    for relation in &plan.relations {
+        for r in relation.first_row..relation.first_row + relation.rows {
+            let (error, tolerance) = error_of(buffers, r, relation.within);
+            let held = error <= tolerance;
+            holds &= held || relation.level != Level::Required;
+            frame.held.push(held);
+        }
+    }
+    holds && frame.changed_texts.is_empty() && {
+        let _ = host;
+        true
+    }
+}
+
+/// The extent of every class of slots that have a value; at least their size, one where all is zero.
+fn measure_scales(plan: &Plan, frame: &mut Frame) {
+    let mut ranges = vec![(f64::INFINITY, f64::NEG_INFINITY); plan.scale_classes];
+    for (slot, &v) in plan.slots.iter().zip(&frame.x0) {
+        if slot.is_number && slot.stay != Stay::Free {
+            let range = &mut ranges[slot.scale as usize];
+            *range = (range.0.min(v), range.1.max(v));
+        }
+    }
+    let scale = |&(low, high): &(f64, f64)| {
+        let extent = (high - low).max(high.abs()).max(low.abs());
+        if extent.is_finite() && extent > 0.0 { extent } else { 1.0 }
+    };
+    frame.scales.clear();
+    frame.scales.extend(plan.slots.iter().map(|s| scale(&ranges[s.scale as usize])));
+}
+
+fn test_sides(plan: &Plan, values: &[f64], buffers: &mut Buffers) {
+    let rows: u32 = plan.relations.iter().map(|r| r.rows).sum();
+    buffers.sides.clear();
+    buffers.sides.resize(2 * rows as usize, 0.0);
+    plan.sides.run(values, &mut buffers.registers, &mut buffers.sides);
+}
+
+fn error_of(buffers: &Buffers, row: u32, within: f64) -> (f64, f64) {
+    let (left, right) = (buffers.sides[2 * row as usize], buffers.sides[2 * row as usize + 1]);
+    let error = if left == right { 0.0 } else { (left - right).abs() };
+    let error = if error.is_nan() { f64::INFINITY } else { error };
+    (error, within * left.abs().max(right.abs()).max(1.0))
+}
+
+/// Where a way stopped.
+enum Stop {
+    At(f64, Failure),
+    NoWay(Failure),
+}
+
+impl Stop {
+    fn reason(self) -> Reason {
+        match self {
+            Self::At(fraction, Failure { reason, .. }) => match reason {
+                Reason::Method { .. } => reason,
+                Reason::Limit { .. } | Reason::NoSolution { .. } | Reason::Conflict => {
+                    Reason::Limit { fraction }
+                }
+            },
+            Self::NoWay(failure) => failure.reason,
+        }
+    }
+}
+
+/// The way from one state to another.
+struct Way<'a> {
+    plan: &'a Plan,
+    frame: &'a Frame,
+    buffers: &'a mut Buffers,
+    host: &'a mut dyn Host,
+    /// Where attempts put their values.
+    trial: &'a mut Vec<f64>,
+}
+
+impl Way<'_> {
+    /// Goes from `last` to where the known slots are as in `goal`; the solution is put in `values`.
+    fn go(
+        &mut self,
+        last: &mut [f64],
+        goal: &[f64],
+        values: &mut [f64],
+        trust: Trust,
+    ) -> Result<(), Stop> {
+        let failure = match self.direct(last, goal, trust) {
+            Ok(()) => {
+                values.copy_from_slice(self.trial);
+                return Ok(());
+            }
+            Err(failure) => failure,
+        };
+        let fraction = match trust {
+            Trust::Branch => self.walk(last, goal, trust),
+            Trust::Any => 0.0,
+        };
+        if fraction == 1.0 {
+            values.copy_from_slice(last);
+            return Ok(());
+        }
+        if self.approach(last, goal, &failure).is_ok() || self.same_orientation(goal) {
+            values.copy_from_slice(self.trial);
+            return Ok(());
+        }
+        Err(match trust {
+            Trust::Branch => Stop::At(fraction, failure),
+            Trust::Any => Stop::NoWay(failure),
+        })
+    }
+
+    /// One stride.
+    fn direct(&mut self, last: &[f64], goal: &[f64], trust: Trust) -> Result<(), Failure> {
+        self.stride(last, goal, 1.0, trust, &Approach::Nowhere)
+    }
+
+    fn stride(
+        &mut self,
+        last: &[f64],
+        goal: &[f64],
+        part: f64,
+        trust: Trust,
+        approach: &Approach,
+    ) -> Result<(), Failure> {
+        self.trial.clear();
+        self.trial.extend_from_slice(last);
+        for (i, slot) in self.plan.slots.iter().enumerate() {
+            if slot.stay == Stay::Fixed && goal[i].to_bits() != last[i].to_bits() {
+                self.trial[i] =
+                    if part == 1.0 { goal[i] } else { last[i] + (goal[i] - last[i]) * part };
+            }
+        }
+        attempt(
+            self.plan,
+            self.frame,
+            last,
+            self.trial,
+            trust,
+            approach,
+            self.buffers,
+            self.host,
+        )
+    }
+
+    /// Many strides, each as long as the branch allows; returns the part that was gone.
+    fn walk(&mut self, last: &mut [f64], goal: &[f64], trust: Trust) -> f64 {
+        let mut gone = 0.0;
+        let mut length: f64 = 0.5;
+        for _ in 0..STRIDES {
+            let part = if gone + length >= 1.0 { 1.0 } else { length / (1.0 - gone) };
+            if self.stride(last, goal, part, trust, &Approach::Nowhere).is_ok() {
+                last.copy_from_slice(self.trial);
+                if part == 1.0 {
+                    return 1.0;
+                }
+                gone += length;
+                length *= 2.0;
+            } else {
+                length = length.min(1.0 - gone) * 0.5;
+                if length < SHORTEST {
+                    break;
+                }
+            }
+        }
+        gone
+    }
+
+    /// Comes as near to soft wishes as the hard rows allow, from the limit of the branch.
+    fn approach(&mut self, limit: &[f64], goal: &[f64], failure: &Failure) -> Result<(), Failure> {
+        let mut failure = failure.clone();
+        let mut regions = Vec::new();
+        loop {
+            let region = failure.region;
+            let possible =
+                self.plan.regions.get(region as usize).is_some_and(|r| r.can_approach);
+            if !possible || regions.contains(&region) {
+                return Err(failure);
+            }
+            regions.push(region);
+            let approach = Approach::In(regions.clone());
+            match self.stride(limit, goal, 1.0, Trust::Any, &approach) {
+                Ok(()) => return Ok(()),
+                Err(next) => failure = next,
+            }
+        }
+    }
+
+    /// Tries to arrive without a way: allowed where every block lies as it did.
+    fn same_orientation(&mut self, goal: &[f64]) -> bool {
+        let x0 = self.frame.x0.clone();
+        if self.stride(&x0, goal, 1.0, Trust::Any, &Approach::Nowhere).is_err() {
+            return false;
+        }
+        let Buffers { registers, square: scratch, .. } = &mut *self.buffers;
+        self.plan.steps.iter().all(|step| match &step.program {
+            Program::Square(square) if !square.is_linear => {
+                let before = square.orientation(&x0, registers, scratch);
+                let after = square.orientation(self.trial, registers, scratch);
+                before == after && before != 0
+            }
+            Program::Measure(_) => false,
+            Program::Square(_)
+            | Program::Roots(_)
+            | Program::Constant(_)
+            | Program::Copy
+            | Program::Formulas(_)
+            | Program::Host { .. } => true,
+        })
+    }
+
+    fn test_trial(&mut self) -> Outcome {
+        let trial = std::mem::take(self.trial);
+        let outcome = self.test(&trial, &[]);
+        *self.trial = trial;
+        outcome
+    }
+
+    /// Tests every relation against its own tolerance.
+    fn test(&mut self, values: &[f64], changed: &[SlotIndex]) -> Outcome {
+        test_sides(self.plan, values, self.buffers);
+        let mut unmet = Vec::new();
+        let mut conflict = false;
+        for (i, relation) in self.plan.relations.iter().enumerate() {
+            let mut worst: Option<(f64, f64)> = None;
+            if relation.opaque.is_some() {
+                if !self.host.holds(relation.source, values) {
+                    worst = Some((1.0, 0.0));
+                }
+            } else {
+                for r in relation.first_row..relation.first_row + relation.rows {
+                    let (error, tolerance) = error_of(self.buffers, r, relation.within);
+                    if error > tolerance && worst.is_none_or(|w| error > w.0) {
+                        worst = Some((error, tolerance));
+                    }
+                }
+            }
+            if let Some((error, tolerance)) = worst {
+                unmet.push(Unmet { relation: i as u32, error, tolerance });
+                conflict |= relation.level == Level::Required;
+            }
+        }
+        let _ = changed;
+        let status =
+            if conflict { Status::Stopped(Reason::Conflict) } else { Status::Solved };
+        Outcome { status, unmet, notes: Vec::new() }
+    }
+}

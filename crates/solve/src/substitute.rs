@@ -1,0 +1,147 @@
+//! Substitution: slots that required relations make equal become one unknown.
+//!
+//! In: the system. Out: [`Classes`], each slot's representative with the stay of the whole class, and
+//! which equations were used up. Only `a = b` and `a = number` between slots that the relation may
+//! write are taken; a relation with written methods is never substituted.
+
+use crate::system::{Equation, Level, Relation, RelationBody, SlotIndex, Stay, System};
+use expr::{ExprId, Node};
+use std::collections::BTreeMap;
+
+/// Slots by representative.
+#[derive(Clone, Debug, Default)]
+pub(crate) struct Classes {
+    /// For every slot, the slot that stands for it.
+    pub(crate) representative: Vec<SlotIndex>,
+    /// For every representative of several slots, all of them, in order.
+    pub(crate) members: BTreeMap<SlotIndex, Vec<SlotIndex>>,
+    /// For every representative that equals a number, that number's bits.
+    pub(crate) constants: BTreeMap<SlotIndex, u64>,
+    /// For every representative (meaningless elsewhere), the strongest stay of its class.
+    pub(crate) stay: Vec<Stay>,
+    /// The equations that substitution makes hold: relation and index.
+    pub(crate) used: BTreeMap<(u32, u32), SlotIndex>,
+}
+
+/// How firmly a stay holds: smaller is firmer.
+fn firmness(stay: Stay) -> (u8, u32) {
+    match stay {
+        Stay::Fixed => (0, 0),
+        Stay::Given => (1, 0),
+        Stay::Kept { group } => (2, group),
+        Stay::Free => (3, 0),
+    }
+}
+
+/// Finds the classes of equal slots.
+pub(crate) fn substitute(system: &System) -> Classes {
+    let n = system.slots.len();
+    let mut parent: Vec<SlotIndex> = (0..n as u32).collect();
+    let mut stay: Vec<Stay> = system.slots.iter().map(|s| s.stay).collect();
+    let mut constants = BTreeMap::new();
+    let mut used = BTreeMap::new();
+    for (r, relation) in system.relations.iter().enumerate() {
+        let RelationBody::Equations(equations) = &relation.body else { continue };
+        if relation.level != Level::Required || !relation.methods.is_empty() {
+            continue;
+        }
+        for (e, equation) in equations.iter().enumerate() {
+            let taken = match simple(system, relation, *equation) {
+                Some(Simple::Same(a, b)) => unite(system, &mut parent, &mut stay, a, b),
+                Some(Simple::Number(a, bits)) => {
+                    let root = find(&mut parent, a);
+                    let free = stay[root as usize] != Stay::Fixed;
+                    if free {
+                        stay[root as usize] = Stay::Fixed;
+                        constants.insert(root, bits);
+                    }
+                    free.then_some(root)
+                }
+                None => None,
+            };
+            if let Some(root) = taken {
+                used.insert((r as u32, e as u32), root);
+            }
+        }
+    }
+    collect(parent, stay, &constants, used)
+}
+
+fn collect(
+    mut parent: Vec<SlotIndex>,
+    stay: Vec<Stay>,
+    constants: &BTreeMap<SlotIndex, u64>,
+    used: BTreeMap<(u32, u32), SlotIndex>,
+) -> Classes {
+    let n = parent.len() as u32;
+    let representative: Vec<SlotIndex> = (0..n).map(|i| find(&mut parent, i)).collect();
+    let mut members: BTreeMap<SlotIndex, Vec<SlotIndex>> = BTreeMap::new();
+    for (i, &root) in representative.iter().enumerate() {
+        members.entry(root).or_default().push(i as u32);
+    }
+    members.retain(|_, m| m.len() > 1);
+    let constants = constants.iter().map(|(&r, &b)| (representative[r as usize], b)).collect();
+    let used = used.into_iter().map(|(k, r)| (k, representative[r as usize])).collect();
+    Classes { representative, members, constants, stay, used }
+}
+
+enum Simple {
+    Same(SlotIndex, SlotIndex),
+    Number(SlotIndex, u64),
+}
+
+fn simple(system: &System, relation: &Relation, equation: Equation) -> Option<Simple> {
+    let slot = |id: ExprId| match system.arena.node(id) {
+        Node::Var(v) => {
+            let s = system.slots.get(v.0 as usize)?;
+            (s.is_number && !relation.reads.contains(&v.0)).then_some(v.0)
+        }
+        _ => None,
+    };
+    let number = |id: ExprId| match system.arena.node(id) {
+        Node::Constant(bits) => f64::from_bits(bits).is_finite().then_some(bits),
+        _ => None,
+    };
+    match (slot(equation.left), slot(equation.right)) {
+        (Some(a), Some(b)) => Some(Simple::Same(a, b)),
+        (Some(a), None) => number(equation.right).map(|bits| Simple::Number(a, bits)),
+        (None, Some(b)) => number(equation.left).map(|bits| Simple::Number(b, bits)),
+        (None, None) => None,
+    }
+}
+
+fn find(parent: &mut [SlotIndex], slot: SlotIndex) -> SlotIndex {
+    let mut root = slot;
+    while parent[root as usize] != root {
+        root = parent[root as usize];
+    }
+    let mut walk = slot;
+    while parent[walk as usize] != root {
+        walk = std::mem::replace(&mut parent[walk as usize], root);
+    }
+    root
+}
+
+/// Makes one class of two, unless both are known or one may only be whole; returns its root.
+fn unite(
+    system: &System,
+    parent: &mut [SlotIndex],
+    stay: &mut [Stay],
+    a: SlotIndex,
+    b: SlotIndex,
+) -> Option<SlotIndex> {
+    if system.slots[a as usize].is_discrete != system.slots[b as usize].is_discrete {
+        return None;
+    }
+    let (a, b) = (find(parent, a), find(parent, b));
+    if a == b {
+        return Some(a);
+    }
+    if stay[a as usize] == Stay::Fixed && stay[b as usize] == Stay::Fixed {
+        return None;
+    }
+    let rank = |i: SlotIndex| (firmness(stay[i as usize]), i);
+    let (root, child) = if rank(a) <= rank(b) { (a, b) } else { (b, a) };
+    parent[child as usize] = root;
+    Some(root)
+}

@@ -1,0 +1,177 @@
+//! A small language for systems in tests: `number` makes slots, operators make equations.
+
+use expr::{ExprId, Var};
+use solve::{
+    Drag, Equation, Host, Level, Method, MethodBody, NoHost, Outcome, Plan, Relation,
+    RelationBody, Runner, Slot, SlotIndex, Stay, System,
+};
+
+/// A system under construction, with the state that it starts from.
+#[derive(Default)]
+pub(crate) struct Sheet {
+    pub(crate) system: System,
+    pub(crate) x0: Vec<f64>,
+    groups: u32,
+}
+
+impl Sheet {
+    pub(crate) fn slot(&mut self, stay: Stay, scale: u16, value: f64) -> SlotIndex {
+        self.system.slots.push(Slot { stay, scale, is_number: true, is_discrete: false });
+        self.x0.push(value);
+        self.x0.len() as u32 - 1
+    }
+    pub(crate) fn fixed(&mut self, value: f64) -> SlotIndex {
+        self.slot(Stay::Fixed, 0, value)
+    }
+    pub(crate) fn given(&mut self, value: f64) -> SlotIndex {
+        self.slot(Stay::Given, 0, value)
+    }
+    pub(crate) fn free(&mut self, start: f64) -> SlotIndex {
+        self.slot(Stay::Free, 0, start)
+    }
+    pub(crate) fn kept(&mut self, value: f64) -> SlotIndex {
+        self.groups += 1;
+        self.slot(Stay::Kept { group: self.groups }, 0, value)
+    }
+    /// A place: two slots that yield as one.
+    pub(crate) fn place(&mut self, x: f64, y: f64) -> [SlotIndex; 2] {
+        self.groups += 1;
+        let stay = Stay::Kept { group: self.groups };
+        [self.slot(stay, 0, x), self.slot(stay, 0, y)]
+    }
+    pub(crate) fn anchor(&mut self, x: f64, y: f64) -> [SlotIndex; 2] {
+        [self.fixed(x), self.fixed(y)]
+    }
+    pub(crate) fn text(&mut self, stay: Stay) -> SlotIndex {
+        self.system.slots.push(Slot { stay, scale: 9, is_number: false, is_discrete: false });
+        self.x0.push(0.0);
+        self.x0.len() as u32 - 1
+    }
+    pub(crate) fn v(&mut self, slot: SlotIndex) -> ExprId {
+        self.system.arena.var(Var(slot))
+    }
+    pub(crate) fn c(&mut self, value: f64) -> ExprId {
+        self.system.arena.constant(value)
+    }
+    pub(crate) fn add(&mut self, a: ExprId, b: ExprId) -> ExprId {
+        self.system.arena.add(a, b)
+    }
+    pub(crate) fn sub(&mut self, a: ExprId, b: ExprId) -> ExprId {
+        self.system.arena.sub(a, b)
+    }
+    pub(crate) fn mul(&mut self, a: ExprId, b: ExprId) -> ExprId {
+        self.system.arena.mul(a, b)
+    }
+    pub(crate) fn div(&mut self, a: ExprId, b: ExprId) -> ExprId {
+        self.system.arena.div(a, b)
+    }
+    pub(crate) fn distance(&mut self, a: [SlotIndex; 2], b: [SlotIndex; 2]) -> ExprId {
+        let mut sum = self.c(0.0);
+        for (p, q) in a.into_iter().zip(b) {
+            let (p, q) = (self.v(p), self.v(q));
+            let d = self.sub(p, q);
+            let square = self.system.arena.square(d);
+            sum = self.add(sum, square);
+        }
+        self.system.arena.sqrt(sum)
+    }
+    /// States a relation with derived methods; returns its index.
+    pub(crate) fn relate(&mut self, level: Level, sides: &[(ExprId, ExprId)]) -> u32 {
+        let equations = sides.iter().map(|&(left, right)| Equation { left, right }).collect();
+        let index = self.system.relations.len() as u32;
+        self.system.relations.push(Relation {
+            level,
+            body: RelationBody::Equations(equations),
+            methods: Vec::new(),
+            derived: true,
+            reads: Vec::new(),
+            within: 1e-9f64.to_bits(),
+            source: index,
+        });
+        index
+    }
+    pub(crate) fn require(&mut self, left: ExprId, right: ExprId) -> u32 {
+        self.relate(Level::Required, &[(left, right)])
+    }
+    /// A written method: one target, one value.
+    pub(crate) fn method(&mut self, relation: u32, target: SlotIndex, value: ExprId) {
+        let relation = &mut self.system.relations[relation as usize];
+        relation.derived = false;
+        relation.methods.push(Method {
+            targets: vec![target],
+            body: MethodBody::Expressions(vec![value]),
+        });
+    }
+    pub(crate) fn reads(&mut self, relation: u32, slot: SlotIndex) {
+        self.system.relations[relation as usize].reads.push(slot);
+    }
+    /// A wish that `slots` be where the pointer is; returns the pointer's slots.
+    pub(crate) fn wish(&mut self, slots: &[SlotIndex]) -> Vec<SlotIndex> {
+        slots
+            .iter()
+            .map(|&s| {
+                let w = self.fixed(self.x0[s as usize]);
+                let (a, b) = (self.v(s), self.v(w));
+                self.relate(Level::Move, &[(a, b)]);
+                w
+            })
+            .collect()
+    }
+    pub(crate) fn plan(&self) -> Plan {
+        solve::plan(&self.system)
+    }
+    /// Makes slots known for one edit, as `set` does, and runs it.
+    pub(crate) fn set(&self, edits: &[(SlotIndex, f64)]) -> (Vec<f64>, Outcome, Plan) {
+        let mut system = self.system.clone();
+        for &(slot, _) in edits {
+            system.slots[slot as usize].stay = Stay::Fixed;
+        }
+        let plan = solve::plan(&system);
+        let (values, outcome) = self.run(&plan, edits, &mut NoHost);
+        (values, outcome, plan)
+    }
+    pub(crate) fn run(
+        &self,
+        plan: &Plan,
+        edits: &[(SlotIndex, f64)],
+        host: &mut dyn Host,
+    ) -> (Vec<f64>, Outcome) {
+        let mut values = self.x0.clone();
+        for &(slot, value) in edits {
+            values[slot as usize] = value;
+        }
+        let changed: Vec<SlotIndex> = edits.iter().map(|e| e.0).collect();
+        let outcome =
+            solve::run(plan, &mut Runner::new(), &self.x0, &mut values, &changed, host);
+        (values, outcome)
+    }
+    /// Opens: what is not given is computed; the result becomes the state, held from now on.
+    pub(crate) fn open(&mut self) -> Outcome {
+        let plan = self.plan();
+        let (values, outcome) = self.run(&plan, &[], &mut NoHost);
+        assert!(outcome.is_solved(), "{outcome:?}\n{}", lines(&plan));
+        self.x0 = values;
+        for slot in &mut self.system.slots {
+            if slot.stay == Stay::Free {
+                self.groups += 1;
+                slot.stay = Stay::Kept { group: self.groups };
+            }
+        }
+        outcome
+    }
+    pub(crate) fn drag(&self, plan: &Plan, inputs: &[SlotIndex]) -> Drag {
+        Drag::begin(plan, &self.x0, inputs, &mut NoHost)
+    }
+}
+
+pub(crate) fn lines(plan: &Plan) -> String {
+    plan.describe(&|s| format!("s{s}")).join("\n")
+}
+
+pub(crate) fn bits(values: &[f64]) -> Vec<u64> {
+    values.iter().map(|v| v.to_bits()).collect()
+}
+
+pub(crate) fn close(a: f64, b: f64, within: f64) {
+    assert!((a - b).abs() <= within, "{a} is not {b} to {within}");
+}

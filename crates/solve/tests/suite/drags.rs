@@ -1,0 +1,110 @@
+//! Drags: out and back, slow and fast, limits.
+
+use crate::builder::{Sheet, bits, close};
+use crate::who::quadrilateral;
+use solve::{NoHost, Reason, Status};
+
+#[test]
+fn out_and_back_restores_every_bit() {
+    let (mut s, p) = quadrilateral();
+    let w = s.wish(&p[6]);
+    let plan = s.plan();
+    let mut drag = s.drag(&plan, &w);
+    let home = [s.x0[w[0] as usize], s.x0[w[1] as usize]];
+    for k in 0..50 {
+        let target = [home[0] + f64::from(k) * 1.7, home[1] - f64::from(k * k) * 0.3];
+        assert!(drag.follow(&plan, &target, &mut NoHost).is_solved());
+    }
+    assert!(drag.follow(&plan, &home, &mut NoHost).is_solved());
+    assert_eq!(bits(drag.values()), bits(&s.x0));
+}
+
+/// An anchored elbow of two bars of 10, its tip at (12, 0), its knee above.
+fn elbow() -> (Sheet, [[u32; 2]; 2], Vec<u32>) {
+    let mut s = Sheet::default();
+    let shoulder = s.anchor(0.0, 0.0);
+    let knee = s.place(6.0, 8.0);
+    let tip = s.place(12.0, 0.0);
+    for (a, b) in [(shoulder, knee), (knee, tip)] {
+        let (d, ten) = (s.distance(a, b), s.c(10.0));
+        s.require(d, ten);
+    }
+    let w = s.wish(&tip);
+    (s, [knee, tip], w)
+}
+
+#[test]
+fn an_elbow_does_not_flip_and_fast_is_slow() {
+    let (s, [knee, tip], w) = elbow();
+    let plan = s.plan();
+    let goal = [-4.0, 9.0];
+    let mut fast = s.drag(&plan, &w);
+    assert!(fast.follow(&plan, &goal, &mut NoHost).is_solved());
+    let mut slow = s.drag(&plan, &w);
+    for k in 1..=1000 {
+        let part = f64::from(k) / 1000.0;
+        let target = [12.0 + part * (goal[0] - 12.0), part * goal[1]];
+        let outcome = slow.follow(&plan, &target, &mut NoHost);
+        assert!(outcome.is_solved() && outcome.unmet.is_empty(), "{k}: {outcome:?}");
+    }
+    for slot in [knee, tip].concat() {
+        close(fast.values()[slot as usize], slow.values()[slot as usize], 1e-8);
+    }
+    let v = fast.values();
+    let [kx, ky, tx, ty] = [knee[0], knee[1], tip[0], tip[1]].map(|i| v[i as usize]);
+    assert!(kx * ty - ky * tx < 0.0, "the knee stays on its side");
+}
+
+#[test]
+fn an_elbow_stops_at_its_reach_pointing_at_the_mouse() {
+    let (s, [knee, tip], w) = elbow();
+    let plan = s.plan();
+    let mut drag = s.drag(&plan, &w);
+    let outcome = drag.follow(&plan, &[24.0, 32.0], &mut NoHost);
+    assert!(outcome.is_solved(), "{outcome:?}");
+    assert_eq!(outcome.unmet.len(), 2, "both wishes are unmet");
+    close(drag.values()[tip[0] as usize], 12.0, 1e-7);
+    close(drag.values()[tip[1] as usize], 16.0, 1e-7);
+    close(drag.values()[knee[0] as usize], 6.0, 1e-6);
+    // round the outside, then back in: the knee is on the side where it was
+    for target in [[30.0, 20.0], [40.0, 0.0], [30.0, -10.0]] {
+        assert!(drag.follow(&plan, &target, &mut NoHost).is_solved());
+    }
+    assert!(drag.follow(&plan, &[12.0, 0.0], &mut NoHost).is_solved());
+    close(drag.values()[knee[0] as usize], 6.0, 1e-9);
+    close(drag.values()[knee[1] as usize], 8.0, 1e-9);
+}
+
+#[test]
+fn a_required_wish_stops_at_the_limit() {
+    // x^2 + y^2 = 25, x is driven: y ends at x = 5
+    let mut s = Sheet::default();
+    let x = s.fixed(3.0);
+    let y = s.kept(4.0);
+    let (vx, vy) = (s.v(x), s.v(y));
+    let (a, b) = (s.mul(vx, vx), s.mul(vy, vy));
+    let (sum, all) = (s.add(a, b), s.c(25.0));
+    s.require(sum, all);
+    let plan = s.plan();
+    let mut drag = s.drag(&plan, &[x]);
+    let outcome = drag.follow(&plan, &[7.0], &mut NoHost);
+    match outcome.status {
+        Status::Stopped(Reason::Limit { fraction }) => close(fraction, 0.5, 1e-5),
+        other => panic!("{other:?}"),
+    }
+    close(drag.values()[x as usize], 5.0, 1e-5);
+    assert!(drag.follow(&plan, &[4.0], &mut NoHost).is_solved());
+    close(drag.values()[y as usize], 3.0, 1e-12);
+}
+
+#[test]
+fn a_held_point_does_not_move() {
+    let mut s = Sheet::default();
+    let p = s.anchor(1.0, 2.0);
+    let w = s.wish(&p);
+    let plan = s.plan();
+    let mut drag = s.drag(&plan, &w);
+    let outcome = drag.follow(&plan, &[5.0, 5.0], &mut NoHost);
+    assert!(outcome.is_solved() && outcome.unmet.len() == 2);
+    assert_eq!(drag.values()[..2], [1.0, 2.0]);
+}

@@ -1,0 +1,102 @@
+//! How much: soft rows, compromises, least change.
+
+use crate::builder::{Sheet, close};
+use solve::{Level, NoHost, StepKind};
+
+#[test]
+fn a_weak_home_springs_back() {
+    let mut s = Sheet::default();
+    let x = s.kept(140.0);
+    let vx = s.v(x);
+    let home = s.c(100.0);
+    s.relate(Level::Weak, &[(vx, home)]);
+    let plan = s.plan();
+    let (values, outcome) = s.run(&plan, &[], &mut NoHost);
+    assert!(outcome.unmet.is_empty());
+    assert_eq!(values, [100.0]);
+    let w = s.wish(&[x]);
+    let plan = s.plan();
+    let (values, outcome) = s.run(&plan, &[(w[0], 120.0)], &mut NoHost);
+    assert!(outcome.is_solved());
+    assert_eq!(values[x as usize], 120.0);
+    assert_eq!(outcome.unmet.len(), 1);
+}
+
+#[test]
+fn two_weak_rules_meet_in_the_middle() {
+    let mut s = Sheet::default();
+    let x = s.kept(0.0);
+    let vx = s.v(x);
+    let (ten, thirty) = (s.c(10.0), s.c(30.0));
+    s.relate(Level::Weak, &[(vx, ten)]);
+    s.relate(Level::Weak, &[(vx, thirty)]);
+    let plan = s.plan();
+    assert_eq!(plan.steps[0].kind, StepKind::Compromise);
+    assert!(plan.report.rejected[0].compromises);
+    let (values, outcome) = s.run(&plan, &[], &mut NoHost);
+    close(values[0], 20.0, 1e-9);
+    assert!(outcome.is_solved() && outcome.unmet.len() == 2);
+    s.x0 = values.clone();
+    assert_eq!(s.run(&plan, &[], &mut NoHost).0[0].to_bits(), values[0].to_bits());
+}
+
+#[test]
+fn the_stronger_rule_wins() {
+    let mut s = Sheet::default();
+    let x = s.kept(0.0);
+    let vx = s.v(x);
+    let (ten, thirty) = (s.c(10.0), s.c(30.0));
+    let weak = s.relate(Level::Weak, &[(vx, ten)]);
+    s.relate(Level::Strong, &[(vx, thirty)]);
+    let plan = s.plan();
+    let (values, outcome) = s.run(&plan, &[], &mut NoHost);
+    assert_eq!(values, [30.0]);
+    assert_eq!(outcome.unmet[0].relation, weak);
+}
+
+#[test]
+fn a_medium_pair_holds_and_a_weak_rule_gives_way() {
+    let mut s = Sheet::default();
+    let (x, y) = (s.kept(0.0), s.kept(0.0));
+    let (vx, vy) = (s.v(x), s.v(y));
+    let (two, three, seven) = (s.c(2.0), s.c(3.0), s.c(7.0));
+    let (a, b, c) = (s.mul(two, vx), s.mul(three, vy), s.mul(seven, vy));
+    let (first, second, third) = (s.add(a, b), s.add(vx, vy), s.add(vx, c));
+    let (eight, zero) = (s.c(8.0), s.c(0.0));
+    s.relate(Level::Medium, &[(first, eight)]);
+    s.relate(Level::Medium, &[(second, three)]);
+    s.relate(Level::Weak, &[(third, zero)]);
+    let plan = s.plan();
+    let (values, _) = s.run(&plan, &[], &mut NoHost);
+    close(values[0], 1.0, 1e-12);
+    close(values[1], 2.0, 1e-12);
+}
+
+#[test]
+fn a_wish_on_a_circle_is_met_as_nearly_as_it_can() {
+    let mut s = Sheet::default();
+    let centre = s.anchor(0.0, 0.0);
+    let p = s.place(5.0, 0.0);
+    let (d, five) = (s.distance(centre, p), s.c(5.0));
+    s.require(d, five);
+    let w = s.wish(&p);
+    let plan = s.plan();
+    let (values, outcome) = s.run(&plan, &[(w[0], 6.0), (w[1], 8.0)], &mut NoHost);
+    assert!(outcome.is_solved(), "{outcome:?}");
+    close(values[p[0] as usize], 3.0, 1e-9);
+    close(values[p[1] as usize], 4.0, 1e-9);
+}
+
+#[test]
+fn nothing_determined_is_nearest_to_where_it_was() {
+    let mut s = Sheet::default();
+    let (x, y) = (s.free(0.0), s.free(0.0));
+    let (vx, vy) = (s.v(x), s.v(y));
+    let (sum, ten) = (s.add(vx, vy), s.c(10.0));
+    s.require(sum, ten);
+    let plan = s.plan();
+    assert_eq!((plan.report.freedom, plan.report.free_slots.len()), (1, 1));
+    let (values, _) = s.run(&plan, &[], &mut NoHost);
+    close(values[0], 5.0, 1e-12);
+    close(values[1], 5.0, 1e-12);
+}
