@@ -6,6 +6,7 @@
 mod expressions;
 mod members;
 mod programs;
+mod rules;
 mod statements;
 
 pub use expressions::{
@@ -15,13 +16,15 @@ pub use expressions::{
     UnaryOp,
 };
 pub use members::{
-    Anchor, Assign, Attachers, Class, Constraint, Derived, Domain, DottedName, IfRule, Insert,
-    Merge, Message, Method, MethodItem, MethodList, Modify, Param, ParamList, Part, Reads, Ref,
-    Replace, Rule, RuleBlock, Side, Stay, Strength, Superclass, Toolbox, Type, TypeShape, UnitLine,
-    Use, View, When, Within, Without, YLine,
+    Assign, Attachers, Class, Domain, DottedName, Message, Modify, Param, ParamList, Part, Ref,
+    Superclass, Toolbox, Type, TypeShape, UnitLine, Use, View, YLine,
 };
 pub use programs::{
     Check, Else, Family, For, If, Lesson, Next, Program, Repeat, Rows, Table, Value, While, With,
+};
+pub use rules::{
+    Anchor, Constraint, Derived, IfRule, Insert, Merge, Method, MethodItem, MethodList, Reads,
+    Replace, Rule, RuleBlock, Side, Stay, Strength, When, Within, Without,
 };
 pub use statements::{
     Delete, Edit, Expect, Expectation, Hint, Move, Promote, Redo, Rename, Say, Set, Simulate,

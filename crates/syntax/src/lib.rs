@@ -18,15 +18,23 @@
 //! neither begins nor ends with trivia, but for the doc comments that a member begins with; trees
 //! are at most some hundred nodes high; a wrong line is an Error node between members that stand.
 
-pub mod ast;
-pub mod edit;
-pub mod format;
-mod grammar;
 pub mod kind;
-mod lexer;
-pub mod parser;
-pub mod tree;
+
 pub mod units;
+
+mod lexer;
+
+pub mod parser;
+
+mod grammar;
+
+pub mod tree;
+
+pub mod ast;
+
+pub mod format;
+
+pub mod edit;
 
 pub use edit::TextEdit;
 pub use format::format;

@@ -161,6 +161,10 @@ fn what_is_missing_is_said() {
 #[test]
 fn what_stands_in_the_wrong_place_is_said() {
     check(
+        "let: Real\ny: Real",
+        &["reserved-word at `let`: found the reserved word `let`, wanted a name"],
+    );
+    check(
         "a := 3",
         &["assignment-outside-method at `a := 3`: found `:=` among members, wanted `=`"],
     );

@@ -1,6 +1,6 @@
 //! Statements of checks and lessons: the written forms of Commands.
 
-use super::members::Within;
+use super::rules::Within;
 use super::{Body, Expr, Member, Word, ast_nodes, child, children, word};
 use crate::kind::SyntaxKind;
 

@@ -361,6 +361,12 @@ fn toolbox(p: &mut Parser<'_>) {
 
 /// Reports what begins no member, and skips its line.
 pub(super) fn unknown(p: &mut Parser<'_>) {
+    if p.current().is_reserved() && p.names_itself(1) {
+        let message = format!("found the reserved word `{}`, wanted a name", p.word(0));
+        p.report("reserved-word", message, Some("give it another name".into()));
+        p.skip_line();
+        return;
+    }
     let hint = if p.at(Ident) {
         let words = KEYWORDS.iter().copied().filter(|word| word.len() > 2);
         Some(match base::diagnostic::nearest(p.word(0), words) {
