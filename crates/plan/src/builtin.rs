@@ -64,7 +64,12 @@ impl<'a> Opening<'a, '_> {
         }
     }
 
-    fn send_number(&mut self, to: &Meaning<'a>, name: &Name, arguments: &[Meaning<'a>]) -> Answer<'a> {
+    fn send_number(
+        &mut self,
+        to: &Meaning<'a>,
+        name: &Name,
+        arguments: &[Meaning<'a>],
+    ) -> Answer<'a> {
         if let (Some(operator), []) = (unary_named(name), arguments) {
             return self.apply_unary(operator, to);
         }
@@ -79,7 +84,12 @@ impl<'a> Opening<'a, '_> {
         }
     }
 
-    fn send_list(&mut self, to: &Meaning<'a>, name: &Name, arguments: &[Meaning<'a>]) -> Answer<'a> {
+    fn send_list(
+        &mut self,
+        to: &Meaning<'a>,
+        name: &Name,
+        arguments: &[Meaning<'a>],
+    ) -> Answer<'a> {
         let items = self.items(to)?;
         match (name.as_str(), arguments) {
             ("count", []) => Ok(self.number(items.len() as f64)),
@@ -111,11 +121,19 @@ impl<'a> Opening<'a, '_> {
             }
             ("all", [f]) => {
                 let truths = self.map(&items, f)?;
-                if truths.is_empty() { Ok(self.number(1.0)) } else { self.fold(Binary::And, &truths) }
+                if truths.is_empty() {
+                    Ok(self.number(1.0))
+                } else {
+                    self.fold(Binary::And, &truths)
+                }
             }
             ("any", [f]) => {
                 let truths = self.map(&items, f)?;
-                if truths.is_empty() { Ok(self.number(0.0)) } else { self.fold(Binary::Or, &truths) }
+                if truths.is_empty() {
+                    Ok(self.number(0.0))
+                } else {
+                    self.fold(Binary::Or, &truths)
+                }
             }
             _ => {
                 let message = format!("a list has no message `{name}`");

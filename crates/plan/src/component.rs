@@ -131,13 +131,14 @@ impl Walk<'_> {
         let mut component = Component::default();
         let mut fixed = Vec::new();
         let mut waiting: Vec<SlotId> = Vec::new();
-        let reach = |seen: &mut Seen, s: SlotId, waiting: &mut Vec<SlotId>, fixed: &mut Vec<SlotId>| {
-            if is_fixed(s) {
-                fixed.push(s);
-            } else if seen.add(s.0) {
-                waiting.push(s);
-            }
-        };
+        let reach =
+            |seen: &mut Seen, s: SlotId, waiting: &mut Vec<SlotId>, fixed: &mut Vec<SlotId>| {
+                if is_fixed(s) {
+                    fixed.push(s);
+                } else if seen.add(s.0) {
+                    waiting.push(s);
+                }
+            };
         for &s in slots {
             reach(&mut self.slot_seen, s, &mut waiting, &mut fixed);
         }

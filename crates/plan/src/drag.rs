@@ -1,7 +1,9 @@
 //! Drags: planned once at the press, then followed wish by wish.
 
 use crate::component::Component;
-use crate::edit::{Aim, Conflict, EditKind, EditReport, RefusalReason, Target, with_present_values};
+use crate::edit::{
+    Aim, Conflict, EditKind, EditReport, RefusalReason, Target, with_present_values,
+};
 use crate::host::{Failure, Host};
 use crate::planner::{Latest, Model, Planner};
 use crate::run::{Adapter, ran};
@@ -140,7 +142,8 @@ impl Drag {
         values: &mut Values,
         host: &mut dyn Host,
     ) -> EditReport {
-        let mut report = EditReport { reached: planner.reached(&self.aim, values), ..Default::default() };
+        let mut report =
+            EditReport { reached: planner.reached(&self.aim, values), ..Default::default() };
         let components: Vec<Component> =
             self.pulls.iter().map(|p| p.task.component.clone()).collect();
         if let Some(failure) = planner.settle(model, &components, values, host) {

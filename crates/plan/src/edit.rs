@@ -262,7 +262,8 @@ impl Planner {
     ) -> Result<Aim, RefusalReason> {
         let mut aim = Aim::default();
         for (target, wanted) in targets {
-            let leaves = self.leaves(model, *target).map_err(|t| RefusalReason::Target(t.message))?;
+            let leaves =
+                self.leaves(model, *target).map_err(|t| RefusalReason::Target(t.message))?;
             if leaves.len() != wanted.len() {
                 let message = format!("{} values for {} numbers", wanted.len(), leaves.len());
                 return Err(RefusalReason::Target(message));

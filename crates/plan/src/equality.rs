@@ -40,11 +40,9 @@ impl<'a> Opening<'a, '_> {
                 leaves.push((a.clone(), b.clone()));
                 Ok(())
             }
-            (Meaning::Number(_), _) | (_, Meaning::Number(_)) => Err(Trouble::wrong(format!(
-                "{} and {} are never equal",
-                kind(a),
-                kind(b)
-            ))),
+            (Meaning::Number(_), _) | (_, Meaning::Number(_)) => {
+                Err(Trouble::wrong(format!("{} and {} are never equal", kind(a), kind(b))))
+            }
             (Meaning::Thing(s), Meaning::Thing(t))
                 if self.structure.merged[*s] == self.structure.merged[*t] =>
             {

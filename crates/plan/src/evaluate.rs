@@ -335,8 +335,7 @@ impl<'a, 'w> Opening<'a, 'w> {
         let mut fields = Vec::with_capacity(layout.len());
         for (i, &field) in layout.iter().enumerate() {
             let name = document.field_name(field).clone();
-            let labelled =
-                arguments.iter().find(|a| a.0.as_ref().is_some_and(|l| *l == name));
+            let labelled = arguments.iter().find(|a| a.0.as_ref().is_some_and(|l| *l == name));
             let positional = || arguments.get(i).filter(|a| a.0.is_none());
             let meaning = match labelled.or_else(positional) {
                 Some(argument) => argument.1.clone(),
@@ -357,9 +356,10 @@ impl<'a, 'w> Opening<'a, 'w> {
     ) -> Answer<'a> {
         let document = self.document;
         let path = kernel::Path::of(&[name]);
-        let given = document.primary_line(class).into_iter().find_map(|c| {
-            document.classes[c].givens.iter().rev().find(|g| g.path == path)
-        });
+        let given = document
+            .primary_line(class)
+            .into_iter()
+            .find_map(|c| document.classes[c].givens.iter().rev().find(|g| g.path == path));
         if let Some(given) = given {
             let me = Meaning::Made(Rc::new(Made { class, fields: so_far.to_vec() }));
             return self.deeper(|opening| opening.meaning(&given.value, &Frame::new(me)));
@@ -473,7 +473,9 @@ impl<'a, 'w> Opening<'a, 'w> {
             | BinaryOperator::Or => match (a, b) {
                 (Meaning::Opaque(_) | Meaning::Number(_), Meaning::Opaque(_))
                 | (Meaning::Opaque(_), Meaning::Number(_)) => Ok(self.opaque([a, b])),
-                _ => Err(Trouble::wrong(format!("{} and {}: numbers are wanted", kind(a), kind(b)))),
+                _ => {
+                    Err(Trouble::wrong(format!("{} and {}: numbers are wanted", kind(a), kind(b))))
+                }
             },
         }
     }
@@ -540,10 +542,7 @@ impl<'a, 'w> Opening<'a, 'w> {
     }
 
     /// Makes the meaning of something that only the host can compute from these.
-    pub(crate) fn opaque<'m>(
-        &self,
-        from: impl IntoIterator<Item = &'m Meaning<'a>>,
-    ) -> Meaning<'a>
+    pub(crate) fn opaque<'m>(&self, from: impl IntoIterator<Item = &'m Meaning<'a>>) -> Meaning<'a>
     where
         'a: 'm,
     {
@@ -579,9 +578,8 @@ pub(crate) fn bind_arguments<'a>(
     for (i, parameter) in message.parameters.iter().enumerate() {
         let labelled =
             arguments.iter().find(|a| a.0.as_ref().is_some_and(|l| *l == parameter.label));
-        let argument = labelled
-            .or_else(|| arguments.get(i).filter(|a| a.0.is_none()))
-            .ok_or_else(|| {
+        let argument =
+            labelled.or_else(|| arguments.get(i).filter(|a| a.0.is_none())).ok_or_else(|| {
                 Trouble::wrong(format!("`{}` wants `{}`", message.name, parameter.label))
             })?;
         bound = bound.bind(parameter.name.clone(), argument.1.clone());

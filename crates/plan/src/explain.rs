@@ -239,7 +239,11 @@ impl ExplainedKind {
         match self {
             Self::Alias | Self::Method { .. } | Self::Isolated { .. } => PlanKind::OnePass,
             Self::Linear { unknowns } | Self::Newton { unknowns } => {
-                if unknowns > 1 { PlanKind::Block } else { PlanKind::OnePass }
+                if unknowns > 1 {
+                    PlanKind::Block
+                } else {
+                    PlanKind::OnePass
+                }
             }
             Self::LeastChange { .. } | Self::Compromise { .. } => PlanKind::Relaxation,
         }

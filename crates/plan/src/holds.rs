@@ -32,9 +32,7 @@ pub(crate) fn fails(
                 ([copy, ..], _) if matches!(copy.how, How::Copy) => {
                     values.get(copy.targets[0]).same_bits(&values.get(copy.reads[0]))
                 }
-                (_, Source::Constraint(c)) => {
-                    host.holds(structure.constraints[c as usize], values)
-                }
+                (_, Source::Constraint(c)) => host.holds(structure.constraints[c as usize], values),
                 (_, Source::Stay(_) | Source::Wish(_)) => true,
             };
             (!holds).then_some(None)

@@ -6,12 +6,10 @@
 
 use crate::evaluate::{Opening, bind_arguments};
 use crate::fault::{Fault, FaultKind, Trouble};
-use crate::meaning::{
-    Frame, Meaning, Opaque, collect_slots, slots_of_expression,
-};
+use crate::meaning::{Frame, Meaning, Opaque, collect_slots, slots_of_expression};
 use expr::{ExprId, Node};
 use kernel::{
-    BinaryOperator, Constraint, ConstraintInstance, Method, Path, SlotId, Step, StayInstance,
+    BinaryOperator, Constraint, ConstraintInstance, Method, Path, SlotId, StayInstance, Step,
     Strength, Structure, Term, ThingId, UnaryOperator,
 };
 use solve::{Equation, Level};
@@ -276,16 +274,19 @@ fn say<'a>(
         }
         Term::Send { to, name, arguments, above } => {
             let to = opening.meaning(to, frame)?;
-            if let (Some(message), true) = (opening.message(&to, name, *above), is_message(opening, &to, name)) {
+            if let (Some(message), true) =
+                (opening.message(&to, name, *above), is_message(opening, &to, name))
+            {
                 let mut given = Vec::new();
                 for a in arguments {
                     given.push((a.label.clone(), opening.meaning(&a.value, frame)?));
                 }
                 let frame = bind_arguments(Frame::new(to), message, &given)?;
-                return opening
-                    .deeper(|o| say(o, &message.answer, &frame, Standing::Part, said));
+                return opening.deeper(|o| say(o, &message.answer, &frame, Standing::Part, said));
             }
-            if let ("all", [function], Ok(items)) = (name.as_str(), arguments.as_slice(), opening.items(&to)) {
+            if let ("all", [function], Ok(items)) =
+                (name.as_str(), arguments.as_slice(), opening.items(&to))
+            {
                 return say_all(opening, &items, &function.value, frame, said);
             }
             let truth = opening.meaning(term, frame)?;
@@ -448,7 +449,9 @@ fn meaning_of_path<'a>(
             Step::Owner => match at {
                 Meaning::Thing(t) => {
                     let owner = opening.structure.things[t].owner;
-                    Meaning::Thing(owner.ok_or_else(|| Trouble::wrong("the document has no owner"))?)
+                    Meaning::Thing(
+                        owner.ok_or_else(|| Trouble::wrong("the document has no owner"))?,
+                    )
                 }
                 Meaning::Number(_)
                 | Meaning::Made(_)
@@ -484,7 +487,9 @@ fn lower_method<'a>(
     let mut reads = BTreeSet::new();
     for (path, value) in method.targets.iter().zip(&values) {
         let target = opening.structure.follow(owner, path).map_err(|_| {
-            Trouble::not_yet(format!("a method that writes {path}, which is not stored, is not planned yet"))
+            Trouble::not_yet(format!(
+                "a method that writes {path}, which is not stored, is not planned yet"
+            ))
         })?;
         for (slot, value) in opening.share(target, value)? {
             collect_slots(opening.arena, &value, &mut reads);

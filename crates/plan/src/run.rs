@@ -78,9 +78,9 @@ pub(crate) fn ran(planner: &Planner, task: &Task, outcome: &Outcome) -> Ran {
             relation.map(|r| Failure { source: source(r), message: message.clone() })
         }
         Status::Solved
-        | Status::Stopped(
-            Reason::Limit { .. } | Reason::NoSolution { .. } | Reason::Conflict,
-        ) => None,
+        | Status::Stopped(Reason::Limit { .. } | Reason::NoSolution { .. } | Reason::Conflict) => {
+            None
+        }
     };
     Ran { conflicts, failure }
 }

@@ -167,8 +167,18 @@ impl Lab {
     pub(crate) fn text(&self, path: &str) -> String {
         self.values.texts[self.slot(path)].as_deref().unwrap_or("").to_owned()
     }
-    pub(crate) fn model(&self) -> Model<'_> {
-        Model { document: &self.document, structure: &self.structure }
+    pub(crate) fn status(&mut self) -> plan::Status {
+        let model = Model { document: &self.document, structure: &self.structure };
+        let mut host = Terms { document: &self.document, structure: &self.structure };
+        self.planner.status(model, &self.values, &mut host)
+    }
+    pub(crate) fn why(&mut self, slot: SlotId) -> plan::Why {
+        let model = Model { document: &self.document, structure: &self.structure };
+        self.planner.why(model, slot)
+    }
+    pub(crate) fn why_not(&mut self, slot: SlotId) -> Vec<plan::Conflict> {
+        let model = Model { document: &self.document, structure: &self.structure };
+        self.planner.why_not(model, slot)
     }
     pub(crate) fn edit(&mut self, kind: EditKind, edits: &[(&str, &[f64])]) -> EditReport {
         let targets: Vec<(Target<'_>, Vec<Value>)> = edits
@@ -253,9 +263,9 @@ pub(crate) fn method(target: &str, value: Term) -> Method {
 }
 
 /// Computes constants, parts, `.text` and `.number`.
-struct Terms<'a> {
-    document: &'a Document,
-    structure: &'a Structure,
+pub(crate) struct Terms<'a> {
+    pub(crate) document: &'a Document,
+    pub(crate) structure: &'a Structure,
 }
 
 impl Terms<'_> {

@@ -33,8 +33,7 @@ fn bits(lab: &Lab) -> Vec<u64> {
 fn a_contradiction_leaves_every_bit_and_names_the_constraint() {
     let mut lab = one_thermometer();
     let before = bits(&lab);
-    let report =
-        lab.edit(EditKind::Set, &[("t.celsius", &[10.0]), ("t.fahrenheit", &[10.0])]);
+    let report = lab.edit(EditKind::Set, &[("t.celsius", &[10.0]), ("t.fahrenheit", &[10.0])]);
     assert_eq!(report.refusal, Some(RefusalReason::Unmet));
     assert_eq!(report.unmet.len(), 1);
     assert_eq!(report.unmet[0].source, Source::Constraint(0));

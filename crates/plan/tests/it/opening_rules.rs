@@ -1,0 +1,130 @@
+//! What rules open into: messages, virtual parts, whole things, lists; and plain faults.
+
+use crate::builder::{
+    Builder, POINT, REAL, add, binary, call, div, equal, mul, n, p, pair, send, sub,
+};
+use base::Name;
+use kernel::{Argument, BinaryOperator, ClassId, Term, Value};
+use plan::{EditKind, FaultKind, Target};
+
+fn line(b: &mut Builder) -> ClassId {
+    let line = b.class("Line", &[("p1", POINT), ("p2", POINT)]);
+    let d = |c: &str| sub(p(&format!("p2.{c}")), p(&format!("p1.{c}")));
+    let length = call("sqrt", vec![add(mul(d("x"), d("x")), mul(d("y"), d("y")))]);
+    b.message(line, "length", &[], length);
+    let middle = |c: &str| div(add(p(&format!("p1.{c}")), p(&format!("p2.{c}"))), n(2.0));
+    let arguments = vec![middle("x"), middle("y")];
+    let arguments = arguments.into_iter().map(|value| Argument { label: None, value }).collect();
+    b.message(line, "middle", &[], Term::Make { class: POINT, arguments });
+    let other = |path: &str| {
+        let names = path.split('.');
+        names.fold(Term::Local(Name::new("to")), |t, name| Term::send(t, name))
+    };
+    let od = |c: &str| sub(other(&format!("p2.{c}")), other(&format!("p1.{c}")));
+    let dot = add(mul(d("x"), od("x")), mul(d("y"), od("y")));
+    b.message(line, "perpendicular", &["to"], equal(dot, n(0.0)));
+    line
+}
+
+#[test]
+fn messages_without_end_are_a_fault_at_their_constraint() {
+    let mut b = Builder::new();
+    let class = b.class("Loop", &[("x", REAL)]);
+    b.message(class, "again", &[], add(p("again"), n(1.0)));
+    let origin = b.constraint(class, equal(p("x"), p("again"))).origin;
+    let root = b.class("document", &[("a", class)]);
+    let lab = b.open(root);
+    assert_eq!(lab.faults.len(), 1);
+    assert_eq!(lab.faults[0].kind, FaultKind::Endless);
+    assert_eq!(lab.faults[0].origin, origin);
+}
+
+#[test]
+fn what_is_not_planned_yet_says_so() {
+    for operator in [BinaryOperator::Less, BinaryOperator::NotEqual, BinaryOperator::Or] {
+        let mut b = Builder::new();
+        let root = b.class("document", &[("x", REAL), ("y", REAL)]);
+        b.constraint(root, binary(operator, p("x"), p("y")));
+        let lab = b.open(root);
+        assert_eq!(lab.faults.len(), 1);
+        assert_eq!(lab.faults[0].kind.code(), "not-yet");
+    }
+}
+
+#[test]
+fn an_unknown_part_is_a_fault() {
+    let mut b = Builder::new();
+    let root = b.class("document", &[("q", POINT)]);
+    b.constraint(root, equal(p("q.z"), n(1.0)));
+    let lab = b.open(root);
+    assert_eq!(lab.faults[0].kind, FaultKind::UnknownName);
+    assert_eq!(lab.faults[0].message, "Point has no part or message `z`");
+}
+
+#[test]
+fn a_constant_contradiction_is_unmet_and_a_constant_truth_is_not() {
+    let mut b = Builder::new();
+    let root = b.class("document", &[("x", REAL)]);
+    b.constraint(root, equal(n(1.0), n(2.0)));
+    b.constraint(root, equal(n(2.0), n(2.0)));
+    let lab = b.open(root);
+    assert_eq!(lab.opened.unmet.len(), 1);
+    assert_eq!(lab.opened.unmet[0].error, Some(1.0));
+}
+
+#[test]
+fn a_bool_message_is_opened_into_its_definition() {
+    let mut b = Builder::new();
+    let line = line(&mut b);
+    let root = b.class("document", &[("l", line), ("m", line)]);
+    b.given(root, "l.p1", pair(0.0, 0.0));
+    b.given(root, "l.p2", pair(10.0, 0.0));
+    b.given(root, "m.p1", pair(0.0, 0.0));
+    b.given(root, "m.p2", pair(0.0, 5.0));
+    b.constraint(root, send(p("l"), "perpendicular", vec![p("m")]));
+    let mut lab = b.open(root);
+    assert_eq!(lab.faults, vec![]);
+    lab.move_to("l.p2", &[10.0, 10.0]);
+    let (x, y) = (lab.number("m.p2.x"), lab.number("m.p2.y"));
+    let (u, v) = (lab.number("m.p1.x"), lab.number("m.p1.y"));
+    let (a, b) = (lab.number("l.p1.x"), lab.number("l.p1.y"));
+    assert_eq!((lab.number("l.p2.x"), lab.number("l.p2.y")), (10.0, 10.0));
+    let dot = (10.0 - a) * (x - u) + (10.0 - b) * (y - v);
+    assert!(dot.abs() < 1e-6, "{dot}");
+}
+
+#[test]
+fn whole_things_are_equal_part_by_part() {
+    let mut b = Builder::new();
+    let line = line(&mut b);
+    let root = b.class("document", &[("l", line), ("q", POINT)]);
+    b.given(root, "l.p1", pair(0.0, 2.0));
+    b.given(root, "l.p2", pair(10.0, 4.0));
+    b.constraint(root, equal(p("q"), p("l.middle")));
+    let lab = b.open(root);
+    assert_eq!((lab.number("q.x"), lab.number("q.y")), (5.0, 3.0));
+}
+
+#[test]
+fn a_virtual_part_is_set_and_moved() {
+    let mut b = Builder::new();
+    let line = line(&mut b);
+    let root = b.class("document", &[("l", line)]);
+    b.given(root, "l.p2", pair(3.0, 4.0));
+    b.given(root, "l.p1", pair(0.0, 0.0));
+    let mut lab = b.open(root);
+    let me = lab.thing("l");
+    let (length, middle) = (p("length"), p("middle"));
+    let target = Target::Term { me, term: &length };
+    let report = lab.edit_targets(EditKind::Set, &[(target, vec![Value::Number(10.0)])]);
+    assert_eq!(report.refusal, None, "{report:?}");
+    let dx = lab.number("l.p2.x") - lab.number("l.p1.x");
+    let dy = lab.number("l.p2.y") - lab.number("l.p1.y");
+    assert!((dx.hypot(dy) - 10.0).abs() < 1e-8);
+    let target = Target::Term { me, term: &middle };
+    let wanted = vec![Value::Number(50.0), Value::Number(60.0)];
+    let report = lab.edit_targets(EditKind::Move, &[(target, wanted)]);
+    assert!(report.reached, "{report:?}");
+    assert!((lab.number("l.p1.x") + lab.number("l.p2.x") - 100.0).abs() < 1e-6);
+    assert!((lab.number("l.p1.y") + lab.number("l.p2.y") - 120.0).abs() < 1e-6);
+}
