@@ -109,9 +109,12 @@ fn page_address(address: SocketAddr, document: Option<&str>, token: &str) -> Str
 }
 
 fn announce(page: &str, folder: &Path) -> io::Result<()> {
+    let folder = folder.display();
+    let lines = format!(
+        "The lab is open at {page}\nIt shows and saves the documents in {folder}; Ctrl+C closes it.\n"
+    );
     let mut out = io::stdout().lock();
-    writeln!(out, "The lab is open at {page}")?;
-    writeln!(out, "It shows and saves the documents in {}; Ctrl+C closes it.", folder.display())?;
+    out.write_all(lines.as_bytes())?;
     out.flush()
 }
 

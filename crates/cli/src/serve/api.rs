@@ -12,7 +12,7 @@
 use std::time::Duration;
 
 use http_body_util::{BodyExt, Full, LengthLimitError, Limited};
-use hyper::body::{Bytes, Incoming};
+use hyper::body::{Body as _, Bytes, Incoming};
 use hyper::header::{ALLOW, CONTENT_ENCODING, CONTENT_TYPE, HeaderMap, HeaderName, HeaderValue};
 use hyper::{Method, Request, Response, StatusCode};
 use serde::{Deserialize, Serialize};
@@ -251,14 +251,16 @@ async fn body(request: Request<Incoming>) -> Result<Saving, Answer> {
             "the body is not plain application/json",
         ));
     }
+    let too_long = || refused(StatusCode::PAYLOAD_TOO_LARGE, "the body is too long");
+    if body.size_hint().lower() > LONGEST_BODY as u64 {
+        return Err(too_long());
+    }
     let all = tokio::time::timeout(BODY_TIME, Limited::new(body, LONGEST_BODY).collect()).await;
     let bytes = match all {
         Err(_) => {
             return Err(refused(StatusCode::REQUEST_TIMEOUT, "the body did not arrive in time"));
         }
-        Ok(Err(error)) if error.is::<LengthLimitError>() => {
-            return Err(refused(StatusCode::PAYLOAD_TOO_LARGE, "the body is too long"));
-        }
+        Ok(Err(error)) if error.is::<LengthLimitError>() => return Err(too_long()),
         Ok(Err(_)) => return Err(refused(StatusCode::BAD_REQUEST, "the body is broken")),
         Ok(Ok(collected)) => collected.to_bytes(),
     };
