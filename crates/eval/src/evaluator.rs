@@ -20,7 +20,7 @@ use std::rc::Rc;
 /// How deep messages may call each other.
 pub const DEEPEST_MESSAGES: u32 = 200;
 /// How deep terms may be nested in each other, those of opened messages included.
-const DEEPEST_TERMS: u32 = 1500;
+const DEEPEST_TERMS: u32 = 1000;
 /// How many terms one question may evaluate: what a mistyped recursion may cost.
 pub const MOST_TERMS: u64 = 50_000_000;
 /// How many elements a range may have.
@@ -207,14 +207,25 @@ impl<'a> Evaluator<'a> {
                 let items: Result<_> = items.iter().map(|t| self.term(t, frame)).collect();
                 Ok(Answer::List(items?))
             }
-            Term::Range(from, to) => self.range(from, to, frame),
+            Term::Range(from, to) => {
+                let from = self.term(from, frame)?;
+                let to = self.term(to, frame)?;
+                self.range(&from, &to)
+            }
             Term::Index(list, index) => {
                 let list = self.term(list, frame)?;
-                let index = self.whole(&self.term(index, frame)?)?;
-                self.element(&list, index)
+                let index = self.term(index, frame)?;
+                self.element(&list, &index)
             }
             Term::Unary(operator, operand) => unary(*operator, &self.term(operand, frame)?),
-            Term::Binary(operator, a, b) => self.binary(*operator, a, b, frame),
+            Term::Binary(operator, a, b) => {
+                let a = self.term(a, frame)?;
+                if let Some(decided) = self.decided(*operator, &a)? {
+                    return Ok(decided);
+                }
+                let b = self.term(b, frame)?;
+                self.binary(*operator, &a, &b)
+            }
             Term::If(condition, then, otherwise) => {
                 let branch = if self.truth(condition, frame)? { then } else { otherwise };
                 self.term(branch, frame)
@@ -282,9 +293,9 @@ impl<'a> Evaluator<'a> {
         arguments.iter().map(value).collect()
     }
 
-    fn range(&self, from: &'a Term, to: &'a Term, frame: &Frame<'a>) -> Result<Answer<'a>> {
-        let from = self.whole(&self.term(from, frame)?)?;
-        let to = self.whole(&self.term(to, frame)?)?;
+    #[inline(never)]
+    fn range(&self, from: &Answer<'a>, to: &Answer<'a>) -> Result<Answer<'a>> {
+        let (from, to) = (self.whole(from)?, self.whole(to)?);
         if (to - from) as f64 > LONGEST_RANGE {
             return Err(Fault::no_answer(format!("{from}..{to} has more than a million elements")));
         }
@@ -302,7 +313,9 @@ impl<'a> Evaluator<'a> {
         }
     }
 
-    fn element(&self, list: &Answer<'a>, index: i64) -> Result<Answer<'a>> {
+    #[inline(never)]
+    fn element(&self, list: &Answer<'a>, index: &Answer<'a>) -> Result<Answer<'a>> {
+        let index = self.whole(index)?;
         let missing =
             |n: usize| Fault::no_answer(format!("there is no element {index} in a list of {n}"));
         let at = usize::try_from(index).ok();
@@ -514,22 +527,39 @@ impl<'a> Evaluator<'a> {
         }
     }
 
+    /// Returns the answer of `and` and `or` where the left side alone decides it.
+    fn decided(&self, operator: BinaryOperator, a: &Answer<'a>) -> Result<Option<Answer<'a>>> {
+        let deciding = match operator {
+            BinaryOperator::And => false,
+            BinaryOperator::Or => true,
+            BinaryOperator::Add
+            | BinaryOperator::Subtract
+            | BinaryOperator::Multiply
+            | BinaryOperator::Divide
+            | BinaryOperator::Power
+            | BinaryOperator::Equal
+            | BinaryOperator::NotEqual
+            | BinaryOperator::Less
+            | BinaryOperator::LessEqual
+            | BinaryOperator::Greater
+            | BinaryOperator::GreaterEqual
+            | BinaryOperator::In => return Ok(None),
+        };
+        Ok((self.truth_of(a)? == deciding).then_some(Answer::Bool(deciding)))
+    }
+
+    /// Computes an operation on two values. Kept out of the recursion, whose frames stay small.
+    #[inline(never)]
     fn binary(
         &self,
         operator: BinaryOperator,
-        a: &'a Term,
-        b: &'a Term,
-        frame: &Frame<'a>,
+        a: &Answer<'a>,
+        b: &Answer<'a>,
     ) -> Result<Answer<'a>> {
         use BinaryOperator as B;
-        let both = || Ok((self.term(a, frame)?, self.term(b, frame)?));
-        let numbers = || {
-            let (a, b) = both()?;
-            Ok((self.number(&a)?, self.number(&b)?))
-        };
-        let order = || both().and_then(|(a, b)| self.order(&a, &b));
+        let numbers = || Ok::<_, Fault>((self.number(a)?, self.number(b)?));
         let holds = match operator {
-            B::Add => return self.sum(&both()?),
+            B::Add => return self.sum(a, b),
             B::Subtract => {
                 let ((x, dx), (y, dy)) = numbers()?;
                 return finite(x - y, measure::common(dx, dy)?);
@@ -550,21 +580,21 @@ impl<'a> Evaluator<'a> {
                 let ((x, dx), (y, _)) = numbers()?;
                 return finite(power(x, y), measure::power(dx, y));
             }
-            B::And => self.truth(a, frame)? && self.truth(b, frame)?,
-            B::Or => self.truth(a, frame)? || self.truth(b, frame)?,
-            B::Equal => both().and_then(|(a, b)| self.equal(&a, &b))?,
-            B::NotEqual => !both().and_then(|(a, b)| self.equal(&a, &b))?,
-            B::In => both().and_then(|(a, b)| self.contains(&b, &a))?,
-            B::Less => order()?.is_lt(),
-            B::LessEqual => order()?.is_le(),
-            B::Greater => order()?.is_gt(),
-            B::GreaterEqual => order()?.is_ge(),
+            // The left side did not decide, so that the right one does.
+            B::And | B::Or => self.truth_of(b)?,
+            B::Equal => self.equal(a, b)?,
+            B::NotEqual => !self.equal(a, b)?,
+            B::In => self.contains(b, a)?,
+            B::Less => self.order(a, b)?.is_lt(),
+            B::LessEqual => self.order(a, b)?.is_le(),
+            B::Greater => self.order(a, b)?.is_gt(),
+            B::GreaterEqual => self.order(a, b)?.is_ge(),
         };
         Ok(Answer::Bool(holds))
     }
 
     /// Adds numbers, or joins texts.
-    fn sum(&self, (a, b): &(Answer<'a>, Answer<'a>)) -> Result<Answer<'a>> {
+    fn sum(&self, a: &Answer<'a>, b: &Answer<'a>) -> Result<Answer<'a>> {
         if let (Answer::Text(a), Answer::Text(b)) = (a, b) {
             return Ok(Answer::text(&format!("{a}{b}")));
         }

@@ -1,0 +1,75 @@
+//! The checker: every lie that a solver could tell is found out.
+
+use crate::build::{Build, add, equal, method, num, part, path, send};
+use eval::checker::{Edit, check_edit, check_state};
+use kernel::{SlotId, Stay, Strength, Structure, Value, Values};
+
+/// b = a + 1, c by itself, d anchored, whole in 0..9, words = a.text by written methods.
+fn document() -> (Build, Structure) {
+    let mut b = Build::new();
+    let root = b.root();
+    for name in ["a", "b", "c", "d"] {
+        b.part(root, name, b.real);
+    }
+    b.part(root, "whole", b.integer);
+    b.document.classes[root].parts[4].range = Some((0, 9));
+    b.part(root, "words", b.text);
+    b.constraint(root, "next", equal(part("b"), add(part("a"), num(1.0))));
+    b.constraint(root, "shown", equal(part("words"), send(part("a"), "text", vec![]))).methods =
+        vec![method(&["words"], vec![send(part("a"), "text", vec![])])];
+    b.constraint(root, "wish", equal(part("c"), num(77.0))).strength = Strength::Weak;
+    b.constraint(root, "off", equal(part("c"), num(78.0))).enabled = false;
+    let stay = Stay { path: path("d"), strength: None, origin: kernel::OriginId(0) };
+    b.document.classes[root].stays.push(stay);
+    let structure = b.structure();
+    (b, structure)
+}
+fn state(numbers: [f64; 5], words: &str) -> Values {
+    let mut values = Values::new(6);
+    for (i, x) in numbers.into_iter().enumerate() {
+        values.numbers[SlotId(i as u32)] = x;
+    }
+    values.put(SlotId(5), Value::Text(words.into()));
+    values
+}
+const RIGHT: [f64; 5] = [1.0, 2.0, 3.0, 4.0, 5.0];
+
+#[test]
+fn a_right_state_is_praised() {
+    let (b, structure) = document();
+    assert_eq!(check_state(&b.document, &structure, &state(RIGHT, "1")), [""; 0]);
+}
+
+#[test]
+fn a_wrong_state_is_found_out() {
+    let (b, structure) = document();
+    let says = |numbers, words| check_state(&b.document, &structure, &state(numbers, words));
+    let [a, next, c, d, whole] = RIGHT;
+    let off = ["next does not hold: 2.5 and 2, off by 5e-1"];
+    assert_eq!(says([a, 2.5, c, d, whole], "1"), off);
+    assert_eq!(says(RIGHT, "7"), ["shown does not hold: \"7\" and \"1\""]);
+    assert_eq!(says([a, next, f64::NAN, d, whole], "1"), ["c is NaN"]);
+    assert_eq!(says([a, next, -0.0, d, whole], "1"), ["c is a negative zero"]);
+    assert_eq!(says([a, next, c, d, 5.5], "1"), ["whole is 5.5, no whole number"]);
+    assert_eq!(says([a, next, c, d, 10.0], "1"), ["whole is 10, not in 0..9"]);
+    let short = check_state(&b.document, &structure, &Values::new(2));
+    assert_eq!(short, ["the state has another number of slots than the structure"]);
+}
+
+#[test]
+fn an_edit_moves_what_is_connected_and_nothing_else() {
+    let (b, structure) = document();
+    let before = state(RIGHT, "1");
+    let says = |numbers, words, edited: &[SlotId]| {
+        let after = state(numbers, words);
+        check_edit(&b.document, &structure, Edit { before: &before, after: &after, edited })
+    };
+    let moved = [6.0, 7.0, 3.0, 4.0, 5.0];
+    assert_eq!(says(moved, "6", &[SlotId(0)]), [""; 0]);
+    assert_eq!(says(moved, "6", &[SlotId(5)]), [""; 0]);
+    let strayed = ["nothing connects c to the edit; 3 became 3.5"];
+    assert_eq!(says([6.0, 7.0, 3.5, 4.0, 5.0], "6", &[SlotId(0)]), strayed);
+    let anchored = ["d is anchored, and went from 4 to 5"];
+    assert_eq!(says([1.0, 2.0, 3.0, 5.0, 5.0], "1", &[SlotId(0)]), anchored);
+    assert_eq!(says([1.0, 2.0, 3.0, 5.0, 5.0], "1", &[SlotId(3)]), [""; 0]);
+}

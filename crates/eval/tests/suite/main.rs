@@ -1,0 +1,7 @@
+//! Evaluation, pictures, verdicts and the checker, on documents built by hand.
+
+mod build;
+mod check;
+mod express;
+mod paint;
+mod rules;
