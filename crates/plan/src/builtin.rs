@@ -1,19 +1,17 @@
 //! The language's own functions and messages, opened symbolically.
 
-use crate::evaluate::{Given, Opening, kind};
+use crate::evaluate::{Answer, Given, Opening};
 use crate::fault::{FaultKind, Trouble};
 use crate::meaning::Meaning;
 use base::Name;
 use expr::{Binary, ExprId, Unary};
-
-type Answer<'a> = Result<Meaning<'a>, Trouble>;
 
 impl<'a> Opening<'a, '_> {
     /// Calls a function of the language: `sqrt(x)`, `max(a, b, c)`.
     pub(crate) fn call(&mut self, name: &Name, arguments: &[Given<'a>]) -> Answer<'a> {
         let arguments: Vec<Meaning<'a>> = arguments.iter().map(|a| a.1.clone()).collect();
         if let (Some(operator), [x]) = (unary_named(name), arguments.as_slice()) {
-            return self.apply_unary(operator, x);
+            return self.unary(operator, x);
         }
         match (name.as_str(), arguments.as_slice()) {
             ("pi", []) => Ok(self.number(std::f64::consts::PI)),
@@ -71,7 +69,7 @@ impl<'a> Opening<'a, '_> {
         arguments: &[Meaning<'a>],
     ) -> Answer<'a> {
         if let (Some(operator), []) = (unary_named(name), arguments) {
-            return self.apply_unary(operator, to);
+            return self.unary(operator, to);
         }
         match (name.as_str(), arguments) {
             ("text", _) => Ok(self.opaque(arguments.iter().chain([to]))),
@@ -159,16 +157,6 @@ impl<'a> Opening<'a, '_> {
         let ids: Result<Vec<ExprId>, _> = items.iter().map(|m| self.expression(m)).collect();
         let joined = ids?.into_iter().reduce(|a, b| self.arena.binary(operator, a, b));
         joined.map(Meaning::Number).ok_or_else(|| Trouble::wrong("the least of nothing"))
-    }
-
-    fn apply_unary(&mut self, operator: Unary, x: &Meaning<'a>) -> Answer<'a> {
-        match x {
-            Meaning::Number(id) => Ok(Meaning::Number(self.arena.unary(operator, *id))),
-            Meaning::Opaque(_) => Ok(self.opaque([x])),
-            Meaning::Thing(_) | Meaning::Made(_) | Meaning::List(_) | Meaning::Lambda(_) => {
-                Err(Trouble::wrong(format!("{} is not a number", kind(x))))
-            }
-        }
     }
 }
 

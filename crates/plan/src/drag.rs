@@ -1,9 +1,8 @@
 //! Drags: planned once at the press, then followed wish by wish.
 
+use crate::aim::{Aim, with_present_values};
 use crate::component::Component;
-use crate::edit::{
-    Aim, Conflict, EditKind, EditReport, RefusalReason, Target, with_present_values,
-};
+use crate::edit::{Conflict, EditKind, EditReport, RefusalReason, Target};
 use crate::host::{Failure, Host};
 use crate::planner::{Latest, Model, Planner};
 use crate::run::{Adapter, ran};

@@ -4,12 +4,12 @@
 //! become selections. Nothing here looks at a value: the result serves every state.
 
 use crate::fault::{FaultKind, Trouble};
-use crate::meaning::{Closure, Frame, Made, Meaning, Opaque, collect_slots};
+use crate::meaning::{Closure, Frame, Meaning, Opaque, collect_slots};
 use base::Name;
-use expr::{Arena, Binary, ExprId, Node, Unary, Var};
+use expr::{Arena, ExprId, Node, Unary, Var};
 use kernel::{
-    Argument, BinaryOperator, ClassId, ClassKind, DOCUMENT, Document, Message, SlotId, Structure,
-    Term, ThingId, UnaryOperator,
+    Argument, ClassId, ClassKind, DOCUMENT, Document, Message, SlotId, Structure, Term, ThingId,
+    UnaryOperator,
 };
 use std::collections::BTreeSet;
 use std::rc::Rc;
@@ -22,7 +22,8 @@ const MOST_TERMS: u32 = 1_000_000;
 /// An argument with its label, evaluated.
 pub(crate) type Given<'a> = (Option<Name>, Meaning<'a>);
 
-type Answer<'a> = Result<Meaning<'a>, Trouble>;
+/// A meaning, or why there is none.
+pub(crate) type Answer<'a> = Result<Meaning<'a>, Trouble>;
 
 /// The context of symbolic evaluation.
 pub(crate) struct Opening<'a, 'w> {
@@ -329,50 +330,6 @@ impl<'a, 'w> Opening<'a, 'w> {
         Ok(closure.parameters.iter().zip(spread.iter()).fold(closure.frame.clone(), bind))
     }
 
-    fn make(&mut self, class: ClassId, arguments: &[Given<'a>]) -> Answer<'a> {
-        let document = self.document;
-        let layout = document.layout(class);
-        let mut fields = Vec::with_capacity(layout.len());
-        for (i, &field) in layout.iter().enumerate() {
-            let name = document.field_name(field).clone();
-            let labelled = arguments.iter().find(|a| a.0.as_ref().is_some_and(|l| *l == name));
-            let positional = || arguments.get(i).filter(|a| a.0.is_none());
-            let meaning = match labelled.or_else(positional) {
-                Some(argument) => argument.1.clone(),
-                None => self.default_field(class, &name, document.field_class(field), &fields)?,
-            };
-            fields.push((name, meaning));
-        }
-        Ok(Meaning::Made(Rc::new(Made { class, fields })))
-    }
-
-    /// Evaluates the value that a class gives to a field of its things; zero where it gives none.
-    fn default_field(
-        &mut self,
-        class: ClassId,
-        name: &Name,
-        field_class: ClassId,
-        so_far: &[(Name, Meaning<'a>)],
-    ) -> Answer<'a> {
-        let document = self.document;
-        let path = kernel::Path::of(&[name]);
-        let given = document
-            .primary_line(class)
-            .into_iter()
-            .find_map(|c| document.classes[c].givens.iter().rev().find(|g| g.path == path));
-        if let Some(given) = given {
-            let me = Meaning::Made(Rc::new(Made { class, fields: so_far.to_vec() }));
-            return self.deeper(|opening| opening.meaning(&given.value, &Frame::new(me)));
-        }
-        match document.classes[field_class].kind {
-            ClassKind::Primitive(p) if p.is_number() => Ok(self.number(0.0)),
-            ClassKind::Primitive(_) => Ok(Meaning::Opaque(Opaque::default())),
-            ClassKind::Composite => self.deeper(|opening| opening.make(field_class, &[])),
-            ClassKind::List(_) | ClassKind::Set(_) => Ok(Meaning::List(Rc::from([]))),
-            ClassKind::Reference(_) => Err(Trouble::not_yet("a made reference is not planned yet")),
-        }
-    }
-
     /// Returns the elements of a list, a set or a tuple.
     pub(crate) fn items(&mut self, list: &Meaning<'a>) -> Result<Rc<[Meaning<'a>]>, Trouble> {
         match list {
@@ -422,123 +379,6 @@ impl<'a, 'w> Opening<'a, 'w> {
             self.document.is_a(t.class, class) && seen.insert(self.structure.merged[*id])
         });
         Meaning::List(things.map(|(id, _)| Meaning::Thing(id)).collect())
-    }
-
-    fn unary(&mut self, operator: Unary, operand: &Meaning<'a>) -> Answer<'a> {
-        match operand {
-            Meaning::Number(id) => Ok(Meaning::Number(self.arena.unary(operator, *id))),
-            Meaning::Opaque(_) => Ok(self.opaque([operand])),
-            other => Err(Trouble::wrong(format!("{} is not a number", kind(other)))),
-        }
-    }
-
-    fn binary(&mut self, operator: BinaryOperator, a: &Meaning<'a>, b: &Meaning<'a>) -> Answer<'a> {
-        if let (Meaning::Number(a), Meaning::Number(b)) = (a, b) {
-            let (a, b) = (*a, *b);
-            let (operator, a, b) = match operator {
-                BinaryOperator::Add => (Binary::Add, a, b),
-                BinaryOperator::Subtract => (Binary::Sub, a, b),
-                BinaryOperator::Multiply => (Binary::Mul, a, b),
-                BinaryOperator::Divide => (Binary::Div, a, b),
-                BinaryOperator::Power => (Binary::Pow, a, b),
-                BinaryOperator::Equal => (Binary::Equal, a, b),
-                BinaryOperator::NotEqual => (Binary::NotEqual, a, b),
-                BinaryOperator::Less => (Binary::Less, a, b),
-                BinaryOperator::LessEqual => (Binary::LessEqual, a, b),
-                BinaryOperator::Greater => (Binary::Less, b, a),
-                BinaryOperator::GreaterEqual => (Binary::LessEqual, b, a),
-                BinaryOperator::And => (Binary::And, a, b),
-                BinaryOperator::Or => (Binary::Or, a, b),
-                BinaryOperator::In => return Err(Trouble::wrong("a number has no members")),
-            };
-            return Ok(Meaning::Number(self.arena.binary(operator, a, b)));
-        }
-        match operator {
-            BinaryOperator::Equal => self.equal(a, b),
-            BinaryOperator::NotEqual => {
-                let equal = self.equal(a, b)?;
-                self.unary(Unary::Not, &equal)
-            }
-            BinaryOperator::In => self.is_in(a, b),
-            BinaryOperator::Add
-            | BinaryOperator::Subtract
-            | BinaryOperator::Multiply
-            | BinaryOperator::Divide
-            | BinaryOperator::Power
-            | BinaryOperator::Less
-            | BinaryOperator::LessEqual
-            | BinaryOperator::Greater
-            | BinaryOperator::GreaterEqual
-            | BinaryOperator::And
-            | BinaryOperator::Or => match (a, b) {
-                (Meaning::Opaque(_) | Meaning::Number(_), Meaning::Opaque(_))
-                | (Meaning::Opaque(_), Meaning::Number(_)) => Ok(self.opaque([a, b])),
-                _ => {
-                    Err(Trouble::wrong(format!("{} and {}: numbers are wanted", kind(a), kind(b))))
-                }
-            },
-        }
-    }
-
-    /// Says by an expression whether two meanings are equal, part by part.
-    fn equal(&mut self, a: &Meaning<'a>, b: &Meaning<'a>) -> Answer<'a> {
-        let mut truth = self.number(1.0);
-        for (a, b) in self.leaves(a, b)? {
-            let one = match (&a, &b) {
-                (Meaning::Number(a), Meaning::Number(b)) => {
-                    Meaning::Number(self.arena.binary(Binary::Equal, *a, *b))
-                }
-                _ => self.opaque([&a, &b]),
-            };
-            truth = self.binary(BinaryOperator::And, &truth, &one)?;
-        }
-        Ok(truth)
-    }
-
-    fn is_in(&mut self, a: &Meaning<'a>, b: &Meaning<'a>) -> Answer<'a> {
-        let mut truth = self.number(0.0);
-        for item in self.items(b)?.iter() {
-            let one = match (a, item) {
-                (Meaning::Thing(a), Meaning::Thing(b)) => {
-                    let same = self.structure.merged[*a] == self.structure.merged[*b];
-                    self.number(f64::from(u8::from(same)))
-                }
-                _ => self.equal(a, item)?,
-            };
-            truth = self.binary(BinaryOperator::Or, &truth, &one)?;
-        }
-        Ok(truth)
-    }
-
-    /// Takes one of two meanings by a condition that depends on values, part by part.
-    fn select(
-        &mut self,
-        condition: &Meaning<'a>,
-        then: &Meaning<'a>,
-        otherwise: &Meaning<'a>,
-    ) -> Answer<'a> {
-        match (condition, then, otherwise) {
-            (Meaning::Number(c), Meaning::Number(a), Meaning::Number(b)) => {
-                Ok(Meaning::Number(self.arena.select(*c, *a, *b)))
-            }
-            (_, Meaning::Thing(_) | Meaning::Made(_), Meaning::Thing(_) | Meaning::Made(_)) => {
-                let class = self.common_ancestor(then, otherwise)?;
-                let mut fields = Vec::new();
-                for name in self.field_names(class) {
-                    let a = self.send(then, &name, &[], None)?;
-                    let b = self.send(otherwise, &name, &[], None)?;
-                    fields.push((name, self.select(condition, &a, &b)?));
-                }
-                Ok(Meaning::Made(Rc::new(Made { class, fields })))
-            }
-            (_, Meaning::List(a), Meaning::List(b)) if a.len() == b.len() => {
-                let pairs = a.iter().zip(b.iter());
-                let items: Result<Vec<_>, _> =
-                    pairs.map(|(a, b)| self.select(condition, a, b)).collect();
-                Ok(Meaning::List(items?.into()))
-            }
-            _ => Ok(self.opaque([condition, then, otherwise])),
-        }
     }
 
     /// Makes the meaning of something that only the host can compute from these.

@@ -1,20 +1,65 @@
-//! Structure, edit and mode in, Plan out: names, caches, lowers rules to systems, explains.
+//! Structure and edit in, plans out: names things, caches plans, lowers rules to systems, explains.
+//!
+//! Three nouns. A [`Planner`] has every rule of a structure as equations over slots, and the plans
+//! made so far. An edit ([`Planner::edit`], [`Planner::press`]) picks the components that it touches,
+//! states each as a `solve::System`, and runs its plan; an [`EditReport`] says what came of it. A
+//! [`Host`] computes what is not numbers: texts, given terms, methods over them.
+//!
+//! Rules are opened symbolically: messages and virtual parts into their definitions, lists and sets
+//! into their members, equality of things part by part. Equal components have equal systems, so a
+//! thousand instances of a class are planned once.
+//!
+//! ```no_run
+//! use kernel::{Document, Value, Values, instantiate};
+//! use plan::{EditKind, Host, Model, Planner, Target};
+//!
+//! fn double_the_first_part(document: &Document, host: &mut dyn Host) -> Option<Values> {
+//!     let (structure, _) = instantiate(document);
+//!     let model = Model { document, structure: &structure };
+//!     let (mut planner, _faults) = Planner::new(model);
+//!     let mut values = Values::default();
+//!     planner.open(model, &mut values, host);
+//!     let first = structure.parts(kernel::DOCUMENT).next()?;
+//!     let wanted = 2.0 * values.numbers[structure.slot_of[first]?];
+//!     let targets = [(Target::Thing(first), vec![Value::Number(wanted)])];
+//!     let report = planner.edit(model, &mut values, EditKind::Set, &targets, host);
+//!     report.refusal.is_none().then_some(values)
+//! }
+//! ```
+//!
+//! **Invariants**: a refused edit changes no bit; an edit changes only slots of the components of its
+//! targets; a drag depends on the press and the present wish alone; what is asked for by slot or rule
+//! is answered by slot or rule: words are made elsewhere.
+//!
+//! Reading order: [`rule`] and the lowering (meanings, evaluation, what a rule says), components,
+//! tasks, [`planner`], [`edit`], [`drag`], [`status`], [`explain`].
+pub mod rule;
+
 mod builtin;
-mod component;
-pub mod drag;
-pub mod edit;
 mod equality;
 mod evaluate;
-pub mod explain;
-pub mod fault;
-mod holds;
-pub mod host;
+mod lower;
+mod making;
 mod meaning;
-pub mod planner;
-pub mod rule;
-mod run;
-pub mod status;
+mod operator;
+mod say;
+
+pub mod fault;
+pub mod host;
+
+mod component;
+mod holds;
 mod task;
+
+pub mod planner;
+
+mod aim;
+pub mod drag;
+pub mod edit;
+mod run;
+
+pub mod explain;
+pub mod status;
 
 pub use drag::{Drag, DragStep};
 pub use edit::{Conflict, EditKind, EditReport, RefusalReason, Target};

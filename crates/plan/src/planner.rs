@@ -5,7 +5,8 @@ use crate::evaluate::Opening;
 use crate::fault::Fault;
 use crate::holds;
 use crate::host::Host;
-use crate::rule::{self, Rule, Source};
+use crate::lower;
+use crate::rule::{Rule, Source};
 use crate::task::{Holding, Plans, Setting, Task, Wish, task};
 use expr::Arena;
 use kernel::{Document, SlotId, Structure, Values};
@@ -52,13 +53,13 @@ impl Planner {
         let mut faults = Vec::new();
         let mut opening = Opening::new(model.document, model.structure, &mut arena);
         for (index, &instance) in (0..).zip(&model.structure.constraints) {
-            match rule::lower_constraint(&mut opening, index, instance) {
+            match lower::lower_constraint(&mut opening, index, instance) {
                 Ok(lowered) => rules.extend(lowered),
                 Err(fault) => faults.push(fault),
             }
         }
         for (index, &stay) in (0..).zip(&model.structure.stays) {
-            rules.extend(rule::lower_stay(model.structure, index, stay));
+            rules.extend(lower::lower_stay(model.structure, index, stay));
         }
         let net = Net::new(model.structure, &rules);
         let plans = Plans::default();

@@ -1,6 +1,7 @@
 //! Running a task: numbers out of the document, through the plan, and back.
 
-use crate::edit::{Aim, Conflict};
+use crate::aim::Aim;
+use crate::edit::Conflict;
 use crate::host::{Failure, Host};
 use crate::planner::{Model, Planner};
 use crate::rule::{How, Source};

@@ -18,7 +18,7 @@ fn line(b: &mut Builder) -> ClassId {
     b.message(line, "middle", &[], Term::Make { class: POINT, arguments });
     let other = |path: &str| {
         let names = path.split('.');
-        names.fold(Term::Local(Name::new("to")), |t, name| Term::send(t, name))
+        names.fold(Term::Local(Name::new("to")), Term::send)
     };
     let od = |c: &str| sub(other(&format!("p2.{c}")), other(&format!("p1.{c}")));
     let dot = add(mul(d("x"), od("x")), mul(d("y"), od("y")));
@@ -120,7 +120,7 @@ fn a_virtual_part_is_set_and_moved() {
     assert_eq!(report.refusal, None, "{report:?}");
     let dx = lab.number("l.p2.x") - lab.number("l.p1.x");
     let dy = lab.number("l.p2.y") - lab.number("l.p1.y");
-    assert!((dx.hypot(dy) - 10.0).abs() < 1e-8);
+    assert!((base::number::hypot(dx, dy) - 10.0).abs() < 1e-8);
     let target = Target::Term { me, term: &middle };
     let wanted = vec![Value::Number(50.0), Value::Number(60.0)];
     let report = lab.edit_targets(EditKind::Move, &[(target, wanted)]);

@@ -1,0 +1,233 @@
+//! Aims: which slots and expressions an edit speaks of, and what they shall be.
+
+use crate::edit::{EditKind, RefusalReason, Target};
+use crate::evaluate::Opening;
+use crate::fault::Trouble;
+use crate::holds::agree;
+use crate::meaning::{Frame, Meaning};
+use crate::planner::{Model, Planner};
+use crate::say::lone_slot;
+use crate::task::Wish;
+use expr::ExprId;
+use kernel::{Primitive, SlotId, Value, Values};
+use solve::Level;
+use std::collections::{BTreeMap, BTreeSet};
+
+/// What an edit does to the slots, before anything is solved.
+#[derive(Debug, Default)]
+pub(crate) struct Aim {
+    /// Slots that take a value as it is.
+    pub(crate) fixed: BTreeMap<SlotId, Value>,
+    /// Expressions that are wished, and what they shall be.
+    pub(crate) wishes: Vec<Wish>,
+    pub(crate) wanted: Vec<Vec<f64>>,
+    /// Slots that are wished themselves.
+    pub(crate) alone: BTreeSet<SlotId>,
+}
+
+impl Planner {
+    /// Returns true if every wish is met and every set slot has its value.
+    pub(crate) fn reached(&self, aim: &Aim, values: &Values) -> bool {
+        let met = |(wish, wanted): (&Wish, &Vec<f64>)| {
+            wish.expressions.iter().zip(wanted).all(|(&e, &w)| {
+                let is = self.arena.evaluate(e, values.numbers.as_slice());
+                agree(is, w, base::number::RULE_TOLERANCE)
+            })
+        };
+        aim.wishes.iter().zip(&aim.wanted).all(met)
+            && aim.fixed.iter().all(|(&s, v)| values.get(s).same_bits(v))
+    }
+
+    /// Finds which slots and expressions an edit speaks of.
+    pub(crate) fn aim(
+        &mut self,
+        model: Model<'_>,
+        values: &Values,
+        kind: EditKind,
+        targets: &[(Target<'_>, Vec<Value>)],
+    ) -> Result<Aim, RefusalReason> {
+        let mut aim = Aim::default();
+        for (target, wanted) in targets {
+            let leaves =
+                self.leaves(model, *target).map_err(|t| RefusalReason::Target(t.message))?;
+            if leaves.len() != wanted.len() {
+                let message = format!("{} values for {} numbers", wanted.len(), leaves.len());
+                return Err(RefusalReason::Target(message));
+            }
+            let mut wish = Wish { level: Level::Move, expressions: Vec::new() };
+            let mut numbers = Vec::new();
+            for (leaf, value) in leaves.into_iter().zip(wanted) {
+                match (leaf, value) {
+                    (Leaf::Slot(slot), value) if !storable(model, slot, value) => {
+                        let primitive = model.structure.slots[slot].primitive;
+                        let message = format!("{value:?} is no value for {primitive:?}");
+                        return Err(RefusalReason::Target(message));
+                    }
+                    (Leaf::Slot(_), Value::Text(_)) if kind == EditKind::Move => {
+                        let message = "a text is set, not moved";
+                        return Err(RefusalReason::Target(message.into()));
+                    }
+                    (Leaf::Slot(slot), Value::Number(x)) if kind == EditKind::Move => {
+                        aim.alone.insert(slot);
+                        wish.expressions.push(self.arena.var(expr::Var(slot.0)));
+                        numbers.push(x + 0.0);
+                    }
+                    (Leaf::Slot(slot), value) => {
+                        let value = without_negative_zero(value);
+                        if !lifts(model, *target, slot) && !values.get(slot).same_bits(&value) {
+                            return Err(RefusalReason::Anchored(slot));
+                        }
+                        if aim.fixed.insert(slot, value.clone()).is_some_and(|v| v != value) {
+                            let message = "one part is to have two values";
+                            return Err(RefusalReason::Target(message.into()));
+                        }
+                    }
+                    (Leaf::Expression(id), Value::Number(x)) if x.is_finite() => {
+                        wish.expressions.push(id);
+                        numbers.push(x + 0.0);
+                    }
+                    (Leaf::Expression(_), value) => {
+                        let message = format!("{value:?} is not a number");
+                        return Err(RefusalReason::Target(message));
+                    }
+                }
+            }
+            if kind == EditKind::Set {
+                wish.level = Level::Required;
+            }
+            if !wish.expressions.is_empty() {
+                aim.wishes.push(wish);
+                aim.wanted.push(numbers);
+            }
+        }
+        Ok(aim)
+    }
+
+    /// Aims a wish at one number, whatever it shall be.
+    pub(crate) fn aim_at(&mut self, slot: SlotId) -> Aim {
+        let variable = self.arena.var(expr::Var(slot.0));
+        Aim {
+            fixed: BTreeMap::new(),
+            wishes: vec![Wish { level: Level::Move, expressions: vec![variable] }],
+            wanted: vec![vec![0.0]],
+            alone: BTreeSet::from([slot]),
+        }
+    }
+
+    /// Returns the slots and expressions of a target, in order.
+    fn leaves(&mut self, model: Model<'_>, target: Target<'_>) -> Result<Vec<Leaf>, Trouble> {
+        match target {
+            Target::Thing(thing) => {
+                Ok(model.structure.slots_under(thing).into_iter().map(Leaf::Slot).collect())
+            }
+            Target::Term { me, term } => {
+                let mut opening = Opening::new(model.document, model.structure, &mut self.arena);
+                let meaning = opening.meaning(term, &Frame::of(me))?;
+                let mut leaves = Vec::new();
+                flatten(&mut opening, &meaning, &mut leaves)?;
+                Ok(leaves)
+            }
+        }
+    }
+}
+
+impl Aim {
+    /// Returns the slots that an edit speaks of, by themselves or in an expression's name.
+    pub(crate) fn slots(&self) -> BTreeSet<SlotId> {
+        self.fixed.keys().copied().chain(self.alone.iter().copied()).collect()
+    }
+}
+
+/// Gives every target the values that it has.
+pub(crate) fn with_present_values<'t>(
+    planner: &mut Planner,
+    model: Model<'_>,
+    values: &Values,
+    targets: &[Target<'t>],
+) -> Result<Vec<(Target<'t>, Vec<Value>)>, RefusalReason> {
+    let present = |target: &Target<'t>| {
+        let leaves = planner.leaves(model, *target)?;
+        let value = |leaf: Leaf| match leaf {
+            Leaf::Slot(slot) => values.get(slot),
+            Leaf::Expression(id) => {
+                Value::Number(planner.arena.evaluate(id, values.numbers.as_slice()))
+            }
+        };
+        Ok((*target, leaves.into_iter().map(value).collect()))
+    };
+    let present: Result<Vec<_>, Trouble> = targets.iter().map(present).collect();
+    present.map_err(|t| RefusalReason::Target(t.message))
+}
+
+/// What an edit can give a value to.
+enum Leaf {
+    Slot(SlotId),
+    Expression(ExprId),
+}
+
+fn flatten<'a>(
+    opening: &mut Opening<'a, '_>,
+    meaning: &Meaning<'a>,
+    leaves: &mut Vec<Leaf>,
+) -> Result<(), Trouble> {
+    if let Some(slot) = lone_slot(opening, meaning) {
+        leaves.push(Leaf::Slot(slot));
+        return Ok(());
+    }
+    match meaning {
+        Meaning::Number(id) => leaves.push(Leaf::Expression(*id)),
+        Meaning::Thing(t) => {
+            leaves.extend(opening.structure.slots_under(*t).into_iter().map(Leaf::Slot));
+        }
+        Meaning::Made(made) => {
+            for (_, field) in &made.fields {
+                flatten(opening, field, leaves)?;
+            }
+        }
+        Meaning::List(items) => {
+            for item in items.iter() {
+                flatten(opening, item, leaves)?;
+            }
+        }
+        Meaning::Opaque(_) => {
+            return Err(Trouble::not_yet("a computed text cannot be edited yet"));
+        }
+        Meaning::Lambda(_) => return Err(Trouble::wrong("a function cannot be edited")),
+    }
+    Ok(())
+}
+
+/// Returns true if the slot is not anchored, or by an anchor of exactly this target alone.
+fn lifts(model: Model<'_>, target: Target<'_>, slot: SlotId) -> bool {
+    let structure = model.structure;
+    if !structure.slots[slot].anchored {
+        return true;
+    }
+    let Target::Thing(thing) = target else { return false };
+    structure
+        .stays
+        .iter()
+        .filter(|s| s.strength.is_none() && structure.slots_under(s.thing).contains(&slot))
+        .all(|s| structure.merged[s.thing] == structure.merged[thing])
+}
+
+/// Returns true if a slot may hold this value.
+pub(crate) fn storable(model: Model<'_>, slot: SlotId, value: &Value) -> bool {
+    let s = &model.structure.slots[slot];
+    match value {
+        Value::Text(_) => !s.primitive.is_number(),
+        Value::Number(x) => match s.primitive {
+            Primitive::Real(_) => x.is_finite(),
+            Primitive::Integer => x.is_finite() && *x == x.trunc(),
+            Primitive::Bool => *x == 0.0 || *x == 1.0,
+            Primitive::Text | Primitive::Color => false,
+        },
+    }
+}
+
+fn without_negative_zero(value: &Value) -> Value {
+    match value {
+        Value::Number(x) => Value::Number(x + 0.0),
+        Value::Text(t) => Value::Text(t.clone()),
+    }
+}

@@ -1,0 +1,238 @@
+//! Lowering: constraints and declared stays become rules.
+//!
+//! In: the constraints of a structure. Out: [`Rule`]s, whose expressions' variables are slots by
+//! their number in the document. A constraint becomes one rule, or several where it speaks of
+//! numbers and texts at once and has no methods of its own.
+
+use crate::evaluate::Opening;
+use crate::fault::{Fault, Trouble};
+use crate::meaning::{Frame, Meaning, collect_slots, slots_of_expression};
+use crate::rule::{Body, How, Rule, RuleMethod, Source, Way};
+use crate::say::{Said, Standing, say};
+use kernel::{
+    Constraint, ConstraintInstance, Method, Path, SlotId, StayInstance, Step, Strength, Structure,
+    ThingId,
+};
+use solve::Level;
+use std::collections::BTreeSet;
+
+/// Lowers a declared stay. Anchors are no rules: their slots are fixed.
+pub(crate) fn lower_stay(structure: &Structure, index: u32, stay: StayInstance) -> Option<Rule> {
+    let level = level(stay.strength?);
+    let slots = structure.slots_under(stay.thing);
+    let numbers = slots.into_iter().filter(|&s| structure.slots[s].primitive.is_number());
+    let slots: Vec<SlotId> = numbers.collect();
+    Some(Rule {
+        source: Source::Stay(index),
+        level,
+        body: Body::Hold(slots.clone()),
+        methods: Vec::new(),
+        derived: true,
+        reads: Vec::new(),
+        within: base::number::RULE_TOLERANCE,
+        slots,
+    })
+}
+
+/// Returns the level at which a constraint of this strength stands.
+pub(crate) fn level(strength: Strength) -> Level {
+    match strength {
+        Strength::Required => Level::Required,
+        Strength::Strong => Level::Strong,
+        Strength::Medium => Level::Medium,
+        Strength::Weak => Level::Weak,
+    }
+}
+
+/// Lowers a constraint of the structure; a switched-off one says nothing.
+///
+/// # Errors
+/// What in it cannot be planned, at the constraint's or the method's place.
+pub(crate) fn lower_constraint<'a>(
+    opening: &mut Opening<'a, '_>,
+    index: u32,
+    instance: ConstraintInstance,
+) -> Result<Vec<Rule>, Fault> {
+    let constraint = &opening.document.classes[instance.class].constraints[instance.index as usize];
+    if !constraint.enabled {
+        return Ok(Vec::new());
+    }
+    opening.begin();
+    let me = Frame::of(instance.owner);
+    let parts = lower_parts(opening, constraint, &me).map_err(|t| t.at(constraint.origin))?;
+    let methods: Result<Vec<RuleMethod>, Fault> = (0..)
+        .zip(&constraint.methods)
+        .map(|(i, m)| lower_method(opening, instance.owner, i, m).map_err(|t| t.at(m.origin)))
+        .collect();
+    let rule = Rule {
+        source: Source::Constraint(index),
+        level: level(constraint.strength),
+        body: Body::Equations(Vec::new()),
+        methods: methods?,
+        derived: constraint.derived || constraint.methods.is_empty(),
+        reads: parts.reads,
+        within: parts.within,
+        slots: Vec::new(),
+    };
+    Ok(assemble(opening, rule, parts.said))
+}
+
+/// Makes the rules of what a constraint says.
+fn assemble(opening: &Opening<'_, '_>, rule: Rule, said: Said) -> Vec<Rule> {
+    let arena = &*opening.arena;
+    let mut rules = Vec::new();
+    if said.opaque.is_empty() {
+        rules.push(Rule { body: Body::Equations(said.equations), ..rule });
+    } else if !rule.methods.is_empty() {
+        // Written methods make the whole rule hold, so it is one.
+        let mut slots: BTreeSet<SlotId> = BTreeSet::new();
+        said.opaque.iter().for_each(|o| slots.extend(&o.slots));
+        for e in &said.equations {
+            slots.extend(slots_of_expression(arena, e.left));
+            slots.extend(slots_of_expression(arena, e.right));
+        }
+        rules.push(Rule { body: Body::Opaque(slots.into_iter().collect()), ..rule });
+    } else {
+        if !said.equations.is_empty() {
+            rules.push(Rule { body: Body::Equations(said.equations), ..rule.clone() });
+        }
+        rules.extend(said.opaque.into_iter().map(|o| Rule {
+            body: Body::Opaque(o.slots.into_iter().collect()),
+            methods: o.methods,
+            ..rule.clone()
+        }));
+    }
+    for rule in &mut rules {
+        let mut slots: BTreeSet<SlotId> = rule.reads.iter().copied().collect();
+        match &rule.body {
+            Body::Equations(equations) => {
+                for e in equations {
+                    slots.extend(slots_of_expression(arena, e.left));
+                    slots.extend(slots_of_expression(arena, e.right));
+                }
+            }
+            Body::Opaque(over) | Body::Hold(over) => slots.extend(over),
+        }
+        for m in &rule.methods {
+            slots.extend(m.targets.iter().chain(&m.reads));
+        }
+        rule.slots = slots.into_iter().collect();
+    }
+    rules
+}
+
+struct Parts {
+    said: Said,
+    reads: Vec<SlotId>,
+    within: f64,
+}
+
+fn lower_parts<'a>(
+    opening: &mut Opening<'a, '_>,
+    constraint: &'a Constraint,
+    me: &Frame<'a>,
+) -> Result<Parts, Trouble> {
+    let mut said = Said::default();
+    say(opening, &constraint.rule, me, Standing::Whole, &mut said)?;
+    let mut reads = BTreeSet::new();
+    for path in &constraint.reads {
+        let meaning = meaning_of_path(opening, &me.me, path)?;
+        match meaning {
+            Meaning::Thing(t) => reads.extend(opening.structure.slots_under(t)),
+            other => collect_slots(opening.arena, &other, &mut reads),
+        }
+    }
+    let within = match &constraint.within {
+        None => base::number::RULE_TOLERANCE,
+        Some(term) => {
+            let meaning = opening.meaning(term, me)?;
+            opening.constant(&meaning).ok_or_else(|| {
+                Trouble::not_yet("a tolerance that depends on values is not planned yet")
+            })?
+        }
+    };
+    Ok(Parts { said, reads: reads.into_iter().collect(), within })
+}
+
+/// Follows a path through parts, virtual ones included.
+fn meaning_of_path<'a>(
+    opening: &mut Opening<'a, '_>,
+    from: &Meaning<'a>,
+    path: &Path,
+) -> Result<Meaning<'a>, Trouble> {
+    let mut at = from.clone();
+    for step in &path.0 {
+        at = match step {
+            Step::Part(name) => opening.send(&at, name, &[], None)?,
+            Step::Index(_) | Step::Last => {
+                let items = opening.items(&at)?;
+                let item = match step {
+                    Step::Index(i) => items.get(*i as usize),
+                    Step::Last | Step::Part(_) | Step::Owner => items.last(),
+                };
+                item.cloned().ok_or_else(|| Trouble::wrong(format!("{path} leads nowhere")))?
+            }
+            Step::Owner => match at {
+                Meaning::Thing(t) => {
+                    let owner = opening.structure.things[t].owner;
+                    Meaning::Thing(
+                        owner.ok_or_else(|| Trouble::wrong("the document has no owner"))?,
+                    )
+                }
+                Meaning::Number(_)
+                | Meaning::Made(_)
+                | Meaning::List(_)
+                | Meaning::Opaque(_)
+                | Meaning::Lambda(_) => return Err(Trouble::wrong("only a thing has an owner")),
+            },
+        };
+    }
+    Ok(at)
+}
+
+fn lower_method<'a>(
+    opening: &mut Opening<'a, '_>,
+    owner: ThingId,
+    index: u32,
+    method: &'a Method,
+) -> Result<RuleMethod, Trouble> {
+    let frame = Frame::of(owner);
+    let values: Result<Vec<Meaning<'a>>, _> =
+        method.values.iter().map(|v| opening.meaning(v, &frame)).collect();
+    let mut values = values?;
+    if let ([Meaning::List(items)], true) = (values.as_slice(), method.targets.len() > 1) {
+        values = items.to_vec();
+    }
+    if values.len() != method.targets.len() {
+        let message = format!("{} values for {} targets", values.len(), method.targets.len());
+        return Err(Trouble::wrong(message));
+    }
+    let mut targets = Vec::new();
+    let mut expressions = Vec::new();
+    let mut opaque = false;
+    let mut reads = BTreeSet::new();
+    for (path, value) in method.targets.iter().zip(&values) {
+        let target = opening.structure.follow(owner, path).map_err(|_| {
+            Trouble::not_yet(format!(
+                "a method that writes {path}, which is not stored, is not planned yet"
+            ))
+        })?;
+        for (slot, value) in opening.share(target, value)? {
+            collect_slots(opening.arena, &value, &mut reads);
+            targets.push(slot);
+            match value {
+                Meaning::Number(id) if opening.structure.slots[slot].primitive.is_number() => {
+                    expressions.push(id);
+                }
+                Meaning::Number(_)
+                | Meaning::Opaque(_)
+                | Meaning::Thing(_)
+                | Meaning::Made(_)
+                | Meaning::List(_)
+                | Meaning::Lambda(_) => opaque = true,
+            }
+        }
+    }
+    let how = if opaque { How::Host(Way::Written(index)) } else { How::Expressions(expressions) };
+    Ok(RuleMethod { targets, reads: reads.into_iter().collect(), how })
+}
