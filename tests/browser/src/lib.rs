@@ -1,3 +1,168 @@
-//! The lab in a real browser: the tests in `tests/` start the `thinglab` command and headless
-//! Chromium, and do what people do. `cargo verify` builds both and names them in the environment
-//! (`THINGLAB`, `CHROMIUM`).
+//! The lab in a real browser: [`Visit`] starts the `thinglab` command over a copy of the gallery,
+//! and headless Chromium on the page; the tests in `tests/` do there what people do.
+//!
+//! `cargo verify` builds the command with its page and names it and the browser in the environment:
+//! `THINGLAB` and `CHROMIUM`. Without these a test fails and says so.
+
+use std::io::{BufRead, BufReader};
+use std::path::{Path, PathBuf};
+use std::process::{Child, Command, Stdio};
+use std::sync::atomic::{AtomicU32, Ordering};
+use std::{env, fs};
+
+use fantoccini::{Client, ClientBuilder};
+use hyper_util::client::legacy::connect::HttpConnector;
+use serde_json::{Value, json};
+
+/// One browser on one server, over a folder of its own. All are gone with the value.
+#[derive(Debug)]
+pub struct Visit {
+    /// The browser.
+    pub client: Client,
+    /// The folder that the server shows: a copy of the gallery, in `gallery/`.
+    pub folder: PathBuf,
+    /// The address that the server printed: it carries the token.
+    pub address: String,
+    _server: Process,
+    _driver: Process,
+}
+
+/// A program that ends with its value.
+#[derive(Debug)]
+struct Process(Child);
+
+impl Drop for Process {
+    fn drop(&mut self) {
+        // It may have ended by itself.
+        let _ = self.0.kill();
+        let _ = self.0.wait();
+    }
+}
+
+impl Drop for Visit {
+    fn drop(&mut self) {
+        let _ = fs::remove_dir_all(&self.folder);
+    }
+}
+
+impl Visit {
+    /// Opens the lab on a document of the gallery (`quadrilateral.thing`), or on the gallery itself.
+    ///
+    /// # Panics
+    /// Where the server, the driver or the browser does not start: then there is nothing to test.
+    pub async fn open(document: Option<&str>) -> Visit {
+        let folder = copy_of_the_gallery();
+        let (server, line) = start(
+            Command::new(named("THINGLAB"))
+                .args(["serve", "--no-open", "--root"])
+                .arg(&folder)
+                .args(document.map(|name| folder.join("gallery").join(name))),
+            "http://",
+        );
+        let address = format!("http://{}", line.split_once("http://").expect("an address").1);
+        let (driver, line) =
+            start(Command::new("chromedriver").args(["--port=0"]), "started successfully on port ");
+        let port = line.rsplit(' ').next().expect("a port").trim_end_matches('.');
+        let client = ClientBuilder::new(HttpConnector::new())
+            .capabilities(capabilities(&folder))
+            .connect(&format!("http://127.0.0.1:{port}"))
+            .await
+            .expect("chromedriver opens Chromium");
+        client.goto(&address).await.expect("the page's address answers");
+        Visit { client, folder, address, _server: server, _driver: driver }
+    }
+
+    /// Runs a script in the page and gives what it returns.
+    ///
+    /// # Panics
+    /// Where the script throws.
+    pub async fn script(&self, script: &str) -> Value {
+        self.client.execute(script, Vec::new()).await.expect("the script runs")
+    }
+
+    /// Waits until an expression of the page's is true.
+    ///
+    /// # Panics
+    /// After ten seconds, with the expression and what the page shows.
+    pub async fn until(&self, expression: &str) {
+        for _ in 0..200 {
+            if self.script(&format!("return Boolean({expression})")).await == json!(true) {
+                return;
+            }
+            tokio::time::sleep(std::time::Duration::from_millis(50)).await;
+        }
+        let shown = self.script("return document.body.innerText").await;
+        panic!("never true: {expression}; the page shows\n{}", shown.as_str().unwrap_or_default());
+    }
+
+    /// The text of a document on disk.
+    ///
+    /// # Panics
+    /// Where it is not there.
+    pub fn saved(&self, document: &str) -> String {
+        fs::read_to_string(self.folder.join("gallery").join(document)).expect("a document")
+    }
+}
+
+/// A program's path from the environment, as `cargo verify` sets it.
+fn named(variable: &str) -> PathBuf {
+    match env::var_os(variable) {
+        Some(path) => PathBuf::from(path),
+        None => {
+            panic!("{variable} is not set: `cargo verify` builds and names what these tests need")
+        }
+    }
+}
+
+/// Starts a program and waits for the line of its output that holds a mark; gives that line.
+fn start(command: &mut Command, mark: &str) -> (Process, String) {
+    let mut child = command.stdout(Stdio::piped()).spawn().expect("the program starts");
+    let output = child.stdout.take().expect("piped");
+    let mut lines = BufReader::new(output).lines().map_while(Result::ok);
+    let line = lines.find(|line| line.contains(mark));
+    // What it prints later is read and dropped, so that it never waits for us.
+    std::thread::spawn(move || lines.count());
+    (Process(child), line.expect("the program says that it runs"))
+}
+
+fn copy_of_the_gallery() -> PathBuf {
+    static NUMBER: AtomicU32 = AtomicU32::new(0);
+    let number = NUMBER.fetch_add(1, Ordering::Relaxed);
+    let folder = env::temp_dir().join(format!("thinglab-visit-{}-{number}", std::process::id()));
+    let gallery = folder.join("gallery");
+    fs::create_dir_all(&gallery).expect("a new folder");
+    let source = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../gallery");
+    for entry in fs::read_dir(source).expect("the gallery") {
+        let path = entry.expect("the gallery can be read").path();
+        let name = path.file_name().expect("listed by name");
+        fs::copy(&path, gallery.join(name)).expect("a copy");
+    }
+    folder
+}
+
+fn capabilities(folder: &Path) -> serde_json::Map<String, Value> {
+    let profile = format!("--user-data-dir={}", folder.join(".profile").display());
+    let arguments = [
+        "--headless=new",
+        "--no-sandbox",
+        "--disable-gpu",
+        "--disable-dev-shm-usage",
+        "--no-first-run",
+        "--disable-background-networking",
+        "--disable-component-update",
+        "--disable-sync",
+        "--window-size=1400,900",
+        &profile,
+    ];
+    let wanted = json!({
+        "browserName": "chrome",
+        "goog:chromeOptions": { "binary": named("CHROMIUM"), "args": arguments },
+        "goog:loggingPrefs": { "browser": "ALL" },
+    });
+    match wanted {
+        Value::Object(map) => map,
+        Value::Null | Value::Bool(_) | Value::Number(_) | Value::String(_) | Value::Array(_) => {
+            unreachable!("written as an object")
+        }
+    }
+}
