@@ -232,7 +232,17 @@ fn tests_of_relations(system: &System) -> (Vec<PlannedRelation>, Vec<u32>, Tape)
 fn report(analysis: &Analysis<'_>) -> (Report, Vec<Vec<usize>>) {
     let rows = &analysis.rows;
     let mut together = Vec::new();
-    let mut rejected = Vec::new();
+    let mut rejected: Vec<Rejected> = analysis
+        .classes
+        .repeated
+        .iter()
+        .map(|(&(relation, row), circuit)| Rejected {
+            relation,
+            row,
+            circuit: circuit.clone(),
+            compromises: false,
+        })
+        .collect();
     for dependent in &analysis.acceptance.dependent {
         let row = &rows[dependent.row];
         let level = row.level;

@@ -45,7 +45,8 @@ pub(crate) fn rows(system: &System, classes: &Classes, arena: &mut Arena) -> Vec
         match &relation.body {
             RelationBody::Equations(equations) => {
                 for (e, equation) in equations.iter().enumerate() {
-                    if classes.used.contains_key(&(r as u32, e as u32)) {
+                    let key = (r as u32, e as u32);
+                    if classes.used.contains_key(&key) || classes.repeated.contains_key(&key) {
                         continue;
                     }
                     let sides = [equation.left, equation.right]

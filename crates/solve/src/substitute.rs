@@ -21,6 +21,43 @@ pub(crate) struct Classes {
     pub(crate) stay: Vec<Stay>,
     /// The equations that substitution makes hold: relation and index.
     pub(crate) used: BTreeMap<(u32, u32), SlotIndex>,
+    /// The equations that say again, or contradict, what those of their circuit say.
+    pub(crate) repeated: BTreeMap<(u32, u32), Vec<(u32, u32)>>,
+}
+
+/// The equations used so far, as edges between slots; the node after the last slot is all numbers.
+struct Edges {
+    at: Vec<Vec<(usize, (u32, u32))>>,
+}
+
+impl Edges {
+    fn add(&mut self, a: usize, b: usize, equation: (u32, u32)) {
+        self.at[a].push((b, equation));
+        self.at[b].push((a, equation));
+    }
+    /// Adds the equations of the shortest way from `a` to `b` to a circuit.
+    fn way(&self, a: usize, b: usize, circuit: &mut Vec<(u32, u32)>) {
+        let mut from: BTreeMap<usize, Option<(usize, (u32, u32))>> = BTreeMap::from([(a, None)]);
+        let mut queue = std::collections::VecDeque::from([a]);
+        while let Some(v) = queue.pop_front() {
+            if v == b {
+                break;
+            }
+            for &(w, equation) in &self.at[v] {
+                if let std::collections::btree_map::Entry::Vacant(entry) = from.entry(w) {
+                    entry.insert(Some((v, equation)));
+                    queue.push_back(w);
+                }
+            }
+        }
+        let mut at = b;
+        while let Some(&Some((before, equation))) = from.get(&at) {
+            circuit.push(equation);
+            at = before;
+        }
+        circuit.sort_unstable();
+        circuit.dedup();
+    }
 }
 
 /// How firmly a stay holds: smaller is firmer.
@@ -40,32 +77,55 @@ pub(crate) fn substitute(system: &System) -> Classes {
     let mut stay: Vec<Stay> = system.slots.iter().map(|s| s.stay).collect();
     let mut constants = BTreeMap::new();
     let mut used = BTreeMap::new();
+    let mut repeated: BTreeMap<(u32, u32), Vec<(u32, u32)>> = BTreeMap::new();
+    let mut edges = Edges { at: vec![Vec::new(); n + 1] };
     for (r, relation) in system.relations.iter().enumerate() {
         let RelationBody::Equations(equations) = &relation.body else { continue };
         if relation.level != Level::Required || !relation.methods.is_empty() {
             continue;
         }
         for (e, equation) in equations.iter().enumerate() {
-            let taken = match simple(system, relation, *equation) {
-                Some(Simple::Same(a, b)) => unite(system, &mut parent, &mut stay, a, b),
-                Some(Simple::Number(a, bits)) => {
+            let Some(simple) = simple(system, relation, *equation) else { continue };
+            let key = (r as u32, e as u32);
+            let root = match simple {
+                Simple::Same(a, b) => unite(system, &mut parent, &stay, a, b),
+                Simple::Number(a, bits) => {
                     let root = find(&mut parent, a);
-                    let free = stay[root as usize] != Stay::Fixed;
-                    if free {
+                    let is_known = stay[root as usize] == Stay::Fixed;
+                    if !is_known {
                         stay[root as usize] = Stay::Fixed;
                         constants.insert(root, bits);
                     }
-                    free.then_some(root)
+                    if is_known { United::Known } else { United::Now(root) }
                 }
-                None => None,
             };
-            if let Some(root) = taken {
-                used.insert((r as u32, e as u32), root);
+            let ends = match simple {
+                Simple::Same(a, b) => [a as usize, b as usize],
+                Simple::Number(a, _) => [a as usize, n],
+            };
+            match root {
+                United::Now(root) => {
+                    used.insert(key, root);
+                    edges.add(ends[0], ends[1], key);
+                }
+                United::Before => {
+                    edges.way(ends[0], ends[1], repeated.entry(key).or_default());
+                }
+                United::Known => {
+                    let circuit = repeated.entry(key).or_default();
+                    for end in ends.into_iter().filter(|&end| end < n) {
+                        let root = find(&mut parent, end as u32);
+                        let known = if constants.contains_key(&root) { n } else { root as usize };
+                        edges.way(end, known, circuit);
+                    }
+                }
+                United::Unlike => {}
             }
         }
     }
-    collect(parent, stay, &constants, used)
+    Classes { repeated, ..collect(parent, stay, &constants, used) }
 }
+
 
 fn collect(
     mut parent: Vec<SlotIndex>,
@@ -82,9 +142,10 @@ fn collect(
     members.retain(|_, m| m.len() > 1);
     let constants = constants.iter().map(|(&r, &b)| (representative[r as usize], b)).collect();
     let used = used.into_iter().map(|(k, r)| (k, representative[r as usize])).collect();
-    Classes { representative, members, constants, stay, used }
+    Classes { representative, members, constants, stay, used, repeated: BTreeMap::new() }
 }
 
+#[derive(Clone, Copy)]
 enum Simple {
     Same(SlotIndex, SlotIndex),
     Number(SlotIndex, u64),
@@ -122,26 +183,37 @@ fn find(parent: &mut [SlotIndex], slot: SlotIndex) -> SlotIndex {
     root
 }
 
-/// Makes one class of two, unless both are known or one may only be whole; returns its root.
+/// What became of an equality.
+enum United {
+    /// The two are one class from now on, with this root.
+    Now(SlotIndex),
+    /// They were one class before.
+    Before,
+    /// Both are known: the equality can only be tested.
+    Known,
+    /// One of them may only be whole.
+    Unlike,
+}
+
 fn unite(
     system: &System,
     parent: &mut [SlotIndex],
-    stay: &mut [Stay],
+    stay: &[Stay],
     a: SlotIndex,
     b: SlotIndex,
-) -> Option<SlotIndex> {
+) -> United {
     if system.slots[a as usize].is_discrete != system.slots[b as usize].is_discrete {
-        return None;
+        return United::Unlike;
     }
     let (a, b) = (find(parent, a), find(parent, b));
     if a == b {
-        return Some(a);
+        return United::Before;
     }
     if stay[a as usize] == Stay::Fixed && stay[b as usize] == Stay::Fixed {
-        return None;
+        return United::Known;
     }
     let rank = |i: SlotIndex| (firmness(stay[i as usize]), i);
     let (root, child) = if rank(a) <= rank(b) { (a, b) } else { (b, a) };
     parent[child as usize] = root;
-    Some(root)
+    United::Now(root)
 }

@@ -148,3 +148,40 @@ fn a_soft_rule_against_a_required_one_is_unmet_and_refuses_nothing() {
     assert_eq!((outcome.unmet[0].relation, outcome.unmet[0].error), (soft, 4.0));
     assert_eq!(values, [1.0]);
 }
+
+#[test]
+fn a_repeated_rule_is_redundant_on_opening() {
+    let mut s = Sheet::default();
+    let (y, z) = (s.free(0.0), s.free(0.0));
+    let (vy, vz, one) = (s.v(y), s.v(z), s.c(1.0));
+    let sum = s.add(vz, one);
+    s.require(vy, sum);
+    let again = s.require(sum, vy);
+    let plan = s.plan();
+    assert_eq!(plan.report.rejected.len(), 1);
+    assert_eq!(plan.report.rejected[0].relation, again);
+    assert_eq!(plan.report.freedom, 1);
+    let (values, outcome) = s.run(&plan, &[], &mut solve::NoHost);
+    assert!(outcome.is_solved() && outcome.unmet.is_empty(), "{outcome:?}");
+    crate::builder::close(values[0], 0.5, 1e-15);
+    crate::builder::close(values[1], -0.5, 1e-15);
+}
+
+#[test]
+fn a_repeated_equality_is_redundant_and_a_second_number_contradicts() {
+    let mut s = Sheet::default();
+    let (x, y) = (s.kept(1.0), s.kept(1.0));
+    let (vx, vy, one, two) = (s.v(x), s.v(y), s.c(1.0), s.c(2.0));
+    s.require(vx, vy);
+    let again = s.require(vy, vx);
+    let plan = s.plan();
+    assert_eq!(plan.report.rejected.len(), 1);
+    assert_eq!(plan.report.rejected[0].circuit, [(0, 0)]);
+    assert_eq!(plan.report.rejected[0].relation, again);
+    assert_eq!(plan.report.freedom, 1);
+    let first = s.require(vx, one);
+    s.require(vy, two);
+    let plan = s.plan();
+    assert_eq!(plan.report.rejected[1].circuit, [(0, 0), (first, 0)]);
+    assert!(!s.run(&plan, &[], &mut solve::NoHost).1.is_solved());
+}
