@@ -2,8 +2,8 @@
 
 use crate::aim::{Aim, with_present_values};
 use crate::component::Component;
-use crate::edit::{Conflict, EditKind, EditReport, RefusalReason, Target};
-use crate::host::{Failure, Host};
+use crate::edit::{EditKind, EditReport, RefusalReason, Target, note};
+use crate::host::Host;
 use crate::planner::{Latest, Model, Planner};
 use crate::run::{Adapter, ran};
 use crate::task::Task;
@@ -11,11 +11,11 @@ use kernel::{SlotId, Values};
 use std::collections::BTreeSet;
 use std::sync::Arc;
 
-/// A drag under way, from the press on.
+/// What a drag keeps from the press to the release.
 ///
 /// The result depends on the state at the press and the present wish, not on what came between.
 #[derive(Debug)]
-pub struct Drag {
+pub struct Press {
     aim: Aim,
     pulls: Vec<Pull>,
     start: Values,
@@ -34,17 +34,6 @@ struct Pull {
     texts: Vec<SlotId>,
 }
 
-/// Where a drag has got to.
-#[derive(Clone, PartialEq, Debug, Default)]
-pub struct DragStep {
-    /// True if every target is where it was wished.
-    pub reached: bool,
-    /// What stands in the way, if something does.
-    pub conflicts: Vec<Conflict>,
-    /// A method that could not be run.
-    pub failure: Option<Failure>,
-}
-
 impl Planner {
     /// Presses on targets, to move them together.
     ///
@@ -56,7 +45,7 @@ impl Planner {
         values: &Values,
         targets: &[Target<'_>],
         host: &mut dyn Host,
-    ) -> Result<Drag, RefusalReason> {
+    ) -> Result<Press, RefusalReason> {
         let targets = with_present_values(self, model, values, targets)?;
         let aim = self.aim(model, values, EditKind::Move, &targets)?;
         Ok(self.press_aim(model, values, aim, host))
@@ -68,13 +57,65 @@ impl Planner {
         values: &Values,
         aim: Aim,
         host: &mut dyn Host,
-    ) -> Drag {
+    ) -> Press {
         let tasks = self.plan_edit(model, &aim);
         self.latest = Latest { tasks: tasks.clone(), edited: Some(aim.slots()) };
         let mut start = values.clone();
         let pull = |task| self.pull(model, task, &aim, &mut start, host);
         let pulls = tasks.into_iter().map(pull).collect();
-        Drag { aim, pulls, start: values.clone() }
+        Press { aim, pulls, start: values.clone() }
+    }
+
+    /// Follows the pointer: `wanted` are the targets' numbers, one after the other.
+    ///
+    /// The report says whether the wish is reached and what stands in its way; what changed is told
+    /// at the release. Cost: what is downstream of the targets.
+    ///
+    /// # Panics
+    /// If there are not as many numbers as were pressed.
+    pub fn drag(
+        &self,
+        model: Model<'_>,
+        press: &mut Press,
+        values: &mut Values,
+        wanted: &[f64],
+        host: &mut dyn Host,
+    ) -> EditReport {
+        let goals = press.aim.wanted.iter_mut().flatten();
+        let count = goals.zip(wanted).map(|(goal, &x)| *goal = x + 0.0).count();
+        assert_eq!(count, wanted.len(), "a wish names every number that was pressed");
+        let mut report = EditReport::default();
+        for pull in &mut press.pulls {
+            pull.follow(self, model, &press.aim, values, host, &mut report);
+        }
+        report.reached = report.refusal.is_none() && self.reached(&press.aim, values);
+        report
+    }
+
+    /// Ends a drag: the wish is withdrawn and soft constraints act again.
+    ///
+    /// Where that fails, everything is as it was at the press.
+    pub fn release(
+        &mut self,
+        model: Model<'_>,
+        press: Press,
+        values: &mut Values,
+        host: &mut dyn Host,
+    ) -> EditReport {
+        let reached = self.reached(&press.aim, values);
+        let mut report = EditReport { reached, ..EditReport::default() };
+        let components: Vec<Component> =
+            press.pulls.iter().map(|p| p.task.component.clone()).collect();
+        if let Some(failure) = self.settle(model, &components, values, host) {
+            *values = press.start;
+            report.refusal = Some(RefusalReason::Method(failure));
+            return report;
+        }
+        let rules: BTreeSet<u32> =
+            components.iter().flat_map(|c| c.rules.iter().copied()).collect();
+        report.unmet = self.unmet(model, rules, values, host);
+        report.changed = values.changed(&press.start).collect();
+        report
     }
 
     fn pull(
@@ -106,63 +147,6 @@ impl Planner {
     }
 }
 
-impl Drag {
-    /// Follows the pointer: `wanted` has the values of each target, in their order.
-    ///
-    /// Cost: what is downstream of the targets.
-    ///
-    /// # Panics
-    /// If `wanted` has not the targets and coordinates of the press.
-    pub fn to(
-        &mut self,
-        planner: &Planner,
-        model: Model<'_>,
-        values: &mut Values,
-        wanted: &[&[f64]],
-        host: &mut dyn Host,
-    ) -> DragStep {
-        assert_eq!(wanted.len(), self.aim.wanted.len(), "a wish names every target");
-        for (goal, wanted) in self.aim.wanted.iter_mut().zip(wanted) {
-            goal.copy_from_slice(wanted);
-        }
-        let mut step = DragStep::default();
-        for pull in &mut self.pulls {
-            pull.follow(planner, model, &self.aim, values, host, &mut step);
-        }
-        step.reached = step.failure.is_none() && planner.reached(&self.aim, values);
-        step
-    }
-
-    /// Ends the drag: the wish is withdrawn and soft constraints act again.
-    pub fn end(
-        self,
-        planner: &mut Planner,
-        model: Model<'_>,
-        values: &mut Values,
-        host: &mut dyn Host,
-    ) -> EditReport {
-        let mut report =
-            EditReport { reached: planner.reached(&self.aim, values), ..Default::default() };
-        let components: Vec<Component> =
-            self.pulls.iter().map(|p| p.task.component.clone()).collect();
-        if let Some(failure) = planner.settle(model, &components, values, host) {
-            *values = self.start;
-            report.refusal = Some(RefusalReason::Method(failure));
-            return report;
-        }
-        let rules: BTreeSet<u32> =
-            components.iter().flat_map(|c| c.rules.iter().copied()).collect();
-        report.unmet = planner.unmet(model, rules, values, host);
-        report.changed = values.changed(&self.start).collect();
-        report
-    }
-
-    /// Takes the drag back: every value is as it was at the press.
-    pub fn cancel(self, values: &mut Values) {
-        *values = self.start;
-    }
-}
-
 impl Pull {
     fn follow(
         &mut self,
@@ -171,7 +155,7 @@ impl Pull {
         aim: &Aim,
         values: &mut Values,
         host: &mut dyn Host,
-        step: &mut DragStep,
+        report: &mut EditReport,
     ) {
         for (target, &(wish, coordinate)) in self.targets.iter_mut().zip(&self.inputs) {
             *target = aim.wanted[wish as usize][coordinate as usize];
@@ -190,9 +174,7 @@ impl Pull {
             values.numbers[slot] = now[local as usize] + 0.0;
         }
         if !outcome.is_solved() || !outcome.unmet.is_empty() {
-            let ran = ran(planner, &self.task, &outcome);
-            step.conflicts.extend(ran.conflicts);
-            step.failure = step.failure.take().or(ran.failure);
+            note(report, ran(planner, &self.task, &outcome));
         }
     }
 }
@@ -205,15 +187,14 @@ pub(crate) fn move_at_once(
     aim: Aim,
     host: &mut dyn Host,
 ) -> EditReport {
-    let wanted = aim.wanted.clone();
-    let wanted: Vec<&[f64]> = wanted.iter().map(Vec::as_slice).collect();
-    let mut drag = planner.press_aim(model, values, aim, host);
-    let step = drag.to(planner, model, values, &wanted, host);
-    if let Some(failure) = step.failure {
-        drag.cancel(values);
-        return EditReport { refusal: Some(RefusalReason::Method(failure)), ..Default::default() };
+    let wanted = aim.wanted.concat();
+    let mut press = planner.press_aim(model, values, aim, host);
+    let step = planner.drag(model, &mut press, values, &wanted, host);
+    if step.refusal.is_some() {
+        *values = press.start;
+        return EditReport { refusal: step.refusal, ..EditReport::default() };
     }
-    let mut report = drag.end(planner, model, values, host);
+    let mut report = planner.release(model, press, values, host);
     report.conflicts = step.conflicts;
     report
 }

@@ -225,7 +225,8 @@ impl Planner {
     }
 }
 
-fn note(report: &mut EditReport, ran: Ran) {
+/// Adds what came of one component.
+pub(crate) fn note(report: &mut EditReport, ran: Ran) {
     report.conflicts.extend(ran.conflicts);
     if report.refusal.is_none() {
         report.refusal = ran.failure.map(RefusalReason::Method);

@@ -113,7 +113,7 @@ impl Planner {
     }
 
     /// Returns the heaviest kind of step of the latest edit; nothing to do is one pass.
-    pub fn plan_kind(&self) -> PlanKind {
+    pub fn latest_kind(&self) -> PlanKind {
         let steps = self.explain();
         steps.iter().map(|s| s.kind.plan_kind()).max().unwrap_or(PlanKind::OnePass)
     }
@@ -121,9 +121,8 @@ impl Planner {
     /// Returns the steps that lead to a slot's value, and where they begin.
     ///
     /// The plan of the latest edit is asked where it computed the slot, else that of the document at
-    /// rest.
-    pub fn why(&mut self, model: Model<'_>, slot: SlotId) -> Why {
-        self.plan_resting(model.structure);
+    /// rest, which [`Planner::status`] makes.
+    pub fn why(&self, model: Model<'_>, slot: SlotId) -> Why {
         let computes = |t: &&Task| local(t, slot).is_some_and(|s| producer(t, s).is_some());
         let task = self
             .latest

@@ -7,7 +7,8 @@ use kernel::{ConstraintInstance, SlotId, Value, Values};
 
 /// What the planner asks of whoever evaluates expressions.
 pub trait Host {
-    /// Returns the given value of a slot; nothing where none is given or it cannot be computed.
+    /// Returns the value that a slot has before anything is solved: its given value or, after a
+    /// change of structure, the one that it had. Nothing where there is none; then rules make it.
     fn given(&mut self, slot: SlotId, values: &Values) -> Option<Value>;
     /// Computes what a method writes, and where.
     ///

@@ -11,12 +11,12 @@
 //!
 //! ```no_run
 //! use kernel::{Document, Value, Values, instantiate};
-//! use plan::{EditKind, Host, Model, Planner, Target};
+//! use plan::{EditKind, Host, Model, Planner, Plans, Target};
 //!
 //! fn double_the_first_part(document: &Document, host: &mut dyn Host) -> Option<Values> {
 //!     let (structure, _) = instantiate(document);
 //!     let model = Model { document, structure: &structure };
-//!     let (mut planner, _faults) = Planner::new(model);
+//!     let (mut planner, _faults) = Planner::new(model, Plans::default());
 //!     let mut values = Values::default();
 //!     planner.open(model, &mut values, host);
 //!     let first = structure.parts(kernel::DOCUMENT).next()?;
@@ -49,6 +49,7 @@ pub mod host;
 
 mod component;
 mod holds;
+pub mod plans;
 mod task;
 
 pub mod planner;
@@ -61,11 +62,12 @@ mod run;
 pub mod explain;
 pub mod status;
 
-pub use drag::{Drag, DragStep};
+pub use drag::Press;
 pub use edit::{Conflict, EditKind, EditReport, RefusalReason, Target};
 pub use explain::{ExplainedKind, ExplainedStep, PlanKind, Root, RootKind, Why};
 pub use fault::{Fault, FaultKind};
 pub use host::{Failure, Host};
-pub use planner::{Model, PlanCounts, Planner, Unmet};
+pub use planner::{Latest, Model, Planner, Unmet};
+pub use plans::{PlanCounts, Plans};
 pub use rule::{Source, Way};
 pub use status::{SlotState, Status};

@@ -6,8 +6,9 @@ use crate::fault::Fault;
 use crate::holds;
 use crate::host::Host;
 use crate::lower;
+use crate::plans::{PlanCounts, Plans};
 use crate::rule::{Rule, Source};
-use crate::task::{Holding, Plans, Setting, Task, Wish, task};
+use crate::task::{Holding, Setting, Task, Wish, task};
 use expr::Arena;
 use kernel::{Document, SlotId, Structure, Values};
 use solve::Level;
@@ -35,9 +36,9 @@ pub struct Planner {
     resting: Option<Vec<Task>>,
 }
 
-/// What the latest edit planned.
+/// What the latest edit planned: what an explanation is about.
 #[derive(Debug, Default)]
-pub(crate) struct Latest {
+pub struct Latest {
     pub(crate) tasks: Vec<Task>,
     /// The slots that the edit set or moved; nothing on opening, when everything is computed.
     pub(crate) edited: Option<BTreeSet<SlotId>>,
@@ -46,8 +47,9 @@ pub(crate) struct Latest {
 impl Planner {
     /// Lowers every constraint and declared stay. What cannot be planned is left out and reported.
     ///
-    /// Cost: linear in what the rules open into.
-    pub fn new(model: Model<'_>) -> (Self, Vec<Fault>) {
+    /// `plans` are those that an earlier planner made; the default is none. Cost: linear in what
+    /// the rules open into.
+    pub fn new(model: Model<'_>, plans: Plans) -> (Self, Vec<Fault>) {
         let mut arena = Arena::new();
         let mut rules = Vec::new();
         let mut faults = Vec::new();
@@ -62,14 +64,34 @@ impl Planner {
             rules.extend(lower::lower_stay(model.structure, index, stay));
         }
         let net = Net::new(model.structure, &rules);
-        let plans = Plans::default();
         let latest = Latest::default();
         (Self { arena, rules, net, plans, latest, resting: None }, faults)
     }
 
+    /// Returns the plans made so far, to be handed to the next planner.
+    pub fn into_plans(self) -> Plans {
+        self.plans
+    }
+    /// Takes the plans made so far out, to be handed to the next planner.
+    pub fn take_plans(&mut self) -> Plans {
+        std::mem::take(&mut self.plans)
+    }
+    /// Gives plans back that another planner was tried with.
+    pub fn give_plans(&mut self, plans: Plans) {
+        self.plans = plans;
+    }
+    /// Takes out what the latest edit planned.
+    pub fn take_latest(&mut self) -> Latest {
+        std::mem::take(&mut self.latest)
+    }
+    /// Makes explanations speak of this edit again; its structure must be that of this planner.
+    pub fn restore_latest(&mut self, latest: Latest) {
+        self.latest = latest;
+    }
+
     /// Returns how many systems were planned, and how many found their plan made.
     pub fn plan_counts(&self) -> PlanCounts {
-        PlanCounts { planned: self.plans.planned(), reused: self.plans.reused() }
+        self.plans.counts()
     }
 
     /// Returns what holds a slot while nothing is edited.
@@ -144,13 +166,4 @@ pub struct Unmet {
     pub level: Level,
     /// The greatest difference of its sides, in base units; nothing where it has none.
     pub error: Option<f64>,
-}
-
-/// How much was planned.
-#[derive(Clone, Copy, PartialEq, Eq, Debug)]
-pub struct PlanCounts {
-    /// Systems for which a plan was made.
-    pub planned: usize,
-    /// Systems whose plan was there already.
-    pub reused: usize,
 }

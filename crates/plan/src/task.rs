@@ -4,6 +4,7 @@
 //! so that one plan serves all of them.
 
 use crate::component::Component;
+use crate::plans::Plans;
 use crate::rule::{Body, How, Rule, Source};
 use base::IdVec;
 use expr::{Arena, ExprId, Node, Var};
@@ -68,47 +69,6 @@ pub(crate) struct Setting<'s> {
     pub(crate) holding: &'s dyn Fn(SlotId) -> Holding,
     /// Wishes by their index in the edit.
     pub(crate) wishes: &'s [Wish],
-}
-
-/// Everything that two systems have to agree in to have one plan.
-#[derive(Clone, PartialEq, Eq, Hash, Debug)]
-struct Shape {
-    slots: Vec<solve::Slot>,
-    relations: Vec<Relation>,
-    nodes: Vec<Node>,
-}
-
-/// Plans by the shape of their systems.
-#[derive(Debug, Default)]
-pub(crate) struct Plans {
-    by_shape: IndexMap<Shape, (Rc<System>, Rc<Plan>)>,
-    reused: usize,
-}
-
-impl Plans {
-    /// Returns how many systems were planned.
-    pub(crate) fn planned(&self) -> usize {
-        self.by_shape.len()
-    }
-    /// Returns how many times a plan was there already.
-    pub(crate) fn reused(&self) -> usize {
-        self.reused
-    }
-    fn plan(&mut self, system: System) -> (Rc<System>, Rc<Plan>) {
-        let shape = Shape {
-            slots: system.slots.clone(),
-            relations: system.relations.clone(),
-            nodes: (0..system.arena.len()).map(|i| system.arena.node(ExprId(i as u32))).collect(),
-        };
-        if let Some((system, plan)) = self.by_shape.get(&shape) {
-            self.reused += 1;
-            return (system.clone(), plan.clone());
-        }
-        let plan = Rc::new(solve::plan(&system));
-        let system = Rc::new(system);
-        self.by_shape.insert(shape, (system.clone(), plan.clone()));
-        (system, plan)
-    }
 }
 
 /// States a component as a system and plans it.

@@ -8,7 +8,7 @@ use kernel::{
     Stay, Step, Strength, Structure, Superclass, Term, ThingId, Value, Values, Vertical,
     instantiate,
 };
-use plan::{EditKind, EditReport, Fault, Host, Model, Planner, Target, Way};
+use plan::{EditKind, EditReport, Fault, Host, Model, Planner, Plans, Target, Way};
 use std::sync::Arc;
 
 pub(crate) const OBJECT: ClassId = ClassId(0);
@@ -136,7 +136,7 @@ impl Builder {
         let (structure, faults) = instantiate(&self.document);
         assert_eq!(faults, vec![]);
         let model = Model { document: &self.document, structure: &structure };
-        let (mut planner, faults) = Planner::new(model);
+        let (mut planner, faults) = Planner::new(model, Plans::default());
         let mut values = Values::default();
         let mut host = Terms { document: &self.document, structure: &structure };
         let opened = planner.open(model, &mut values, &mut host);

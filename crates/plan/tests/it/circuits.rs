@@ -58,7 +58,7 @@ fn a_divider_finds_its_currents_and_voltages() {
     assert_eq!(report.refusal, None);
     near(lab.number("r1.current"), 0.00375);
     near(lab.number("r2.a.node.voltage"), 1.125);
-    assert_eq!(lab.planner.plan_kind(), PlanKind::Block);
+    assert_eq!(lab.planner.latest_kind(), PlanKind::Block);
 }
 
 #[test]
