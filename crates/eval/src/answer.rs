@@ -54,6 +54,19 @@ impl Answer<'_> {
     pub fn text(text: &str) -> Self {
         Self::Text(Arc::from(text))
     }
+    /// Returns the thing that it is, if it is one of the document's.
+    pub fn thing(&self) -> Option<ThingId> {
+        match self {
+            Self::Thing(thing) => Some(*thing),
+            Self::Number(..)
+            | Self::Bool(_)
+            | Self::Text(_)
+            | Self::Made(_)
+            | Self::List(_)
+            | Self::Picture(_)
+            | Self::Function(_) => None,
+        }
+    }
     /// Returns what kind of value it is, in words: "a number".
     pub fn kind(&self) -> &'static str {
         match self {

@@ -1,9 +1,10 @@
 //! The language's own functions and messages, as `kernel::builtin` lists them.
 
 use crate::answer::Answer;
-use crate::evaluator::{Evaluator, Given, Result, finite};
+use crate::evaluator::{Evaluator, Given, Result};
 use crate::fault::Fault;
 use crate::measure;
+use crate::operate::finite;
 use base::Name;
 use base::number::{acos, asin, atan, atan2, cos, exp, ln, rounded, shortest, sin, sqrt, tan};
 use drawing::metrics;

@@ -139,16 +139,21 @@ fn name(evaluator: &Evaluator<'_>, constraint: ConstraintInstance) -> String {
 
 /// Returns the slots that constraints connect to the edited ones.
 ///
-/// A constraint connects what its rule reads in either state and what its methods write.
+/// A constraint that is switched on connects what its rule reads in either state and what its
+/// methods write.
 fn connected(document: &Document, structure: &Structure, edit: Edit<'_>) -> BTreeSet<SlotId> {
     let before = Evaluator::new(document, structure, edit.before);
     let after = before.in_state(edit.after);
     let mut groups: Vec<BTreeSet<SlotId>> = Vec::new();
     for &constraint in &structure.constraints {
+        let class = &document.classes[constraint.class];
+        let written = &class.constraints[constraint.index as usize];
+        if !written.enabled {
+            continue;
+        }
         let (_, mut slots) = before.listening(|| before.test(constraint));
         slots.extend(after.listening(|| after.test(constraint)).1);
-        let class = &document.classes[constraint.class];
-        for method in &class.constraints[constraint.index as usize].methods {
+        for method in &written.methods {
             for target in &method.targets {
                 if let Ok(thing) = structure.follow(constraint.owner, target) {
                     slots.extend(structure.slots_under(thing));

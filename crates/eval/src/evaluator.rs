@@ -5,16 +5,16 @@
 
 use crate::answer::{Answer, Closure, Frame};
 use crate::fault::{Fault, FaultKind};
-use crate::measure;
-use base::number::{close, pow};
-use base::{IdVec, Name};
+use crate::lookup::Tables;
+use crate::operate::unary;
+use base::Name;
 use expr::dimension::Dimension;
 use kernel::{
-    Argument, BinaryOperator, ClassId, ClassKind, DOCUMENT, Document, Layout, Message, Primitive,
-    SlotId, Structure, Term, ThingId, UnaryOperator, Values,
+    Argument, ClassId, ClassKind, DOCUMENT, Document, Primitive, SlotId, Structure, Term, ThingId,
+    Values,
 };
 use std::cell::{Cell, RefCell};
-use std::collections::{BTreeMap, BTreeSet};
+use std::collections::BTreeSet;
 use std::rc::Rc;
 
 /// How deep messages may call each other.
@@ -50,35 +50,6 @@ pub struct Evaluator<'a> {
     pub(crate) faults: RefCell<Vec<Fault>>,
     /// The slots read since someone began to listen.
     reads: RefCell<Option<BTreeSet<SlotId>>>,
-}
-
-/// The class that answers a message, and the message's index there.
-type Found = Option<(ClassId, usize)>;
-
-/// What has been looked up so far.
-#[derive(Debug)]
-pub(crate) struct Tables {
-    layouts: RefCell<IdVec<ClassId, Option<Rc<Layout>>>>,
-    messages: RefCell<IdVec<ClassId, BTreeMap<Name, Found>>>,
-    order: RefCell<Option<Rc<[ThingId]>>>,
-    /// Names that the evaluator itself asks for.
-    pub(crate) x: Name,
-    pub(crate) y: Name,
-    pub(crate) picture: Name,
-}
-
-impl Tables {
-    pub(crate) fn new(document: &Document) -> Self {
-        let n = document.classes.len();
-        Self {
-            layouts: RefCell::new(IdVec::filled(None, n)),
-            messages: RefCell::new(IdVec::filled(BTreeMap::new(), n)),
-            order: RefCell::new(None),
-            x: Name::new("x"),
-            y: Name::new("y"),
-            picture: Name::new("picture"),
-        }
-    }
 }
 
 impl<'a> Evaluator<'a> {
@@ -379,69 +350,6 @@ impl<'a> Evaluator<'a> {
         }
     }
 
-    /// Follows a reference to the thing that it names.
-    fn referent(&self, reference: ThingId) -> Result<Answer<'a>> {
-        let document = self.document;
-        let t = &self.structure.things[reference];
-        let name = self.structure.field_name(document, reference);
-        let (Some(owner), Some(name)) = (t.owner, name) else {
-            return Err(Fault::wrong("a reference that is no part of a class"));
-        };
-        let path = kernel::Path::of(&[name]);
-        let line = document.primary_line(self.structure.things[owner].class);
-        let given = line
-            .into_iter()
-            .find_map(|c| document.classes[c].givens.iter().rev().find(|g| g.path == path));
-        let given = given.ok_or_else(|| Fault::no_answer(format!("`{name}` names nothing yet")))?;
-        self.deeper(|| self.term(&given.value, &Frame::of(owner)))
-            .map_err(|f| f.within(given.origin))
-    }
-
-    pub(crate) fn class_kind(&self, thing: ThingId) -> &'a ClassKind {
-        &self.document.classes[self.structure.things[thing].class].kind
-    }
-
-    /// Returns the layout of a class, made once.
-    pub(crate) fn layout(&self, class: ClassId) -> Rc<Layout> {
-        if let Some(layout) = &self.tables.layouts.borrow()[class] {
-            return layout.clone();
-        }
-        let known = self.structure.layouts.get(&class).cloned();
-        let layout = known.unwrap_or_else(|| Rc::new(Layout::new(self.document, class)));
-        self.tables.layouts.borrow_mut()[class] = Some(layout.clone());
-        layout
-    }
-
-    /// Returns the part of a thing that a bare name means.
-    pub(crate) fn part_named(&self, thing: ThingId, name: &Name) -> Option<ThingId> {
-        let s = self.structure;
-        let own = |thing: ThingId| {
-            let t = &s.things[thing];
-            let layout = self.layout(t.class);
-            match layout.index.get(name) {
-                Some(&i) => Some(ThingId(t.first_part.0 + i)),
-                None if layout.own_names.is_empty() && layout.superclasses.is_empty() => None,
-                None => s.part_named(thing, name),
-            }
-        };
-        own(thing).or_else(|| s.merges.get(&s.merged[thing])?.iter().find_map(|&t| own(t)))
-    }
-
-    /// Finds a class's message by the thesis's order, once for every class and name.
-    pub(crate) fn class_message(&self, class: ClassId, name: &Name) -> Option<&'a Message> {
-        let document = self.document;
-        let message = |(c, i): (ClassId, usize)| &document.classes[c].messages[i];
-        if let Some(found) = self.tables.messages.borrow()[class].get(name) {
-            return found.map(message);
-        }
-        let found = document.find_message(class, name, None).and_then(|(c, found)| {
-            let i = document.classes[c].messages.iter().position(|m| std::ptr::eq(m, found))?;
-            Some((c, i))
-        });
-        self.tables.messages.borrow_mut()[class].insert(name.clone(), found);
-        found.map(message)
-    }
-
     pub(crate) fn is_a(&self, answer: &Answer<'a>, class: ClassId) -> bool {
         let is = |c: ClassId| self.document.is_a(c, class);
         match answer {
@@ -462,35 +370,6 @@ impl<'a> Evaluator<'a> {
             }
             Answer::List(_) | Answer::Picture(_) | Answer::Function(_) => false,
         }
-    }
-
-    /// Returns the things of a class in order of declaration, merged ones once.
-    fn all(&self, class: ClassId) -> Rc<[Answer<'a>]> {
-        let is: BTreeMap<ClassId, bool> =
-            self.structure.layouts.keys().map(|&c| (c, self.document.is_a(c, class))).collect();
-        let of_class = |t: &ThingId| {
-            let c = self.structure.things[*t].class;
-            self.structure.merged[*t] == *t
-                && is.get(&c).copied().unwrap_or_else(|| self.document.is_a(c, class))
-        };
-        let things = self.in_order();
-        things.iter().filter(|t| of_class(t)).filter_map(|&t| self.part(t).ok()).collect()
-    }
-
-    /// Returns every thing in order of declaration.
-    pub(crate) fn in_order(&self) -> Rc<[ThingId]> {
-        if let Some(order) = &*self.tables.order.borrow() {
-            return order.clone();
-        }
-        let mut order = Vec::with_capacity(self.structure.things.len());
-        let mut stack: Vec<ThingId> = self.structure.things.ids().take(1).collect();
-        while let Some(thing) = stack.pop() {
-            order.push(thing);
-            stack.extend(self.structure.parts(thing).rev());
-        }
-        let order: Rc<[ThingId]> = order.into();
-        *self.tables.order.borrow_mut() = Some(order.clone());
-        order
     }
 
     /// Says what a value is, by its class where it has one.
@@ -525,178 +404,5 @@ impl<'a> Evaluator<'a> {
                 Err(Fault::wrong(format!("{} where a truth value is wanted", self.kind(other))))
             }
         }
-    }
-
-    /// Returns the answer of `and` and `or` where the left side alone decides it.
-    fn decided(&self, operator: BinaryOperator, a: &Answer<'a>) -> Result<Option<Answer<'a>>> {
-        let deciding = match operator {
-            BinaryOperator::And => false,
-            BinaryOperator::Or => true,
-            BinaryOperator::Add
-            | BinaryOperator::Subtract
-            | BinaryOperator::Multiply
-            | BinaryOperator::Divide
-            | BinaryOperator::Power
-            | BinaryOperator::Equal
-            | BinaryOperator::NotEqual
-            | BinaryOperator::Less
-            | BinaryOperator::LessEqual
-            | BinaryOperator::Greater
-            | BinaryOperator::GreaterEqual
-            | BinaryOperator::In => return Ok(None),
-        };
-        Ok((self.truth_of(a)? == deciding).then_some(Answer::Bool(deciding)))
-    }
-
-    /// Computes an operation on two values. Kept out of the recursion, whose frames stay small.
-    #[inline(never)]
-    fn binary(
-        &self,
-        operator: BinaryOperator,
-        a: &Answer<'a>,
-        b: &Answer<'a>,
-    ) -> Result<Answer<'a>> {
-        use BinaryOperator as B;
-        let numbers = || Ok::<_, Fault>((self.number(a)?, self.number(b)?));
-        let holds = match operator {
-            B::Add => return self.sum(a, b),
-            B::Subtract => {
-                let ((x, dx), (y, dy)) = numbers()?;
-                return finite(x - y, measure::common(dx, dy)?);
-            }
-            B::Multiply => {
-                let ((x, dx), (y, dy)) = numbers()?;
-                return finite(x * y, dx.times(dy));
-            }
-            B::Divide => {
-                let ((x, dx), (y, dy)) = numbers()?;
-                if y == 0.0 {
-                    let x = base::number::shortest(x);
-                    return Err(Fault::no_answer(format!("{x} divided by zero")));
-                }
-                return finite(x / y, dx.over(dy));
-            }
-            B::Power => {
-                let ((x, dx), (y, _)) = numbers()?;
-                return finite(power(x, y), measure::power(dx, y));
-            }
-            // The left side did not decide, so that the right one does.
-            B::And | B::Or => self.truth_of(b)?,
-            B::Equal => self.equal(a, b)?,
-            B::NotEqual => !self.equal(a, b)?,
-            B::In => self.contains(b, a)?,
-            B::Less => self.order(a, b)?.is_lt(),
-            B::LessEqual => self.order(a, b)?.is_le(),
-            B::Greater => self.order(a, b)?.is_gt(),
-            B::GreaterEqual => self.order(a, b)?.is_ge(),
-        };
-        Ok(Answer::Bool(holds))
-    }
-
-    /// Adds numbers, or joins texts.
-    fn sum(&self, a: &Answer<'a>, b: &Answer<'a>) -> Result<Answer<'a>> {
-        if let (Answer::Text(a), Answer::Text(b)) = (a, b) {
-            return Ok(Answer::text(&format!("{a}{b}")));
-        }
-        if let (Answer::Text(_), Answer::Number(..)) | (Answer::Number(..), Answer::Text(_)) =
-            (a, b)
-        {
-            let message = "a text and a number are not joined: write `.text` after the number";
-            return Err(Fault::wrong(message));
-        }
-        let ((x, dx), (y, dy)) = (self.number(a)?, self.number(b)?);
-        finite(x + y, measure::common(dx, dy)?)
-    }
-
-    /// Returns true if two values are equal: numbers to the rule tolerance, things part by part.
-    fn equal(&self, a: &Answer<'a>, b: &Answer<'a>) -> Result<bool> {
-        let mut equal = true;
-        self.leaves(a, b, &mut |a, b| {
-            equal = equal && self.same_leaf(a, b)?;
-            Ok(())
-        })?;
-        Ok(equal)
-    }
-
-    /// Returns true if two values without parts are equal.
-    pub(crate) fn same_leaf(&self, a: &Answer<'a>, b: &Answer<'a>) -> Result<bool> {
-        match (a, b) {
-            (Answer::Number(x, dx), Answer::Number(y, dy)) => {
-                measure::common(*dx, *dy)?;
-                Ok(close(*x, *y))
-            }
-            (Answer::Bool(x), Answer::Bool(y)) => Ok(x == y),
-            (Answer::Text(x), Answer::Text(y)) => Ok(x == y),
-            _ => {
-                let message = format!("{} and {} are never equal", self.kind(a), self.kind(b));
-                Err(Fault::wrong(message))
-            }
-        }
-    }
-
-    /// Compares numbers exactly, or texts by their characters.
-    pub(crate) fn order(&self, a: &Answer<'a>, b: &Answer<'a>) -> Result<std::cmp::Ordering> {
-        if let (Answer::Text(a), Answer::Text(b)) = (a, b) {
-            return Ok(a.cmp(b));
-        }
-        let ((x, dx), (y, dy)) = (self.number(a)?, self.number(b)?);
-        measure::common(dx, dy)?;
-        // Answers are finite, so that the order is total up to the sign of zero.
-        Ok((x + 0.0).total_cmp(&(y + 0.0)))
-    }
-
-    /// Returns true if a list or set has an element: a thing by identity, a value by equality.
-    fn contains(&self, list: &Answer<'a>, wanted: &Answer<'a>) -> Result<bool> {
-        for item in self.items(list)?.iter() {
-            self.burn()?;
-            let found = match (item, wanted) {
-                (Answer::Thing(a), Answer::Thing(b)) => {
-                    self.structure.merged[*a] == self.structure.merged[*b]
-                }
-                (Answer::Thing(_), _) | (_, Answer::Thing(_)) => false,
-                _ => self.equal(item, wanted)?,
-            };
-            if found {
-                return Ok(true);
-            }
-        }
-        Ok(false)
-    }
-}
-
-fn unary<'a>(operator: UnaryOperator, operand: &Answer<'a>) -> Result<Answer<'a>> {
-    match (operator, operand) {
-        (UnaryOperator::Negate, Answer::Number(x, dimension)) => {
-            Ok(Answer::Number(0.0 - x, *dimension))
-        }
-        (UnaryOperator::Not, Answer::Bool(b)) => Ok(Answer::Bool(!b)),
-        (UnaryOperator::Negate, other) => {
-            Err(Fault::wrong(format!("{} where a number is wanted", other.kind())))
-        }
-        (UnaryOperator::Not, other) => {
-            Err(Fault::wrong(format!("{} where a truth value is wanted", other.kind())))
-        }
-    }
-}
-
-/// Computes a power; small whole exponents by multiplication, so that squares are exact.
-fn power(x: f64, y: f64) -> f64 {
-    if y == 2.0 {
-        x * x
-    } else if y == 1.0 {
-        x
-    } else {
-        pow(x, y)
-    }
-}
-
-/// Returns a number, if it is one.
-pub(crate) fn finite<'a>(value: f64, dimension: Dimension) -> Result<Answer<'a>> {
-    if value.is_finite() {
-        Ok(Answer::Number(value, dimension))
-    } else if value.is_nan() {
-        Err(Fault::no_answer("a number that is not defined, as the square root of -1"))
-    } else {
-        Err(Fault::no_answer("a number too large to be written"))
     }
 }

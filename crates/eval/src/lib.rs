@@ -5,21 +5,36 @@
 //! was found and what was wanted; nothing here panics or runs for ever. A [`Picture`] is what the
 //! document's things answer to `picture`, with what each element stands for.
 //!
+//! ```
+//! use eval::{Evaluator, Fault, given_values};
+//! use kernel::{DOCUMENT, Document, Term, instantiate};
+//!
+//! fn shown(document: &Document, term: &Term) -> Result<String, Fault> {
+//!     let (structure, _) = instantiate(document);
+//!     let (values, _) = given_values(document, &structure);
+//!     let evaluator = Evaluator::new(document, &structure, &values);
+//!     let answer = evaluator.evaluate(term, DOCUMENT)?;
+//!     Ok(evaluator.text_of(&answer))
+//! }
+//! ```
+//!
 //! [`checker`] tests states and edits from the rules alone; it shares no code with planner or solver.
 //!
 //! **Invariants**: numbers in answers are finite; evaluation writes nothing; the same state gives
 //! the same bits; messages call each other at most [`DEEPEST_MESSAGES`] deep.
 //!
-//! Reading order: `answer`, `evaluator`, `send`, `make`, `compare`, `builtin`, `shapes`, `verdict`,
-//! `write`, `picture`, [`checker`].
+//! Reading order: `answer`, `evaluator`, `lookup`, `operate`, `measure`, `send`, `make`, `compare`,
+//! `builtin`, `shapes`, `verdict`, `write`, `picture`, [`checker`].
 mod answer;
 mod builtin;
 pub mod checker;
 mod compare;
 mod evaluator;
 mod fault;
+mod lookup;
 mod make;
 mod measure;
+mod operate;
 mod picture;
 mod send;
 mod shapes;
@@ -31,4 +46,4 @@ pub use evaluator::{DEEPEST_MESSAGES, Evaluator, MOST_TERMS};
 pub use fault::{Fault, FaultKind};
 pub use picture::{Grip, Picture};
 pub use verdict::Verdict;
-pub use write::given_values;
+pub use write::{Side, given_values};

@@ -1,15 +1,25 @@
 //! What written methods and given values put into slots.
 
 use crate::answer::{Answer, Frame};
-use crate::evaluator::{Evaluator, Result, Tables};
+use crate::evaluator::{Evaluator, Result};
 use crate::fault::{Fault, FaultKind};
+use crate::lookup::Tables;
 use crate::measure;
 use kernel::{
-    ClassKind, ConstraintInstance, Document, GivenIn, Primitive, SlotId, Structure, ThingId, Value,
-    Values,
+    BinaryOperator, ClassKind, ConstraintInstance, Document, GivenIn, Primitive, SlotId, Structure,
+    Term, ThingId, Value, Values,
 };
 use std::collections::BTreeSet;
 use std::rc::Rc;
+
+/// A side of an equation.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub enum Side {
+    /// The left one.
+    Left,
+    /// The right one.
+    Right,
+}
 
 impl<'a> Evaluator<'a> {
     /// Computes what a written method of a constraint puts into its targets, things part by part.
@@ -40,6 +50,68 @@ impl<'a> Evaluator<'a> {
         };
         write().map_err(|f: Fault| f.within(method.origin))?;
         Ok(written)
+    }
+
+    /// Computes what makes the sides of a constraint's `=` alike: one takes the other's value.
+    ///
+    /// A rule that is a message is opened first. Nothing is written here.
+    ///
+    /// # Errors
+    /// A rule without `=`, a side that is no stored part, a value that does not fit; named by the
+    /// constraint.
+    pub fn copy_side(
+        &self,
+        constraint: ConstraintInstance,
+        taker: Side,
+    ) -> Result<Vec<(SlotId, Value)>> {
+        let class = &self.document.classes[constraint.class];
+        let written = &class.constraints[constraint.index as usize];
+        self.begin();
+        self.copy_in(&written.rule, &Frame::of(constraint.owner), taker)
+            .map_err(|f| f.within(written.origin))
+    }
+
+    fn copy_in(
+        &self,
+        rule: &'a Term,
+        frame: &Frame<'a>,
+        taker: Side,
+    ) -> Result<Vec<(SlotId, Value)>> {
+        if let Term::Send { to, name, arguments, above } = rule {
+            let to = self.term(to, frame)?;
+            if let Some(message) = self.message(&to, name, *above) {
+                let arguments = self.arguments(arguments, frame)?;
+                let inner = self.bind(Frame::sent(to, frame.nearest), message, arguments)?;
+                return self.deeper(|| self.copy_in(&message.answer, &inner, taker));
+            }
+        }
+        let Term::Binary(BinaryOperator::Equal, left, right) = rule else {
+            return Err(Fault::wrong("a rule that is no equation"));
+        };
+        let (target, source) = match taker {
+            Side::Left => (left, right),
+            Side::Right => (right, left),
+        };
+        let target = self.target(target, frame)?;
+        let mut written = Vec::new();
+        self.share(target, &self.term(source, frame)?, &mut written)?;
+        Ok(written)
+    }
+
+    /// Finds the part that a term names, stored and not computed.
+    fn target(&self, term: &'a Term, frame: &Frame<'a>) -> Result<ThingId> {
+        let found = match term {
+            Term::Send { to, name, arguments, above: None } if arguments.is_empty() => {
+                self.term(to, frame)?.thing().and_then(|owner| self.part_named(owner, name))
+            }
+            Term::Index(list, index) => {
+                let list = self.term(list, frame)?.thing();
+                let index = usize::try_from(self.whole(&self.term(index, frame)?)?).ok();
+                list.zip(index).and_then(|(list, i)| self.structure.parts(list).nth(i))
+            }
+            other => self.term(other, frame)?.thing(),
+        };
+        found.ok_or_else(|| Fault::wrong("a side that is no stored part takes no value"))
     }
 
     /// Computes the given value of a slot; none where nothing is given.

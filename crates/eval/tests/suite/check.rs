@@ -18,7 +18,7 @@ fn document() -> (Build, Structure) {
     b.constraint(root, "shown", equal(part("words"), send(part("a"), "text", vec![]))).methods =
         vec![method(&["words"], vec![send(part("a"), "text", vec![])])];
     b.constraint(root, "wish", equal(part("c"), num(77.0))).strength = Strength::Weak;
-    b.constraint(root, "off", equal(part("c"), num(78.0))).enabled = false;
+    b.constraint(root, "off", equal(part("c"), part("a"))).enabled = false;
     let stay = Stay { path: path("d"), strength: None, origin: kernel::OriginId(0) };
     b.document.classes[root].stays.push(stay);
     let structure = b.structure();

@@ -1,7 +1,7 @@
 //! Rules and written methods: verdicts to the language's tolerances, targets part by part.
 
 use crate::build::{Build, call, equal, labelled, make, method, num, op, part, send, sub, text};
-use eval::{Evaluator, Verdict, given_values};
+use eval::{Evaluator, Side, Verdict, given_values};
 use kernel::{BinaryOperator, Structure, Term, Value, Values};
 
 /// Tests the first constraint, with slots set to these values in order.
@@ -170,6 +170,32 @@ fn a_method_writes_a_thing_part_by_part_and_says_what_failed() {
     assert_eq!(run(2).unwrap_err().message, "a number has no parts");
     assert_eq!(run(3).unwrap_err().message, "the square root of -1");
     assert_eq!(run(4).unwrap(), [(slots[2], t("on"))]);
+}
+
+#[test]
+fn a_side_takes_the_value_of_the_other() {
+    let mut b = Build::new();
+    b.part(b.root(), "p", b.point);
+    b.part(b.root(), "caption", b.text);
+    b.constraint(b.root(), "there", equal(part("p"), make(b.point, vec![num(1.0), num(2.0)])));
+    b.constraint(b.root(), "shown", equal(send(part("p.x"), "text", vec![]), part("caption")));
+    b.message(b.root(), "named", &[], equal(part("caption"), text("here")));
+    b.constraint(b.root(), "name", part("named"));
+    b.constraint(b.root(), "less", op(BinaryOperator::Less, part("p.x"), num(1.0)));
+    let structure = b.structure();
+    let state = state(&structure, &[x(4.0), x(2.0), t("hot")]);
+    let evaluator = Evaluator::new(&b.document, &structure, &state);
+    let copy = |i: usize, side| {
+        let found = evaluator.copy_side(structure.constraints[i], side);
+        found.map_err(|f| f.message).map(|w| w.into_iter().map(|(_, v)| v).collect::<Vec<_>>())
+    };
+    assert_eq!(copy(0, Side::Left), Ok(vec![x(1.0), x(2.0)]));
+    let says = "a side that is no stored part takes no value";
+    assert_eq!(copy(0, Side::Right), Err(says.into()));
+    assert_eq!(copy(1, Side::Left), Err(says.into()));
+    assert_eq!(copy(1, Side::Right), Ok(vec![t("4")]));
+    assert_eq!(copy(2, Side::Left), Ok(vec![t("here")]));
+    assert_eq!(copy(3, Side::Left), Err("a rule that is no equation".into()));
 }
 
 #[test]

@@ -1,0 +1,189 @@
+//! Operators: arithmetic, comparison, membership.
+
+use crate::answer::Answer;
+use crate::evaluator::{Evaluator, Result};
+use crate::fault::Fault;
+use crate::measure;
+use base::number::{close, pow};
+use expr::dimension::Dimension;
+use kernel::{BinaryOperator, UnaryOperator};
+
+impl<'a> Evaluator<'a> {
+    /// Returns the answer of `and` and `or` where the left side alone decides it.
+    pub(crate) fn decided(
+        &self,
+        operator: BinaryOperator,
+        a: &Answer<'a>,
+    ) -> Result<Option<Answer<'a>>> {
+        let deciding = match operator {
+            BinaryOperator::And => false,
+            BinaryOperator::Or => true,
+            BinaryOperator::Add
+            | BinaryOperator::Subtract
+            | BinaryOperator::Multiply
+            | BinaryOperator::Divide
+            | BinaryOperator::Power
+            | BinaryOperator::Equal
+            | BinaryOperator::NotEqual
+            | BinaryOperator::Less
+            | BinaryOperator::LessEqual
+            | BinaryOperator::Greater
+            | BinaryOperator::GreaterEqual
+            | BinaryOperator::In => return Ok(None),
+        };
+        Ok((self.truth_of(a)? == deciding).then_some(Answer::Bool(deciding)))
+    }
+
+    /// Computes an operation on two values. Kept out of the recursion, whose frames stay small.
+    #[inline(never)]
+    pub(crate) fn binary(
+        &self,
+        operator: BinaryOperator,
+        a: &Answer<'a>,
+        b: &Answer<'a>,
+    ) -> Result<Answer<'a>> {
+        use BinaryOperator as B;
+        let numbers = || Ok::<_, Fault>((self.number(a)?, self.number(b)?));
+        let holds = match operator {
+            B::Add => return self.sum(a, b),
+            B::Subtract => {
+                let ((x, dx), (y, dy)) = numbers()?;
+                return finite(x - y, measure::common(dx, dy)?);
+            }
+            B::Multiply => {
+                let ((x, dx), (y, dy)) = numbers()?;
+                return finite(x * y, dx.times(dy));
+            }
+            B::Divide => {
+                let ((x, dx), (y, dy)) = numbers()?;
+                if y == 0.0 {
+                    let x = base::number::shortest(x);
+                    return Err(Fault::no_answer(format!("{x} divided by zero")));
+                }
+                return finite(x / y, dx.over(dy));
+            }
+            B::Power => {
+                let ((x, dx), (y, _)) = numbers()?;
+                return finite(power(x, y), measure::power(dx, y));
+            }
+            // The left side did not decide, so that the right one does.
+            B::And | B::Or => self.truth_of(b)?,
+            B::Equal => self.equal(a, b)?,
+            B::NotEqual => !self.equal(a, b)?,
+            B::In => self.contains(b, a)?,
+            B::Less => self.order(a, b)?.is_lt(),
+            B::LessEqual => self.order(a, b)?.is_le(),
+            B::Greater => self.order(a, b)?.is_gt(),
+            B::GreaterEqual => self.order(a, b)?.is_ge(),
+        };
+        Ok(Answer::Bool(holds))
+    }
+
+    /// Adds numbers, or joins texts.
+    fn sum(&self, a: &Answer<'a>, b: &Answer<'a>) -> Result<Answer<'a>> {
+        if let (Answer::Text(a), Answer::Text(b)) = (a, b) {
+            return Ok(Answer::text(&format!("{a}{b}")));
+        }
+        if let (Answer::Text(_), Answer::Number(..)) | (Answer::Number(..), Answer::Text(_)) =
+            (a, b)
+        {
+            let message = "a text and a number are not joined: write `.text` after the number";
+            return Err(Fault::wrong(message));
+        }
+        let ((x, dx), (y, dy)) = (self.number(a)?, self.number(b)?);
+        finite(x + y, measure::common(dx, dy)?)
+    }
+
+    /// Returns true if two values are equal: numbers to the rule tolerance, things part by part.
+    fn equal(&self, a: &Answer<'a>, b: &Answer<'a>) -> Result<bool> {
+        let mut equal = true;
+        self.leaves(a, b, &mut |a, b| {
+            equal = equal && self.same_leaf(a, b)?;
+            Ok(())
+        })?;
+        Ok(equal)
+    }
+
+    /// Returns true if two values without parts are equal.
+    pub(crate) fn same_leaf(&self, a: &Answer<'a>, b: &Answer<'a>) -> Result<bool> {
+        match (a, b) {
+            (Answer::Number(x, dx), Answer::Number(y, dy)) => {
+                measure::common(*dx, *dy)?;
+                Ok(close(*x, *y))
+            }
+            (Answer::Bool(x), Answer::Bool(y)) => Ok(x == y),
+            (Answer::Text(x), Answer::Text(y)) => Ok(x == y),
+            _ => {
+                let message = format!("{} and {} are never equal", self.kind(a), self.kind(b));
+                Err(Fault::wrong(message))
+            }
+        }
+    }
+
+    /// Compares numbers exactly, or texts by their characters.
+    pub(crate) fn order(&self, a: &Answer<'a>, b: &Answer<'a>) -> Result<std::cmp::Ordering> {
+        if let (Answer::Text(a), Answer::Text(b)) = (a, b) {
+            return Ok(a.cmp(b));
+        }
+        let ((x, dx), (y, dy)) = (self.number(a)?, self.number(b)?);
+        measure::common(dx, dy)?;
+        // Answers are finite, so that the order is total up to the sign of zero.
+        Ok((x + 0.0).total_cmp(&(y + 0.0)))
+    }
+
+    /// Returns true if a list or set has an element: a thing by identity, a value by equality.
+    fn contains(&self, list: &Answer<'a>, wanted: &Answer<'a>) -> Result<bool> {
+        for item in self.items(list)?.iter() {
+            self.burn()?;
+            let found = match (item, wanted) {
+                (Answer::Thing(a), Answer::Thing(b)) => {
+                    self.structure.merged[*a] == self.structure.merged[*b]
+                }
+                (Answer::Thing(_), _) | (_, Answer::Thing(_)) => false,
+                _ => self.equal(item, wanted)?,
+            };
+            if found {
+                return Ok(true);
+            }
+        }
+        Ok(false)
+    }
+}
+
+/// Computes an operation on one value.
+pub(crate) fn unary<'a>(operator: UnaryOperator, operand: &Answer<'a>) -> Result<Answer<'a>> {
+    match (operator, operand) {
+        (UnaryOperator::Negate, Answer::Number(x, dimension)) => {
+            Ok(Answer::Number(0.0 - x, *dimension))
+        }
+        (UnaryOperator::Not, Answer::Bool(b)) => Ok(Answer::Bool(!b)),
+        (UnaryOperator::Negate, other) => {
+            Err(Fault::wrong(format!("{} where a number is wanted", other.kind())))
+        }
+        (UnaryOperator::Not, other) => {
+            Err(Fault::wrong(format!("{} where a truth value is wanted", other.kind())))
+        }
+    }
+}
+
+/// Computes a power; small whole exponents by multiplication, so that squares are exact.
+fn power(x: f64, y: f64) -> f64 {
+    if y == 2.0 {
+        x * x
+    } else if y == 1.0 {
+        x
+    } else {
+        pow(x, y)
+    }
+}
+
+/// Returns a number, if it is one.
+pub(crate) fn finite<'a>(value: f64, dimension: Dimension) -> Result<Answer<'a>> {
+    if value.is_finite() {
+        Ok(Answer::Number(value, dimension))
+    } else if value.is_nan() {
+        Err(Fault::no_answer("a number that is not defined, as the square root of -1"))
+    } else {
+        Err(Fault::no_answer("a number too large to be written"))
+    }
+}
