@@ -8,6 +8,7 @@ use std::io::{BufRead, BufReader};
 use std::path::{Path, PathBuf};
 use std::process::{Child, Command, Stdio};
 use std::sync::atomic::{AtomicU32, Ordering};
+use std::time::Duration;
 use std::{env, fs};
 
 use fantoccini::{Client, ClientBuilder};
@@ -19,12 +20,12 @@ use serde_json::{Value, json};
 pub struct Visit {
     /// The browser.
     pub client: Client,
-    /// The folder that the server shows: a copy of the gallery, in `gallery/`.
-    pub folder: PathBuf,
     /// The address that the server printed: it carries the token.
     pub address: String,
-    _server: Process,
+    // Dropped in this order: a folder is gone only after those who write into it.
     _driver: Process,
+    _server: Process,
+    folder: Folder,
 }
 
 /// A program that ends with its value.
@@ -39,9 +40,19 @@ impl Drop for Process {
     }
 }
 
-impl Drop for Visit {
+/// What the server shows: a copy of the gallery, in `gallery/`; the browser's profile beside it.
+#[derive(Debug)]
+struct Folder(PathBuf);
+
+impl Drop for Folder {
     fn drop(&mut self) {
-        let _ = fs::remove_dir_all(&self.folder);
+        // The browser ends a moment after its driver, and writes until then.
+        for _ in 0..100 {
+            if fs::remove_dir_all(&self.0).is_ok() {
+                return;
+            }
+            std::thread::sleep(Duration::from_millis(20));
+        }
     }
 }
 
@@ -55,8 +66,8 @@ impl Visit {
         let (server, line) = start(
             Command::new(named("THINGLAB"))
                 .args(["serve", "--no-open", "--root"])
-                .arg(&folder)
-                .args(document.map(|name| folder.join("gallery").join(name))),
+                .arg(&folder.0)
+                .args(document.map(|name| folder.0.join("gallery").join(name))),
             "http://",
         );
         let address = format!("http://{}", line.split_once("http://").expect("an address").1);
@@ -64,12 +75,12 @@ impl Visit {
             start(Command::new("chromedriver").args(["--port=0"]), "started successfully on port ");
         let port = line.rsplit(' ').next().expect("a port").trim_end_matches('.');
         let client = ClientBuilder::new(HttpConnector::new())
-            .capabilities(capabilities(&folder))
+            .capabilities(capabilities(&folder.0))
             .connect(&format!("http://127.0.0.1:{port}"))
             .await
             .expect("chromedriver opens Chromium");
         client.goto(&address).await.expect("the page's address answers");
-        Visit { client, folder, address, _server: server, _driver: driver }
+        Visit { client, address, _driver: driver, _server: server, folder }
     }
 
     /// Runs a script in the page and gives what it returns.
@@ -89,7 +100,7 @@ impl Visit {
             if self.script(&format!("return Boolean({expression})")).await == json!(true) {
                 return;
             }
-            tokio::time::sleep(std::time::Duration::from_millis(50)).await;
+            tokio::time::sleep(Duration::from_millis(50)).await;
         }
         let shown = self.script("return document.body.innerText").await;
         panic!("never true: {expression}; the page shows\n{}", shown.as_str().unwrap_or_default());
@@ -100,7 +111,7 @@ impl Visit {
     /// # Panics
     /// Where it is not there.
     pub fn saved(&self, document: &str) -> String {
-        fs::read_to_string(self.folder.join("gallery").join(document)).expect("a document")
+        fs::read_to_string(self.folder.0.join("gallery").join(document)).expect("a document")
     }
 }
 
@@ -125,11 +136,12 @@ fn start(command: &mut Command, mark: &str) -> (Process, String) {
     (Process(child), line.expect("the program says that it runs"))
 }
 
-fn copy_of_the_gallery() -> PathBuf {
+fn copy_of_the_gallery() -> Folder {
     static NUMBER: AtomicU32 = AtomicU32::new(0);
     let number = NUMBER.fetch_add(1, Ordering::Relaxed);
-    let folder = env::temp_dir().join(format!("thinglab-visit-{}-{number}", std::process::id()));
-    let gallery = folder.join("gallery");
+    let name = format!("thinglab-visit-{}-{number}", std::process::id());
+    let folder = Folder(env::temp_dir().join(name));
+    let gallery = folder.0.join("gallery");
     fs::create_dir_all(&gallery).expect("a new folder");
     let source = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../gallery");
     for entry in fs::read_dir(source).expect("the gallery") {
