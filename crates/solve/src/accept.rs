@@ -128,8 +128,7 @@ impl State {
     }
     /// Returns the most willing open column among those that are not small.
     fn best(&self, row: &SparseRow) -> Option<u32> {
-        let open =
-            || row.iter().filter(|(c, _)| self.columns[*c as usize] == Some(Column::Open));
+        let open = || row.iter().filter(|(c, _)| self.columns[*c as usize] == Some(Column::Open));
         let largest = open().fold(0.0f64, |m, e| m.max(e.1.abs()));
         open()
             .filter(|e| e.1.abs() >= 0.05 * largest)

@@ -65,30 +65,39 @@ pub(crate) struct Failure {
     pub(crate) region: u32,
 }
 
-/// Runs all steps once. `values` comes with the last state in it, and the known slots set.
-pub(crate) fn attempt(
-    plan: &Plan,
-    frame: &Frame,
-    last: &[f64],
-    values: &mut [f64],
-    trust: Trust,
-    approach: &Approach,
-    buffers: &mut Buffers,
-    host: &mut dyn Host,
-) -> Result<(), Failure> {
-    begin(plan, frame, values, buffers);
-    for (index, step) in plan.steps.iter().enumerate() {
-        if let Approach::In(regions) = approach
-            && regions.contains(&step.region)
-            && !matches!(step.program, Program::Host { .. })
-        {
-            approach_region(plan, frame, step, index, values, buffers)?;
-            continue;
+/// A stride to be taken: from which state, on which branch.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Attempt<'a> {
+    pub(crate) plan: &'a Plan,
+    pub(crate) frame: &'a Frame,
+    /// The state that the branch is followed from.
+    pub(crate) last: &'a [f64],
+    pub(crate) trust: Trust,
+}
+
+impl Attempt<'_> {
+    /// Runs all steps once. `values` comes with the last state in it, and the known slots set.
+    pub(crate) fn run(
+        self,
+        values: &mut [f64],
+        approach: &Approach,
+        buffers: &mut Buffers,
+        host: &mut dyn Host,
+    ) -> Result<(), Failure> {
+        let Self { plan, frame, last, trust } = self;
+        begin(plan, frame, values, buffers);
+        for (index, step) in plan.steps.iter().enumerate() {
+            if let Approach::In(regions) = approach
+                && regions.contains(&step.region)
+                && !matches!(step.program, Program::Host { .. })
+            {
+                approach_region(plan, frame, step, index, values, buffers)?;
+                continue;
+            }
+            Run { plan, frame, last, values, trust, buffers, host, index }.step(step)?;
         }
-        let mut run = Run { plan, frame, last, values, trust, buffers, host, index };
-        run.step(step)?;
+        Ok(())
     }
-    Ok(())
 }
 
 fn begin(plan: &Plan, frame: &Frame, values: &mut [f64], buffers: &mut Buffers) {
@@ -129,8 +138,11 @@ fn approach_region(
     let region = &plan.regions[step.region as usize];
     let measure = region.approach.get_or_init(|| {
         let mut arena = plan.arena.clone();
-        let given = |s: SlotIndex| plan.slots[s as usize].stay == Stay::Given;
-        Measure::compile(&mut arena, &region.problem, &given)
+        let kind = |s: SlotIndex| {
+            let slot = &plan.slots[s as usize];
+            (slot.scale, slot.stay == Stay::Given)
+        };
+        Measure::compile(&mut arena, &region.problem, &kind)
     });
     let registers = &mut buffers.registers;
     let result = measure.solve(&frame.x0, values, &frame.scales, Trust::Any, registers);
@@ -186,9 +198,7 @@ impl Run<'_> {
         for &t in &step.targets {
             let slot = &self.plan.slots[t as usize];
             let value = self.values[t as usize];
-            if slot.is_number
-                && (!value.is_finite() || slot.is_discrete && value.fract() != 0.0)
-            {
+            if slot.is_number && (!value.is_finite() || slot.is_discrete && value.fract() != 0.0) {
                 return self.fail(step);
             }
             self.buffers.motion[t as usize] = match slot.stay {
@@ -238,9 +248,11 @@ impl Run<'_> {
                 out.clear();
                 out.resize(step.targets.len(), 0.0);
                 tape.run(self.values, &mut self.buffers.registers, out);
-                return step.targets.iter().zip(out).all(|(&t, value)| {
-                    base::number::close(*value, self.frame.x0[t as usize])
-                });
+                return step
+                    .targets
+                    .iter()
+                    .zip(out)
+                    .all(|(&t, value)| base::number::close(*value, self.frame.x0[t as usize]));
             }
             Program::Constant(_) | Program::Copy | Program::Measure(_) => return false,
         };
@@ -284,31 +296,35 @@ impl Run<'_> {
         Ok(())
     }
 
-    fn from_last(&mut self, targets: &[SlotIndex]) {
+    fn start_from_last(&mut self, targets: &[SlotIndex]) {
         for &t in targets {
             self.values[t as usize] = self.last[t as usize];
         }
     }
 
     fn measure(&mut self, step: &Step, measure: &Measure) -> Result<(), Failure> {
-        self.from_last(&step.targets);
-        let Frame { x0, scales, .. } = self.frame;
-        let registers = &mut self.buffers.registers;
-        if measure.solve(x0, self.values, scales, self.trust, registers) == Measured::Least {
-            return Ok(());
+        for k in 0..self.tries(step) {
+            self.start_from_last(&step.targets);
+            self.scatter(&step.targets, k);
+            let Frame { x0, scales, .. } = self.frame;
+            let registers = &mut self.buffers.registers;
+            if measure.solve(x0, self.values, scales, self.trust, registers) == Measured::Least {
+                return Ok(());
+            }
         }
         self.fail(step)
     }
 
+    /// How often a search may begin elsewhere: only where nothing had a value before.
+    fn tries(&self, step: &Step) -> u32 {
+        let opening = step.targets.iter().all(|&t| self.plan.slots[t as usize].stay == Stay::Free);
+        if opening && self.trust == Trust::Any { 8 } else { 1 }
+    }
+
     fn square(&mut self, step: &Step, square: &Square) -> Result<(), Failure> {
-        let opening =
-            step.targets.iter().all(|&t| self.plan.slots[t as usize].stay == Stay::Free);
-        let tries = if opening && self.trust == Trust::Any { 8 } else { 1 };
-        for k in 0..tries {
-            self.from_last(&step.targets);
-            if k > 0 {
-                self.scatter(&step.targets, k);
-            }
+        for k in 0..self.tries(step) {
+            self.start_from_last(&step.targets);
+            self.scatter(&step.targets, k);
             let buffers = &mut *self.buffers;
             let (registers, scratch) = (&mut buffers.registers, &mut buffers.square);
             let (last, scales) = (self.last, &self.frame.scales);
@@ -325,8 +341,11 @@ impl Run<'_> {
         self.fail(step)
     }
 
-    /// Moves the start of a search that found nothing; nothing is known about where to begin.
+    /// Moves the start of a search that found nothing before; its first try begins where it stands.
     fn scatter(&mut self, targets: &[SlotIndex], k: u32) {
+        if k == 0 {
+            return;
+        }
         let point = if k % 2 == 1 { Point::Positive } else { Point::Mixed };
         let reach = 0.25 * f64::from(1u32 << k);
         for &t in targets {
@@ -366,11 +385,12 @@ impl Run<'_> {
             let end = at(i);
             let start = end - roots.guards[i].len();
             let value = now[end];
-            let guarded = roots.guards[i].iter().zip(&now[start..end]).all(|(kind, v)| match kind {
-                GuardKind::NonZero => v.abs() > 1e-30,
-                GuardKind::NonNegative => *v >= 0.0,
-                GuardKind::Positive => *v > 0.0,
-            });
+            let guarded =
+                roots.guards[i].iter().zip(&now[start..end]).all(|(kind, v)| match kind {
+                    GuardKind::NonZero => v.abs() > 1e-30,
+                    GuardKind::NonNegative => *v >= 0.0,
+                    GuardKind::Positive => *v > 0.0,
+                });
             if guarded && value.is_finite() {
                 self.values[target] = value;
                 let close = |j: usize| {

@@ -90,11 +90,7 @@ pub(crate) struct Lowered {
 }
 
 /// Lowers every block, then the slots that equal others.
-pub(crate) fn lower(
-    analysis: &Analysis<'_>,
-    arena: &mut Arena,
-    blocks: &[Block],
-) -> Lowered {
+pub(crate) fn lower(analysis: &Analysis<'_>, arena: &mut Arena, blocks: &[Block]) -> Lowered {
     let mut steps = Vec::new();
     for (&slot, &bits) in &analysis.classes.constants {
         steps.push(alias(analysis, slot, Program::Constant(f64::from_bits(bits)), Vec::new()));
@@ -203,12 +199,7 @@ fn reads_of(analysis: &Analysis<'_>, block: &Block) -> BTreeSet<SlotIndex> {
     reads
 }
 
-fn lower_block(
-    analysis: &Analysis<'_>,
-    arena: &mut Arena,
-    block: &Block,
-    steps: &mut Vec<Step>,
-) {
+fn lower_block(analysis: &Analysis<'_>, arena: &mut Arena, block: &Block, steps: &mut Vec<Step>) {
     let first = &analysis.rows[block.rows[0]];
     let one_relation = block.rows.iter().all(|&r| analysis.rows[r].relation == first.relation);
     if one_relation && let Some(step) = by_method(analysis, arena, first.relation, &block.rows) {
@@ -240,8 +231,11 @@ fn lower_block(
 
 /// Makes the program that handles rows and unknowns of any number.
 fn measure(analysis: &Analysis<'_>, arena: &mut Arena, problem: &Problem) -> Program {
-    let given = |s: SlotIndex| analysis.classes.stay[s as usize] == Stay::Given;
-    Program::Measure(Measure::compile(arena, problem, &given))
+    let kind = |s: SlotIndex| {
+        let given = analysis.classes.stay[s as usize] == Stay::Given;
+        (analysis.system.slots[s as usize].scale, given)
+    };
+    Program::Measure(Measure::compile(arena, problem, &kind))
 }
 
 fn step(
@@ -284,10 +278,8 @@ fn by_method(
     let m = index as u32;
     let (kind, formulas, program) = match &method.body {
         MethodBody::Expressions(values) => {
-            let values: Vec<ExprId> = values
-                .iter()
-                .map(|&v| rows::over_representatives(arena, classes, v))
-                .collect();
+            let values: Vec<ExprId> =
+                values.iter().map(|&v| rows::over_representatives(arena, classes, v)).collect();
             let tape = Tape::compile(arena, &values);
             (StepKind::Method { relation, method: m }, values, Program::Formulas(tape))
         }
@@ -300,12 +292,7 @@ fn by_method(
 }
 
 /// Rows that only methods can satisfy, in a cycle: each once, in order of declaration, then tested.
-fn once_round(
-    analysis: &Analysis<'_>,
-    arena: &mut Arena,
-    block: &Block,
-    steps: &mut Vec<Step>,
-) {
+fn once_round(analysis: &Analysis<'_>, arena: &mut Arena, block: &Block, steps: &mut Vec<Step>) {
     let mut done = BTreeSet::new();
     for &r in &block.rows {
         let row = &analysis.rows[r];

@@ -13,7 +13,7 @@
 //! **Source:** Nocedal and Wright, *Numerical Optimization*, 2nd ed., §18.1 and §3.4.
 
 use crate::dense::{self, Spaces};
-use crate::lower::Problem;
+use crate::lower::{Problem, ProblemRow};
 use crate::square::Trust;
 use crate::system::{Level, SlotIndex};
 use expr::{Arena, Tape, Var};
@@ -24,6 +24,8 @@ pub(crate) struct Measure {
     pub(crate) unknowns: Vec<SlotIndex>,
     levels: Vec<Level>,
     within: Vec<f64>,
+    /// For every row, the scale of the slots that it speaks of, where they have one.
+    classes: Vec<Option<u16>>,
     /// For every unknown: it is a given number that yields.
     given: Vec<bool>,
     /// Left and right of every row, first derivatives, second derivatives.
@@ -57,11 +59,12 @@ const FLAT: f64 = 1e-9;
 const SETTLED: f64 = 1e-12;
 
 impl Measure {
-    /// Compiles sides, derivatives and second derivatives.
+    /// Compiles sides, derivatives and second derivatives; `kind` tells a slot's scale, and whether it is
+    /// a given number.
     pub(crate) fn compile(
         arena: &mut Arena,
         problem: &Problem,
-        given: &dyn Fn(SlotIndex) -> bool,
+        kind: &dyn Fn(SlotIndex) -> (u16, bool),
     ) -> Self {
         let vars: Vec<Var> = problem.unknowns.iter().map(|&s| Var(s)).collect();
         let (mut outs, mut first, mut second) = (Vec::new(), Vec::new(), Vec::new());
@@ -84,7 +87,8 @@ impl Measure {
             unknowns: problem.unknowns.clone(),
             levels: problem.rows.iter().map(|r| r.level).collect(),
             within: problem.rows.iter().map(|r| r.within).collect(),
-            given: problem.unknowns.iter().map(|&s| given(s)).collect(),
+            classes: problem.rows.iter().map(|r| common_scale(arena, r, kind)).collect(),
+            given: problem.unknowns.iter().map(|&s| kind(s).1).collect(),
             tape: Tape::compile(arena, &outs),
             gradient,
             curvature,
@@ -102,11 +106,11 @@ impl Measure {
         registers: &mut Vec<f64>,
     ) -> Measured {
         let scale: Vec<f64> = self.unknowns.iter().map(|&u| scales[u as usize]).collect();
-        let mut weights = Vec::new();
+        let weights = self.weights(x0, values, &scale, registers);
         let (mut smallest, mut idle) = (f64::INFINITY, 0);
         let mut settled = false;
         for iteration in 0..STEPS {
-            let Some(local) = self.evaluate(values, &scale, &mut weights, registers) else {
+            let Some(local) = self.evaluate(values, &scale, &weights, registers) else {
                 return Measured::Failed;
             };
             let away: Vec<f64> = self
@@ -148,9 +152,9 @@ impl Measure {
                     return Measured::Failed;
                 }
             }
-            self.advance(values, &step, &scale, hard, &mut weights, registers);
+            self.advance(values, &step, &scale, hard, &weights, registers);
         }
-        match self.evaluate(values, &scale, &mut weights, registers) {
+        match self.evaluate(values, &scale, &weights, registers) {
             Some(local) if settled && self.hard_rows_hold(&local) => Measured::Least,
             Some(_) | None => Measured::Failed,
         }
@@ -166,8 +170,8 @@ impl Measure {
         registers: &mut Vec<f64>,
     ) -> bool {
         let scale: Vec<f64> = self.unknowns.iter().map(|&u| scales[u as usize]).collect();
-        let mut weights = Vec::new();
-        let Some(local) = self.evaluate(values, &scale, &mut weights, registers) else {
+        let weights = self.weights(x0, values, &scale, registers);
+        let Some(local) = self.evaluate(values, &scale, &weights, registers) else {
             return false;
         };
         let away: Vec<f64> = self
@@ -197,12 +201,52 @@ impl Measure {
         base::number::sqrt(sum)
     }
 
-    /// Evaluates; the weights that make rows dimensionless are taken at the first evaluation.
+    /// What makes each row dimensionless, taken at x0 so that it does not change during the edit.
+    ///
+    /// Rows of one level that speak of slots of one scale, and slope alike, weigh the same: a bar with
+    /// one end anchored is stretched as unwillingly as one with both ends free.
+    fn weights(
+        &self,
+        x0: &[f64],
+        values: &[f64],
+        scale: &[f64],
+        registers: &mut Vec<f64>,
+    ) -> Vec<f64> {
+        let ones = vec![1.0; self.levels.len()];
+        let Some(local) = self
+            .evaluate(x0, scale, &ones, registers)
+            .or_else(|| self.evaluate(values, scale, &ones, registers))
+        else {
+            return ones;
+        };
+        let own: Vec<f64> = local
+            .jacobian
+            .iter()
+            .map(|row| {
+                let size = dense::norm(row);
+                if size > 0.0 { 1.0 / size } else { 1.0 }
+            })
+            .collect();
+        let alike = |r: usize, q: usize| {
+            self.levels[r] == self.levels[q]
+                && self.classes[r].is_some()
+                && self.classes[r] == self.classes[q]
+                && own[q] * 3.0 >= own[r]
+        };
+        let least = |r: usize| {
+            (0..own.len()).filter(|&q| alike(r, q)).fold(own[r], |least, q| least.min(own[q]))
+        };
+        (0..own.len())
+            .map(|r| if self.levels[r] == Level::Required { own[r] } else { least(r) })
+            .collect()
+    }
+
+    /// Evaluates in scaled unknowns and weighted rows; nothing where that is not finite.
     fn evaluate(
         &self,
         values: &[f64],
         scale: &[f64],
-        weights: &mut Vec<f64>,
+        weights: &[f64],
         registers: &mut Vec<f64>,
     ) -> Option<Local> {
         let n = self.unknowns.len();
@@ -211,18 +255,8 @@ impl Measure {
         self.tape.run(values, registers, &mut out);
         let mut jacobian = vec![vec![0.0; n]; rows];
         for (&(r, c), &d) in self.gradient.iter().zip(&out[2 * rows..]) {
-            jacobian[r as usize][c as usize] = d * scale[c as usize];
-        }
-        if weights.is_empty() {
-            weights.extend(jacobian.iter().map(|row| {
-                let size = dense::norm(row);
-                if size > 0.0 && size.is_finite() { 1.0 / size } else { 1.0 }
-            }));
-        }
-        for (row, &w) in jacobian.iter_mut().zip(weights.iter()) {
-            for d in row {
-                *d *= w;
-            }
+            let (r, c) = (r as usize, c as usize);
+            jacobian[r][c] = d * scale[c] * weights[r];
         }
         let residual: Vec<f64> =
             (0..rows).map(|r| (out[2 * r] - out[2 * r + 1]) * weights[r]).collect();
@@ -231,15 +265,10 @@ impl Measure {
     }
 
     /// The step that all levels together ask for.
-    fn direction(
-        &self,
-        local: &Local,
-        away: &[f64],
-        weights: &[f64],
-        scale: &[f64],
-    ) -> Vec<f64> {
+    fn direction(&self, local: &Local, away: &[f64], weights: &[f64], scale: &[f64]) -> Vec<f64> {
         let n = self.unknowns.len();
-        let of_level = |level: Level| (0..self.levels.len()).filter(move |&r| self.levels[r] == level);
+        let of_level =
+            |level: Level| (0..self.levels.len()).filter(move |&r| self.levels[r] == level);
         let mut above: Vec<usize> = of_level(Level::Required).collect();
         let hard: Vec<Vec<f64>> = above.iter().map(|&r| local.jacobian[r].clone()).collect();
         let Spaces { range, null } = dense::spaces(&hard, n);
@@ -265,7 +294,7 @@ impl Measure {
                 factor[r] += local.residual[r];
             }
             self.add_curvature(local, &factor, weights, scale, &mut hessian);
-            free = descend(&mut step, free, &gradient, &hessian, n);
+            free = descend(&mut step, &free, &gradient, &hessian, n);
             above.extend(own);
         }
         for given in [true, false] {
@@ -280,7 +309,7 @@ impl Measure {
             }
             let factor = self.multipliers(local, &above, &gradient);
             self.add_curvature(local, &factor, weights, scale, &mut hessian);
-            free = descend(&mut step, free, &gradient, &hessian, n);
+            free = descend(&mut step, &free, &gradient, &hessian, n);
         }
         step
     }
@@ -343,7 +372,7 @@ impl Measure {
         step: &[f64],
         scale: &[f64],
         hard: f64,
-        weights: &mut Vec<f64>,
+        weights: &[f64],
         registers: &mut Vec<f64>,
     ) {
         let start: Vec<f64> = self.unknowns.iter().map(|&u| values[u as usize]).collect();
@@ -361,6 +390,19 @@ impl Measure {
             length *= 0.5;
         }
     }
+}
+
+fn common_scale(
+    arena: &Arena,
+    row: &ProblemRow,
+    kind: &dyn Fn(SlotIndex) -> (u16, bool),
+) -> Option<u16> {
+    let mut scales = [row.left, row.right]
+        .into_iter()
+        .flat_map(|side| arena.variables(side))
+        .map(|v| kind(v.0).0);
+    let first = scales.next()?;
+    scales.all(|s| s == first).then_some(first)
 }
 
 fn non_zero_gradient(
@@ -415,15 +457,14 @@ fn least_norm(rows: &[usize], local: &Local, range: &[Vec<f64>], n: usize) -> Ve
 /// Adds the step that is best for one level in the free directions; returns those it leaves free.
 fn descend(
     step: &mut [f64],
-    free: Vec<Vec<f64>>,
+    free: &[Vec<f64>],
     gradient: &[f64],
     hessian: &[f64],
     n: usize,
 ) -> Vec<Vec<f64>> {
     let k = free.len();
-    let apply = |v: &[f64]| -> Vec<f64> {
-        (0..n).map(|i| dense::dot(&hessian[i * n..][..n], v)).collect()
-    };
+    let apply =
+        |v: &[f64]| -> Vec<f64> { (0..n).map(|i| dense::dot(&hessian[i * n..][..n], v)).collect() };
     let mut slope = gradient.to_vec();
     dense::add(&mut slope, 1.0, &apply(step));
     let mut reduced = vec![0.0; k * k];

@@ -173,10 +173,9 @@ pub fn plan(system: &System) -> Plan {
     let has_branches = lowered.steps.iter().any(|s| match s.kind {
         StepKind::Inverse { roots } => roots > 1,
         StepKind::Newton | StepKind::LeastChange | StepKind::Compromise => true,
-        StepKind::Alias
-        | StepKind::Method { .. }
-        | StepKind::Linear
-        | StepKind::Opaque { .. } => false,
+        StepKind::Alias | StepKind::Method { .. } | StepKind::Linear | StepKind::Opaque { .. } => {
+            false
+        }
     });
     Plan {
         steps: lowered.steps,
@@ -332,9 +331,8 @@ fn shared_given(analysis: &Analysis<'_>) -> Vec<(SlotIndex, Vec<SlotIndex>)> {
 impl Plan {
     /// Returns one line a step: kind, targets, what they come from, the relations that then hold.
     pub fn describe(&self, name: &dyn Fn(SlotIndex) -> String) -> Vec<String> {
-        let list = |slots: &[SlotIndex]| {
-            slots.iter().map(|&s| name(s)).collect::<Vec<_>>().join(", ")
-        };
+        let list =
+            |slots: &[SlotIndex]| slots.iter().map(|&s| name(s)).collect::<Vec<_>>().join(", ");
         self.steps
             .iter()
             .map(|step| {

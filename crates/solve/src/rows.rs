@@ -61,9 +61,8 @@ pub(crate) fn rows(system: &System, classes: &Classes, arena: &mut Arena) -> Vec
                         .map(|&slot| Var(slot))
                         .collect();
                     let gradient = expr::gradient(arena, residual, &vars);
-                    derivatives.extend(
-                        vars.iter().zip(gradient).map(|(v, d)| (rows.len(), v.0, d)),
-                    );
+                    derivatives
+                        .extend(vars.iter().zip(gradient).map(|(v, d)| (rows.len(), v.0, d)));
                     rows.push(row(r, e, relation, Some((sides[0], sides[1])), mentions));
                 }
             }
@@ -195,7 +194,8 @@ fn add_written_targets(system: &System, classes: &Classes, rows: &mut [Row]) {
                 continue;
             }
             for (i, row) in rows[start..end].iter_mut().enumerate() {
-                let value = generic_number(((start + i) as u64) << 32 | u64::from(slot), Point::Mixed);
+                let value =
+                    generic_number(((start + i) as u64) << 32 | u64::from(slot), Point::Mixed);
                 let at = row.columns.partition_point(|e| e.0 < slot);
                 row.columns.insert(at, (slot, value));
             }
@@ -271,11 +271,9 @@ pub(crate) fn method_reads(
 ) -> BTreeSet<SlotIndex> {
     let representative = |s: SlotIndex| classes.representative[s as usize];
     match body {
-        MethodBody::Expressions(values) => values
-            .iter()
-            .flat_map(|&id| arena.variables(id))
-            .map(|v| representative(v.0))
-            .collect(),
+        MethodBody::Expressions(values) => {
+            values.iter().flat_map(|&id| arena.variables(id)).map(|v| representative(v.0)).collect()
+        }
         MethodBody::Opaque { reads } => reads.iter().map(|&s| representative(s)).collect(),
     }
 }

@@ -5,7 +5,7 @@
 //! state is taken in one stride where that is safe and in as many as needed where it is not; where
 //! the branch ends, soft wishes are met as nearly as they can be, and required ones stop the edit.
 
-use crate::attempt::{Approach, Buffers, Failure, Frame, attempt};
+use crate::attempt::{Approach, Attempt, Buffers, Failure, Frame};
 use crate::lower::Program;
 use crate::outcome::{Host, Outcome, Reason, Status, Unmet};
 use crate::plan::Plan;
@@ -52,7 +52,7 @@ pub fn run(
 ) -> Outcome {
     runner.came.clear();
     runner.came.extend_from_slice(values);
-    let solved_before = start(plan, runner, x0, changed, host);
+    let solved_before = start(plan, runner, x0, changed);
     let Runner { frame, buffers, last, goal, came, trial } = runner;
     last.clear();
     last.extend_from_slice(&frame.x0);
@@ -67,10 +67,10 @@ pub fn run(
     let mut way = Way { plan, frame, buffers, host, trial };
     let result = way.go(last, goal, values, trust);
     let mut outcome = match result {
-        Ok(()) => way.test(values, changed),
+        Ok(()) => way.test(values),
         Err(stop) => Outcome {
             status: Status::Stopped(stop.reason()),
-            unmet: way.test(goal, changed).unmet,
+            unmet: way.test(goal).unmet,
             notes: Vec::new(),
         },
     };
@@ -96,14 +96,9 @@ pub struct Drag {
 
 impl Drag {
     /// Begins a drag at the press, in state `x0`, which moves the known slots `inputs`.
-    pub fn begin(
-        plan: &Plan,
-        x0: &[f64],
-        inputs: &[SlotIndex],
-        host: &mut dyn Host,
-    ) -> Self {
+    pub fn begin(plan: &Plan, x0: &[f64], inputs: &[SlotIndex], _: &mut dyn Host) -> Self {
         let mut runner = Runner::new();
-        start(plan, &mut runner, x0, &[], host);
+        start(plan, &mut runner, x0, &[]);
         let state = runner.frame.x0.clone();
         runner.trial = state.clone();
         Self { runner, inputs: inputs.to_vec(), branch: state.clone(), now: state }
@@ -146,14 +141,14 @@ impl Drag {
                 if fraction == 1.0 {
                     self.branch.copy_from_slice(&limit);
                     self.now.copy_from_slice(&limit);
-                    outcome = way.test(&limit, &[]);
+                    outcome = way.test(&limit);
                 } else if way.approach(&limit, goal, &failure).is_ok() {
                     outcome = way.test_trial();
                     if outcome.is_solved() {
                         std::mem::swap(way.trial, &mut self.now);
                     }
                 } else {
-                    outcome = way.test(&limit, &[]);
+                    outcome = way.test(&limit);
                     outcome.status = Status::Stopped(Reason::Limit { fraction });
                     self.branch.copy_from_slice(&limit);
                     self.now.copy_from_slice(&limit);
@@ -166,13 +161,7 @@ impl Drag {
 }
 
 /// Fixes what does not change during the edit; returns true if x0 holds already.
-fn start(
-    plan: &Plan,
-    runner: &mut Runner,
-    x0: &[f64],
-    changed: &[SlotIndex],
-    host: &mut dyn Host,
-) -> bool {
+fn start(plan: &Plan, runner: &mut Runner, x0: &[f64], changed: &[SlotIndex]) -> bool {
     let Runner { frame, buffers, .. } = runner;
     frame.x0.clear();
     frame.x0.extend(x0.iter().map(|&v| if v.is_finite() { v } else { 0.0 }));
@@ -192,10 +181,7 @@ fn start(
             frame.held.push(held);
         }
     }
-    holds && frame.changed_texts.is_empty() && {
-        let _ = host;
-        true
-    }
+    holds && frame.changed_texts.is_empty()
 }
 
 /// The extent of every class of slots that have a value; at least their size, one where all is zero.
@@ -314,16 +300,8 @@ impl Way<'_> {
                     if part == 1.0 { goal[i] } else { last[i] + (goal[i] - last[i]) * part };
             }
         }
-        attempt(
-            self.plan,
-            self.frame,
-            last,
-            self.trial,
-            trust,
-            approach,
-            self.buffers,
-            self.host,
-        )
+        let attempt = Attempt { plan: self.plan, frame: self.frame, last, trust };
+        attempt.run(self.trial, approach, self.buffers, self.host)
     }
 
     /// Many strides, each as long as the branch allows; returns the part that was gone.
@@ -355,8 +333,7 @@ impl Way<'_> {
         let mut regions = Vec::new();
         loop {
             let region = failure.region;
-            let possible =
-                self.plan.regions.get(region as usize).is_some_and(|r| r.can_approach);
+            let possible = self.plan.regions.get(region as usize).is_some_and(|r| r.can_approach);
             if !possible || regions.contains(&region) {
                 return Err(failure);
             }
@@ -394,13 +371,13 @@ impl Way<'_> {
 
     fn test_trial(&mut self) -> Outcome {
         let trial = std::mem::take(self.trial);
-        let outcome = self.test(&trial, &[]);
+        let outcome = self.test(&trial);
         *self.trial = trial;
         outcome
     }
 
     /// Tests every relation against its own tolerance.
-    fn test(&mut self, values: &[f64], changed: &[SlotIndex]) -> Outcome {
+    fn test(&mut self, values: &[f64]) -> Outcome {
         test_sides(self.plan, values, self.buffers);
         let mut unmet = Vec::new();
         let mut conflict = false;
@@ -423,9 +400,7 @@ impl Way<'_> {
                 conflict |= relation.level == Level::Required;
             }
         }
-        let _ = changed;
-        let status =
-            if conflict { Status::Stopped(Reason::Conflict) } else { Status::Solved };
+        let status = if conflict { Status::Stopped(Reason::Conflict) } else { Status::Solved };
         Outcome { status, unmet, notes: Vec::new() }
     }
 }

@@ -25,19 +25,26 @@ pub(crate) struct Classes {
     pub(crate) repeated: BTreeMap<(u32, u32), Vec<(u32, u32)>>,
 }
 
+/// An equation: its relation and its index.
+type Key = (u32, u32);
+
+/// The way to a slot: from where, by which equation.
+type Step = Option<(usize, Key)>;
+
 /// The equations used so far, as edges between slots; the node after the last slot is all numbers.
 struct Edges {
-    at: Vec<Vec<(usize, (u32, u32))>>,
+    at: Vec<Vec<(usize, Key)>>,
 }
 
 impl Edges {
-    fn add(&mut self, a: usize, b: usize, equation: (u32, u32)) {
+    fn add(&mut self, a: usize, b: usize, equation: Key) {
         self.at[a].push((b, equation));
         self.at[b].push((a, equation));
     }
     /// Adds the equations of the shortest way from `a` to `b` to a circuit.
-    fn way(&self, a: usize, b: usize, circuit: &mut Vec<(u32, u32)>) {
-        let mut from: BTreeMap<usize, Option<(usize, (u32, u32))>> = BTreeMap::from([(a, None)]);
+    fn way(&self, a: usize, b: usize, circuit: &mut Vec<Key>) {
+        // from where, and by which equation, each slot was reached; the start by none
+        let mut from: BTreeMap<usize, Step> = BTreeMap::from([(a, None)]);
         let mut queue = std::collections::VecDeque::from([a]);
         while let Some(v) = queue.pop_front() {
             if v == b {
@@ -125,7 +132,6 @@ pub(crate) fn substitute(system: &System) -> Classes {
     }
     Classes { repeated, ..collect(parent, stay, &constants, used) }
 }
-
 
 fn collect(
     mut parent: Vec<SlotIndex>,

@@ -42,14 +42,6 @@ pub(crate) struct Tableau {
 }
 
 impl Tableau {
-    /// Returns the number of accepted rows: the rank.
-    pub(crate) fn rank(&self) -> usize {
-        self.rows.len()
-    }
-    /// Returns the pivot column of an accepted row.
-    pub(crate) fn pivot(&self, row: u32) -> u32 {
-        self.pivot_of_row[row as usize]
-    }
     /// Returns the row whose pivot a column is.
     pub(crate) fn row_with_pivot(&self, column: u32) -> Option<u32> {
         self.row_of_pivot.get(&column).copied()
@@ -215,7 +207,6 @@ mod tests {
         let reduced = t.reduce(&rows[3]);
         assert!(reduced.row.is_empty());
         assert_eq!(t.circuit(&reduced), vec![0, 1]);
-        assert_eq!(t.rank(), 3);
     }
 
     #[test]
@@ -226,7 +217,7 @@ mod tests {
             t.accept(reduced, pivot);
         }
         t.exchange(0, 1);
-        assert_eq!(t.pivot(0), 1);
+        assert_eq!(t.row_with_pivot(1), Some(0));
         assert_eq!(t.row(1), &vec![(0, -1.0), (2, 1.0)]);
         assert!(t.reduce(&vec![(0, 1.0), (2, -1.0)]).row.is_empty());
     }

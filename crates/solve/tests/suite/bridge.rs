@@ -107,3 +107,36 @@ fn the_load_is_dragged_along_one_branch() {
     let (values, _, _) = s.set(&[(load, 5.0)]);
     close(values[p[4][1] as usize], 124.512_604, 1e-6);
 }
+
+#[test]
+fn without_forces_the_length_changes_are_spread() {
+    let mut s = Sheet::default();
+    let places: Vec<[u32; 2]> = NODES
+        .iter()
+        .enumerate()
+        .map(|(i, &(x, y))| if i % 8 == 0 { s.anchor(x, y) } else { s.place(x, y) })
+        .collect();
+    for (a, b) in BEAMS {
+        let (length, rest) = (s.distance(places[a], places[b]), s.c(80.0));
+        s.relate(solve::Level::Weak, &[(length, rest)]);
+    }
+    let plan = s.plan();
+    let (values, outcome) = s.run(&plan, &[], &mut solve::NoHost);
+    assert!(outcome.is_solved());
+    let at = |i: usize| (values[places[i][0] as usize], values[places[i][1] as usize]);
+    // the pulls of length - 80 at every free node sum to zero: the sum of squares is least
+    for node in 1..8 {
+        let mut pull = (0.0, 0.0);
+        for (a, b) in BEAMS {
+            if a == node || b == node {
+                let (p, q) = (at(node), at(a + b - node));
+                let (dx, dy) = (q.0 - p.0, q.1 - p.1);
+                let length = base::number::sqrt(dx * dx + dy * dy);
+                pull.0 += (length - 80.0) * dx / length;
+                pull.1 += (length - 80.0) * dy / length;
+            }
+        }
+        close(pull.0, 0.0, 1e-7);
+        close(pull.1, 0.0, 1e-7);
+    }
+}

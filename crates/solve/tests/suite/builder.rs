@@ -2,8 +2,8 @@
 
 use expr::{ExprId, Var};
 use solve::{
-    Drag, Equation, Host, Level, Method, MethodBody, NoHost, Outcome, Plan, Relation,
-    RelationBody, Runner, Slot, SlotIndex, Stay, System,
+    Drag, Equation, Host, Level, Method, MethodBody, NoHost, Outcome, Plan, Relation, RelationBody,
+    Runner, Slot, SlotIndex, Stay, System,
 };
 
 /// A system under construction, with the state that it starts from.
@@ -97,10 +97,9 @@ impl Sheet {
     pub(crate) fn method(&mut self, relation: u32, target: SlotIndex, value: ExprId) {
         let relation = &mut self.system.relations[relation as usize];
         relation.derived = false;
-        relation.methods.push(Method {
-            targets: vec![target],
-            body: MethodBody::Expressions(vec![value]),
-        });
+        relation
+            .methods
+            .push(Method { targets: vec![target], body: MethodBody::Expressions(vec![value]) });
     }
     pub(crate) fn reads(&mut self, relation: u32, slot: SlotIndex) {
         self.system.relations[relation as usize].reads.push(slot);
@@ -141,8 +140,7 @@ impl Sheet {
             values[slot as usize] = value;
         }
         let changed: Vec<SlotIndex> = edits.iter().map(|e| e.0).collect();
-        let outcome =
-            solve::run(plan, &mut Runner::new(), &self.x0, &mut values, &changed, host);
+        let outcome = solve::run(plan, &mut Runner::new(), &self.x0, &mut values, &changed, host);
         (values, outcome)
     }
     /// Opens: what is not given is computed; the result becomes the state, held from now on.

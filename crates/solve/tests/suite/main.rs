@@ -1,6 +1,6 @@
 //! What the solver answers, by numbers: failures first, then who yields, which way, how much, drags.
-mod builder;
 mod bridge;
+mod builder;
 mod contradictions;
 mod drags;
 mod idle;

@@ -29,9 +29,9 @@ fn reference(mut a: Vec<Vec<f64>>, mut b: Vec<f64>) -> Option<Vec<f64>> {
         for i in 0..n {
             if i != k {
                 let factor = a[i][k] / a[k][k];
-                for j in k..n {
-                    let by = factor * a[k][j];
-                    a[i][j] -= by;
+                let pivot = a[k].clone();
+                for (entry, by) in a[i].iter_mut().zip(&pivot).skip(k) {
+                    *entry -= factor * by;
                 }
                 b[i] -= factor * b[k];
             }

@@ -168,14 +168,8 @@ fn a_caption_and_a_height_follow_each_other() {
         level: Level::Required,
         body: RelationBody::Opaque { slots: vec![caption, height] },
         methods: vec![
-            Method {
-                targets: vec![caption],
-                body: MethodBody::Opaque { reads: vec![height] },
-            },
-            Method {
-                targets: vec![height],
-                body: MethodBody::Opaque { reads: vec![caption] },
-            },
+            Method { targets: vec![caption], body: MethodBody::Opaque { reads: vec![height] } },
+            Method { targets: vec![height], body: MethodBody::Opaque { reads: vec![caption] } },
         ],
         derived: false,
         reads: Vec::new(),

@@ -14,12 +14,11 @@ pub(crate) fn quadrilateral() -> (Sheet, Vec<[u32; 2]>) {
     }
     for i in 0..4 {
         let mut sides = Vec::new();
-        for axis in 0..2 {
-            let (a, b) = (s.v(places[i][axis]), s.v(places[(i + 1) % 4][axis]));
+        let ends = places[i].into_iter().zip(places[(i + 1) % 4]);
+        for ((a, b), middle) in ends.zip(places[4 + i]) {
+            let (a, b, middle, two) = (s.v(a), s.v(b), s.v(middle), s.c(2.0));
             let sum = s.add(a, b);
-            let two = s.c(2.0);
             let half = s.div(sum, two);
-            let middle = s.v(places[4 + i][axis]);
             sides.push((middle, half));
         }
         s.relate(Level::Required, &sides);
