@@ -22,7 +22,7 @@ pub const DEEPEST_MESSAGES: u32 = 200;
 /// How deep terms may be nested in each other, those of opened messages included.
 const DEEPEST_TERMS: u32 = 1000;
 /// How many terms one question may evaluate: what a mistyped recursion may cost.
-pub const MOST_TERMS: u64 = 50_000_000;
+pub const MOST_TERMS: u64 = 20_000_000;
 /// How many elements a range may have.
 const LONGEST_RANGE: f64 = 1_000_000.0;
 

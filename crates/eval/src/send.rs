@@ -29,6 +29,7 @@ impl<'a> Evaluator<'a> {
             return part;
         }
         if let Answer::Thing(thing) = to
+            && arguments.is_empty()
             && let Some(answer) = self.combined(*thing, name, above)?
         {
             return Ok(answer);
