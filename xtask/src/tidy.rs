@@ -151,7 +151,10 @@ fn names_and_lines_are_tidy() {
     assert!(files.len() > 50, "only {} files found", files.len());
     let mut complaints: Vec<String> =
         files.iter().filter_map(|(path, _)| check_name(path)).collect();
-    for (path, place) in &files {
+    // A case's every byte may be its point.
+    for (path, place) in
+        files.iter().filter(|(path, _)| !path.contains("tests/") || !path.ends_with(".thing"))
+    {
         complaints.extend(check_spaces(path, &fs::read_to_string(place).expect("text")));
     }
     assert_none(&complaints);

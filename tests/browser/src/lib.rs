@@ -4,7 +4,8 @@
 //! `cargo verify` builds the command with its page and names it and the browser in the environment:
 //! `THINGLAB` and `CHROMIUM`. Without these a test fails and says so.
 
-use std::io::{BufRead, BufReader};
+use std::io::{BufRead, BufReader, Read, Write};
+use std::net::TcpStream;
 use std::path::{Path, PathBuf};
 use std::process::{Child, Command, Stdio};
 use std::sync::atomic::{AtomicU32, Ordering};
@@ -23,6 +24,7 @@ pub struct Visit {
     /// The address that the server printed: it carries the token.
     pub address: String,
     // Dropped in this order: a folder is gone only after those who write into it.
+    _session: Session,
     _driver: Process,
     _server: Process,
     folder: Folder,
@@ -46,13 +48,27 @@ struct Folder(PathBuf);
 
 impl Drop for Folder {
     fn drop(&mut self) {
-        // The browser ends a moment after its driver, and writes until then.
-        for _ in 0..100 {
-            if fs::remove_dir_all(&self.0).is_ok() {
-                return;
-            }
-            std::thread::sleep(Duration::from_millis(20));
-        }
+        let _ = fs::remove_dir_all(&self.0);
+    }
+}
+
+/// The browser's session with its driver; dropped before the driver, it closes the browser.
+#[derive(Debug)]
+struct Session {
+    port: u16,
+    name: String,
+}
+
+impl Drop for Session {
+    fn drop(&mut self) {
+        // Asked by hand, because a test that panics awaits nothing; the answer comes once the
+        // browser has ended.
+        let Ok(mut driver) = TcpStream::connect(("127.0.0.1", self.port)) else { return };
+        let Session { port, name } = self;
+        let ask = format!("DELETE /session/{name} HTTP/1.1\r\nHost: 127.0.0.1:{port}\r\n\r\n");
+        let _ = driver.set_read_timeout(Some(Duration::from_secs(5)));
+        let _ = driver.write_all(ask.as_bytes());
+        let _ = driver.read(&mut [0; 64]);
     }
 }
 
@@ -73,14 +89,17 @@ impl Visit {
         let address = format!("http://{}", line.split_once("http://").expect("an address").1);
         let (driver, line) =
             start(Command::new("chromedriver").args(["--port=0"]), "started successfully on port ");
-        let port = line.rsplit(' ').next().expect("a port").trim_end_matches('.');
+        let port = line.rsplit(' ').next().and_then(|word| word.trim_end_matches('.').parse().ok());
+        let port: u16 = port.expect("chromedriver names its port");
         let client = ClientBuilder::new(HttpConnector::new())
             .capabilities(capabilities(&folder.0))
             .connect(&format!("http://127.0.0.1:{port}"))
             .await
             .expect("chromedriver opens Chromium");
+        let name = client.session_id().await.ok().flatten().expect("an open session has a name");
         client.goto(&address).await.expect("the page's address answers");
-        Visit { client, address, _driver: driver, _server: server, folder }
+        let session = Session { port, name };
+        Visit { client, address, _session: session, _driver: driver, _server: server, folder }
     }
 
     /// Runs a script in the page and gives what it returns.
