@@ -1,4 +1,5 @@
 //! What the planner promises, on documents made by hand.
+mod bridge;
 mod builder;
 mod circuits;
 mod moving;
