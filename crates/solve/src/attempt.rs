@@ -322,20 +322,26 @@ impl Run<'_> {
     }
 
     fn square(&mut self, step: &Step, square: &Square) -> Result<(), Failure> {
+        let ways: &[Trust] = match self.trust {
+            Trust::Branch => &[Trust::Branch],
+            Trust::Any | Trust::Leap => &[Trust::Any, Trust::Leap],
+        };
         for k in 0..self.tries(step) {
-            self.start_from_last(&step.targets);
-            self.scatter(&step.targets, k);
-            let buffers = &mut *self.buffers;
-            let (registers, scratch) = (&mut buffers.registers, &mut buffers.square);
-            let (last, scales) = (self.last, &self.frame.scales);
-            match square.solve(last, self.values, scales, self.trust, registers, scratch) {
-                Solved::Regular => return Ok(()),
-                Solved::Double(at) => {
-                    let slot = square.unknowns[at as usize];
-                    self.buffers.notes.push(Note::DoubleRoot { slot });
-                    return Ok(());
+            for &way in ways {
+                self.start_from_last(&step.targets);
+                self.scatter(&step.targets, k);
+                let buffers = &mut *self.buffers;
+                let (registers, scratch) = (&mut buffers.registers, &mut buffers.square);
+                let (last, scales) = (self.last, &self.frame.scales);
+                match square.solve(last, self.values, scales, way, registers, scratch) {
+                    Solved::Regular => return Ok(()),
+                    Solved::Double(at) => {
+                        let slot = square.unknowns[at as usize];
+                        self.buffers.notes.push(Note::DoubleRoot { slot });
+                        return Ok(());
+                    }
+                    Solved::Failed => {}
                 }
-                Solved::Failed => {}
             }
         }
         self.fail(step)

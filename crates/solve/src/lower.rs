@@ -92,8 +92,21 @@ pub(crate) struct Lowered {
 /// Lowers every block, then the slots that equal others.
 pub(crate) fn lower(analysis: &Analysis<'_>, arena: &mut Arena, blocks: &[Block]) -> Lowered {
     let mut steps = Vec::new();
+    let mut equalities: BTreeMap<SlotIndex, Vec<u32>> = BTreeMap::new();
+    for (&(relation, _), &root) in &analysis.classes.used {
+        let relations = equalities.entry(root).or_default();
+        if relations.last() != Some(&relation) {
+            relations.push(relation);
+        }
+    }
     for (&slot, &bits) in &analysis.classes.constants {
-        steps.push(alias(analysis, slot, Program::Constant(f64::from_bits(bits)), Vec::new()));
+        steps.push(alias(
+            &equalities,
+            slot,
+            slot,
+            Program::Constant(f64::from_bits(bits)),
+            Vec::new(),
+        ));
     }
     let region_of = regions_of(analysis, blocks);
     let mut regions: Vec<Region> = Vec::new();
@@ -121,23 +134,20 @@ pub(crate) fn lower(analysis: &Analysis<'_>, arena: &mut Arena, blocks: &[Block]
     }
     for (&root, members) in &analysis.classes.members {
         for &m in members.iter().filter(|&&m| m != root) {
-            steps.push(alias(analysis, m, Program::Copy, vec![root]));
+            steps.push(alias(&equalities, root, m, Program::Copy, vec![root]));
         }
     }
     Lowered { steps, regions }
 }
 
 fn alias(
-    analysis: &Analysis<'_>,
+    equalities: &BTreeMap<SlotIndex, Vec<u32>>,
+    root: SlotIndex,
     target: SlotIndex,
     program: Program,
     reads: Vec<SlotIndex>,
 ) -> Step {
-    let root = analysis.classes.representative[target as usize];
-    let used = &analysis.classes.used;
-    let mut relations: Vec<u32> =
-        used.iter().filter(|(_, r)| **r == root).map(|((relation, _), _)| *relation).collect();
-    relations.dedup();
+    let relations = equalities.get(&root).cloned().unwrap_or_default();
     Step {
         kind: StepKind::Alias,
         targets: vec![target],
@@ -321,8 +331,6 @@ fn once_round(analysis: &Analysis<'_>, arena: &mut Arena, block: &Block, steps: 
 
 /// As many rows as unknowns: by formula, by elimination, or by Newton steps.
 fn square(arena: &mut Arena, problem: &Problem) -> (StepKind, Vec<ExprId>, Program) {
-    let fallback = Square::compile(arena, problem);
-    let formulas = residuals(arena, problem);
     if let ([row], [slot]) = (&problem.rows[..], &problem.unknowns[..])
         && let Some(roots) = expr::isolate(arena, row.left, row.right, Var(*slot))
         && !roots.is_empty()
@@ -351,8 +359,11 @@ fn square(arena: &mut Arena, problem: &Problem) -> (StepKind, Vec<ExprId>, Progr
             guards.push(kinds);
         }
         let tape = Tape::compile(arena, &outs);
+        let fallback = Square::compile(arena, problem);
         return (kind, values, Program::Roots(Roots { tape, guards, fallback }));
     }
+    let formulas = residuals(arena, problem);
+    let fallback = Square::compile(arena, problem);
     let kind = if fallback.is_linear { StepKind::Linear } else { StepKind::Newton };
     (kind, formulas, Program::Square(fallback))
 }

@@ -263,7 +263,7 @@ impl Way<'_> {
         };
         let fraction = match trust {
             Trust::Branch => self.walk(last, goal, trust),
-            Trust::Any => 0.0,
+            Trust::Any | Trust::Leap => 0.0,
         };
         if fraction == 1.0 {
             values.copy_from_slice(last);
@@ -275,7 +275,7 @@ impl Way<'_> {
         }
         Err(match trust {
             Trust::Branch => Stop::At(fraction, failure),
-            Trust::Any => Stop::NoWay(failure),
+            Trust::Any | Trust::Leap => Stop::NoWay(failure),
         })
     }
 

@@ -40,8 +40,10 @@ pub(crate) struct SquareScratch {
 pub(crate) enum Trust {
     /// Only along the branch: full steps that shrink fast and turn no orientation.
     Branch,
-    /// Whatever solves it.
+    /// Whatever solves it, by steps that make the residuals smaller.
     Any,
+    /// Whatever solves it, by full steps, even where the residuals grow for a while.
+    Leap,
 }
 
 /// What came of it.
@@ -56,6 +58,8 @@ pub(crate) enum Solved {
 }
 
 const STEPS: usize = 200;
+/// How many steps may be taken whatever the residuals do.
+const LEAPS: usize = 60;
 
 impl Square {
     /// Compiles sides and derivatives of a block.
@@ -185,7 +189,7 @@ impl Square {
         let n = self.unknowns.len();
         let branch = match trust {
             Trust::Branch if !self.is_linear => Some(self.orientation(last, registers, s)),
-            Trust::Branch | Trust::Any => None,
+            Trust::Branch | Trust::Any | Trust::Leap => None,
         };
         self.prepare(s);
         self.evaluate(values, registers, s);
@@ -237,9 +241,17 @@ impl Square {
                 _ => {}
             }
             let was_held = self.holds(s);
-            match self.search(values, norm, was_held, registers, s) {
+            let found = if trust == Trust::Leap && !was_held && iteration < LEAPS {
+                Some((1.0, self.leap(values, size, registers, s)))
+            } else {
+                self.search(values, norm, was_held, registers, s)
+            };
+            match found {
                 Some((length, better)) => {
                     if branch.is_some() && length < 1.0 && !was_held {
+                        return Solved::Failed;
+                    }
+                    if !better.is_finite() {
                         return Solved::Failed;
                     }
                     let slow = better > 0.5 * norm;
@@ -268,6 +280,22 @@ impl Square {
             return Solved::Failed;
         }
         if ratio < 1e-6 { self.least_determined(s) } else { Solved::Regular }
+    }
+
+    /// Takes the whole step, but not more than half the extent; returns the norm there.
+    fn leap(
+        &self,
+        values: &mut [f64],
+        size: f64,
+        registers: &mut Vec<f64>,
+        s: &mut SquareScratch,
+    ) -> f64 {
+        let length = if size > 0.5 { 0.5 / size } else { 1.0 };
+        for (&u, d) in self.unknowns.iter().zip(&s.step) {
+            values[u as usize] += length * d;
+        }
+        self.evaluate(values, registers, s);
+        self.weighted_norm(s)
     }
 
     /// Walks along the step, halving it until the residuals are smaller; returns length and norm.
