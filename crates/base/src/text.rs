@@ -20,6 +20,11 @@ impl Name {
         &self.0
     }
 }
+impl std::borrow::Borrow<str> for Name {
+    fn borrow(&self) -> &str {
+        &self.0
+    }
+}
 impl Deref for Name {
     type Target = str;
     fn deref(&self) -> &str {

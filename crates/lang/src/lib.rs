@@ -1,1 +1,29 @@
-//! Names, dimensions, checking; Origins: things and text; tree edits from changes.
+//! Text and things: names, dimensions, checking; what a text means, and the smallest edits of it.
+//!
+//! Three nouns. [`lower`] turns a text into [`Lowered`]: a `kernel::Document`, its checks, and
+//! [`Origins`], which know where every member was written. [`write_values`] and [`edits_for`] go the
+//! other way: from values and Commands to the smallest edits of the text.
+//!
+//! **Invariants**: lowering never fails; a member with an error is left out, or what it said before
+//! stays in force; reading a number that was written gives its bits.
+//!
+//! Reading order: `origins`, `lower`, `scope`, `members`, `terms`, `kinds`, `checks`, `numbers`,
+//! `write`, `edits`.
+mod checks;
+mod edits;
+mod kinds;
+mod lower;
+mod members;
+mod numbers;
+mod origins;
+mod restore;
+mod scope;
+mod terms;
+mod write;
+
+pub use checks::{Check, Expectation, PlanKind, Statement, StatementKind};
+pub use edits::edits_for;
+pub use lower::{File, Lowered, lower};
+pub use numbers::{Wanted, read_literal, show_number};
+pub use origins::Origins;
+pub use write::write_values;

@@ -1,0 +1,250 @@
+//! Checks: the `check` blocks of the document, as data.
+//!
+//! A check's own members are kept as text: whoever runs the check adds them to a copy of the
+//! document. Its statements are lowered as if they stood at the end of that copy.
+
+use crate::lower::{Lowerer, OWN};
+use crate::members::loose_path;
+use crate::scope::Scope;
+use base::Span;
+use kernel::{Command, Path, Term};
+use std::rc::Rc;
+use syntax::ast::{self, AstNode, Member};
+
+/// A `check` block.
+#[derive(Clone, PartialEq, Debug)]
+pub struct Check {
+    /// What it promises.
+    pub title: String,
+    /// Where it stands in the document's own text.
+    pub span: Span,
+    /// Its own parts, merges and constraints, as written.
+    pub members: Vec<Rc<str>>,
+    /// What it does and expects, in order.
+    pub statements: Vec<Statement>,
+}
+
+/// A statement of a check.
+#[derive(Clone, PartialEq, Debug)]
+pub struct Statement {
+    /// What it says.
+    pub kind: StatementKind,
+    /// Where it stands.
+    pub span: Span,
+}
+
+/// What a statement says.
+#[derive(Clone, PartialEq, Debug)]
+pub enum StatementKind {
+    /// `set path to value, …`
+    Set(Vec<(Path, Term)>),
+    /// `move path to value, …`
+    Move(Vec<(Path, Term)>),
+    /// Any other edit.
+    Command(Command),
+    /// `try …`
+    Try(Box<StatementKind>),
+    /// `expect …`
+    Expect(Expectation),
+}
+
+/// What is expected.
+#[derive(Clone, PartialEq, Debug)]
+pub enum Expectation {
+    /// That a rule is true, to a tolerance.
+    Rule {
+        /// The rule.
+        rule: Term,
+        /// The tolerance, where one is written.
+        within: Option<Term>,
+    },
+    /// That every required constraint holds.
+    Satisfied,
+    /// That the latest edit moved these and no others.
+    Moved(Vec<Path>),
+    /// That there are so many degrees of freedom.
+    Free(u64),
+    /// The heaviest kind of the latest plan.
+    Plan(PlanKind),
+    /// That the latest `try` was refused with this word.
+    Error(String),
+}
+
+/// How heavy a plan is.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub enum PlanKind {
+    /// Every step computes what it writes from what is known.
+    OnePass,
+    /// Some steps are solved together.
+    Block,
+    /// Some steps have no certificate of convergence.
+    Relaxation,
+}
+
+/// Lowers the checks of the document's own text.
+pub(crate) fn lower(l: &mut Lowerer<'_>) -> Vec<Check> {
+    let mut checks = Vec::new();
+    for member in l.files[OWN].parse.file().members() {
+        let Member::Check(check) = member else { continue };
+        checks.push(lower_check(l, &check));
+    }
+    checks
+}
+
+fn lower_check(l: &mut Lowerer<'_>, check: &ast::Check) -> Check {
+    let members: Vec<Member> = check.body().into_iter().flat_map(|b| b.members()).collect();
+    let (own, statements): (Vec<Member>, Vec<Member>) =
+        members.into_iter().partition(|m| !is_statement(m));
+    let class = class_of_check(l, &own);
+    let scope = Scope::of(OWN, class);
+    let mut lowered = Vec::new();
+    for member in statements {
+        let span = ast::span_without_doc(member.syntax());
+        if let Some(kind) = statement(l, &scope, &member) {
+            lowered.push(Statement { kind, span });
+        }
+    }
+    Check {
+        title: check.name().map(|w| w.unquoted()).unwrap_or_default(),
+        span: ast::span_without_doc(check.syntax()),
+        members: own.iter().map(|m| m.syntax().text().to_string().into()).collect(),
+        statements: lowered,
+    }
+}
+
+/// Makes a class for the names that the check's statements see: the document's and its own.
+fn class_of_check(l: &mut Lowerer<'_>, own: &[Member]) -> kernel::ClassId {
+    let root = l.document.root;
+    if own.is_empty() {
+        return root;
+    }
+    let origin = l.document.classes[root].origin;
+    let class = l.add_class("", kernel::ClassKind::Composite, &[root], origin);
+    l.names.remove("");
+    l.declare_body(&Scope::of(OWN, class), own.to_vec());
+    l.define_members();
+    class
+}
+
+fn is_statement(member: &Member) -> bool {
+    matches!(
+        member,
+        Member::Set(_)
+            | Member::Move(_)
+            | Member::Unmerge(_)
+            | Member::Delete(_)
+            | Member::Edit(_)
+            | Member::Rename(_)
+            | Member::Promote(_)
+            | Member::Undo(_)
+            | Member::Redo(_)
+            | Member::Simulate(_)
+            | Member::Try(_)
+            | Member::Expect(_)
+            | Member::Say(_)
+            | Member::Task(_)
+            | Member::Hint(_)
+    )
+}
+
+fn statement(l: &mut Lowerer<'_>, scope: &Scope, member: &Member) -> Option<StatementKind> {
+    let one = |command| Some(StatementKind::Command(command));
+    match member {
+        Member::Set(set) => Some(StatementKind::Set(targets(l, scope, set.targets())?)),
+        Member::Move(moved) => Some(StatementKind::Move(targets(l, scope, moved.targets())?)),
+        Member::Unmerge(u) => one(Command::Unmerge(loose_path(&u.paths().next()?)?)),
+        Member::Delete(d) => one(Command::Delete(loose_path(&d.paths().next()?)?)),
+        Member::Edit(edit) => {
+            let body = edit.body()?;
+            let members: Vec<String> =
+                body.members().map(|m| m.syntax().text().to_string()).collect();
+            let target = loose_path(&edit.path()?)?;
+            one(Command::Edit { target, members: members.join("\n") })
+        }
+        Member::Rename(r) => {
+            let (from, to) = (loose_path(&r.path()?)?, r.name()?.text().to_string());
+            one(Command::Rename { from, to })
+        }
+        Member::Promote(p) => {
+            let (path, class) = (loose_path(&p.path()?)?, p.name()?.text().to_string());
+            one(Command::Promote { path, class })
+        }
+        Member::Merge(m) => {
+            let paths: Option<Vec<Path>> = m.paths().map(|p| loose_path(&p)).collect();
+            one(Command::Merge(paths?))
+        }
+        Member::Undo(_) => one(Command::Undo),
+        Member::Redo(_) => one(Command::Redo),
+        Member::Try(t) => Some(StatementKind::Try(Box::new(statement(l, scope, &t.statement()?)?))),
+        Member::Expect(e) => Some(StatementKind::Expect(expectation(l, scope, e)?)),
+        Member::Simulate(s) => {
+            l.not_yet(OWN, s.span(), "`simulate` is");
+            None
+        }
+        other => {
+            l.not_yet(OWN, ast::span_without_doc(other.syntax()), "this statement is");
+            None
+        }
+    }
+}
+
+fn targets(
+    l: &mut Lowerer<'_>,
+    scope: &Scope,
+    targets: impl Iterator<Item = ast::Target>,
+) -> Option<Vec<(Path, Term)>> {
+    let mut all = Vec::new();
+    for target in targets {
+        let e = target.path()?;
+        // the path may be virtual: it is lowered as an expression to be checked
+        l.expr(scope, &e)?;
+        let Some(path) = loose_path(&e) else {
+            let message = "a path is wanted: `a.b.c`".to_string();
+            l.error("not-a-path", scope.file, e.span(), message);
+            return None;
+        };
+        all.push((path, l.expr(scope, &target.value()?)?.0));
+    }
+    Some(all)
+}
+
+fn expectation(l: &mut Lowerer<'_>, scope: &Scope, e: &ast::Expect) -> Option<Expectation> {
+    match e.expectation() {
+        ast::Expectation::Satisfied => Some(Expectation::Satisfied),
+        ast::Expectation::Moved(paths) => {
+            for path in &paths {
+                l.expr(scope, path)?;
+            }
+            let paths: Option<Vec<Path>> = paths.iter().map(loose_path).collect();
+            Some(Expectation::Moved(paths?))
+        }
+        ast::Expectation::Free(n) => {
+            let n = l.constant(scope, &n?)?;
+            Some(Expectation::Free(u64::try_from(n).ok()?))
+        }
+        ast::Expectation::Solutions(_) => {
+            l.not_yet(OWN, e.span(), "`expect solutions` is");
+            None
+        }
+        ast::Expectation::Plan(word) => match word?.text() {
+            "one_pass" => Some(Expectation::Plan(PlanKind::OnePass)),
+            "block" => Some(Expectation::Plan(PlanKind::Block)),
+            "relaxation" => Some(Expectation::Plan(PlanKind::Relaxation)),
+            other => {
+                let message =
+                    format!("plans are one_pass, block, relaxation or search, not {other}");
+                l.error("unknown-name", OWN, e.span(), message);
+                None
+            }
+        },
+        ast::Expectation::Error(word) => Some(Expectation::Error(word?.unquoted())),
+        ast::Expectation::Holds { condition, tolerance } => {
+            let (rule, _) = l.expr(scope, &condition?)?;
+            let within = match tolerance {
+                Some(t) => Some(l.expr(scope, &t)?.0),
+                None => None,
+            };
+            Some(Expectation::Rule { rule, within })
+        }
+    }
+}

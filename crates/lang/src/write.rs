@@ -1,0 +1,260 @@
+//! Writing values: the smallest edits of the text that give parts their values.
+//!
+//! A value that the thing's own text gives is rewritten where it stands, number by number; any other
+//! is added to the thing's own body, never to a class.
+
+use crate::lower::{Lowered, OWN};
+use crate::members::loose_path;
+use crate::numbers::{from_si, write_number};
+use crate::terms::class_at;
+use expr::dimension::Dimension;
+use kernel::{ClassId, ClassKind, Document, Literal, Path, Primitive, Step};
+use syntax::SyntaxNode;
+use syntax::ast::{self, AstNode, Expr, Member};
+use syntax::edit::{self, Spot, TextEdit};
+
+/// Returns the edits of the text that give these parts, by paths from the document, these values.
+///
+/// Where the text has an error, what would have to be written inside of it is left out.
+pub fn write_values(lowered: &Lowered, writes: &[(Path, Literal)]) -> Vec<TextEdit> {
+    let file = syntax::parse(OWN, &lowered.effective).file();
+    let members: Vec<Member> = file.members().collect();
+    let mut writer = Writer { document: &lowered.document, edits: Vec::new(), added: Vec::new() };
+    for (path, literal) in writes {
+        let class = class_at(&lowered.document, lowered.document.root, path);
+        let part = Value { literal, class };
+        writer.write(&Spot::EndOf(file.syntax().clone()), &members, path, part);
+    }
+    let mut edits = writer.edits;
+    for (spot, texts) in &writer.added {
+        edits.push(edit::insert_member(spot, &joined(texts)));
+    }
+    in_text(lowered, edits)
+}
+
+/// Carries edits of the effective text over to the text itself.
+pub(crate) fn in_text(lowered: &Lowered, edits: Vec<TextEdit>) -> Vec<TextEdit> {
+    let carry = |e: TextEdit| Some(TextEdit { span: lowered.in_text(e.span)?, insert: e.insert });
+    edits.into_iter().filter_map(carry).collect()
+}
+
+/// A value and the class of the part that it is for.
+#[derive(Clone, Copy)]
+struct Value<'v> {
+    literal: &'v Literal,
+    class: Option<ClassId>,
+}
+
+struct Writer<'d> {
+    document: &'d Document,
+    edits: Vec<TextEdit>,
+    /// New members by where they go, so that a body is opened once.
+    added: Vec<(Spot, Vec<String>)>,
+}
+
+impl Writer<'_> {
+    /// Writes the value of the part at `path` from the thing that has these members.
+    fn write(&mut self, end: &Spot, members: &[Member], path: &Path, value: Value<'_>) {
+        // later values win, so the last that speaks of the part counts
+        for member in members.iter().rev() {
+            match member {
+                Member::Assign(assign) => {
+                    let Some(target) = assign.target().and_then(|t| loose_path(&t)) else {
+                        continue;
+                    };
+                    let Some(written) = assign.value().and_then(ast::Value::expr) else { continue };
+                    if target == *path {
+                        return self.write_over(&written, value);
+                    }
+                    let is_coordinate =
+                        target.0.len() == path.0.len() + 1 && target.0.starts_with(&path.0);
+                    if let (true, Literal::Tuple(items)) = (is_coordinate, value.literal) {
+                        return self.write_coordinates(end, members, path, value, items);
+                    }
+                }
+                Member::Part(part) => {
+                    let names: Vec<_> = part.names().collect();
+                    let Some(Step::Part(first)) = path.0.first() else { continue };
+                    if !names.iter().any(|n| n.name() == *first) {
+                        continue;
+                    }
+                    let rest = Path(path.0[1..].to_vec());
+                    return self.write_part(part, names.len(), path, &rest, value);
+                }
+                _ => {}
+            }
+        }
+        self.add(end.clone(), path, value);
+    }
+
+    fn write_part(
+        &mut self,
+        part: &ast::Part,
+        names: usize,
+        path: &Path,
+        rest: &Path,
+        value: Value<'_>,
+    ) {
+        if names > 1 {
+            return self.add(Spot::After(part.syntax().clone()), path, value);
+        }
+        if !rest.is_empty() {
+            let end = Spot::EndOf(part.syntax().clone());
+            let members: Vec<Member> = part.body().into_iter().flat_map(|b| b.members()).collect();
+            return self.write(&end, &members, rest, value);
+        }
+        if let Some(written) = part.value().and_then(ast::Value::expr) {
+            return self.write_over(&written, value);
+        }
+        let in_body = part.body().is_some();
+        match value.literal {
+            Literal::Tuple(items) if in_body => {
+                let end = Spot::EndOf(part.syntax().clone());
+                let members: Vec<Member> =
+                    part.body().into_iter().flat_map(|b| b.members()).collect();
+                self.write_coordinates(&end, &members, rest, value, items);
+            }
+            _ => {
+                let text = self.text(value);
+                self.edits.extend(edit::give_value(part, &text));
+            }
+        }
+    }
+
+    fn write_coordinates(
+        &mut self,
+        end: &Spot,
+        members: &[Member],
+        path: &Path,
+        value: Value<'_>,
+        items: &[Literal],
+    ) {
+        let Some(class) = value.class else { return };
+        for (field, literal) in self.document.layout(class).into_iter().zip(items) {
+            let name = self.document.field_name(field).clone();
+            let class = Some(self.document.field_class(field));
+            self.write(end, members, &path.then(Step::Part(name)), Value { literal, class });
+        }
+    }
+
+    /// Replaces what an expression says, as little of it as will do.
+    fn write_over(&mut self, written: &Expr, value: Value<'_>) {
+        match (written, value.literal) {
+            (Expr::Paren(inner), _) => {
+                if let Some(inner) = inner.inner() {
+                    self.write_over(&inner, value);
+                }
+            }
+            (Expr::Tuple(tuple), Literal::Tuple(items)) => {
+                let elements: Vec<Expr> = tuple.elements().collect();
+                if let (true, Some(class)) = (elements.len() == items.len(), value.class) {
+                    let layout = self.document.layout(class);
+                    for ((element, literal), field) in elements.iter().zip(items).zip(layout) {
+                        let class = Some(self.document.field_class(field));
+                        self.write_over(element, Value { literal, class });
+                    }
+                } else {
+                    self.replace(written.syntax(), value);
+                }
+            }
+            (_, Literal::Number(x)) if self.read(written, value.class) == Some(x.to_bits()) => {}
+            (Expr::Number(number), Literal::Number(x)) => {
+                let unit = number.unit();
+                let dimension = self.dimension(value.class);
+                let unit = unit.as_ref().map(ast::Word::text);
+                let text = write_number(*x, dimension, self.document, unit);
+                self.edits.push(edit::replace(written.syntax(), &text));
+            }
+            _ => self.replace(written.syntax(), value),
+        }
+    }
+
+    /// Returns the bits of a number as it is written, sign included.
+    fn read(&self, written: &Expr, class: Option<ClassId>) -> Option<u64> {
+        let x = match written {
+            Expr::Number(n) => match n.unit() {
+                Some(unit) => {
+                    let digits = n.digits()?;
+                    let (si, d) = expr::units::read_quantity(digits.text(), unit.text())?;
+                    from_si(self.document, si, d)
+                }
+                None => n.value()?,
+            },
+            Expr::Unary(u) if u.op() == Some(ast::UnaryOp::Negate) => {
+                -f64::from_bits(self.read(&u.operand()?, class)?)
+            }
+            _ => return None,
+        };
+        Some((x + 0.0).to_bits())
+    }
+
+    fn replace(&mut self, node: &SyntaxNode, value: Value<'_>) {
+        let text = self.text(value);
+        if node.text() != text.as_str() {
+            self.edits.push(edit::replace(node, &text));
+        }
+    }
+
+    fn add(&mut self, spot: Spot, path: &Path, value: Value<'_>) {
+        let text = format!("{path} = {}", self.text(value));
+        match self.added.iter_mut().find(|(s, _)| *s == spot) {
+            Some((_, texts)) => texts.push(text),
+            None => self.added.push((spot, vec![text])),
+        }
+    }
+
+    fn dimension(&self, class: Option<ClassId>) -> Dimension {
+        match class.map(|c| &self.document.classes[c].kind) {
+            Some(ClassKind::Primitive(Primitive::Real(d))) => *d,
+            Some(_) | None => Dimension::NONE,
+        }
+    }
+
+    /// Writes a value in the language.
+    fn text(&self, value: Value<'_>) -> String {
+        match value.literal {
+            Literal::Number(x) => {
+                write_number(*x, self.dimension(value.class), self.document, None)
+            }
+            Literal::Bool(b) => b.to_string(),
+            Literal::Text(t) => quoted(t),
+            Literal::Tuple(items) => {
+                let fields = value.class.map(|c| self.document.layout(c)).unwrap_or_default();
+                let item = |(i, literal): (usize, &Literal)| {
+                    let class = fields.get(i).map(|&f| self.document.field_class(f));
+                    self.text(Value { literal, class })
+                };
+                let items: Vec<String> = items.iter().enumerate().map(item).collect();
+                format!("({})", items.join(", "))
+            }
+        }
+    }
+}
+
+/// Writes a text with its quotes.
+pub(crate) fn quoted(text: &str) -> String {
+    let mut out = String::from("\"");
+    for c in text.chars() {
+        match c {
+            '"' => out.push_str("\\\""),
+            '\\' => out.push_str("\\\\"),
+            '\n' => out.push_str("\\n"),
+            '\t' => out.push_str("\\t"),
+            c => out.push(c),
+        }
+    }
+    out.push('"');
+    out
+}
+
+/// Puts members in one line; a `;` where a number would take the next name for its unit.
+fn joined(texts: &[String]) -> String {
+    let mut out = String::new();
+    for text in texts {
+        if !out.is_empty() {
+            out.push_str(if out.ends_with([')', '"']) { "  " } else { "; " });
+        }
+        out.push_str(text);
+    }
+    out
+}
