@@ -16,6 +16,8 @@ use std::rc::Rc;
 
 /// How deep messages may call each other.
 const DEEPEST: u32 = 200;
+/// How deep terms may be nested, those that messages open into included: what the stack holds.
+const DEEPEST_TERMS: u32 = 1000;
 /// How many terms one rule may open into: what a mistyped recursion may cost.
 const MOST_TERMS: u32 = 1_000_000;
 
@@ -31,6 +33,7 @@ pub(crate) struct Opening<'a, 'w> {
     pub(crate) structure: &'a Structure,
     pub(crate) arena: &'w mut Arena,
     depth: u32,
+    nested: u32,
     terms: u32,
 }
 
@@ -40,12 +43,23 @@ impl<'a, 'w> Opening<'a, 'w> {
         structure: &'a Structure,
         arena: &'w mut Arena,
     ) -> Self {
-        Self { document, structure, arena, depth: 0, terms: 0 }
+        Self { document, structure, arena, depth: 0, nested: 0, terms: 0 }
     }
 
     /// Finds what a term stands for.
     pub(crate) fn meaning(&mut self, term: &'a Term, frame: &Frame<'a>) -> Answer<'a> {
         self.count_term()?;
+        if self.nested >= DEEPEST_TERMS {
+            let message = format!("an expression nested more than {DEEPEST_TERMS} deep");
+            return Err(Trouble::new(FaultKind::Endless, message));
+        }
+        self.nested += 1;
+        let meaning = self.open_term(term, frame);
+        self.nested -= 1;
+        meaning
+    }
+
+    fn open_term(&mut self, term: &'a Term, frame: &Frame<'a>) -> Answer<'a> {
         match term {
             Term::Number { value, .. } => Ok(self.number(*value)),
             Term::Text(_) => Ok(Meaning::Opaque(Opaque::default())),
@@ -143,6 +157,7 @@ impl<'a, 'w> Opening<'a, 'w> {
     pub(crate) fn begin(&mut self) {
         self.terms = 0;
         self.depth = 0;
+        self.nested = 0;
     }
 
     pub(crate) fn number(&mut self, value: f64) -> Meaning<'a> {
