@@ -91,6 +91,8 @@ pub struct Drag {
     inputs: Vec<SlotIndex>,
     /// The last state in which every accepted row held: where the branch is followed from.
     branch: Vec<f64>,
+    /// False until a state was seen in which everything required holds.
+    has_branch: bool,
     now: Vec<f64>,
 }
 
@@ -99,9 +101,10 @@ impl Drag {
     pub fn begin(plan: &Plan, x0: &[f64], inputs: &[SlotIndex], _: &mut dyn Host) -> Self {
         let mut runner = Runner::new();
         start(plan, &mut runner, x0, &[]);
+        let has_branch = required_rows_held(plan, &runner.frame);
         let state = runner.frame.x0.clone();
         runner.trial = state.clone();
-        Self { runner, inputs: inputs.to_vec(), branch: state.clone(), now: state }
+        Self { runner, inputs: inputs.to_vec(), branch: state.clone(), has_branch, now: state }
     }
 
     /// Returns the present state.
@@ -124,7 +127,8 @@ impl Drag {
         for (&slot, &target) in self.inputs.iter().zip(targets) {
             goal[slot as usize] = target;
         }
-        let trust = if plan.has_branches { Trust::Branch } else { Trust::Any };
+        let is_safe = self.has_branch && plan.has_branches;
+        let trust = if is_safe { Trust::Branch } else { Trust::Any };
         let mut way = Way { plan, frame, buffers, host, trial };
         let mut outcome;
         match way.direct(&self.branch, goal, trust) {
@@ -133,31 +137,41 @@ impl Drag {
                 if outcome.is_solved() {
                     std::mem::swap(way.trial, &mut self.now);
                     self.branch.copy_from_slice(&self.now);
+                    self.has_branch = true;
                 }
             }
             Err(failure) => {
                 let mut limit = self.branch.clone();
                 let fraction = way.walk(&mut limit, goal, trust);
-                if fraction == 1.0 {
-                    self.branch.copy_from_slice(&limit);
-                    self.now.copy_from_slice(&limit);
-                    outcome = way.test(&limit);
-                } else if way.approach(&limit, goal, &failure).is_ok() {
+                if fraction < 1.0 && way.approach(&limit, goal, &failure).is_ok() {
                     outcome = way.test_trial();
                     if outcome.is_solved() {
                         std::mem::swap(way.trial, &mut self.now);
                     }
                 } else {
                     outcome = way.test(&limit);
-                    outcome.status = Status::Stopped(Reason::Limit { fraction });
+                    if fraction < 1.0 {
+                        outcome.status = Status::Stopped(Stop::At(fraction, failure).reason());
+                    }
                     self.branch.copy_from_slice(&limit);
                     self.now.copy_from_slice(&limit);
                 }
             }
         }
+        if !outcome.is_solved() {
+            // the host's texts follow the state that stands; a failure here says nothing new
+            let _ = way.direct(&self.now, &self.now, trust);
+        }
         outcome.notes.append(&mut buffers.notes);
         outcome
     }
+}
+
+fn required_rows_held(plan: &Plan, frame: &Frame) -> bool {
+    plan.relations.iter().filter(|r| r.level == Level::Required).all(|r| {
+        let first = r.first_row as usize;
+        frame.held[first..first + r.rows as usize].iter().all(|&held| held)
+    })
 }
 
 /// Fixes what does not change during the edit; returns true if x0 holds already.
@@ -172,16 +186,15 @@ fn start(plan: &Plan, runner: &mut Runner, x0: &[f64], changed: &[SlotIndex]) ->
         .extend(changed.iter().copied().filter(|&c| !plan.slots[c as usize].is_number));
     test_sides(plan, &frame.x0, buffers);
     frame.held.clear();
-    let mut holds = plan.slots.iter().all(|s| s.stay != Stay::Free);
     for relation in &plan.relations {
         for r in relation.first_row..relation.first_row + relation.rows {
             let (error, tolerance) = error_of(buffers, r, relation.within);
-            let held = error <= tolerance;
-            holds &= held || relation.level != Level::Required;
-            frame.held.push(held);
+            frame.held.push(error <= tolerance);
         }
     }
-    holds && frame.changed_texts.is_empty()
+    frame.changed_texts.is_empty()
+        && plan.slots.iter().all(|s| s.stay != Stay::Free)
+        && required_rows_held(plan, frame)
 }
 
 /// The extent of every class of slots that have a value; at least their size, one where all is zero.
