@@ -1,9 +1,11 @@
-//! What the browser's scripts do for the page: `assets/host.js` (the server) and
-//! `assets/codemirror.js` (the text editor, built from `assets/editor/editor.src.js`).
+//! What the browser's scripts do for the page: `assets/host.js` (the server), `assets/painter.js`
+//! (the canvas), `assets/page.js` (small things) and `assets/codemirror.js` (the text editor, built
+//! from `assets/editor/editor.src.js`).
 //!
 //! All offsets are UTF-8 byte offsets into the editor's text.
 
-use js_sys::{Array, Object, Uint32Array};
+use js_sys::{Array, Function, Object, Uint32Array};
+use wasm_bindgen::JsValue;
 use wasm_bindgen::prelude::wasm_bindgen;
 
 #[wasm_bindgen(raw_module = "./host.js")]
@@ -55,7 +57,78 @@ extern "C" {
     pub fn destroy(this: &Editor);
 }
 
+#[wasm_bindgen(raw_module = "./painter.js")]
+extern "C" {
+    /// What paints a canvas and keeps it sharp.
+    #[derive(Debug, Clone)]
+    pub type Painter;
+
+    /// Makes a painter; `on_size(width, height)` hears of every new size in CSS pixels.
+    #[wasm_bindgen(js_name = createPainter)]
+    pub fn create_painter(canvas: &web_sys::HtmlCanvasElement, on_size: &Function) -> Painter;
+
+    /// Reads the page's colours again.
+    #[wasm_bindgen(method)]
+    pub fn look(this: &Painter);
+
+    /// The colours that the document names.
+    #[wasm_bindgen(method, js_name = setColors)]
+    pub fn set_colors(this: &Painter, colors: &Array);
+
+    /// The words of the picture.
+    #[wasm_bindgen(method, js_name = setWords)]
+    pub fn set_words(this: &Painter, words: &Array);
+
+    /// Paints a display list (`paint.rs`); a point lies at `(x + kx * px, y + ky * py)`.
+    #[wasm_bindgen(method)]
+    pub fn paint(this: &Painter, list: &[f64], x: f64, y: f64, kx: f64, ky: f64);
+
+    /// Stops watching the canvas.
+    #[wasm_bindgen(method)]
+    pub fn stop(this: &Painter);
+}
+
+#[wasm_bindgen(raw_module = "./page.js")]
+extern "C" {
+    /// Covers the page with a message after a panic.
+    #[wasm_bindgen(js_name = showCrash)]
+    pub fn show_crash(title: &str, advice: &str, reload: &str, details: &str);
+
+    /// Hands the user a file.
+    pub fn download(name: &str, text: &str);
+
+    /// Makes `window.__thinglab.state()` of a function that gives JSON.
+    pub fn publish(state: &Function);
+
+    /// Makes `window.__bench` of JSON.
+    #[wasm_bindgen(js_name = publishBench)]
+    pub fn publish_bench(json: &str);
+
+    /// Calls back when the system goes from light to dark or back.
+    #[wasm_bindgen(js_name = onColorScheme)]
+    pub fn on_color_scheme(callback: &Function);
+
+    /// Whether the system asks for little motion.
+    pub fn calm() -> bool;
+
+    /// Whether a finger is the pointer.
+    pub fn coarse() -> bool;
+
+    /// Follows a pointer outside the element.
+    pub fn capture(element: &web_sys::Element, pointer: i32);
+}
+
 /// Sets one option of an editor, a value or a callback.
-pub fn set_option(options: &Object, name: &str, value: &wasm_bindgen::JsValue) {
+pub fn set_option(options: &Object, name: &str, value: &JsValue) {
     js_sys::Reflect::set(options, &name.into(), value).expect("a plain object takes any property");
+}
+
+/// Reads one property of an object; undefined where there is none.
+pub fn field(object: &JsValue, name: &str) -> JsValue {
+    js_sys::Reflect::get(object, &name.into()).unwrap_or(JsValue::UNDEFINED)
+}
+
+/// Reads one text of an object; empty where there is none.
+pub fn text_field(object: &JsValue, name: &str) -> String {
+    field(object, name).as_string().unwrap_or_default()
 }

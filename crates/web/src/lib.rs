@@ -1,41 +1,46 @@
 //! The page: a Leptos shell that shows the session's views and hands Commands back.
 //!
-//! There is no domain logic here. Scripts that the browser gives better than Rust (the text
-//! editor, requests with the token) stand in `assets/` and are reached through [`js`].
-
+//! There is no domain logic here. The [`lab`] owns the session and what is open in it, as signals;
+//! the panels paint these and ask the lab for what a person does. What the browser's scripts do
+//! better than Rust (the text editor, painting a frame, requests with the token) stands in
+//! `assets/` and is reached through [`js`].
+//!
+//! **Invariants:** between press and release of a drag nothing is written and nothing is asked of
+//! the server; every change is a Command and can be taken back; what is not saved is kept in the
+//! browser's storage, outside the bundle's memory.
+//!
+//! Reading order: [`page`], [`lab`], [`actions`]; the panels [`picture`] (with [`sheet`], [`paint`]),
+//! [`structure`], [`values`], [`text`], [`status`], [`gallery`]; then what they stand on.
+pub mod actions;
+pub mod bench;
+pub mod field;
+pub mod files;
+pub mod gallery;
+pub mod icons;
 pub mod js;
-
-use js_sys::{Array, Object};
-use leptos::html::Div;
-use leptos::prelude::*;
-
-/// The whole page: the documents that the server offers, and a text editor.
-#[component]
-fn Page() -> impl IntoView {
-    let documents = RwSignal::new(String::from("loading"));
-    let place = NodeRef::<Div>::new();
-    leptos::task::spawn_local(async move {
-        let answer: Array = js::request("GET", "/api/documents", None).await;
-        documents.set(answer.get(1).as_string().unwrap_or_default());
-    });
-    Effect::new(move |_| {
-        if let Some(parent) = place.get() {
-            let options = Object::new();
-            js::set_option(&options, "text", &"base: HorizontalLine\n".into());
-            js::create_editor(&parent, &options);
-        }
-    });
-    view! {
-        <main>
-            <h1>"ThingLab"</h1>
-            <p role="status">{move || documents.get()}</p>
-            <div node_ref=place></div>
-        </main>
-    }
-}
+pub mod lab;
+pub mod orbit;
+pub mod page;
+pub mod paint;
+pub mod palette;
+pub mod picture;
+pub mod probe;
+pub mod route;
+pub mod server;
+pub mod sheet;
+pub mod splitter;
+pub mod status;
+pub mod structure;
+pub mod text;
+pub mod theme;
+pub mod values;
+pub mod words;
 
 /// Puts the page into the document's body; called once, when the bundle has loaded.
 pub fn start() {
-    console_error_panic_hook::set_once();
-    leptos::mount::mount_to_body(Page);
+    std::panic::set_hook(Box::new(|info| {
+        console_error_panic_hook::hook(info);
+        js::show_crash(words::CRASH, words::CRASH_ADVICE, words::RELOAD, &info.to_string());
+    }));
+    leptos::mount::mount_to_body(page::Page);
 }

@@ -1,0 +1,176 @@
+// Paints a display list on a canvas. The list is one flat array of numbers, made by `src/paint.rs`,
+// which says what each operation means; one call paints one frame. Words and colours that a document
+// names come separately, because they seldom change.
+
+// The colours by their part in the picture, in the order of `Hue` in `src/paint.rs`.
+const ROLES = ["ink", "faint", "accent", "paper", "free", "fixed", "conflict", "redundant", "halo", "halo-soft", "grid", "grid-strong"]
+const DASHES = [[], [7, 5], [0.5, 4]]
+const NO_LINE = 3
+
+// The values that style variables have here and now: only a real element tells, since a variable's
+// own text may still be a choice between light and dark.
+function roleColors(canvas) {
+  const probe = document.createElement("span")
+  probe.hidden = true
+  canvas.parentElement.append(probe)
+  const colors = ROLES.map((role) => {
+    probe.style.color = `var(--${role})`
+    return getComputedStyle(probe).color
+  })
+  probe.remove()
+  return colors
+}
+
+// Makes a painter that keeps the canvas as sharp as the screen; `onSize(width, height)` hears of
+// every new size, in CSS pixels.
+export function createPainter(canvas, onSize) {
+  const context = canvas.getContext("2d")
+  let ratio = 1
+  let width = 0
+  let height = 0
+  let roles = []
+  let named = []
+  let colors = []
+  let words = []
+  let font = "sans-serif"
+
+  const observer = new ResizeObserver(([entry]) => {
+    const box = entry.contentRect
+    if (box.width === 0 || box.height === 0) return
+    width = box.width
+    height = box.height
+    const exact = entry.devicePixelContentBoxSize?.[0]
+    canvas.width = exact ? exact.inlineSize : Math.round(width * devicePixelRatio)
+    canvas.height = exact ? exact.blockSize : Math.round(height * devicePixelRatio)
+    ratio = canvas.width / width
+    if (roles.length === 0) own.look()
+    onSize(width, height)
+  })
+  try {
+    observer.observe(canvas, { box: "device-pixel-content-box" })
+  } catch {
+    observer.observe(canvas)
+  }
+
+  function mark(kind, x, y, r) {
+    const c = context
+    if (kind === 0) {
+      c.moveTo(x + r, y)
+      c.arc(x, y, r, 0, 2 * Math.PI)
+    } else if (kind === 1) {
+      c.rect(x - r, y - r, 2 * r, 2 * r)
+    } else if (kind === 2) {
+      c.moveTo(x - r, y - r)
+      c.lineTo(x + r, y + r)
+      c.moveTo(x - r, y + r)
+      c.lineTo(x + r, y - r)
+    } else {
+      c.moveTo(x, y - r)
+      c.lineTo(x + r, y)
+      c.lineTo(x, y + r)
+      c.lineTo(x - r, y)
+      c.closePath()
+    }
+  }
+
+  const own = {
+    // Reads the page's colours again, after light has become dark.
+    look() {
+      roles = roleColors(canvas)
+      colors = [...roles, ...named]
+      font = getComputedStyle(canvas).fontFamily
+    },
+    setColors(list) {
+      named = list
+      colors = [...roles, ...named]
+    },
+    setWords(list) {
+      words = list
+    },
+    // A point of the sheet lies at (x + kx * its x, y + ky * its y) on the canvas.
+    paint(list, x, y, kx, ky) {
+      const c = context
+      const onScreen = () => c.setTransform(ratio, 0, 0, ratio, 0, 0)
+      const onSheet = () => c.setTransform(ratio * kx, 0, 0, ratio * ky, ratio * x, ratio * y)
+      onScreen()
+      c.clearRect(0, 0, width, height)
+      c.lineJoin = "round"
+      let fill = -1
+      let stroke = -1
+      let line = NO_LINE
+      let thickness = 1
+      // A path is built where its numbers live and drawn on the screen, where widths are pixels.
+      const draw = () => {
+        onScreen()
+        if (fill >= 0) {
+          c.fillStyle = colors[fill]
+          c.fill()
+        }
+        if (line !== NO_LINE && stroke >= 0) {
+          c.strokeStyle = colors[stroke]
+          c.lineWidth = thickness
+          c.lineCap = line === 1 ? "butt" : "round"
+          c.setLineDash(DASHES[line])
+          c.stroke()
+        }
+      }
+      for (let i = 0; i < list.length; ) {
+        switch (list[i++]) {
+          case 1: {
+            draw()
+            stroke = list[i++]
+            fill = list[i++]
+            line = list[i++]
+            thickness = list[i++]
+            c.beginPath()
+            if (list[i++]) onScreen()
+            else onSheet()
+            break
+          }
+          case 2:
+            c.moveTo(list[i], list[i + 1])
+            c.lineTo(list[i + 2], list[i + 3])
+            i += 4
+            break
+          case 3: {
+            const closed = list[i++]
+            const end = i + 1 + 2 * list[i]
+            i++
+            for (let first = true; i < end; i += 2, first = false) {
+              if (first) c.moveTo(list[i], list[i + 1])
+              else c.lineTo(list[i], list[i + 1])
+            }
+            if (closed) c.closePath()
+            break
+          }
+          case 4: {
+            const [cx, cy, r, start, sweep] = list.subarray(i, i + 5)
+            c.moveTo(cx + r * Math.cos(start), cy + r * Math.sin(start))
+            c.arc(cx, cy, r, start, start + sweep, sweep < 0)
+            i += 5
+            break
+          }
+          case 5:
+            mark(list[i], x + kx * list[i + 1], y + ky * list[i + 2], list[i + 3])
+            i += 4
+            break
+          case 6: {
+            const size = list[i + 5] ? list[i + 4] * Math.abs(ky) : list[i + 4]
+            c.font = `${size}px ${font}`
+            c.textAlign = ["left", "center", "right"][list[i + 3]]
+            c.fillStyle = colors[stroke]
+            onScreen()
+            const lines = (words[list[i]] ?? "").split("\n")
+            lines.forEach((text, n) => c.fillText(text, x + kx * list[i + 1], y + ky * list[i + 2] + 1.25 * size * n))
+            onSheet()
+            i += 6
+            break
+          }
+        }
+      }
+      draw()
+    },
+    stop: () => observer.disconnect(),
+  }
+  return own
+}

@@ -1,0 +1,113 @@
+//! `?bench=drag`: leads the document's first grip round in a circle and says how long it takes.
+//!
+//! Out: `<pre id="bench">` and `window.__bench`, with microseconds for one step of the session alone,
+//! milliseconds for a whole frame of work, and frames a second.
+
+use crate::lab::Lab;
+use crate::{js, orbit, route};
+use leptos::prelude::*;
+use session::view::Grip;
+
+/// Frames that are counted, and steps of the session in each.
+const FRAMES: u32 = 240;
+const STEPS: u32 = 20;
+
+#[derive(Clone, Debug)]
+struct Run {
+    lab: Lab,
+    grip: Grip,
+    radius: f64,
+    frame: u32,
+    begun: f64,
+    in_steps: f64,
+    in_frames: f64,
+    report: RwSignal<String>,
+}
+
+/// Whether the page's address asks for a bench.
+pub fn is_asked() -> bool {
+    route::asked("bench").as_deref() == Some("drag")
+}
+
+/// The bench: waits for a document with a grip, runs once and reports.
+#[component]
+pub fn Bench(
+    /// The lab.
+    lab: Lab,
+) -> impl IntoView {
+    let report = RwSignal::new(String::from("…"));
+    let begun = StoredValue::new(false);
+    Effect::new(move |_| {
+        let found = lab.picture.with(|p| orbit::grip(p).map(|g| (g, orbit::width(&p.drawing))));
+        let Some((grip, across)) = found else { return };
+        if begun.get_value() || lab.document.with(Option::is_none) {
+            return;
+        }
+        begun.set_value(true);
+        set_timeout(
+            move || {
+                if lab.press(&grip.path) {
+                    let radius = 0.1 * across;
+                    let run = Run {
+                        lab,
+                        grip,
+                        radius,
+                        frame: 0,
+                        begun: now(),
+                        in_steps: 0.0,
+                        in_frames: 0.0,
+                        report,
+                    };
+                    request_animation_frame(move || frame(run));
+                }
+            },
+            std::time::Duration::from_millis(300),
+        );
+    });
+    view! { <pre id="bench">{report}</pre> }
+}
+
+fn now() -> f64 {
+    window().performance().map_or(0.0, |performance| performance.now())
+}
+
+fn frame(mut run: Run) {
+    if run.frame == FRAMES {
+        return finish(&run);
+    }
+    if run.frame == 0 {
+        run.begun = now();
+    }
+    let turn = |step: u32| f64::from(run.frame * STEPS + step) / f64::from(FRAMES * STEPS);
+    let Some(id) = run.lab.id() else { return };
+    let start = now();
+    for step in 0..STEPS {
+        let to = orbit::place(&run.grip, run.radius, turn(step));
+        run.lab.order(|session| session.drag(id, to));
+    }
+    let stepped = now();
+    run.lab.drag(orbit::place(&run.grip, run.radius, turn(STEPS)));
+    run.in_steps += stepped - start;
+    // The panels' effects run before the next task does.
+    run.frame += 1;
+    queue_microtask(move || {
+        run.in_frames += now() - stepped;
+        request_animation_frame(move || frame(run));
+    });
+}
+
+fn finish(run: &Run) {
+    let seconds = (now() - run.begun) / 1000.0;
+    run.lab.cancel();
+    let steps = f64::from(FRAMES * STEPS);
+    let json = format!(
+        "{{\"path\": {:?}, \"frames\": {FRAMES}, \"steps\": {}, \"step_us\": {:.3}, \"frame_ms\": {:.3}, \"fps\": {:.1}}}",
+        run.grip.path,
+        FRAMES * STEPS,
+        1000.0 * run.in_steps / steps,
+        run.in_frames / f64::from(FRAMES),
+        f64::from(FRAMES) / seconds,
+    );
+    js::publish_bench(&json);
+    run.report.set(json);
+}

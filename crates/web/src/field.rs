@@ -1,0 +1,111 @@
+//! Small controls that several views share: a value's field, its lock.
+
+use crate::lab::Lab;
+use crate::{icons, structure, words};
+use leptos::ev::KeyboardEvent;
+use leptos::html::Input;
+use leptos::prelude::*;
+use session::view::Refusal;
+
+/// Brings an element into sight, if it is there.
+pub fn scroll_to(id: &str) {
+    if let Some(element) = document().get_element_by_id(id) {
+        let options = web_sys::ScrollIntoViewOptions::new();
+        options.set_block(web_sys::ScrollLogicalPosition::Nearest);
+        element.scroll_into_view_with_scroll_into_view_options(&options);
+    }
+}
+
+/// One line that says why a value was refused.
+pub fn reason(refusal: &Refusal) -> String {
+    let wrong = refusal.diagnostics.iter().map(|d| match &d.hint {
+        Some(hint) => format!("{}; {hint}", d.message),
+        None => d.message.clone(),
+    });
+    let parts = [refusal.message.clone()].into_iter().chain(wrong).filter(|part| !part.is_empty());
+    parts.collect::<Vec<_>>().join(". ")
+}
+
+/// A field that is open only while a value is typed.
+#[component]
+pub fn Edit(
+    /// The lab.
+    lab: Lab,
+    /// Whose value.
+    path: Memo<String>,
+    /// The value now.
+    value: String,
+    /// What happens when it is done, or given up.
+    done: impl Fn() + Copy + Send + 'static,
+) -> impl IntoView {
+    let input = NodeRef::<Input>::new();
+    let error = RwSignal::new(None::<String>);
+    let over = StoredValue::new(false);
+    Effect::new(move |_| {
+        if let Some(input) = input.get() {
+            request_animation_frame(move || {
+                // A field that has gone meanwhile needs no focus.
+                let _ = input.focus();
+                input.select();
+            });
+        }
+    });
+    let accept = move || {
+        let Some(field) = input.get_untracked() else { return };
+        match lab.set_typed(&path.get_untracked(), &field.value()) {
+            Ok(()) => {
+                over.set_value(true);
+                done();
+            }
+            Err(refusal) => error.set(Some(reason(&refusal))),
+        }
+    };
+    let key = move |e: KeyboardEvent| {
+        e.stop_propagation();
+        match e.key().as_str() {
+            "Enter" => accept(),
+            "Escape" => {
+                over.set_value(true);
+                done();
+            }
+            _ => {}
+        }
+    };
+    view! {
+        <span class="edit" on:click=|e| e.stop_propagation() on:dblclick=|e| e.stop_propagation()>
+            <input node_ref=input prop:value=value aria-label=path
+                aria-invalid=move || error.with(Option::is_some).to_string()
+                on:keydown=key
+                on:blur=move |_| {
+                    if over.try_get_value() == Some(false) && error.with_untracked(Option::is_none) {
+                        done();
+                    }
+                } />
+            {move || error.get().map(|error| view! { <span class="error" role="alert">{error}</span> })}
+        </span>
+    }
+}
+
+/// The button that locks a value.
+#[component]
+pub fn Lock(
+    /// The lab.
+    lab: Lab,
+    /// Whose value.
+    path: Memo<String>,
+    /// Whether it is locked.
+    anchored: Memo<bool>,
+) -> impl IntoView {
+    view! {
+        <button class="lock" tabindex="-1" class:held=anchored
+            aria-pressed=move || anchored.get().to_string()
+            aria-label=move || format!("{} {}", words::LOCK_NAME, path.get())
+            title=move || if anchored.get() { words::LOCKED } else { words::UNLOCKED }
+            on:click=move |e: leptos::ev::MouseEvent| {
+                e.stop_propagation();
+                structure::toggle_lock(lab, &path.get_untracked());
+            }>
+            {move || if anchored.get() { icons::locked() } else { icons::unlocked() }}
+        </button>
+    }
+}

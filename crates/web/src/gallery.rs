@@ -1,0 +1,128 @@
+//! The gallery: every document as a card with its picture, its title and its first sentence.
+
+use crate::lab::Lab;
+use crate::picture::thumbnail::Thumbnail;
+use crate::server::{self, Listed};
+use crate::{route, words};
+use leptos::prelude::*;
+use session::view::DocumentId;
+
+/// A document that has been read for its card.
+#[derive(Clone, PartialEq, Debug)]
+struct Card {
+    id: DocumentId,
+    title: String,
+    sentence: String,
+    dirty: bool,
+}
+
+/// All documents that the server offers.
+#[component]
+pub fn Gallery(
+    /// The lab.
+    lab: Lab,
+) -> impl IntoView {
+    let listed = RwSignal::new(None::<Result<Vec<Listed>, String>>);
+    leptos::task::spawn_local(async move {
+        let answer = server::documents().await;
+        listed.try_set(Some(answer));
+    });
+    view! {
+        <main class="gallery">
+            <header>
+                <h1>{words::LAB}</h1>
+                <p class="lead">{words::GALLERY_LEAD}</p>
+            </header>
+            {move || match listed.get() {
+                None => view! { <p class="quiet" role="status">{words::LOADING}</p> }.into_any(),
+                Some(Err(message)) => view! { <p class="notice" role="alert">{message}</p> }.into_any(),
+                Some(Ok(all)) if all.is_empty() => view! { <p class="quiet">{words::NO_DOCUMENTS}</p> }.into_any(),
+                Some(Ok(all)) => {
+                    let (gallery, own): (Vec<_>, Vec<_>) = all.into_iter().partition(|one| one.in_gallery);
+                    view! {
+                        <Shelf lab=lab heading=words::YOUR_DOCUMENTS documents=own />
+                        <Shelf lab=lab heading=words::GALLERY documents=gallery />
+                    }.into_any()
+                }
+            }}
+        </main>
+    }
+}
+
+#[component]
+fn Shelf(lab: Lab, heading: &'static str, documents: Vec<Listed>) -> impl IntoView {
+    (!documents.is_empty()).then(|| {
+        let cards =
+            documents.into_iter().map(|listed| view! { <CardView lab=lab listed=listed /> });
+        view! {
+            <section aria-label=heading>
+                <h2>{heading}</h2>
+                <ul class="cards">{cards.collect_view()}</ul>
+            </section>
+        }
+    })
+}
+
+#[component]
+fn CardView(lab: Lab, listed: Listed) -> impl IntoView {
+    let card = RwSignal::new(None::<Card>);
+    let lively = RwSignal::new(false);
+    let (path, title) = (listed.path.clone(), listed.title.clone());
+    leptos::task::spawn_local(async move {
+        if let Ok(opened) = lab.load(&path).await {
+            let doc = lab.ask(|s| s.structure(opened.id)).into_iter().next().map(|row| row.doc);
+            card.try_set(Some(Card {
+                id: opened.id,
+                sentence: first_sentence(&doc.unwrap_or_default(), &opened.title),
+                title: opened.title,
+                dirty: opened.dirty,
+            }));
+        }
+    });
+    on_cleanup(move || lively.set(false));
+    view! {
+        <li>
+            <a class="card" href=route::to(&listed.path)
+                on:pointerenter=move |_| lively.set(true)
+                on:pointerleave=move |_| lively.set(false)
+                on:focus=move |_| lively.set(true)
+                on:blur=move |_| lively.set(false)>
+                <div class="frame">
+                    {move || card.with(|card| card.as_ref().map(|card| card.id))
+                        .map(|id| view! { <Thumbnail lab=lab id=id lively=lively /> })}
+                </div>
+                <h3>{move || card.with(|card| card.as_ref().map_or_else(|| title.clone(), |c| c.title.clone()))}
+                    {move || card.with(|card| card.as_ref().is_some_and(|c| c.dirty))
+                        .then(|| view! { <span class="dirty" title=words::NOT_SAVED>"•"</span> })}</h3>
+                <p>{move || card.with(|card| card.as_ref().map(|card| card.sentence.clone()))}</p>
+                <p class="path">{listed.path.clone()}</p>
+            </a>
+        </li>
+    }
+}
+
+/// The first sentence of what a document says of itself, after its title.
+fn first_sentence(doc: &str, title: &str) -> String {
+    let rest = doc.trim().strip_prefix(title).unwrap_or(doc.trim());
+    let rest = rest.trim_start_matches([':', '.', ' ', '\n']);
+    let end = rest.find(". ").or_else(|| rest.find(".\n")).map_or(rest.len(), |at| at + 1);
+    let mut letters = rest[..end].replace('\n', " ").chars().collect::<Vec<char>>();
+    if let Some(first) = letters.first_mut() {
+        *first = first.to_uppercase().next().unwrap_or(*first);
+    }
+    letters.into_iter().collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::first_sentence;
+
+    #[test]
+    fn a_card_says_the_first_sentence_after_the_title() {
+        let doc = "Quadrilateral: the midpoints form a parallelogram. Drag a corner.";
+        assert_eq!(first_sentence(doc, "Quadrilateral"), "The midpoints form a parallelogram.");
+        assert_eq!(first_sentence("Sum", "Sum"), "");
+        assert_eq!(first_sentence("", "nameless"), "");
+        assert_eq!(first_sentence("One. Two. Three.", "One"), "Two.");
+    }
+}

@@ -1,0 +1,552 @@
+//! The lab: the session, which documents are open in it, and what their views show.
+//!
+//! In: what the panels ask for. Out: signals that the panels paint. Between press and release of a
+//! drag only the picture and the values are made anew, and nothing is asked of the server.
+
+use crate::files::{FileSet, Files};
+use crate::server::{self, Saved, Stored};
+use crate::sheet::View;
+use crate::{js, theme, words};
+use leptos::prelude::*;
+use session::view::{
+    Change, DocumentId, DragState, Explanation, PictureView, Refusal, Status, StructureRow,
+    TextView, ValueRow,
+};
+use session::{Command, Path, Session};
+use std::collections::BTreeMap;
+use std::fmt;
+use std::time::Duration;
+
+/// An open document.
+#[derive(Clone, PartialEq, Debug)]
+pub struct Opened {
+    /// Which document of the session it is.
+    pub id: DocumentId,
+    /// What it is called.
+    pub title: String,
+    /// The version on disk that its saved text is.
+    pub version: String,
+    /// Whether it stands in the folder; others are built in.
+    pub writable: bool,
+    /// The text on disk.
+    pub saved: String,
+    /// Whether its text differs from that on disk.
+    pub dirty: bool,
+}
+
+/// What the lab has to say after the last command.
+#[derive(Clone, PartialEq, Debug)]
+pub enum Notice {
+    /// Something went well.
+    Said(String),
+    /// A command changed nothing, and why.
+    Refused(Refusal),
+}
+
+/// Everything that the panels share; a handle that is copied about.
+#[derive(Clone, Copy)]
+pub struct Lab {
+    session: StoredValue<Session, LocalStorage>,
+    files: StoredValue<FileSet>,
+    opened: StoredValue<BTreeMap<String, Opened>>,
+    pending_text: StoredValue<Option<String>>,
+    typing: StoredValue<u32>,
+    /// The path of the document that is shown; none in the gallery.
+    pub current: RwSignal<Option<String>>,
+    /// The shown document, as of the last command.
+    pub document: RwSignal<Option<Opened>>,
+    /// Its structure view.
+    pub structure: RwSignal<Vec<StructureRow>>,
+    /// Its values view.
+    pub values: RwSignal<Vec<ValueRow>>,
+    /// Its text view.
+    pub text: RwSignal<TextView>,
+    /// Its status line.
+    pub status: RwSignal<Status>,
+    /// Its picture.
+    pub picture: RwSignal<PictureView>,
+    /// The path of the selected thing.
+    pub selected: RwSignal<Option<String>>,
+    /// The path of the thing under the pointer, in whatever view.
+    pub hovered: RwSignal<Option<String>>,
+    /// What there is to say.
+    pub notice: RwSignal<Option<Notice>>,
+    /// Where the present drag has got to, if there is one.
+    pub dragging: RwSignal<Option<DragState>>,
+    /// What stands on disk instead, after a save was refused for it.
+    pub conflict: RwSignal<Option<Option<Stored>>>,
+    /// Unsaved text of an earlier visit.
+    pub draft: RwSignal<Option<String>>,
+    /// Whether the explanation panel is open.
+    pub why: RwSignal<bool>,
+    /// Whether the palette of actions is open.
+    pub palette: RwSignal<bool>,
+    /// Whether the picture has a grid.
+    pub grid: RwSignal<bool>,
+    /// What the picture is asked to do with its view.
+    pub zoom: RwSignal<Option<Zoom>>,
+    /// The part of the sheet that one sees.
+    pub view: RwSignal<View>,
+    /// The page's colours.
+    pub colors: theme::Colors,
+}
+
+impl fmt::Debug for Lab {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.debug_struct("Lab").finish_non_exhaustive()
+    }
+}
+
+/// A change of the picture's view that comes from elsewhere than the picture.
+#[derive(Clone, Copy, PartialEq, Debug)]
+pub enum Zoom {
+    /// Everything in sight.
+    Fit,
+    /// Larger or smaller by this factor.
+    By(f64),
+}
+
+impl Lab {
+    /// Makes a lab without documents.
+    pub fn new() -> Self {
+        let files = StoredValue::new(FileSet::default());
+        Self {
+            session: StoredValue::new_local(Session::new(Box::new(Files(files)))),
+            files,
+            opened: StoredValue::new(BTreeMap::new()),
+            pending_text: StoredValue::new(None),
+            typing: StoredValue::new(0),
+            current: RwSignal::new(None),
+            document: RwSignal::new(None),
+            structure: RwSignal::new(Vec::new()),
+            values: RwSignal::new(Vec::new()),
+            text: RwSignal::new(no_text()),
+            status: RwSignal::new(Status::default()),
+            picture: RwSignal::new(PictureView::default()),
+            selected: RwSignal::new(None),
+            hovered: RwSignal::new(None),
+            notice: RwSignal::new(None),
+            dragging: RwSignal::new(None),
+            conflict: RwSignal::new(None),
+            draft: RwSignal::new(None),
+            why: RwSignal::new(false),
+            palette: RwSignal::new(false),
+            grid: RwSignal::new(theme::keep(GRID_KEY).is_none_or(|kept| kept != "off")),
+            zoom: RwSignal::new(None),
+            view: RwSignal::new(View::default()),
+            colors: theme::start(),
+        }
+    }
+
+    /// Fetches the library once; without it documents open with diagnostics.
+    pub async fn fetch_library(self) {
+        match server::library().await {
+            Ok(library) => self.files.update_value(|files| {
+                files
+                    .texts
+                    .extend(library.into_iter().map(|(file, text)| (used_as(&file), Some(text))));
+            }),
+            Err(message) => self.say_refused(message),
+        }
+    }
+
+    /// Opens a document in the session, if it is not open already, and returns it.
+    ///
+    /// # Errors
+    /// One sentence, where the server does not give it.
+    pub async fn load(self, path: &str) -> Result<Opened, String> {
+        if let Some(opened) = self.opened.with_value(|all| all.get(path).cloned())
+            && (opened.dirty
+                || server::document(path).await.is_ok_and(|s| s.version == opened.version))
+        {
+            return Ok(opened);
+        }
+        let stored = server::document(path).await?;
+        let mut id = self.open(path, &stored.text);
+        while self.fetch_used(path).await {
+            id = self.open(path, &stored.text);
+        }
+        let title = self.session.with_value(|session| session.title(id));
+        let opened = Opened {
+            id,
+            title,
+            version: stored.version,
+            writable: stored.writable,
+            saved: stored.text,
+            dirty: false,
+        };
+        self.opened.update_value(|all| {
+            all.insert(String::from(path), opened.clone());
+        });
+        Ok(opened)
+    }
+
+    fn open(self, path: &str, text: &str) -> DocumentId {
+        self.order(|session| session.open(path, text))
+    }
+
+    /// Fetches the files that a document was found to use; returns whether there are new ones.
+    async fn fetch_used(self, path: &str) -> bool {
+        let folder = path.rsplit_once('/').map_or("", |(folder, _)| folder);
+        let wanted = self.files.try_update_value(|f| std::mem::take(&mut f.wanted));
+        let mut found = false;
+        for name in wanted.unwrap_or_default() {
+            let text = server::document(&beside(folder, &name)).await.ok().map(|s| s.text);
+            found |= text.is_some();
+            self.files.update_value(|files| {
+                files.texts.insert(name, text);
+            });
+        }
+        found
+    }
+
+    /// Shows a document that is loaded.
+    pub fn show(self, path: &str) {
+        self.flush_text();
+        let Some(opened) = self.opened.with_value(|all| all.get(path).cloned()) else { return };
+        self.selected.set(None);
+        self.hovered.set(None);
+        self.notice.set(None);
+        self.conflict.set(None);
+        let draft = theme::keep(&draft_key(path)).filter(|draft| *draft != opened.saved);
+        self.draft.set(draft.filter(|_| !opened.dirty));
+        self.current.set(Some(String::from(path)));
+        self.document.set(Some(opened));
+        self.refresh();
+        self.zoom.set(Some(Zoom::Fit));
+    }
+
+    /// Shows the gallery.
+    pub fn leave(self) {
+        self.flush_text();
+        self.current.set(None);
+        self.document.set(None);
+    }
+
+    /// Returns the shown document's id.
+    pub fn id(self) -> Option<DocumentId> {
+        self.document.with_untracked(|d| d.as_ref().map(|d| d.id))
+    }
+
+    /// Asks the session something.
+    pub fn ask<T>(self, question: impl FnOnce(&Session) -> T) -> T {
+        self.session.with_value(question)
+    }
+
+    /// Tells the session something about a document that is not shown.
+    pub fn order<T>(self, order: impl FnOnce(&mut Session) -> T) -> T {
+        self.session.try_update_value(order).expect("the lab lives as long as the page")
+    }
+
+    /// Tells the session something about the shown document.
+    fn tell<T>(self, order: impl FnOnce(&mut Session, DocumentId) -> T) -> Option<T> {
+        let id = self.id()?;
+        Some(self.order(|session| order(session, id)))
+    }
+
+    /// Applies a command to the shown document; what comes of it stands in the signals.
+    pub fn apply(self, command: &Command) -> bool {
+        self.flush_text();
+        self.settle(self.tell(|session, id| session.apply(id, command)))
+    }
+
+    /// Sets a value as a person types it.
+    ///
+    /// # Errors
+    /// Why not; the caller shows it beside the field.
+    pub fn set_typed(self, path: &str, typed: &str) -> Result<(), Refusal> {
+        self.flush_text();
+        match self.tell(|session, id| session.set_typed(id, path, typed)) {
+            Some(Err(refusal)) => Err(refusal),
+            outcome => {
+                self.settle(outcome);
+                Ok(())
+            }
+        }
+    }
+
+    /// Begins a drag; returns whether there is something to drag.
+    pub fn press(self, path: &str) -> bool {
+        self.flush_text();
+        let Some(path) = session::parse_path(path) else { return false };
+        match self.tell(|session, id| session.press(id, &path)) {
+            Some(Ok(())) => {
+                self.notice.set(None);
+                self.dragging.set(Some(DragState::default()));
+                true
+            }
+            Some(Err(refusal)) => {
+                self.notice.set(Some(Notice::Refused(refusal)));
+                false
+            }
+            None => false,
+        }
+    }
+
+    /// Goes on with a drag, in the sheet's coordinates.
+    pub fn drag(self, to: (f64, f64)) {
+        let state = self.tell(|session, id| session.drag(id, to));
+        self.repaint();
+        if state != self.dragging.get_untracked() {
+            self.dragging.set(state);
+        }
+    }
+
+    /// Ends a drag: one step for the undo list.
+    pub fn release(self) {
+        self.dragging.set(None);
+        self.settle(self.tell(Session::release));
+    }
+
+    /// Ends a drag as if it had never begun.
+    pub fn cancel(self) {
+        self.dragging.set(None);
+        self.tell(Session::cancel);
+        self.refresh();
+    }
+
+    /// The reasons for what is selected, or for everything.
+    pub fn explain(self, about: Option<&Path>) -> Option<Explanation> {
+        let id = self.id()?;
+        Some(self.ask(|session| session.explain(id, about)))
+    }
+
+    /// Takes note of what the editor holds; it becomes a command a little later, or before the next
+    /// one.
+    pub fn typed_text(self, text: String) {
+        self.pending_text.set_value(Some(text));
+        self.typing.update_value(|n| *n += 1);
+        let mine = self.typing.get_value();
+        set_timeout(
+            move || {
+                if self.typing.try_get_value() == Some(mine) {
+                    self.flush_text();
+                }
+            },
+            TYPING_PAUSE,
+        );
+    }
+
+    /// Whether the editor holds words that the session has not been given yet.
+    pub fn is_typing(self) -> bool {
+        self.pending_text.with_value(Option::is_some)
+    }
+
+    /// Hands the session what was typed into the editor and not yet handed over.
+    pub fn flush_text(self) {
+        let typed = self.pending_text.try_update_value(Option::take).flatten();
+        if let Some(text) = typed {
+            self.settle(self.tell(|session, id| session.apply(id, &Command::Text(text))));
+        }
+    }
+
+    /// Shows what came of a command.
+    fn settle(self, outcome: Option<Result<Change, Refusal>>) -> bool {
+        match outcome {
+            Some(Ok(_)) => {
+                self.notice.set(None);
+                self.refresh();
+                true
+            }
+            Some(Err(refusal)) => {
+                self.refresh();
+                self.notice.set(Some(Notice::Refused(refusal)));
+                false
+            }
+            None => false,
+        }
+    }
+
+    /// Shows a sentence as a refusal.
+    pub fn say_refused(self, message: String) {
+        self.notice.set(Some(Notice::Refused(Refusal { message, ..Refusal::default() })));
+    }
+
+    /// Makes the views that a drag changes.
+    fn repaint(self) {
+        let Some(id) = self.id() else { return };
+        let (picture, values) = self.ask(|session| (session.picture(id), session.values(id)));
+        self.picture.set(picture);
+        self.values.set(values);
+    }
+
+    /// Makes all views.
+    fn refresh(self) {
+        let Some(id) = self.id() else { return };
+        self.repaint();
+        let (structure, text, status, title) = self.ask(|session| {
+            (session.structure(id), session.text(id), session.status(id), session.title(id))
+        });
+        self.structure.set(structure);
+        self.status.set(status);
+        self.update_document(|document| {
+            document.dirty = document.saved != text.source;
+            document.title = title;
+        });
+        self.keep_draft(&text.source);
+        self.text.set(text);
+    }
+
+    fn update_document(self, change: impl FnOnce(&mut Opened)) {
+        let Some(path) = self.current.get_untracked() else { return };
+        let Some(mut document) = self.document.get_untracked() else { return };
+        change(&mut document);
+        if self.document.with_untracked(|old| old.as_ref() != Some(&document)) {
+            self.opened.update_value(|all| {
+                all.insert(path, document.clone());
+            });
+            self.document.set(Some(document));
+        }
+    }
+
+    /// Keeps unsaved text in the browser, outside the bundle's memory.
+    fn keep_draft(self, source: &str) {
+        let Some(path) = self.current.get_untracked() else { return };
+        let dirty = self.document.with_untracked(|d| d.as_ref().is_some_and(|d| d.dirty));
+        if dirty {
+            theme::put(&draft_key(&path), Some(source));
+        } else if self.draft.with_untracked(Option::is_none) {
+            theme::put(&draft_key(&path), None);
+        }
+    }
+
+    /// Takes up the unsaved text of an earlier visit, or forgets it.
+    pub fn decide_draft(self, restore: bool) {
+        let Some(draft) = self.draft.get_untracked() else { return };
+        self.draft.set(None);
+        if restore {
+            self.apply(&Command::Text(draft));
+        } else {
+            let source = self.text.with_untracked(|text| text.source.clone());
+            self.keep_draft(&source);
+        }
+    }
+
+    /// Returns true if any open document has changes that are not on disk.
+    pub fn any_unsaved(self) -> bool {
+        self.pending_text.with_value(Option::is_some)
+            || self.opened.with_value(|all| all.values().any(|opened| opened.dirty))
+    }
+
+    /// Saves the shown document.
+    pub fn save(self) {
+        self.flush_text();
+        let Some(path) = self.current.get_untracked() else { return };
+        let Some(document) = self.document.get_untracked() else { return };
+        let text = self.text.with_untracked(|text| text.source.clone());
+        leptos::task::spawn_local(async move {
+            let outcome = server::save(&path, &text, &document.version).await;
+            self.saved(&path, text, outcome);
+        });
+    }
+
+    fn saved(self, path: &str, text: String, outcome: Saved) {
+        if self.current.with_untracked(|current| current.as_deref() != Some(path)) {
+            return;
+        }
+        match outcome {
+            Saved::Done(version) => {
+                let now = self.text.with_untracked(|text| text.source.clone());
+                self.conflict.set(None);
+                self.update_document(|document| {
+                    document.dirty = now != text;
+                    (document.version, document.saved, document.writable) = (version, text, true);
+                });
+                self.keep_draft(&now);
+                self.notice.set(Some(Notice::Said(words::saved(path))));
+            }
+            Saved::Changed(theirs) => self.conflict.set(Some(theirs)),
+            Saved::Failed(message) => self.say_refused(message),
+        }
+    }
+
+    /// Takes what stands on disk instead: one step, which can be taken back.
+    pub fn take_theirs(self) {
+        if let Some(Some(theirs)) = self.conflict.get_untracked() {
+            self.conflict.set(None);
+            self.update_document(|document| {
+                (document.version, document.saved) = (theirs.version, theirs.text.clone());
+            });
+            self.apply(&Command::Text(theirs.text));
+        }
+    }
+
+    /// Saves over what stands on disk instead.
+    pub fn overwrite(self) {
+        if let Some(theirs) = self.conflict.get_untracked() {
+            self.conflict.set(None);
+            let version = theirs.map_or_else(|| String::from("absent"), |stored| stored.version);
+            self.update_document(|document| document.version = version);
+            self.save();
+        }
+    }
+
+    /// Hands the user the text as a file.
+    pub fn download(self) {
+        self.flush_text();
+        let Some(path) = self.current.get_untracked() else { return };
+        let name = path.rsplit('/').next().unwrap_or(&path);
+        self.text.with_untracked(|text| js::download(name, &text.source));
+    }
+
+    /// Shows or hides the grid, and remembers it.
+    pub fn toggle_grid(self) {
+        self.grid.update(|grid| *grid = !*grid);
+        theme::put(GRID_KEY, Some(if self.grid.get_untracked() { "on" } else { "off" }));
+    }
+
+    /// Selects a thing, or nothing.
+    pub fn select(self, path: Option<String>) {
+        if self.selected.with_untracked(|old| *old != path) {
+            self.selected.set(path);
+        }
+    }
+
+    /// Marks what the pointer is over, in whatever view.
+    pub fn hover(self, path: Option<String>) {
+        if self.hovered.with_untracked(|old| *old != path) {
+            self.hovered.set(path);
+        }
+    }
+}
+
+impl Default for Lab {
+    fn default() -> Self {
+        Self::new()
+    }
+}
+
+const GRID_KEY: &str = "thinglab/grid";
+const TYPING_PAUSE: Duration = Duration::from_millis(150);
+
+fn draft_key(path: &str) -> String {
+    format!("thinglab/draft/{path}")
+}
+
+/// The path of a file that a document names in `use`: `parts.bolts` is `parts/bolts.thing` beside it.
+fn beside(folder: &str, name: &str) -> String {
+    let file = format!("{}.thing", name.replace('.', "/"));
+    if folder.is_empty() { file } else { format!("{folder}/{file}") }
+}
+
+/// What `use` calls a file: `parts/bolts.thing` is `parts.bolts`.
+fn used_as(file: &str) -> String {
+    file.strip_suffix(".thing").unwrap_or(file).replace('/', ".")
+}
+
+/// The text view of no document.
+fn no_text() -> TextView {
+    TextView { source: String::new(), tokens: Vec::new(), diagnostics: Vec::new() }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::{beside, used_as};
+
+    #[test]
+    fn a_used_file_lies_beside_its_user() {
+        assert_eq!(beside("", "bolts"), "bolts.thing");
+        assert_eq!(beside("gallery", "parts.bolts"), "gallery/parts/bolts.thing");
+        assert_eq!(used_as("parts/bolts.thing"), "parts.bolts");
+    }
+}

@@ -1,0 +1,220 @@
+//! The page: the top bar, the panels and where they lie.
+
+use crate::actions::{self, Action};
+use crate::gallery::Gallery;
+use crate::lab::Lab;
+use crate::palette::Palette;
+use crate::picture::Picture;
+use crate::splitter::{Splitter, Way};
+use crate::status::{Refused, StatusLine, Why};
+use crate::structure::Structure;
+use crate::text::Text;
+use crate::values::Values;
+use crate::{bench, icons, probe, route, words};
+use leptos::ev;
+use leptos::prelude::*;
+
+/// The whole page.
+#[component]
+pub fn Page() -> impl IntoView {
+    let lab = Lab::new();
+    let ready = RwSignal::new(false);
+    probe::publish(lab);
+    route::settle();
+    leptos::task::spawn_local(async move {
+        lab.fetch_library().await;
+        ready.set(true);
+        follow(lab);
+    });
+    let listeners = [
+        window_event_listener(ev::hashchange, move |_| follow(lab)),
+        window_event_listener(ev::keydown, move |e| {
+            if !e.default_prevented() && actions::key(lab, &e) {
+                e.prevent_default();
+            }
+        }),
+        window_event_listener(ev::beforeunload, move |e| {
+            if lab.any_unsaved() {
+                e.prevent_default();
+            }
+        }),
+    ];
+    on_cleanup(move || listeners.into_iter().for_each(WindowListenerHandle::remove));
+    Effect::new(move |_| {
+        let name =
+            lab.document.with(|document| document.as_ref().map(|d| (d.title.clone(), d.dirty)));
+        document().set_title(&match name {
+            Some((title, true)) => format!("• {title} — {}", words::LAB),
+            Some((title, false)) => format!("{title} — {}", words::LAB),
+            None => String::from(words::LAB),
+        });
+    });
+    let shown = Memo::new(move |_| lab.current.get());
+    view! {
+        <div class="page">
+            <TopBar lab=lab />
+            {move || match (ready.get(), shown.get()) {
+                (false, _) => view! { <main><p class="quiet" role="status">{words::LOADING}</p></main> }.into_any(),
+                (true, Some(_)) => view! { <Document lab=lab /> }.into_any(),
+                (true, None) => view! {
+                    <Refused lab=lab />
+                    <Gallery lab=lab />
+                }.into_any(),
+            }}
+            <Palette lab=lab />
+        </div>
+    }
+}
+
+/// Shows what the page's address names.
+fn follow(lab: Lab) {
+    let Some(path) = route::present() else {
+        lab.leave();
+        return;
+    };
+    if lab.current.get_untracked().as_deref() == Some(&path) {
+        return;
+    }
+    leptos::task::spawn_local(async move {
+        match lab.load(&path).await {
+            Ok(_) if route::present().as_deref() == Some(&path) => lab.show(&path),
+            Ok(_) => {}
+            Err(message) => {
+                lab.leave();
+                lab.say_refused(format!("{path}: {message}"));
+            }
+        }
+    });
+}
+
+#[component]
+fn TopBar(lab: Lab) -> impl IntoView {
+    let title = Memo::new(move |_| lab.document.with(|d| d.as_ref().map(|d| d.title.clone())));
+    let dirty = Memo::new(move |_| lab.document.with(|d| d.as_ref().is_some_and(|d| d.dirty)));
+    let read_only =
+        Memo::new(move |_| lab.document.with(|d| d.as_ref().is_some_and(|d| !d.writable)));
+    let theme_title = move || words::theme(lab.colors.theme.get());
+    view! {
+        <header class="bar">
+            <a class="home" href=route::GALLERY title=words::OPEN_GALLERY>
+                {icons::gallery()}<span>{words::LAB}</span>
+            </a>
+            <Show when=move || title.with(Option::is_some)>
+                <h1 class="title">
+                    {title}
+                    <Show when=move || dirty.get()><span class="dirty" title=words::NOT_SAVED>"•"</span></Show>
+                </h1>
+                <Show when=move || read_only.get()><span class="tag" title=words::READ_ONLY>{words::BUILT_IN}</span></Show>
+            </Show>
+            <div class="tools" role="toolbar" aria-label=words::TOOLS>
+                <Show when=move || title.with(Option::is_some)>
+                    <Tool lab=lab action=actions::named("undo") icon=icons::undo
+                        hint=Signal::derive(move || lab.status.with(|s| s.undo.as_deref().map(words::undo_step))) />
+                    <Tool lab=lab action=actions::named("redo") icon=icons::redo
+                        hint=Signal::derive(move || lab.status.with(|s| s.redo.as_deref().map(words::redo_step))) />
+                    <Tool lab=lab action=actions::named("save") icon=icons::save
+                        hint=Signal::derive(|| None) />
+                </Show>
+                <button class="search" title=words::PALETTE aria-label=words::PALETTE
+                    on:click=move |_| lab.palette.set(true)>
+                    {icons::search()}<span>{words::SEARCH}</span><kbd>"Ctrl K"</kbd>
+                </button>
+                <button class="tool" title=theme_title aria-label=theme_title
+                    on:click=move |_| actions::run(actions::named("theme"), lab)>{icons::theme()}</button>
+            </div>
+        </header>
+    }
+}
+
+/// A button for an action; disabled it says why.
+#[component]
+fn Tool(
+    lab: Lab,
+    action: &'static Action,
+    icon: fn() -> AnyView,
+    hint: Signal<Option<String>>,
+) -> impl IntoView {
+    let why = Memo::new(move |_| (action.enabled)(lab).err());
+    let title = move || {
+        let says = match why.get() {
+            Some(why) => format!("{}: {why}", action.label),
+            None => hint.get().unwrap_or_else(|| String::from(action.label)),
+        };
+        action.keys.first().map_or(says.clone(), |key| format!("{says} ({key})"))
+    };
+    view! {
+        <button class="tool" data-action=action.id title=title aria-label=action.label
+            aria-disabled=move || why.get().is_some().to_string()
+            on:click=move |_| if why.get_untracked().is_none() { actions::run(action, lab) }>
+            {icon()}
+        </button>
+    }
+}
+
+/// The views of one document, side by side.
+#[component]
+fn Document(lab: Lab) -> impl IntoView {
+    view! {
+        <main class="document">
+            <a class="skip" href="#picture" on:click=|e: ev::MouseEvent| {
+                e.prevent_default();
+                actions::named("go-picture");
+            }>{words::SKIP}</a>
+            <div class="notices">
+                <Refused lab=lab />
+                <Draft lab=lab />
+                <Conflict lab=lab />
+            </div>
+            <Structure lab=lab />
+            <Splitter name="left" way=Way::Right least=160.0 most=560.0 />
+            <div class="centre">
+                <Picture lab=lab />
+                <Show when=move || lab.why.get()>
+                    <Splitter name="why" way=Way::Up least=96.0 most=640.0 />
+                    <Why lab=lab />
+                </Show>
+            </div>
+            <Splitter name="right" way=Way::Left least=220.0 most=900.0 />
+            <div class="side">
+                <Values lab=lab />
+                <Splitter name="values" way=Way::Down least=96.0 most=900.0 />
+                <Text lab=lab />
+            </div>
+            <Show when=bench::is_asked><bench::Bench lab=lab /></Show>
+        </main>
+        <StatusLine lab=lab />
+    }
+}
+
+/// Offers the unsaved text of an earlier visit.
+#[component]
+fn Draft(lab: Lab) -> impl IntoView {
+    view! {
+        <Show when=move || lab.draft.with(Option::is_some)>
+            <div class="notice" role="alert">
+                <p class="words">{words::DRAFT_FOUND}</p>
+                <button class="primary" on:click=move |_| lab.decide_draft(true)>{words::RESTORE}</button>
+                <button on:click=move |_| lab.decide_draft(false)>{words::DISCARD}</button>
+            </div>
+        </Show>
+    }
+}
+
+/// Asks what to do where the file has changed underneath.
+#[component]
+fn Conflict(lab: Lab) -> impl IntoView {
+    let gone = Memo::new(move |_| lab.conflict.with(|theirs| matches!(theirs, Some(None))));
+    view! {
+        <Show when=move || lab.conflict.with(Option::is_some)>
+            <div class="notice refused" role="alertdialog" aria-label=words::CONFLICT>
+                <p class="words">{move || if gone.get() { words::CONFLICT_GONE } else { words::CONFLICT }}</p>
+                <Show when=move || !gone.get()>
+                    <button on:click=move |_| lab.take_theirs()>{words::TAKE_THEIRS}</button>
+                </Show>
+                <button class="primary" on:click=move |_| lab.overwrite()>{words::OVERWRITE}</button>
+                <button class="bare" aria-label=words::CLOSE title=words::CLOSE
+                    on:click=move |_| lab.conflict.set(None)>{icons::close()}</button>
+            </div>
+        </Show>
+    }
+}

@@ -1,0 +1,391 @@
+//! The painter's first half: a picture becomes one flat list of numbers.
+//!
+//! In: the session's picture and what is marked in it. Out: a [`DisplayList`], which
+//! `assets/painter.js` paints in one call. The list is in the sheet's coordinates, so that pan and
+//! zoom need no new one. Its operations:
+//!
+//! | numbers | meaning |
+//! |---|---|
+//! | 1, stroke, fill, line, width, on screen | a new style; colours by number, -1 for none; line as [`Line`] |
+//! | 2, x1, y1, x2, y2 | a segment |
+//! | 3, closed, n, x, y, … | a polyline of n corners |
+//! | 4, x, y, radius, start, sweep | an arc |
+//! | 5, sign, x, y, pixels | a point's [`Sign`] |
+//! | 6, word, x, y, anchoring, height, on sheet | words, by number |
+
+use crate::sheet::View;
+use drawing::{Anchoring, Color, Element, Layer, Line, Placement, Point, Shape, Style};
+use session::view::{Freedom, PictureView};
+
+/// What is painted: numbers, and the words and colours that they speak of.
+#[derive(Clone, PartialEq, Debug, Default)]
+pub struct DisplayList {
+    /// The operations.
+    pub numbers: Vec<f64>,
+    /// The words.
+    pub words: Vec<String>,
+    /// The colours that the document names; they are numbered after the page's own.
+    pub colors: Vec<String>,
+}
+
+/// The page's own colours, in the order of `ROLES` in `painter.js`.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+enum Hue {
+    Ink,
+    Faint,
+    Accent,
+    Paper,
+    Free,
+    Fixed,
+    Conflict,
+    Redundant,
+    Halo,
+    SoftHalo,
+    Grid,
+    GridStrong,
+}
+const PAGE_COLORS: usize = 12;
+
+/// The shape of a point: its state without colour.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+enum Sign {
+    Disc,
+    Square,
+    Cross,
+    Diamond,
+}
+
+/// How a thing is marked in all views.
+#[derive(Clone, Copy, PartialEq, Eq, Debug, Default)]
+pub enum Mark {
+    /// Not at all.
+    #[default]
+    None,
+    /// The pointer is over it, here or in another view.
+    Hovered,
+    /// It is selected.
+    Selected,
+}
+
+/// The width of a line where the document does not say, in pixels.
+const USUAL_WIDTH: f64 = 1.75;
+/// The radius of a point, in pixels.
+const POINT: f64 = 4.75;
+
+/// Returns the list for a picture, of whose tags `marks` says which are marked.
+pub fn display_list(picture: &PictureView, marks: &[Mark]) -> DisplayList {
+    let mut list = DisplayList::default();
+    let elements = in_layers(&picture.drawing.elements);
+    for mark in [Mark::Hovered, Mark::Selected] {
+        halos(&mut list, &elements, marks, mark);
+    }
+    let mut style = None;
+    for element in elements {
+        let tag = element.tag.0 as usize;
+        let freedom = picture.freedom.get(tag).copied().flatten();
+        if let Shape::Dot(p) = element.shape {
+            let anchored = picture.paths.get(tag).is_some_and(|path| {
+                picture.grips.iter().any(|grip| grip.anchored && grip.path == *path)
+            });
+            dot(&mut list, p, freedom, anchored);
+            style = None;
+            continue;
+        }
+        let now = style_of(&mut list, &element.style, freedom);
+        if style != Some(now) {
+            list.numbers.push(1.0);
+            list.numbers.extend(now);
+            style = Some(now);
+        }
+        shape(&mut list, &element.shape);
+    }
+    list
+}
+
+/// Puts elements into the order in which they are painted. Where a layer has no fills, which hide
+/// what is behind them, those of one style come together, so that each style is drawn once.
+fn in_layers(elements: &[Element]) -> Vec<&Element> {
+    let mut sorted: Vec<&Element> = Vec::with_capacity(elements.len());
+    for layer in [Layer::Back, Layer::Lines, Layer::Points, Layer::Words] {
+        let from = sorted.len();
+        sorted.extend(elements.iter().filter(|e| e.layer == layer));
+        let own = &mut sorted[from..];
+        if layer == Layer::Lines && own.iter().all(|e| e.style.fill.is_none()) {
+            let mut styles: Vec<&Style> = Vec::new();
+            own.sort_by_cached_key(|e| {
+                styles.iter().position(|s| **s == e.style).unwrap_or_else(|| {
+                    styles.push(&e.style);
+                    styles.len() - 1
+                })
+            });
+        }
+    }
+    sorted
+}
+
+/// Paints a broad soft line behind everything that is marked so.
+fn halos(list: &mut DisplayList, elements: &[&Element], marks: &[Mark], mark: Mark) {
+    let color = match mark {
+        Mark::None => return,
+        Mark::Hovered => Hue::SoftHalo,
+        Mark::Selected => Hue::Halo,
+    };
+    let marked = |e: &&&Element| marks.get(e.tag.0 as usize) == Some(&mark);
+    let mut open = false;
+    for element in elements.iter().filter(marked) {
+        match element.shape {
+            Shape::Dot(_) | Shape::Text { .. } => {}
+            Shape::Segment(..)
+            | Shape::Polyline { .. }
+            | Shape::Circle { .. }
+            | Shape::Arc { .. } => {
+                if !open {
+                    begin(list, color as i32, -1, Line::Solid, 9.0, Space::Sheet);
+                    open = true;
+                }
+                shape(list, &element.shape);
+            }
+        }
+    }
+    for element in elements.iter().filter(marked) {
+        if let Shape::Dot(p) = element.shape {
+            begin(list, -1, color as i32, Line::None, 0.0, Space::Screen);
+            sign(list, Sign::Disc, p, 2.4 * POINT);
+        }
+    }
+}
+
+/// Where the numbers of a path live.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+enum Space {
+    Sheet,
+    Screen,
+}
+
+fn begin(list: &mut DisplayList, stroke: i32, fill: i32, line: Line, width: f64, space: Space) {
+    list.numbers.extend([
+        1.0,
+        f64::from(stroke),
+        f64::from(fill),
+        line_number(line),
+        width,
+        f64::from(u8::from(space == Space::Screen)),
+    ]);
+}
+
+fn line_number(line: Line) -> f64 {
+    match line {
+        Line::Solid => 0.0,
+        Line::Dashed => 1.0,
+        Line::Dotted => 2.0,
+        Line::None => 3.0,
+    }
+}
+
+/// A point: free blue discs, fixed ones in ink, anchored squares, conflicting crosses, redundant
+/// diamonds, each with a rim of paper.
+fn dot(list: &mut DisplayList, at: Point, freedom: Option<Freedom>, anchored: bool) {
+    let (color, form) = match freedom {
+        Some(Freedom::Conflicting) => (Hue::Conflict, Sign::Cross),
+        Some(Freedom::Redundant) => (Hue::Redundant, Sign::Diamond),
+        _ if anchored => (Hue::Fixed, Sign::Square),
+        Some(Freedom::Free) => (Hue::Free, Sign::Disc),
+        Some(Freedom::Fixed) | None => (Hue::Fixed, Sign::Disc),
+    };
+    let paper = Hue::Paper as i32;
+    match form {
+        Sign::Cross => {
+            for (color, width) in [(paper, 6.0), (color as i32, 2.75)] {
+                begin(list, color, -1, Line::Solid, width, Space::Screen);
+                sign(list, form, at, POINT);
+            }
+        }
+        Sign::Disc | Sign::Square | Sign::Diamond => {
+            begin(list, paper, color as i32, Line::Solid, 1.5, Space::Screen);
+            sign(list, form, at, if form == Sign::Diamond { 1.4 * POINT } else { POINT });
+        }
+    }
+}
+
+fn sign(list: &mut DisplayList, form: Sign, at: Point, pixels: f64) {
+    list.numbers.extend([5.0, f64::from(form as u8), at.x, at.y, pixels]);
+}
+
+/// Returns the five numbers of a style.
+fn style_of(list: &mut DisplayList, style: &Style, freedom: Option<Freedom>) -> [f64; 5] {
+    let stroke = match freedom {
+        Some(Freedom::Conflicting) => Hue::Conflict as usize,
+        Some(Freedom::Free | Freedom::Fixed | Freedom::Redundant) | None => {
+            color_number(list, &style.color)
+        }
+    };
+    let fill = style.fill.as_ref().map_or(-1.0, |color| color_number(list, color) as f64);
+    let width = if style.width > 0.0 { style.width } else { USUAL_WIDTH };
+    [stroke as f64, fill, line_number(style.line), width, 0.0]
+}
+
+fn color_number(list: &mut DisplayList, color: &Color) -> usize {
+    match color {
+        Color::Ink => Hue::Ink as usize,
+        Color::Faint => Hue::Faint as usize,
+        Color::Accent => Hue::Accent as usize,
+        Color::Named(name) => PAGE_COLORS + number_in(&mut list.colors, name),
+    }
+}
+
+/// Returns where a text stands in a list, which it joins if it is not there yet.
+fn number_in(texts: &mut Vec<String>, text: &str) -> usize {
+    texts.iter().position(|t| t == text).unwrap_or_else(|| {
+        texts.push(String::from(text));
+        texts.len() - 1
+    })
+}
+
+fn shape(list: &mut DisplayList, shape: &Shape) {
+    let out = &mut list.numbers;
+    match shape {
+        Shape::Dot(p) => sign(list, Sign::Disc, *p, POINT),
+        Shape::Segment(p, q) => out.extend([2.0, p.x, p.y, q.x, q.y]),
+        Shape::Polyline { points, closed } => {
+            out.extend([3.0, f64::from(u8::from(*closed)), points.len() as f64]);
+            out.extend(points.iter().flat_map(|p| [p.x, p.y]));
+        }
+        Shape::Circle { center, radius } => {
+            out.extend([4.0, center.x, center.y, radius.max(0.0), 0.0, std::f64::consts::TAU]);
+        }
+        Shape::Arc { center, radius, start, sweep } => {
+            out.extend([4.0, center.x, center.y, radius.max(0.0), *start, *sweep]);
+        }
+        Shape::Text { at, text, anchoring, placement } => {
+            let word = list.words.len() as f64;
+            list.words.push(text.clone());
+            let anchoring = match anchoring {
+                Anchoring::Start => 0.0,
+                Anchoring::Middle => 1.0,
+                Anchoring::End => 2.0,
+            };
+            let (height, on_sheet) = match placement {
+                Placement::OnSheet(height) => (*height, 1.0),
+                Placement::OnScreen(height) => (*height, 0.0),
+            };
+            out.extend([6.0, word, at.x, at.y, anchoring, height, on_sheet]);
+        }
+    }
+}
+
+/// Returns the lines of the grid that one sees, as a list that goes before the picture's.
+pub fn grid(view: &View, (width, height): (f64, f64)) -> Vec<f64> {
+    let step = view.grid_step();
+    let (p, q) = (view.sheet_from_screen((0.0, 0.0)), view.sheet_from_screen((width, height)));
+    let mut list = DisplayList::default();
+    for (color, every) in [(Hue::Grid, false), (Hue::GridStrong, true)] {
+        begin(&mut list, color as i32, -1, Line::Solid, 1.0, Space::Sheet);
+        for n in lines_between(p.x, q.x, step).filter(|n| (n % 5 == 0) == every) {
+            list.numbers.extend([2.0, n as f64 * step, p.y, n as f64 * step, q.y]);
+        }
+        for n in lines_between(p.y, q.y, step).filter(|n| (n % 5 == 0) == every) {
+            list.numbers.extend([2.0, p.x, n as f64 * step, q.x, n as f64 * step]);
+        }
+    }
+    list.numbers
+}
+
+fn lines_between(a: f64, b: f64, step: f64) -> impl Iterator<Item = i64> {
+    let (least, most) = (a.min(b), a.max(b));
+    (least / step).ceil() as i64..=(most / step).floor() as i64
+}
+
+#[cfg(test)]
+mod tests {
+    use super::{Mark, display_list, grid};
+    use crate::sheet::View;
+    use drawing::{Color, Drawing, Element, Layer, Point, Shape, Style, Tag};
+    use session::view::{Freedom, Grip, PictureView};
+
+    fn element(shape: Shape, layer: Layer, style: Style) -> Element {
+        Element { shape, style, layer, tag: Tag(0) }
+    }
+    fn segment(x: f64) -> Shape {
+        Shape::Segment(Point { x, y: 0.0 }, Point { x, y: 1.0 })
+    }
+    fn picture(elements: Vec<Element>, freedom: Option<Freedom>) -> PictureView {
+        PictureView {
+            drawing: Drawing { elements, ..Drawing::default() },
+            paths: vec![String::from("p")],
+            freedom: vec![freedom],
+            grips: vec![Grip { path: String::from("p"), x: 0.0, y: 0.0, anchored: false }],
+        }
+    }
+
+    #[test]
+    fn an_empty_picture_is_an_empty_list() {
+        assert_eq!(display_list(&PictureView::default(), &[]), super::DisplayList::default());
+    }
+
+    #[test]
+    fn lines_of_one_style_are_one_path_whatever_their_order() {
+        let faint = Style { color: Color::Faint, ..Style::default() };
+        let elements = vec![
+            element(segment(1.0), Layer::Lines, Style::default()),
+            element(segment(2.0), Layer::Lines, faint),
+            element(segment(3.0), Layer::Lines, Style::default()),
+        ];
+        let list = display_list(&picture(elements, None), &[]);
+        assert_eq!(
+            list.numbers,
+            [
+                [1.0, 0.0, -1.0, 0.0, 1.75, 0.0].as_slice(),
+                &[2.0, 1.0, 0.0, 1.0, 1.0],
+                &[2.0, 3.0, 0.0, 3.0, 1.0],
+                &[1.0, 1.0, -1.0, 0.0, 1.75, 0.0],
+                &[2.0, 2.0, 0.0, 2.0, 1.0],
+            ]
+            .concat()
+        );
+    }
+
+    #[test]
+    fn fills_keep_their_order_because_they_hide_what_is_behind() {
+        let filled = Style { fill: Some(Color::Named(String::from("red"))), ..Style::default() };
+        let elements = vec![
+            element(segment(1.0), Layer::Lines, Style::default()),
+            element(segment(2.0), Layer::Lines, filled),
+            element(segment(3.0), Layer::Lines, Style::default()),
+        ];
+        let list = display_list(&picture(elements, None), &[]);
+        let order: Vec<f64> = list
+            .numbers
+            .windows(5)
+            .filter(|w| w[0] == 2.0 && w[1] == w[3] && w[2] == 0.0 && w[4] == 1.0)
+            .map(|w| w[1])
+            .collect();
+        assert_eq!(order, [1.0, 2.0, 3.0]);
+        assert_eq!(list.colors, ["red"]);
+    }
+
+    #[test]
+    fn a_point_in_conflict_is_a_red_cross_and_a_free_one_a_blue_disc() {
+        let dots = || vec![element(Shape::Dot(Point::default()), Layer::Points, Style::default())];
+        let free = display_list(&picture(dots(), Some(Freedom::Free)), &[]).numbers;
+        assert_eq!((free[2], free[6], free[7]), (4.0, 5.0, 0.0));
+        let wrong = display_list(&picture(dots(), Some(Freedom::Conflicting)), &[]).numbers;
+        assert_eq!((wrong[12], wrong[18]), (6.0, 2.0));
+    }
+
+    #[test]
+    fn what_is_selected_has_a_halo_behind_it() {
+        let elements = vec![element(segment(1.0), Layer::Lines, Style::default())];
+        let plain = display_list(&picture(elements.clone(), None), &[Mark::None]).numbers;
+        let marked = display_list(&picture(elements, None), &[Mark::Selected]).numbers;
+        assert_eq!(&marked[..2], &[1.0, 8.0]);
+        assert_eq!(&marked[marked.len() - plain.len()..], plain);
+    }
+
+    #[test]
+    fn the_grid_covers_the_canvas_and_no_more() {
+        let view = View { scale: 18.0, ..View::default() };
+        let lines = grid(&view, (90.0, 36.0));
+        // 6 lines across and 3 along, 5 numbers each, after two styles of 6.
+        assert_eq!(lines.len(), 9 * 5 + 12);
+    }
+}

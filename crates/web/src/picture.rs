@@ -1,0 +1,304 @@
+//! The picture: the canvas, and the hand and keys that act on it.
+//!
+//! Pointer moves are taken at most once a frame; key presses are commands of their own, so that none
+//! is lost.
+
+use crate::js::{self, Painter};
+use crate::lab::{Lab, Zoom};
+use crate::paint::{DisplayList, Mark, display_list, grid};
+use crate::sheet::{View, fit};
+use crate::words;
+use drawing::{Point, Vertical};
+use js_sys::Array;
+use leptos::ev::{KeyboardEvent, PointerEvent, WheelEvent};
+use leptos::html::Canvas;
+use leptos::prelude::*;
+use session::view::{Grip, PictureView, StructureRow};
+use session::{Command, Literal};
+use wasm_bindgen::closure::Closure;
+use wasm_bindgen::{JsCast, JsValue};
+
+mod hand;
+mod pick;
+pub mod thumbnail;
+
+/// Space around a picture that fits, in pixels.
+const MARGIN: f64 = 56.0;
+
+/// The picture of the open document.
+#[component]
+pub fn Picture(
+    /// The lab.
+    lab: Lab,
+) -> impl IntoView {
+    let canvas = NodeRef::<Canvas>::new();
+    let size = RwSignal::new((0.0, 0.0));
+    let painter = StoredValue::new_local(None::<Painter>);
+    let hand = hand::Hand::new(lab, canvas);
+    let marked = Memo::new(move |_| {
+        let first =
+            |path: Option<String>| path.map(|p| lab.structure.with(|rows| first_path(rows, p)));
+        (first(lab.selected.get()), first(lab.hovered.get()))
+    });
+    let list = Memo::new(move |_| {
+        lab.picture.with(|picture| {
+            marked.with(|(selected, hovered)| {
+                display_list(picture, &marks(picture, selected.as_deref(), hovered.as_deref()))
+            })
+        })
+    });
+    Effect::new(move |_| {
+        if let Some(canvas) = canvas.get() {
+            painter.set_value(Some(new_painter(&canvas, size)));
+        }
+    });
+    on_cleanup(move || painter.with_value(|p| p.as_ref().map(Painter::stop)).unwrap_or_default());
+    Effect::new(move |_| zoom_as_asked(lab, size.get()));
+    Effect::new(move |_| {
+        lab.colors.changes.track();
+        painter.with_value(|p| p.as_ref().map(Painter::look));
+    });
+    Effect::new(move |last: Option<(Vec<String>, Vec<String>)>| {
+        lab.colors.changes.track();
+        let lines = if lab.grid.get() { grid(&lab.view.get(), size.get()) } else { Vec::new() };
+        list.with(|list| {
+            painter.with_value(|painter| {
+                painter.as_ref().map(|p| paint(p, list, lines, &lab.view.get(), last))
+            })
+        })
+        .unwrap_or_default()
+    });
+
+    let label = Memo::new(move |_| {
+        let title = lab.document.with(|d| d.as_ref().map_or_else(String::new, |d| d.title.clone()));
+        words::picture_of(&title, lab.picture.with(|picture| picture.grips.len()))
+    });
+    let live = Memo::new(move |_| described(lab, marked.with(|(selected, _)| selected.clone())));
+    view! {
+        <section class="panel picture" aria-label=words::PICTURE>
+            <canvas
+                id="picture"
+                node_ref=canvas
+                tabindex="0"
+                role="application"
+                aria-label=label
+                aria-describedby="picture-live"
+                class=("gripping", move || lab.dragging.with(Option::is_some))
+                class=("over", move || lab.hovered.with(Option::is_some))
+                on:pointerdown=move |e: PointerEvent| hand.down(&e)
+                on:pointermove=move |e: PointerEvent| hand.moved(&e)
+                on:pointerup=move |e: PointerEvent| hand.up(&e)
+                on:pointercancel=move |e: PointerEvent| hand.lost(&e)
+                on:pointerleave=move |_| hand.left()
+                on:wheel=move |e: WheelEvent| wheel(lab, canvas, &e)
+                on:contextmenu=move |e| e.prevent_default()
+                on:keydown=move |e: KeyboardEvent| key(lab, hand, &e)
+                on:keyup=move |e: KeyboardEvent| {
+                    if e.key() == " " { hand.hold_space(hand::Space::Up); }
+                }
+            ></canvas>
+            <p id="picture-live" class="unseen" aria-live="polite">{live}</p>
+            <div class="corner" role="group" aria-label=words::TOOLS>
+                <button title=words::ZOOM_OUT aria-label=words::ZOOM_OUT
+                    on:click=move |_| lab.zoom.set(Some(Zoom::By(0.8)))>"−"</button>
+                <button title=words::FIT aria-label=words::FIT
+                    on:click=move |_| lab.zoom.set(Some(Zoom::Fit))>
+                    {move || format!("{:.0} %", 100.0 * lab.view.get().scale)}
+                </button>
+                <button title=words::ZOOM_IN aria-label=words::ZOOM_IN
+                    on:click=move |_| lab.zoom.set(Some(Zoom::By(1.25)))>"+"</button>
+            </div>
+        </section>
+    }
+}
+
+fn new_painter(canvas: &web_sys::HtmlCanvasElement, size: RwSignal<(f64, f64)>) -> Painter {
+    let on_size = Closure::<dyn FnMut(f64, f64)>::new(move |width, height| {
+        size.try_set((width, height));
+    });
+    js::create_painter(canvas, on_size.into_js_value().unchecked_ref())
+}
+
+/// Paints one frame; returns the words and colours that the painter has now.
+fn paint(
+    painter: &Painter,
+    list: &DisplayList,
+    mut numbers: Vec<f64>,
+    view: &View,
+    last: Option<(Vec<String>, Vec<String>)>,
+) -> (Vec<String>, Vec<String>) {
+    let (words, colors) = last.unwrap_or_default();
+    let array =
+        |texts: &[String]| texts.iter().map(|t| JsValue::from(t.as_str())).collect::<Array>();
+    if words != list.words {
+        painter.set_words(&array(&list.words));
+    }
+    if colors != list.colors {
+        painter.set_colors(&array(&list.colors));
+    }
+    numbers.extend_from_slice(&list.numbers);
+    painter.paint(&numbers, view.x, view.y, view.scale, view.scale_y());
+    (list.words.clone(), list.colors.clone())
+}
+
+/// Does what was asked of the view, once the canvas has a size.
+fn zoom_as_asked(lab: Lab, size: (f64, f64)) {
+    let Some(asked) = lab.zoom.get() else { return };
+    if size.0 <= 0.0 {
+        return;
+    }
+    lab.zoom.set(None);
+    match asked {
+        Zoom::Fit => {
+            let margin = MARGIN.min(0.12 * size.0.min(size.1));
+            lab.view.set(lab.picture.with_untracked(|p| fit(&p.drawing, size, margin)));
+        }
+        Zoom::By(factor) => {
+            lab.view.update(|view| *view = view.zoomed(factor, (size.0 / 2.0, size.1 / 2.0)));
+        }
+    }
+}
+
+fn wheel(lab: Lab, canvas: NodeRef<Canvas>, e: &WheelEvent) {
+    e.prevent_default();
+    let pixels = if e.delta_mode() == 0 { e.delta_y() } else { 24.0 * e.delta_y() };
+    let factor = base::number::exp(-0.0018 * pixels.clamp(-240.0, 240.0));
+    let at = hand::on_canvas(canvas, (f64::from(e.client_x()), f64::from(e.client_y())));
+    lab.view.update(|view| *view = view.zoomed(factor, at));
+}
+
+/// Returns the path that a path is the same thing as: the first of those merged.
+pub fn first_path(rows: &[StructureRow], path: String) -> String {
+    let row = rows.iter().find(|row| row.path == path && row.merged_with.is_some());
+    row.and_then(|row| row.merged_with.clone()).unwrap_or(path)
+}
+
+/// Returns true if a path leads to a thing or to a part of it, at any depth.
+fn covers(whole: &str, path: &str) -> bool {
+    path.strip_prefix(whole)
+        .is_some_and(|rest| rest.is_empty() || rest.starts_with('.') || rest.starts_with('['))
+}
+
+/// Returns how each of a picture's tags is marked.
+fn marks(picture: &PictureView, selected: Option<&str>, hovered: Option<&str>) -> Vec<Mark> {
+    let is =
+        |whole: Option<&str>, path: &str| whole.is_some_and(|w| !w.is_empty() && covers(w, path));
+    if selected.is_none() && hovered.is_none() {
+        return Vec::new();
+    }
+    let mark = |path: &String| {
+        if is(selected, path) {
+            Mark::Selected
+        } else if is(hovered, path) {
+            Mark::Hovered
+        } else {
+            Mark::None
+        }
+    };
+    picture.paths.iter().map(mark).collect()
+}
+
+/// Says of the selected point where it is and how free.
+fn described(lab: Lab, selected: Option<String>) -> String {
+    let Some(selected) = selected else { return String::new() };
+    lab.picture.with(|picture| {
+        let Some(grip) = picture.grips.iter().find(|grip| grip.path == selected) else {
+            return selected;
+        };
+        let tag = picture.paths.iter().position(|path| *path == grip.path);
+        let freedom = tag.and_then(|t| picture.freedom.get(t).copied().flatten());
+        words::point_at(&grip.path, grip.x, grip.y, freedom.map(words::freedom))
+    })
+}
+
+fn key(lab: Lab, hand: hand::Hand, e: &KeyboardEvent) {
+    if e.ctrl_key() || e.meta_key() || e.alt_key() {
+        return;
+    }
+    let far = if e.shift_key() { 10.0 } else { 1.0 };
+    let done = match e.key().as_str() {
+        "ArrowLeft" => nudge(lab, -far, 0.0),
+        "ArrowRight" => nudge(lab, far, 0.0),
+        "ArrowUp" => nudge(lab, 0.0, -far),
+        "ArrowDown" => nudge(lab, 0.0, far),
+        "Tab" => next_grip(lab, if e.shift_key() { -1 } else { 1 }),
+        " " => {
+            hand.hold_space(hand::Space::Down);
+            true
+        }
+        _ => false,
+    };
+    if done {
+        e.prevent_default();
+        e.stop_propagation();
+    }
+}
+
+fn selected_grip(lab: Lab) -> Option<Grip> {
+    let selected = lab.selected.get_untracked()?;
+    let selected = lab.structure.with_untracked(|rows| first_path(rows, selected));
+    lab.picture.with_untracked(|p| p.grips.iter().find(|grip| grip.path == selected).cloned())
+}
+
+/// Moves the selected point from where it is now; `dy` runs down the screen.
+fn nudge(lab: Lab, dx: f64, dy: f64) -> bool {
+    let Some(grip) = selected_grip(lab) else { return false };
+    let Some(path) = session::parse_path(&grip.path) else { return false };
+    let down = match lab.view.get_untracked().vertical {
+        Vertical::Up => -1.0,
+        Vertical::Down => 1.0,
+    };
+    let to = [grip.x + dx, grip.y + down * dy].map(Literal::Number);
+    lab.apply(&Command::Move(vec![(path, Literal::Tuple(to.to_vec()))]));
+    true
+}
+
+/// Selects the next point; past the last one the key goes on to the next panel.
+fn next_grip(lab: Lab, by: isize) -> bool {
+    let at = selected_grip(lab);
+    let next = lab.picture.with_untracked(|picture| {
+        let grips = &picture.grips;
+        let now = at.and_then(|grip| grips.iter().position(|g| g.path == grip.path));
+        let next = match now {
+            Some(now) => now.checked_add_signed(by),
+            None if by > 0 => Some(0),
+            None => grips.len().checked_sub(1),
+        };
+        next.and_then(|n| grips.get(n).map(|grip| grip.path.clone()))
+    });
+    let found = next.is_some();
+    lab.select(next);
+    found
+}
+
+/// Returns the sheet's point at a place of the screen, for the view that is shown.
+fn sheet_point(lab: Lab, at: (f64, f64)) -> Point {
+    lab.view.with_untracked(|view| view.sheet_from_screen(at))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::{Mark, covers, marks};
+    use session::view::PictureView;
+
+    #[test]
+    fn a_whole_covers_its_parts_and_no_namesakes() {
+        assert!(covers("q.side1", "q.side1"));
+        assert!(covers("q.side1", "q.side1.p1"));
+        assert!(covers("links", "links[3].p1"));
+        assert!(!covers("q.side1", "q.side10"));
+        assert!(!covers("q.side1.p1", "q.side1"));
+    }
+
+    #[test]
+    fn selection_wins_over_hovering_and_the_document_marks_nothing() {
+        let paths = ["a", "a.b", "c"].map(String::from).to_vec();
+        let picture = PictureView { paths, ..PictureView::default() };
+        assert_eq!(
+            marks(&picture, Some("a.b"), Some("a")),
+            [Mark::Hovered, Mark::Selected, Mark::None]
+        );
+        assert_eq!(marks(&picture, Some(""), None), [Mark::None; 3]);
+        assert!(marks(&picture, None, None).is_empty());
+    }
+}

@@ -1,0 +1,117 @@
+//! What lies under the pointer: grips first, then lines and curves.
+
+use crate::sheet::View;
+use drawing::{Point, Shape};
+use session::view::PictureView;
+
+/// Returns the path of what lies within `reach` pixels of a place on the screen, and whether it is a
+/// grip, which can be dragged.
+pub(super) fn pick(
+    picture: &PictureView,
+    view: &View,
+    at: (f64, f64),
+    reach: f64,
+) -> Option<(String, Kind)> {
+    let p = view.sheet_from_screen(at);
+    let reach = reach / view.scale;
+    let grips =
+        picture.grips.iter().map(|grip| (distance(p, Point { x: grip.x, y: grip.y }), grip));
+    let grip = grips.filter(|(d, _)| *d <= reach).min_by(|a, b| a.0.total_cmp(&b.0));
+    if let Some((_, grip)) = grip {
+        return Some((grip.path.clone(), Kind::Grip));
+    }
+    let near =
+        picture.drawing.elements.iter().map(|element| (from_shape(p, &element.shape), element));
+    let nearest = near.filter(|(d, _)| *d <= 0.6 * reach).min_by(|a, b| a.0.total_cmp(&b.0))?;
+    let path = picture.paths.get(nearest.1.tag.0 as usize)?;
+    Some((path.clone(), Kind::Shape))
+}
+
+/// What was found.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub(super) enum Kind {
+    /// Something that can be dragged.
+    Grip,
+    /// Something that can be selected.
+    Shape,
+}
+
+fn distance(p: Point, q: Point) -> f64 {
+    base::number::hypot(p.x - q.x, p.y - q.y)
+}
+
+fn from_segment(p: Point, a: Point, b: Point) -> f64 {
+    let (dx, dy) = (b.x - a.x, b.y - a.y);
+    let square = dx * dx + dy * dy;
+    let along = if square > 0.0 { ((p.x - a.x) * dx + (p.y - a.y) * dy) / square } else { 0.0 };
+    let along = along.clamp(0.0, 1.0);
+    distance(p, Point { x: a.x + along * dx, y: a.y + along * dy })
+}
+
+/// The distance of a point from a line or curve; words and dots are not picked this way.
+fn from_shape(p: Point, shape: &Shape) -> f64 {
+    match shape {
+        Shape::Dot(_) | Shape::Text { .. } => f64::INFINITY,
+        Shape::Segment(a, b) => from_segment(p, *a, *b),
+        Shape::Polyline { points, closed } => {
+            let open = points.windows(2).map(|pair| (pair[0], pair[1]));
+            let last = points.last().copied().zip(points.first().copied()).filter(|_| *closed);
+            open.chain(last).map(|(a, b)| from_segment(p, a, b)).fold(f64::INFINITY, f64::min)
+        }
+        Shape::Circle { center, radius } => (distance(p, *center) - radius).abs(),
+        Shape::Arc { center, radius, start, sweep } => {
+            let angle = base::number::atan2(p.y - center.y, p.x - center.x);
+            let turned = (angle - start) * sweep.signum();
+            let turned = turned.rem_euclid(std::f64::consts::TAU);
+            if turned <= sweep.abs() {
+                (distance(p, *center) - radius).abs()
+            } else {
+                f64::INFINITY
+            }
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::{Kind, from_shape, pick};
+    use crate::sheet::View;
+    use drawing::{Drawing, Element, Layer, Point, Shape, Style, Tag};
+    use session::view::{Grip, PictureView};
+
+    const AT: fn(f64, f64) -> Point = |x, y| Point { x, y };
+
+    #[test]
+    fn distances_from_curves() {
+        let segment = Shape::Segment(AT(0.0, 0.0), AT(10.0, 0.0));
+        assert_eq!(from_shape(AT(5.0, 3.0), &segment), 3.0);
+        assert_eq!(from_shape(AT(14.0, 3.0), &segment), 5.0);
+        let nothing = Shape::Segment(AT(1.0, 1.0), AT(1.0, 1.0));
+        assert_eq!(from_shape(AT(1.0, 3.0), &nothing), 2.0);
+        let arc = |sweep| Shape::Arc { center: AT(0.0, 0.0), radius: 2.0, start: 0.0, sweep };
+        assert_eq!(from_shape(AT(0.0, 3.0), &arc(2.0)), 1.0);
+        assert_eq!(from_shape(AT(0.0, 3.0), &arc(-2.0)), f64::INFINITY);
+        assert_eq!(from_shape(AT(0.0, -3.0), &arc(-2.0)), 1.0);
+    }
+
+    #[test]
+    fn a_point_is_picked_before_the_line_that_it_lies_on() {
+        let line = Element {
+            shape: Shape::Segment(AT(0.0, 0.0), AT(100.0, 0.0)),
+            style: Style::default(),
+            layer: Layer::Lines,
+            tag: Tag(0),
+        };
+        let picture = PictureView {
+            drawing: Drawing { elements: vec![line], ..Drawing::default() },
+            paths: vec![String::from("line")],
+            freedom: vec![None],
+            grips: vec![Grip { path: String::from("line.p1"), x: 0.0, y: 0.0, anchored: false }],
+        };
+        let view = View { scale: 2.0, ..View::default() };
+        let at = |x, y| pick(&picture, &view, (x, y), 10.0);
+        assert_eq!(at(6.0, 0.0), Some((String::from("line.p1"), Kind::Grip)));
+        assert_eq!(at(60.0, 5.0), Some((String::from("line"), Kind::Shape)));
+        assert_eq!(at(60.0, 15.0), None);
+    }
+}

@@ -1,0 +1,94 @@
+//! `window.__thinglab.state()`: what the lab shows, for browser tests and for whoever looks.
+
+use crate::js::{self, set_option};
+use crate::lab::{Lab, Notice};
+use drawing::Point;
+use js_sys::{Array, JSON, Object};
+use leptos::prelude::*;
+use wasm_bindgen::closure::Closure;
+use wasm_bindgen::{JsCast, JsValue};
+
+/// Offers the lab's state to the page's scripts.
+pub fn publish(lab: Lab) {
+    let state = Closure::<dyn FnMut() -> String>::new(move || state(lab));
+    js::publish(state.into_js_value().unchecked_ref());
+}
+
+fn object(fields: &[(&str, JsValue)]) -> JsValue {
+    let object = Object::new();
+    fields.iter().for_each(|(name, value)| set_option(&object, name, value));
+    object.into()
+}
+
+fn state(lab: Lab) -> String {
+    let document = lab.document.get_untracked();
+    let text = |t: &str| JsValue::from(t);
+    let values: Array = lab.values.with_untracked(|rows| {
+        let row = |row: &session::view::ValueRow| {
+            object(&[
+                ("path", text(&row.path)),
+                ("text", text(&row.text)),
+                ("unit", text(&row.unit)),
+                ("number", row.number.into()),
+                ("given", row.given.into()),
+                ("anchored", row.anchored.into()),
+            ])
+        };
+        rows.iter().map(row).collect()
+    });
+    let corner = leptos::prelude::document().get_element_by_id("picture").map(|canvas| {
+        let rect = canvas.get_bounding_client_rect();
+        (rect.left(), rect.top())
+    });
+    let (left, top) = corner.unwrap_or_default();
+    let view = lab.view.get_untracked();
+    let grips: Array = lab.picture.with_untracked(|picture| {
+        let grip = |grip: &session::view::Grip| {
+            let (x, y) = view.screen_from_sheet(Point { x: grip.x, y: grip.y });
+            object(&[
+                ("path", text(&grip.path)),
+                ("x", grip.x.into()),
+                ("y", grip.y.into()),
+                ("px", (left + x).into()),
+                ("py", (top + y).into()),
+                ("anchored", grip.anchored.into()),
+            ])
+        };
+        picture.grips.iter().map(grip).collect()
+    });
+    let status = lab.status.get_untracked();
+    let notice = match lab.notice.get_untracked() {
+        Some(Notice::Said(words)) => words,
+        Some(Notice::Refused(refusal)) => refusal.message,
+        None => String::new(),
+    };
+    let diagnostics: Array = lab.text.with_untracked(|view| {
+        let one = |d: &session::view::DiagnosticView| {
+            object(&[("code", text(&d.code)), ("message", text(&d.message))])
+        };
+        view.diagnostics.iter().map(one).collect()
+    });
+    let state = object(&[
+        ("path", lab.current.get_untracked().into()),
+        ("title", document.as_ref().map(|d| d.title.clone()).into()),
+        ("dirty", document.as_ref().is_some_and(|d| d.dirty).into()),
+        ("values", values.into()),
+        ("grips", grips.into()),
+        (
+            "status",
+            object(&[
+                ("satisfied", status.satisfied.into()),
+                ("freedom", status.freedom.into()),
+                ("message", text(&status.message)),
+                ("undo", status.undo.into()),
+                ("redo", status.redo.into()),
+            ]),
+        ),
+        ("text", lab.text.with_untracked(|view| text(&view.source))),
+        ("diagnostics", diagnostics.into()),
+        ("notice", text(&notice)),
+        ("selected", lab.selected.get_untracked().into()),
+        ("dragging", lab.dragging.with_untracked(Option::is_some).into()),
+    ]);
+    JSON::stringify(&state).map(String::from).unwrap_or_default()
+}

@@ -1,0 +1,128 @@
+//! What the page asks of the server: the list of documents, a document, saving one, the library.
+//!
+//! In: names and texts. Out: what came back, or one sentence that says why not.
+
+use crate::js::{field, request, text_field};
+use crate::words;
+use js_sys::{Array, JSON, Object};
+use wasm_bindgen::JsValue;
+
+/// A document that the server offers.
+#[derive(Clone, PartialEq, Eq, Debug)]
+pub struct Listed {
+    /// Its path: `gallery/quadrilateral.thing`.
+    pub path: String,
+    /// What it is called.
+    pub title: String,
+    /// Whether it comes from the gallery.
+    pub in_gallery: bool,
+}
+
+/// A document's text as it stands on disk.
+#[derive(Clone, PartialEq, Eq, Debug)]
+pub struct Stored {
+    /// The text.
+    pub text: String,
+    /// What the server calls this state of it.
+    pub version: String,
+    /// Whether it stands in the folder; others are built in.
+    pub writable: bool,
+}
+
+/// What saving came to.
+#[derive(Clone, PartialEq, Eq, Debug)]
+pub enum Saved {
+    /// Saved; the new version.
+    Done(String),
+    /// Not saved: another text stands there now, or none.
+    Changed(Option<Stored>),
+    /// Not saved, in one sentence.
+    Failed(String),
+}
+
+/// Asks, and reads the JSON of the answer.
+async fn ask(method: &str, path: &str, body: Option<&str>) -> (u16, JsValue) {
+    let answer: Array = request(method, path, body).await;
+    let status = answer.get(0).as_f64().unwrap_or_default() as u16;
+    let text = answer.get(1).as_string().unwrap_or_default();
+    (status, JSON::parse(&text).unwrap_or(JsValue::UNDEFINED))
+}
+
+/// Says why an answer is not what was asked for.
+fn failure(status: u16, json: &JsValue) -> String {
+    match field(json, "error").as_string() {
+        Some(sentence) => sentence,
+        None if status == 0 => String::from(words::NO_SERVER),
+        None => format!("{status}"),
+    }
+}
+
+/// Returns the documents that there are.
+///
+/// # Errors
+/// One sentence.
+pub async fn documents() -> Result<Vec<Listed>, String> {
+    let (status, json) = ask("GET", "/api/documents", None).await;
+    if status != 200 {
+        return Err(failure(status, &json));
+    }
+    Ok(Array::from(&json)
+        .iter()
+        .map(|one| Listed {
+            path: text_field(&one, "path"),
+            title: text_field(&one, "title"),
+            in_gallery: text_field(&one, "place") == "gallery",
+        })
+        .collect())
+}
+
+/// Returns a document.
+///
+/// # Errors
+/// One sentence.
+pub async fn document(path: &str) -> Result<Stored, String> {
+    let query = String::from(js_sys::encode_uri_component(path));
+    let (status, json) = ask("GET", &format!("/api/document?path={query}"), None).await;
+    if status != 200 {
+        return Err(failure(status, &json));
+    }
+    Ok(Stored {
+        text: text_field(&json, "text"),
+        version: text_field(&json, "version"),
+        writable: field(&json, "writable").as_bool().unwrap_or(false),
+    })
+}
+
+/// Saves a document if its file still is of that version.
+pub async fn save(path: &str, text: &str, version: &str) -> Saved {
+    let body = Object::new();
+    for (name, value) in [("path", path), ("text", text), ("version", version)] {
+        crate::js::set_option(&body, name, &value.into());
+    }
+    let body = JSON::stringify(&body).map(String::from).unwrap_or_default();
+    let (status, json) = ask("PUT", "/api/document", Some(&body)).await;
+    match status {
+        200 => Saved::Done(text_field(&json, "version")),
+        409 => Saved::Changed(field(&json, "text").as_string().map(|text| Stored {
+            text,
+            version: text_field(&json, "version"),
+            writable: true,
+        })),
+        _ => Saved::Failed(failure(status, &json)),
+    }
+}
+
+/// Returns the library's files by name.
+///
+/// # Errors
+/// One sentence.
+pub async fn library() -> Result<Vec<(String, String)>, String> {
+    let (status, json) = ask("GET", "/api/library", None).await;
+    if status != 200 {
+        return Err(failure(status, &json));
+    }
+    Ok(Array::from(&json)
+        .iter()
+        .map(|one| (text_field(&one, "name"), text_field(&one, "text")))
+        .collect())
+}

@@ -1,0 +1,202 @@
+//! Where the sheet lies on the screen: fit, pan, zoom, and the grid's spacing.
+//!
+//! Screen coordinates are CSS pixels from the canvas's top left corner, `y` down.
+
+use drawing::{Drawing, Point, Shape, Vertical};
+
+/// The part of the sheet that one sees.
+#[derive(Clone, Copy, PartialEq, Debug)]
+pub struct View {
+    /// CSS pixels for one unit of the sheet.
+    pub scale: f64,
+    /// Where the sheet's origin lies.
+    pub x: f64,
+    /// Where the sheet's origin lies.
+    pub y: f64,
+    /// Which way the sheet's `y` runs.
+    pub vertical: Vertical,
+}
+
+impl Default for View {
+    fn default() -> Self {
+        Self { scale: 1.0, x: 0.0, y: 0.0, vertical: Vertical::Up }
+    }
+}
+
+/// A box on the sheet.
+#[derive(Clone, Copy, PartialEq, Debug)]
+pub struct Bounds {
+    /// The corner with the smallest coordinates.
+    pub least: Point,
+    /// The corner with the largest.
+    pub most: Point,
+}
+
+/// The scales between which one can zoom.
+const SCALES: (f64, f64) = (1e-6, 1e6);
+
+/// The shortest distance between two lines of the grid, in pixels.
+const GRID_PIXELS: f64 = 18.0;
+
+impl View {
+    /// Pixels for one step along the sheet's `y`: negative where `y` runs up.
+    pub fn scale_y(&self) -> f64 {
+        match self.vertical {
+            Vertical::Up => -self.scale,
+            Vertical::Down => self.scale,
+        }
+    }
+    /// Returns where a point of the sheet lies on the screen.
+    pub fn screen_from_sheet(&self, p: Point) -> (f64, f64) {
+        (self.x + self.scale * p.x, self.y + self.scale_y() * p.y)
+    }
+    /// Returns which point of the sheet lies there on the screen.
+    pub fn sheet_from_screen(&self, (x, y): (f64, f64)) -> Point {
+        Point { x: (x - self.x) / self.scale, y: (y - self.y) / self.scale_y() }
+    }
+    /// Returns the view with everything moved by some pixels.
+    #[must_use]
+    pub fn panned(self, dx: f64, dy: f64) -> Self {
+        Self { x: self.x + dx, y: self.y + dy, ..self }
+    }
+    /// Returns the view zoomed by a factor; what lies at `(x, y)` on the screen stays there.
+    #[must_use]
+    pub fn zoomed(self, factor: f64, (x, y): (f64, f64)) -> Self {
+        let scale = (self.scale * factor).clamp(SCALES.0, SCALES.1);
+        let kept = scale / self.scale;
+        Self { scale, x: x + (self.x - x) * kept, y: y + (self.y - y) * kept, ..self }
+    }
+    /// Returns the distance between two lines of the grid, in the sheet's units: 1, 2 or 5 times a
+    /// power of ten.
+    pub fn grid_step(&self) -> f64 {
+        let least = GRID_PIXELS / self.scale;
+        let mut step = 1.0;
+        while step > least {
+            step /= 10.0;
+        }
+        while step < least {
+            step *= 10.0;
+        }
+        [step / 5.0, step / 2.0].into_iter().find(|s| *s >= least).unwrap_or(step)
+    }
+}
+
+/// Returns the view that shows all of a drawing in the middle of a canvas of that size.
+pub fn fit(drawing: &Drawing, (width, height): (f64, f64), margin: f64) -> View {
+    let bounds = bounds(drawing);
+    let (w, h) = (bounds.most.x - bounds.least.x, bounds.most.y - bounds.least.y);
+    let room = ((width - 2.0 * margin).max(1.0), (height - 2.0 * margin).max(1.0));
+    let wanted = f64::min(
+        if w > 0.0 { room.0 / w } else { f64::INFINITY },
+        if h > 0.0 { room.1 / h } else { f64::INFINITY },
+    );
+    let scale = if wanted.is_finite() { wanted.clamp(SCALES.0, SCALES.1) } else { 1.0 };
+    let view = View { scale, x: 0.0, y: 0.0, vertical: drawing.vertical };
+    let middle = Point { x: bounds.least.x + w / 2.0, y: bounds.least.y + h / 2.0 };
+    let (x, y) = view.screen_from_sheet(middle);
+    view.panned(width / 2.0 - x, height / 2.0 - y)
+}
+
+/// Returns the box around a drawing; around the origin if it is empty. Words count with their
+/// position and, where they lie on the sheet, an estimate of their size.
+pub fn bounds(drawing: &Drawing) -> Bounds {
+    let mut all: Option<Bounds> = None;
+    let mut add = |x: f64, y: f64| {
+        if !(x.is_finite() && y.is_finite()) {
+            return;
+        }
+        let b = all.get_or_insert(Bounds { least: Point { x, y }, most: Point { x, y } });
+        b.least = Point { x: b.least.x.min(x), y: b.least.y.min(y) };
+        b.most = Point { x: b.most.x.max(x), y: b.most.y.max(y) };
+    };
+    for element in &drawing.elements {
+        match &element.shape {
+            Shape::Dot(p) => add(p.x, p.y),
+            Shape::Segment(p, q) => {
+                add(p.x, p.y);
+                add(q.x, q.y);
+            }
+            Shape::Polyline { points, .. } => points.iter().for_each(|p| add(p.x, p.y)),
+            Shape::Circle { center, radius } | Shape::Arc { center, radius, .. } => {
+                add(center.x - radius, center.y - radius);
+                add(center.x + radius, center.y + radius);
+            }
+            Shape::Text { at, text, anchoring, placement } => {
+                let height = match placement {
+                    drawing::Placement::OnSheet(height) => *height,
+                    drawing::Placement::OnScreen(_) => 0.0,
+                };
+                let longest = text.lines().map(|l| l.chars().count()).max().unwrap_or(0);
+                let width = 0.6 * height * longest as f64;
+                let left = match anchoring {
+                    drawing::Anchoring::Start => at.x,
+                    drawing::Anchoring::Middle => at.x - width / 2.0,
+                    drawing::Anchoring::End => at.x - width,
+                };
+                add(left, at.y - height);
+                add(left + width, at.y + height);
+            }
+        }
+    }
+    all.unwrap_or(Bounds { least: Point::default(), most: Point::default() })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::{View, fit};
+    use drawing::{Drawing, Element, Layer, Point, Shape, Style, Tag, Vertical};
+
+    fn dots(points: &[(f64, f64)], vertical: Vertical) -> Drawing {
+        let element = |&(x, y): &(f64, f64)| Element {
+            shape: Shape::Dot(Point { x, y }),
+            style: Style::default(),
+            layer: Layer::Points,
+            tag: Tag(0),
+        };
+        Drawing { elements: points.iter().map(element).collect(), vertical }
+    }
+
+    #[test]
+    fn an_empty_drawing_and_a_single_point_lie_in_the_middle() {
+        let empty = fit(&dots(&[], Vertical::Up), (400.0, 300.0), 20.0);
+        assert_eq!(empty.screen_from_sheet(Point { x: 0.0, y: 0.0 }), (200.0, 150.0));
+        let one = fit(&dots(&[(7.0, 9.0)], Vertical::Down), (400.0, 300.0), 20.0);
+        assert_eq!(one.scale, 1.0);
+        assert_eq!(one.screen_from_sheet(Point { x: 7.0, y: 9.0 }), (200.0, 150.0));
+    }
+
+    #[test]
+    fn numbers_that_are_not_finite_do_not_spoil_the_fit() {
+        let view = fit(
+            &dots(&[(0.0, 0.0), (f64::NAN, 1.0), (100.0, 0.0)], Vertical::Up),
+            (140.0, 140.0),
+            20.0,
+        );
+        assert_eq!(view.scale, 1.0);
+    }
+
+    #[test]
+    fn up_is_up() {
+        let up = fit(&dots(&[(0.0, 0.0), (10.0, 10.0)], Vertical::Up), (100.0, 100.0), 0.0);
+        assert_eq!(up.screen_from_sheet(Point { x: 0.0, y: 10.0 }), (0.0, 0.0));
+        let down = fit(&dots(&[(0.0, 0.0), (10.0, 10.0)], Vertical::Down), (100.0, 100.0), 0.0);
+        assert_eq!(down.screen_from_sheet(Point { x: 0.0, y: 10.0 }), (0.0, 100.0));
+    }
+
+    #[test]
+    fn zooming_keeps_what_is_under_the_cursor() {
+        let view = View { scale: 2.0, x: 30.0, y: 40.0, vertical: Vertical::Up };
+        let before = view.sheet_from_screen((100.0, 80.0));
+        let after = view.zoomed(1.5, (100.0, 80.0)).sheet_from_screen((100.0, 80.0));
+        assert!((before.x - after.x).abs() < 1e-12 && (before.y - after.y).abs() < 1e-12);
+    }
+
+    #[test]
+    fn the_grid_keeps_its_lines_apart() {
+        for (scale, step) in [(1.0, 20.0), (18.0, 1.0), (17.0, 2.0), (0.01, 2000.0), (400.0, 0.05)]
+        {
+            let found = View { scale, ..View::default() }.grid_step();
+            assert!((found / step - 1.0).abs() < 1e-9, "{scale}: {found}, not {step}");
+        }
+    }
+}

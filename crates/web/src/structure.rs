@@ -1,0 +1,308 @@
+//! The structure view: the tree of parts, constraints and merges, the picture's accessible twin.
+
+use crate::lab::Lab;
+use crate::picture::first_path;
+use crate::{field, icons, words};
+use leptos::ev::KeyboardEvent;
+use leptos::prelude::*;
+use session::Command;
+use session::view::{RowKind, StructureRow};
+use std::collections::BTreeSet;
+
+/// Rows down to this depth are open at first.
+const OPEN_DEPTH: u32 = 2;
+
+/// Which rows are open or shut against the rule, and which one has the keyboard.
+#[derive(Clone, Copy, Debug)]
+struct Tree {
+    lab: Lab,
+    toggled: RwSignal<BTreeSet<String>>,
+    current: RwSignal<usize>,
+    editing: RwSignal<Option<usize>>,
+}
+
+impl Tree {
+    fn is_open(self, row: &StructureRow) -> bool {
+        let toggled = self.toggled.with(|toggled| toggled.contains(&row.path));
+        (row.depth < OPEN_DEPTH) != toggled
+    }
+
+    /// The numbers of the rows that no shut row hides.
+    fn visible(self) -> Vec<usize> {
+        self.lab.structure.with(|rows| {
+            let mut visible = Vec::new();
+            let mut at = 0;
+            while let Some(row) = rows.get(at) {
+                visible.push(at);
+                let shut = row.descendants > 0 && !self.is_open(row);
+                at += 1 + if shut { row.descendants as usize } else { 0 };
+            }
+            visible
+        })
+    }
+
+    fn row(self, at: usize) -> Option<StructureRow> {
+        self.lab.structure.with_untracked(|rows| rows.get(at).cloned())
+    }
+
+    fn toggle(self, row: &StructureRow) {
+        self.toggled.update(|toggled| {
+            if !toggled.remove(&row.path) {
+                toggled.insert(row.path.clone());
+            }
+        });
+    }
+
+    /// Gives a row the keyboard and selects its thing.
+    fn go_to(self, at: usize) {
+        self.current.set(at);
+        let path = self.row(at).map(|row| row.path).filter(|path| !path.is_empty());
+        self.lab.select(path);
+        focus_row(at);
+    }
+
+    fn key(self, at: usize, e: &KeyboardEvent) {
+        if e.ctrl_key() || e.meta_key() || e.alt_key() || self.editing.get_untracked().is_some() {
+            return;
+        }
+        let visible = untrack(|| self.visible());
+        let Some(place) = visible.iter().position(|v| *v == at) else { return };
+        let Some(row) = self.row(at) else { return };
+        let go = |place: Option<usize>| {
+            if let Some(next) = place.and_then(|p| visible.get(p)) {
+                self.go_to(*next);
+            }
+        };
+        let parent = || {
+            self.lab
+                .structure
+                .with_untracked(|rows| rows[..at].iter().rposition(|above| above.depth < row.depth))
+        };
+        let open = row.descendants > 0 && untrack(|| self.is_open(&row));
+        match e.key().as_str() {
+            "ArrowDown" => go(Some(place + 1)),
+            "ArrowUp" => go(place.checked_sub(1)),
+            "Home" => go(Some(0)),
+            "End" => go(visible.len().checked_sub(1)),
+            "ArrowRight" if row.descendants > 0 && !open => self.toggle(&row),
+            "ArrowRight" => go(Some(place + 1)),
+            "ArrowLeft" if open => self.toggle(&row),
+            "ArrowLeft" => {
+                if let Some(parent) = parent() {
+                    self.go_to(parent);
+                }
+            }
+            "Enter" if is_editable(&row) => self.editing.set(Some(at)),
+            "Enter" | " " => self.toggle(&row),
+            _ => return,
+        }
+        e.prevent_default();
+        e.stop_propagation();
+    }
+}
+
+/// Whether a row's value can be typed.
+fn is_editable(row: &StructureRow) -> bool {
+    match row.kind {
+        RowKind::Part | RowKind::Virtual => row.value.is_some(),
+        RowKind::Constraint | RowKind::Merge => false,
+    }
+}
+
+fn focus_row(at: usize) {
+    request_animation_frame(move || {
+        if let Some(row) = document().get_element_by_id(&format!("row-{at}")) {
+            let row: web_sys::HtmlElement = wasm_bindgen::JsCast::unchecked_into(row);
+            // A row that has gone meanwhile needs no focus.
+            let _ = row.focus();
+        }
+    });
+}
+
+/// The tree of the open document.
+#[component]
+pub fn Structure(
+    /// The lab.
+    lab: Lab,
+) -> impl IntoView {
+    let tree = Tree {
+        lab,
+        toggled: RwSignal::new(BTreeSet::new()),
+        current: RwSignal::new(0),
+        editing: RwSignal::new(None),
+    };
+    let visible = Memo::new(move |_| tree.visible());
+    Effect::new(move |_| {
+        if let Some(path) = lab.selected.get() {
+            reveal(tree, &path);
+        }
+    });
+    view! {
+        <section class="panel structure" aria-label=words::STRUCTURE>
+            <h2>{words::STRUCTURE}</h2>
+            <div class="scroll" role="tree" aria-label=words::STRUCTURE
+                on:pointerleave=move |_| lab.hover(None)>
+                <For each=move || visible.get() key=|at| *at let(at)>
+                    <Row tree=tree at=at />
+                </For>
+            </div>
+        </section>
+    }
+}
+
+/// Opens what hides a thing's row, and makes it the tree's present row.
+fn reveal(tree: Tree, path: &str) {
+    let found = tree.lab.structure.with_untracked(|rows| {
+        let at = rows.iter().position(|row| row.path == path && row.kind != RowKind::Merge)?;
+        let mut depth = rows[at].depth;
+        let mut shut = Vec::new();
+        for above in rows[..at].iter().rev() {
+            if above.depth < depth {
+                depth = above.depth;
+                if !untrack(|| tree.is_open(above)) {
+                    shut.push(above.clone());
+                }
+            }
+        }
+        Some((at, shut))
+    });
+    if let Some((at, shut)) = found {
+        shut.iter().for_each(|row| tree.toggle(row));
+        if tree.current.get_untracked() != at {
+            tree.current.set(at);
+        }
+        request_animation_frame(move || field::scroll_to(&format!("row-{at}")));
+    }
+}
+
+#[component]
+fn Row(tree: Tree, at: usize) -> impl IntoView {
+    let lab = tree.lab;
+    let row = Memo::new(move |_| lab.structure.with(|rows| rows.get(at).cloned()));
+    let of = move |read: fn(&StructureRow) -> String| {
+        Memo::new(move |_| row.with(|row| row.as_ref().map(read).unwrap_or_default()))
+    };
+    let path = of(|row| row.path.clone());
+    let kind = of(|row| String::from(kind_class(row.kind)));
+    let name = of(|row| row.name.clone());
+    let detail = of(|row| row.detail.clone());
+    let doc = of(|row| row.doc.clone());
+    let state = of(|row| row.freedom.map(words::freedom).map(String::from).unwrap_or_default());
+    let value = Memo::new(move |_| row.with(|row| row.as_ref().and_then(|row| row.value.clone())));
+    let merged = Memo::new(move |_| row.with(|r| r.as_ref().and_then(|r| r.merged_with.clone())));
+    let depth = Memo::new(move |_| row.with(|row| row.as_ref().map_or(0, |row| row.depth)));
+    let open = Memo::new(move |_| {
+        row.with(|row| row.as_ref().filter(|r| r.descendants > 0).map(|r| tree.is_open(r)))
+    });
+    let selected = Memo::new(move |_| {
+        lab.selected.with(|selected| path.with(|path| selected.as_deref() == Some(path)))
+            && kind.with(|kind| kind != "merge")
+    });
+    let hovered = Memo::new(move |_| is_hovered(lab, &path.get()));
+    let lockable = Memo::new(move |_| {
+        row.with(|r| r.as_ref().is_some_and(|r| r.kind == RowKind::Part && r.value.is_some()))
+    });
+    let anchored = Memo::new(move |_| row.with(|row| row.as_ref().is_some_and(|r| r.anchored)));
+    let toggle = move |e: leptos::ev::MouseEvent| {
+        e.stop_propagation();
+        if let Some(row) = tree.row(at) {
+            tree.toggle(&row);
+        }
+    };
+    view! {
+        <div
+            id=format!("row-{at}")
+            class=move || format!("row {}", kind.get())
+            class:selected=selected
+            class:hovered=hovered
+            style:--depth=move || depth.get().to_string()
+            role="treeitem"
+            attr:aria-level=move || (depth.get() + 1).to_string()
+            aria-expanded=move || open.get().map(|open| open.to_string())
+            aria-selected=move || selected.get().to_string()
+            tabindex=move || if tree.current.get() == at { "0" } else { "-1" }
+            title=doc
+            on:click=move |_| tree.go_to(at)
+            on:dblclick=move |_| {
+                if tree.row(at).is_some_and(|row| is_editable(&row)) {
+                    tree.editing.set(Some(at));
+                }
+            }
+            on:pointerenter=move |_| lab.hover(Some(path.get_untracked()).filter(|p| !p.is_empty()))
+            on:keydown=move |e: KeyboardEvent| tree.key(at, &e)
+        >
+            <button class="twist" tabindex="-1" aria-hidden="true" on:click=toggle
+                class:open=move || open.get() == Some(true)
+                class:leaf=move || open.get().is_none()>{icons::chevron()}</button>
+            <span class="kind" aria-hidden="true">{move || kind_sign(&kind.get())}</span>
+            <span class="name">{name}</span>
+            <span class="detail">{detail}</span>
+            {move || merged.get().map(|first| view! {
+                <button class="link" tabindex="-1" title=format!("{} {first}", words::MERGED_WITH)
+                    on:click={
+                        let first = first.clone();
+                        move |e: leptos::ev::MouseEvent| {
+                            e.stop_propagation();
+                            lab.select(Some(first.clone()));
+                        }
+                    }>{icons::link()}<span>{first.clone()}</span></button>
+            })}
+            {move || if tree.editing.get() == Some(at) {
+                view! {
+                    <field::Edit lab=lab path=path value=value.get_untracked().unwrap_or_default()
+                        done=move || { tree.editing.set(None); focus_row(at); } />
+                }.into_any()
+            } else {
+                view! { <span class="value">{value}</span> }.into_any()
+            }}
+            <span class=move || format!("state {}", state.get()) title=state>
+                <span class="unseen">{state}</span>
+            </span>
+            {move || lockable.get().then(|| view! { <field::Lock lab=lab path=path anchored=anchored /> })}
+        </div>
+    }
+}
+
+/// Whether the pointer is over a thing, under whichever of its paths.
+pub(crate) fn is_hovered(lab: Lab, path: &str) -> bool {
+    if path.is_empty() {
+        return false;
+    }
+    lab.hovered.with(|hovered| {
+        hovered.as_ref().is_some_and(|hovered| {
+            hovered == path
+                || lab
+                    .structure
+                    .with_untracked(|rows| first_path(rows, String::from(path)) == *hovered)
+        })
+    })
+}
+
+fn kind_class(kind: RowKind) -> &'static str {
+    match kind {
+        RowKind::Part => "part",
+        RowKind::Virtual => "virtual",
+        RowKind::Constraint => "constraint",
+        RowKind::Merge => "merge",
+    }
+}
+
+fn kind_sign(kind: &str) -> &'static str {
+    match kind {
+        "constraint" => "=",
+        "merge" => "⋈",
+        "virtual" => "ƒ",
+        _ => "",
+    }
+}
+
+/// Locks what is unlocked and the other way round.
+pub(crate) fn toggle_lock(lab: Lab, path: &str) {
+    let held =
+        lab.structure.with_untracked(|rows| {
+            rows.iter().find(|row| row.path == path).is_some_and(|row| row.anchored)
+        }) || lab.values.with_untracked(|rows| rows.iter().any(|r| r.path == path && r.anchored));
+    if let Some(path) = session::parse_path(path) {
+        lab.apply(&Command::Anchor { path, held: !held });
+    }
+}

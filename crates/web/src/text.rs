@@ -1,0 +1,246 @@
+//! The text view: CodeMirror with the session's colours and diagnostics, and a list of these.
+
+use crate::js::{self, Editor, set_option};
+use crate::lab::Lab;
+use crate::{icons, words};
+use js_sys::{Array, Object, Uint32Array};
+use leptos::html::Div;
+use leptos::prelude::*;
+use session::Command;
+use session::view::{DiagnosticView, StructureRow, TextView};
+use wasm_bindgen::closure::Closure;
+use wasm_bindgen::{JsCast, JsValue};
+
+/// The kinds of tokens, as the session calls them.
+const KINDS: [&str; 9] =
+    ["keyword", "class", "name", "number", "text", "comment", "doc", "operator", "error"];
+
+/// The text of the open document.
+#[component]
+pub fn Text(
+    /// The lab.
+    lab: Lab,
+) -> impl IntoView {
+    let place = NodeRef::<Div>::new();
+    let editor = StoredValue::new_local(None::<Editor>);
+    Effect::new(move |_| {
+        if let Some(parent) = place.get() {
+            editor.set_value(Some(js::create_editor(&parent, &options(lab))));
+        }
+    });
+    on_cleanup(move || {
+        lab.flush_text();
+        editor.with_value(|editor| editor.as_ref().map(Editor::destroy)).unwrap_or_default();
+    });
+    Effect::new(move |_| {
+        lab.text.with(|text| {
+            // What is being typed is newer than what the session knows.
+            if !lab.is_typing() {
+                editor.with_value(|editor| editor.as_ref().map(|editor| show(editor, text)));
+            }
+        });
+    });
+    Effect::new(move |_| {
+        let (selected, hovered) = (lab.selected.get(), lab.hovered.get());
+        lab.structure.with(|rows| {
+            let selected = selected.and_then(|path| span_of(rows, &path));
+            let hovered = hovered.and_then(|path| span_of(rows, &path));
+            editor.with_value(|editor| {
+                editor.as_ref().map(|editor| mark(editor, place, selected, hovered))
+            });
+        });
+    });
+    let diagnostics = Memo::new(move |_| lab.text.with(|text| text.diagnostics.clone()));
+    view! {
+        <section class="panel text" aria-label=words::TEXT>
+            <header class="head">
+                <h2>{words::TEXT}</h2>
+                <span class="quiet">{move || lab.current.get()}</span>
+            </header>
+            <div class="editor" id="editor" node_ref=place></div>
+            <Show when=move || diagnostics.with(|list| !list.is_empty())>
+                <ul class="problems" aria-label=words::PROBLEMS>
+                    <For each=move || diagnostics.get().into_iter().enumerate() key=|(at, d)| (*at, d.message.clone()) let((_, d))>
+                        <Problem editor=editor d=d />
+                    </For>
+                </ul>
+            </Show>
+        </section>
+    }
+}
+
+#[component]
+fn Problem(editor: StoredValue<Option<Editor>, LocalStorage>, d: DiagnosticView) -> impl IntoView {
+    let start = d.start;
+    let own = d.file.is_empty();
+    let place = if own {
+        words::line_column(d.line, d.column)
+    } else {
+        format!("{}, {}", d.file, words::line_column(d.line, d.column))
+    };
+    let go = move |_| {
+        if own {
+            editor.with_value(|editor| {
+                editor.as_ref().map(|editor| {
+                    editor.set_cursor(start);
+                    editor.focus();
+                })
+            });
+        }
+    };
+    view! {
+        <li class=d.severity.clone()>
+            <button on:click=go>
+                {icons::warning()}
+                <span class="message">{d.message.clone()}
+                    {d.hint.clone().map(|hint| view! { <span class="hint">{hint}</span> })}</span>
+                <span class="place"><code>{d.code.clone()}</code>" "{place}</span>
+            </button>
+        </li>
+    }
+}
+
+/// What the editor calls back.
+fn options(lab: Lab) -> Object {
+    let options = Object::new();
+    let set = |name: &str, closure: JsValue| set_option(&options, name, &closure);
+    set_option(&options, "text", &lab.text.with_untracked(|text| text.source.clone()).into());
+    set_option(&options, "label", &words::TEXT.into());
+    let changed = Closure::<dyn FnMut(String)>::new(move |text| lab.typed_text(text));
+    set("onChange", changed.into_js_value());
+    let cursor = Closure::<dyn FnMut(u32)>::new(move |offset| {
+        if let Some(path) = lab.structure.with_untracked(|rows| path_at(rows, offset)) {
+            lab.select(Some(path));
+        }
+    });
+    set("onCursor", cursor.into_js_value());
+    let hover = Closure::<dyn FnMut(f64)>::new(move |offset: f64| {
+        let inside = (offset >= 0.0).then_some(offset as u32);
+        lab.hover(inside.and_then(|at| lab.structure.with_untracked(|rows| path_at(rows, at))));
+    });
+    set("onHover", hover.into_js_value());
+    for (name, command) in [("onUndo", Command::Undo), ("onRedo", Command::Redo)] {
+        let back = Closure::<dyn FnMut()>::new(move || {
+            lab.apply(&command);
+        });
+        set(name, back.into_js_value());
+    }
+    let leave = Closure::<dyn FnMut()>::new(move || lab.flush_text());
+    set("onLeave", leave.into_js_value());
+    options
+}
+
+/// Shows a text with its colours and what is wrong with it.
+fn show(editor: &Editor, text: &TextView) {
+    editor.set_text(&text.source);
+    let number = |kind: &str| KINDS.iter().position(|k| *k == kind).unwrap_or(2) as u32;
+    let spans: Vec<u32> =
+        text.tokens.iter().flat_map(|t| [t.start, t.end, number(&t.kind)]).collect();
+    let classes: Array = KINDS.iter().map(|kind| JsValue::from(format!("tok-{kind}"))).collect();
+    editor.set_tokens(&Uint32Array::from(&spans[..]), &classes);
+    let squiggles: Array =
+        text.diagnostics.iter().filter(|d| d.file.is_empty()).map(squiggle).collect();
+    editor.set_diagnostics(&squiggles);
+}
+
+fn squiggle(d: &DiagnosticView) -> JsValue {
+    let object = Object::new();
+    let severity = if d.severity == "note" { "info" } else { &d.severity };
+    let message = match &d.hint {
+        Some(hint) => format!("{}\n{hint}", d.message),
+        None => d.message.clone(),
+    };
+    set_option(&object, "from", &d.start.into());
+    set_option(&object, "to", &d.end.into());
+    set_option(&object, "severity", &severity.into());
+    set_option(&object, "message", &message.into());
+    object.into()
+}
+
+/// Marks where the selected and the hovered thing are written; brings the selected one into sight
+/// unless the user is writing.
+fn mark(
+    editor: &Editor,
+    place: NodeRef<Div>,
+    selected: Option<(u32, u32)>,
+    hovered: Option<(u32, u32)>,
+) {
+    let spans: Vec<u32> = [(hovered, 0), (selected, 1)]
+        .into_iter()
+        .filter_map(|(span, class)| span.map(|(start, end)| [start, end, class]))
+        .flatten()
+        .collect();
+    let classes: Array = ["mark-hovered", "mark-selected"].map(JsValue::from).into_iter().collect();
+    editor.set_marks(&Uint32Array::from(&spans[..]), &classes);
+    let writing = place.get_untracked().is_some_and(|place| {
+        document()
+            .active_element()
+            .is_some_and(|active| place.contains(Some(active.unchecked_ref())))
+    });
+    if let (Some((start, _)), false) = (selected, writing) {
+        editor.set_cursor(start);
+    }
+}
+
+/// Where a thing is written, or else the nearest thing that it is a part of.
+fn span_of(rows: &[StructureRow], path: &str) -> Option<(u32, u32)> {
+    let mut path = path;
+    loop {
+        if path.is_empty() {
+            return None;
+        }
+        let own = rows.iter().find(|row| row.path == path && row.span.is_some());
+        if let Some(row) = own {
+            return row.span;
+        }
+        path = path.rfind('.').map_or("", |at| &path[..at]);
+    }
+}
+
+/// The smallest thing that is written around an offset.
+fn path_at(rows: &[StructureRow], offset: u32) -> Option<String> {
+    let around = rows.iter().filter_map(|row| {
+        let (start, end) = row.span?;
+        (start <= offset && offset <= end && !row.path.is_empty()).then_some((end - start, row))
+    });
+    around.min_by_key(|(length, _)| *length).map(|(_, row)| row.path.clone())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::{path_at, span_of};
+    use session::view::{RowKind, StructureRow};
+
+    fn row(path: &str, span: Option<(u32, u32)>) -> StructureRow {
+        StructureRow {
+            path: String::from(path),
+            depth: 0,
+            kind: RowKind::Part,
+            name: String::new(),
+            detail: String::new(),
+            doc: String::new(),
+            value: None,
+            merged_with: None,
+            freedom: None,
+            anchored: false,
+            descendants: 0,
+            span,
+        }
+    }
+
+    #[test]
+    fn what_is_written_nowhere_is_marked_where_its_owner_is() {
+        let rows = [row("", Some((0, 90))), row("q", Some((10, 20))), row("q.side", None)];
+        assert_eq!(span_of(&rows, "q.side.p1"), Some((10, 20)));
+        assert_eq!(span_of(&rows, "other"), None);
+    }
+
+    #[test]
+    fn the_cursor_selects_the_innermost_thing() {
+        let rows =
+            [row("", Some((0, 90))), row("q", Some((10, 40))), row("q.side", Some((20, 30)))];
+        assert_eq!(path_at(&rows, 25).as_deref(), Some("q.side"));
+        assert_eq!(path_at(&rows, 12).as_deref(), Some("q"));
+        assert_eq!(path_at(&rows, 80), None);
+    }
+}

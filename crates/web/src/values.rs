@@ -1,0 +1,339 @@
+//! The values view: a table in which every value can be typed, scrubbed and locked.
+
+use crate::lab::Lab;
+use crate::structure::is_hovered;
+use crate::{field, js, words};
+use leptos::ev::{KeyboardEvent, PointerEvent};
+use leptos::html::Span;
+use leptos::prelude::*;
+use session::view::ValueRow;
+
+/// At most so many rows are in the page at once; the filter finds the others.
+const MOST_ROWS: usize = 300;
+
+/// The table of the open document's values.
+#[component]
+pub fn Values(
+    /// The lab.
+    lab: Lab,
+) -> impl IntoView {
+    let filter = RwSignal::new(String::new());
+    let found = Memo::new(move |_| {
+        let wanted = filter.get().to_lowercase();
+        lab.values.with(|rows| {
+            let fits = |row: &ValueRow| {
+                wanted.is_empty()
+                    || row.path.to_lowercase().contains(&wanted)
+                    || row.class.to_lowercase().contains(&wanted)
+            };
+            let all = rows.iter().enumerate().filter(|(_, row)| fits(row)).map(|(at, _)| at);
+            all.collect::<Vec<usize>>()
+        })
+    });
+    let more = Memo::new(move |_| found.with(|found| found.len().saturating_sub(MOST_ROWS)));
+    view! {
+        <section class="panel values" aria-label=words::VALUES>
+            <header class="head">
+                <h2>{words::VALUES}</h2>
+                <input type="search" placeholder=words::FILTER aria-label=words::FILTER
+                    prop:value=filter
+                    on:input=move |e| filter.set(event_target_value(&e)) />
+            </header>
+            <div class="scroll" on:pointerleave=move |_| lab.hover(None)>
+                <table>
+                    <caption class="unseen">{words::VALUES}</caption>
+                    <thead class="unseen">
+                        <tr>
+                            <th scope="col">{words::COLUMN_PATH}</th>
+                            <th scope="col">{words::COLUMN_VALUE}</th>
+                            <th scope="col">{words::COLUMN_UNIT}</th>
+                            <th scope="col">{words::LOCK_NAME}</th>
+                        </tr>
+                    </thead>
+                    <tbody>
+                        <For
+                            each=move || found.with(|found| found.iter().copied().take(MOST_ROWS).collect::<Vec<_>>())
+                            key=|at| *at
+                            let(at)
+                        >
+                            <Row lab=lab at=at />
+                        </For>
+                    </tbody>
+                </table>
+                <Show when=move || found.with(Vec::is_empty)>
+                    <p class="quiet">{words::NO_VALUES}</p>
+                </Show>
+                <Show when=move || { more.get() > 0 }>
+                    <p class="quiet">{move || format!("{} {}", more.get(), words::MORE_VALUES)}</p>
+                </Show>
+            </div>
+        </section>
+    }
+}
+
+#[component]
+fn Row(lab: Lab, at: usize) -> impl IntoView {
+    let row = Memo::new(move |_| lab.values.with(|rows| rows.get(at).cloned()));
+    let of = move |read: fn(&ValueRow) -> String| {
+        Memo::new(move |_| row.with(|row| row.as_ref().map(read).unwrap_or_default()))
+    };
+    let is = move |read: fn(&ValueRow) -> bool| {
+        Memo::new(move |_| row.with(|row| row.as_ref().is_some_and(read)))
+    };
+    let path = of(|row| row.path.clone());
+    let (owner, name) =
+        (of(|row| String::from(split(&row.path).0)), of(|r| String::from(split(&r.path).1)));
+    let unit = of(|row| row.unit.clone());
+    let class = of(|row| row.class.clone());
+    let state = of(|row| row.freedom.map(words::freedom).map(String::from).unwrap_or_default());
+    let given = is(|row| row.given);
+    let anchored = is(|row| row.anchored);
+    let lockable = is(|row| !row.is_virtual);
+    let hint = Memo::new(move |_| row.with(|row| row.as_ref().map(described).unwrap_or_default()));
+    let selected = Memo::new(move |_| {
+        lab.selected.with(|s| {
+            s.as_ref()
+                .is_some_and(|s| path.with(|p| p == s || split(p).0.trim_end_matches('.') == s))
+        })
+    });
+    let hovered = Memo::new(move |_| is_hovered(lab, split(&path.get()).0.trim_end_matches('.')));
+    Effect::new(move |_| {
+        if selected.get() {
+            request_animation_frame(move || field::scroll_to(&format!("value-{at}")));
+        }
+    });
+    view! {
+        <tr
+            id=format!("value-{at}")
+            class:given=given
+            class:selected=selected
+            class:hovered=hovered
+            title=hint
+            on:pointerenter=move |_| lab.hover(Some(path.get_untracked()))
+        >
+            <th scope="row">
+                <Scrub lab=lab row=row owner=owner name=name />
+            </th>
+            <td><Field lab=lab row=row /></td>
+            <td class="unit">{move || if unit.with(String::is_empty) { String::new() } else { unit.get() }}
+                <span class="unseen">{class}</span></td>
+            <td class="marks">
+                <span class=move || format!("state {}", state.get())><span class="unseen">{state}</span></span>
+                {move || lockable.get().then(|| view! { <field::Lock lab=lab path=path anchored=anchored /> })}
+            </td>
+        </tr>
+    }
+}
+
+/// A path's owner, with its dot, and its last step.
+fn split(path: &str) -> (&str, &str) {
+    path.rfind('.').map_or(("", path), |at| path.split_at(at + 1))
+}
+
+fn described(row: &ValueRow) -> String {
+    let origin = if row.given { words::GIVEN } else { words::COMPUTED };
+    let parts = [row.doc.as_str(), &format!("{}: {}", row.path, row.class), origin];
+    parts.into_iter().filter(|part| !part.is_empty()).collect::<Vec<_>>().join("\n")
+}
+
+/// The number's name; dragged sideways it changes the number.
+#[component]
+fn Scrub(
+    lab: Lab,
+    row: Memo<Option<ValueRow>>,
+    owner: Memo<String>,
+    name: Memo<String>,
+) -> impl IntoView {
+    let span = NodeRef::<Span>::new();
+    // Where the pointer was pressed, the number there, and whether it has become a drag.
+    let start = StoredValue::new(None::<(f64, f64, bool)>);
+    let latest = StoredValue::new(None::<f64>);
+    let number = Memo::new(move |_| row.with(|row| row.as_ref().and_then(|row| row.number)));
+    let path = move || row.with_untracked(|row| row.as_ref().map(|row| row.path.clone()));
+    let down = move |e: PointerEvent| {
+        if e.button() != 0 {
+            return;
+        }
+        if let Some(number) = number.get_untracked() {
+            e.prevent_default();
+            span.get_untracked().inspect(|span| js::capture(span, e.pointer_id()));
+            start.set_value(Some((f64::from(e.client_x()), number, false)));
+        }
+        lab.select(path());
+    };
+    let frame = move || {
+        let x = latest.try_update_value(Option::take).flatten();
+        let (Some(x), Some((from, number, dragging))) = (x, start.get_value()) else { return };
+        if !dragging {
+            if (x - from).abs() < 3.0 {
+                return;
+            }
+            if !path().is_some_and(|path| lab.press(&path)) {
+                start.set_value(None);
+                return;
+            }
+            start.set_value(Some((from, number, true)));
+        }
+        lab.drag((number + ((x - from) / 2.0).round() * step(number), 0.0));
+    };
+    let moved = move |e: PointerEvent| {
+        if start.get_value().is_some() {
+            let waiting = latest.get_value().is_some();
+            latest.set_value(Some(f64::from(e.client_x())));
+            if !waiting {
+                request_animation_frame(frame);
+            }
+        }
+    };
+    let end = move |_: PointerEvent| {
+        frame();
+        let was = start.try_update_value(Option::take).flatten();
+        if was.is_some_and(|(_, _, dragging)| dragging)
+            && lab.dragging.with_untracked(Option::is_some)
+        {
+            lab.release();
+        }
+    };
+    view! {
+        <span
+            node_ref=span
+            class="label"
+            class:scrub=move || number.get().is_some()
+            title=move || number.get().map(|_| words::SCRUB)
+            on:pointerdown=down
+            on:pointermove=moved
+            on:pointerup=end
+            on:pointercancel=end
+        >
+            <span class="owner">{owner}</span>
+            <span class="name">{name}</span>
+        </span>
+    }
+}
+
+/// How much one step of scrubbing changes a number: one unit of its third figure or so.
+fn step(number: f64) -> f64 {
+    let mut step = 1.0;
+    while step > 1e-9 && step * 100.0 > number.abs().max(1e-9) {
+        step /= 10.0;
+    }
+    while step * 1000.0 < number.abs() {
+        step *= 10.0;
+    }
+    if number == 0.0 { 1.0 } else { step }
+}
+
+/// The field of one value: Enter sets it, Escape brings back what was there.
+#[component]
+fn Field(lab: Lab, row: Memo<Option<ValueRow>>) -> impl IntoView {
+    let typed = RwSignal::new(None::<String>);
+    let error = RwSignal::new(None::<String>);
+    let text = Memo::new(move |_| {
+        row.with(|row| row.as_ref().map(|r| r.text.clone()).unwrap_or_default())
+    });
+    let path = Memo::new(move |_| {
+        row.with(|row| row.as_ref().map(|r| r.path.clone()).unwrap_or_default())
+    });
+    let commit = move || {
+        let Some(words) = typed.get_untracked() else { return };
+        let unit =
+            row.with_untracked(|row| row.as_ref().map(|r| r.unit.clone()).unwrap_or_default());
+        match lab.set_typed(&path.get_untracked(), &with_unit(&words, &unit)) {
+            Ok(()) => {
+                typed.set(None);
+                error.set(None);
+            }
+            Err(refusal) => error.set(Some(field::reason(&refusal))),
+        }
+    };
+    let key = move |e: KeyboardEvent| match e.key().as_str() {
+        "Enter" => commit(),
+        "Escape" => {
+            typed.set(None);
+            error.set(None);
+        }
+        "ArrowDown" if focus_beside(&e, Beside::Below) => e.prevent_default(),
+        "ArrowUp" if focus_beside(&e, Beside::Above) => e.prevent_default(),
+        _ => {}
+    };
+    view! {
+        <input
+            class="field"
+            autocomplete="off"
+            spellcheck="false"
+            aria-label=path
+            aria-invalid=move || error.with(Option::is_some).to_string()
+            prop:value=move || typed.get().unwrap_or_else(|| text.get())
+            on:focus=move |_| lab.select(Some(path.get_untracked()))
+            on:input=move |e| {
+                typed.set(Some(event_target_value(&e)));
+                error.set(None);
+            }
+            on:keydown=key
+            on:blur=move |_| if error.with_untracked(Option::is_none) { commit() }
+        />
+        {move || error.get().map(|error| view! { <span class="error" role="alert">{error}</span> })}
+    }
+}
+
+/// A bare number is meant in the unit that stands beside the field.
+fn with_unit(words: &str, unit: &str) -> String {
+    let words = words.trim();
+    if unit.is_empty() || words.parse::<f64>().is_err() {
+        String::from(words)
+    } else {
+        format!("{words} {unit}")
+    }
+}
+
+/// Which row.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+enum Beside {
+    Above,
+    Below,
+}
+
+/// Gives the keyboard to the field of the row above or below.
+fn focus_beside(e: &KeyboardEvent, which: Beside) -> bool {
+    let target: web_sys::Element = event_target(e);
+    let row = target.closest("tr").ok().flatten();
+    let beside = row.and_then(|row| match which {
+        Beside::Below => row.next_element_sibling(),
+        Beside::Above => row.previous_element_sibling(),
+    });
+    let field = beside.and_then(|row| row.query_selector("input").ok().flatten());
+    match field {
+        Some(field) => {
+            let field: web_sys::HtmlInputElement = wasm_bindgen::JsCast::unchecked_into(field);
+            field.select();
+            field.focus().is_ok()
+        }
+        None => false,
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::{split, step, with_unit};
+
+    #[test]
+    fn a_bare_number_takes_the_unit_beside_it() {
+        assert_eq!(with_unit(" 300 ", "ohm"), "300 ohm");
+        assert_eq!(with_unit("0.3 kohm", "ohm"), "0.3 kohm");
+        assert_eq!(with_unit("300", ""), "300");
+        assert_eq!(with_unit("hello", "ohm"), "hello");
+    }
+
+    #[test]
+    fn paths_end_in_a_name() {
+        assert_eq!(split("q.outer.side1.p1.x"), ("q.outer.side1.p1.", "x"));
+        assert_eq!(split("celsius"), ("", "celsius"));
+    }
+
+    #[test]
+    fn scrubbing_steps_by_the_third_figure() {
+        assert_eq!((step(174.0), step(0.0), step(20.0)), (1.0, 1.0, 0.1));
+        assert!((step(0.0075) / 1e-5 - 1.0).abs() < 1e-9);
+        assert!((step(-33_000.0) - 100.0).abs() < 1e-9);
+    }
+}

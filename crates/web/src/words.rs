@@ -1,0 +1,176 @@
+//! Every word that the page itself says, in one place for translation.
+//!
+//! What a document says (its names, its comments, the session's messages) comes from the session.
+#![expect(missing_docs, reason = "a word says itself what it says")]
+
+pub const LAB: &str = "ThingLab";
+pub const GALLERY: &str = "Gallery";
+pub const GALLERY_LEAD: &str = "Documents whose constraints stay true while you drag. Open one, take hold of a point, and look.";
+pub const YOUR_DOCUMENTS: &str = "In this folder";
+pub const NO_DOCUMENTS: &str = "There are no documents here yet.";
+pub const LOADING: &str = "Loading";
+pub const OPENING: &str = "Opening";
+pub const SKIP: &str = "Skip to the picture";
+pub const NO_SERVER: &str = "the server does not answer; what you change is kept in this browser";
+pub const NOT_SAVED: &str = "not saved yet";
+pub const READ_ONLY: &str = "built in; saving makes a copy in your folder";
+
+pub const PICTURE: &str = "Picture";
+pub const STRUCTURE: &str = "Structure";
+pub const VALUES: &str = "Values";
+pub const TEXT: &str = "Text";
+pub const WHY: &str = "Why";
+pub const TOOLS: &str = "Tools";
+pub const STATUS: &str = "Status";
+pub const RESIZE: &str = "Resize";
+pub const PICTURE_HELP: &str = "Tab chooses a point, the arrow keys move it, F fits the picture.";
+
+pub const OPEN_GALLERY: &str = "Gallery";
+pub const SAVE: &str = "Save";
+pub const DOWNLOAD: &str = "Download the text";
+pub const UNDO: &str = "Undo";
+pub const REDO: &str = "Redo";
+pub const FIT: &str = "Fit the picture";
+pub const ZOOM_IN: &str = "Zoom in";
+pub const ZOOM_OUT: &str = "Zoom out";
+pub const GRID: &str = "Show or hide the grid";
+pub const LOCK: &str = "Lock or unlock the selection";
+pub const ENABLE: &str = "Switch the constraint on or off";
+pub const DELETE: &str = "Delete the selection";
+pub const UNMERGE: &str = "Take the selection out of its merges";
+pub const EXPLAIN: &str = "Why is it so?";
+pub const DESELECT: &str = "Select nothing";
+pub const GO_PICTURE: &str = "Go to the picture";
+pub const GO_STRUCTURE: &str = "Go to the structure";
+pub const GO_VALUES: &str = "Go to the values";
+pub const GO_TEXT: &str = "Go to the text";
+pub const THEME: &str = "Light, dark or as the system says";
+pub const SEARCH: &str = "Search";
+pub const BUILT_IN: &str = "built in";
+pub const PALETTE: &str = "Search all actions";
+pub const MENU: &str = "Menu";
+
+pub const NOTHING_TO_UNDO: &str = "nothing has been changed yet";
+pub const NOTHING_TO_REDO: &str = "nothing was taken back";
+pub const NOTHING_TO_SAVE: &str = "everything is saved";
+pub const NO_DOCUMENT: &str = "no document is open";
+pub const NOTHING_SELECTED: &str = "nothing is selected";
+pub const NOT_A_CONSTRAINT: &str = "the selection is not a constraint";
+pub const IS_A_CONSTRAINT: &str = "a constraint has no value to lock";
+pub const NOT_MERGED: &str = "the selection is not merged with anything";
+pub const NO_SUCH_ACTION: &str = "No action has this name.";
+
+pub const LOCK_NAME: &str = "Lock";
+pub const LOCKED: &str = "Locked: only typing a value changes it. Press to unlock.";
+pub const UNLOCKED: &str = "Free to follow the others. Press to lock.";
+pub const COMPUTED: &str = "what the constraints make it";
+pub const GIVEN: &str = "given in the text";
+pub const SCRUB: &str = "Drag sideways to change it";
+pub const FILTER: &str = "Filter";
+pub const NO_VALUES: &str = "No value has this name.";
+pub const SHOW_ALL: &str = "Show all";
+pub const MERGED_WITH: &str = "one with";
+pub const MORE_VALUES: &str = "more; the filter finds them";
+
+pub const COLUMN_PATH: &str = "Name";
+pub const COLUMN_VALUE: &str = "Value";
+pub const COLUMN_UNIT: &str = "Unit";
+pub const OFF_BY: &str = "off by";
+pub const CLOSE: &str = "Close";
+pub const RESTORE: &str = "Restore";
+pub const DISCARD: &str = "Discard";
+pub const DRAFT_FOUND: &str = "There are unsaved changes of yours from an earlier visit.";
+pub const CONFLICT: &str = "The file has changed on disk since it was opened.";
+pub const CONFLICT_GONE: &str = "The file has been removed from disk since it was opened.";
+pub const TAKE_THEIRS: &str = "Take what is on disk";
+pub const OVERWRITE: &str = "Overwrite with this";
+pub const TRY_AGAIN: &str = "Try again";
+pub const REPAIRS: &str = "What would work:";
+pub const IN_THE_WAY: &str = "In the way:";
+
+pub const UNMET: &str = "Do not hold";
+pub const REDUNDANT: &str = "Say nothing new";
+pub const STEPS: &str = "How the values come about";
+pub const WHOLE_DOCUMENT: &str = "the whole document";
+pub const PROBLEMS: &str = "Problems";
+
+pub const CRASH: &str = "The lab has stopped";
+pub const CRASH_ADVICE: &str = "This is a fault of ours. What you changed is kept in this browser and offered after reloading.";
+pub const RELOAD: &str = "Reload";
+
+/// The freedom of a thing as a word.
+pub fn freedom(freedom: session::view::Freedom) -> &'static str {
+    match freedom {
+        session::view::Freedom::Free => "free",
+        session::view::Freedom::Fixed => "fixed",
+        session::view::Freedom::Conflicting => "conflicting",
+        session::view::Freedom::Redundant => "redundant",
+    }
+}
+
+/// What is said of unsaved changes.
+pub fn unsaved(title: &str) -> String {
+    format!("{title} has unsaved changes")
+}
+
+/// How many ways things can still move.
+pub fn degrees(freedom: u32) -> String {
+    match freedom {
+        0 => String::from("fully determined"),
+        1 => String::from("1 degree of freedom"),
+        n => format!("{n} degrees of freedom"),
+    }
+}
+
+/// What a step of the undo list is called on its button.
+pub fn undo_step(label: &str) -> String {
+    format!("{UNDO}: {label}")
+}
+
+/// The same for a step that was taken back.
+pub fn redo_step(label: &str) -> String {
+    format!("{REDO}: {label}")
+}
+
+/// What a screen reader hears of a point.
+pub fn point_at(path: &str, x: f64, y: f64, state: Option<&str>) -> String {
+    let (x, y) = (short(x), short(y));
+    match state {
+        Some(state) => format!("{path} at ({x}, {y}), {state}"),
+        None => format!("{path} at ({x}, {y})"),
+    }
+}
+
+/// What a screen reader hears of a picture.
+pub fn picture_of(title: &str, grips: usize) -> String {
+    match grips {
+        0 => format!("{title}: nothing to drag. {PICTURE_HELP}"),
+        1 => format!("{title}: one point to drag. {PICTURE_HELP}"),
+        n => format!("{title}: {n} points to drag. {PICTURE_HELP}"),
+    }
+}
+
+/// A number for reading aloud: at most three decimals.
+pub fn short(number: f64) -> String {
+    let rounded = (number * 1000.0).round() / 1000.0;
+    if rounded == 0.0 { String::from("0") } else { rounded.to_string() }
+}
+
+/// Where a diagnostic is.
+pub fn line_column(line: u32, column: u32) -> String {
+    format!("line {line}, column {column}")
+}
+
+/// What was saved.
+pub fn saved(path: &str) -> String {
+    format!("saved {path}")
+}
+
+/// What a scheme of colours is called.
+pub fn theme(theme: crate::theme::Theme) -> &'static str {
+    match theme {
+        crate::theme::Theme::System => "Colours as the system says",
+        crate::theme::Theme::Light => "Light",
+        crate::theme::Theme::Dark => "Dark",
+    }
+}
