@@ -9,9 +9,10 @@ use crate::lower::{self, Program, Region};
 use crate::order::{self, Block, Incidence};
 use crate::rows::{self, Row};
 use crate::substitute::{self, Classes};
-use crate::system::{Level, RelationBody, SlotIndex, Stay, System};
+use crate::system::{Level, RelationBody, Slot, SlotIndex, Stay, System};
 use expr::{Arena, ExprId, Tape};
 use std::collections::{BTreeMap, BTreeSet};
+use std::sync::OnceLock;
 
 /// How a step computes its targets.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
@@ -115,7 +116,12 @@ pub struct Plan {
     pub(crate) scale_classes: usize,
     /// True if a step depends on the branch that the state is on.
     pub(crate) has_branches: bool,
+    system: System,
+    relaxed: OnceLock<Option<Box<Plan>>>,
 }
+
+/// Up to this many slots a state that does not hold may be moved as a whole.
+const RELAXED_SLOTS: usize = 300;
 
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct PlannedSlot {
@@ -188,11 +194,13 @@ pub fn plan(system: &System) -> Plan {
         shared_given: shared_given(&analysis),
         scale_classes: system.slots.iter().map(|s| s.scale as usize + 1).max().unwrap_or(0),
         has_branches,
+        system: system.clone(),
+        relaxed: OnceLock::new(),
     }
 }
 
 fn planned_slots(analysis: &Analysis<'_>) -> Vec<PlannedSlot> {
-    let one = |s: &crate::system::Slot| PlannedSlot {
+    let one = |s: &Slot| PlannedSlot {
         stay: s.stay,
         scale: s.scale,
         is_number: s.is_number,
@@ -329,6 +337,21 @@ fn shared_given(analysis: &Analysis<'_>) -> Vec<(SlotIndex, Vec<SlotIndex>)> {
 }
 
 impl Plan {
+    /// The plan in which every place may yield: for a state that does not hold, where those that
+    /// structure lets yield cannot reach far enough. None where nothing more would yield.
+    pub(crate) fn relaxed(&self) -> Option<&Plan> {
+        let make = || {
+            let mut system = self.system.clone();
+            let kept = |s: &&mut Slot| matches!(s.stay, Stay::Kept { .. });
+            let mut yields = false;
+            for slot in system.slots.iter_mut().filter(kept) {
+                slot.stay = Stay::Free;
+                yields = true;
+            }
+            (yields && system.slots.len() <= RELAXED_SLOTS).then(|| Box::new(plan(&system)))
+        };
+        self.relaxed.get_or_init(make).as_deref()
+    }
     /// Returns one line a step: kind, targets, what they come from, the relations that then hold.
     pub fn describe(&self, name: &dyn Fn(SlotIndex) -> String) -> Vec<String> {
         let list =

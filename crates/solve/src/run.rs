@@ -65,7 +65,15 @@ pub fn run(
     }
     let trust = if solved_before && plan.has_branches { Trust::Branch } else { Trust::Any };
     let mut way = Way { plan, frame, buffers, host, trial };
-    let result = way.go(last, goal, values, trust);
+    let mut result = way.go(last, goal, values, trust);
+    if let Err(Stop::NoWay(Failure { reason: Reason::NoSolution { .. }, .. })) = result
+        && !solved_before
+        && let Some(relaxed) = plan.relaxed()
+    {
+        way.plan = relaxed;
+        result = way.go(last, goal, values, Trust::Any).or(result);
+        way.plan = plan;
+    }
     let mut outcome = match result {
         Ok(()) => way.test(values),
         Err(stop) => Outcome {

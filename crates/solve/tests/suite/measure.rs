@@ -100,3 +100,19 @@ fn nothing_determined_is_nearest_to_where_it_was() {
     close(values[0], 5.0, 1e-12);
     close(values[1], 5.0, 1e-12);
 }
+
+#[test]
+fn what_structure_lets_yield_may_not_reach_and_then_all_yields() {
+    // a chain of three bars of 10 between anchors 24 apart, drawn far too short: the last joint
+    // alone cannot reach
+    let mut s = Sheet::default();
+    let joints = [s.anchor(0.0, 0.0), s.place(1.0, 1.0), s.place(2.0, 1.0), s.anchor(24.0, 0.0)];
+    for pair in joints.windows(2) {
+        let (d, ten) = (s.distance(pair[0], pair[1]), s.c(10.0));
+        s.require(d, ten);
+    }
+    let plan = s.plan();
+    let (values, outcome) = s.run(&plan, &[], &mut NoHost);
+    assert!(outcome.is_solved(), "{outcome:?}");
+    assert!(values[joints[1][0] as usize] > 4.0);
+}
