@@ -5,7 +5,7 @@
 //! {path, svg}, `fmt` {files: [{path, changed}]}. The shapes of their parts are those of
 //! `session::view`.
 
-use crate::documents::{OpenError, Opened, find, open};
+use crate::documents::{self, OpenError, Opened, find, open};
 use serde_json::{Value, json};
 use session::view::{CheckReport, DiagnosticView, Explanation, ValueRow};
 use std::fmt::Write as _;
@@ -56,13 +56,24 @@ pub(crate) fn check(arguments: &[PathBuf], form: Form) -> Result<Report, OpenErr
         if !status.satisfied {
             errors += status.unmet.len();
             for unmet in &status.unmet {
-                let _ = writeln!(words, "{}: {} does not hold: {}", path.display(), unmet.constraint, unmet.rule);
+                let _ = writeln!(
+                    words,
+                    "{}: {} does not hold: {}",
+                    path.display(),
+                    unmet.constraint,
+                    unmet.rule
+                );
             }
         }
         files.push(json!({ "path": path, "diagnostics": diagnostics, "status": status }));
     }
     let _ = writeln!(words, "{} files, {errors} errors, {warnings} warnings", files.len());
-    Ok(report(form, errors == 0, words, &json!({ "files": files, "errors": errors, "warnings": warnings })))
+    Ok(report(
+        form,
+        errors == 0,
+        words,
+        &json!({ "files": files, "errors": errors, "warnings": warnings }),
+    ))
 }
 
 fn show_diagnostic(opened: &Opened, d: &DiagnosticView) -> String {
@@ -78,7 +89,11 @@ fn show_diagnostic(opened: &Opened, d: &DiagnosticView) -> String {
         let gutter = d.line.to_string();
         let blank = " ".repeat(gutter.len());
         let indent = " ".repeat(before.chars().count());
-        let _ = writeln!(words, "{blank} |\n{gutter} | {line}\n{blank} | {indent}{}", "^".repeat(width));
+        let _ = writeln!(
+            words,
+            "{blank} |\n{gutter} | {line}\n{blank} | {indent}{}",
+            "^".repeat(width)
+        );
     }
     if let Some(hint) = &d.hint {
         let _ = writeln!(words, "  hint: {hint}");
@@ -102,14 +117,23 @@ pub(crate) fn test(arguments: &[PathBuf], form: Form) -> Result<Report, OpenErro
         }
         let checks = opened.session.run_checks(opened.id);
         for check in &checks {
-            if check.passed { passed += 1 } else { failed += 1 }
+            if check.passed {
+                passed += 1
+            } else {
+                failed += 1
+            }
             words.push_str(&show_check(&path, check));
         }
         failed += usize::from(!broken.is_empty());
         files.push(json!({ "path": path, "checks": checks, "diagnostics": diagnostics }));
     }
     let _ = writeln!(words, "{passed} passed, {failed} failed");
-    Ok(report(form, failed == 0, words, &json!({ "files": files, "passed": passed, "failed": failed })))
+    Ok(report(
+        form,
+        failed == 0,
+        words,
+        &json!({ "files": files, "passed": passed, "failed": failed }),
+    ))
 }
 
 fn show_check(path: &Path, check: &CheckReport) -> String {
@@ -117,7 +141,8 @@ fn show_check(path: &Path, check: &CheckReport) -> String {
         return String::new();
     }
     let mut words = String::new();
-    let _ = writeln!(words, "{}:{}: check \"{}\" fell short", path.display(), check.line, check.title);
+    let _ =
+        writeln!(words, "{}:{}: check \"{}\" fell short", path.display(), check.line, check.title);
     for shortfall in &check.shortfalls {
         let _ = writeln!(words, "  line {}: {}", shortfall.line, shortfall.statement);
         for line in shortfall.message.lines() {
@@ -141,14 +166,21 @@ pub(crate) fn run(path: &Path, form: Form) -> Result<Report, OpenError> {
     let rows: Vec<ValueRow> = opened.session.values(opened.id);
     let width = rows.iter().map(|r| r.path.chars().count()).max().unwrap_or(0);
     for row in &rows {
-        let mark = if row.anchored { "!" } else if row.given { "=" } else { " " };
+        let mark = if row.anchored {
+            "!"
+        } else if row.given {
+            "="
+        } else {
+            " "
+        };
         let unit = if row.unit.is_empty() { String::new() } else { format!(" {}", row.unit) };
         let _ = writeln!(words, "{:width$} {mark} {}{unit}", row.path, row.text);
     }
     let status = opened.session.status(opened.id);
     let _ = writeln!(words, "{}", status.message);
     let good = status.satisfied && diagnostics.iter().all(|d| d.severity != "error");
-    let json = json!({ "path": path, "values": rows, "status": status, "diagnostics": diagnostics });
+    let json =
+        json!({ "path": path, "values": rows, "status": status, "diagnostics": diagnostics });
     Ok(report(form, good, words, &json))
 }
 
@@ -160,7 +192,8 @@ pub(crate) fn explain(path: &Path, about: Option<&str>, form: Form) -> Result<Re
     let opened = open(path)?;
     let about = match about.map(session::parse_path) {
         Some(None) => {
-            let words = "that is no path: write it as in the language, such as q.side1.p1.x\n".to_string();
+            let words =
+                "that is no path: write it as in the language, such as q.side1.p1.x\n".to_string();
             return Ok(report(form, false, words.clone(), &json!({ "error": words })));
         }
         Some(path) => path,
@@ -183,22 +216,29 @@ pub(crate) fn explain(path: &Path, about: Option<&str>, form: Form) -> Result<Re
     Ok(report(form, true, words, &json!(explanation)))
 }
 
-/// Draws a document as SVG.
+/// Draws a document as SVG, into a file or onto standard output.
 ///
 /// # Errors
-/// If the file cannot be read.
-pub(crate) fn draw(path: &Path, form: Form) -> Result<Report, OpenError> {
+/// If the file cannot be read or written.
+pub(crate) fn draw(path: &Path, output: Option<&Path>, form: Form) -> Result<Report, OpenError> {
     let opened = open(path)?;
     let svg = opened.session.svg(opened.id);
     let json = json!({ "path": path, "svg": svg });
-    Ok(report(form, true, svg, &json))
+    let Some(output) = output else { return Ok(report(form, true, svg, &json)) };
+    std::fs::write(output, &svg)
+        .map_err(|source| OpenError::Unreadable { path: output.to_path_buf(), source })?;
+    Ok(report(form, true, format!("{}\n", output.display()), &json))
 }
 
 /// Lays documents out as the language wants, keeping comments; `write` false only says which would change.
 ///
 /// # Errors
 /// If a file cannot be read or written.
-pub(crate) fn fmt(arguments: &[PathBuf], mode: FormatMode, form: Form) -> Result<Report, OpenError> {
+pub(crate) fn fmt(
+    arguments: &[PathBuf],
+    mode: FormatMode,
+    form: Form,
+) -> Result<Report, OpenError> {
     let (mut words, mut files, mut good) = (String::new(), Vec::new(), true);
     for path in find(arguments)? {
         let text = std::fs::read_to_string(&path)
@@ -207,8 +247,7 @@ pub(crate) fn fmt(arguments: &[PathBuf], mode: FormatMode, form: Form) -> Result
         let changed = formatted != text;
         if changed {
             match mode {
-                FormatMode::Write => crate::disk::replace(&path, &formatted)
-                    .map_err(|source| OpenError::Unreadable { path: path.clone(), source })?,
+                FormatMode::Write => documents::replace(&path, &text, &formatted)?,
                 FormatMode::Check => good = false,
             }
             let verb = if mode == FormatMode::Write { "formatted" } else { "would change" };

@@ -129,7 +129,8 @@ fn is_unseen(c: char) -> bool {
 /// Names that are devices on Windows whatever follows the first dot.
 fn is_device(component: &str) -> bool {
     let stem = component.split('.').next().unwrap_or_default().to_ascii_uppercase();
-    let numbered = |prefix| stem.strip_prefix(prefix).is_some_and(|n| matches!(n.as_bytes(), [b'1'..=b'9']));
+    let numbered =
+        |prefix| stem.strip_prefix(prefix).is_some_and(|n| matches!(n.as_bytes(), [b'1'..=b'9']));
     ["CON", "PRN", "AUX", "NUL"].contains(&stem.as_str()) || numbered("COM") || numbered("LPT")
 }
 

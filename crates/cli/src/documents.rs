@@ -1,5 +1,6 @@
 //! Opening documents from the command line: files and folders in, open sessions out.
 
+use crate::disk;
 use crate::embedded;
 use session::{DocumentId, Host, Session};
 use std::fs;
@@ -12,6 +13,8 @@ pub(crate) enum OpenError {
     Unreadable { path: PathBuf, source: std::io::Error },
     #[error("{0}: no document (NAME.thing) here")]
     NoDocuments(PathBuf),
+    #[error("{path}: {source}")]
+    Unsaved { path: PathBuf, source: disk::DiskError },
 }
 
 /// Reads what a document uses: the libraries that the command carries, and files beside the document.
@@ -88,5 +91,20 @@ fn collect(folder: &Path, found: &mut Vec<PathBuf>) -> Result<(), OpenError> {
             found.push(path);
         }
     }
+    Ok(())
+}
+
+/// Writes another text in the place of the one that was read.
+///
+/// # Errors
+/// If it cannot be written, or is no longer what was read; then it is as it was.
+pub(crate) fn replace(path: &Path, read: &str, text: &str) -> Result<(), OpenError> {
+    let unreadable = |source| OpenError::Unreadable { path: path.to_path_buf(), source };
+    let unsaved = |source| OpenError::Unsaved { path: path.to_path_buf(), source };
+    let whole = path.canonicalize().map_err(unreadable)?;
+    let folder = whole.parent().unwrap_or(Path::new("/"));
+    let name = whole.file_name().unwrap_or_default().to_string_lossy();
+    let root = disk::Root::open(folder).map_err(unreadable)?;
+    disk::save(&root, &name, text, &disk::Version::of(read)).map_err(unsaved)?;
     Ok(())
 }

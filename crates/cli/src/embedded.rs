@@ -9,3 +9,9 @@ pub(crate) fn page_file(address: &str) -> Option<(&'static str, &'static [u8])> 
     let index = PAGE.binary_search_by_key(&address, |(name, _)| name).ok()?;
     Some(PAGE[index])
 }
+
+/// The text of a library, named as `use` names it.
+pub(crate) fn library(name: &str) -> Option<&'static str> {
+    let file = format!("{name}.thing");
+    LIBRARY.iter().find(|(n, _)| *n == file).map(|(_, text)| *text)
+}

@@ -1,10 +1,16 @@
 //! The `thinglab` command: every subcommand reads its arguments here and has a module of its own.
 
+use std::io::Write;
+use std::path::PathBuf;
 use std::process::ExitCode;
 
 use clap::{Parser, Subcommand};
+use commands::{Form, FormatMode, Report};
+use documents::OpenError;
 
+mod commands;
 mod disk;
+mod documents;
 mod embedded;
 mod serve;
 
@@ -14,16 +20,87 @@ mod serve;
 struct Arguments {
     #[command(subcommand)]
     command: Command,
+    /// Answers with one JSON object, for programs.
+    #[arg(long, global = true)]
+    json: bool,
 }
 
 #[derive(Debug, Subcommand)]
 enum Command {
+    /// Says what is wrong with documents, with the source line, a code and a hint.
+    Check {
+        /// Files, or folders with documents.
+        #[arg(required = true)]
+        files: Vec<PathBuf>,
+    },
+    /// Runs the `check` blocks of documents.
+    Test {
+        /// Files, or folders with documents.
+        #[arg(required = true)]
+        files: Vec<PathBuf>,
+    },
+    /// Opens a document and prints its values (`=` given, `!` anchored).
+    Run {
+        /// The document.
+        file: PathBuf,
+    },
+    /// Explains the plan of a document, or why one value is what it is.
+    Explain {
+        /// The document.
+        file: PathBuf,
+        /// The path of the value, such as q.side1.p1.x.
+        path: Option<String>,
+    },
+    /// Draws a document as SVG.
+    Draw {
+        /// The document.
+        file: PathBuf,
+        /// Where to write; standard output without it.
+        #[arg(short, long)]
+        output: Option<PathBuf>,
+    },
+    /// Lays documents out as the language wants it, keeping comments.
+    Fmt {
+        /// Files, or folders with documents.
+        #[arg(required = true)]
+        files: Vec<PathBuf>,
+        /// Only says which would change, and fails if any would.
+        #[arg(long)]
+        check: bool,
+    },
     /// Opens the lab in the browser, on this machine alone.
     Serve(serve::Arguments),
 }
 
 fn main() -> ExitCode {
-    match Arguments::parse().command {
-        Command::Serve(arguments) => serve::run(&arguments),
+    let arguments = Arguments::parse();
+    let form = if arguments.json { Form::Json } else { Form::Words };
+    let report = match &arguments.command {
+        Command::Serve(arguments) => return serve::run(arguments),
+        Command::Check { files } => commands::check(files, form),
+        Command::Test { files } => commands::test(files, form),
+        Command::Run { file } => commands::run(file, form),
+        Command::Explain { file, path } => commands::explain(file, path.as_deref(), form),
+        Command::Draw { file, output } => commands::draw(file, output.as_deref(), form),
+        Command::Fmt { files, check } => {
+            let mode = if *check { FormatMode::Check } else { FormatMode::Write };
+            commands::fmt(files, mode, form)
+        }
+    };
+    finish(report)
+}
+
+/// Prints a report: 0 if all is well, 1 if something is wrong with the documents, 2 without an answer.
+fn finish(report: Result<Report, OpenError>) -> ExitCode {
+    match report {
+        Ok(report) => {
+            // A reader that went away has read enough.
+            let _ = std::io::stdout().write_all(report.text.as_bytes());
+            if report.good { ExitCode::SUCCESS } else { ExitCode::FAILURE }
+        }
+        Err(error) => {
+            let _ = writeln!(std::io::stderr(), "thinglab: {error}");
+            ExitCode::from(2)
+        }
     }
 }

@@ -51,6 +51,8 @@ pub struct Lowered {
     /// Where the effective text differs from the text.
     pub(crate) patches: Vec<Patch>,
     pub(crate) classes_of_one: BTreeSet<ClassId>,
+    /// Where the document's own text declares classes.
+    pub(crate) class_spans: Vec<Span>,
 }
 
 /// The document's own text.
@@ -101,6 +103,11 @@ pub(crate) fn lower_text(text: &str, load: &dyn Fn(&str) -> Option<String>) -> L
         patches: Vec::new(),
         files: l.files,
         classes_of_one: l.classes_of_one,
+        class_spans: own
+            .members()
+            .filter_map(|m| matches!(m, Member::Class(_)).then(|| m.syntax().clone()))
+            .map(|n| syntax::span_of(&n))
+            .collect(),
     }
 }
 
@@ -470,6 +477,12 @@ impl Lowered {
         let place = self.origins.place(origin);
         let text = if place.file == OWN { &self.effective } else { &self.files[place.file].text };
         text.get(place.span.range()).unwrap_or_default().trim().to_string()
+    }
+    /// Returns true if a given value was written for a thing of the document, not for a class.
+    pub fn is_own_given(&self, origin: OriginId) -> bool {
+        let place = self.origins.place(origin);
+        let in_class = |s: &Span| s.start <= place.span.start && place.span.end <= s.end;
+        place.file == OWN && !self.class_spans.iter().any(in_class)
     }
     /// Returns true if a class is that of a single part.
     pub fn is_class_of_one(&self, class: ClassId) -> bool {

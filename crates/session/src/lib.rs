@@ -4,8 +4,27 @@
 //! (`kernel`) goes in; a [`Change`](view::Change) or a [`Refusal`](view::Refusal) comes back; the
 //! views ([`view`]) are plain data, made anew when asked for, so that the session can live in a
 //! worker. Between press and release of a drag nothing is written and nothing needs the network.
+//!
+//! **Invariants**: a document's state is made from its text alone; a refused command changes no bit;
+//! undo and redo bring back states, bit for bit.
+//!
+//! Reading order: [`session`](Session), `document`, `state`, `apply`, `drag`, `write_back`, `check`,
+//! `views`, [`view`], [`host`].
 pub mod host;
 pub mod view;
 
+mod apply;
+mod check;
+mod document;
+mod drag;
+mod session;
+mod state;
+mod texts;
+mod views;
+mod words;
+mod write_back;
+
 pub use host::Host;
 pub use kernel::{Command, Literal, Path, Step};
+pub use session::{Session, format, parse_path};
+pub use view::DocumentId;

@@ -268,3 +268,27 @@ pub struct ExplainedStep {
     /// The values that it gave.
     pub values: Vec<String>,
 }
+
+/// How a `check` block came out.
+#[derive(Clone, PartialEq, Debug, Serialize)]
+pub struct CheckReport {
+    /// Its title.
+    pub title: String,
+    /// The line it stands on, from 1.
+    pub line: u32,
+    /// Whether everything expected was found.
+    pub passed: bool,
+    /// What fell short.
+    pub shortfalls: Vec<Shortfall>,
+}
+
+/// A statement of a check that fell short.
+#[derive(Clone, PartialEq, Debug, Serialize)]
+pub struct Shortfall {
+    /// The line, from 1.
+    pub line: u32,
+    /// The statement, as written.
+    pub statement: String,
+    /// What was found and what was wanted, with the values.
+    pub message: String,
+}

@@ -1,0 +1,241 @@
+//! Commands applied: each gives the next state, or a refusal that changed nothing.
+
+use crate::document::{Direction, Open};
+use crate::host::Host;
+use crate::state::State;
+use crate::texts::Texts;
+use crate::view::{Change, Refusal, TextChange};
+use crate::words;
+use crate::write_back::write_back;
+use kernel::{Command, DOCUMENT, Literal, Path, Step, Term, ThingId, Value, Values};
+use plan::{EditKind, Target};
+use std::sync::Arc;
+use syntax::edit::TextEdit;
+
+/// Applies a command to a document.
+///
+/// # Errors
+/// Why it was refused; then nothing has changed.
+pub(crate) fn apply(
+    open: &mut Open,
+    host: &dyn Host,
+    command: &Command,
+) -> Result<Change, Refusal> {
+    match command {
+        Command::Set(targets) => edit(open, host, EditKind::Set, targets),
+        Command::Move(targets) => edit(open, host, EditKind::Move, targets),
+        Command::Text(text) => Ok(take_text(open, host, text)),
+        Command::Undo => travel(open, Direction::Back),
+        Command::Redo => travel(open, Direction::Forth),
+        Command::Merge(_)
+        | Command::Unmerge(_)
+        | Command::Delete(_)
+        | Command::Edit { .. }
+        | Command::Rename { .. }
+        | Command::Promote { .. }
+        | Command::Anchor { .. }
+        | Command::Enable { .. } => restructure(open, host, command),
+    }
+}
+
+/// What an edit speaks of: a thing, or a virtual part of one.
+enum Aim {
+    Thing(ThingId),
+    Term(Term),
+}
+
+fn edit(
+    open: &mut Open,
+    host: &dyn Host,
+    kind: EditKind,
+    targets: &[(Path, Literal)],
+) -> Result<Change, Refusal> {
+    let state = open.state.clone();
+    let mut aims: Vec<(Aim, Vec<Value>)> = Vec::new();
+    for (path, literal) in targets {
+        let mut values = Vec::new();
+        flatten(literal, &mut values);
+        aims.push((aim(&state, path)?, values));
+    }
+    let targets: Vec<(Target<'_>, Vec<Value>)> = aims
+        .iter()
+        .map(|(aim, values)| {
+            let target = match aim {
+                Aim::Thing(thing) => Target::Thing(*thing),
+                Aim::Term(term) => Target::Term { me: DOCUMENT, term },
+            };
+            (target, values.clone())
+        })
+        .collect();
+    let mut values = state.values.clone();
+    let mut texts = Texts::new(&state.lowered.document, &state.structure);
+    let report = open.planner.edit(state.model(), &mut values, kind, &targets, &mut texts);
+    if let Some(reason) = &report.refusal {
+        return Err(words::refusal_for(&state, reason, &report));
+    }
+    let label = label(kind, &aims_paths(&state, &aims));
+    Ok(keep(open, host, label, &values))
+}
+
+fn aims_paths(state: &State, aims: &[(Aim, Vec<Value>)]) -> Vec<String> {
+    let path = |(aim, _): &(Aim, Vec<Value>)| match aim {
+        Aim::Thing(thing) => state.structure.path(&state.lowered.document, *thing).to_string(),
+        Aim::Term(term) => words::term_path(term),
+    };
+    aims.iter().map(path).collect()
+}
+
+fn label(kind: EditKind, paths: &[String]) -> String {
+    let verb = match kind {
+        EditKind::Set => "set",
+        EditKind::Move => "move",
+    };
+    format!("{verb} {}", paths.join(", "))
+}
+
+fn aim(state: &State, path: &Path) -> Result<Aim, Refusal> {
+    if let Some(thing) = crate::session::thing_at(state, path) {
+        return Ok(Aim::Thing(thing));
+    }
+    let part = |to: Term, step: &Step| match step {
+        Step::Part(name) => Term::send(to, name),
+        Step::Index(i) => Term::Index(Box::new(to), Box::new(Term::number(f64::from(*i)))),
+        Step::Last => Term::send(to, "last"),
+        Step::Owner => Term::send(to, "owner"),
+    };
+    let term = path.0.iter().fold(Term::Me, part);
+    let evaluator = state.evaluator(&state.values);
+    match evaluator.evaluate(&term, DOCUMENT) {
+        Ok(_) => Ok(Aim::Term(term)),
+        Err(fault) => Err(words::refuse(format!("{path}: {}", fault.message))),
+    }
+}
+
+fn flatten(literal: &Literal, values: &mut Vec<Value>) {
+    match literal {
+        Literal::Number(x) => values.push(Value::Number(*x)),
+        Literal::Bool(b) => values.push(Value::Number(f64::from(u8::from(*b)))),
+        Literal::Text(t) => values.push(Value::Text(Arc::from(t.as_str()))),
+        Literal::Tuple(items) => items.iter().for_each(|i| flatten(i, values)),
+    }
+}
+
+/// Makes values the document's own, as one step: written back, opened anew.
+pub(crate) fn keep(open: &mut Open, host: &dyn Host, label: String, values: &Values) -> Change {
+    let before = open.state.clone();
+    if values.changed(&before.values).next().is_none() {
+        return Change { label, ..Change::default() };
+    }
+    let latest = open.planner.take_latest();
+    let plans = open.planner.take_plans();
+    let (state, mut planner) = write_back(&before, values, host, plans);
+    planner.restore_latest(latest);
+    open.step_to(label.clone(), state, planner);
+    change(label, &before, &open.state)
+}
+
+/// Takes a text as it was typed. It may be wrong: what was right before stays in force.
+fn take_text(open: &mut Open, host: &dyn Host, text: &str) -> Change {
+    let label = "edit text".to_string();
+    let before = open.state.clone();
+    if before.text == text {
+        return Change { label, ..Change::default() };
+    }
+    let plans = open.planner.take_plans();
+    let (state, planner) = State::of(text.into(), Some(&before), host, plans);
+    open.step_to(label.clone(), state, planner);
+    change(label, &before, &open.state)
+}
+
+fn travel(open: &mut Open, direction: Direction) -> Result<Change, Refusal> {
+    let before = open.state.clone();
+    match open.travel(direction) {
+        Some(label) => Ok(change(label, &before, &open.state)),
+        None => {
+            let nothing = match direction {
+                Direction::Back => "there is nothing to undo",
+                Direction::Forth => "there is nothing to redo",
+            };
+            Err(words::refuse(nothing.into()))
+        }
+    }
+}
+
+/// Applies a command that changes structure: the smallest edit of the text that says so.
+fn restructure(open: &mut Open, host: &dyn Host, command: &Command) -> Result<Change, Refusal> {
+    let before = open.state.clone();
+    let edits: Vec<TextEdit> = lang::edits_for(&before.lowered, &before.structure, command)
+        .map_err(|d| words::refusal_of_text(&before, std::slice::from_ref(&d)))?;
+    let text = syntax::edit::apply(&before.text, &edits);
+    let plans = open.planner.take_plans();
+    let (state, planner) = State::of(text, Some(&before), host, plans);
+    let errors =
+        |s: &State| s.diagnostics.iter().filter(|d| d.severity == base::Severity::Error).count();
+    if errors(&state) > errors(&before) {
+        let new: Vec<base::Diagnostic> = state
+            .diagnostics
+            .iter()
+            .filter(|d| !before.diagnostics.iter().any(|b| b.message == d.message))
+            .cloned()
+            .collect();
+        open.planner.give_plans(planner.into_plans());
+        return Err(words::refusal_of_text(&state, &new));
+    }
+    let label = words::command_label(command);
+    open.step_to(label.clone(), state, planner);
+    Ok(change(label, &before, &open.state))
+}
+
+/// Says what is different between two states.
+fn change(label: String, before: &State, after: &State) -> Change {
+    let structure = before.structure.slots.len() != after.structure.slots.len()
+        || before.structure.constraints != after.structure.constraints
+        || before.structure.merged != after.structure.merged;
+    let moved = if structure {
+        Vec::new()
+    } else {
+        let slots = after.values.changed(&before.values);
+        slots.map(|s| after.slot_path(s).to_string()).collect()
+    };
+    Change { label, edits: difference(&before.text, &after.text), moved, structure }
+}
+
+/// Returns the changed stretch of a text, as few bytes as one stretch can be; nothing if equal.
+fn difference(before: &str, after: &str) -> Vec<TextChange> {
+    if before == after {
+        return Vec::new();
+    }
+    let mut start = before.bytes().zip(after.bytes()).take_while(|(a, b)| a == b).count();
+    while !before.is_char_boundary(start) || !after.is_char_boundary(start) {
+        start -= 1;
+    }
+    let most = before.len().min(after.len()) - start;
+    let tail = before.bytes().rev().zip(after.bytes().rev()).take(most);
+    let mut end = tail.take_while(|(a, b)| a == b).count();
+    while !before.is_char_boundary(before.len() - end) || !after.is_char_boundary(after.len() - end)
+    {
+        end -= 1;
+    }
+    vec![TextChange {
+        start: start as u32,
+        end: (before.len() - end) as u32,
+        insert: after[start..after.len() - end].to_string(),
+    }]
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_difference_of_texts_is_one_stretch() {
+        let d = difference("a = 10  // ten", "a = 12  // ten");
+        assert_eq!(d, [TextChange { start: 5, end: 6, insert: "2".into() }]);
+        assert_eq!(difference("same", "same"), []);
+    }
+    #[test]
+    fn the_difference_never_splits_a_letter() {
+        let d = difference("x = \"é\"", "x = \"è\"");
+        assert_eq!(d, [TextChange { start: 5, end: 7, insert: "è".into() }]);
+    }
+}

@@ -1,0 +1,234 @@
+//! Checks: the `check` blocks of a document, each run on a fresh copy.
+//!
+//! The copy is a text: the document's, with the check's own members added at its end. Statements are
+//! then the same commands that the lab applies, and `expect` asks the state that they came to.
+
+use crate::apply;
+use crate::document::Open;
+use crate::host::Host;
+use crate::state::State;
+use crate::view::{Change, CheckReport, Refusal, Shortfall};
+use crate::words;
+use base::LineIndex;
+use eval::Answer;
+use kernel::{Command, DOCUMENT, Literal, Path, Term};
+use lang::{Check, Expectation, PlanKind, Statement, StatementKind};
+use std::collections::BTreeSet;
+
+/// Runs every check of a document.
+pub(crate) fn run_all(state: &State, host: &dyn Host) -> Vec<CheckReport> {
+    (0..state.lowered.checks.len()).map(|index| run(state, index, host)).collect()
+}
+
+/// A check while it runs.
+struct Run<'h> {
+    open: Open,
+    host: &'h dyn Host,
+    /// The index of the check among the document's.
+    index: usize,
+    /// What the latest `try` was refused with.
+    refusal: Option<Refusal>,
+    /// The state before the latest edit.
+    before: Option<std::rc::Rc<State>>,
+    shortfalls: Vec<Shortfall>,
+}
+
+fn run(state: &State, index: usize, host: &dyn Host) -> CheckReport {
+    let check = &state.lowered.checks[index];
+    let members: Vec<&str> = check.members.iter().map(|m| &**m).collect();
+    let text = format!("{}\n{}\n", state.text, members.join("\n"));
+    let mut run = Run {
+        open: Open::of("check", text, host),
+        host,
+        index,
+        refusal: None,
+        before: None,
+        shortfalls: Vec::new(),
+    };
+    run.note_faults(state);
+    for at in 0..check.statements.len() {
+        if let Err(message) = run.statement(at) {
+            run.fall_short(&check.statements[at], message);
+            break;
+        }
+    }
+    let line = line_of(state, check.span.start);
+    CheckReport {
+        title: check.title.clone(),
+        line,
+        passed: run.shortfalls.is_empty(),
+        shortfalls: run.shortfalls,
+    }
+}
+
+fn line_of(state: &State, offset: u32) -> u32 {
+    LineIndex::new(&state.text).line_column(&state.text, offset).0
+}
+
+impl Run<'_> {
+    /// A check whose own members are wrong falls short at once.
+    fn note_faults(&mut self, of: &State) {
+        let known = |m: &str| of.diagnostics.iter().any(|d| d.message == m);
+        let end = of.text.len() as u32;
+        for d in &self.open.state.diagnostics {
+            let own = d.place.file == base::FileId(0) && d.place.span.start >= end;
+            if own && d.severity == base::Severity::Error && !known(&d.message) {
+                let line = line_of(of, of.lowered.checks[self.index].span.start);
+                let statement = "its own members".to_string();
+                self.shortfalls.push(Shortfall { line, statement, message: d.message.clone() });
+            }
+        }
+    }
+
+    fn fall_short(&mut self, statement: &Statement, message: String) {
+        let text = &self.open.state.text;
+        let source = text.get(statement.span.range()).unwrap_or_default().trim().to_string();
+        let line = line_of(&self.open.state, statement.span.start);
+        self.shortfalls.push(Shortfall { line, statement: source, message });
+    }
+
+    /// Runs one statement; what is returned ends the check.
+    fn statement(&mut self, at: usize) -> Result<(), String> {
+        let state = self.open.state.clone();
+        let check: &Check =
+            state.lowered.checks.get(self.index).ok_or("the check itself was edited away")?;
+        let statement = &check.statements[at];
+        match &statement.kind {
+            StatementKind::Expect(expectation) => {
+                if let Err(message) = self.expect(&state, expectation) {
+                    self.fall_short(statement, message);
+                }
+                Ok(())
+            }
+            StatementKind::Try(inner) => {
+                let result = self.edit(&state, inner);
+                self.refusal = result.err();
+                Ok(())
+            }
+            edit => self.edit(&state, edit).map(drop).map_err(|r| r.message),
+        }
+    }
+
+    fn edit(&mut self, state: &State, kind: &StatementKind) -> Result<Change, Refusal> {
+        let command = match kind {
+            StatementKind::Set(targets) => Command::Set(literals(state, targets)?),
+            StatementKind::Move(targets) => Command::Move(literals(state, targets)?),
+            StatementKind::Command(command) => command.clone(),
+            StatementKind::Expect(_) | StatementKind::Try(_) => {
+                return Err(words::refuse("only an edit can be tried".into()));
+            }
+        };
+        self.before = Some(self.open.state.clone());
+        apply::apply(&mut self.open, self.host, &command)
+    }
+
+    fn expect(&mut self, state: &State, expectation: &Expectation) -> Result<(), String> {
+        match expectation {
+            Expectation::Rule { rule, within } => expect_rule(state, rule, within.as_ref()),
+            Expectation::Satisfied => {
+                let status = crate::views::status::view(&self.open);
+                if status.satisfied { Ok(()) } else { Err(status.message) }
+            }
+            Expectation::Moved(paths) => self.expect_moved(state, paths),
+            Expectation::Free(n) => {
+                let found = self.open.status.freedom;
+                let message = || format!("{found} degrees of freedom, not {n}");
+                if found as u64 == *n { Ok(()) } else { Err(message()) }
+            }
+            Expectation::Plan(kind) => {
+                let found = match self.open.planner.latest_kind() {
+                    plan::PlanKind::OnePass => PlanKind::OnePass,
+                    plan::PlanKind::Block => PlanKind::Block,
+                    plan::PlanKind::Relaxation => PlanKind::Relaxation,
+                };
+                let message = || format!("the latest plan is {found:?}, not {kind:?}");
+                if found == *kind { Ok(()) } else { Err(message()) }
+            }
+            Expectation::Error(word) => match &self.refusal {
+                None => Err("nothing was refused".into()),
+                Some(refusal) if mentions(refusal, word) => Ok(()),
+                Some(refusal) => Err(format!("the refusal says: {}", refusal.message)),
+            },
+        }
+    }
+
+    fn expect_moved(&self, state: &State, paths: &[Path]) -> Result<(), String> {
+        let Some(before) = &self.before else { return Err("nothing was edited yet".into()) };
+        if before.structure.slots.len() != state.structure.slots.len() {
+            return Err("the edit changed the structure".into());
+        }
+        let mut wanted = BTreeSet::new();
+        for path in paths {
+            let thing = words::find(state, path).map_err(|r| r.message)?;
+            wanted.extend(state.structure.slots_under(thing));
+        }
+        let found: BTreeSet<_> = state.values.changed(&before.values).collect();
+        let names = |slots: Vec<&kernel::SlotId>| {
+            let names = slots.into_iter().map(|&s| state.slot_path(s).to_string());
+            names.collect::<Vec<_>>().join(", ")
+        };
+        let too_many: Vec<_> = found.difference(&wanted).collect();
+        if !too_many.is_empty() {
+            return Err(format!("these moved as well: {}", names(too_many)));
+        }
+        // A place has moved when any of its coordinates has.
+        for path in paths {
+            let thing = words::find(state, path).map_err(|r| r.message)?;
+            if !state.structure.slots_under(thing).iter().any(|s| found.contains(s)) {
+                return Err(format!("{path} did not move"));
+            }
+        }
+        Ok(())
+    }
+}
+
+/// Tests a rule, and shows both sides where it is not true.
+fn expect_rule(state: &State, rule: &Term, within: Option<&Term>) -> Result<(), String> {
+    let evaluator = state.evaluator(&state.values);
+    let verdict = evaluator.test_rule(rule, within, DOCUMENT).map_err(|f| f.message)?;
+    if verdict.holds {
+        return Ok(());
+    }
+    match (verdict.left, verdict.right) {
+        (Some(left), Some(right)) => Err(format!("{left} and {right}")),
+        _ => Err("this is not true".into()),
+    }
+}
+
+/// Evaluates what targets are to be set or moved to.
+fn literals(state: &State, targets: &[(Path, Term)]) -> Result<Vec<(Path, Literal)>, Refusal> {
+    let evaluator = state.evaluator(&state.values);
+    let literal = |(path, term): &(Path, Term)| {
+        let answer = evaluator.evaluate(term, DOCUMENT).map_err(|f| words::refuse(f.message))?;
+        Ok((path.clone(), literal_of(&answer)?))
+    };
+    targets.iter().map(literal).collect()
+}
+
+fn literal_of(answer: &Answer<'_>) -> Result<Literal, Refusal> {
+    Ok(match answer {
+        Answer::Number(x, _) => Literal::Number(*x),
+        Answer::Bool(b) => Literal::Bool(*b),
+        Answer::Text(t) => Literal::Text(t.to_string()),
+        Answer::Made(made) => {
+            Literal::Tuple(made.fields.iter().map(literal_of).collect::<Result<_, _>>()?)
+        }
+        Answer::List(items) => {
+            Literal::Tuple(items.iter().map(literal_of).collect::<Result<_, _>>()?)
+        }
+        Answer::Thing(_) | Answer::Picture(_) | Answer::Function(_) => {
+            return Err(words::refuse(format!("{} is no value to set", answer.kind())));
+        }
+    })
+}
+
+/// Returns true if a refusal says the whole word.
+fn mentions(refusal: &Refusal, word: &str) -> bool {
+    let texts = std::iter::once(&refusal.message)
+        .chain(&refusal.constraints)
+        .chain(refusal.diagnostics.iter().flat_map(|d| [&d.message, &d.code]));
+    let has = |text: &String| {
+        text.split(|c: char| !c.is_alphanumeric() && c != '_' && c != '-').any(|w| w == word)
+    };
+    texts.into_iter().any(has)
+}

@@ -1,0 +1,83 @@
+//! One open document: its present state, and those before and after.
+
+use crate::host::Host;
+use crate::state::State;
+use plan::{Planner, Plans};
+use std::rc::Rc;
+
+/// A step that can be taken back or done again.
+pub(crate) struct Step {
+    /// What the undo list calls it.
+    pub(crate) label: String,
+    /// The document on the other side of the step.
+    pub(crate) state: Rc<State>,
+}
+
+/// An open document.
+pub(crate) struct Open {
+    /// The name it was opened under.
+    pub(crate) name: String,
+    /// What it is now.
+    pub(crate) state: Rc<State>,
+    /// The planner for it.
+    pub(crate) planner: Planner,
+    /// What holds and what is free.
+    pub(crate) status: plan::Status,
+    /// What it was before each step, the latest last.
+    pub(crate) done: Vec<Step>,
+    /// What it was after each step that was taken back, the latest last.
+    pub(crate) undone: Vec<Step>,
+    /// A drag between press and release.
+    pub(crate) drag: Option<crate::drag::Drag>,
+}
+
+/// Which way along the steps.
+#[derive(Clone, Copy, PartialEq, Eq)]
+pub(crate) enum Direction {
+    /// Undo.
+    Back,
+    /// Redo.
+    Forth,
+}
+
+impl Open {
+    /// Opens a text.
+    pub(crate) fn of(name: &str, text: String, host: &dyn Host) -> Self {
+        let (state, mut planner) = State::of(text, None, host, Plans::default());
+        let status = state.status(&mut planner);
+        Self {
+            name: name.into(),
+            state: Rc::new(state),
+            planner,
+            status,
+            done: Vec::new(),
+            undone: Vec::new(),
+            drag: None,
+        }
+    }
+    /// Makes `state` the present one, as one step.
+    pub(crate) fn step_to(&mut self, label: String, state: State, planner: Planner) {
+        let before = std::mem::replace(&mut self.state, Rc::new(state));
+        self.done.push(Step { label, state: before });
+        self.undone.clear();
+        self.take_up(planner);
+    }
+    /// Takes a step back or does it again; returns its label, or nothing if there is none.
+    pub(crate) fn travel(&mut self, direction: Direction) -> Option<String> {
+        let (from, to) = match direction {
+            Direction::Back => (&mut self.done, &mut self.undone),
+            Direction::Forth => (&mut self.undone, &mut self.done),
+        };
+        let step = from.pop()?;
+        let now = std::mem::replace(&mut self.state, step.state);
+        to.push(Step { label: step.label.clone(), state: now });
+        let plans = self.planner.take_plans();
+        let (planner, _) = Planner::new(self.state.model(), plans);
+        self.take_up(planner);
+        Some(step.label)
+    }
+    fn take_up(&mut self, planner: Planner) {
+        self.planner = planner;
+        self.status = self.state.status(&mut self.planner);
+    }
+}

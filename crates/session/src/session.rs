@@ -1,0 +1,212 @@
+//! The session: open documents, and what is done to them.
+
+use crate::apply;
+use crate::check;
+use crate::document::Open;
+use crate::drag;
+use crate::host::Host;
+use crate::state::State;
+use crate::view::{
+    Change, CheckReport, DocumentId, DragState, Explanation, PictureView, Refusal, Status,
+    StructureRow, TextView, ValueRow,
+};
+use crate::views;
+use crate::words;
+use kernel::{Command, Path, Step, ThingId};
+
+/// A set of open documents.
+///
+/// ```
+/// use session::{Command, Host, Literal, Path, Session};
+/// struct Nothing;
+/// impl Host for Nothing {
+///     fn read(&self, _: &str) -> Option<String> { None }
+/// }
+/// let mut session = Session::new(Box::new(Nothing));
+/// let id = session.open("sum", "a: Real = 1\nb: Real\nconstraint b = a + 1\n");
+/// let command = Command::Set(vec![(Path::of(&["b"]), Literal::Number(5.0))]);
+/// session.apply(id, &command).expect("a can give way");
+/// assert_eq!(session.text(id).source, "a: Real = 4\nb: Real\nconstraint b = a + 1\n");
+/// ```
+pub struct Session {
+    host: Box<dyn Host>,
+    documents: Vec<Open>,
+}
+
+impl std::fmt::Debug for Session {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        f.debug_struct("Session").field("documents", &self.documents.len()).finish_non_exhaustive()
+    }
+}
+
+impl Session {
+    /// Makes a session without documents.
+    pub fn new(host: Box<dyn Host>) -> Self {
+        Self { host, documents: Vec::new() }
+    }
+    /// Opens a document. Never fails: what is wrong with its text, [`Session::text`] says.
+    pub fn open(&mut self, name: &str, text: &str) -> DocumentId {
+        let id = DocumentId(self.documents.len() as u32);
+        self.documents.push(Open::of(name, text.into(), &*self.host));
+        id
+    }
+    fn document(&self, id: DocumentId) -> &Open {
+        self.documents.get(id.0 as usize).expect("a document id comes from this session's open")
+    }
+    fn document_mut(&mut self, id: DocumentId) -> &mut Open {
+        self.documents.get_mut(id.0 as usize).expect("a document id comes from this session's open")
+    }
+    /// Applies a command: one undo step with all that it implies.
+    ///
+    /// # Errors
+    /// Why it was refused; then nothing has changed.
+    pub fn apply(&mut self, id: DocumentId, command: &Command) -> Result<Change, Refusal> {
+        let open = self
+            .documents
+            .get_mut(id.0 as usize)
+            .expect("a document id comes from this session's open");
+        open.drag = None;
+        apply::apply(open, &*self.host, command)
+    }
+    /// Sets a value to what a person typed: `300 ohm`, `2*80`, `(3, 4)`, any words for a text.
+    ///
+    /// # Errors
+    /// Why it was refused: the path leads nowhere, the words are no value, a constraint forbids it.
+    pub fn set_typed(
+        &mut self,
+        id: DocumentId,
+        path: &str,
+        typed: &str,
+    ) -> Result<Change, Refusal> {
+        let path = parse_path(path).ok_or_else(|| words::refuse(format!("{path} is no path")))?;
+        let literal = words::read_typed(&self.document(id).state, &path, typed)?;
+        self.apply(id, &Command::Set(vec![(path, literal)]))
+    }
+    /// Begins a drag of a place.
+    ///
+    /// # Errors
+    /// Why the thing cannot be dragged: there is none, or an anchor holds it.
+    pub fn press(&mut self, id: DocumentId, path: &Path) -> Result<(), Refusal> {
+        let open = self.document_mut(id);
+        let thing = words::find(&open.state, path)?;
+        let state = open.state.clone();
+        let drag = drag::press(&state, &mut open.planner, thing, path.clone())
+            .map_err(|reason| words::refusal_for(&state, &reason, &plan::EditReport::default()))?;
+        open.drag = Some(drag);
+        Ok(())
+    }
+    /// Follows the pointer to a place on the sheet. Without a press it does nothing.
+    pub fn drag(&mut self, id: DocumentId, to: (f64, f64)) -> DragState {
+        let open = self.document_mut(id);
+        let state = open.state.clone();
+        match &mut open.drag {
+            Some(drag) => drag.to(&state, &mut open.planner, &[to.0, to.1]),
+            None => DragState::default(),
+        }
+    }
+    /// Ends a drag: soft constraints act again, and the change is written, as one undo step.
+    ///
+    /// # Errors
+    /// Why it could not be kept; then all is as it was before the press.
+    pub fn release(&mut self, id: DocumentId) -> Result<Change, Refusal> {
+        let open = self
+            .documents
+            .get_mut(id.0 as usize)
+            .expect("a document id comes from this session's open");
+        match open.drag.take() {
+            Some(drag) => drag.release(open, &*self.host),
+            None => Ok(Change::default()),
+        }
+    }
+    /// Gives a drag up: all is as it was before the press.
+    pub fn cancel(&mut self, id: DocumentId) {
+        self.document_mut(id).drag = None;
+    }
+    /// Finds the nearest grip within a distance on the sheet.
+    pub fn pick(&self, id: DocumentId, at: (f64, f64), radius: f64) -> Option<Path> {
+        let picture = self.picture(id);
+        let distance = |x: f64, y: f64| base::number::hypot(x - at.0, y - at.1);
+        let near = picture.grips.iter().map(|g| (distance(g.x, g.y), g));
+        let nearest = near.filter(|(d, _)| *d <= radius).min_by(|a, b| a.0.total_cmp(&b.0))?;
+        parse_path(&nearest.1.path)
+    }
+    /// Returns the picture, live while dragging.
+    pub fn picture(&self, id: DocumentId) -> PictureView {
+        let open = self.document(id);
+        views::picture::picture(&open.state, open.values(), &open.status)
+    }
+    /// Returns the picture as an SVG text.
+    pub fn svg(&self, id: DocumentId) -> String {
+        views::picture::svg(&self.picture(id))
+    }
+    /// Returns the structure: the picture's accessible twin.
+    pub fn structure(&self, id: DocumentId) -> Vec<StructureRow> {
+        let open = self.document(id);
+        views::structure::rows(&open.state, open.values(), &open.status)
+    }
+    /// Returns the values, live while dragging.
+    pub fn values(&self, id: DocumentId) -> Vec<ValueRow> {
+        let open = self.document(id);
+        views::values::rows(&open.state, open.values(), &open.status)
+    }
+    /// Returns the source with its colours and what is wrong with it.
+    pub fn text(&self, id: DocumentId) -> TextView {
+        views::text::view(&self.document(id).state)
+    }
+    /// Returns what the status line says.
+    pub fn status(&self, id: DocumentId) -> Status {
+        views::status::view(self.document(id))
+    }
+    /// Explains the latest plan, or why one value is what it is.
+    pub fn explain(&self, id: DocumentId, about: Option<&Path>) -> Explanation {
+        views::explain::view(self.document(id), about)
+    }
+    /// Returns what the document calls itself: the first words of its first `///`, else its name.
+    pub fn title(&self, id: DocumentId) -> String {
+        words::title(self.document(id))
+    }
+    /// Runs the `check` blocks, each on a fresh copy of the document as it is.
+    pub fn run_checks(&self, id: DocumentId) -> Vec<CheckReport> {
+        check::run_all(&self.document(id).state, &*self.host)
+    }
+}
+
+impl Open {
+    /// Returns the values: those of the drag, while there is one.
+    pub(crate) fn values(&self) -> &kernel::Values {
+        self.drag.as_ref().map_or(&self.state.values, |d| &d.values)
+    }
+}
+
+/// Reads a path as the language writes it: `q.side1.p1`, `links[0].x`, `links.last`.
+pub fn parse_path(text: &str) -> Option<Path> {
+    let mut steps = Vec::new();
+    for word in text.split('.') {
+        let (name, mut rest) = word.find('[').map_or((word, ""), |i| word.split_at(i));
+        let plain = !name.is_empty() && name.chars().all(|c| c.is_alphanumeric() || c == '_');
+        if !plain {
+            return None;
+        }
+        steps.push(match name {
+            "last" if !steps.is_empty() => Step::Last,
+            "owner" => Step::Owner,
+            _ => Step::Part(name.into()),
+        });
+        while !rest.is_empty() {
+            let (index, after) = rest.strip_prefix('[')?.split_once(']')?;
+            steps.push(Step::Index(index.parse().ok()?));
+            rest = after;
+        }
+    }
+    Some(Path(steps))
+}
+
+/// Lays a text out as the language wants it, keeping comments.
+pub fn format(text: &str) -> String {
+    syntax::format(&syntax::parse(base::FileId(0), text))
+}
+
+/// Finds the thing at a path, for whoever has one.
+pub(crate) fn thing_at(state: &State, path: &Path) -> Option<ThingId> {
+    state.structure.follow(kernel::DOCUMENT, path).ok()
+}

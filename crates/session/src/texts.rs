@@ -1,0 +1,46 @@
+//! What the planner asks of whoever evaluates expressions, answered by `eval`.
+
+use eval::{Evaluator, Side};
+use kernel::{ConstraintInstance, Document, SlotId, Structure, Value, Values};
+use plan::{Host, Way};
+
+/// Answers the planner's questions about texts and given terms.
+pub(crate) struct Texts<'a> {
+    document: &'a Document,
+    structure: &'a Structure,
+    /// Given values, computed when first asked for.
+    given: Option<Values>,
+}
+
+impl<'a> Texts<'a> {
+    /// Makes an answerer for one structure.
+    pub(crate) fn new(document: &'a Document, structure: &'a Structure) -> Self {
+        Self { document, structure, given: None }
+    }
+}
+
+impl Host for Texts<'_> {
+    fn given(&mut self, slot: SlotId, _: &Values) -> Option<Value> {
+        self.structure.slots[slot].given.as_ref()?;
+        let compute = || eval::given_values(self.document, self.structure).0;
+        Some(self.given.get_or_insert_with(compute).get(slot))
+    }
+    fn compute(
+        &mut self,
+        constraint: ConstraintInstance,
+        way: Way,
+        values: &Values,
+    ) -> Result<Vec<(SlotId, Value)>, String> {
+        let evaluator = Evaluator::new(self.document, self.structure, values);
+        let written = match way {
+            Way::Written(index) => evaluator.method(constraint, index as usize),
+            Way::Left => evaluator.copy_side(constraint, Side::Left),
+            Way::Right => evaluator.copy_side(constraint, Side::Right),
+        };
+        written.map_err(|f| f.message)
+    }
+    fn holds(&mut self, constraint: ConstraintInstance, values: &Values) -> bool {
+        let evaluator = Evaluator::new(self.document, self.structure, values);
+        evaluator.test(constraint).is_ok_and(|verdict| verdict.holds)
+    }
+}

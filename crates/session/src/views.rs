@@ -1,0 +1,7 @@
+//! Views made of a state: one file each.
+pub(crate) mod explain;
+pub(crate) mod picture;
+pub(crate) mod status;
+pub(crate) mod structure;
+pub(crate) mod text;
+pub(crate) mod values;

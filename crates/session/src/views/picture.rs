@@ -1,0 +1,40 @@
+//! The picture: elements with the things that they picture, and what can be gripped.
+
+use crate::state::State;
+use crate::view::{Grip, PictureView};
+use crate::words;
+use kernel::{Values, Vertical};
+
+/// Returns the picture for some values of a state.
+pub(crate) fn picture(state: &State, values: &Values, status: &plan::Status) -> PictureView {
+    let (document, structure) = (&state.lowered.document, &state.structure);
+    let made = state.evaluator(values).picture(kernel::DOCUMENT);
+    let mut drawing = made.drawing;
+    drawing.vertical = match document.vertical {
+        Vertical::Up => drawing::Vertical::Up,
+        Vertical::Down => drawing::Vertical::Down,
+    };
+    let grips = made.grips.iter().map(|grip| {
+        let slots = structure.slots_under(grip.thing);
+        Grip {
+            path: structure.path(document, grip.thing).to_string(),
+            x: grip.at.x,
+            y: grip.at.y,
+            anchored: slots.iter().all(|&s| structure.slots[s].anchored),
+        }
+    });
+    PictureView {
+        drawing,
+        paths: made.things.iter().map(|&t| structure.path(document, t).to_string()).collect(),
+        freedom: made.things.iter().map(|&t| words::freedom_of(structure, status, t)).collect(),
+        grips: grips.collect(),
+    }
+}
+
+/// Returns a picture as SVG, each element with the path of its thing.
+pub(crate) fn svg(picture: &PictureView) -> String {
+    let path = |tag: drawing::Tag| picture.paths.get(tag.0 as usize).cloned();
+    let options =
+        drawing::svg::SvgOptions { pixels_per_unit: 1.0, margin: 16.0, title: None, path: &path };
+    drawing::svg::write(&picture.drawing, &options)
+}

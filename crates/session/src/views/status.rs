@@ -1,0 +1,65 @@
+//! The status line: whether all holds, and how much is free.
+
+use crate::document::Open;
+use crate::view::{Status, Unmet};
+use crate::words;
+use plan::Source;
+use solve::Level;
+
+/// Returns what the status line says.
+pub(crate) fn view(open: &Open) -> Status {
+    let state = &open.state;
+    let status = &open.status;
+    let unmet: Vec<Unmet> = status.unmet.iter().filter_map(|u| unmet(open, u)).collect();
+    let redundant: Vec<String> =
+        status.redundant.iter().filter_map(|&s| words::source_name(state, s)).collect();
+    let satisfied = status.unmet.iter().all(|u| u.level != Level::Required);
+    let errors = state.diagnostics.iter().filter(|d| d.severity == base::Severity::Error).count();
+    let message = sentence(satisfied, &unmet, status.freedom, errors);
+    Status {
+        satisfied,
+        freedom: status.freedom as u32,
+        unmet,
+        redundant,
+        message,
+        undo: open.done.last().map(|s| s.label.clone()),
+        redo: open.undone.last().map(|s| s.label.clone()),
+    }
+}
+
+fn unmet(open: &Open, u: &plan::Unmet) -> Option<Unmet> {
+    let state = &open.state;
+    let Source::Constraint(index) = u.source else { return None };
+    let instance = state.structure.constraints[index as usize];
+    let document = &state.lowered.document;
+    let constraint = &document.classes[instance.class].constraints[instance.index as usize];
+    Some(Unmet {
+        constraint: words::constraint_path(state, instance),
+        rule: state.lowered.source_of(constraint.origin),
+        error: u.error.filter(|e| e.is_finite()),
+        strength: words::strength_name(constraint.strength).into(),
+        span: state.lowered.own_span(constraint.origin).map(|s| (s.start, s.end)),
+    })
+}
+
+fn sentence(satisfied: bool, unmet: &[Unmet], freedom: usize, errors: usize) -> String {
+    let holds = match (satisfied, unmet.len()) {
+        (true, 0) => "all constraints hold".to_string(),
+        (true, 1) => "all required constraints hold, one softer one does not".to_string(),
+        (true, n) => format!("all required constraints hold, {n} softer ones do not"),
+        (false, 1) => format!("{} does not hold", unmet[0].constraint),
+        (false, n) => format!("{n} constraints do not hold"),
+    };
+    let free = match freedom {
+        0 => "nothing is free".to_string(),
+        1 => "1 degree of freedom".to_string(),
+        n => format!("{n} degrees of freedom"),
+    };
+    match errors {
+        0 => format!("{holds}; {free}"),
+        1 => format!("one error in the text, its last good version is in force; {holds}; {free}"),
+        n => {
+            format!("{n} errors in the text, the last good versions are in force; {holds}; {free}")
+        }
+    }
+}

@@ -1,0 +1,132 @@
+//! The structure view: the tree of parts, constraints and merges, as rows in pre-order.
+
+use crate::state::State;
+use crate::view::{Freedom, RowKind, StructureRow};
+use crate::words;
+use kernel::{ClassKind, ConstraintInstance, OriginId, Step, ThingId, Values};
+use std::collections::BTreeMap;
+
+/// Lists show at most this many elements: a tree of a hundred thousand rows serves nobody, and what
+/// is beyond is reached by its path.
+const MOST_ELEMENTS: usize = 1000;
+
+struct Maker<'a> {
+    state: &'a State,
+    values: &'a Values,
+    status: &'a plan::Status,
+    constraints: BTreeMap<ThingId, Vec<ConstraintInstance>>,
+    rows: Vec<StructureRow>,
+}
+
+/// Returns every row, the document first.
+pub(crate) fn rows(state: &State, values: &Values, status: &plan::Status) -> Vec<StructureRow> {
+    let mut constraints: BTreeMap<ThingId, Vec<ConstraintInstance>> = BTreeMap::new();
+    for &instance in &state.structure.constraints {
+        constraints.entry(instance.owner).or_default().push(instance);
+    }
+    let mut maker = Maker { state, values, status, constraints, rows: Vec::new() };
+    maker.thing(kernel::DOCUMENT, 0);
+    maker.rows
+}
+
+impl Maker<'_> {
+    fn row(
+        &self,
+        path: String,
+        depth: u32,
+        kind: RowKind,
+        name: String,
+        origin: OriginId,
+    ) -> StructureRow {
+        StructureRow {
+            path,
+            depth,
+            kind,
+            name,
+            detail: String::new(),
+            doc: String::new(),
+            value: None,
+            merged_with: None,
+            freedom: None,
+            anchored: false,
+            descendants: 0,
+            span: self.state.lowered.own_span(origin).map(|s| (s.start, s.end)),
+        }
+    }
+
+    fn thing(&mut self, thing: ThingId, depth: u32) {
+        let (document, structure) = (&self.state.lowered.document, &self.state.structure);
+        let at = self.rows.len();
+        let path = structure.path(document, thing);
+        let name = match path.0.last() {
+            None => "document".to_string(),
+            Some(Step::Part(name)) => name.to_string(),
+            Some(step) => kernel::Path(vec![step.clone()]).to_string(),
+        };
+        let first = structure.merged[thing];
+        let slots = structure.slots_under(thing);
+        let origin = self.part_origin(thing);
+        let mut row = self.row(path.to_string(), depth, RowKind::Part, name, origin);
+        row.detail = words::class_name(self.state, thing);
+        row.doc = words::doc_of(self.state, thing);
+        row.value = words::show_thing(self.state, thing, self.values);
+        row.merged_with = (first != thing).then(|| structure.path(document, first).to_string());
+        row.freedom = words::freedom_of(structure, self.status, thing);
+        row.anchored = !slots.is_empty() && slots.iter().all(|&s| structure.slots[s].anchored);
+        self.rows.push(row);
+        let class = structure.things[thing].class;
+        match document.classes[class].kind {
+            ClassKind::Composite | ClassKind::List(_) if first == thing => {
+                for part in structure.parts(thing).take(MOST_ELEMENTS) {
+                    self.thing(part, depth + 1);
+                }
+                self.own(thing, depth + 1);
+            }
+            ClassKind::Composite
+            | ClassKind::List(_)
+            | ClassKind::Primitive(_)
+            | ClassKind::Set(_)
+            | ClassKind::Reference(_) => {}
+        }
+        self.rows[at].descendants = (self.rows.len() - at - 1) as u32;
+    }
+
+    fn part_origin(&self, thing: ThingId) -> OriginId {
+        let (document, structure) = (&self.state.lowered.document, &self.state.structure);
+        let t = &structure.things[thing];
+        let declared = t.owner.and_then(|owner| {
+            let layout = structure.layouts.get(&structure.things[owner].class)?;
+            document.declared(*layout.fields.get(t.field as usize)?)
+        });
+        declared.map_or(document.classes[t.class].origin, |p| p.origin)
+    }
+
+    /// Adds what a thing's classes say of it: virtual parts, constraints, merges.
+    fn own(&mut self, thing: ThingId, depth: u32) {
+        let (document, structure) = (&self.state.lowered.document, &self.state.structure);
+        let owner = structure.path(document, thing);
+        let evaluator = self.state.evaluator(self.values);
+        for instance in self.constraints.remove(&thing).unwrap_or_default() {
+            let constraint = &document.classes[instance.class].constraints[instance.index as usize];
+            let name = words::constraint_name(document, instance);
+            let path = owner.then(Step::Part(name.as_str().into())).to_string();
+            let holds = evaluator.test(instance).is_ok_and(|v| v.holds);
+            let mut row = self.row(path, depth, RowKind::Constraint, name, constraint.origin);
+            row.detail = self.state.lowered.source_of(constraint.origin);
+            row.doc = constraint.doc.clone();
+            row.value = Some(if holds { "holds" } else { "does not hold" }.into());
+            row.freedom = (!holds).then_some(Freedom::Conflicting);
+            self.rows.push(row);
+        }
+        for class in document.primary_line(structure.things[thing].class).into_iter().rev() {
+            for merge in &document.classes[class].merges {
+                let name = merge.name.as_ref().map_or_else(String::new, ToString::to_string);
+                let path = owner.to_string();
+                let mut row = self.row(path, depth, RowKind::Merge, name, merge.origin);
+                let paths: Vec<String> = merge.paths.iter().map(ToString::to_string).collect();
+                row.detail = paths.join(" = ");
+                self.rows.push(row);
+            }
+        }
+    }
+}

@@ -1,0 +1,57 @@
+//! The text view: the source, its colours, and what is wrong with it.
+
+use crate::state::State;
+use crate::view::{DiagnosticView, TextView, TokenView};
+use base::{Diagnostic, LineIndex, Severity};
+use syntax::{SyntaxKind, SyntaxToken};
+
+/// Returns the source with its colours and diagnostics.
+pub(crate) fn view(state: &State) -> TextView {
+    let tree = syntax::parse(base::FileId(0), &state.text).syntax();
+    let tokens = tree.descendants_with_tokens().filter_map(syntax::SyntaxElement::into_token);
+    TextView {
+        source: state.text.clone(),
+        tokens: tokens.filter_map(|t| token(&t)).collect(),
+        diagnostics: state.diagnostics.iter().map(|d| diagnostic(state, d)).collect(),
+    }
+}
+
+fn token(token: &SyntaxToken) -> Option<TokenView> {
+    let kind = match token.kind() {
+        SyntaxKind::Whitespace => return None,
+        SyntaxKind::LineComment | SyntaxKind::BlockComment => "comment",
+        SyntaxKind::DocComment => "doc",
+        SyntaxKind::Number | SyntaxKind::Unit => "number",
+        SyntaxKind::Text => "text",
+        SyntaxKind::Keyword => "keyword",
+        kind if kind.is_reserved() => "keyword",
+        SyntaxKind::Ident if token.text().starts_with(char::is_uppercase) => "class",
+        SyntaxKind::Ident => "name",
+        SyntaxKind::Unknown => "error",
+        _ => "operator",
+    };
+    let span = syntax::span_of_token(token);
+    Some(TokenView { start: span.start, end: span.end, kind: kind.into() })
+}
+
+/// Returns a diagnostic as an editor shows it.
+pub(crate) fn diagnostic(state: &State, d: &Diagnostic) -> DiagnosticView {
+    let file = &state.lowered.files[d.place.file];
+    let (line, column) = LineIndex::new(&file.text).line_column(&file.text, d.place.span.start);
+    let severity = match d.severity {
+        Severity::Error => "error",
+        Severity::Warning => "warning",
+        Severity::Note => "note",
+    };
+    DiagnosticView {
+        severity: severity.into(),
+        code: d.code.into(),
+        message: d.message.clone(),
+        hint: d.hint.clone(),
+        file: if d.place.file == base::FileId(0) { String::new() } else { file.name.clone() },
+        start: d.place.span.start,
+        end: d.place.span.end,
+        line,
+        column,
+    }
+}

@@ -1,0 +1,272 @@
+//! Words: how values, paths and reasons are put to people.
+
+use crate::document::Open;
+use crate::state::State;
+use crate::view::{Freedom, Refusal};
+use crate::views;
+use base::Diagnostic;
+use kernel::{
+    ClassKind, Command, ConstraintInstance, Document, Literal, Path, Primitive, SlotId, Step,
+    Strength, Structure, Term, ThingId, Value, Values,
+};
+use plan::{EditReport, RefusalReason, Source};
+
+/// Makes a refusal of one sentence.
+pub(crate) fn refuse(message: String) -> Refusal {
+    Refusal { message, ..Refusal::default() }
+}
+
+/// Makes a refusal of diagnostics.
+pub(crate) fn refusal_of_text(state: &State, diagnostics: &[Diagnostic]) -> Refusal {
+    let message = diagnostics.first().map_or_else(String::new, |d| match &d.hint {
+        Some(hint) => format!("{}: {hint}", d.message),
+        None => d.message.clone(),
+    });
+    let diagnostics = diagnostics.iter().map(|d| views::text::diagnostic(state, d)).collect();
+    Refusal { message, diagnostics, ..Refusal::default() }
+}
+
+/// Says why an edit was refused, and by which constraints.
+pub(crate) fn refusal_for(state: &State, reason: &RefusalReason, report: &EditReport) -> Refusal {
+    let unmet: Vec<String> = report
+        .unmet
+        .iter()
+        .filter(|u| u.level == solve::Level::Required)
+        .filter_map(|u| source_name(state, u.source))
+        .collect();
+    let mut constraints = unmet.clone();
+    for conflict in &report.conflicts {
+        for source in std::iter::once(&conflict.source).chain(&conflict.circuit) {
+            if let Some(name) = source_name(state, *source) {
+                if !constraints.contains(&name) {
+                    constraints.push(name);
+                }
+            }
+        }
+    }
+    let message = match reason {
+        RefusalReason::Unmet if unmet.is_empty() => {
+            "refused: what stands fixed does not leave room for this".to_string()
+        }
+        RefusalReason::Unmet => format!("refused: {} would not hold", unmet.join(", ")),
+        RefusalReason::Anchored(slot) => {
+            format!("refused: {} is anchored", state.slot_path(*slot))
+        }
+        RefusalReason::Method(failure) => {
+            let name = source_name(state, failure.source).unwrap_or_default();
+            constraints.insert(0, name.clone());
+            format!("refused by {name}: {}", failure.message)
+        }
+        RefusalReason::Target(message) => message.clone(),
+    };
+    Refusal { message, constraints, ..Refusal::default() }
+}
+
+/// Says why a drag did not reach the pointer.
+pub(crate) fn why_not_reached(state: &State, report: &EditReport) -> String {
+    let mut names: Vec<String> = Vec::new();
+    for conflict in &report.conflicts {
+        let sources = std::iter::once(&conflict.source).chain(&conflict.circuit);
+        for name in sources.filter_map(|s| source_name(state, *s)) {
+            if !names.contains(&name) {
+                names.push(name);
+            }
+        }
+    }
+    match names.is_empty() {
+        true => "this is as far as the constraints let it go".into(),
+        false => format!("held by {}", names.join(", ")),
+    }
+}
+
+/// Returns the path and name of a constraint; nothing for a wish.
+pub(crate) fn source_name(state: &State, source: Source) -> Option<String> {
+    match source {
+        Source::Constraint(c) => {
+            Some(constraint_path(state, state.structure.constraints[c as usize]))
+        }
+        Source::Stay(s) => {
+            let thing = state.structure.stays[s as usize].thing;
+            Some(format!("stay {}", state.structure.path(&state.lowered.document, thing)))
+        }
+        Source::Wish(_) => None,
+    }
+}
+
+/// Returns the path of a constraint: its owner's, and its name.
+pub(crate) fn constraint_path(state: &State, instance: ConstraintInstance) -> String {
+    let document = &state.lowered.document;
+    let owner = state.structure.path(document, instance.owner);
+    owner.then(Step::Part(constraint_name(document, instance).as_str().into())).to_string()
+}
+
+/// Returns a constraint's name; one without is called after its place among its class's.
+pub(crate) fn constraint_name(document: &Document, instance: ConstraintInstance) -> String {
+    let constraint = &document.classes[instance.class].constraints[instance.index as usize];
+    match &constraint.name {
+        Some(name) => name.to_string(),
+        None => format!("constraint{}", instance.index + 1),
+    }
+}
+
+/// Returns how strong a constraint is, in the language.
+pub(crate) fn strength_name(strength: Strength) -> &'static str {
+    match strength {
+        Strength::Required => "required",
+        Strength::Strong => "strong",
+        Strength::Medium => "medium",
+        Strength::Weak => "weak",
+    }
+}
+
+/// Returns the path that a term of parts and messages spells.
+pub(crate) fn term_path(term: &Term) -> String {
+    match term {
+        Term::Send { to, name, .. } if **to == Term::Me => name.to_string(),
+        Term::Send { to, name, .. } => format!("{}.{name}", term_path(to)),
+        Term::Index(of, at) => match &**at {
+            Term::Number { value, .. } => format!("{}[{value}]", term_path(of)),
+            _ => term_path(of),
+        },
+        _ => String::new(),
+    }
+}
+
+/// Finds the thing at a path.
+///
+/// # Errors
+/// That there is none, with the nearest name that there is.
+pub(crate) fn find(state: &State, path: &Path) -> Result<ThingId, Refusal> {
+    state.structure.follow(kernel::DOCUMENT, path).map_err(|astray| {
+        let layout = state.structure.layouts.get(&state.structure.things[astray.at].class);
+        let step = Path(vec![path.0[astray.step].clone()]).to_string();
+        let names = layout.into_iter().flat_map(|l| l.index.keys().map(base::Name::as_str));
+        let hint = base::diagnostic::nearest(&step, names)
+            .map_or_else(String::new, |n| format!("; did you mean {n}?"));
+        refuse(format!("there is no {step} in {path}{hint}"))
+    })
+}
+
+/// Returns a value as text and unit, as a person reads it.
+pub(crate) fn show_slot(state: &State, slot: SlotId, values: &Values) -> (String, String) {
+    match (state.structure.slots[slot].primitive, values.get(slot)) {
+        (Primitive::Real(dimension), Value::Number(x)) => {
+            lang::show_number(x, dimension, &state.lowered.document)
+        }
+        (Primitive::Bool, Value::Number(x)) => ((x != 0.0).to_string(), String::new()),
+        (_, Value::Number(x)) => (base::number::shortest(x), String::new()),
+        (_, Value::Text(t)) => (t.to_string(), String::new()),
+    }
+}
+
+/// Returns the value of a thing, if it is primitive or a place.
+pub(crate) fn show_thing(state: &State, thing: ThingId, values: &Values) -> Option<String> {
+    let joined = |slot| {
+        let (text, unit) = show_slot(state, slot, values);
+        if unit.is_empty() { text } else { format!("{text} {unit}") }
+    };
+    match state.structure.slot_of[thing] {
+        Some(slot) => Some(joined(slot)),
+        None if state.lowered.document.is_place(state.structure.things[thing].class) => {
+            let slots = state.structure.slots_under(thing);
+            Some(format!("({})", slots.into_iter().map(joined).collect::<Vec<_>>().join(", ")))
+        }
+        None => None,
+    }
+}
+
+/// Returns the class of a thing; for a class of one, the class that it comes from.
+pub(crate) fn class_name(state: &State, thing: ThingId) -> String {
+    let document = &state.lowered.document;
+    let class = state.structure.things[thing].class;
+    let named = match document.classes[class].supers.first() {
+        Some(above) if state.lowered.is_class_of_one(class) => above.class,
+        Some(_) | None => class,
+    };
+    match &document.classes[class].kind {
+        ClassKind::List(element) => {
+            let n = state.structure.things[thing].parts;
+            format!("List of {n} {}", document.classes[*element].name)
+        }
+        _ => document.classes[named].name.to_string(),
+    }
+}
+
+/// Returns what `///` says of a thing: of its part, else of its class.
+pub(crate) fn doc_of(state: &State, thing: ThingId) -> String {
+    let (document, structure) = (&state.lowered.document, &state.structure);
+    let t = &structure.things[thing];
+    let declared = t.owner.and_then(|owner| {
+        let layout = structure.layouts.get(&structure.things[owner].class)?;
+        document.declared(*layout.fields.get(t.field as usize)?)
+    });
+    match declared {
+        Some(part) if !part.doc.is_empty() => part.doc.clone(),
+        Some(_) | None => document.classes[t.class].doc.clone(),
+    }
+}
+
+/// Returns the state of a thing's values.
+pub(crate) fn freedom_of(
+    structure: &Structure,
+    status: &plan::Status,
+    thing: ThingId,
+) -> Option<Freedom> {
+    let slots = structure.slots_under(thing);
+    let of = |f: plan::SlotState| slots.iter().any(|&s| status.slots[s] == f);
+    if slots.is_empty() {
+        None
+    } else if of(plan::SlotState::Conflicting) {
+        Some(Freedom::Conflicting)
+    } else if of(plan::SlotState::Free) {
+        Some(Freedom::Free)
+    } else {
+        Some(Freedom::Fixed)
+    }
+}
+
+/// Reads what a person typed into a value.
+///
+/// # Errors
+/// What was found and what was wanted.
+pub(crate) fn read_typed(state: &State, path: &Path, typed: &str) -> Result<Literal, Refusal> {
+    let kind = match crate::session::thing_at(state, path) {
+        Some(thing) => lang::Wanted::Class(state.structure.things[thing].class),
+        None => lang::Wanted::Anything,
+    };
+    lang::read_literal(typed, kind, &state.lowered.document)
+        .map_err(|d| refuse(d.hint.map_or(d.message.clone(), |h| format!("{}; {h}", d.message))))
+}
+
+/// Returns what the undo list calls a command.
+pub(crate) fn command_label(command: &Command) -> String {
+    let paths =
+        |paths: &[Path]| paths.iter().map(ToString::to_string).collect::<Vec<_>>().join(" = ");
+    match command {
+        Command::Set(t) | Command::Move(t) => {
+            paths(&t.iter().map(|t| t.0.clone()).collect::<Vec<_>>())
+        }
+        Command::Merge(p) => format!("merge {}", paths(p)),
+        Command::Unmerge(p) => format!("unmerge {p}"),
+        Command::Delete(p) => format!("delete {p}"),
+        Command::Edit { target, .. } if target.is_empty() => "add to the document".into(),
+        Command::Edit { target, .. } => format!("edit {target}"),
+        Command::Rename { from, to } => format!("rename {from} to {to}"),
+        Command::Promote { path, class } => format!("promote {path} as {class}"),
+        Command::Anchor { path, held: true } => format!("anchor {path}"),
+        Command::Anchor { path, held: false } => format!("let go of {path}"),
+        Command::Enable { path, on: true } => format!("switch {path} on"),
+        Command::Enable { path, on: false } => format!("switch {path} off"),
+        Command::Text(_) => "edit text".into(),
+        Command::Undo => "undo".into(),
+        Command::Redo => "redo".into(),
+    }
+}
+
+/// Returns a document's title: its first `///` up to the first colon or full stop, else its name.
+pub(crate) fn title(open: &Open) -> String {
+    let doc = &open.state.lowered.doc;
+    let end = doc.find([':', '.', '\n']).unwrap_or(doc.len());
+    let title = doc[..end].trim();
+    if title.is_empty() || title.chars().count() > 40 { open.name.clone() } else { title.into() }
+}

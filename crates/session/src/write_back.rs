@@ -1,0 +1,85 @@
+//! Writing back: the values that an edit came to, as the fewest changes of the text.
+//!
+//! In: a state, and the values after an edit. Out: the text whose state has these values. Given
+//! numbers that changed are rewritten where they stand; then the text is opened, and while a value
+//! differs from what the edit came to, the first that does is given as well.
+
+use crate::host::Host;
+use crate::state::State;
+use base::number::close;
+use kernel::{Literal, Path, Primitive, SlotId, ThingId, Value, Values};
+use plan::{Planner, Plans};
+use std::collections::BTreeSet;
+
+/// Makes the state whose text gives these values, and its planner.
+///
+/// The state's values agree with `wanted` to the tolerance of rules; it is they that count from now
+/// on, so that a saved document opens as it was left, bit for bit.
+pub(crate) fn write_back(
+    state: &State,
+    wanted: &Values,
+    host: &dyn Host,
+    mut plans: Plans,
+) -> (State, Planner) {
+    let mut written: BTreeSet<ThingId> = state
+        .structure
+        .slots
+        .iter()
+        .filter(|(slot, s)| {
+            s.given.as_ref().is_some_and(|g| state.lowered.is_own_given(g.origin))
+                && !wanted.get(*slot).same_bits(&state.values.get(*slot))
+        })
+        .map(|(slot, _)| unit_of_writing(state, slot))
+        .collect();
+    let mut more = 1;
+    loop {
+        let writes: Vec<(Path, Literal)> = written
+            .iter()
+            .map(|&t| (state.structure.path(&state.lowered.document, t), literal(state, t, wanted)))
+            .collect();
+        let edits = lang::write_values(&state.lowered, &writes);
+        let text = syntax::edit::apply(&state.text, &edits);
+        let (next, planner) = State::of(text, Some(state), host, plans);
+        let missing: Vec<ThingId> = differing(&next, wanted)
+            .map(|slot| unit_of_writing(state, slot))
+            .filter(|t| !written.contains(t))
+            .take(more)
+            .collect();
+        if missing.is_empty() {
+            return (next, planner);
+        }
+        written.extend(missing);
+        // One at a time while there are few: the first may determine the others.
+        more = if written.len() < 8 { 1 } else { more * 2 };
+        plans = planner.into_plans();
+    }
+}
+
+/// Returns the slots whose values differ by more than rounding.
+fn differing<'a>(next: &'a State, wanted: &'a Values) -> impl Iterator<Item = SlotId> + 'a {
+    next.values.changed(wanted).filter(|&slot| match (next.values.get(slot), wanted.get(slot)) {
+        (Value::Number(a), Value::Number(b)) => !close(a, b),
+        (a, b) => !a.same_bits(&b),
+    })
+}
+
+/// Returns the place that a slot is a coordinate of, else its own thing.
+fn unit_of_writing(state: &State, slot: SlotId) -> ThingId {
+    let s = &state.structure.slots[slot];
+    s.place.unwrap_or(s.thing)
+}
+
+/// Returns what a thing is worth, as the language writes it.
+fn literal(state: &State, thing: ThingId, values: &Values) -> Literal {
+    match state.structure.slot_of[thing] {
+        Some(slot) => match (state.structure.slots[slot].primitive, values.get(slot)) {
+            (Primitive::Bool, Value::Number(x)) => Literal::Bool(x != 0.0),
+            (_, Value::Number(x)) => Literal::Number(x),
+            (_, Value::Text(t)) => Literal::Text(t.to_string()),
+        },
+        None => {
+            let parts = state.structure.parts(thing);
+            Literal::Tuple(parts.map(|p| literal(state, p, values)).collect())
+        }
+    }
+}
