@@ -288,6 +288,13 @@ impl Lowerer<'_> {
         b.takes(arguments).then(|| self.builtin_kind(b.result, receiver))
     }
 
+    /// Returns false if a name is one of the language's functions and of a part or plain message.
+    fn takes_arguments(&self, class: ClassId, name: &Name) -> bool {
+        let message = self.document.find_message(class, name, None);
+        let plain = message.is_none_or(|(_, m)| m.parameters.is_empty());
+        !(plain && builtin::find(builtin::FUNCTIONS, name).is_some())
+    }
+
     fn check_arity(&mut self, scope: &Scope, class: ClassId, word: &ast::Word, n: usize) -> bool {
         let Some((_, message)) = self.document.find_message(class, word.text(), None) else {
             return true;
@@ -377,6 +384,10 @@ impl Lowerer<'_> {
         }
         let mut me = Term::Me;
         for &class in &scope.classes.clone() {
+            // `picture => picture(a, b)`: what takes no arguments leaves the name to the function
+            if !arguments.is_empty() && !self.takes_arguments(class, &name) {
+                break;
+            }
             if let Some(kind) = self.kind_of_part(class, &name) {
                 if !self.check_arity(scope, class, &word, arguments.len()) {
                     return None;
