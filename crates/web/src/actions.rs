@@ -1,6 +1,6 @@
 //! One table of what can be done: it makes the buttons, the menu, the palette and the shortcuts.
 
-use crate::lab::{Lab, Zoom};
+use crate::lab::{Lab, Notice, Zoom};
 use crate::{route, structure, words};
 use leptos::ev::KeyboardEvent;
 use leptos::prelude::*;
@@ -8,7 +8,7 @@ use session::view::{RowKind, StructureRow};
 use session::{Command, Path};
 use wasm_bindgen::JsCast;
 
-/// Something that can be done.
+/// Something that can be done; two are the same if they have one name.
 #[derive(Debug)]
 pub struct Action {
     /// Its name for scripts and tests.
@@ -21,6 +21,12 @@ pub struct Action {
     pub enabled: fn(Lab) -> Result<(), &'static str>,
     /// Does it.
     pub run: fn(Lab),
+}
+
+impl PartialEq for Action {
+    fn eq(&self, other: &Self) -> bool {
+        self.id == other.id
+    }
 }
 
 /// Everything that can be done, in the order of the menu.
@@ -94,10 +100,14 @@ pub const ACTIONS: &[Action] = &[
         id: "enable",
         label: words::ENABLE,
         keys: &[],
-        enabled: |lab| match selected(lab)?.kind {
-            RowKind::Constraint => Ok(()),
-            RowKind::Part | RowKind::Virtual | RowKind::Merge => Err(words::NOT_A_CONSTRAINT),
-        },
+        enabled: constraint,
+        run: |lab| on_selection(lab, |path| Command::Enable { path, on: true }),
+    },
+    Action {
+        id: "disable",
+        label: words::DISABLE,
+        keys: &[],
+        enabled: constraint,
         run: |lab| on_selection(lab, |path| Command::Enable { path, on: false }),
     },
     Action {
@@ -216,7 +226,7 @@ pub fn named(id: &str) -> &'static Action {
 pub fn run(action: &Action, lab: Lab) {
     match untrack(|| (action.enabled)(lab)) {
         Ok(()) => (action.run)(lab),
-        Err(why) => lab.say_refused(format!("{}: {why}", action.label)),
+        Err(why) => lab.notice.set(Some(Notice::Said(format!("{}: {why}", action.label)))),
     }
 }
 
@@ -232,6 +242,14 @@ fn selected(lab: Lab) -> Result<StructureRow, &'static str> {
     lab.structure
         .with(|rows| rows.iter().find(|r| r.path == path && r.kind != RowKind::Merge).cloned())
         .ok_or(words::NOTHING_SELECTED)
+}
+
+/// Whether a constraint is selected.
+fn constraint(lab: Lab) -> Result<(), &'static str> {
+    match selected(lab)?.kind {
+        RowKind::Constraint => Ok(()),
+        RowKind::Part | RowKind::Virtual | RowKind::Merge => Err(words::NOT_A_CONSTRAINT),
+    }
 }
 
 fn apply(lab: Lab, command: &Command) {

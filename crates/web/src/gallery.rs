@@ -2,7 +2,7 @@
 
 use crate::lab::Lab;
 use crate::picture::thumbnail::Thumbnail;
-use crate::server::{self, Listed};
+use crate::server::Listed;
 use crate::{route, words};
 use leptos::prelude::*;
 use session::view::DocumentId;
@@ -24,7 +24,7 @@ pub fn Gallery(
 ) -> impl IntoView {
     let listed = RwSignal::new(None::<Result<Vec<Listed>, String>>);
     leptos::task::spawn_local(async move {
-        let answer = server::documents().await;
+        let answer = lab.fetch_list().await;
         listed.try_set(Some(answer));
     });
     view! {

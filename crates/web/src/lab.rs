@@ -4,7 +4,7 @@
 //! drag only the picture and the values are made anew, and nothing is asked of the server.
 
 use crate::files::{FileSet, Files};
-use crate::server::{self, Saved, Stored};
+use crate::server::{self, Listed, Saved, Stored};
 use crate::sheet::View;
 use crate::{js, theme, words};
 use leptos::prelude::*;
@@ -69,10 +69,14 @@ pub struct Lab {
     pub selected: RwSignal<Option<String>>,
     /// The path of the thing under the pointer, in whatever view.
     pub hovered: RwSignal<Option<String>>,
+    /// The selected and the hovered path, each as the first path of its thing.
+    pub marked: Memo<(Option<String>, Option<String>)>,
     /// What there is to say.
     pub notice: RwSignal<Option<Notice>>,
     /// Where the present drag has got to, if there is one.
     pub dragging: RwSignal<Option<DragState>>,
+    /// The documents that the server offers, as of the last time it was asked.
+    pub listed: RwSignal<Vec<Listed>>,
     /// What stands on disk instead, after a save was refused for it.
     pub conflict: RwSignal<Option<Option<Stored>>>,
     /// Unsaved text of an earlier visit.
@@ -109,6 +113,13 @@ pub enum Zoom {
 impl Lab {
     /// Makes a lab without documents.
     pub fn new() -> Self {
+        let (selected, hovered) = (RwSignal::new(None), RwSignal::new(None));
+        let structure = RwSignal::new(Vec::new());
+        let marked = Memo::new(move |_| {
+            let first =
+                |path: Option<String>| path.map(|p| structure.with(|rows| first_path(rows, p)));
+            (first(selected.get()), first(hovered.get()))
+        });
         let files = StoredValue::new(FileSet::default());
         Self {
             session: StoredValue::new_local(Session::new(Box::new(Files(files)))),
@@ -118,15 +129,17 @@ impl Lab {
             typing: StoredValue::new(0),
             current: RwSignal::new(None),
             document: RwSignal::new(None),
-            structure: RwSignal::new(Vec::new()),
+            structure,
             values: RwSignal::new(Vec::new()),
             text: RwSignal::new(no_text()),
             status: RwSignal::new(Status::default()),
             picture: RwSignal::new(PictureView::default()),
-            selected: RwSignal::new(None),
-            hovered: RwSignal::new(None),
+            selected,
+            hovered,
+            marked,
             notice: RwSignal::new(None),
             dragging: RwSignal::new(None),
+            listed: RwSignal::new(Vec::new()),
             conflict: RwSignal::new(None),
             draft: RwSignal::new(None),
             why: RwSignal::new(false),
@@ -148,6 +161,16 @@ impl Lab {
             }),
             Err(message) => self.say_refused(message),
         }
+    }
+
+    /// Asks the server what documents there are.
+    ///
+    /// # Errors
+    /// One sentence, where it does not say.
+    pub async fn fetch_list(self) -> Result<Vec<Listed>, String> {
+        let listed = server::documents().await?;
+        self.listed.set(listed.clone());
+        Ok(listed)
     }
 
     /// Opens a document in the session, if it is not open already, and returns it.
@@ -527,6 +550,12 @@ fn draft_key(path: &str) -> String {
 fn beside(folder: &str, name: &str) -> String {
     let file = format!("{}.thing", name.replace('.', "/"));
     if folder.is_empty() { file } else { format!("{folder}/{file}") }
+}
+
+/// Returns the path that a path is the same thing as: the first of those merged.
+pub fn first_path(rows: &[StructureRow], path: String) -> String {
+    let row = rows.iter().find(|row| row.path == path && row.merged_with.is_some());
+    row.and_then(|row| row.merged_with.clone()).unwrap_or(path)
 }
 
 /// What `use` calls a file: `parts/bolts.thing` is `parts.bolts`.

@@ -156,9 +156,9 @@ fn Tool(
 fn Document(lab: Lab) -> impl IntoView {
     view! {
         <main class="document">
-            <a class="skip" href="#picture" on:click=|e: ev::MouseEvent| {
+            <a class="skip" href="#picture" on:click=move |e: ev::MouseEvent| {
                 e.prevent_default();
-                actions::named("go-picture");
+                actions::run(actions::named("go-picture"), lab);
             }>{words::SKIP}</a>
             <div class="notices">
                 <Refused lab=lab />

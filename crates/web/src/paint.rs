@@ -16,6 +16,7 @@
 use crate::sheet::View;
 use drawing::{Anchoring, Color, Element, Layer, Line, Placement, Point, Shape, Style};
 use session::view::{Freedom, PictureView};
+use std::collections::BTreeSet;
 
 /// What is painted: numbers, and the words and colours that they speak of.
 #[derive(Clone, PartialEq, Debug, Default)]
@@ -79,15 +80,15 @@ pub fn display_list(picture: &PictureView, marks: &[Mark]) -> DisplayList {
     for mark in [Mark::Hovered, Mark::Selected] {
         halos(&mut list, &elements, marks, mark);
     }
+    let anchored: BTreeSet<&str> =
+        picture.grips.iter().filter(|g| g.anchored).map(|g| g.path.as_str()).collect();
     let mut style = None;
     for element in elements {
         let tag = element.tag.0 as usize;
         let freedom = picture.freedom.get(tag).copied().flatten();
         if let Shape::Dot(p) = element.shape {
-            let anchored = picture.paths.get(tag).is_some_and(|path| {
-                picture.grips.iter().any(|grip| grip.anchored && grip.path == *path)
-            });
-            dot(&mut list, p, freedom, anchored);
+            let path = picture.paths.get(tag).map(String::as_str);
+            dot(&mut list, p, freedom, path.is_some_and(|path| anchored.contains(path)));
             style = None;
             continue;
         }

@@ -1,8 +1,9 @@
-//! The palette: every action by name, with its key, or with the reason why not now.
+//! The palette: every action by name, with its key or with the reason why not now, and every document.
 
 use crate::actions::{self, ACTIONS, Action};
 use crate::lab::Lab;
-use crate::words;
+use crate::server::Listed;
+use crate::{route, words};
 use leptos::ev::KeyboardEvent;
 use leptos::html::Input;
 use leptos::prelude::*;
@@ -24,7 +25,11 @@ fn Open(lab: Lab) -> impl IntoView {
     let before = StoredValue::new_local(document().active_element());
     let found = Memo::new(move |_| {
         at.set(0);
-        matching(&wanted.get())
+        lab.listed.with(|listed| matching(&wanted.get(), listed))
+    });
+    leptos::task::spawn_local(async move {
+        // Without the list there are still the actions.
+        let _ = lab.fetch_list().await;
     });
     Effect::new(move |_| {
         if let Some(input) = input.get() {
@@ -41,9 +46,11 @@ fn Open(lab: Lab) -> impl IntoView {
         }
     };
     let choose = move |n: usize| {
-        if let Some(action) = found.with_untracked(|found| found.get(n).map(|at| &ACTIONS[*at])) {
-            close();
-            actions::run(action, lab);
+        let Some(choice) = found.with_untracked(|found| found.get(n).cloned()) else { return };
+        close();
+        match choice {
+            Choice::Do(action) => actions::run(action, lab),
+            Choice::Open(listed) => route::go(&route::to(&listed.path)),
         }
     };
     let key = move |e: KeyboardEvent| {
@@ -61,10 +68,8 @@ fn Open(lab: Lab) -> impl IntoView {
     };
     let rows = move || {
         let list = found.get().into_iter().enumerate();
-        list.map(|(n, action)| {
-            view! { <Entry lab=lab action=&ACTIONS[action] n=n at=at choose=choose /> }
-        })
-        .collect_view()
+        list.map(|(n, choice)| view! { <Entry lab=lab choice=choice n=n at=at choose=choose /> })
+            .collect_view()
     };
     view! {
         <div class="shade" on:pointerdown=move |_| close()>
@@ -86,42 +91,53 @@ fn Open(lab: Lab) -> impl IntoView {
     }
 }
 
+/// What can be chosen.
+#[derive(Clone, PartialEq, Debug)]
+enum Choice {
+    Do(&'static Action),
+    Open(Listed),
+}
+
 #[component]
 fn Entry(
     lab: Lab,
-    action: &'static Action,
+    choice: Choice,
     n: usize,
     at: RwSignal<usize>,
     choose: impl Fn(usize) + Copy + 'static,
 ) -> impl IntoView {
-    let why = Memo::new(move |_| (action.enabled)(lab).err());
+    let (name, label, action) = match choice {
+        Choice::Do(action) => (String::from(action.id), String::from(action.label), Some(action)),
+        Choice::Open(listed) => (listed.path, format!("{} {}", words::OPEN, listed.title), None),
+    };
+    let why = Memo::new(move |_| action.and_then(|action| (action.enabled)(lab).err()));
+    let key = action.and_then(|action| action.keys.first());
     view! {
-        <li id=format!("action-{n}") role="option" data-action=action.id
+        <li id=format!("action-{n}") role="option" data-action=name
             aria-selected=move || (at.get() == n).to_string()
             aria-disabled=move || why.get().is_some().to_string()
             on:pointerenter=move |_| at.set(n)
             on:click=move |_| choose(n)>
-            <span class="label">{action.label}</span>
+            <span class="label">{label}</span>
             <span class="reason">{why}</span>
-            {action.keys.first().map(|key| view! { <kbd>{*key}</kbd> })}
+            {key.map(|key| view! { <kbd>{*key}</kbd> })}
         </li>
     }
 }
 
-/// The actions whose label has all letters of what is wanted, in order; whole words first.
-fn matching(wanted: &str) -> Vec<usize> {
+/// What has all letters of what is wanted in its label, in order; whole words first.
+fn matching(wanted: &str, listed: &[Listed]) -> Vec<Choice> {
     let wanted = wanted.trim().to_lowercase();
     let rank = |label: &str| {
         let label = label.to_lowercase();
         if label.contains(&wanted) { Some(0) } else { scattered(&label, &wanted).then_some(1) }
     };
-    let mut found: Vec<(i32, usize)> = ACTIONS
-        .iter()
-        .enumerate()
-        .filter_map(|(n, action)| rank(action.label).map(|rank| (rank, n)))
-        .collect();
-    found.sort();
-    found.into_iter().map(|(_, n)| n).collect()
+    let actions = ACTIONS.iter().map(|action| (rank(action.label), Choice::Do(action)));
+    let documents = listed.iter().map(|one| (rank(&one.title), Choice::Open(one.clone())));
+    let mut found: Vec<(i32, Choice)> =
+        actions.chain(documents).filter_map(|(rank, choice)| Some((rank?, choice))).collect();
+    found.sort_by_key(|(rank, _)| *rank);
+    found.into_iter().map(|(_, choice)| choice).collect()
 }
 
 fn scattered(label: &str, wanted: &str) -> bool {
@@ -131,16 +147,27 @@ fn scattered(label: &str, wanted: &str) -> bool {
 
 #[cfg(test)]
 mod tests {
-    use super::matching;
+    use super::{Choice, matching};
     use crate::actions::ACTIONS;
+    use crate::server::Listed;
 
     #[test]
     fn the_palette_finds_by_words_before_letters() {
-        assert_eq!(matching("").len(), ACTIONS.len());
-        let first = |wanted| matching(wanted).first().map(|n| ACTIONS[*n].id);
-        assert_eq!(first("zoom in"), Some("zoom-in"));
-        assert_eq!(first("und"), Some("undo"));
-        assert_eq!(first("ftp"), Some("fit"));
-        assert_eq!(first("qqq"), None);
+        let listed = [Listed {
+            path: String::from("gallery/bridge.thing"),
+            title: String::from("Bridge under load"),
+            in_gallery: true,
+        }];
+        assert_eq!(matching("", &listed).len(), ACTIONS.len() + 1);
+        let first = |wanted| match matching(wanted, &listed).into_iter().next() {
+            Some(Choice::Do(action)) => String::from(action.id),
+            Some(Choice::Open(listed)) => listed.path,
+            None => String::new(),
+        };
+        assert_eq!(first("zoom in"), "zoom-in");
+        assert_eq!(first("undo"), "undo");
+        assert_eq!(first("under"), "gallery/bridge.thing");
+        assert_eq!(first("ftp"), "fit");
+        assert_eq!(first("qqq"), "");
     }
 }

@@ -4,7 +4,7 @@
 //! is lost.
 
 use crate::js::{self, Painter};
-use crate::lab::{Lab, Zoom};
+use crate::lab::{Lab, Zoom, first_path};
 use crate::paint::{DisplayList, Mark, display_list, grid};
 use crate::sheet::{View, fit};
 use crate::words;
@@ -13,7 +13,7 @@ use js_sys::Array;
 use leptos::ev::{KeyboardEvent, PointerEvent, WheelEvent};
 use leptos::html::Canvas;
 use leptos::prelude::*;
-use session::view::{Grip, PictureView, StructureRow};
+use session::view::{Grip, PictureView};
 use session::{Command, Literal};
 use wasm_bindgen::closure::Closure;
 use wasm_bindgen::{JsCast, JsValue};
@@ -35,11 +35,7 @@ pub fn Picture(
     let size = RwSignal::new((0.0, 0.0));
     let painter = StoredValue::new_local(None::<Painter>);
     let hand = hand::Hand::new(lab, canvas);
-    let marked = Memo::new(move |_| {
-        let first =
-            |path: Option<String>| path.map(|p| lab.structure.with(|rows| first_path(rows, p)));
-        (first(lab.selected.get()), first(lab.hovered.get()))
-    });
+    let marked = lab.marked;
     let list = Memo::new(move |_| {
         lab.picture.with(|picture| {
             marked.with(|(selected, hovered)| {
@@ -165,12 +161,6 @@ fn wheel(lab: Lab, canvas: NodeRef<Canvas>, e: &WheelEvent) {
     let factor = base::number::exp(-0.0018 * pixels.clamp(-240.0, 240.0));
     let at = hand::on_canvas(canvas, (f64::from(e.client_x()), f64::from(e.client_y())));
     lab.view.update(|view| *view = view.zoomed(factor, at));
-}
-
-/// Returns the path that a path is the same thing as: the first of those merged.
-pub fn first_path(rows: &[StructureRow], path: String) -> String {
-    let row = rows.iter().find(|row| row.path == path && row.merged_with.is_some());
-    row.and_then(|row| row.merged_with.clone()).unwrap_or(path)
 }
 
 /// Returns true if a path leads to a thing or to a part of it, at any depth.

@@ -30,7 +30,6 @@ pub fn StatusLine(
                 {move || if holds.get() { icons::holds() } else { icons::warning() }}
                 <span role="status" aria-label=words::STATUS>{sentence}</span>
             </button>
-            <span class="freedom">{move || words::degrees(lab.status.with(|status| status.freedom))}</span>
             <span class="said" aria-live="polite">{move || drag.get().or_else(|| said.get())}</span>
         </footer>
     }

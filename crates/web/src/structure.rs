@@ -1,7 +1,6 @@
 //! The structure view: the tree of parts, constraints and merges, the picture's accessible twin.
 
 use crate::lab::Lab;
-use crate::picture::first_path;
 use crate::{field, icons, words};
 use leptos::ev::KeyboardEvent;
 use leptos::prelude::*;
@@ -9,13 +8,15 @@ use session::Command;
 use session::view::{RowKind, StructureRow};
 use std::collections::BTreeSet;
 
-/// Rows down to this depth are open at first.
-const OPEN_DEPTH: u32 = 2;
+/// At first so many levels are open as show no more rows than this.
+const FIRST_ROWS: usize = 40;
 
 /// Which rows are open or shut against the rule, and which one has the keyboard.
 #[derive(Clone, Copy, Debug)]
 struct Tree {
     lab: Lab,
+    /// Rows above this depth are open unless they are toggled.
+    open_depth: u32,
     toggled: RwSignal<BTreeSet<String>>,
     current: RwSignal<usize>,
     editing: RwSignal<Option<usize>>,
@@ -24,7 +25,7 @@ struct Tree {
 impl Tree {
     fn is_open(self, row: &StructureRow) -> bool {
         let toggled = self.toggled.with(|toggled| toggled.contains(&row.path));
-        (row.depth < OPEN_DEPTH) != toggled
+        (row.depth < self.open_depth) != toggled
     }
 
     /// The numbers of the rows that no shut row hides.
@@ -101,6 +102,13 @@ impl Tree {
     }
 }
 
+/// Returns how many levels to open at first: at least the document's own.
+fn first_depth(rows: &[StructureRow]) -> u32 {
+    let shown = |depth: u32| rows.iter().filter(|row| row.depth <= depth).count();
+    let deepest = rows.iter().map(|row| row.depth).max().unwrap_or(0);
+    (1..=deepest).rev().find(|depth| shown(*depth) <= FIRST_ROWS).unwrap_or(1)
+}
+
 /// Whether a row's value can be typed.
 fn is_editable(row: &StructureRow) -> bool {
     match row.kind {
@@ -127,6 +135,7 @@ pub fn Structure(
 ) -> impl IntoView {
     let tree = Tree {
         lab,
+        open_depth: lab.structure.with_untracked(|rows| first_depth(rows)),
         toggled: RwSignal::new(BTreeSet::new()),
         current: RwSignal::new(0),
         editing: RwSignal::new(None),
@@ -198,7 +207,12 @@ fn Row(tree: Tree, at: usize) -> impl IntoView {
         lab.selected.with(|selected| path.with(|path| selected.as_deref() == Some(path)))
             && kind.with(|kind| kind != "merge")
     });
-    let hovered = Memo::new(move |_| is_hovered(lab, &path.get()));
+    let hovered = Memo::new(move |_| {
+        let first = merged.get().unwrap_or_else(|| path.get());
+        !first.is_empty()
+            && kind.with(|kind| kind != "merge")
+            && lab.marked.with(|(_, hovered)| *hovered == Some(first))
+    });
     let lockable = Memo::new(move |_| {
         row.with(|r| r.as_ref().is_some_and(|r| r.kind == RowKind::Part && r.value.is_some()))
     });
@@ -261,21 +275,6 @@ fn Row(tree: Tree, at: usize) -> impl IntoView {
             {move || lockable.get().then(|| view! { <field::Lock lab=lab path=path anchored=anchored /> })}
         </div>
     }
-}
-
-/// Whether the pointer is over a thing, under whichever of its paths.
-pub(crate) fn is_hovered(lab: Lab, path: &str) -> bool {
-    if path.is_empty() {
-        return false;
-    }
-    lab.hovered.with(|hovered| {
-        hovered.as_ref().is_some_and(|hovered| {
-            hovered == path
-                || lab
-                    .structure
-                    .with_untracked(|rows| first_path(rows, String::from(path)) == *hovered)
-        })
-    })
 }
 
 fn kind_class(kind: RowKind) -> &'static str {

@@ -1,7 +1,6 @@
 //! The values view: a table in which every value can be typed, scrubbed and locked.
 
 use crate::lab::Lab;
-use crate::structure::is_hovered;
 use crate::{field, js, words};
 use leptos::ev::{KeyboardEvent, PointerEvent};
 use leptos::html::Span;
@@ -91,12 +90,15 @@ fn Row(lab: Lab, at: usize) -> impl IntoView {
     let lockable = is(|row| !row.is_virtual);
     let hint = Memo::new(move |_| row.with(|row| row.as_ref().map(described).unwrap_or_default()));
     let selected = Memo::new(move |_| {
-        lab.selected.with(|s| {
-            s.as_ref()
-                .is_some_and(|s| path.with(|p| p == s || split(p).0.trim_end_matches('.') == s))
+        lab.marked.with(|(selected, _)| {
+            selected.as_ref().is_some_and(|selected| path.with(|path| is_or_owns(selected, path)))
         })
     });
-    let hovered = Memo::new(move |_| is_hovered(lab, split(&path.get()).0.trim_end_matches('.')));
+    let hovered = Memo::new(move |_| {
+        lab.marked.with(|(_, hovered)| {
+            hovered.as_ref().is_some_and(|hovered| path.with(|path| is_or_owns(hovered, path)))
+        })
+    });
     Effect::new(move |_| {
         if selected.get() {
             request_animation_frame(move || field::scroll_to(&format!("value-{at}")));
@@ -128,6 +130,11 @@ fn Row(lab: Lab, at: usize) -> impl IntoView {
 /// A path's owner, with its dot, and its last step.
 fn split(path: &str) -> (&str, &str) {
     path.rfind('.').map_or(("", path), |at| path.split_at(at + 1))
+}
+
+/// Whether a thing is a value or the thing that it is a part of.
+fn is_or_owns(thing: &str, path: &str) -> bool {
+    thing == path || split(path).0.strip_suffix('.') == Some(thing)
 }
 
 fn described(row: &ValueRow) -> String {

@@ -9,7 +9,6 @@ pub const GALLERY_LEAD: &str = "Documents whose constraints stay true while you 
 pub const YOUR_DOCUMENTS: &str = "In this folder";
 pub const NO_DOCUMENTS: &str = "There are no documents here yet.";
 pub const LOADING: &str = "Loading";
-pub const OPENING: &str = "Opening";
 pub const SKIP: &str = "Skip to the picture";
 pub const NO_SERVER: &str = "the server does not answer; what you change is kept in this browser";
 pub const NOT_SAVED: &str = "not saved yet";
@@ -35,7 +34,8 @@ pub const ZOOM_IN: &str = "Zoom in";
 pub const ZOOM_OUT: &str = "Zoom out";
 pub const GRID: &str = "Show or hide the grid";
 pub const LOCK: &str = "Lock or unlock the selection";
-pub const ENABLE: &str = "Switch the constraint on or off";
+pub const ENABLE: &str = "Switch the constraint on";
+pub const DISABLE: &str = "Switch the constraint off";
 pub const DELETE: &str = "Delete the selection";
 pub const UNMERGE: &str = "Take the selection out of its merges";
 pub const EXPLAIN: &str = "Why is it so?";
@@ -47,8 +47,8 @@ pub const GO_TEXT: &str = "Go to the text";
 pub const THEME: &str = "Light, dark or as the system says";
 pub const SEARCH: &str = "Search";
 pub const BUILT_IN: &str = "built in";
-pub const PALETTE: &str = "Search all actions";
-pub const MENU: &str = "Menu";
+pub const PALETTE: &str = "Search actions and documents";
+pub const OPEN: &str = "Open";
 
 pub const NOTHING_TO_UNDO: &str = "nothing has been changed yet";
 pub const NOTHING_TO_REDO: &str = "nothing was taken back";
@@ -68,7 +68,6 @@ pub const GIVEN: &str = "given in the text";
 pub const SCRUB: &str = "Drag sideways to change it";
 pub const FILTER: &str = "Filter";
 pub const NO_VALUES: &str = "No value has this name.";
-pub const SHOW_ALL: &str = "Show all";
 pub const MERGED_WITH: &str = "one with";
 pub const MORE_VALUES: &str = "more; the filter finds them";
 
@@ -84,7 +83,6 @@ pub const CONFLICT: &str = "The file has changed on disk since it was opened.";
 pub const CONFLICT_GONE: &str = "The file has been removed from disk since it was opened.";
 pub const TAKE_THEIRS: &str = "Take what is on disk";
 pub const OVERWRITE: &str = "Overwrite with this";
-pub const TRY_AGAIN: &str = "Try again";
 pub const REPAIRS: &str = "What would work:";
 pub const IN_THE_WAY: &str = "In the way:";
 
@@ -105,20 +103,6 @@ pub fn freedom(freedom: session::view::Freedom) -> &'static str {
         session::view::Freedom::Fixed => "fixed",
         session::view::Freedom::Conflicting => "conflicting",
         session::view::Freedom::Redundant => "redundant",
-    }
-}
-
-/// What is said of unsaved changes.
-pub fn unsaved(title: &str) -> String {
-    format!("{title} has unsaved changes")
-}
-
-/// How many ways things can still move.
-pub fn degrees(freedom: u32) -> String {
-    match freedom {
-        0 => String::from("fully determined"),
-        1 => String::from("1 degree of freedom"),
-        n => format!("{n} degrees of freedom"),
     }
 }
 

@@ -37,6 +37,10 @@ pub fn Thumbnail(
         }
     });
     on_cleanup(move || painter.with_value(|p| p.as_ref().map(Painter::stop)).unwrap_or_default());
+    Effect::new(move |_| {
+        lab.colors.changes.track();
+        painter.with_value(|p| p.as_ref().map(Painter::look));
+    });
     Effect::new(move |last: Option<(Vec<String>, Vec<String>)>| {
         lab.colors.changes.track();
         let size = size.get();
@@ -45,7 +49,6 @@ pub fn Thumbnail(
         painter
             .with_value(|painter| {
                 let painter = painter.as_ref().filter(|_| size.0 > 0.0)?;
-                painter.look();
                 Some(paint(painter, &list, Vec::new(), &view, last))
             })
             .unwrap_or_default()
