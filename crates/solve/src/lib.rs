@@ -45,12 +45,15 @@ mod rows;
 mod accept;
 
 mod direct;
+mod eliminate;
 
 mod order;
 
 pub mod plan;
 
 mod lower;
+
+mod tear;
 
 mod dense;
 

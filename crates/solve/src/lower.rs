@@ -3,12 +3,14 @@
 //! In: the blocks in order. Out: steps, each with a program that runs without looking at the system
 //! again, and the regions, whose soft rows can be approached where they cannot be met.
 
+use crate::eliminate::eliminate;
 use crate::measure::Measure;
 use crate::order::Block;
 use crate::plan::{Analysis, Step, StepKind};
 use crate::rows::{self, Row};
 use crate::square::Square;
 use crate::system::{Level, MethodBody, SlotIndex, Stay};
+use crate::tear::{self, Definition, Torn};
 use expr::{Arena, ExprId, Guard, Tape, Var};
 use std::collections::{BTreeMap, BTreeSet};
 use std::sync::OnceLock;
@@ -226,17 +228,47 @@ fn lower_block(analysis: &Analysis<'_>, arena: &mut Arena, block: &Block, steps:
         rows: block.rows.iter().filter_map(|&r| problem_row(&analysis.rows[r])).collect(),
         unknowns: block.unknowns.clone(),
     };
+    if problem.rows.len() == problem.unknowns.len() {
+        return square_block(analysis, arena, block, &problem, steps);
+    }
+    if problem.rows.len() == problem.unknowns.len() {
+        torn_square(analysis, arena, block, &problem, steps);
+        return;
+    }
     let soft = problem.rows.iter().any(|r| r.level != Level::Required);
-    let (kind, formulas, program) = if problem.rows.len() == problem.unknowns.len() {
-        square(arena, &problem)
-    } else {
-        let over = problem.rows.len() > problem.unknowns.len()
-            || block.rows.iter().any(|&r| analysis.direction.slot_of_row[r].is_none());
-        let kind = if soft && over { StepKind::Compromise } else { StepKind::LeastChange };
-        (kind, residuals(arena, &problem), measure(analysis, arena, &problem))
-    };
+    let over = problem.rows.len() > problem.unknowns.len()
+        || block.rows.iter().any(|&r| analysis.direction.slot_of_row[r].is_none());
+    let kind = if soft && over { StepKind::Compromise } else { StepKind::LeastChange };
+    let formulas = residuals(arena, &problem);
+    let program = measure(analysis, arena, &problem);
     let reads = reads_of(analysis, block).into_iter().collect();
     steps.push(step(analysis, kind, &block.rows, block.unknowns.clone(), reads, formulas, program));
+}
+
+/// The steps of a square block: what has to be solved at once, then what its rows state outright.
+fn torn_square(
+    analysis: &Analysis<'_>,
+    arena: &mut Arena,
+    block: &Block,
+    problem: &Problem,
+    steps: &mut Vec<Step>,
+) {
+    let Torn { problem: left, rows, definitions } = tear::tear(arena, problem);
+    let (kind, formulas, program) = square(arena, &left);
+    let rows: Vec<usize> = rows.into_iter().map(|r| block.rows[r]).collect();
+    let reads = reads_of(analysis, block).into_iter().collect();
+    let mut core = step(analysis, kind, &rows, left.unknowns, reads, formulas, program);
+    // it has nothing to do only where the rows that were put into it hold as well
+    core.rows = sides_of(analysis, &block.rows);
+    steps.push(core);
+    for definition in definitions.iter().rev() {
+        let Definition { row, slot, value } = *definition;
+        let reads = arena.variables(value).into_iter().map(|v| v.0).collect();
+        let program = Program::Formulas(Tape::compile(arena, &[value]));
+        let kind = StepKind::Inverse { roots: 1 };
+        let row = block.rows[row];
+        steps.push(step(analysis, kind, &[row], vec![slot], reads, vec![value], program));
+    }
 }
 
 /// Makes the program that handles rows and unknowns of any number.
@@ -259,12 +291,17 @@ fn step(
 ) -> Step {
     let mut relations: Vec<u32> = rows.iter().map(|&r| analysis.rows[r].relation).collect();
     relations.dedup();
+    let rows = sides_of(analysis, rows);
+    Step { kind, targets, reads, relations, formulas, program, region: u32::MAX, rows }
+}
+
+/// Where the sides of rows stand among all sides.
+fn sides_of(analysis: &Analysis<'_>, rows: &[usize]) -> Vec<u32> {
     let side = |&r: &usize| {
         let row = &analysis.rows[r];
         row.sides.map(|_| analysis.first_row[row.relation as usize] + row.equation)
     };
-    let rows = rows.iter().filter_map(side).collect();
-    Step { kind, targets, reads, relations, formulas, program, region: u32::MAX, rows }
+    rows.iter().filter_map(side).collect()
 }
 
 fn residuals(arena: &mut Arena, problem: &Problem) -> Vec<ExprId> {

@@ -262,10 +262,14 @@ impl Square {
                         damping = 0.0;
                     }
                     if was_held && slow {
-                        break;
+                        if damping == 0.0 {
+                            break;
+                        }
+                        damping = 0.0;
                     }
                 }
-                None if was_held => break,
+                None if was_held && damping == 0.0 => break,
+                None if was_held => damping = 0.0,
                 None if branch.is_some() => return Solved::Failed,
                 None => {
                     damping = (damping * 10.0).max(1e-6);
