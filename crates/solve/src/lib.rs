@@ -53,8 +53,6 @@ pub mod plan;
 
 mod lower;
 
-mod tear;
-
 mod dense;
 
 mod square;

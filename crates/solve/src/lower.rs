@@ -3,14 +3,13 @@
 //! In: the blocks in order. Out: steps, each with a program that runs without looking at the system
 //! again, and the regions, whose soft rows can be approached where they cannot be met.
 
-use crate::eliminate::eliminate;
+use crate::eliminate::{Definition, Reduced, eliminate};
 use crate::measure::Measure;
 use crate::order::Block;
 use crate::plan::{Analysis, Step, StepKind};
 use crate::rows::{self, Row};
 use crate::square::Square;
 use crate::system::{Level, MethodBody, SlotIndex, Stay};
-use crate::tear::{self, Definition, Torn};
 use expr::{Arena, ExprId, Guard, Tape, Var};
 use std::collections::{BTreeMap, BTreeSet};
 use std::sync::OnceLock;
@@ -229,10 +228,7 @@ fn lower_block(analysis: &Analysis<'_>, arena: &mut Arena, block: &Block, steps:
         unknowns: block.unknowns.clone(),
     };
     if problem.rows.len() == problem.unknowns.len() {
-        return square_block(analysis, arena, block, &problem, steps);
-    }
-    if problem.rows.len() == problem.unknowns.len() {
-        torn_square(analysis, arena, block, &problem, steps);
+        square_block(analysis, arena, block, &problem, steps);
         return;
     }
     let soft = problem.rows.iter().any(|r| r.level != Level::Required);
@@ -246,14 +242,14 @@ fn lower_block(analysis: &Analysis<'_>, arena: &mut Arena, block: &Block, steps:
 }
 
 /// The steps of a square block: what has to be solved at once, then what its rows state outright.
-fn torn_square(
+fn square_block(
     analysis: &Analysis<'_>,
     arena: &mut Arena,
     block: &Block,
     problem: &Problem,
     steps: &mut Vec<Step>,
 ) {
-    let Torn { problem: left, rows, definitions } = tear::tear(arena, problem);
+    let Reduced { problem: left, rows, definitions } = eliminate(arena, problem);
     let (kind, formulas, program) = square(arena, &left);
     let rows: Vec<usize> = rows.into_iter().map(|r| block.rows[r]).collect();
     let reads = reads_of(analysis, block).into_iter().collect();
@@ -261,8 +257,7 @@ fn torn_square(
     // it has nothing to do only where the rows that were put into it hold as well
     core.rows = sides_of(analysis, &block.rows);
     steps.push(core);
-    for definition in definitions.iter().rev() {
-        let Definition { row, slot, value } = *definition;
+    for Definition { row, slot, value } in definitions {
         let reads = arena.variables(value).into_iter().map(|v| v.0).collect();
         let program = Program::Formulas(Tape::compile(arena, &[value]));
         let kind = StepKind::Inverse { roots: 1 };
