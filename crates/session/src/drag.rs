@@ -15,6 +15,8 @@ pub(crate) struct Drag {
     /// What is dragged, for the undo list.
     pub(crate) path: Path,
     press: Press,
+    /// How many numbers the thing has: 2 for a place, 1 for a number.
+    count: usize,
     /// The values as of the last event.
     pub(crate) values: Values,
 }
@@ -32,13 +34,15 @@ pub(crate) fn press(
     let mut texts = Texts::new(&state.lowered.document, &state.structure);
     let targets = [Target::Thing(thing)];
     let press = planner.press(state.model(), &state.values, &targets, &mut texts)?;
-    Ok(Drag { path, press, values: state.values.clone() })
+    let count = state.structure.slots_under(thing).len();
+    Ok(Drag { path, press, count, values: state.values.clone() })
 }
 
 impl Drag {
-    /// Follows the pointer to a place on the sheet.
+    /// Follows the pointer to a place on the sheet; a number follows the first of its coordinates.
     pub(crate) fn to(&mut self, state: &State, planner: &Planner, to: &[f64]) -> DragState {
         let mut texts = Texts::new(&state.lowered.document, &state.structure);
+        let to = &to[..self.count.min(to.len())];
         let report = planner.drag(state.model(), &mut self.press, &mut self.values, to, &mut texts);
         let message = (!report.reached).then(|| words::why_not_reached(state, &report));
         DragState { reached: report.reached, message }
