@@ -83,7 +83,10 @@ pub fn run(
         },
     };
     outcome.notes.append(&mut buffers.notes);
-    if !outcome.is_solved() {
+    // On opening there is nothing to go back to: what could be accepted stands.
+    let opening = plan.slots.iter().any(|s| s.stay == Stay::Free);
+    let stands = opening && matches!(outcome.status, Status::Stopped(Reason::Conflict));
+    if !outcome.is_solved() && !stands {
         values.copy_from_slice(came);
     }
     outcome
