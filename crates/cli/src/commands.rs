@@ -109,7 +109,7 @@ fn show_diagnostic(opened: &Opened, d: &DiagnosticView) -> String {
 pub(crate) fn test(arguments: &[PathBuf], form: Form) -> Result<Report, OpenError> {
     let (mut words, mut files, mut passed, mut failed) = (String::new(), Vec::new(), 0, 0);
     for path in find(arguments)? {
-        let mut opened = open(&path)?;
+        let opened = open(&path)?;
         let diagnostics: Vec<DiagnosticView> = opened.session.text(opened.id).diagnostics;
         let broken: Vec<_> = diagnostics.iter().filter(|d| d.severity == "error").collect();
         for d in &broken {
