@@ -117,11 +117,8 @@ pub(crate) fn test(arguments: &[PathBuf], form: Form) -> Result<Report, OpenErro
         }
         let checks = opened.session.run_checks(opened.id);
         for check in &checks {
-            if check.passed {
-                passed += 1
-            } else {
-                failed += 1
-            }
+            passed += usize::from(check.passed);
+            failed += usize::from(!check.passed);
             words.push_str(&show_check(&path, check));
         }
         failed += usize::from(!broken.is_empty());
