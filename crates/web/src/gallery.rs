@@ -5,7 +5,7 @@ use crate::picture::thumbnail::Thumbnail;
 use crate::server::Listed;
 use crate::{route, words};
 use leptos::prelude::*;
-use session::view::DocumentId;
+use session::view::{DocumentId, TextView};
 
 /// A document that has been read for its card.
 #[derive(Clone, PartialEq, Debug)]
@@ -70,10 +70,10 @@ fn CardView(lab: Lab, listed: Listed) -> impl IntoView {
     let (path, title) = (listed.path.clone(), listed.title.clone());
     leptos::task::spawn_local(async move {
         if let Ok(opened) = lab.load(&path).await {
-            let doc = lab.ask(|s| s.structure(opened.id)).into_iter().next().map(|row| row.doc);
+            let doc = leading_doc(&lab.ask(|session| session.text(opened.id)));
             card.try_set(Some(Card {
                 id: opened.id,
-                sentence: first_sentence(&doc.unwrap_or_default(), &opened.title),
+                sentence: first_sentence(&doc, &opened.title),
                 title: opened.title,
                 dirty: opened.dirty,
             }));
@@ -99,6 +99,13 @@ fn CardView(lab: Lab, listed: Listed) -> impl IntoView {
             </a>
         </li>
     }
+}
+
+/// What stands in the `///` lines with which a document begins.
+fn leading_doc(text: &TextView) -> String {
+    let docs = text.tokens.iter().take_while(|token| token.kind == "doc");
+    let lines = docs.filter_map(|t| text.source.get(t.start as usize..t.end as usize));
+    lines.map(|line| line.trim_start_matches('/').trim()).collect::<Vec<_>>().join(" ")
 }
 
 /// The first sentence of what a document says of itself, after its title.

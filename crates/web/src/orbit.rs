@@ -2,12 +2,17 @@
 
 use crate::sheet;
 use drawing::Drawing;
-use session::view::{Grip, PictureView};
+use session::view::{Freedom, Grip, PictureView};
 use std::f64::consts::TAU;
 
-/// Returns the grip to lead: the first that no anchor holds.
+/// Returns the grip to lead: the first that can move, or else the first that no anchor holds.
 pub fn grip(picture: &PictureView) -> Option<Grip> {
-    picture.grips.iter().find(|grip| !grip.anchored).cloned()
+    let is_free = |grip: &&Grip| {
+        let tag = picture.paths.iter().position(|path| *path == grip.path);
+        tag.is_some_and(|tag| picture.freedom.get(tag) == Some(&Some(Freedom::Free)))
+    };
+    let loose = || picture.grips.iter().filter(|grip| !grip.anchored);
+    loose().find(is_free).or_else(|| loose().next()).cloned()
 }
 
 /// Returns where the grip is after so many turns of a circle that begins where it lies.
@@ -26,8 +31,21 @@ pub fn width(drawing: &Drawing) -> f64 {
 
 #[cfg(test)]
 mod tests {
-    use super::place;
-    use session::view::Grip;
+    use super::{grip, place};
+    use session::view::{Freedom, Grip, PictureView};
+
+    #[test]
+    fn what_is_led_can_move() {
+        let at = |path: &str, anchored| Grip { path: String::from(path), x: 0.0, y: 0.0, anchored };
+        let picture = PictureView {
+            paths: ["a", "b", "c"].map(String::from).to_vec(),
+            freedom: vec![Some(Freedom::Free), Some(Freedom::Fixed), Some(Freedom::Free)],
+            grips: vec![at("a", true), at("b", false), at("c", false)],
+            ..PictureView::default()
+        };
+        assert_eq!(grip(&picture).map(|grip| grip.path).as_deref(), Some("c"));
+        assert_eq!(grip(&PictureView::default()), None);
+    }
 
     #[test]
     fn a_turn_begins_and_ends_at_home() {

@@ -109,6 +109,15 @@ fn first_depth(rows: &[StructureRow]) -> u32 {
     (1..=deepest).rev().find(|depth| shown(*depth) <= FIRST_ROWS).unwrap_or(1)
 }
 
+/// A row's detail without what its name says already.
+fn rule_alone(row: &StructureRow) -> &str {
+    let rest = row.detail.strip_prefix("constraint ").unwrap_or(&row.detail).trim_start();
+    let rest = rest
+        .strip_prefix(row.name.as_str())
+        .map_or(rest, |rest| rest.trim_start().strip_prefix(':').map_or(rest, str::trim_start));
+    if row.kind == RowKind::Constraint { rest } else { &row.detail }
+}
+
 /// Whether a row's value can be typed.
 fn is_editable(row: &StructureRow) -> bool {
     match row.kind {
@@ -194,7 +203,7 @@ fn Row(tree: Tree, at: usize) -> impl IntoView {
     let path = of(|row| row.path.clone());
     let kind = of(|row| String::from(kind_class(row.kind)));
     let name = of(|row| row.name.clone());
-    let detail = of(|row| row.detail.clone());
+    let detail = of(|row| String::from(rule_alone(row)));
     let doc = of(|row| row.doc.clone());
     let state = of(|row| row.freedom.map(words::freedom).map(String::from).unwrap_or_default());
     let value = Memo::new(move |_| row.with(|row| row.as_ref().and_then(|row| row.value.clone())));

@@ -235,6 +235,7 @@ fn step(number: f64) -> f64 {
 fn Field(lab: Lab, row: Memo<Option<ValueRow>>) -> impl IntoView {
     let typed = RwSignal::new(None::<String>);
     let error = RwSignal::new(None::<String>);
+    let active = RwSignal::new(false);
     let text = Memo::new(move |_| {
         row.with(|row| row.as_ref().map(|r| r.text.clone()).unwrap_or_default())
     });
@@ -270,17 +271,42 @@ fn Field(lab: Lab, row: Memo<Option<ValueRow>>) -> impl IntoView {
             spellcheck="false"
             aria-label=path
             aria-invalid=move || error.with(Option::is_some).to_string()
-            prop:value=move || typed.get().unwrap_or_else(|| text.get())
-            on:focus=move |_| lab.select(Some(path.get_untracked()))
+            prop:value=move || typed.get().unwrap_or_else(|| text.with(|t| if active.get() { t.clone() } else { rounded(t) }))
+            on:focus=move |_| {
+                active.set(true);
+                lab.select(Some(path.get_untracked()));
+            }
             on:input=move |e| {
                 typed.set(Some(event_target_value(&e)));
                 error.set(None);
             }
             on:keydown=key
-            on:blur=move |_| if error.with_untracked(Option::is_none) { commit() }
+            on:blur=move |_| {
+                active.set(false);
+                if error.with_untracked(Option::is_none) {
+                    commit();
+                }
+            }
         />
         {move || error.get().map(|error| view! { <span class="error" role="alert">{error}</span> })}
     }
+}
+
+/// A long number as it is shown while nobody types it: to seven figures.
+fn rounded(text: &str) -> String {
+    match text.parse::<f64>() {
+        Ok(number) if text.len() > 9 && number.is_finite() => {
+            let digits = 7 - 1 - decimal_exponent(number);
+            base::number::rounded(number, digits.clamp(0, 12) as usize)
+        }
+        Ok(_) | Err(_) => String::from(text),
+    }
+}
+
+/// The power of ten of a number's first figure.
+fn decimal_exponent(number: f64) -> i32 {
+    let written = format!("{number:e}");
+    written.rsplit('e').next().and_then(|exponent| exponent.parse().ok()).unwrap_or(0)
 }
 
 /// A bare number is meant in the unit that stands beside the field.
@@ -321,7 +347,7 @@ fn focus_beside(e: &KeyboardEvent, which: Beside) -> bool {
 
 #[cfg(test)]
 mod tests {
-    use super::{split, step, with_unit};
+    use super::{rounded, split, step, with_unit};
 
     #[test]
     fn a_bare_number_takes_the_unit_beside_it() {
@@ -329,6 +355,15 @@ mod tests {
         assert_eq!(with_unit("0.3 kohm", "ohm"), "0.3 kohm");
         assert_eq!(with_unit("300", ""), "300");
         assert_eq!(with_unit("hello", "ohm"), "hello");
+    }
+
+    #[test]
+    fn long_numbers_are_shown_short() {
+        assert_eq!(rounded("217.0921463342237"), "217.0921");
+        assert_eq!(rounded("59.99999999999999"), "60");
+        assert_eq!(rounded("251.5"), "251.5");
+        assert_eq!(rounded("0.0037500000000000003"), "0.00375");
+        assert_eq!(rounded("some words"), "some words");
     }
 
     #[test]
