@@ -6,6 +6,7 @@
 const ROLES = ["ink", "faint", "accent", "paper", "free", "fixed", "conflict", "redundant", "halo", "halo-soft", "grid", "grid-strong"]
 const DASHES = [[], [7, 5], [0.5, 4]]
 const NO_LINE = 3
+const PAPER = ROLES.indexOf("paper")
 
 // The values that style variables have here and now: only a real element tells, since a variable's
 // own text may still be a choice between light and dark.
@@ -160,8 +161,20 @@ export function createPainter(canvas, onSize) {
             c.textAlign = ["left", "center", "right"][list[i + 3]]
             c.fillStyle = colors[stroke]
             onScreen()
+            // A label of constant size stands beside its point, on a rim of paper.
+            const label = !list[i + 5]
+            const left = x + kx * list[i + 1] + (label ? [7, 0, -7][list[i + 3]] : 0)
+            const top = y + ky * list[i + 2] - (label ? 7 : 0)
             const lines = (words[list[i]] ?? "").split("\n")
-            lines.forEach((text, n) => c.fillText(text, x + kx * list[i + 1], y + ky * list[i + 2] + 1.25 * size * n))
+            lines.forEach((text, n) => {
+              if (label) {
+                c.strokeStyle = colors[PAPER]
+                c.lineWidth = 3
+                c.setLineDash([])
+                c.strokeText(text, left, top + 1.25 * size * n)
+              }
+              c.fillText(text, left, top + 1.25 * size * n)
+            })
             onSheet()
             i += 6
             break

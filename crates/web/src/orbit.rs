@@ -5,14 +5,14 @@ use drawing::Drawing;
 use session::view::{Freedom, Grip, PictureView};
 use std::f64::consts::TAU;
 
-/// Returns the grip to lead: the first that can move, or else the first that no anchor holds.
+/// Returns the grip to lead: the first that is not fixed, or else the first that no anchor holds.
 pub fn grip(picture: &PictureView) -> Option<Grip> {
-    let is_free = |grip: &&Grip| {
+    let is_fixed = |grip: &&Grip| {
         let tag = picture.paths.iter().position(|path| *path == grip.path);
-        tag.is_some_and(|tag| picture.freedom.get(tag) == Some(&Some(Freedom::Free)))
+        tag.is_some_and(|tag| picture.freedom.get(tag) == Some(&Some(Freedom::Fixed)))
     };
     let loose = || picture.grips.iter().filter(|grip| !grip.anchored);
-    loose().find(is_free).or_else(|| loose().next()).cloned()
+    loose().find(|grip| !is_fixed(grip)).or_else(|| loose().next()).cloned()
 }
 
 /// Returns where the grip is after so many turns of a circle that begins where it lies.

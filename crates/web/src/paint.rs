@@ -73,13 +73,45 @@ const USUAL_WIDTH: f64 = 1.75;
 /// The radius of a point, in pixels.
 const POINT: f64 = 4.75;
 
-/// Returns the list for a picture, of whose tags `marks` says which are marked.
-pub fn display_list(picture: &PictureView, marks: &[Mark]) -> DisplayList {
+/// Returns the list for a picture. `freedom` is that of its grips, which are painted as points where
+/// the picture itself has none; `marks` are those of its tags and then of its grips.
+pub fn display_list(
+    picture: &PictureView,
+    freedom: &[Option<Freedom>],
+    marks: &[Mark],
+) -> DisplayList {
     let mut list = DisplayList::default();
     let elements = in_layers(&picture.drawing.elements);
+    let bare = bare_grips(picture);
     for mark in [Mark::Hovered, Mark::Selected] {
         halos(&mut list, &elements, marks, mark);
+        let marked = |at: &&usize| marks.get(picture.paths.len() + **at) == Some(&mark);
+        for grip in bare.iter().filter(marked).map(|at| &picture.grips[*at]) {
+            halo(&mut list, Point { x: grip.x, y: grip.y }, mark);
+        }
     }
+    let words = elements.iter().position(|e| e.layer == Layer::Words).unwrap_or(elements.len());
+    let (below, words) = elements.split_at(words);
+    paint_elements(&mut list, picture, below);
+    for at in bare {
+        let grip = &picture.grips[at];
+        let freedom = freedom.get(at).copied().flatten();
+        dot(&mut list, Point { x: grip.x, y: grip.y }, freedom, grip.anchored);
+    }
+    paint_elements(&mut list, picture, words);
+    list
+}
+
+/// The numbers of the grips where the picture has no point.
+fn bare_grips(picture: &PictureView) -> Vec<usize> {
+    let dots = picture.drawing.elements.iter().filter(|e| matches!(e.shape, Shape::Dot(_)));
+    let dotted: BTreeSet<&str> =
+        dots.filter_map(|e| picture.paths.get(e.tag.0 as usize)).map(String::as_str).collect();
+    let grips = picture.grips.iter().enumerate();
+    grips.filter(|(_, grip)| !dotted.contains(grip.path.as_str())).map(|(at, _)| at).collect()
+}
+
+fn paint_elements(list: &mut DisplayList, picture: &PictureView, elements: &[&Element]) {
     let anchored: BTreeSet<&str> =
         picture.grips.iter().filter(|g| g.anchored).map(|g| g.path.as_str()).collect();
     let mut style = None;
@@ -88,19 +120,18 @@ pub fn display_list(picture: &PictureView, marks: &[Mark]) -> DisplayList {
         let freedom = picture.freedom.get(tag).copied().flatten();
         if let Shape::Dot(p) = element.shape {
             let path = picture.paths.get(tag).map(String::as_str);
-            dot(&mut list, p, freedom, path.is_some_and(|path| anchored.contains(path)));
+            dot(list, p, freedom, path.is_some_and(|path| anchored.contains(path)));
             style = None;
             continue;
         }
-        let now = style_of(&mut list, &element.style, freedom);
+        let now = style_of(list, &element.style, freedom);
         if style != Some(now) {
             list.numbers.push(1.0);
             list.numbers.extend(now);
             style = Some(now);
         }
-        shape(&mut list, &element.shape);
+        shape(list, &element.shape);
     }
-    list
 }
 
 /// Puts elements into the order in which they are painted. Where a layer has no fills, which hide
@@ -126,11 +157,7 @@ fn in_layers(elements: &[Element]) -> Vec<&Element> {
 
 /// Paints a broad soft line behind everything that is marked so.
 fn halos(list: &mut DisplayList, elements: &[&Element], marks: &[Mark], mark: Mark) {
-    let color = match mark {
-        Mark::None => return,
-        Mark::Hovered => Hue::SoftHalo,
-        Mark::Selected => Hue::Halo,
-    };
+    let Some(color) = halo_color(mark) else { return };
     let marked = |e: &&&Element| marks.get(e.tag.0 as usize) == Some(&mark);
     let mut open = false;
     for element in elements.iter().filter(marked) {
@@ -141,7 +168,7 @@ fn halos(list: &mut DisplayList, elements: &[&Element], marks: &[Mark], mark: Ma
             | Shape::Circle { .. }
             | Shape::Arc { .. } => {
                 if !open {
-                    begin(list, color as i32, -1, Line::Solid, 9.0, Space::Sheet);
+                    begin(list, color, -1, Line::Solid, 9.0, Space::Sheet);
                     open = true;
                 }
                 shape(list, &element.shape);
@@ -150,9 +177,23 @@ fn halos(list: &mut DisplayList, elements: &[&Element], marks: &[Mark], mark: Ma
     }
     for element in elements.iter().filter(marked) {
         if let Shape::Dot(p) = element.shape {
-            begin(list, -1, color as i32, Line::None, 0.0, Space::Screen);
-            sign(list, Sign::Disc, p, 2.4 * POINT);
+            halo(list, p, mark);
         }
+    }
+}
+
+fn halo_color(mark: Mark) -> Option<i32> {
+    match mark {
+        Mark::None => None,
+        Mark::Hovered => Some(Hue::SoftHalo as i32),
+        Mark::Selected => Some(Hue::Halo as i32),
+    }
+}
+
+fn halo(list: &mut DisplayList, at: Point, mark: Mark) {
+    if let Some(color) = halo_color(mark) {
+        begin(list, -1, color, Line::None, 0.0, Space::Screen);
+        sign(list, Sign::Disc, at, 2.4 * POINT);
     }
 }
 
@@ -314,13 +355,13 @@ mod tests {
             drawing: Drawing { elements, ..Drawing::default() },
             paths: vec![String::from("p")],
             freedom: vec![freedom],
-            grips: vec![Grip { path: String::from("p"), x: 0.0, y: 0.0, anchored: false }],
+            grips: Vec::new(),
         }
     }
 
     #[test]
     fn an_empty_picture_is_an_empty_list() {
-        assert_eq!(display_list(&PictureView::default(), &[]), super::DisplayList::default());
+        assert_eq!(display_list(&PictureView::default(), &[], &[]), super::DisplayList::default());
     }
 
     #[test]
@@ -331,7 +372,7 @@ mod tests {
             element(segment(2.0), Layer::Lines, faint),
             element(segment(3.0), Layer::Lines, Style::default()),
         ];
-        let list = display_list(&picture(elements, None), &[]);
+        let list = display_list(&picture(elements, None), &[], &[]);
         assert_eq!(
             list.numbers,
             [
@@ -353,7 +394,7 @@ mod tests {
             element(segment(2.0), Layer::Lines, filled),
             element(segment(3.0), Layer::Lines, Style::default()),
         ];
-        let list = display_list(&picture(elements, None), &[]);
+        let list = display_list(&picture(elements, None), &[], &[]);
         let order: Vec<f64> = list
             .numbers
             .windows(5)
@@ -367,17 +408,30 @@ mod tests {
     #[test]
     fn a_point_in_conflict_is_a_red_cross_and_a_free_one_a_blue_disc() {
         let dots = || vec![element(Shape::Dot(Point::default()), Layer::Points, Style::default())];
-        let free = display_list(&picture(dots(), Some(Freedom::Free)), &[]).numbers;
+        let free = display_list(&picture(dots(), Some(Freedom::Free)), &[], &[]).numbers;
         assert_eq!((free[2], free[6], free[7]), (4.0, 5.0, 0.0));
-        let wrong = display_list(&picture(dots(), Some(Freedom::Conflicting)), &[]).numbers;
+        let wrong = display_list(&picture(dots(), Some(Freedom::Conflicting)), &[], &[]).numbers;
         assert_eq!((wrong[12], wrong[18]), (6.0, 2.0));
+    }
+
+    #[test]
+    fn a_grip_without_a_point_of_its_own_is_painted_as_one() {
+        let grip = Grip { path: String::from("p"), x: 3.0, y: 4.0, anchored: false };
+        let lines = vec![element(segment(1.0), Layer::Lines, Style::default())];
+        let bare = PictureView { grips: vec![grip.clone()], ..picture(lines, None) };
+        let list = display_list(&bare, &[Some(Freedom::Free)], &[]).numbers;
+        assert_eq!(list[list.len() - 5..], [5.0, 0.0, 3.0, 4.0, super::POINT]);
+        let dots = vec![element(Shape::Dot(Point::default()), Layer::Points, Style::default())];
+        let plain = picture(dots, Some(Freedom::Free));
+        let dotted = PictureView { grips: vec![grip], ..plain.clone() };
+        assert_eq!(display_list(&dotted, &[], &[]), display_list(&plain, &[], &[]));
     }
 
     #[test]
     fn what_is_selected_has_a_halo_behind_it() {
         let elements = vec![element(segment(1.0), Layer::Lines, Style::default())];
-        let plain = display_list(&picture(elements.clone(), None), &[Mark::None]).numbers;
-        let marked = display_list(&picture(elements, None), &[Mark::Selected]).numbers;
+        let plain = display_list(&picture(elements.clone(), None), &[], &[Mark::None]).numbers;
+        let marked = display_list(&picture(elements, None), &[], &[Mark::Selected]).numbers;
         assert_eq!(&marked[..2], &[1.0, 8.0]);
         assert_eq!(&marked[marked.len() - plain.len()..], plain);
     }

@@ -13,8 +13,9 @@ use js_sys::Array;
 use leptos::ev::{KeyboardEvent, PointerEvent, WheelEvent};
 use leptos::html::Canvas;
 use leptos::prelude::*;
-use session::view::{Grip, PictureView};
+use session::view::{Freedom, Grip, PictureView, StructureRow};
 use session::{Command, Literal};
+use std::collections::BTreeMap;
 use wasm_bindgen::closure::Closure;
 use wasm_bindgen::{JsCast, JsValue};
 
@@ -36,10 +37,13 @@ pub fn Picture(
     let painter = StoredValue::new_local(None::<Painter>);
     let hand = hand::Hand::new(lab, canvas);
     let marked = lab.marked;
+    let states = Memo::new(move |_| lab.structure.with(|rows| states(rows)));
     let list = Memo::new(move |_| {
         lab.picture.with(|picture| {
             marked.with(|(selected, hovered)| {
-                display_list(picture, &marks(picture, selected.as_deref(), hovered.as_deref()))
+                let freedom = states.with(|states| grip_freedom(picture, states));
+                let marks = marks(picture, selected.as_deref(), hovered.as_deref());
+                display_list(picture, &freedom, &marks)
             })
         })
     });
@@ -169,7 +173,7 @@ fn covers(whole: &str, path: &str) -> bool {
         .is_some_and(|rest| rest.is_empty() || rest.starts_with('.') || rest.starts_with('['))
 }
 
-/// Returns how each of a picture's tags is marked.
+/// Returns how each of a picture's tags and then each of its grips is marked.
 fn marks(picture: &PictureView, selected: Option<&str>, hovered: Option<&str>) -> Vec<Mark> {
     let is =
         |whole: Option<&str>, path: &str| whole.is_some_and(|w| !w.is_empty() && covers(w, path));
@@ -185,7 +189,17 @@ fn marks(picture: &PictureView, selected: Option<&str>, hovered: Option<&str>) -
             Mark::None
         }
     };
-    picture.paths.iter().map(mark).collect()
+    picture.paths.iter().chain(picture.grips.iter().map(|grip| &grip.path)).map(mark).collect()
+}
+
+/// The freedom of every thing that has one, by its path.
+fn states(rows: &[StructureRow]) -> BTreeMap<String, Freedom> {
+    rows.iter().filter_map(|row| Some((row.path.clone(), row.freedom?))).collect()
+}
+
+/// The freedom of a picture's grips, in their order.
+fn grip_freedom(picture: &PictureView, states: &BTreeMap<String, Freedom>) -> Vec<Option<Freedom>> {
+    picture.grips.iter().map(|grip| states.get(&grip.path).copied()).collect()
 }
 
 /// Says of the selected point where it is and how free.
@@ -195,8 +209,9 @@ fn described(lab: Lab, selected: Option<String>) -> String {
         let Some(grip) = picture.grips.iter().find(|grip| grip.path == selected) else {
             return selected;
         };
-        let tag = picture.paths.iter().position(|path| *path == grip.path);
-        let freedom = tag.and_then(|t| picture.freedom.get(t).copied().flatten());
+        let freedom = lab
+            .structure
+            .with(|rows| rows.iter().find(|row| row.path == grip.path).and_then(|row| row.freedom));
         words::point_at(&grip.path, grip.x, grip.y, freedom.map(words::freedom))
     })
 }

@@ -66,6 +66,15 @@ impl View {
         let kept = scale / self.scale;
         Self { scale, x: x + (self.x - x) * kept, y: y + (self.y - y) * kept, ..self }
     }
+    /// Returns how many decimals a position has that a pointer can tell apart: half a pixel or less.
+    pub fn decimals(&self) -> usize {
+        let (mut step, mut decimals) = (1.0, 0);
+        while step > 0.5 / self.scale {
+            step /= 10.0;
+            decimals += 1;
+        }
+        decimals
+    }
     /// Returns the distance between two lines of the grid, in the sheet's units: 1, 2 or 5 times a
     /// power of ten.
     pub fn grid_step(&self) -> f64 {
@@ -189,6 +198,13 @@ mod tests {
         let before = view.sheet_from_screen((100.0, 80.0));
         let after = view.zoomed(1.5, (100.0, 80.0)).sheet_from_screen((100.0, 80.0));
         assert!((before.x - after.x).abs() < 1e-12 && (before.y - after.y).abs() < 1e-12);
+    }
+
+    #[test]
+    fn a_pointer_tells_half_pixels_apart() {
+        for (scale, decimals) in [(0.004, 0), (0.5, 0), (1.0, 1), (5.0, 1), (6.0, 2)] {
+            assert_eq!(View { scale, ..View::default() }.decimals(), decimals, "at {scale}");
+        }
     }
 
     #[test]

@@ -9,7 +9,7 @@ use session::view::{RowKind, StructureRow};
 use std::collections::BTreeSet;
 
 /// At first so many levels are open as show no more rows than this.
-const FIRST_ROWS: usize = 40;
+const FIRST_ROWS: usize = 30;
 
 /// Which rows are open or shut against the rule, and which one has the keyboard.
 #[derive(Clone, Copy, Debug)]
@@ -109,6 +109,11 @@ fn first_depth(rows: &[StructureRow]) -> u32 {
     (1..=deepest).rev().find(|depth| shown(*depth) <= FIRST_ROWS).unwrap_or(1)
 }
 
+/// A row's name; the document's is its title.
+fn named(row: &StructureRow, title: Option<String>) -> String {
+    if row.path.is_empty() { title.unwrap_or_default() } else { row.name.clone() }
+}
+
 /// A row's detail without what its name says already.
 fn rule_alone(row: &StructureRow) -> &str {
     let rest = row.detail.strip_prefix("constraint ").unwrap_or(&row.detail).trim_start();
@@ -202,7 +207,10 @@ fn Row(tree: Tree, at: usize) -> impl IntoView {
     };
     let path = of(|row| row.path.clone());
     let kind = of(|row| String::from(kind_class(row.kind)));
-    let name = of(|row| row.name.clone());
+    let name = Memo::new(move |_| {
+        let title = lab.document.with(|d| d.as_ref().map(|d| d.title.clone()));
+        row.with(|row| row.as_ref().map(|row| named(row, title)).unwrap_or_default())
+    });
     let detail = of(|row| String::from(rule_alone(row)));
     let doc = of(|row| row.doc.clone());
     let state = of(|row| row.freedom.map(words::freedom).map(String::from).unwrap_or_default());
@@ -268,7 +276,7 @@ fn Row(tree: Tree, at: usize) -> impl IntoView {
                             e.stop_propagation();
                             lab.select(Some(first.clone()));
                         }
-                    }>{icons::link()}<span>{first.clone()}</span></button>
+                    }>{icons::link()}</button>
             })}
             {move || if tree.editing.get() == Some(at) {
                 view! {

@@ -28,6 +28,8 @@ pub fn Text(
             editor.set_value(Some(js::create_editor(&parent, &options(lab))));
         }
     });
+    // Marks are offsets into the text that is shown, so they come after it.
+    let shown = Trigger::new();
     on_cleanup(move || {
         lab.flush_text();
         editor.with_value(|editor| editor.as_ref().map(Editor::destroy)).unwrap_or_default();
@@ -39,10 +41,12 @@ pub fn Text(
                 editor.with_value(|editor| editor.as_ref().map(|editor| show(editor, text)));
             }
         });
+        shown.notify();
     });
     Effect::new(move |_| {
+        shown.track();
         let (selected, hovered) = (lab.selected.get(), lab.hovered.get());
-        lab.structure.with(|rows| {
+        lab.structure.with_untracked(|rows| {
             let selected = selected.and_then(|path| span_of(rows, &path));
             let hovered = hovered.and_then(|path| span_of(rows, &path));
             editor.with_value(|editor| {

@@ -6,6 +6,7 @@ use super::pick::{Kind, pick};
 use super::sheet_point;
 use crate::js;
 use crate::lab::Lab;
+use crate::sheet::View;
 use leptos::ev::PointerEvent;
 use leptos::html::Canvas;
 use leptos::prelude::*;
@@ -103,10 +104,10 @@ impl Hand {
         let at = self.at(e);
         if let Some(canvas) = self.canvas.get_untracked() {
             js::capture(&canvas, e.pointer_id());
-            // Focus may fail only where the canvas is gone.
-            let _ = canvas.focus();
         }
-        e.prevent_default();
+        if e.button() == 1 {
+            e.prevent_default();
+        }
         self.state.update_value(|state| {
             state.touch = e.pointer_type() == "touch";
             state.pointers.retain(|(id, _)| *id != e.pointer_id());
@@ -199,7 +200,9 @@ impl Hand {
         let Mode::Drag { offset } = self.mode() else { return };
         if self.lab.dragging.with_untracked(Option::is_some) {
             let p = sheet_point(self.lab, at);
-            self.lab.drag((p.x + offset.0, p.y + offset.1));
+            let decimals = self.lab.view.with_untracked(View::decimals);
+            let round = |x: f64| base::number::rounded(x, decimals).parse().unwrap_or(x);
+            self.lab.drag((round(p.x + offset.0), round(p.y + offset.1)));
         }
     }
 
