@@ -190,7 +190,15 @@ fn write_element(
                 Placement::OnSheet(size) => *size,
                 Placement::OnScreen(pixels) => pixels / options.pixels_per_unit,
             };
-            write_text(out, (&x, &y), text, *anchoring, size, &look);
+            // words on the sheet are as wide as the measure that the document goes by
+            let width = match placement {
+                Placement::OnSheet(size) if !text.contains('\n') => {
+                    let width = shortest(metrics::text_width(text, *size));
+                    format!(r#" textLength="{width}" lengthAdjust="spacingAndGlyphs""#)
+                }
+                Placement::OnSheet(_) | Placement::OnScreen(_) => String::new(),
+            };
+            write_text(out, (&x, &y), text, *anchoring, size, &format!("{width}{look}"));
         }
     }
 }

@@ -163,6 +163,7 @@ export function createPainter(canvas, onSize) {
             onScreen()
             // A label of constant size stands beside its point, on a rim of paper.
             const label = !list[i + 5]
+            const widest = label ? undefined : list[i + 5] * Math.abs(ky)
             const left = x + kx * list[i + 1] + (label ? [7, 0, -7][list[i + 3]] : 0)
             const top = y + ky * list[i + 2] - (label ? 7 : 0)
             const lines = (words[list[i]] ?? "").split("\n")
@@ -173,7 +174,7 @@ export function createPainter(canvas, onSize) {
                 c.setLineDash([])
                 c.strokeText(text, left, top + 1.25 * size * n)
               }
-              c.fillText(text, left, top + 1.25 * size * n)
+              c.fillText(text, left, top + 1.25 * size * n, widest)
             })
             onSheet()
             i += 6

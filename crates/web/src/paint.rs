@@ -306,11 +306,14 @@ fn shape(list: &mut DisplayList, shape: &Shape) {
                 Anchoring::Middle => 1.0,
                 Anchoring::End => 2.0,
             };
-            let (height, on_sheet) = match placement {
-                Placement::OnSheet(height) => (*height, 1.0),
+            // words on the sheet are never wider than the measure that the document goes by
+            let (height, width) = match placement {
+                Placement::OnSheet(height) => {
+                    (*height, drawing::metrics::text_width(text, *height))
+                }
                 Placement::OnScreen(height) => (*height, 0.0),
             };
-            out.extend([6.0, word, at.x, at.y, anchoring, height, on_sheet]);
+            out.extend([6.0, word, at.x, at.y, anchoring, height, width]);
         }
     }
 }
