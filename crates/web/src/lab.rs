@@ -91,6 +91,8 @@ pub struct Lab {
     pub zoom: RwSignal<Option<Zoom>>,
     /// The part of the sheet that one sees.
     pub view: RwSignal<View>,
+    /// Whether the view is one that fits, and shall fit when the panel's size changes.
+    pub fits: StoredValue<bool>,
     /// The page's colours.
     pub colors: theme::Colors,
 }
@@ -147,6 +149,7 @@ impl Lab {
             grid: RwSignal::new(theme::keep(GRID_KEY).is_none_or(|kept| kept != "off")),
             zoom: RwSignal::new(None),
             view: RwSignal::new(View::default()),
+            fits: StoredValue::new(true),
             colors: theme::start(),
         }
     }
@@ -516,6 +519,12 @@ impl Lab {
     pub fn toggle_grid(self) {
         self.grid.update(|grid| *grid = !*grid);
         theme::put(GRID_KEY, Some(if self.grid.get_untracked() { "on" } else { "off" }));
+    }
+
+    /// Changes the part of the sheet that one sees, as a person does by hand.
+    pub fn look_at(self, change: impl FnOnce(View) -> View) {
+        self.fits.set_value(false);
+        self.view.update(|view| *view = change(*view));
     }
 
     /// Selects a thing, or nothing.

@@ -53,6 +53,12 @@ pub fn Picture(
         }
     });
     on_cleanup(move || painter.with_value(|p| p.as_ref().map(Painter::stop)).unwrap_or_default());
+    Effect::new(move |_| {
+        size.track();
+        if lab.fits.get_value() {
+            lab.zoom.set(Some(Zoom::Fit));
+        }
+    });
     Effect::new(move |_| zoom_as_asked(lab, size.get()));
     Effect::new(move |_| {
         lab.colors.changes.track();
@@ -150,11 +156,12 @@ fn zoom_as_asked(lab: Lab, size: (f64, f64)) {
     lab.zoom.set(None);
     match asked {
         Zoom::Fit => {
+            lab.fits.set_value(true);
             let margin = MARGIN.min(0.12 * size.0.min(size.1));
             lab.view.set(lab.picture.with_untracked(|p| fit(&p.drawing, size, margin)));
         }
         Zoom::By(factor) => {
-            lab.view.update(|view| *view = view.zoomed(factor, (size.0 / 2.0, size.1 / 2.0)));
+            lab.look_at(|view| view.zoomed(factor, (size.0 / 2.0, size.1 / 2.0)));
         }
     }
 }
@@ -164,7 +171,7 @@ fn wheel(lab: Lab, canvas: NodeRef<Canvas>, e: &WheelEvent) {
     let pixels = if e.delta_mode() == 0 { e.delta_y() } else { 24.0 * e.delta_y() };
     let factor = base::number::exp(-0.0018 * pixels.clamp(-240.0, 240.0));
     let at = hand::on_canvas(canvas, (f64::from(e.client_x()), f64::from(e.client_y())));
-    lab.view.update(|view| *view = view.zoomed(factor, at));
+    lab.look_at(|view| view.zoomed(factor, at));
 }
 
 /// Returns true if a path leads to a thing or to a part of it, at any depth.

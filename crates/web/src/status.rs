@@ -13,6 +13,10 @@ pub fn StatusLine(
 ) -> impl IntoView {
     let holds = Memo::new(move |_| lab.status.with(|status| status.satisfied));
     let sentence = Memo::new(move |_| lab.status.with(|status| status.message.clone()));
+    let doubtful = Memo::new(move |_| {
+        lab.text.with(|text| text.diagnostics.iter().any(|d| d.severity == "error"))
+            || lab.status.with(|status| !status.unmet.is_empty())
+    });
     let drag = Memo::new(move |_| {
         lab.dragging.with(|drag| drag.as_ref().and_then(|drag| drag.message.clone()))
     });
@@ -23,11 +27,11 @@ pub fn StatusLine(
         })
     });
     view! {
-        <footer class="status" class:wrong=move || !holds.get()>
+        <footer class="status" class:wrong=move || !holds.get() class:doubtful=doubtful>
             <button class="verdict" aria-expanded=move || lab.why.get().to_string()
                 aria-controls="why" title=words::EXPLAIN
                 on:click=move |_| lab.why.update(|why| *why = !*why)>
-                {move || if holds.get() { icons::holds() } else { icons::warning() }}
+                {move || if holds.get() && !doubtful.get() { icons::holds() } else { icons::warning() }}
                 <span role="status" aria-label=words::STATUS>{sentence}</span>
             </button>
             <span class="said" aria-live="polite">{move || drag.get().or_else(|| said.get())}</span>

@@ -169,14 +169,13 @@ impl Hand {
             }
             Mode::Drag { .. } => self.drag_to(at),
             Mode::Pan { last } => {
-                self.lab.view.update(|view| *view = view.panned(at.0 - last.0, at.1 - last.1));
+                self.lab.look_at(|view| view.panned(at.0 - last.0, at.1 - last.1));
                 self.set_mode(Mode::Pan { last: at });
             }
             Mode::Pinch { middle, distance } => {
                 let Some(Mode::Pinch { middle: m, distance: d }) = self.pinch() else { return };
-                self.lab.view.update(|view| {
-                    let moved = view.panned(m.0 - middle.0, m.1 - middle.1);
-                    *view = moved.zoomed(d / distance, m);
+                self.lab.look_at(|view| {
+                    view.panned(m.0 - middle.0, m.1 - middle.1).zoomed(d / distance, m)
                 });
                 self.set_mode(Mode::Pinch { middle: m, distance: d });
             }
