@@ -161,11 +161,12 @@ export function createPainter(canvas, onSize) {
             c.textAlign = ["left", "center", "right"][list[i + 3]]
             c.fillStyle = colors[stroke]
             onScreen()
-            // A label of constant size stands beside its point, on a rim of paper.
+            // A label of constant size stands beside its point unless it is centred there, on a rim of
+            // paper.
             const label = !list[i + 5]
             const widest = label ? undefined : list[i + 5] * Math.abs(ky)
             const left = x + kx * list[i + 1] + (label ? [7, 0, -7][list[i + 3]] : 0)
-            const top = y + ky * list[i + 2] - (label ? 7 : 0)
+            const top = y + ky * list[i + 2] - (label && list[i + 3] !== 1 ? 7 : 0)
             const lines = (words[list[i]] ?? "").split("\n")
             lines.forEach((text, n) => {
               if (label) {

@@ -111,7 +111,7 @@ fn first_depth(rows: &[StructureRow]) -> u32 {
 
 /// A row's name; the document's is its title.
 fn named(row: &StructureRow, title: Option<String>) -> String {
-    if row.path.is_empty() { title.unwrap_or_default() } else { row.name.clone() }
+    if row.depth == 0 { title.unwrap_or_default() } else { row.name.clone() }
 }
 
 /// A row's detail without what its name says already.
