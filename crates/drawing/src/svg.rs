@@ -65,7 +65,7 @@ const STROKE: f64 = 1.5;
 /// ```
 pub fn write(drawing: &Drawing, options: &SvgOptions<'_>) -> String {
     let origin = Point::default();
-    let around = bounds(drawing).unwrap_or(Bounds::at(origin));
+    let around = with_labels(bounds(drawing).unwrap_or(Bounds::at(origin)), drawing, options);
     let margin = options.margin / options.pixels_per_unit;
     let top = match drawing.vertical {
         Vertical::Up => -around.most.y,
@@ -201,6 +201,29 @@ fn write_element(
             write_text(out, (&x, &y), text, *anchoring, size, &format!("{width}{look}"));
         }
     }
+}
+
+/// Widens a box by words of a constant size on the screen, as large as they are in this file.
+fn with_labels(around: Bounds, drawing: &Drawing, options: &SvgOptions<'_>) -> Bounds {
+    drawing.elements.iter().fold(around, |around, element| match &element.shape {
+        Shape::Text { at, text, anchoring, placement: Placement::OnScreen(pixels) } => {
+            let size = pixels / options.pixels_per_unit;
+            let width = metrics::text_width(text, size);
+            let left = match anchoring {
+                Anchoring::Start => 0.0,
+                Anchoring::Middle => 0.5 * width,
+                Anchoring::End => width,
+            };
+            let corner = Point { x: at.x - left, y: at.y };
+            around.with(corner).with(Point { x: corner.x + width, y: at.y })
+        }
+        Shape::Text { .. }
+        | Shape::Dot(_)
+        | Shape::Segment(..)
+        | Shape::Polyline { .. }
+        | Shape::Circle { .. }
+        | Shape::Arc { .. } => around,
+    })
 }
 
 fn write_text(
