@@ -1,0 +1,252 @@
+//! What a person does in the lab: opens a document, drags, types, undoes, saves; and that the page
+//! computes the bits that the same session computes natively.
+
+use browser::Visit;
+use fantoccini::actions::{
+    InputSource, KeyAction, KeyActions, MOUSE_BUTTON_LEFT, MouseActions, PointerAction,
+};
+use serde_json::Value;
+use session::{Command, Host, Literal, Session, parse_path};
+use std::path::{Path, PathBuf};
+use std::time::Duration;
+
+/// The page's state, as it tells it.
+async fn state(visit: &Visit) -> Value {
+    let text = visit.script("return window.__thinglab.state()").await;
+    serde_json::from_str(text.as_str().expect("the state is a text")).expect("the state is JSON")
+}
+
+/// Shows a document of the gallery and waits until it stands.
+async fn show(visit: &Visit, name: &str) -> Value {
+    visit.script(&format!("location.hash = '#/gallery/{name}'")).await;
+    let path = format!("gallery/{name}");
+    visit
+        .until(&format!(
+            "window.__thinglab && JSON.parse(window.__thinglab.state()).path === '{path}' \
+             && JSON.parse(window.__thinglab.state()).values.length > 0"
+        ))
+        .await;
+    state(visit).await
+}
+
+fn value<'s>(state: &'s Value, path: &str) -> &'s str {
+    let rows = state["values"].as_array().expect("values are a list");
+    let row = rows.iter().find(|r| r["path"] == path);
+    row.and_then(|r| r["text"].as_str()).unwrap_or_else(|| panic!("no value {path}"))
+}
+
+fn grip(state: &Value, path: &str) -> (f64, f64) {
+    let grips = state["grips"].as_array().expect("grips are a list");
+    let grip = grips.iter().find(|g| g["path"] == path).unwrap_or_else(|| panic!("no grip {path}"));
+    (grip["px"].as_f64().expect("a number"), grip["py"].as_f64().expect("a number"))
+}
+
+/// Takes a point with the mouse and puts it elsewhere, in a few steps.
+async fn drag(visit: &Visit, from: (f64, f64), by: (f64, f64)) {
+    let to = |k: f64| PointerAction::MoveTo {
+        duration: Some(Duration::from_millis(30)),
+        x: (from.0 + k * by.0).round(),
+        y: (from.1 + k * by.1).round(),
+    };
+    let mut actions = MouseActions::new("mouse".into())
+        .then(to(0.0))
+        .then(PointerAction::Down { button: MOUSE_BUTTON_LEFT });
+    for k in 1..=5 {
+        actions = actions.then(to(f64::from(k) / 5.0));
+    }
+    actions = actions
+        .then(PointerAction::Pause { duration: Duration::from_millis(60) })
+        .then(PointerAction::Up { button: MOUSE_BUTTON_LEFT });
+    visit.client.perform_actions(actions).await.expect("the mouse moves");
+}
+
+/// Presses keys while others are held.
+async fn chord(visit: &Visit, held: &[char], key: char) {
+    let mut actions = KeyActions::new("keys".into());
+    for &value in held {
+        actions = actions.then(KeyAction::Down { value });
+    }
+    actions = actions.then(KeyAction::Down { value: key }).then(KeyAction::Up { value: key });
+    for &value in held.iter().rev() {
+        actions = actions.then(KeyAction::Up { value });
+    }
+    visit.client.perform_actions(actions).await.expect("the keys are pressed");
+}
+
+const CONTROL: char = '\u{e009}';
+const END: char = '\u{e010}';
+const RIGHT: char = '\u{e014}';
+
+#[tokio::test]
+async fn a_corner_is_dragged_and_taken_back() {
+    let visit = Visit::open(None).await;
+    visit.until("document.querySelector('main')").await;
+    let before = show(&visit, "quadrilateral.thing").await;
+    assert_eq!(value(&before, "q.outer.side1.p1.x"), "174");
+    assert_eq!(before["status"]["satisfied"], true);
+    assert_eq!(before["status"]["freedom"], 8);
+
+    drag(&visit, grip(&before, "q.outer.side2.p2"), (40.0, -30.0)).await;
+    visit.until("JSON.parse(window.__thinglab.state()).status.undo !== null && !JSON.parse(window.__thinglab.state()).dragging").await;
+    let after = state(&visit).await;
+    let number = |s: &Value, path: &str| value(s, path).parse::<f64>().expect("a number");
+    let moved = number(&after, "q.outer.side2.p2.x") - 445.0;
+    assert!(moved > 1.0, "the corner went to the right: {moved}");
+    let midpoint = number(&after, "q.inner.side2.p1.x");
+    assert!((midpoint - (387.0 + moved / 2.0)).abs() < 1e-9, "the midpoint went half as far");
+    for still in ["q.outer.side1.p1.x", "q.outer.side1.p2.x", "q.inner.side1.p1.x"] {
+        assert_eq!(value(&before, still), value(&after, still), "{still} stays");
+    }
+    let text = after["text"].as_str().expect("a text");
+    assert!(text.contains("outer.side2.p2 = ("), "the corner is written: {text}");
+
+    chord(&visit, &[CONTROL], 'z').await;
+    visit.until("JSON.parse(window.__thinglab.state()).status.redo !== null").await;
+    let undone = state(&visit).await;
+    assert_eq!(undone["text"], before["text"]);
+    assert_eq!(undone["values"], before["values"]);
+}
+
+#[tokio::test]
+async fn the_picture_is_painted_where_the_view_says() {
+    let visit = Visit::open(None).await;
+    visit.until("document.querySelector('main')").await;
+    let state = show(&visit, "voltage-divider.thing").await;
+    for path in ["r1.b.node.at", "meter.a.node.at"] {
+        let grips = state["grips"].as_array().expect("grips are a list");
+        let same = |p: &Value| p["path"].as_str().is_some_and(|q| q == path);
+        let Some(grip) = grips.iter().find(|g| same(g)) else { continue };
+        let probe = format!(
+            "const canvas = document.getElementById('picture');
+             const box = canvas.getBoundingClientRect();
+             const k = canvas.width / box.width;
+             const at = (x, y) => Array.from(canvas.getContext('2d')
+                 .getImageData(Math.round((x - box.left) * k), Math.round((y - box.top) * k), 1, 1).data);
+             return [at({x}, {y}), at({x} + 25, {y} + 37)]",
+            x = grip["px"],
+            y = grip["py"],
+        );
+        visit.until("document.getElementById('picture').width > 10").await;
+        tokio::time::sleep(Duration::from_millis(300)).await;
+        let colors = visit.script(&probe).await;
+        assert_ne!(colors[0], colors[1], "a point is painted at {path}");
+    }
+}
+
+#[tokio::test]
+async fn the_text_is_edited_and_a_wrong_line_keeps_what_was() {
+    let visit = Visit::open(None).await;
+    visit.until("document.querySelector('main')").await;
+    let before = show(&visit, "temperature.thing").await;
+    assert_eq!(value(&before, "fahrenheit.node.number"), "162.5");
+    visit.until("document.querySelector('.cm-content')").await;
+    let content = fantoccini::Locator::Css(".cm-content");
+    visit.client.find(content).await.expect("the editor").click().await.expect("a click");
+    chord(&visit, &[CONTROL], END).await;
+    let editor = visit.client.find(content).await.expect("the editor");
+    editor.send_keys("extra: Real = 7\n").await.expect("typing");
+    visit
+        .until("JSON.parse(window.__thinglab.state()).values.some(v => v.path === 'extra' && v.text === '7')")
+        .await;
+    editor.send_keys("broken: Real = \n").await.expect("typing");
+    visit.until("JSON.parse(window.__thinglab.state()).diagnostics.length > 0").await;
+    visit.until("document.querySelector('.cm-lintRange-error, .cm-lintPoint-error')").await;
+    let wrong = state(&visit).await;
+    assert_eq!(value(&wrong, "fahrenheit.node.number"), "162.5");
+    assert_eq!(value(&wrong, "extra"), "7");
+    assert!(wrong["text"].as_str().is_some_and(|t| t.contains("broken: Real =")));
+}
+
+#[tokio::test]
+async fn a_save_changes_only_what_was_changed() {
+    let visit = Visit::open(None).await;
+    visit.until("document.querySelector('main')").await;
+    let before = visit.saved("square-root.thing");
+    let opened = show(&visit, "square-root.thing").await;
+    drag(&visit, grip(&opened, "times.result.at"), (-30.0, 10.0)).await;
+    visit.until("JSON.parse(window.__thinglab.state()).dirty").await;
+    chord(&visit, &[CONTROL], 's').await;
+    visit.until("!JSON.parse(window.__thinglab.state()).dirty").await;
+    let after = visit.saved("square-root.thing");
+    let lines: Vec<(&str, &str)> =
+        before.lines().zip(after.lines()).filter(|(a, b)| a != b).collect();
+    assert_eq!(before.lines().count(), after.lines().count());
+    assert_eq!(lines.len(), 1, "one line differs: {lines:?}");
+    assert!(lines[0].0.contains("result.at = (382, 159)"), "{lines:?}");
+}
+
+struct Library(PathBuf);
+
+impl Host for Library {
+    fn read(&self, name: &str) -> Option<String> {
+        std::fs::read_to_string(self.0.join("library").join(name).with_extension("thing")).ok()
+    }
+}
+
+/// Every number that the values view shows, by its bits.
+fn bits_of_page(state: &Value) -> Vec<(String, u64)> {
+    let rows = state["values"].as_array().expect("values are a list");
+    let bits = |r: &Value| Some((r["path"].as_str()?.to_string(), r["number"].as_f64()?.to_bits()));
+    rows.iter().filter_map(bits).collect()
+}
+
+fn bits_of_session(session: &Session, id: session::DocumentId) -> Vec<(String, u64)> {
+    let rows = session.values(id).into_iter();
+    rows.filter_map(|r| Some((r.path, r.number?.to_bits()))).collect()
+}
+
+#[tokio::test]
+async fn the_page_and_the_native_session_give_the_same_bits() {
+    let top = Path::new(env!("CARGO_MANIFEST_DIR")).join("../..");
+    let mut names: Vec<String> = std::fs::read_dir(top.join("gallery"))
+        .expect("there is a gallery")
+        .map(|e| e.expect("an entry").file_name().to_string_lossy().into_owned())
+        .collect();
+    names.sort();
+    assert!(names.len() >= 9);
+    let visit = Visit::open(None).await;
+    visit.until("document.querySelector('main')").await;
+    for name in names {
+        let text = std::fs::read_to_string(top.join("gallery").join(&name)).expect("a document");
+        let mut native = Session::new(Box::new(Library(top.clone())));
+        let id = native.open(&name, &text);
+        let opened = show(&visit, &name).await;
+        assert_eq!(bits_of_page(&opened), bits_of_session(&native, id), "{name} as it opens");
+
+        // Three steps to the right with the arrow key, of the first point that there is.
+        let grips = native.picture(id).grips;
+        let Some(grip) = grips.iter().find(|g| !g.anchored) else { continue };
+        visit.script("document.getElementById('picture').focus()").await;
+        let at = opened["grips"]
+            .as_array()
+            .expect("a list")
+            .iter()
+            .find(|g| g["path"] == grip.path.as_str());
+        if at.is_none() {
+            continue;
+        }
+        let (x, y) = self::grip(&opened, &grip.path);
+        drag(&visit, (x, y), (0.0, 0.0)).await;
+        visit.script("document.getElementById('picture').focus()").await;
+        for _ in 0..3 {
+            chord(&visit, &[], RIGHT).await;
+        }
+        let path = parse_path(&grip.path).expect("a path");
+        for _ in 0..3 {
+            let now = native.picture(id).grips.into_iter().find(|g| g.path == grip.path);
+            let now = now.expect("the grip is still there");
+            let to = Literal::Tuple(vec![Literal::Number(now.x + 1.0), Literal::Number(now.y)]);
+            let _ = native.apply(id, &Command::Move(vec![(path.clone(), to)]));
+        }
+        let expected = bits_of_session(&native, id);
+        let mut page = bits_of_page(&state(&visit).await);
+        for _ in 0..50 {
+            if page == expected {
+                break;
+            }
+            tokio::time::sleep(Duration::from_millis(50)).await;
+            page = bits_of_page(&state(&visit).await);
+        }
+        assert_eq!(page, expected, "{name} after three steps to the right of {}", grip.path);
+    }
+}
