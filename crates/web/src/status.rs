@@ -52,7 +52,13 @@ pub fn Refused(
         })
     });
     let shown = move |refusal: Refusal| {
-        let diagnostics = refusal.diagnostics.into_iter().map(|d| view! { <p>{d.message}</p> });
+        let mut sentences: Vec<String> = Vec::new();
+        for sentence in refusal.diagnostics.into_iter().map(|d| d.message) {
+            if sentence != refusal.message && !sentences.contains(&sentence) {
+                sentences.push(sentence);
+            }
+        }
+        let diagnostics = sentences.into_iter().map(|sentence| view! { <p>{sentence}</p> });
         view! {
             <div class="notice refused" role="alert">
                 <div class="words">
