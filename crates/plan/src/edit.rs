@@ -50,6 +50,8 @@ pub struct EditReport {
     pub conflicts: Vec<Conflict>,
     /// True if every target has the value that was wanted.
     pub reached: bool,
+    /// Slots where two solutions coincide: their values are known to half the digits only.
+    pub double_roots: Vec<SlotId>,
 }
 
 /// Why an edit changed nothing.
@@ -228,6 +230,7 @@ impl Planner {
 /// Adds what came of one component.
 pub(crate) fn note(report: &mut EditReport, ran: Ran) {
     report.conflicts.extend(ran.conflicts);
+    report.double_roots.extend(ran.double_roots);
     if report.refusal.is_none() {
         report.refusal = ran.failure.map(RefusalReason::Method);
     }

@@ -15,6 +15,8 @@ use std::collections::BTreeSet;
 pub(crate) struct Ran {
     pub(crate) conflicts: Vec<Conflict>,
     pub(crate) failure: Option<Failure>,
+    /// Slots where two solutions coincide.
+    pub(crate) double_roots: Vec<SlotId>,
 }
 
 /// Runs a task of an edit.
@@ -83,7 +85,10 @@ pub(crate) fn ran(planner: &Planner, task: &Task, outcome: &Outcome) -> Ran {
             None
         }
     };
-    Ran { conflicts, failure }
+    let double_roots = outcome.notes.iter().filter_map(|n| match n {
+        solve::Note::DoubleRoot { slot } => task.component.slots.get(*slot as usize).copied(),
+    });
+    Ran { conflicts, failure, double_roots: double_roots.collect() }
 }
 
 /// The host as the solver sees it: relations by number, texts kept aside.
