@@ -4,7 +4,7 @@
 //! document. Its statements are lowered as if they stood at the end of that copy.
 
 use crate::lower::{Lowerer, OWN};
-use crate::members::loose_path;
+use crate::paths::loose_path;
 use crate::scope::Scope;
 use base::Span;
 use kernel::{Command, Path, Term};
@@ -119,8 +119,7 @@ fn class_of_check(l: &mut Lowerer<'_>, own: &[Member]) -> kernel::ClassId {
         return root;
     }
     let origin = l.document.classes[root].origin;
-    let class = l.add_class("", kernel::ClassKind::Composite, &[root], origin);
-    l.names.remove("");
+    let class = l.add_unnamed_class("", root, origin);
     l.declare_body(&Scope::of(OWN, class), own.to_vec());
     l.define_members();
     class

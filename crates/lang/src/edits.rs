@@ -1,7 +1,7 @@
 //! Commands that change structure, as the smallest edits of the text.
 
 use crate::lower::{Lowered, OWN};
-use crate::members::loose_path;
+use crate::paths::loose_path;
 use crate::write::in_text;
 use base::{Diagnostic, Place, Span};
 use kernel::{Command, Path, Step, Structure};

@@ -1,12 +1,15 @@
 //! Kinds: what an expression is worth, as far as the text alone tells.
 
+use crate::names::class_of_part;
+use crate::numbers::from_bare;
 use expr::dimension::Dimension;
-use kernel::{ClassId, ClassKind, Document, Primitive};
+use kernel::builtin::Kind as Builtin;
+use kernel::{BinaryOperator, ClassId, ClassKind, Document, Primitive, Term};
 
 /// What an expression is worth. `Unknown` never complains.
 #[derive(Clone, PartialEq, Debug)]
 pub(crate) enum Kind {
-    /// A number; without a dimension it takes the one that the context wants.
+    /// A number; without a dimension it is made of bare numbers, and takes the one that is wanted.
     Number(Option<Dimension>),
     /// A truth value.
     Bool,
@@ -17,7 +20,7 @@ pub(crate) enum Kind {
     /// A list or set.
     List(Box<Kind>),
     /// `(a, b)`: a thing of whatever class the context wants.
-    Tuple,
+    Tuple(Vec<Kind>),
     /// A picture.
     Picture,
     /// A function.
@@ -28,6 +31,7 @@ pub(crate) enum Kind {
 
 impl Kind {
     pub(crate) const PLAIN: Self = Self::Number(Some(Dimension::NONE));
+    pub(crate) const LENGTH: Self = Self::Number(Some(Dimension::LENGTH));
 
     /// Returns what things of a class are worth.
     pub(crate) fn of_class(document: &Document, class: ClassId) -> Self {
@@ -49,15 +53,16 @@ impl Kind {
         match self {
             Self::Number(None) => "a number".into(),
             Self::Number(Some(d)) if d.is_none() => "a plain number".into(),
-            Self::Number(Some(d)) => match d.named() {
-                Some(name) => format!("{name} ({d})"),
-                None => format!("{d}"),
-            },
+            Self::Number(Some(d)) => dimension_in_words(*d),
             Self::Bool => "a truth value".into(),
             Self::Text => "a text".into(),
             Self::Thing(class) => format!("a {}", document.classes[*class].name),
-            Self::List(_) => "a list".into(),
-            Self::Tuple => "a tuple".into(),
+            Self::List(element) if **element == Self::Unknown => "a list".into(),
+            Self::List(element) => format!("a list, each element {}", element.words(document)),
+            Self::Tuple(items) => {
+                let items: Vec<String> = items.iter().map(|i| i.words(document)).collect();
+                format!("({})", items.join(", "))
+            }
             Self::Picture => "a picture".into(),
             Self::Function => "a function".into(),
             Self::Unknown => "something".into(),
@@ -65,15 +70,131 @@ impl Kind {
     }
 
     /// Returns true if a value of this kind can stand where `wanted` is.
-    pub(crate) fn fits(&self, wanted: &Self) -> bool {
+    pub(crate) fn fits(&self, wanted: &Self, document: &Document) -> bool {
         match (self, wanted) {
             (Self::Unknown, _) | (_, Self::Unknown) => true,
             (Self::Number(a), Self::Number(b)) => a.is_none() || b.is_none() || a == b,
-            (Self::Tuple, Self::Thing(_) | Self::List(_) | Self::Tuple) => true,
-            (Self::Thing(_), Self::Thing(_) | Self::Tuple) => true,
-            (Self::List(a), Self::List(b)) => a.fits(b),
-            (Self::List(_), Self::Tuple) => true,
+            (Self::Tuple(items), Self::Thing(class)) | (Self::Thing(class), Self::Tuple(items)) => {
+                let fields = fields(document, *class);
+                fields.len() == items.len()
+                    && items.iter().zip(&fields).all(|(item, field)| item.fits(field, document))
+            }
+            (Self::Tuple(a), Self::Tuple(b)) => {
+                a.len() == b.len() && a.iter().zip(b).all(|(a, b)| a.fits(b, document))
+            }
+            (Self::Tuple(items), Self::List(element))
+            | (Self::List(element), Self::Tuple(items)) => {
+                items.iter().all(|item| item.fits(element, document))
+            }
+            (Self::Thing(a), Self::Thing(b)) => are_alike(document, *a, *b),
+            (Self::List(a), Self::List(b)) => a.fits(b, document),
             _ => self == wanted,
         }
+    }
+
+    /// Returns what is known of two values that fit: of bare numbers, what the other measures.
+    pub(crate) fn joined(self, other: Self) -> Self {
+        match self {
+            Self::Number(None) | Self::Unknown => other,
+            known => known,
+        }
+    }
+
+    /// Returns true if a value can be what a function of the language wants.
+    pub(crate) fn is(&self, wanted: Builtin, first: &Self, document: &Document) -> bool {
+        match (wanted, self) {
+            (_, Self::Unknown) | (Builtin::Any | Builtin::Element | Builtin::Answer, _) => true,
+            (Builtin::Plain, _) => self.fits(&Self::PLAIN, document),
+            (Builtin::Number | Builtin::Root, _) => matches!(self, Self::Number(_)),
+            (Builtin::Same, _) => matches!(self, Self::Number(_)) && self.fits(first, document),
+            (Builtin::Length, _) => self.fits(&Self::LENGTH, document),
+            (Builtin::Bool, _) => *self == Self::Bool,
+            (Builtin::Text | Builtin::Color, _) => *self == Self::Text,
+            (Builtin::Place, Self::Thing(class)) => ["x", "y"].iter().all(|name| {
+                let part = class_of_part(document, *class, name);
+                part.is_some() || document.find_message(*class, name, None).is_some()
+            }),
+            (Builtin::Place, Self::Tuple(items)) => {
+                items.len() >= 2 && items.iter().all(|i| i.fits(&Self::LENGTH, document))
+            }
+            (Builtin::Place, _) => false,
+            (Builtin::List, _) => matches!(self, Self::List(_) | Self::Tuple(_)),
+            (Builtin::Numbers, Self::List(element)) => element.is(Builtin::Same, first, document),
+            (Builtin::Numbers, _) => self.is(Builtin::Same, first, document),
+            (Builtin::Function, _) => *self == Self::Function,
+            (Builtin::Picture, _) => *self == Self::Picture,
+        }
+    }
+}
+
+/// Returns what a function of the language wants, in words.
+pub(crate) fn wanted_in_words(wanted: Builtin, first: &Kind, document: &Document) -> String {
+    match wanted {
+        Builtin::Plain => "a plain number".into(),
+        Builtin::Number | Builtin::Root => "a number".into(),
+        Builtin::Same | Builtin::Numbers => first.words(document),
+        Builtin::Length => dimension_in_words(Dimension::LENGTH),
+        Builtin::Bool => "a truth value".into(),
+        Builtin::Text => "a text".into(),
+        Builtin::Color => "a colour, a text".into(),
+        Builtin::Place => "a place, (x, y)".into(),
+        Builtin::List => "a list".into(),
+        Builtin::Function => "a function, `x => …`".into(),
+        Builtin::Picture => "a picture".into(),
+        Builtin::Element | Builtin::Answer | Builtin::Any => "something".into(),
+    }
+}
+
+/// Says what a dimension is: its name with its unit, or the base units alone.
+pub(crate) fn dimension_in_words(dimension: Dimension) -> String {
+    let unit = expr::units::preferred(dimension);
+    let unit = unit.map_or_else(|| dimension.to_string(), str::to_string);
+    match dimension.named() {
+        Some(name) => format!("{name} ({unit})"),
+        None => unit,
+    }
+}
+
+/// Returns what the parts of a class's things are worth.
+pub(crate) fn fields(document: &Document, class: ClassId) -> Vec<Kind> {
+    let layout = document.layout(class);
+    layout.iter().map(|&f| Kind::of_class(document, document.field_class(f))).collect()
+}
+
+/// Returns true if things of two classes can be compared: they have parts from a common ancestor.
+fn are_alike(document: &Document, a: ClassId, b: ClassId) -> bool {
+    let above = document.lineage(b);
+    let shares = |&c: &ClassId| above.contains(&c) && !document.layout(c).is_empty();
+    above.contains(&a) || document.is_a(a, b) || document.lineage(a).iter().any(shares)
+}
+
+/// Gives the bare numbers of a value the dimension that is wanted of it.
+pub(crate) fn measured(document: &Document, term: Term, kind: &Kind, wanted: &Kind) -> Term {
+    match (term, kind, wanted) {
+        (Term::Number { value, bare, .. }, Kind::Number(None), Kind::Number(Some(d))) => {
+            Term::Number { value: from_bare(document, value, *d), dimension: *d, bare }
+        }
+        (term, Kind::Number(None), Kind::Number(Some(d))) => {
+            let scale = from_bare(document, 1.0, *d);
+            if scale == 1.0 {
+                return term;
+            }
+            let unit = Term::Number { value: scale, dimension: *d, bare: false };
+            Term::Binary(BinaryOperator::Multiply, Box::new(term), Box::new(unit))
+        }
+        (Term::Tuple(items), Kind::Tuple(kinds), Kind::Thing(class)) => {
+            let fields = fields(document, *class);
+            let each = items.into_iter().zip(kinds).enumerate();
+            let measure = |(i, (item, kind)): (usize, (Term, &Kind))| match fields.get(i) {
+                Some(field) => measured(document, item, kind, field),
+                None => item,
+            };
+            Term::Tuple(each.map(measure).collect())
+        }
+        (Term::List(items), Kind::List(kind), Kind::List(wanted)) => {
+            let measure = |item| measured(document, item, kind, wanted);
+            Term::List(items.into_iter().map(measure).collect())
+        }
+        (term, _, _) => term,
     }
 }

@@ -7,23 +7,31 @@
 //! **Invariants**: lowering never fails; a member with an error is left out, or what it said before
 //! stays in force; reading a number that was written gives its bits.
 //!
-//! Reading order: `origins`, `lower`, `scope`, `members`, `terms`, `kinds`, `checks`, `numbers`,
-//! `write`, `edits`.
+//! Reading order: `origins`, `lower`, `files`, `classes`, `scope`, `members`, `rules`, `names`,
+//! `paths`, `terms`, `calls`, `kinds`, `settle`, `restore`, `checks`, `numbers`, `write`, `edits`.
+mod calls;
 mod checks;
+mod classes;
 mod edits;
+mod files;
 mod kinds;
 mod lower;
 mod members;
+mod names;
 mod numbers;
 mod origins;
+mod paths;
 mod restore;
+mod rules;
 mod scope;
+mod settle;
 mod terms;
 mod write;
 
 pub use checks::{Check, Expectation, PlanKind, Statement, StatementKind};
 pub use edits::edits_for;
-pub use lower::{File, Lowered, lower};
+pub use files::File;
+pub use lower::{Lowered, lower};
 pub use numbers::{Wanted, read_literal, show_number};
 pub use origins::Origins;
 pub use write::write_values;

@@ -4,14 +4,11 @@ use crate::kinds::Kind;
 use crate::lower::{Lowerer, OWN};
 use crate::scope::Scope;
 use base::{Diagnostic, FileId, Name, Place, Span};
-use kernel::{
-    ClassId, ClassKind, Constraint, Count, Given, Insert, Merge, Message, Method, OriginId,
-    Parameter, Part, Path, Stay, Step, Strength, Term,
-};
-use syntax::ast::{self, AstNode, Expr, Member, MethodItem, Rule, TypeShape, span_without_doc};
+use kernel::{ClassId, Message, OriginId, Parameter, Part, Step, Term};
+use syntax::ast::{self, AstNode, Expr, Member, span_without_doc};
 
-/// How many members a `for` may come to.
-const MOST_MEMBERS: i64 = 100_000;
+/// How many members all `for` of a document may come to.
+const MOST_MEMBERS: usize = 100_000;
 
 /// A member whose expressions are still to be lowered.
 #[derive(Clone, Debug)]
@@ -88,7 +85,6 @@ impl Lowerer<'_> {
     }
 
     fn unroll(&mut self, scope: &Scope, each: &ast::For) {
-        let span = span_without_doc(each.syntax());
         let names: Vec<_> = each.names().collect();
         let Some(range) = each.range() else { return };
         let bounds = self.constant_range(scope, &range);
@@ -99,13 +95,18 @@ impl Lowerer<'_> {
                 "`for` over anything but a range of constants is",
             );
         };
-        if to.saturating_sub(from) >= MOST_MEMBERS {
-            let message = format!("{from}..{to} would be more than {MOST_MEMBERS} members");
-            return self.error("too-many-members", scope.file, span, message);
-        }
+        let members: Vec<Member> = each.body().into_iter().flat_map(|b| b.members()).collect();
         for i in from..=to {
-            let members = each.body().into_iter().flat_map(|b| b.members()).collect();
-            self.declare_body(&scope.with_constant(name.name(), i), members);
+            let was = self.unrolled;
+            self.unrolled += members.len().max(1);
+            if was > MOST_MEMBERS {
+                return;
+            }
+            if self.unrolled > MOST_MEMBERS {
+                let message = format!("`for` makes more than {MOST_MEMBERS} members here");
+                return self.error("too-many-members", scope.file, range.span(), message);
+            }
+            self.declare_body(&scope.with_constant(name.name(), i), members.clone());
         }
     }
 
@@ -117,8 +118,7 @@ impl Lowerer<'_> {
 
     /// Returns the whole number that an expression of constants is.
     pub(crate) fn constant(&mut self, scope: &Scope, expr: &Expr) -> Option<i64> {
-        let x =
-            crate::numbers::constant(&|name| scope.constants.get(name).map(|&i| i as f64), expr)?;
+        let x = crate::numbers::constant(&|name| scope.constant(name), expr)?;
         (x.fract() == 0.0 && x.abs() < 9e15).then_some(x as i64)
     }
 
@@ -149,7 +149,8 @@ impl Lowerer<'_> {
             let class = self.class_for_body(scope, &name, class, part.body(), origin);
             let doc = part.doc().unwrap_or_default();
             let declared = Part { name: name.clone(), doc, class, count, range, origin };
-            self.document.classes[scope.class()].parts.push(declared);
+            let place = Place { file: scope.file, span: word.span() };
+            self.add_part(place, scope.class(), declared);
             if let Some(value) = part.value().and_then(ast::Value::expr) {
                 let prefix = vec![Step::Part(name)];
                 let pending = Pending::Value { scope: scope.clone(), prefix, target: None, value };
@@ -158,19 +159,24 @@ impl Lowerer<'_> {
         }
     }
 
-    /// Returns true if no part, message or superclass part of the class is called this.
+    /// Adds a part to a class.
+    pub(crate) fn add_part(&mut self, place: Place, class: ClassId, part: Part) {
+        let key = (class, part.name.clone());
+        let parts = &mut self.document.classes[class].parts;
+        self.parts.insert(key.clone(), parts.len());
+        self.named_at.insert(key, place);
+        parts.push(part);
+    }
+
+    /// Returns true if the class itself has no part or message of this name yet; else it is reported.
     fn is_new(&mut self, scope: &Scope, word: &ast::Word) -> bool {
-        let (class, name) = (scope.class(), word.name());
-        let c = &self.document.classes[class];
-        let own =
-            c.parts.iter().any(|p| p.name == name) || c.messages.iter().any(|m| m.name == name);
-        let layout = || self.document.layout(class);
-        let inherited = layout().iter().any(|&f| *self.document.field_name(f) == name);
-        if own || inherited {
-            let message = format!("there is a part {name} already");
-            self.error("duplicate-name", scope.file, word.span(), message);
-        }
-        !(own || inherited)
+        let key = (scope.class(), word.name());
+        let Some(&before) = self.named_at.get(&key) else { return true };
+        let message = format!("there is a part or message {} already", word.text());
+        let place = Place { file: scope.file, span: word.span() };
+        let d = Diagnostic::error("duplicate-name", place, message);
+        self.report(d.label(before, "here").hint("give one of them another name"));
+        false
     }
 
     /// Returns the class of a part with a body: its class, or a class of one.
@@ -197,11 +203,7 @@ impl Lowerer<'_> {
             "" => name.to_string(),
             owner => format!("{owner}.{name}"),
         };
-        let one = self.document.classes.next_id();
-        self.add_class(&label, ClassKind::Composite, &[class], origin);
-        if self.names.get(label.as_str()) == Some(&one) {
-            self.names.remove(label.as_str());
-        }
+        let one = self.add_unnamed_class(&label, class, origin);
         self.classes_of_one.insert(one);
         self.declare_body(&scope.inside(one), members);
         one
@@ -210,12 +212,7 @@ impl Lowerer<'_> {
     fn declare_virtual(&mut self, scope: &Scope, part: &ast::Part, ty: &ast::Type, answer: &Expr) {
         let class = self.class_of_type(scope.file, ty);
         for word in part.names() {
-            let c = &self.document.classes[scope.class()];
-            if c.parts.iter().any(|p| p.name == word.name())
-                || c.messages.iter().any(|m| m.name == word.name())
-            {
-                let message = format!("there is a part {} already", word.text());
-                self.error("duplicate-name", scope.file, word.span(), message);
+            if !self.is_new(scope, &word) {
                 continue;
             }
             let doc = part.doc().unwrap_or_default();
@@ -224,18 +221,23 @@ impl Lowerer<'_> {
                 let kind = Kind::of_class(&self.document, class);
                 self.message_kinds.insert((scope.class(), word.name()), Some(kind));
             }
-            self.add_message(scope, word.name(), doc, Vec::new(), answer, (false, false), origin);
+            let message = Message {
+                name: word.name(),
+                doc,
+                parameters: Vec::new(),
+                answer: Term::Me,
+                is_default: false,
+                is_combining: false,
+                origin,
+            };
+            self.add_message(scope, &word, answer, message);
         }
     }
 
     fn declare_message(&mut self, scope: &Scope, message: &ast::Message) {
         let (Some(name), Some(answer)) = (message.name(), message.definition()) else { return };
-        let c = &self.document.classes[scope.class()];
-        if c.messages.iter().any(|m| m.name == name.name())
-            || c.parts.iter().any(|p| p.name == name.name())
-        {
-            let said = format!("there is a part or message {} already", name.text());
-            return self.error("duplicate-name", scope.file, name.span(), said);
+        if !self.is_new(scope, &name) {
+            return;
         }
         let mut parameters = Vec::new();
         let mut inner = scope.clone();
@@ -246,294 +248,34 @@ impl Lowerer<'_> {
             inner = inner.with_local(name.name(), kind);
             parameters.push(Parameter { label: label.name(), name: name.name(), class });
         }
-        let above = self.document.find_message(scope.class(), name.text(), None);
-        if let Some((_, inherited)) = above.filter(|(_, m)| m.parameters.len() != parameters.len())
-        {
-            let n = inherited.parameters.len();
-            let said = format!(
-                "{} has {n} parameters where it is inherited from, here {}",
-                name.text(),
-                parameters.len()
-            );
-            self.error("override-signature", scope.file, name.span(), said);
+        if let Some(class) = message.class().and_then(|ty| self.class_of_type(scope.file, &ty)) {
+            let kind = Kind::of_class(&self.document, class);
+            self.message_kinds.insert((scope.class(), name.name()), Some(kind));
         }
         let origin = self.origin(scope.file, span_without_doc(message.syntax()));
         let doc = message.doc().unwrap_or_default();
-        let how = (message.is_default(), message.is_combining());
-        self.add_message(&inner, name.name(), doc, parameters, &answer, how, origin);
-    }
-
-    fn add_message(
-        &mut self,
-        scope: &Scope,
-        name: Name,
-        doc: String,
-        parameters: Vec<Parameter>,
-        answer: &Expr,
-        (is_default, is_combining): (bool, bool),
-        origin: OriginId,
-    ) {
-        let class = scope.class();
-        let index = self.document.classes[class].messages.len();
-        self.definitions.insert((class, name.clone()), (answer.clone(), scope.clone()));
-        self.document.classes[class].messages.push(Message {
-            name,
+        let declared = Message {
+            name: name.name(),
             doc,
             parameters,
             answer: Term::Me,
-            is_default,
-            is_combining,
+            is_default: message.is_default(),
+            is_combining: message.is_combining(),
             origin,
-        });
+        };
+        self.add_message(&inner, &name, &answer, declared);
+    }
+
+    /// Adds a message to the class of the scope; its answer waits until all parts are declared.
+    fn add_message(&mut self, scope: &Scope, word: &ast::Word, answer: &Expr, message: Message) {
+        let class = scope.class();
+        let key = (class, message.name.clone());
+        self.named_at.insert(key.clone(), Place { file: scope.file, span: word.span() });
+        self.definitions.insert(key, (answer.clone(), scope.clone()));
+        let index = self.document.classes[class].messages.len();
+        self.document.classes[class].messages.push(message);
         let (scope, answer) = (scope.clone(), answer.clone());
         self.pending.push(Pending::Answer { scope, index, answer });
-    }
-
-    /// Returns the class that a type names; reports what it does not find.
-    pub(crate) fn class_of_type(&mut self, file: FileId, ty: &ast::Type) -> Option<ClassId> {
-        match ty.shape() {
-            TypeShape::Named(words) => {
-                let word = words.last()?;
-                let found = self.names.get(word.text()).copied();
-                if found.is_none() {
-                    let message = format!("there is no class {}", word.text());
-                    let place = Place { file, span: word.span() };
-                    let mut d = Diagnostic::error("unknown-class", place, message);
-                    let names = self.names.keys().map(Name::as_str);
-                    if let Some(near) = base::diagnostic::nearest(word.text(), names) {
-                        d = d.hint(format!("did you mean `{near}`?"));
-                    } else {
-                        d = d.hint("declare it, or `use` the library that has it");
-                    }
-                    self.report(d);
-                }
-                found
-            }
-            TypeShape::List { element, .. } => {
-                let element = self.class_of_type(file, &element?)?;
-                Some(self.class_made_of("List of", ClassKind::List(element), element))
-            }
-            TypeShape::Set(element) => {
-                let element = self.class_of_type(file, &element?)?;
-                Some(self.class_made_of("Set of", ClassKind::Set(element), element))
-            }
-            TypeShape::Path(_) => {
-                self.not_yet(file, ty.span(), "parts that name another part are");
-                None
-            }
-            TypeShape::Placed(_) => {
-                self.not_yet(file, ty.span(), "placed instances are");
-                None
-            }
-        }
-    }
-
-    fn class_made_of(&mut self, word: &str, kind: ClassKind, element: ClassId) -> ClassId {
-        let name = format!("{word} {}", self.document.classes[element].name);
-        let known = self.document.classes.iter().find(|(_, c)| c.kind == kind).map(|(id, _)| id);
-        known.unwrap_or_else(|| {
-            let object = self.object;
-            let origin = self.document.classes[object].origin;
-            self.add_class(&name, kind, &[object], origin)
-        })
-    }
-
-    fn declared_count(&mut self, scope: &Scope, ty: &ast::Type) -> Option<Count> {
-        let TypeShape::List { count, .. } = ty.shape() else { return None };
-        let Some(count) = count else { return Some(Count::Given) };
-        match self.constant(scope, &count).and_then(|n| u32::try_from(n).ok()) {
-            Some(n) => Some(Count::Fixed(n)),
-            None => {
-                self.not_yet(scope.file, count.span(), "a count that is no constant is");
-                Some(Count::Fixed(0))
-            }
-        }
-    }
-
-    /// Lowers every expression that waits.
-    pub(crate) fn define_members(&mut self) {
-        for pending in std::mem::take(&mut self.pending) {
-            match pending {
-                Pending::Member(scope, member) => self.define(&scope, &member),
-                Pending::Value { scope, prefix, target, value } => {
-                    self.define_value(&scope, prefix, target.as_ref(), &value);
-                }
-                Pending::Answer { scope, index, answer } => {
-                    if let Some((term, _)) = self.expr(&scope, &answer) {
-                        self.document.classes[scope.class()].messages[index].answer = term;
-                    }
-                }
-            }
-        }
-    }
-
-    fn define_value(
-        &mut self,
-        scope: &Scope,
-        prefix: Vec<Step>,
-        target: Option<&Expr>,
-        value: &Expr,
-    ) {
-        let mut path = Path(prefix);
-        let mut class = self.class_at(scope.class(), &path);
-        if let Some(target) = target {
-            let inside = match class {
-                Some(c) if !path.is_empty() => scope.inside(c),
-                _ => scope.clone(),
-            };
-            let Some((rest, kind)) = self.path(&inside, target) else { return };
-            path = path.join(&rest);
-            class = kind;
-        }
-        let Some((term, kind)) = self.expr(scope, value) else { return };
-        let wanted = class.map_or(Kind::Unknown, |c| Kind::of_class(&self.document, c));
-        if !kind.fits(&wanted) {
-            let message = format!(
-                "{path} is {}, and is given {}",
-                wanted.words(&self.document),
-                kind.words(&self.document)
-            );
-            let both_numbers = matches!((&kind, &wanted), (Kind::Number(_), Kind::Number(_)));
-            let code = if both_numbers { "dimension-mismatch" } else { "value-of-wrong-class" };
-            return self.error(code, scope.file, value.span(), message);
-        }
-        let origin = self.origin(scope.file, value.span());
-        self.document.classes[scope.class()].givens.push(Given { path, value: term, origin });
-    }
-
-    fn define(&mut self, scope: &Scope, member: &Member) {
-        let origin = self.origin(scope.file, span_without_doc(member.syntax()));
-        let class = scope.class();
-        match member {
-            Member::Constraint(c) => self.define_constraint(scope, c, origin),
-            Member::Merge(merge) => {
-                let paths = self.paths(scope, merge.paths());
-                let name = merge.name().map(|w| w.name());
-                if paths.len() > 1 {
-                    self.document.classes[class].merges.push(Merge { name, paths, origin });
-                }
-            }
-            Member::Stay(stay) => {
-                let strength = stay.strength().map_or(Strength::Weak, strength);
-                for path in self.paths(scope, stay.paths()) {
-                    let stay = Stay { path, strength: Some(strength), origin };
-                    self.document.classes[class].stays.push(stay);
-                }
-            }
-            Member::Anchor(anchor) => {
-                for path in self.paths(scope, anchor.paths()) {
-                    self.document.classes[class].stays.push(Stay { path, strength: None, origin });
-                }
-            }
-            Member::Insert(insert) => {
-                let part = insert.part().and_then(|p| self.path(scope, &p));
-                let set = insert.set().and_then(|p| self.path(scope, &p));
-                if let (Some((part, _)), Some((set, _))) = (part, set) {
-                    self.document.classes[class].inserts.push(Insert { part, set, origin });
-                }
-            }
-            Member::Without(without) => {
-                for path in without.paths() {
-                    if let Some(path) = loose_path(&path) {
-                        self.document.classes[class].without.push(path);
-                    }
-                }
-            }
-            Member::Attachers(attachers) => {
-                let paths = self.paths(scope, attachers.paths());
-                self.document.classes[class].attachers.extend(paths);
-            }
-            _ => {}
-        }
-    }
-
-    fn paths(&mut self, scope: &Scope, exprs: impl Iterator<Item = Expr>) -> Vec<Path> {
-        exprs.filter_map(|e| self.path(scope, &e)).map(|(path, _)| path).collect()
-    }
-
-    fn define_constraint(&mut self, scope: &Scope, c: &ast::Constraint, origin: OriginId) {
-        let rule = match c.rule() {
-            Some(Rule::Holds(rule)) => rule,
-            Some(Rule::If(rule)) => {
-                let first = rule.span();
-                return self.not_yet(scope.file, first, "constraints under a condition are");
-            }
-            None => return,
-        };
-        let Some((term, kind)) = self.expr(scope, &rule) else { return };
-        if !kind.fits(&Kind::Bool) {
-            let message =
-                format!("a rule is true or false, this is {}", kind.words(&self.document));
-            let place = Place { file: scope.file, span: rule.span() };
-            let d = Diagnostic::error("not-a-rule", place, message);
-            return self.report(d.hint("write an equation, `a = b`"));
-        }
-        let within = c.tolerance().and_then(|t| self.expr(scope, &t)).map(|(t, _)| t);
-        let (mut methods, mut reads, mut derived, mut whole) = (Vec::new(), Vec::new(), true, true);
-        for item in c.methods().into_iter().flat_map(|m| m.items()) {
-            match item {
-                MethodItem::Method(m) => {
-                    if methods.is_empty() {
-                        derived = false;
-                    }
-                    match self.method(scope, &m) {
-                        Some(method) => methods.push(method),
-                        None => whole = false,
-                    }
-                }
-                MethodItem::Reads(r) => reads.extend(self.paths(scope, r.paths())),
-                MethodItem::Derived(_) => derived = true,
-            }
-        }
-        if !whole {
-            return;
-        }
-        let strength = c.strength().map_or(Strength::Required, strength);
-        self.document.classes[scope.class()].constraints.push(Constraint {
-            name: c.name().map(|w| w.name()),
-            doc: c.doc().unwrap_or_default(),
-            rule: term,
-            strength,
-            methods,
-            derived,
-            reads,
-            within,
-            enabled: true,
-            origin,
-        });
-    }
-
-    fn method(&mut self, scope: &Scope, m: &ast::Method) -> Option<Method> {
-        let targets: Vec<Expr> = m.targets().collect();
-        let mut paths = Vec::new();
-        for target in &targets {
-            paths.push(self.path(scope, target)?.0);
-        }
-        let value = m.value()?;
-        let parts: Vec<Expr> = match &value {
-            Expr::Tuple(tuple) if targets.len() > 1 => tuple.elements().collect(),
-            _ => vec![value.clone()],
-        };
-        if parts.len() != paths.len() {
-            let message = format!("{} targets and {} values", paths.len(), parts.len());
-            self.error("wrong-arity", scope.file, value.span(), message);
-            return None;
-        }
-        let mut values = Vec::new();
-        for part in &parts {
-            values.push(self.expr(scope, part)?.0);
-        }
-        let origin = self.origin(scope.file, m.span());
-        Some(Method { targets: paths, values, origin })
-    }
-}
-
-fn strength(s: ast::Strength) -> Strength {
-    match s {
-        ast::Strength::Required => Strength::Required,
-        ast::Strength::Strong => Strength::Strong,
-        ast::Strength::Medium => Strength::Medium,
-        ast::Strength::Weak => Strength::Weak,
     }
 }
 
@@ -559,24 +301,4 @@ fn is_constant(expr: &Expr) -> bool {
                 | syntax::SyntaxKind::SuperExpr
         )
     })
-}
-
-/// Reads a path without looking where it leads.
-pub(crate) fn loose_path(expr: &Expr) -> Option<Path> {
-    match expr {
-        Expr::Name(name) => Some(Path(vec![Step::Part(name.name()?.name())])),
-        Expr::Owner(_) => Some(Path(vec![Step::Owner])),
-        Expr::Paren(inner) => loose_path(&inner.inner()?),
-        Expr::Field(field) if field.args().is_none() => {
-            let name = field.name()?.name();
-            let step = if name == "last" { Step::Last } else { Step::Part(name) };
-            Some(loose_path(&field.receiver()?)?.then(step))
-        }
-        Expr::Index(index) => {
-            let i = crate::numbers::constant(&|_| None, &index.index()?)?;
-            let i = (i.fract() == 0.0 && (0.0..4e9).contains(&i)).then_some(i as u32)?;
-            Some(loose_path(&index.receiver()?)?.then(Step::Index(i)))
-        }
-        _ => None,
-    }
 }

@@ -1,5 +1,6 @@
 //! Numbers in text: units, what a person types into a value, and how a value is written.
 
+use crate::kinds::dimension_in_words;
 use crate::lower::OWN;
 use base::number::shortest;
 use base::{Diagnostic, Name, Place, Span};
@@ -16,6 +17,23 @@ pub(crate) fn from_si(document: &Document, si: f64, dimension: Dimension) -> f64
 /// Returns a number of the document's base units in SI.
 pub(crate) fn to_si(document: &Document, x: f64, dimension: Dimension) -> f64 {
     shifted(document, x, -i32::from(dimension.0[0]))
+}
+
+/// Returns a number that was written without a unit in base units.
+///
+/// A bare length, area or volume counts in the units of the sheet; whatever else, in those of SI.
+pub(crate) fn from_bare(document: &Document, x: f64, dimension: Dimension) -> f64 {
+    if is_of_the_sheet(dimension) { x } else { from_si(document, x, dimension) }
+}
+
+/// Returns what to write for a number without its unit: what [`from_bare`] reads.
+fn to_bare(document: &Document, x: f64, dimension: Dimension) -> f64 {
+    if is_of_the_sheet(dimension) { x } else { to_si(document, x, dimension) }
+}
+
+/// Returns true for plain numbers, lengths, areas, volumes.
+fn is_of_the_sheet(dimension: Dimension) -> bool {
+    dimension.0[1..].iter().all(|&exponent| exponent == 0)
 }
 
 /// Scales by the document's units of length in a metre, to a power.
@@ -39,12 +57,10 @@ fn shifted(document: &Document, x: f64, power: i32) -> f64 {
 
 /// Returns a number of base units as text and unit: what a person reads and may type back.
 ///
-/// Lengths and plain numbers have no unit, as bare numbers mean them.
+/// What a bare number means in the sheet's own units has no unit: lengths, areas, plain numbers.
 pub fn show_number(x: f64, dimension: Dimension, document: &Document) -> (String, String) {
-    match units::preferred(dimension) {
-        Some(unit) => (shortest(to_si(document, x, dimension)), unit.into()),
-        None => (shortest(x), String::new()),
-    }
+    let unit = units::preferred(dimension).filter(|_| !is_of_the_sheet(dimension));
+    (shortest(to_bare(document, x, dimension)), unit.unwrap_or_default().into())
 }
 
 /// Writes a number so that reading it gives its bits, with the unit that was written before, if any.
@@ -54,22 +70,36 @@ pub(crate) fn write_number(
     document: &Document,
     written: Option<&str>,
 ) -> String {
-    let preferred = units::preferred(dimension);
+    let preferred = units::preferred(dimension).filter(|_| !is_of_the_sheet(dimension));
     for spelling in [written, preferred].into_iter().flatten() {
         let Some(unit) = units::unit(spelling).filter(|u| u.dimension == dimension) else {
             continue;
         };
         let Some(shown) = unit.show(to_si(document, x, dimension)) else { continue };
-        for candidate in [shown, shown.next_up(), shown.next_down()] {
-            let text = shortest(candidate);
-            let read = unit.read(&text).map(|si| from_si(document, si, dimension));
-            if read.map(f64::to_bits) == Some(x.to_bits()) {
-                return format!("{text} {spelling}");
-            }
+        let read = |text: &str| unit.read(text).map(|si| from_si(document, si, dimension));
+        if let Some(text) = near(shown, |text| read(text).map(f64::to_bits) == Some(x.to_bits())) {
+            return format!("{text} {spelling}");
         }
     }
-    // A bare number means the base unit, whatever it measures.
-    shortest(x)
+    let read = |text: &str| text.parse().ok().map(|x| from_bare(document, x, dimension));
+    let bare = to_bare(document, x, dimension);
+    near(bare, |text| read(text).map(f64::to_bits) == Some(x.to_bits()))
+        .unwrap_or_else(|| shortest(bare))
+}
+
+/// Finds a number next to `x` whose shortest decimal reads as it should.
+fn near(x: f64, reads: impl Fn(&str) -> bool) -> Option<String> {
+    let (mut up, mut down) = (x, x);
+    for _ in 0..4 {
+        for candidate in [up, down] {
+            let text = shortest(candidate);
+            if reads(&text) {
+                return Some(text);
+            }
+        }
+        (up, down) = (up.next_up(), down.next_down());
+    }
+    None
 }
 
 /// What a typed value is for.
@@ -111,72 +141,127 @@ pub fn read_literal(
         return Err(broken().hint(d.message.clone()));
     }
     let expr = parse.file().expression().ok_or_else(broken)?;
-    let literal = literal(&expr, document).ok_or_else(broken)?;
-    let wanted_dimension = match primitive {
-        Some(Primitive::Real(d)) => d,
-        Some(Primitive::Integer) => Dimension::NONE,
-        Some(Primitive::Bool | Primitive::Text | Primitive::Color) | None => {
-            return match (primitive, &literal) {
-                (Some(Primitive::Bool), Typed::Literal(Literal::Bool(_))) | (None, _) => {
-                    Ok(literal.into_literal())
-                }
-                _ => Err(broken().hint("write `true` or `false`")),
-            };
-        }
+    let wanted = match wanted {
+        Wanted::Class(class) => Some(class),
+        Wanted::Anything => None,
     };
-    match literal {
-        Typed::Number(x, None) => Ok(Literal::Number(x)),
-        Typed::Number(x, Some(d)) if d == wanted_dimension => Ok(Literal::Number(x)),
-        Typed::Number(_, Some(d)) => {
-            let name = |d: Dimension| d.named().map_or_else(|| d.to_string(), str::to_string);
-            let message = format!("`{typed}` is {}, wanted is {}", name(d), name(wanted_dimension));
-            Err(Diagnostic::error("dimension-mismatch", place, message))
+    literal(&expr, wanted, document).map_err(|wrong| {
+        let d = match wrong {
+            Wrong::Value => broken(),
+            Wrong::Dimension(d, wanted) => {
+                let (is, wanted) = (dimension_in_words(d), dimension_in_words(wanted));
+                let message = format!("`{typed}` is {is}, wanted is {wanted}");
+                Diagnostic::error("dimension-mismatch", place, message)
+            }
+        };
+        match primitive {
+            Some(Primitive::Bool) => d.hint("write `true` or `false`"),
+            Some(Primitive::Integer) => d.hint("a whole number is wanted"),
+            Some(Primitive::Real(_)) if d.code == "not-a-value" => d.hint("a number is wanted"),
+            _ => d,
         }
-        Typed::Literal(_) => Err(broken().hint("a number is wanted")),
-    }
+    })
 }
 
-/// A typed value before it is known what is wanted.
-enum Typed {
-    Number(f64, Option<Dimension>),
-    Literal(Literal),
+/// Why an expression is no value for what is wanted.
+enum Wrong {
+    Value,
+    Dimension(Dimension, Dimension),
 }
 
-impl Typed {
-    fn into_literal(self) -> Literal {
-        match self {
-            Self::Number(x, _) => Literal::Number(x),
-            Self::Literal(l) => l,
-        }
-    }
-}
-
-fn literal(expr: &Expr, document: &Document) -> Option<Typed> {
+fn literal(expr: &Expr, class: Option<ClassId>, document: &Document) -> Result<Literal, Wrong> {
+    let kind = class.map(|c| &document.classes[c].kind);
     match expr {
-        Expr::Text(t) => Some(Typed::Literal(Literal::Text(t.text()?.unquoted()))),
-        Expr::Bool(b) => Some(Typed::Literal(Literal::Bool(b.value()))),
-        Expr::Paren(p) => literal(&p.inner()?, document),
+        Expr::Paren(p) => literal(&p.inner().ok_or(Wrong::Value)?, class, document),
         Expr::Tuple(t) => {
-            let items: Option<Vec<Literal>> =
-                t.elements().map(|e| Some(literal(&e, document)?.into_literal())).collect();
-            Some(Typed::Literal(Literal::Tuple(items?)))
+            let fields = match (kind, class) {
+                (Some(ClassKind::Composite), Some(class)) => Some(document.layout(class)),
+                (None, _) => None,
+                _ => return Err(Wrong::Value),
+            };
+            let elements: Vec<Expr> = t.elements().collect();
+            if fields.as_ref().is_some_and(|f| f.len() != elements.len()) {
+                return Err(Wrong::Value);
+            }
+            let class = |i: usize| fields.as_ref().map(|f| document.field_class(f[i]));
+            let items = elements.iter().enumerate().map(|(i, e)| literal(e, class(i), document));
+            Ok(Literal::Tuple(items.collect::<Result<_, _>>()?))
         }
-        Expr::Number(n) => {
-            let digits = n.digits()?;
-            match n.unit() {
-                None => Some(Typed::Number(n.value()?, None)),
-                Some(unit) => {
-                    let (si, d) = units::read_quantity(digits.text(), unit.text())?;
-                    Some(Typed::Number(from_si(document, si, d), Some(d)))
+        Expr::Text(t) => match kind {
+            None | Some(ClassKind::Primitive(Primitive::Text | Primitive::Color)) => {
+                Ok(Literal::Text(t.text().ok_or(Wrong::Value)?.unquoted()))
+            }
+            _ => Err(Wrong::Value),
+        },
+        Expr::Bool(b) => match kind {
+            None | Some(ClassKind::Primitive(Primitive::Bool)) => Ok(Literal::Bool(b.value())),
+            _ => Err(Wrong::Value),
+        },
+        other => {
+            let (x, found) = quantity(other, document).ok_or(Wrong::Value)?;
+            let wanted = match kind {
+                Some(ClassKind::Primitive(Primitive::Real(d))) => *d,
+                Some(ClassKind::Primitive(Primitive::Integer)) if x.fract() == 0.0 => {
+                    Dimension::NONE
                 }
+                None => found.unwrap_or(Dimension::NONE),
+                _ => return Err(Wrong::Value),
+            };
+            match found {
+                None => finite(from_bare(document, x, wanted)),
+                Some(d) if d == wanted => finite(x),
+                Some(d) => Err(Wrong::Dimension(d, wanted)),
             }
         }
-        Expr::Unary(u) => match (u.op()?, literal(&u.operand()?, document)?) {
-            (UnaryOp::Negate, Typed::Number(x, d)) => Some(Typed::Number(-x, d)),
-            (UnaryOp::Plus, number) => Some(number),
-            (UnaryOp::Negate | UnaryOp::Not, _) => None,
+    }
+}
+
+/// Infinities and negative zero are no values.
+fn finite(x: f64) -> Result<Literal, Wrong> {
+    if x.is_finite() { Ok(Literal::Number(x + 0.0)) } else { Err(Wrong::Value) }
+}
+
+/// Computes an expression of numbers with units, in base units. A bare number fits any other.
+fn quantity(expr: &Expr, document: &Document) -> Option<(f64, Option<Dimension>)> {
+    match expr {
+        Expr::Number(n) => match n.unit() {
+            None => Some((n.value()?, None)),
+            Some(unit) => {
+                let (si, d) = units::read_quantity(n.digits()?.text(), unit.text())?;
+                Some((from_si(document, si, d), Some(d)))
+            }
         },
-        other => constant(&|_| None, other).map(|x| Typed::Number(x, None)),
+        Expr::Paren(p) => quantity(&p.inner()?, document),
+        Expr::Unary(u) => match (u.op()?, quantity(&u.operand()?, document)?) {
+            (UnaryOp::Negate, (x, d)) => Some((-x, d)),
+            (UnaryOp::Plus, number) => Some(number),
+            (UnaryOp::Not, _) => None,
+        },
+        Expr::Binary(b) => {
+            let ((x, dx), (y, dy)) =
+                (quantity(&b.left()?, document)?, quantity(&b.right()?, document)?);
+            let plain = |d: Option<Dimension>| d.unwrap_or(Dimension::NONE);
+            let of = |d: Dimension| (dx.is_some() || dy.is_some()).then_some(d);
+            match b.op()? {
+                op @ (BinaryOp::Add | BinaryOp::Subtract) => {
+                    let d = dx.or(dy);
+                    let same = d.unwrap_or(Dimension::NONE);
+                    if [dx, dy].into_iter().flatten().any(|d| d != same) {
+                        return None;
+                    }
+                    let base = |x: f64, own: Option<Dimension>| match own {
+                        None if d.is_some() => from_bare(document, x, same),
+                        _ => x,
+                    };
+                    let (x, y) = (base(x, dx), base(y, dy));
+                    Some((if op == BinaryOp::Add { x + y } else { x - y }, d))
+                }
+                BinaryOp::Multiply => Some((x * y, of(plain(dx).times(plain(dy))))),
+                BinaryOp::Divide => Some((x / y, of(plain(dx).over(plain(dy))))),
+                _ => constant(&|_| None, expr).map(|x| (x, None)),
+            }
+        }
+        _ => None,
     }
 }
 

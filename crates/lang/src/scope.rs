@@ -42,6 +42,10 @@ impl Scope {
         inner.constants.insert(name, value);
         inner
     }
+    /// Returns the number that a variable of `for` stands for.
+    pub(crate) fn constant(&self, name: &str) -> Option<f64> {
+        self.constants.get(name).map(|&i| i as f64)
+    }
     pub(crate) fn local(&self, name: &str) -> Option<&Kind> {
         self.locals.iter().rev().find(|(n, _)| *n == name).map(|(_, kind)| kind)
     }

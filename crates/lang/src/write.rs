@@ -4,9 +4,9 @@
 //! is added to the thing's own body, never to a class.
 
 use crate::lower::{Lowered, OWN};
-use crate::members::loose_path;
-use crate::numbers::{from_si, write_number};
-use crate::terms::class_at;
+use crate::names::class_at;
+use crate::numbers::{from_bare, from_si, write_number};
+use crate::paths::loose_path;
 use expr::dimension::Dimension;
 use kernel::{ClassId, ClassKind, Document, Literal, Path, Primitive, Step};
 use syntax::SyntaxNode;
@@ -21,9 +21,11 @@ pub fn write_values(lowered: &Lowered, writes: &[(Path, Literal)]) -> Vec<TextEd
     let members: Vec<Member> = file.members().collect();
     let mut writer = Writer { document: &lowered.document, edits: Vec::new(), added: Vec::new() };
     for (path, literal) in writes {
-        let class = class_at(&lowered.document, lowered.document.root, path);
+        let root = lowered.document.root;
+        let class = class_at(&lowered.document, root, path);
         let part = Value { literal, class };
-        writer.write(&Spot::EndOf(file.syntax().clone()), &members, path, part);
+        let body = Body { owner: Some(root), end: Spot::EndOf(file.syntax().clone()) };
+        writer.write(&body, &members, path, part);
     }
     let mut edits = writer.edits;
     for (spot, texts) in &writer.added {
@@ -45,6 +47,14 @@ struct Value<'v> {
     class: Option<ClassId>,
 }
 
+/// Where the members of a thing stand.
+struct Body {
+    /// The thing's class, if it is known.
+    owner: Option<ClassId>,
+    /// Where a new member goes.
+    end: Spot,
+}
+
 struct Writer<'d> {
     document: &'d Document,
     edits: Vec<TextEdit>,
@@ -54,7 +64,7 @@ struct Writer<'d> {
 
 impl Writer<'_> {
     /// Writes the value of the part at `path` from the thing that has these members.
-    fn write(&mut self, end: &Spot, members: &[Member], path: &Path, value: Value<'_>) {
+    fn write(&mut self, body: &Body, members: &[Member], path: &Path, value: Value<'_>) {
         // later values win, so the last that speaks of the part counts
         for member in members.iter().rev() {
             match member {
@@ -63,58 +73,108 @@ impl Writer<'_> {
                         continue;
                     };
                     let Some(written) = assign.value().and_then(ast::Value::expr) else { continue };
-                    if target == *path {
-                        return self.write_over(&written, value);
+                    if let Some(rest) = path.0.strip_prefix(target.0.as_slice()) {
+                        if self.write_inside(
+                            &written,
+                            self.part(body.owner, &target.0),
+                            rest,
+                            value,
+                        ) {
+                            return;
+                        }
+                        break;
                     }
-                    let is_coordinate =
-                        target.0.len() == path.0.len() + 1 && target.0.starts_with(&path.0);
-                    if let (true, Literal::Tuple(items)) = (is_coordinate, value.literal) {
-                        return self.write_coordinates(end, members, path, value, items);
+                    if let (true, Literal::Tuple(items)) =
+                        (target.0.starts_with(&path.0), value.literal)
+                    {
+                        return self.write_coordinates(body, members, path, value, items);
                     }
                 }
                 Member::Part(part) => {
                     let names: Vec<_> = part.names().collect();
                     let Some(Step::Part(first)) = path.0.first() else { continue };
-                    if !names.iter().any(|n| n.name() == *first) {
-                        continue;
+                    if names.iter().any(|n| n.name() == *first) {
+                        return self.write_part(body, part, names.len(), path, value);
                     }
-                    let rest = Path(path.0[1..].to_vec());
-                    return self.write_part(part, names.len(), path, &rest, value);
                 }
                 _ => {}
             }
         }
-        self.add(end.clone(), path, value);
+        self.add(body.end.clone(), path, value);
+    }
+
+    /// Writes a value that is all or a coordinate of what an expression says, if that can be told.
+    fn write_inside(
+        &mut self,
+        written: &Expr,
+        class: Option<ClassId>,
+        rest: &[Step],
+        value: Value<'_>,
+    ) -> bool {
+        let Some((step, rest)) = rest.split_first() else {
+            self.write_over(written, value);
+            return true;
+        };
+        match (written, step, class) {
+            (Expr::Paren(inner), _, _) => inner.inner().is_some_and(|inner| {
+                let rest: Vec<Step> = std::iter::once(step).chain(rest).cloned().collect();
+                self.write_inside(&inner, class, &rest, value)
+            }),
+            (Expr::Tuple(tuple), Step::Part(name), Some(class)) => {
+                let layout = self.document.layout(class);
+                let at = layout.iter().position(|&f| self.document.field_name(f) == name);
+                let Some(element) = at.and_then(|i| tuple.elements().nth(i)) else { return false };
+                let class = at.map(|i| self.document.field_class(layout[i]));
+                self.write_inside(&element, class, rest, value)
+            }
+            (Expr::List(list), Step::Index(i), _) => {
+                let Some(element) = list.elements().nth(*i as usize) else { return false };
+                let class =
+                    class.and_then(|c| class_at(self.document, c, &Path(vec![step.clone()])));
+                self.write_inside(&element, class, rest, value)
+            }
+            _ => false,
+        }
+    }
+
+    fn part(&self, owner: Option<ClassId>, steps: &[Step]) -> Option<ClassId> {
+        owner.and_then(|c| class_at(self.document, c, &Path(steps.to_vec())))
     }
 
     fn write_part(
         &mut self,
+        body: &Body,
         part: &ast::Part,
         names: usize,
         path: &Path,
-        rest: &Path,
         value: Value<'_>,
     ) {
+        let class = self.part(body.owner, &path.0[..1]);
+        let rest = Path(path.0[1..].to_vec());
+        let written = part.value().and_then(ast::Value::expr);
         if names > 1 {
+            // the others keep what they share
             return self.add(Spot::After(part.syntax().clone()), path, value);
         }
-        if !rest.is_empty() {
-            let end = Spot::EndOf(part.syntax().clone());
-            let members: Vec<Member> = part.body().into_iter().flat_map(|b| b.members()).collect();
-            return self.write(&end, &members, rest, value);
-        }
-        if let Some(written) = part.value().and_then(ast::Value::expr) {
-            return self.write_over(&written, value);
-        }
-        let in_body = part.body().is_some();
-        match value.literal {
-            Literal::Tuple(items) if in_body => {
-                let end = Spot::EndOf(part.syntax().clone());
-                let members: Vec<Member> =
-                    part.body().into_iter().flat_map(|b| b.members()).collect();
-                self.write_coordinates(&end, &members, rest, value, items);
+        if let Some(written) = &written {
+            if !self.write_inside(written, class, &rest.0, value) {
+                self.add(Spot::After(part.syntax().clone()), path, value);
             }
-            _ => {
+            return;
+        }
+        if let Some(Step::Index(_) | Step::Last | Step::Owner) = rest.0.first() {
+            return self.add(body.end.clone(), path, value);
+        }
+        let inner = Body { owner: class, end: Spot::EndOf(part.syntax().clone()) };
+        let members: Vec<Member> = part.body().into_iter().flat_map(|b| b.members()).collect();
+        if !rest.is_empty() {
+            return self.write(&inner, &members, &rest, value);
+        }
+        match value.literal {
+            Literal::Tuple(items) if part.body().is_some() => {
+                self.write_coordinates(&inner, &members, &rest, value, items);
+            }
+            Literal::Tuple(_) | Literal::Number(_) | Literal::Text(_) | Literal::Bool(_) => {
                 let text = self.text(value);
                 self.edits.extend(edit::give_value(part, &text));
             }
@@ -123,7 +183,7 @@ impl Writer<'_> {
 
     fn write_coordinates(
         &mut self,
-        end: &Spot,
+        body: &Body,
         members: &[Member],
         path: &Path,
         value: Value<'_>,
@@ -133,7 +193,7 @@ impl Writer<'_> {
         for (field, literal) in self.document.layout(class).into_iter().zip(items) {
             let name = self.document.field_name(field).clone();
             let class = Some(self.document.field_class(field));
-            self.write(end, members, &path.then(Step::Part(name)), Value { literal, class });
+            self.write(body, members, &path.then(Step::Part(name)), Value { literal, class });
         }
     }
 
@@ -178,7 +238,7 @@ impl Writer<'_> {
                     let (si, d) = expr::units::read_quantity(digits.text(), unit.text())?;
                     from_si(self.document, si, d)
                 }
-                None => n.value()?,
+                None => from_bare(self.document, n.value()?, self.dimension(class)),
             },
             Expr::Unary(u) if u.op() == Some(ast::UnaryOp::Negate) => {
                 -f64::from_bits(self.read(&u.operand()?, class)?)

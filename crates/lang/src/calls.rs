@@ -1,0 +1,414 @@
+//! Calls: messages, functions of the language, constructors; their arguments checked.
+
+use crate::kinds::{Kind, measured, wanted_in_words};
+use crate::lower::Lowerer;
+use crate::names::owners;
+use crate::scope::Scope;
+use crate::terms::code_for;
+use base::diagnostic::nearest;
+use base::{Diagnostic, Name, Place, Span};
+use expr::dimension::Dimension;
+use kernel::builtin::{self, Kind as Builtin};
+use kernel::{Argument, ClassId, Term};
+use syntax::ast::{self, AstNode, Expr};
+
+/// An argument, lowered, before it is known what is wanted of it.
+struct Arg {
+    label: Option<ast::Word>,
+    value: Term,
+    kind: Kind,
+    span: Span,
+}
+
+/// Something that is wanted of a call: its label, its name inside, what it may be.
+struct Wanted {
+    labels: [Name; 2],
+    kind: Kind,
+}
+
+impl Lowerer<'_> {
+    /// Lowers `a.b` and `a.b(…)`.
+    pub(crate) fn field(&mut self, scope: &Scope, field: &ast::FieldExpr) -> Option<(Term, Kind)> {
+        let (receiver, word) = (field.receiver()?, field.name()?);
+        let name = word.name();
+        if let Expr::Super(_) = receiver {
+            return self.super_message(scope, field, &word);
+        }
+        let (to, kind) = self.expr(scope, &receiver)?;
+        let element = if let Kind::List(element) = &kind { element } else { &Kind::Unknown };
+        let args = self.arguments(scope, field.args(), element)?;
+        let (arguments, answer) = self.message(scope, &kind, &word, args, &to)?;
+        Some((Term::Send { to: Box::new(to), name, arguments, above: None }, answer))
+    }
+
+    fn super_message(
+        &mut self,
+        scope: &Scope,
+        field: &ast::FieldExpr,
+        word: &ast::Word,
+    ) -> Option<(Term, Kind)> {
+        let (class, name) = (scope.class(), word.name());
+        let args = self.arguments(scope, field.args(), &Kind::Unknown)?;
+        let above = self.document.find_message(class, &name, Some(class)).map(|(c, _)| c);
+        let (arguments, kind) = match above {
+            Some(definer) => self.user_message(scope, definer, word, args)?,
+            None if builtin::find(builtin::THING_MESSAGES, &name).is_some() => {
+                (unchecked(args), Kind::Picture)
+            }
+            None => {
+                let message = format!("no superclass has a message {name}");
+                self.error("unknown-part", scope.file, word.span(), message);
+                return None;
+            }
+        };
+        let to = Box::new(Term::Me);
+        Some((Term::Send { to, name, arguments, above: Some(class) }, kind))
+    }
+
+    /// Finds out what a receiver answers to a name; reports a name that it does not know.
+    fn message(
+        &mut self,
+        scope: &Scope,
+        receiver: &Kind,
+        word: &ast::Word,
+        args: Vec<Arg>,
+        to: &Term,
+    ) -> Option<(Vec<Argument>, Kind)> {
+        let name = word.name();
+        if name == "owner" || *receiver == Kind::Unknown || *to == Term::Owner {
+            let known = match receiver {
+                Kind::Thing(class) => self.kind_of_part(*class, &name),
+                _ => None,
+            };
+            return Some((unchecked(args), known.unwrap_or(Kind::Unknown)));
+        }
+        match receiver {
+            Kind::Number(_) => {
+                self.own_message(scope, builtin::NUMBER_MESSAGES, receiver, word, args)
+            }
+            // what a text spells may measure anything
+            Kind::Text if name == "number" && args.is_empty() => Some((Vec::new(), Kind::Unknown)),
+            Kind::Text => self.own_message(scope, builtin::TEXT_MESSAGES, receiver, word, args),
+            Kind::List(_) => self.own_message(scope, builtin::LIST_MESSAGES, receiver, word, args),
+            Kind::Picture => {
+                self.own_message(scope, builtin::PICTURE_MESSAGES, receiver, word, args)
+            }
+            Kind::Thing(class) => {
+                if let Some(part) = self.class_of_part(*class, &name) {
+                    self.takes_none(scope, word, &args)?;
+                    return Some((Vec::new(), Kind::of_class(&self.document, part)));
+                }
+                match self.document.find_message(*class, &name, None).map(|(c, _)| c) {
+                    Some(definer) => self.user_message(scope, definer, word, args),
+                    None => self.own_message(scope, builtin::THING_MESSAGES, receiver, word, args),
+                }
+            }
+            Kind::Bool | Kind::Function => {
+                self.unknown_part(scope, receiver, word);
+                None
+            }
+            Kind::Tuple(_) | Kind::Unknown => Some((unchecked(args), Kind::Unknown)),
+        }
+    }
+
+    fn takes_none(&mut self, scope: &Scope, word: &ast::Word, args: &[Arg]) -> Option<()> {
+        if args.is_empty() {
+            return Some(());
+        }
+        let message = format!("{} is a part: it takes no arguments", word.text());
+        self.error("wrong-arity", scope.file, word.span(), message);
+        None
+    }
+
+    /// Checks a message that a class of the document or a library defines.
+    fn user_message(
+        &mut self,
+        scope: &Scope,
+        definer: ClassId,
+        word: &ast::Word,
+        args: Vec<Arg>,
+    ) -> Option<(Vec<Argument>, Kind)> {
+        let name = word.name();
+        let message = self.defined_message(definer, &name)?;
+        let wanted = message.parameters.iter().map(|p| Wanted {
+            labels: [p.label.clone(), p.name.clone()],
+            kind: p.class.map_or(Kind::Unknown, |c| Kind::of_class(&self.document, c)),
+        });
+        let wanted: Vec<Wanted> = wanted.collect();
+        if wanted.len() != args.len() {
+            let labels: Vec<&str> = wanted.iter().map(|w| w.labels[0].as_str()).collect();
+            let said =
+                format!("{name} takes ({}), here are {} arguments", labels.join(", "), args.len());
+            self.error("wrong-arity", scope.file, word.span(), said);
+            return None;
+        }
+        let arguments = self.bound(scope, &name, &wanted, args)?;
+        Some((arguments, self.message_kind(definer, &name)))
+    }
+
+    /// Binds arguments by label or position, their kinds checked.
+    fn bound(
+        &mut self,
+        scope: &Scope,
+        what: &str,
+        wanted: &[Wanted],
+        args: Vec<Arg>,
+    ) -> Option<Vec<Argument>> {
+        let mut taken = vec![false; wanted.len()];
+        let mut bound = Vec::new();
+        for (position, arg) in args.into_iter().enumerate() {
+            let place = match &arg.label {
+                Some(label) => wanted.iter().position(|w| w.labels.contains(&label.name())),
+                None => Some(position),
+            };
+            let Some(place) = place else {
+                let label = arg.label.as_ref()?;
+                let message = format!("{what} has no {}", label.text());
+                let at = Place { file: scope.file, span: label.span() };
+                let mut d = Diagnostic::error("unknown-part", at, message);
+                let labels: Vec<&str> = wanted.iter().map(|w| w.labels[0].as_str()).collect();
+                d = match nearest(label.text(), labels.iter().copied()) {
+                    Some(near) => d.hint(format!("did you mean `{near}`?")),
+                    None => d.hint(format!("it has {}", labels.join(", "))),
+                };
+                self.report(d);
+                return None;
+            };
+            let Wanted { labels, kind } = wanted.get(place)?;
+            if std::mem::replace(&mut taken[place], true) {
+                let message = format!("{} is given twice", labels[0]);
+                self.error("wrong-arity", scope.file, arg.span, message);
+                return None;
+            }
+            if !arg.kind.fits(kind, &self.document) {
+                let (found, wanted) = (arg.kind.words(&self.document), kind.words(&self.document));
+                let message = format!("{} is {found}, wanted {wanted}", labels[0]);
+                self.error(code_for(&arg.kind, kind), scope.file, arg.span, message);
+                return None;
+            }
+            let value = measured(&self.document, arg.value, &arg.kind, kind);
+            bound.push(Argument { label: arg.label.map(|w| w.name()), value });
+        }
+        Some(bound)
+    }
+
+    /// Checks a message that the language itself knows.
+    fn own_message<F>(
+        &mut self,
+        scope: &Scope,
+        table: &'static [builtin::Builtin<F>],
+        receiver: &Kind,
+        word: &ast::Word,
+        args: Vec<Arg>,
+    ) -> Option<(Vec<Argument>, Kind)> {
+        let Some(b) = builtin::find(table, word.text()) else {
+            self.unknown_part(scope, receiver, word);
+            return None;
+        };
+        if !receiver.is(b.receiver, receiver, &self.document) {
+            let wanted = wanted_in_words(b.receiver, receiver, &self.document);
+            let found = receiver.words(&self.document);
+            let message = format!("{} is sent to {found}, wanted {wanted}", b.name);
+            let code = code_for(receiver, &Kind::PLAIN);
+            self.error(code, scope.file, word.span(), message);
+            return None;
+        }
+        self.own_arguments(scope, b, word.span(), Some(receiver.clone()), args)
+    }
+
+    /// Checks the arguments of a function or message of the language.
+    fn own_arguments<F>(
+        &mut self,
+        scope: &Scope,
+        b: &builtin::Builtin<F>,
+        span: Span,
+        receiver: Option<Kind>,
+        args: Vec<Arg>,
+    ) -> Option<(Vec<Argument>, Kind)> {
+        let labels: Vec<&str> = b.parameters.iter().map(|p| p.label).collect();
+        if !b.takes(args.len()) {
+            let takes = labels.join(", ");
+            let message = format!("{} takes ({takes}), here are {}", b.name, args.len());
+            self.error("wrong-arity", scope.file, span, message);
+            return None;
+        }
+        let mut first = receiver;
+        let mut bound = Vec::new();
+        for (position, arg) in args.into_iter().enumerate() {
+            let place = match &arg.label {
+                Some(label) => b.parameters.iter().position(|p| p.label == label.text()),
+                None => Some(position.min(b.parameters.len().saturating_sub(1))),
+            };
+            let Some(parameter) = place.and_then(|i| b.parameters.get(i)) else {
+                let label = arg.label.as_ref()?;
+                let message = format!("{} has no {}", b.name, label.text());
+                let at = Place { file: scope.file, span: label.span() };
+                let hint = format!("it takes {}", labels.join(", "));
+                self.report(Diagnostic::error("unknown-part", at, message).hint(hint));
+                return None;
+            };
+            let known = first.clone().unwrap_or(Kind::Unknown);
+            let alike = if let Kind::List(element) = &known { element } else { &known };
+            if !arg.kind.is(parameter.kind, alike, &self.document) {
+                let wanted = wanted_in_words(parameter.kind, alike, &self.document);
+                let found = arg.kind.words(&self.document);
+                let message = format!("{} wants {wanted}, here is {found}", b.name);
+                let code = code_for(&arg.kind, &wanted_number(parameter.kind));
+                self.error(code, scope.file, arg.span, message);
+                return None;
+            }
+            let value = match parameter.kind {
+                Builtin::Same | Builtin::Numbers => {
+                    measured(&self.document, arg.value, &arg.kind, alike)
+                }
+                _ => arg.value,
+            };
+            bound.push(Argument { label: arg.label.map(|w| w.name()), value });
+            first = Some(first.map_or(arg.kind.clone(), |known| known.joined(arg.kind)));
+        }
+        let first = first.unwrap_or(Kind::Unknown);
+        let is_list_message = b.receiver == Builtin::List;
+        let element =
+            if let Kind::List(element) = &first { (**element).clone() } else { first.clone() };
+        let kind = self.builtin_kind(b.result, if is_list_message { &first } else { &element });
+        Some((bound, kind))
+    }
+
+    pub(crate) fn builtin_kind(&self, result: Builtin, first: &Kind) -> Kind {
+        match result {
+            Builtin::Plain => Kind::PLAIN,
+            Builtin::Number => Kind::Unknown,
+            // the measures of a text are lengths
+            Builtin::Same if *first == Kind::Text => Kind::LENGTH,
+            Builtin::Same | Builtin::Numbers => first.clone(),
+            Builtin::Root => match first {
+                Kind::Number(Some(d)) => d.root(2).map_or(Kind::Unknown, |d| Kind::Number(Some(d))),
+                _ => first.clone(),
+            },
+            Builtin::Length => Kind::Number(Some(Dimension::LENGTH)),
+            Builtin::Bool => Kind::Bool,
+            Builtin::Text | Builtin::Color => Kind::Text,
+            Builtin::List => Kind::List(Box::new(Kind::Unknown)),
+            Builtin::Element => match first {
+                Kind::List(element) => (**element).clone(),
+                _ => Kind::Unknown,
+            },
+            Builtin::Function => Kind::Function,
+            Builtin::Picture => Kind::Picture,
+            Builtin::Place | Builtin::Answer | Builtin::Any => Kind::Unknown,
+        }
+    }
+
+    fn arguments(
+        &mut self,
+        scope: &Scope,
+        args: Option<ast::ArgList>,
+        element: &Kind,
+    ) -> Option<Vec<Arg>> {
+        let mut arguments = Vec::new();
+        for arg in args.into_iter().flat_map(|a| a.args()) {
+            let e = arg.value()?;
+            let (value, kind) = match &e {
+                Expr::Lambda(lambda) => self.lambda(scope, lambda, element)?,
+                other => self.expr(scope, other)?,
+            };
+            arguments.push(Arg { label: arg.label(), value, kind, span: e.span() });
+        }
+        Some(arguments)
+    }
+
+    /// Lowers `f(…)`: a constructor, a message to `Me`, or a function of the language.
+    pub(crate) fn call(&mut self, scope: &Scope, call: &ast::CallExpr) -> Option<(Term, Kind)> {
+        let word = call.name()?;
+        let name = word.name();
+        if matches!(word.text(), "der" | "moved" | "all" | "plot") {
+            self.not_yet(scope.file, call.span(), &format!("`{name}(…)` is"));
+            return None;
+        }
+        let args = self.arguments(scope, call.args(), &Kind::Unknown)?;
+        if let Some(&class) = self.names.get(&name) {
+            return self.constructor(scope, &word, class, args);
+        }
+        for (class, me) in owners(scope) {
+            // `picture => picture(a, b)`: what takes no arguments leaves the name to the function
+            if !args.is_empty() && !self.takes_arguments(class, &name) {
+                break;
+            }
+            if self.kind_of_part(class, &name).is_some() {
+                let receiver = Kind::Thing(class);
+                let (arguments, kind) = self.message(scope, &receiver, &word, args, &Term::Me)?;
+                return Some((Term::Send { to: Box::new(me), name, arguments, above: None }, kind));
+            }
+        }
+        let Some(b) = builtin::find(builtin::FUNCTIONS, &name) else {
+            self.unknown_name(scope, &word);
+            return None;
+        };
+        let (arguments, kind) = self.own_arguments(scope, b, call.span(), None, args)?;
+        Some((Term::Call { name, arguments }, kind))
+    }
+
+    /// Returns false if a name is one of the language's functions and of a part or plain message.
+    fn takes_arguments(&self, class: ClassId, name: &Name) -> bool {
+        let message = self.document.find_message(class, name, None);
+        let plain = message.is_none_or(|(_, m)| m.parameters.is_empty());
+        !(plain && builtin::find(builtin::FUNCTIONS, name).is_some())
+    }
+
+    fn constructor(
+        &mut self,
+        scope: &Scope,
+        word: &ast::Word,
+        class: ClassId,
+        args: Vec<Arg>,
+    ) -> Option<(Term, Kind)> {
+        if self.document.classes[class].is_abstract {
+            let message = format!("{} is abstract: it has no things of its own", word.text());
+            self.error("abstract-part", scope.file, word.span(), message);
+            return None;
+        }
+        let document = &self.document;
+        let fields = document.layout(class).into_iter().map(|f| {
+            let name = document.field_name(f).clone();
+            let kind = Kind::of_class(document, document.field_class(f));
+            Wanted { labels: [name.clone(), name], kind }
+        });
+        let fields: Vec<Wanted> = fields.collect();
+        if args.len() > fields.len() {
+            let n = fields.len();
+            let message = format!("a {} has {n} parts, here are {}", word.text(), args.len());
+            self.error("wrong-arity", scope.file, word.span(), message);
+            return None;
+        }
+        let what = format!("a {}", word.text());
+        let arguments = self.bound(scope, &what, &fields, args)?;
+        Some((Term::Make { class, arguments }, Kind::of_class(&self.document, class)))
+    }
+}
+
+fn unchecked(args: Vec<Arg>) -> Vec<Argument> {
+    let plain = |a: Arg| Argument { label: a.label.map(|w| w.name()), value: a.value };
+    args.into_iter().map(plain).collect()
+}
+
+/// Returns a kind that says whether a number is wanted, for the code of a diagnostic.
+fn wanted_number(wanted: Builtin) -> Kind {
+    match wanted {
+        Builtin::Plain
+        | Builtin::Number
+        | Builtin::Same
+        | Builtin::Root
+        | Builtin::Length
+        | Builtin::Numbers => Kind::Number(None),
+        Builtin::Bool
+        | Builtin::Text
+        | Builtin::Color
+        | Builtin::Place
+        | Builtin::List
+        | Builtin::Element
+        | Builtin::Answer
+        | Builtin::Function
+        | Builtin::Picture
+        | Builtin::Any => Kind::Unknown,
+    }
+}

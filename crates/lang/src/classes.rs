@@ -1,0 +1,232 @@
+//! Classes: the language's own, those of every text, and those made of others.
+
+use crate::lower::{Lowerer, OWN};
+use crate::scope::Scope;
+use base::{Diagnostic, FileId, Name, Place, Span};
+use expr::dimension::Dimension;
+use kernel::{Class, ClassId, ClassKind, Count, OriginId, Primitive, Superclass};
+use std::collections::BTreeSet;
+use syntax::ast::{self, AstNode, Member, TypeShape};
+
+impl Lowerer<'_> {
+    /// Makes the language's own classes.
+    pub(crate) fn own_classes(&mut self) {
+        let nowhere = self.origins.add(Place { file: OWN, span: Span::default() });
+        self.object = self.add_class("Object", ClassKind::Composite, &[], nowhere);
+        let primitives = [
+            ("Real", Primitive::Real(Dimension::NONE)),
+            ("Angle", Primitive::Real(Dimension::NONE)),
+            ("Integer", Primitive::Integer),
+            ("Bool", Primitive::Bool),
+            ("Text", Primitive::Text),
+            ("Color", Primitive::Color),
+        ];
+        let quantities = Dimension::names().filter_map(|name| {
+            let dimension = Dimension::by_name(name)?;
+            (!dimension.is_none()).then_some((name, Primitive::Real(dimension)))
+        });
+        for (name, primitive) in primitives.into_iter().chain(quantities) {
+            let object = self.object;
+            self.add_class(name, ClassKind::Primitive(primitive), &[object], nowhere);
+        }
+    }
+
+    pub(crate) fn add_class(
+        &mut self,
+        name: &str,
+        kind: ClassKind,
+        supers: &[ClassId],
+        origin: OriginId,
+    ) -> ClassId {
+        let supers = supers.iter().map(|&class| {
+            let name = small_first(&self.document.classes[class].name);
+            Superclass { class, name }
+        });
+        let class = Class {
+            name: name.into(),
+            doc: String::new(),
+            kind,
+            supers: supers.collect(),
+            is_abstract: false,
+            parts: Vec::new(),
+            givens: Vec::new(),
+            messages: Vec::new(),
+            constraints: Vec::new(),
+            merges: Vec::new(),
+            inserts: Vec::new(),
+            stays: Vec::new(),
+            attachers: Vec::new(),
+            without: Vec::new(),
+            origin,
+        };
+        let id = self.document.classes.push(class);
+        self.names.entry(name.into()).or_insert(id);
+        id
+    }
+
+    /// Adds a class that no text can name: of one thing, of the document, of a check.
+    pub(crate) fn add_unnamed_class(
+        &mut self,
+        name: &str,
+        above: ClassId,
+        origin: OriginId,
+    ) -> ClassId {
+        let id = self.add_class(name, ClassKind::Composite, &[above], origin);
+        if self.names.get(name) == Some(&id) {
+            self.names.remove(name);
+        }
+        id
+    }
+
+    /// Names every class of every file, then finds superclasses.
+    pub(crate) fn declare_classes(&mut self) {
+        for file in self.order.clone() {
+            for member in self.files[file].parse.file().members() {
+                let Member::Class(class) = member else { continue };
+                let Some(name) = class.name() else { continue };
+                let origin = self.origin(file, class.span());
+                if let Some(&known) = self.names.get(&name.name()) {
+                    let place = self.origins.place(self.document.classes[known].origin);
+                    if place.file == file && place.span != Span::default() {
+                        let message = format!("there is a class {} already", name.text());
+                        self.error("duplicate-name", file, name.span(), message);
+                        continue;
+                    }
+                }
+                let id = self.add_class(name.text(), ClassKind::Composite, &[], origin);
+                self.names.insert(name.name(), id);
+                self.document.classes[id].doc = class.doc().unwrap_or_default();
+                self.document.classes[id].is_abstract = class.is_abstract();
+                self.declared.push((id, file, class));
+            }
+        }
+        for (id, file, class) in self.declared.clone() {
+            let mut supers: Vec<Superclass> = Vec::new();
+            for above in class.superclasses() {
+                let Some(ty) = above.class() else { continue };
+                let Some(class) = self.class_of_type(file, &ty) else { continue };
+                if self.document.classes[class].kind != ClassKind::Composite {
+                    let what = &self.document.classes[class].name;
+                    let message = format!("{what} has no parts to inherit: it is a kind of value");
+                    self.error("primitive-superclass", file, ty.span(), message);
+                    continue;
+                }
+                let name = match above.alias() {
+                    Some(alias) => alias.name(),
+                    None => small_first(&self.document.classes[class].name),
+                };
+                if supers.iter().any(|s| s.name == name) {
+                    let message = format!("there is a superclass {name} already");
+                    let d = Diagnostic::error(
+                        "duplicate-name",
+                        Place { file, span: above.span() },
+                        message,
+                    );
+                    self.report(d.hint("tell them apart: `is A as a, A as b`"));
+                    continue;
+                }
+                supers.push(Superclass { class, name });
+            }
+            if supers.is_empty() {
+                supers.push(Superclass { class: self.object, name: "object".into() });
+            }
+            self.document.classes[id].supers = supers;
+        }
+        self.break_cycles();
+    }
+
+    /// Superclasses in a ring are reported, and the class that closes it is an Object.
+    fn break_cycles(&mut self) {
+        for (id, file, class) in self.declared.clone() {
+            let mut above: Vec<ClassId> =
+                self.document.classes[id].supers.iter().map(|s| s.class).collect();
+            let mut seen = BTreeSet::new();
+            while let Some(next) = above.pop() {
+                if next == id {
+                    let span = class.name().map_or(class.span(), |n| n.span());
+                    let name = self.document.classes[id].name.clone();
+                    let message =
+                        format!("{name} is its own superclass, by way of the classes above it");
+                    self.error("superclass-cycle", file, span, message);
+                    let name = Name::new("object");
+                    self.document.classes[id].supers =
+                        vec![Superclass { class: self.object, name }];
+                    break;
+                }
+                if seen.insert(next) {
+                    above.extend(self.document.classes[next].supers.iter().map(|s| s.class));
+                }
+            }
+        }
+    }
+
+    /// Returns the class that a type names; reports what it does not find.
+    pub(crate) fn class_of_type(&mut self, file: FileId, ty: &ast::Type) -> Option<ClassId> {
+        match ty.shape() {
+            TypeShape::Named(words) => {
+                let word = words.last()?;
+                let found = self.names.get(word.text()).copied();
+                if found.is_none() {
+                    let message = format!("there is no class {}", word.text());
+                    let place = Place { file, span: word.span() };
+                    let mut d = Diagnostic::error("unknown-class", place, message);
+                    let names = self.names.keys().map(Name::as_str);
+                    if let Some(near) = base::diagnostic::nearest(word.text(), names) {
+                        d = d.hint(format!("did you mean `{near}`?"));
+                    } else {
+                        d = d.hint("declare it, or `use` the library that has it");
+                    }
+                    self.report(d);
+                }
+                found
+            }
+            TypeShape::List { element, .. } => {
+                let element = self.class_of_type(file, &element?)?;
+                Some(self.class_made_of("List of", ClassKind::List(element), element))
+            }
+            TypeShape::Set(element) => {
+                let element = self.class_of_type(file, &element?)?;
+                Some(self.class_made_of("Set of", ClassKind::Set(element), element))
+            }
+            TypeShape::Path(_) => {
+                self.not_yet(file, ty.span(), "parts that name another part are");
+                None
+            }
+            TypeShape::Placed(_) => {
+                self.not_yet(file, ty.span(), "placed instances are");
+                None
+            }
+        }
+    }
+
+    fn class_made_of(&mut self, word: &str, kind: ClassKind, element: ClassId) -> ClassId {
+        let name = format!("{word} {}", self.document.classes[element].name);
+        let known = self.document.classes.iter().find(|(_, c)| c.kind == kind).map(|(id, _)| id);
+        known.unwrap_or_else(|| {
+            let object = self.object;
+            let origin = self.document.classes[object].origin;
+            self.add_class(&name, kind, &[object], origin)
+        })
+    }
+
+    pub(crate) fn declared_count(&mut self, scope: &Scope, ty: &ast::Type) -> Option<Count> {
+        let TypeShape::List { count, .. } = ty.shape() else { return None };
+        let Some(count) = count else { return Some(Count::Given) };
+        match self.constant(scope, &count).and_then(|n| u32::try_from(n).ok()) {
+            Some(n) => Some(Count::Fixed(n)),
+            None => {
+                let message =
+                    "a list's count is a whole number, known as the text stands".to_string();
+                self.error("not-a-count", scope.file, count.span(), message);
+                Some(Count::Fixed(0))
+            }
+        }
+    }
+}
+
+/// Returns a name with a small first letter.
+pub(crate) fn small_first(name: &str) -> Name {
+    let mut letters = name.chars();
+    let first: String = letters.next().into_iter().flat_map(char::to_lowercase).collect();
+    Name::new(&(first + letters.as_str()))
+}

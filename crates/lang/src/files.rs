@@ -1,0 +1,157 @@
+//! Files: the document's text and those that it uses, read and put in order.
+
+use crate::lower::{Lowerer, OWN};
+use crate::scope::Scope;
+use base::{Diagnostic, FileId, Place};
+use expr::dimension::Dimension;
+use kernel::{ClassId, OriginId, Part, Vertical};
+use std::rc::Rc;
+use syntax::ast::{self, AstNode, Member};
+use syntax::{Parse, SyntaxElement, SyntaxKind, SyntaxToken};
+
+/// A text that a document is made of.
+#[derive(Clone, Debug)]
+pub struct File {
+    /// What `use` calls it; empty for the document itself.
+    pub name: String,
+    /// The text.
+    pub text: Rc<str>,
+    /// Its tree.
+    pub parse: Parse,
+}
+
+impl Lowerer<'_> {
+    /// Reads a text and what it uses.
+    pub(crate) fn read(&mut self, name: &str, text: &str) {
+        let id = self.files.next_id();
+        let parse = syntax::parse(id, text);
+        for diagnostic in parse.diagnostics() {
+            match strange_unit(&parse, diagnostic) {
+                Some(word) => self.unknown_unit(id, syntax::span_of_token(&word), word.text()),
+                None => self.report(diagnostic.clone()),
+            }
+        }
+        self.files.push(File { name: name.into(), text: text.into(), parse: parse.clone() });
+        self.reading.push(id);
+        for member in parse.file().members() {
+            match member {
+                Member::Use(used) => self.read_used(id, &used),
+                Member::Unit(unit) if id == OWN => self.set_unit(&unit),
+                Member::Y(y) if id == OWN => {
+                    self.document.vertical =
+                        if y.is_down() { Vertical::Down } else { Vertical::Up };
+                }
+                _ => {}
+            }
+        }
+        self.reading.pop();
+        self.order.push(id);
+    }
+
+    fn read_used(&mut self, file: FileId, used: &ast::Use) {
+        let Some(path) = used.path() else { return };
+        let name = name_of(&path);
+        let known = self.files.iter().find(|(_, f)| f.name == name).map(|(id, _)| id);
+        if let Some(known) = known {
+            if self.reading.contains(&known) {
+                let message = format!("{name} uses this text, which uses {name}");
+                self.error("use-cycle", file, path.span(), message);
+            }
+            return;
+        }
+        match (self.load)(&name) {
+            Some(text) => self.read(&name, &text),
+            None => {
+                let message =
+                    format!("there is no library and no file beside this one named {name}");
+                self.error("missing-file", file, path.span(), message);
+            }
+        }
+    }
+
+    /// Declares the top level of a file in a class: its members, and the things of what it uses.
+    pub(crate) fn declare_file(&mut self, file: FileId, class: ClassId) {
+        let parse = self.files[file].parse.clone();
+        self.using.push(file);
+        for member in parse.file().members() {
+            let Member::Use(used) = member else { continue };
+            let Some(path) = used.path() else { continue };
+            let name = name_of(&path);
+            let found = self.files.iter().find(|(_, f)| f.name == name).map(|(id, _)| id);
+            let (Some(found), Some(last)) = (found, path.segments().last()) else { continue };
+            let part = (class, last.name());
+            if self.using.contains(&found) || self.parts.contains_key(&part) {
+                continue;
+            }
+            let origin = self.origin(file, path.span());
+            if let Some(things) = self.class_of_file(found, origin) {
+                let doc = String::new();
+                let part = Part {
+                    name: last.name(),
+                    doc,
+                    class: things,
+                    count: None,
+                    range: None,
+                    origin,
+                };
+                self.add_part(Place { file, span: last.span() }, class, part);
+            }
+        }
+        self.using.pop();
+        self.declare_body(&Scope::of(file, class), parse.file().members().collect());
+    }
+
+    /// Makes the class of a file that has things, of its own or by what it uses.
+    fn class_of_file(&mut self, file: FileId, origin: OriginId) -> Option<ClassId> {
+        if !self.has_things(file) {
+            return None;
+        }
+        let name = self.files[file].name.clone();
+        let object = self.object;
+        let class = self.add_unnamed_class(&name, object, origin);
+        self.classes_of_one.insert(class);
+        self.declare_file(file, class);
+        Some(class)
+    }
+
+    fn has_things(&self, file: FileId) -> bool {
+        let mut members = self.files[file].parse.file().members();
+        members.any(|m| matches!(m, Member::Part(part) if part.definition().is_none()))
+    }
+
+    fn set_unit(&mut self, line: &ast::UnitLine) {
+        let spelling = line.unit();
+        match expr::units::read_quantity("1", &spelling) {
+            Some((metres, Dimension::LENGTH)) => {
+                // 1 mm is 0.001 m; the factor is exact the other way round.
+                self.document.units_per_metre = (1.0 / metres).round().max(1.0 / metres);
+            }
+            Some(_) | None => {
+                let message = format!("{spelling} is no unit of length");
+                let place = Place { file: OWN, span: line.span() };
+                let hint = "write `unit mm`, `unit m`, or leave the line out";
+                self.report(Diagnostic::error("unknown-unit", place, message).hint(hint));
+            }
+        }
+    }
+}
+
+fn name_of(path: &ast::DottedName) -> String {
+    path.segments().map(|w| w.text().to_string()).collect::<Vec<String>>().join(".")
+}
+
+/// Returns the word after a number that was to be its unit, where that is what a diagnostic is at.
+fn strange_unit(parse: &Parse, diagnostic: &Diagnostic) -> Option<SyntaxToken> {
+    let mut tokens = parse.syntax().descendants_with_tokens().filter_map(SyntaxElement::into_token);
+    let word = tokens.find(|t| syntax::span_of_token(t) == diagnostic.place.span)?;
+    let before = word.prev_token()?;
+    let number = if before.kind() == SyntaxKind::Whitespace && !before.text().contains('\n') {
+        before.prev_token()?
+    } else {
+        before
+    };
+    let is_unit = word.kind() == SyntaxKind::Ident
+        && number.kind() == SyntaxKind::Number
+        && !matches!(word.text(), "within" | "until" | "to" | "times");
+    is_unit.then_some(word)
+}

@@ -1,0 +1,183 @@
+//! Names: what a word means where it stands, and the nearest that could have been meant.
+
+use crate::kinds::Kind;
+use crate::lower::Lowerer;
+use crate::scope::Scope;
+use base::diagnostic::nearest;
+use base::{Diagnostic, Name, Place};
+use kernel::builtin;
+use kernel::{ClassId, ClassKind, Document, Path, Step, Term};
+use syntax::ast;
+
+impl Lowerer<'_> {
+    /// Resolves a bare name.
+    pub(crate) fn name(&mut self, scope: &Scope, word: &ast::Word) -> Option<(Term, Kind)> {
+        let name = word.name();
+        if let Some(kind) = scope.local(&name) {
+            return Some((Term::Local(name), kind.clone()));
+        }
+        if let Some(&i) = scope.constants.get(&name) {
+            return Some((Term::number(i as f64), Kind::Number(None)));
+        }
+        for (class, me) in owners(scope) {
+            if let Some(kind) = self.kind_of_part(class, &name) {
+                let takes = self.document.find_message(class, &name, None);
+                let takes = takes.map_or(0, |(_, m)| m.parameters.len());
+                if takes > 0 && self.class_of_part(class, &name).is_none() {
+                    let message = format!("{name} is a message that takes {takes} arguments");
+                    self.error("wrong-arity", scope.file, word.span(), message);
+                    return None;
+                }
+                return Some((Term::send(me, &name), kind));
+            }
+        }
+        if let Some(b) = builtin::find(builtin::THING_MESSAGES, &name) {
+            let kind = self.builtin_kind(b.result, &Kind::Unknown);
+            return Some((Term::send(Term::Me, &name), kind));
+        }
+        self.unknown_name(scope, word);
+        None
+    }
+
+    pub(crate) fn unknown_name(&mut self, scope: &Scope, word: &ast::Word) {
+        let mut names: Vec<String> = scope.locals.iter().map(|(n, _)| n.to_string()).collect();
+        names.extend(scope.constants.keys().map(ToString::to_string));
+        for &class in &scope.classes {
+            names.extend(self.names_of(class));
+        }
+        names.extend(builtin::FUNCTIONS.iter().map(|b| b.name.to_string()));
+        let message = format!("there is nothing called {} here", word.text());
+        let place = Place { file: scope.file, span: word.span() };
+        let mut d = Diagnostic::error("unknown-name", place, message);
+        if self.names.contains_key(word.text()) {
+            let made = format!("it is a class: `{}(…)` makes a thing of it", word.text());
+            d = d.hint(made);
+        } else if let Some(near) = nearest(word.text(), names.iter().map(String::as_str)) {
+            d = d.hint(format!("did you mean `{near}`?"));
+        }
+        self.report(d);
+    }
+
+    /// Says that a receiver has no part or message of this name, and which it has.
+    pub(crate) fn unknown_part(&mut self, scope: &Scope, receiver: &Kind, word: &ast::Word) {
+        let what = receiver.words(&self.document);
+        let message = format!("{what} has no part or message {}", word.text());
+        let place = Place { file: scope.file, span: word.span() };
+        let mut d = Diagnostic::error("unknown-part", place, message);
+        let names: Vec<String> = match receiver {
+            Kind::Thing(class) => self.names_of(*class),
+            Kind::Number(_) => builtin::NUMBER_MESSAGES.iter().map(|b| b.name.into()).collect(),
+            Kind::Text => builtin::TEXT_MESSAGES.iter().map(|b| b.name.into()).collect(),
+            Kind::List(_) => builtin::LIST_MESSAGES.iter().map(|b| b.name.into()).collect(),
+            Kind::Picture => builtin::PICTURE_MESSAGES.iter().map(|b| b.name.into()).collect(),
+            Kind::Bool | Kind::Tuple(_) | Kind::Function | Kind::Unknown => Vec::new(),
+        };
+        d = match nearest(word.text(), names.iter().map(String::as_str)) {
+            Some(near) => d.hint(format!("did you mean `{near}`?")),
+            None if names.is_empty() => d,
+            None => d.hint(format!("it has {}", names.join(", "))),
+        };
+        self.report(d);
+    }
+
+    /// Returns the names of the parts and messages of a class.
+    pub(crate) fn names_of(&self, class: ClassId) -> Vec<String> {
+        let document = &self.document;
+        let mut names: Vec<String> = Vec::new();
+        for c in document.lineage(class) {
+            let c = &document.classes[c];
+            if c.supers.len() > 1 {
+                names.extend(c.supers.iter().map(|s| s.name.to_string()));
+            }
+            names.extend(c.parts.iter().map(|p| p.name.to_string()));
+            names.extend(c.messages.iter().map(|m| m.name.to_string()));
+        }
+        names
+    }
+
+    /// Returns the class of the part of this name, seen from a class.
+    pub(crate) fn class_of_part(&self, class: ClassId, name: &Name) -> Option<ClassId> {
+        let line = self.document.primary_line(class);
+        for &c in &line {
+            if let Some(&part) = self.parts.get(&(c, name.clone())) {
+                return Some(self.document.classes[c].parts[part].class);
+            }
+            let supers = &self.document.classes[c].supers;
+            if let Some(s) = supers.iter().filter(|_| supers.len() > 1).find(|s| s.name == *name) {
+                return Some(s.class);
+            }
+        }
+        let others = line.iter().flat_map(|&c| self.document.classes[c].supers.iter().skip(1));
+        others.map(|s| s.class).find_map(|c| self.class_of_part(c, name))
+    }
+
+    /// Returns what the part or message of this name is worth, seen from a class.
+    pub(crate) fn kind_of_part(&mut self, class: ClassId, name: &Name) -> Option<Kind> {
+        if let Some(part) = self.class_of_part(class, name) {
+            return Some(Kind::of_class(&self.document, part));
+        }
+        let (definer, _) = self.document.find_message(class, name, None)?;
+        Some(self.message_kind(definer, name))
+    }
+
+    /// Finds out what a message is worth, once.
+    pub(crate) fn message_kind(&mut self, definer: ClassId, name: &Name) -> Kind {
+        let key = (definer, name.clone());
+        if let Some(known) = self.message_kinds.get(&key) {
+            return known.clone().unwrap_or(Kind::Unknown);
+        }
+        let Some((answer, scope)) = self.definitions.get(&key).cloned() else {
+            return Kind::Unknown;
+        };
+        self.message_kinds.insert(key.clone(), None);
+        self.silent += 1;
+        let kind = self.expr(&scope, &answer).map_or(Kind::Unknown, |(_, kind)| kind);
+        self.silent -= 1;
+        self.message_kinds.insert(key, Some(kind.clone()));
+        kind
+    }
+
+    pub(crate) fn class_at(&self, class: ClassId, path: &Path) -> Option<ClassId> {
+        class_at(&self.document, class, path)
+    }
+}
+
+/// Returns the classes whose parts a bare name may mean, each with the term for its thing.
+pub(crate) fn owners(scope: &Scope) -> Vec<(ClassId, Term)> {
+    let mut me = Term::Me;
+    let mut owners = Vec::new();
+    for &class in &scope.classes {
+        let outer = if me == Term::Me { Term::Owner } else { Term::send(me.clone(), "owner") };
+        owners.push((class, std::mem::replace(&mut me, outer)));
+    }
+    owners
+}
+
+/// Returns the class of the part of this name, seen from a class.
+pub(crate) fn class_of_part(document: &Document, class: ClassId, name: &str) -> Option<ClassId> {
+    let layout = document.layout(class);
+    if let Some(&field) = layout.iter().find(|&&f| *document.field_name(f) == *name) {
+        return Some(document.field_class(field));
+    }
+    let supers = &document.classes[class].supers;
+    if let Some(first) = supers.first().filter(|s| supers.len() > 1 && s.name == *name) {
+        return Some(first.class);
+    }
+    let others = layout.iter().filter(|f| f.role == kernel::PartRole::Superclass);
+    others.map(|&f| document.field_class(f)).find_map(|c| class_of_part(document, c, name))
+}
+
+/// Returns the class of what a path leads to, if that is known.
+pub(crate) fn class_at(document: &Document, class: ClassId, path: &Path) -> Option<ClassId> {
+    path.0.iter().try_fold(class, |class, step| match step {
+        Step::Part(name) => class_of_part(document, class, name),
+        Step::Index(_) | Step::Last => match document.classes[class].kind {
+            ClassKind::List(element) => Some(element),
+            ClassKind::Primitive(_)
+            | ClassKind::Composite
+            | ClassKind::Set(_)
+            | ClassKind::Reference(_) => None,
+        },
+        Step::Owner => None,
+    })
+}

@@ -1,0 +1,163 @@
+//! Paths: expressions that lead to a stored part, step by step.
+
+use crate::kinds::Kind;
+use crate::lower::Lowerer;
+use crate::scope::Scope;
+use base::{Diagnostic, Place};
+use kernel::{ClassId, ClassKind, Count, Path, Step};
+use syntax::ast::{self, AstNode, Expr};
+
+impl Lowerer<'_> {
+    /// Lowers a path to a stored part, and finds the class of what it leads to, if that is known.
+    pub(crate) fn path(&mut self, scope: &Scope, e: &Expr) -> Option<(Path, Option<ClassId>)> {
+        match e {
+            Expr::Paren(inner) => self.path(scope, &inner.inner()?),
+            Expr::Owner(_) => Some((Path(vec![Step::Owner]), scope.classes.get(1).copied())),
+            Expr::Name(name) => self.first_step(scope, &name.name()?),
+            Expr::Field(field) if field.args().is_none() => {
+                let (path, class) = self.path(scope, &field.receiver()?)?;
+                self.next_step(scope, &path, class, &field.name()?)
+            }
+            Expr::Index(index) => {
+                let receiver = index.receiver()?;
+                let (path, class) = self.path(scope, &receiver)?;
+                let at = index.index()?;
+                let Some(i) = crate::numbers::constant(&|n| scope.constant(n), &at) else {
+                    let message = "an index in a path is a whole number, from 0".to_string();
+                    self.error("index", scope.file, at.span(), message);
+                    return None;
+                };
+                let count = self.count_of(scope, &receiver);
+                let i = self.element_index(scope, i, at.span(), count)?;
+                let element = match class {
+                    Some(list) => Some(self.element(list).or_else(|| {
+                        let what = Kind::of_class(&self.document, list).words(&self.document);
+                        let message = format!("{what} has no elements");
+                        let span = receiver.span();
+                        self.error("value-of-wrong-class", scope.file, span, message);
+                        None
+                    })?),
+                    None => None,
+                };
+                Some((path.then(Step::Index(i)), element))
+            }
+            other => {
+                let message = "a path of parts is wanted: `a.b.c`".to_string();
+                self.error("not-a-path", scope.file, other.span(), message);
+                None
+            }
+        }
+    }
+
+    /// Lowers several paths; those that are wrong are left out.
+    pub(crate) fn paths(&mut self, scope: &Scope, exprs: impl Iterator<Item = Expr>) -> Vec<Path> {
+        exprs.filter_map(|e| self.path(scope, &e)).map(|(path, _)| path).collect()
+    }
+
+    fn first_step(&mut self, scope: &Scope, word: &ast::Word) -> Option<(Path, Option<ClassId>)> {
+        let mut path = Path::default();
+        for &class in &scope.classes {
+            if let Some(part) = self.class_of_part(class, &word.name()) {
+                return Some((path.then(Step::Part(word.name())), Some(part)));
+            }
+            if self.document.find_message(class, word.text(), None).is_some() {
+                return self.refuse_virtual(scope, word);
+            }
+            path = path.then(Step::Owner);
+        }
+        self.unknown_name(scope, word);
+        None
+    }
+
+    fn next_step(
+        &mut self,
+        scope: &Scope,
+        path: &Path,
+        class: Option<ClassId>,
+        word: &ast::Word,
+    ) -> Option<(Path, Option<ClassId>)> {
+        if word.text() == "owner" {
+            return Some((path.then(Step::Owner), None));
+        }
+        let Some(class) = class else {
+            return Some((path.then(Step::Part(word.name())), None));
+        };
+        if let Some(element) = self.element(class).filter(|_| word.text() == "last") {
+            return Some((path.then(Step::Last), Some(element)));
+        }
+        match self.class_of_part(class, &word.name()) {
+            Some(part) => Some((path.then(Step::Part(word.name())), Some(part))),
+            None if self.document.find_message(class, word.text(), None).is_some() => {
+                self.refuse_virtual(scope, word)
+            }
+            None => {
+                self.unknown_part(scope, &Kind::of_class(&self.document, class), word);
+                None
+            }
+        }
+    }
+
+    fn refuse_virtual(
+        &mut self,
+        scope: &Scope,
+        word: &ast::Word,
+    ) -> Option<(Path, Option<ClassId>)> {
+        let message = format!("{} is a virtual part: it is computed, not stored", word.text());
+        let place = Place { file: scope.file, span: word.span() };
+        let d = Diagnostic::error("virtual-part", place, message);
+        self.report(d.hint("say what it shall be by a constraint: `constraint a = b`"));
+        None
+    }
+
+    fn element(&self, list: ClassId) -> Option<ClassId> {
+        match self.document.classes[list].kind {
+            ClassKind::List(element) => Some(element),
+            ClassKind::Primitive(_)
+            | ClassKind::Composite
+            | ClassKind::Set(_)
+            | ClassKind::Reference(_) => None,
+        }
+    }
+
+    /// Returns how many elements a list that is a part of a class's things always has, if it is told.
+    pub(crate) fn count_of(&self, scope: &Scope, list: &Expr) -> Option<u32> {
+        let (class, name) = match list {
+            Expr::Name(name) => (scope.class(), name.name()?.name()),
+            Expr::Field(field) => {
+                let path = loose_path(&field.receiver()?)?;
+                (self.class_at(scope.class(), &path)?, field.name()?.name())
+            }
+            _ => return None,
+        };
+        if scope.local(&name).is_some() {
+            return None;
+        }
+        let line = self.document.primary_line(class);
+        let own = |c: ClassId| Some((c, *self.parts.get(&(c, name.clone()))?));
+        let (c, part) = line.into_iter().find_map(own)?;
+        match self.document.classes[c].parts[part].count? {
+            Count::Fixed(n) => Some(n),
+            Count::Given => None,
+        }
+    }
+}
+
+/// Reads a path without looking where it leads.
+pub(crate) fn loose_path(expr: &Expr) -> Option<Path> {
+    match expr {
+        Expr::Name(name) => Some(Path(vec![Step::Part(name.name()?.name())])),
+        Expr::Owner(_) => Some(Path(vec![Step::Owner])),
+        Expr::Paren(inner) => loose_path(&inner.inner()?),
+        Expr::Field(field) if field.args().is_none() => {
+            let name = field.name()?.name();
+            let step = if name == "last" { Step::Last } else { Step::Part(name) };
+            Some(loose_path(&field.receiver()?)?.then(step))
+        }
+        Expr::Index(index) => {
+            let i = crate::numbers::constant(&|_| None, &index.index()?)?;
+            let i = (i.fract() == 0.0 && (0.0..4e9).contains(&i)).then_some(i as u32)?;
+            Some(loose_path(&index.receiver()?)?.then(Step::Index(i)))
+        }
+        _ => None,
+    }
+}

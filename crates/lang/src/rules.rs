@@ -1,0 +1,344 @@
+//! Rules: everything that speaks of parts, lowered once all parts are declared.
+
+use crate::kinds::{Kind, measured};
+use crate::lower::Lowerer;
+use crate::members::Pending;
+use crate::paths::loose_path;
+use crate::scope::Scope;
+use crate::terms::code_for;
+use base::{Diagnostic, Name, Place};
+use kernel::{
+    ClassId, ClassKind, Constraint, Given, Insert, Merge, Method, OriginId, Path, Stay, Step,
+    Strength, Term,
+};
+use syntax::ast::{self, AstNode, Expr, Member, MethodItem, Rule, span_without_doc};
+
+impl Lowerer<'_> {
+    /// Lowers every expression that waits.
+    pub(crate) fn define_members(&mut self) {
+        let mut wrong = Vec::new();
+        for pending in std::mem::take(&mut self.pending) {
+            match pending {
+                Pending::Member(scope, member) => self.define(&scope, &member),
+                Pending::Value { scope, prefix, target, value } => {
+                    self.define_value(&scope, prefix, target.as_ref(), &value);
+                }
+                Pending::Answer { scope, index, answer } => {
+                    let class = scope.class();
+                    let name = self.document.classes[class].messages[index].name.clone();
+                    let wanted = self.message_kind(class, &name);
+                    match self.expr_of(&scope, &answer, &wanted) {
+                        Some(term) => self.document.classes[class].messages[index].answer = term,
+                        None => wrong.push((class, name)),
+                    }
+                }
+            }
+        }
+        for (class, name) in wrong {
+            self.document.classes[class].messages.retain(|m| m.name != name);
+        }
+    }
+
+    fn define_value(
+        &mut self,
+        scope: &Scope,
+        prefix: Vec<Step>,
+        target: Option<&Expr>,
+        value: &Expr,
+    ) {
+        let mut path = Path(prefix);
+        let mut class = self.class_at(scope.class(), &path);
+        if let Some(target) = target {
+            // what is given belongs to the thing itself, not to one around it
+            let mut own = scope.clone();
+            own.classes = match class {
+                Some(c) if !path.is_empty() => vec![c],
+                _ => vec![scope.class()],
+            };
+            let Some((rest, kind)) = self.path(&own, target) else { return };
+            path = path.join(&rest);
+            class = kind;
+        }
+        let wanted = class.map_or(Kind::Unknown, |c| Kind::of_class(&self.document, c));
+        let Some((term, kind)) = self.expr(scope, value) else { return };
+        if !kind.fits(&wanted, &self.document) {
+            let (is, given) = (wanted.words(&self.document), kind.words(&self.document));
+            let message = format!("{path} is {is}, and is given {given}");
+            return self.error(code_for(&kind, &wanted), scope.file, value.span(), message);
+        }
+        let term = measured(&self.document, term, &kind, &wanted);
+        let origin = self.origin(scope.file, value.span());
+        self.document.classes[scope.class()].givens.push(Given { path, value: term, origin });
+    }
+
+    fn define(&mut self, scope: &Scope, member: &Member) {
+        let origin = self.origin(scope.file, span_without_doc(member.syntax()));
+        let class = scope.class();
+        match member {
+            Member::Constraint(c) => self.define_constraint(scope, c, origin),
+            Member::Merge(merge) => {
+                let wanted = merge.paths().count();
+                let paths = self.paths(scope, merge.paths());
+                let Some(name) = self.rule_name(scope, merge.name()) else { return };
+                if paths.len() == wanted && wanted > 1 {
+                    self.document.classes[class].merges.push(Merge { name, paths, origin });
+                }
+            }
+            Member::Stay(stay) => {
+                let strength = stay.strength().map_or(Strength::Weak, strength);
+                for path in self.paths(scope, stay.paths()) {
+                    let stay = Stay { path, strength: Some(strength), origin };
+                    self.document.classes[class].stays.push(stay);
+                }
+            }
+            Member::Anchor(anchor) => {
+                for path in self.paths(scope, anchor.paths()) {
+                    self.document.classes[class].stays.push(Stay { path, strength: None, origin });
+                }
+            }
+            Member::Insert(insert) => self.define_insert(scope, insert, origin),
+            Member::Without(without) => {
+                for e in without.paths() {
+                    let Some(path) = loose_path(&e) else { continue };
+                    let place = Place { file: scope.file, span: e.span() };
+                    self.masks.push((class, path.clone(), place));
+                    self.document.classes[class].without.push(path);
+                }
+            }
+            Member::Attachers(attachers) => {
+                let paths = self.paths(scope, attachers.paths());
+                self.document.classes[class].attachers.extend(paths);
+            }
+            _ => {}
+        }
+    }
+
+    /// Returns the name of a constraint or merge, if it has one; nothing where it is not new.
+    fn rule_name(&mut self, scope: &Scope, word: Option<ast::Word>) -> Option<Option<Name>> {
+        let Some(word) = word else { return Some(None) };
+        let is_new = self.rule_names.insert((scope.class(), word.name()));
+        if is_new || !scope.constants.is_empty() {
+            return Some(Some(word.name()));
+        }
+        let message = format!("there is a constraint or merge {} already", word.text());
+        let place = Place { file: scope.file, span: word.span() };
+        let d = Diagnostic::error("duplicate-name", place, message);
+        self.report(d.hint("give one of them another name"));
+        None
+    }
+
+    fn define_insert(&mut self, scope: &Scope, insert: &ast::Insert, origin: OriginId) {
+        let (Some(part), Some(set)) = (insert.part(), insert.set()) else { return };
+        let (part, into) = (self.path(scope, &part), self.path(scope, &set));
+        let (Some((part, member)), Some((path, class))) = (part, into) else { return };
+        let kind_of = |class: Option<ClassId>| {
+            class.map_or(Kind::Unknown, |c| Kind::of_class(&self.document, c))
+        };
+        let (member, kind) = (kind_of(member), kind_of(class));
+        let is_set =
+            class.is_none_or(|c| matches!(self.document.classes[c].kind, ClassKind::Set(_)));
+        match &kind {
+            Kind::List(element) if is_set && !member.fits(element, &self.document) => {
+                self.wrong_kind(scope, insert.span(), &member, element);
+            }
+            _ if !is_set => {
+                let message = format!("{path} is {}, wanted a set", kind.words(&self.document));
+                let place = Place { file: scope.file, span: set.span() };
+                let d = Diagnostic::error("value-of-wrong-class", place, message);
+                self.report(d.hint("a set is declared as `name: Set of C`"));
+            }
+            _ => self.document.classes[scope.class()].inserts.push(Insert {
+                part,
+                set: path,
+                origin,
+            }),
+        }
+    }
+
+    fn define_constraint(&mut self, scope: &Scope, c: &ast::Constraint, origin: OriginId) {
+        let rule = match c.rule() {
+            Some(Rule::Holds(rule)) => rule,
+            Some(Rule::If(rule)) => {
+                let first = rule.span();
+                return self.not_yet(scope.file, first, "constraints under a condition are");
+            }
+            None => return,
+        };
+        let Some(name) = self.rule_name(scope, c.name()) else { return };
+        let Some((term, kind)) = self.expr(scope, &rule) else { return };
+        if !kind.fits(&Kind::Bool, &self.document) {
+            let message =
+                format!("a rule is true or false, this is {}", kind.words(&self.document));
+            let place = Place { file: scope.file, span: rule.span() };
+            let d = Diagnostic::error("not-a-rule", place, message);
+            return self.report(d.hint("write an equation, `a = b`"));
+        }
+        let within = match c.tolerance() {
+            Some(e) => match self.tolerance(scope, &rule, &e) {
+                Some(term) => Some(term),
+                None => return,
+            },
+            None => None,
+        };
+        let (mut methods, mut reads, mut derived, mut whole) = (Vec::new(), Vec::new(), true, true);
+        for item in c.methods().into_iter().flat_map(|m| m.items()) {
+            match item {
+                MethodItem::Method(m) => {
+                    if methods.is_empty() {
+                        derived = false;
+                    }
+                    match self.method(scope, &m, &term) {
+                        Some(method) => methods.push(method),
+                        None => whole = false,
+                    }
+                }
+                MethodItem::Reads(r) => reads.extend(self.paths(scope, r.paths())),
+                MethodItem::Derived(_) => derived = true,
+            }
+        }
+        if !whole {
+            return;
+        }
+        let strength = c.strength().map_or(Strength::Required, strength);
+        self.document.classes[scope.class()].constraints.push(Constraint {
+            name,
+            doc: c.doc().unwrap_or_default(),
+            rule: term,
+            strength,
+            methods,
+            derived,
+            reads,
+            within,
+            enabled: true,
+            origin,
+        });
+    }
+
+    /// Lowers what follows `within`: a number that measures what the sides of the rule do.
+    pub(crate) fn tolerance(&mut self, scope: &Scope, rule: &Expr, e: &Expr) -> Option<Term> {
+        let side = match rule {
+            Expr::Binary(b) => b.left(),
+            _ => None,
+        };
+        self.silent += 1;
+        let side = side.and_then(|side| self.expr(scope, &side));
+        self.silent -= 1;
+        let wanted = match side {
+            Some((_, Kind::Number(Some(d)))) => Kind::Number(Some(d)),
+            _ => Kind::Number(None),
+        };
+        self.expr_of(scope, e, &wanted)
+    }
+
+    fn method(&mut self, scope: &Scope, m: &ast::Method, rule: &Term) -> Option<Method> {
+        let targets: Vec<Expr> = m.targets().collect();
+        let mut mentioned = Vec::new();
+        mentions(rule, &mut mentioned);
+        // a message speaks of everything that its receiver has
+        for path in &mut mentioned {
+            while !path.is_empty() && self.class_at(scope.class(), path).is_none() {
+                path.0.pop();
+            }
+        }
+        let (mut paths, mut kinds) = (Vec::new(), Vec::new());
+        for target in &targets {
+            let (path, class) = self.path(scope, target)?;
+            let named = mentioned.iter().any(|p| p.overlaps(&path));
+            if !named && !self.is_merged(scope.class(), &path) {
+                let message = format!("the rule does not speak of {path}, which a method writes");
+                let place = Place { file: scope.file, span: target.span() };
+                let d = Diagnostic::error("method-target-not-in-rule", place, message);
+                self.report(d.hint("a method writes parts of its rule, so that the rule holds"));
+                return None;
+            }
+            kinds.push(class.map_or(Kind::Unknown, |c| Kind::of_class(&self.document, c)));
+            paths.push(path);
+        }
+        let value = m.value()?;
+        let parts: Vec<Expr> = match &value {
+            Expr::Tuple(tuple) if targets.len() > 1 => tuple.elements().collect(),
+            _ => vec![value.clone()],
+        };
+        if parts.len() != paths.len() {
+            let message = format!("{} targets and {} values", paths.len(), parts.len());
+            self.error("wrong-arity", scope.file, value.span(), message);
+            return None;
+        }
+        let mut values = Vec::new();
+        for (part, kind) in parts.iter().zip(&kinds) {
+            values.push(self.expr_of(scope, part, kind)?);
+        }
+        let origin = self.origin(scope.file, m.span());
+        Some(Method { targets: paths, values, origin })
+    }
+
+    /// Returns true if a merge of the class, or above it, may make the path another's as well.
+    fn is_merged(&self, class: ClassId, path: &Path) -> bool {
+        let lineage = self.document.lineage(class);
+        let mut merges = lineage.iter().flat_map(|&c| &self.document.classes[c].merges);
+        merges.any(|m| m.paths.iter().any(|p| p.overlaps(path)))
+    }
+}
+
+/// Collects the paths of parts and messages that a term speaks of.
+fn mentions(term: &Term, found: &mut Vec<Path>) {
+    if let Some(path) = stored_path(term) {
+        return found.push(path);
+    }
+    match term {
+        Term::Send { to, arguments, .. } => {
+            mentions(to, found);
+            arguments.iter().for_each(|a| mentions(&a.value, found));
+        }
+        Term::Call { arguments, .. } | Term::Make { arguments, .. } => {
+            arguments.iter().for_each(|a| mentions(&a.value, found));
+        }
+        Term::Tuple(items) | Term::List(items) => items.iter().for_each(|t| mentions(t, found)),
+        Term::Range(a, b) | Term::Index(a, b) | Term::Binary(_, a, b) | Term::Let(_, a, b) => {
+            mentions(a, found);
+            mentions(b, found);
+        }
+        Term::Unary(_, a) | Term::Lambda(_, a) | Term::IsA(a, _) | Term::Copy(a) => {
+            mentions(a, found);
+        }
+        Term::If(a, b, c) => {
+            for t in [a, b, c] {
+                mentions(t, found);
+            }
+        }
+        Term::Number { .. }
+        | Term::Text(_)
+        | Term::Bool(_)
+        | Term::Me
+        | Term::Owner
+        | Term::Document
+        | Term::Local(_)
+        | Term::All(_) => {}
+    }
+}
+
+/// Returns the path that a term is, messages without arguments among its steps included.
+fn stored_path(term: &Term) -> Option<Path> {
+    match term {
+        Term::Me => Some(Path::default()),
+        Term::Owner => Some(Path(vec![Step::Owner])),
+        Term::Send { to, name, arguments, above: None } if arguments.is_empty() => {
+            let step = if *name == "owner" { Step::Owner } else { Step::Part(name.clone()) };
+            Some(stored_path(to)?.then(step))
+        }
+        Term::Index(of, at) => match **at {
+            Term::Number { value, .. } => Some(stored_path(of)?.then(Step::Index(value as u32))),
+            _ => None,
+        },
+        _ => None,
+    }
+}
+
+fn strength(s: ast::Strength) -> Strength {
+    match s {
+        ast::Strength::Required => Strength::Required,
+        ast::Strength::Strong => Strength::Strong,
+        ast::Strength::Medium => Strength::Medium,
+        ast::Strength::Weak => Strength::Weak,
+    }
+}
