@@ -7,7 +7,9 @@
 //! - `//~ value PATH = TEXT`: what the values view shows, unit included
 //! - `//~ unsatisfied NAME`: a required constraint that does not hold; without any, all must hold
 //!
-//! The `check` blocks of every file must pass.
+//! The `check` blocks of every file must pass, and the independent checker must agree with the status.
+//! Laying a text out anew changes neither its values nor its checks; the gallery's and the library's
+//! are laid out already.
 
 use session::{DocumentId, Host, Session};
 use std::fmt::Write as _;
@@ -23,7 +25,10 @@ impl Host for Library {
 }
 
 fn root() -> PathBuf {
-    Path::new(env!("CARGO_MANIFEST_DIR")).parent().expect("tests stand in the project").to_path_buf()
+    Path::new(env!("CARGO_MANIFEST_DIR"))
+        .parent()
+        .expect("tests stand in the project")
+        .to_path_buf()
 }
 
 fn documents(folder: &str) -> Vec<PathBuf> {
@@ -44,12 +49,21 @@ fn documents(folder: &str) -> Vec<PathBuf> {
     found
 }
 
-/// Opens a document and returns everything that differs from what it says of itself.
-fn differences(path: &Path) -> String {
-    let text = fs::read_to_string(path).expect("the document can be read");
+fn read(path: &Path) -> String {
+    fs::read_to_string(path).expect("the document can be read")
+}
+
+fn opened(path: &Path, text: &str) -> (Session, DocumentId) {
     let mut session = Session::new(Box::new(Library(root())));
     let name = path.file_stem().expect("a document has a name").to_string_lossy().into_owned();
-    let id = session.open(&name, &text);
+    let id = session.open(&name, text);
+    (session, id)
+}
+
+/// Opens a document and returns everything that differs from what it says of itself.
+fn differences(path: &Path) -> String {
+    let text = read(path);
+    let (session, id) = opened(path, &text);
     let mut out = String::new();
     let wanted = |word: &str| {
         let prefix = format!("//~ {word}");
@@ -76,6 +90,10 @@ fn differences(path: &Path) -> String {
     }
     if !broken.is_empty() && status.satisfied {
         let _ = writeln!(out, "  everything holds");
+    }
+    let complaints = session.complaints(id);
+    if complaints.is_empty() != status.satisfied {
+        let _ = writeln!(out, "  {}; the checker: {complaints:?}", status.message);
     }
     for check in session.run_checks(id).iter().filter(|c| !c.passed) {
         let _ = writeln!(out, "  check \"{}\"", check.title);
@@ -106,7 +124,8 @@ fn compare_diagnostics(session: &Session, id: DocumentId, wanted: Vec<String>, o
         }
     }
     for d in found {
-        let _ = writeln!(out, "  {}:{} {}[{}]: {}", d.line, d.column, d.severity, d.code, d.message);
+        let _ =
+            writeln!(out, "  {}:{} {}[{}]: {}", d.line, d.column, d.severity, d.code, d.message);
     }
 }
 
@@ -135,4 +154,35 @@ fn the_gallery_comes_out_as_it_says() {
 #[test]
 fn the_library_has_no_faults() {
     assert_as_written("library");
+}
+
+/// What a document comes to: its values, bit for bit, and how its checks end.
+fn outcome(path: &Path, text: &str) -> Vec<String> {
+    let (session, id) = opened(path, text);
+    let values = session.values(id).into_iter();
+    let values = values.map(|v| format!("{} {} {:?}", v.path, v.text, v.number.map(f64::to_bits)));
+    let checks = session.run_checks(id).into_iter();
+    values.chain(checks.map(|c| format!("{} {}", c.title, c.passed))).collect()
+}
+
+#[test]
+fn laying_a_text_out_changes_neither_values_nor_checks() {
+    for folder in ["gallery", "library", "tests/suite"] {
+        for path in documents(folder) {
+            let text = read(&path);
+            let formatted = session::format(&text);
+            assert_eq!(session::format(&formatted), formatted, "{}: twice", path.display());
+            if formatted != text {
+                assert_eq!(outcome(&path, &formatted), outcome(&path, &text), "{}", path.display());
+            }
+        }
+    }
+}
+
+#[test]
+fn the_gallery_and_the_library_are_laid_out() {
+    for path in ["gallery", "library"].into_iter().flat_map(documents) {
+        let text = read(&path);
+        assert_eq!(session::format(&text), text, "{}", path.display());
+    }
 }

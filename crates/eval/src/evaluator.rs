@@ -121,7 +121,7 @@ impl<'a> Evaluator<'a> {
     }
 
     /// Asks something, and returns the slots that were read for the answer too.
-    pub(crate) fn listening<T>(&self, ask: impl FnOnce() -> T) -> (T, BTreeSet<SlotId>) {
+    pub fn listening<T>(&self, ask: impl FnOnce() -> T) -> (T, BTreeSet<SlotId>) {
         let before = self.reads.replace(Some(BTreeSet::new()));
         let answer = ask();
         let reads = self.reads.replace(before).unwrap_or_default();

@@ -140,8 +140,11 @@ impl Document {
         Some(found.find(|(_, m)| !m.is_default).unwrap_or(first))
     }
     /// Returns true if things of the class are a *place*: two or three stored parts, all real
-    /// numbers, no constraints. A place yields as one.
+    /// numbers, no constraints. A place yields as one. A document is none, whatever it consists of.
     pub fn is_place(&self, class: ClassId) -> bool {
+        if class == self.root {
+            return false;
+        }
         let layout = self.layout(class);
         (2..=3).contains(&layout.len())
             && layout.iter().all(|&f| {

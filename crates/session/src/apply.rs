@@ -7,7 +7,7 @@ use crate::texts::Texts;
 use crate::view::{Change, Refusal, TextChange};
 use crate::words;
 use crate::write_back::write_back;
-use kernel::{Command, DOCUMENT, Literal, Path, Step, Term, ThingId, Value, Values};
+use kernel::{Command, DOCUMENT, Literal, Path, SlotId, Step, Term, ThingId, Value, Values};
 use plan::{EditKind, Target};
 use std::sync::Arc;
 use syntax::edit::TextEdit;
@@ -74,7 +74,20 @@ fn edit(
         return Err(words::refusal_for(&state, reason, &report));
     }
     let label = label(kind, &aims_paths(&state, &aims));
-    Ok(keep(open, host, label, &values))
+    let edited = aims.iter().flat_map(|(aim, _)| slots_of(&state, aim)).collect();
+    Ok(keep(open, host, label, edited, &values))
+}
+
+/// Returns the slots that an aim is about: those of a thing, or those that an expression reads.
+fn slots_of(state: &State, aim: &Aim) -> Vec<SlotId> {
+    match aim {
+        Aim::Thing(thing) => state.structure.slots_under(*thing),
+        Aim::Term(term) => {
+            let evaluator = state.evaluator(&state.values);
+            let (_, read) = evaluator.listening(|| evaluator.evaluate(term, DOCUMENT));
+            read.into_iter().collect()
+        }
+    }
 }
 
 fn aims_paths(state: &State, aims: &[(Aim, Vec<Value>)]) -> Vec<String> {
@@ -121,16 +134,22 @@ fn flatten(literal: &Literal, values: &mut Vec<Value>) {
 }
 
 /// Makes values the document's own, as one step: written back, opened anew.
-pub(crate) fn keep(open: &mut Open, host: &dyn Host, label: String, values: &Values) -> Change {
+pub(crate) fn keep(
+    open: &mut Open,
+    host: &dyn Host,
+    label: String,
+    edited: Vec<SlotId>,
+    values: &Values,
+) -> Change {
     let before = open.state.clone();
     if values.changed(&before.values).next().is_none() {
         return Change { label, ..Change::default() };
     }
     let latest = open.planner.take_latest();
     let plans = open.planner.take_plans();
-    let (state, mut planner) = write_back(&before, values, host, plans);
+    let (state, mut planner) = write_back(&before, values, &edited, host, plans);
     planner.restore_latest(latest);
-    open.step_to(label.clone(), state, planner);
+    open.step_to(label.clone(), edited, state, planner);
     change(label, &before, &open.state)
 }
 
@@ -143,7 +162,7 @@ fn take_text(open: &mut Open, host: &dyn Host, text: &str) -> Change {
     }
     let plans = open.planner.take_plans();
     let (state, planner) = State::of(text.into(), Some(&before), host, plans);
-    open.step_to(label.clone(), state, planner);
+    open.step_to(label.clone(), Vec::new(), state, planner);
     change(label, &before, &open.state)
 }
 
@@ -181,9 +200,39 @@ fn restructure(open: &mut Open, host: &dyn Host, command: &Command) -> Result<Ch
         open.planner.give_plans(planner.into_plans());
         return Err(words::refusal_of_text(&state, &new));
     }
+    let (state, planner) = match carried_over(command, &before, &state) {
+        Some(values) => write_back(&state, &values, &[], host, planner.into_plans()),
+        None => (state, planner),
+    };
     let label = words::command_label(command);
-    open.step_to(label.clone(), state, planner);
+    open.step_to(label.clone(), Vec::new(), state, planner);
     Ok(change(label, &before, &open.state))
+}
+
+/// Returns the values that a document keeps where a command only takes away what held it: every path
+/// keeps its present value, those of parts that are no longer one, too.
+fn carried_over(command: &Command, before: &State, after: &State) -> Option<Values> {
+    match command {
+        Command::Unmerge(_) | Command::Delete(_) | Command::Anchor { .. } => {}
+        Command::Set(_)
+        | Command::Move(_)
+        | Command::Merge(_)
+        | Command::Edit { .. }
+        | Command::Rename { .. }
+        | Command::Promote { .. }
+        | Command::Enable { .. }
+        | Command::Text(_)
+        | Command::Undo
+        | Command::Redo => return None,
+    }
+    let mut values = after.values.clone();
+    for slot in after.structure.slots.ids() {
+        let thing = before.structure.follow(DOCUMENT, &after.slot_path(slot)).ok();
+        if let Some(was) = thing.and_then(|t| before.structure.slot_of[t]) {
+            values.put(slot, before.values.get(was));
+        }
+    }
+    Some(values)
 }
 
 /// Says what is different between two states.

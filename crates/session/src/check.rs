@@ -4,6 +4,7 @@
 //! then the same commands that the lab applies, and `expect` asks the state that they came to.
 
 use crate::apply;
+use crate::complaints;
 use crate::document::Open;
 use crate::host::Host;
 use crate::state::State;
@@ -46,6 +47,9 @@ fn run(state: &State, index: usize, host: &dyn Host) -> CheckReport {
         shortfalls: Vec::new(),
     };
     run.note_faults(state);
+    if let Some(first) = check.statements.first() {
+        run.note_violations(first);
+    }
     for at in 0..check.statements.len() {
         if let Err(message) = run.statement(at) {
             run.fall_short(&check.statements[at], message);
@@ -87,6 +91,15 @@ impl Run<'_> {
         self.shortfalls.push(Shortfall { line, statement: source, message });
     }
 
+    /// In debug builds the independent checker goes over every edit.
+    fn note_violations(&mut self, statement: &Statement) {
+        if cfg!(debug_assertions) {
+            for violation in complaints::violations(&self.open) {
+                self.fall_short(statement, violation);
+            }
+        }
+    }
+
     /// Runs one statement; what is returned ends the check.
     fn statement(&mut self, at: usize) -> Result<(), String> {
         let state = self.open.state.clone();
@@ -105,7 +118,11 @@ impl Run<'_> {
                 self.refusal = result.err();
                 Ok(())
             }
-            edit => self.edit(&state, edit).map(drop).map_err(|r| r.message),
+            edit => {
+                self.edit(&state, edit).map_err(|r| r.message)?;
+                self.note_violations(statement);
+                Ok(())
+            }
         }
     }
 

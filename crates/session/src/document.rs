@@ -2,6 +2,7 @@
 
 use crate::host::Host;
 use crate::state::State;
+use kernel::SlotId;
 use plan::{Planner, Plans};
 use std::rc::Rc;
 
@@ -11,6 +12,8 @@ pub(crate) struct Step {
     pub(crate) label: String,
     /// The document on the other side of the step.
     pub(crate) state: Rc<State>,
+    /// The slots that an edit of values was about; none for a step of any other kind.
+    pub(crate) edited: Vec<SlotId>,
 }
 
 /// An open document.
@@ -55,10 +58,16 @@ impl Open {
             drag: None,
         }
     }
-    /// Makes `state` the present one, as one step.
-    pub(crate) fn step_to(&mut self, label: String, state: State, planner: Planner) {
+    /// Makes `state` the present one, as one step; `edited` is what an edit of values was about.
+    pub(crate) fn step_to(
+        &mut self,
+        label: String,
+        edited: Vec<SlotId>,
+        state: State,
+        planner: Planner,
+    ) {
         let before = std::mem::replace(&mut self.state, Rc::new(state));
-        self.done.push(Step { label, state: before });
+        self.done.push(Step { label, state: before, edited });
         self.undone.clear();
         self.take_up(planner);
     }
@@ -70,7 +79,7 @@ impl Open {
         };
         let step = from.pop()?;
         let now = std::mem::replace(&mut self.state, step.state);
-        to.push(Step { label: step.label.clone(), state: now });
+        to.push(Step { label: step.label.clone(), state: now, edited: step.edited });
         let plans = self.planner.take_plans();
         let (planner, _) = Planner::new(self.state.model(), plans);
         self.take_up(planner);

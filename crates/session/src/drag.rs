@@ -7,16 +7,16 @@ use crate::state::State;
 use crate::texts::Texts;
 use crate::view::{Change, DragState, Refusal};
 use crate::words;
-use kernel::{Path, ThingId, Values};
+use kernel::{Path, SlotId, ThingId, Values};
 use plan::{Planner, Press, RefusalReason, Target};
 
 /// A drag between press and release.
 pub(crate) struct Drag {
     /// What is dragged, for the undo list.
     pub(crate) path: Path,
+    /// What holds its numbers.
+    slots: Vec<SlotId>,
     press: Press,
-    /// How many numbers the thing has: 2 for a place, 1 for a number.
-    count: usize,
     /// The values as of the last event.
     pub(crate) values: Values,
 }
@@ -34,15 +34,15 @@ pub(crate) fn press(
     let mut texts = Texts::new(&state.lowered.document, &state.structure);
     let targets = [Target::Thing(thing)];
     let press = planner.press(state.model(), &state.values, &targets, &mut texts)?;
-    let count = state.structure.slots_under(thing).len();
-    Ok(Drag { path, press, count, values: state.values.clone() })
+    let slots = state.structure.slots_under(thing);
+    Ok(Drag { path, slots, press, values: state.values.clone() })
 }
 
 impl Drag {
     /// Follows the pointer to a place on the sheet; a number follows the first of its coordinates.
     pub(crate) fn to(&mut self, state: &State, planner: &Planner, to: &[f64]) -> DragState {
         let mut texts = Texts::new(&state.lowered.document, &state.structure);
-        let to = &to[..self.count.min(to.len())];
+        let to = &to[..self.slots.len().min(to.len())];
         let report = planner.drag(state.model(), &mut self.press, &mut self.values, to, &mut texts);
         let message = (!report.reached).then(|| words::why_not_reached(state, &report));
         DragState { reached: report.reached, message }
@@ -59,6 +59,6 @@ impl Drag {
             return Err(words::refusal_for(&state, reason, &report));
         }
         let label = format!("move {}", self.path);
-        Ok(apply::keep(open, host, label, &self.values))
+        Ok(apply::keep(open, host, label, self.slots, &self.values))
     }
 }

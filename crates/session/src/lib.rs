@@ -8,13 +8,14 @@
 //! **Invariants**: a document's state is made from its text alone; a refused command changes no bit;
 //! undo and redo bring back states, bit for bit.
 //!
-//! Reading order: [`session`](Session), `document`, `state`, `apply`, `drag`, `write_back`, `check`,
-//! `views`, [`view`], [`host`].
+//! Reading order: [`session`](Session), `document`, `state`, `apply`, `drag`, `write_back`,
+//! `complaints`, `check`, `views`, [`view`], [`host`].
 pub mod host;
 pub mod view;
 
 mod apply;
 mod check;
+mod complaints;
 mod document;
 mod drag;
 mod session;

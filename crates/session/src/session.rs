@@ -2,6 +2,7 @@
 
 use crate::apply;
 use crate::check;
+use crate::complaints;
 use crate::document::Open;
 use crate::drag;
 use crate::host::Host;
@@ -90,6 +91,12 @@ impl Session {
         let open = self.document_mut(id);
         let thing = words::find(&open.state, path)?;
         let state = open.state.clone();
+        let slots = state.structure.slots_under(thing);
+        let held = slots.iter().all(|&s| state.structure.slots[s].anchored);
+        if let (true, Some(&slot)) = (held, slots.first()) {
+            let reason = plan::RefusalReason::Anchored(slot);
+            return Err(words::refusal_for(&state, &reason, &plan::EditReport::default()));
+        }
         let drag = drag::press(&state, &mut open.planner, thing, path.clone())
             .map_err(|reason| words::refusal_for(&state, &reason, &plan::EditReport::default()))?;
         open.drag = Some(drag);
@@ -100,7 +107,7 @@ impl Session {
         let open = self.document_mut(id);
         let state = open.state.clone();
         match &mut open.drag {
-            Some(drag) => drag.to(&state, &mut open.planner, &[to.0, to.1]),
+            Some(drag) => drag.to(&state, &open.planner, &[to.0, to.1]),
             None => DragState::default(),
         }
     }
@@ -164,6 +171,13 @@ impl Session {
     /// Returns what the document calls itself: the first words of its first `///`, else its name.
     pub fn title(&self, id: DocumentId) -> String {
         words::title(self.document(id))
+    }
+    /// Returns what the independent checker finds wrong, in words; nothing is praise.
+    ///
+    /// It tests the state from the rules alone and, where the latest step was an edit of values, that
+    /// it changed nothing it should not have. It shares no code with what computed the values.
+    pub fn complaints(&self, id: DocumentId) -> Vec<String> {
+        complaints::of(self.document(id))
     }
     /// Runs the `check` blocks, each on a fresh copy of the document as it is.
     pub fn run_checks(&self, id: DocumentId) -> Vec<CheckReport> {

@@ -7,9 +7,11 @@ use crate::host::Host;
 use crate::texts::Texts;
 use base::Diagnostic;
 use eval::Evaluator;
-use kernel::{SlotId, Structure, Values};
+use kernel::{OriginId, SlotId, Strength, Structure, Values};
 use lang::Lowered;
-use plan::{Model, Planner, Plans, Status};
+use plan::{Model, Planner, Plans, Source, Status, Unmet};
+use solve::Level;
+use std::collections::BTreeSet;
 
 /// A document at one moment.
 pub(crate) struct State {
@@ -23,6 +25,10 @@ pub(crate) struct State {
     pub(crate) values: Values,
     /// What is wrong with the text, in its order.
     pub(crate) diagnostics: Vec<Diagnostic>,
+    /// Members that no plan keeps, because the planner does not understand them yet.
+    unplanned: BTreeSet<OriginId>,
+    /// Where two solutions coincide.
+    pub(crate) double_roots: Vec<SlotId>,
 }
 
 impl State {
@@ -46,21 +52,43 @@ impl State {
                 Diagnostic::error(f.kind.code(), lowered.place(f.origin), f.message.clone())
             }),
         );
+        let unplanned = unplanned.iter().map(|f| f.origin).collect();
         diagnostics.sort_by_key(|d| (d.place.file, d.place.span.start));
         let mut values = Values::new(structure.slots.len());
         let mut texts = Texts::new(&lowered.document, &structure);
-        planner.open(model, &mut values, &mut texts);
+        let double_roots = planner.open(model, &mut values, &mut texts).double_roots;
         debug_assert_eq!(kernel::check::values(&structure, &values), Ok(()));
-        (Self { text, lowered, structure, values, diagnostics }, planner)
+        (Self { text, lowered, structure, values, diagnostics, unplanned, double_roots }, planner)
     }
     /// Returns what every question to the planner is about.
     pub(crate) fn model(&self) -> Model<'_> {
         Model { document: &self.lowered.document, structure: &self.structure }
     }
-    /// Returns what holds and what is free.
+    /// Returns what holds and what is free. A rule that no plan keeps is tested all the same.
     pub(crate) fn status(&self, planner: &mut Planner) -> Status {
         let mut texts = Texts::new(&self.lowered.document, &self.structure);
-        planner.status(self.model(), &self.values, &mut texts)
+        let mut status = planner.status(self.model(), &self.values, &mut texts);
+        if self.unplanned.is_empty() {
+            return status;
+        }
+        let evaluator = self.evaluator(&self.values);
+        for (index, &instance) in (0..).zip(&self.structure.constraints) {
+            let class = &self.lowered.document.classes[instance.class];
+            let constraint = &class.constraints[instance.index as usize];
+            let required = constraint.strength == Strength::Required && constraint.enabled;
+            let source = Source::Constraint(index);
+            let told = status.unmet.iter().any(|u| u.source == source);
+            if !self.unplanned.contains(&constraint.origin) || !required || told {
+                continue;
+            }
+            let verdict = evaluator.test(instance).ok();
+            if !verdict.as_ref().is_some_and(|v| v.holds) {
+                let error = verdict.and_then(|v| v.error);
+                status.unmet.push(Unmet { source, level: Level::Required, error });
+                status.satisfied = false;
+            }
+        }
+        status
     }
     /// Returns an evaluator of this state, or of other values of it.
     pub(crate) fn evaluator<'a>(&'a self, values: &'a Values) -> Evaluator<'a> {

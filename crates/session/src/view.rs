@@ -211,6 +211,8 @@ pub struct Status {
     pub unmet: Vec<Unmet>,
     /// Constraints that say nothing new.
     pub redundant: Vec<String>,
+    /// What else is worth knowing of the solution: a double root.
+    pub notes: Vec<String>,
     /// One sentence: "all constraints hold; 8 degrees of freedom".
     pub message: String,
     /// Whether there is something to take back, and what.
@@ -259,9 +261,9 @@ pub struct Explanation {
 pub struct ExplainedStep {
     /// The paths that it computes.
     pub targets: Vec<String>,
-    /// How: `written method`, `isolated`, `linear block of 4`, `Newton block of 14`, ….
+    /// How: `method 1 of 2`, `its rule, solved for it`, `4 linear equations, solved together`, ….
     pub method: String,
-    /// The formula or the constraints, in the language.
+    /// The method that ran, or the rules, in the language.
     pub formula: String,
     /// Why this way: the constraint it comes from and what decided its direction.
     pub reason: String,

@@ -37,10 +37,10 @@ pub(crate) fn refusal_for(state: &State, reason: &RefusalReason, report: &EditRe
     let mut constraints = unmet.clone();
     for conflict in &report.conflicts {
         for source in std::iter::once(&conflict.source).chain(&conflict.circuit) {
-            if let Some(name) = source_name(state, *source) {
-                if !constraints.contains(&name) {
-                    constraints.push(name);
-                }
+            if let Some(name) = source_name(state, *source)
+                && !constraints.contains(&name)
+            {
+                constraints.push(name);
             }
         }
     }
@@ -54,6 +54,7 @@ pub(crate) fn refusal_for(state: &State, reason: &RefusalReason, report: &EditRe
         }
         RefusalReason::Method(failure) => {
             let name = source_name(state, failure.source).unwrap_or_default();
+            constraints.retain(|known| *known != name);
             constraints.insert(0, name.clone());
             format!("refused by {name}: {}", failure.message)
         }

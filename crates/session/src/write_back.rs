@@ -2,7 +2,8 @@
 //!
 //! In: a state, and the values after an edit. Out: the text whose state has these values. Given
 //! numbers that changed are rewritten where they stand; then the text is opened, and while a value
-//! differs from what the edit came to, the first that does is given as well.
+//! differs from what the edit came to, one that does is given as well: one whose class gives it a
+//! value, else one that the edit was about, else the first.
 
 use crate::host::Host;
 use crate::state::State;
@@ -18,6 +19,7 @@ use std::collections::BTreeSet;
 pub(crate) fn write_back(
     state: &State,
     wanted: &Values,
+    edited: &[SlotId],
     host: &dyn Host,
     mut plans: Plans,
 ) -> (State, Planner) {
@@ -40,15 +42,20 @@ pub(crate) fn write_back(
         let edits = lang::write_values(&state.lowered, &writes);
         let text = syntax::edit::apply(&state.text, &edits);
         let (next, planner) = State::of(text, Some(state), host, plans);
-        let missing: Vec<ThingId> = differing(&next, wanted)
-            .map(|slot| unit_of_writing(state, slot))
-            .filter(|t| !written.contains(t))
-            .take(more)
+        let rank = |slot: &SlotId| match state.structure.slots[*slot].given {
+            Some(_) => 0,
+            None if edited.contains(slot) => 1,
+            None => 2,
+        };
+        let mut missing: Vec<SlotId> = differing(&next, wanted)
+            .filter(|&slot| !written.contains(&unit_of_writing(state, slot)))
             .collect();
+        missing.sort_by_key(rank);
+        missing.truncate(more);
         if missing.is_empty() {
             return (next, planner);
         }
-        written.extend(missing);
+        written.extend(missing.into_iter().map(|slot| unit_of_writing(state, slot)));
         // One at a time while there are few: the first may determine the others.
         more = if written.len() < 8 { 1 } else { more * 2 };
         plans = planner.into_plans();

@@ -17,17 +17,19 @@ pub(crate) fn view(open: &Open, about: Option<&Path>) -> Explanation {
 fn plan_in_words(open: &Open) -> Explanation {
     let steps = open.planner.explain();
     let kind = match open.planner.latest_kind() {
-        plan::PlanKind::OnePass => "one pass",
-        plan::PlanKind::Block => "blocks of equations solved together",
-        plan::PlanKind::Relaxation => "an approach to the least change",
+        plan::PlanKind::OnePass => ", one after the other",
+        plan::PlanKind::Block => "; in some, several equations are solved together",
+        plan::PlanKind::Relaxation => "; in some, the least change is sought",
     };
     let about = match open.done.last() {
         Some(step) => step.label.clone(),
         None => "opening".into(),
     };
-    let n = steps.len();
-    let plural = if n == 1 { "step" } else { "steps" };
-    let summary = format!("The plan of {about} has {n} {plural}: {kind}.");
+    let summary = match steps.len() {
+        0 => format!("{about}: nothing else had to be computed."),
+        1 => format!("{about}: one step."),
+        n => format!("{about}: {n} steps{kind}."),
+    };
     let steps = steps.iter().map(|s| step(open, s)).collect();
     Explanation { about, summary, steps }
 }
@@ -58,10 +60,11 @@ fn why(open: &Open, path: &Path) -> Explanation {
     }
     let value = words::show_thing(state, thing, &state.values).unwrap_or_default();
     let from: Vec<String> = roots.iter().map(|r| root(open, *r)).collect();
-    let summary = match (steps.is_empty(), from.is_empty()) {
-        (true, false) => format!("{about} is {value}: {}.", from.join("; ")),
-        (false, false) => format!("{about} is {value}. It comes from {}.", from.join("; ")),
-        (_, true) => format!("{about} is {value}."),
+    let summary = match (roots.as_slice(), steps.is_empty()) {
+        ([], true) => format!("{about} is {value}."),
+        ([], false) => format!("{about} is {value}: its constraints alone decide it."),
+        ([only], true) => format!("{about} is {value}: it {}.", held_by(only.kind)),
+        (_, _) => format!("{about} is {value}, because {}.", enumerated(&from)),
     };
     let steps = steps.iter().map(|s| step(open, s)).collect();
     Explanation { about, summary, steps }
@@ -69,13 +72,25 @@ fn why(open: &Open, path: &Path) -> Explanation {
 
 fn root(open: &Open, root: Root) -> String {
     let path = open.state.slot_path(root.slot);
-    let how = match root.kind {
-        RootKind::Anchored => "anchored",
-        RootKind::Given => "given in the text",
-        RootKind::Kept => "as it was",
-        RootKind::Edited => "as the edit wanted it",
-    };
-    format!("{path} = {}, {how}", value(open, root.slot))
+    format!("{path} = {} {}", value(open, root.slot), held_by(root.kind))
+}
+
+fn held_by(kind: RootKind) -> &'static str {
+    match kind {
+        RootKind::Anchored => "is anchored",
+        RootKind::Given => "is given in the text",
+        RootKind::Kept => "stays as it was",
+        RootKind::Edited => "is what the edit wanted",
+    }
+}
+
+/// Puts things in a row: `a`, `a and b`, `a, b and c`.
+fn enumerated(items: &[String]) -> String {
+    match items {
+        [] => String::new(),
+        [only] => only.clone(),
+        [firsts @ .., last] => format!("{} and {last}", firsts.join(", ")),
+    }
 }
 
 fn value(open: &Open, slot: SlotId) -> String {
@@ -85,10 +100,10 @@ fn value(open: &Open, slot: SlotId) -> String {
 
 fn step(open: &Open, s: &plan::ExplainedStep) -> ExplainedStep {
     let state = &open.state;
-    let rules = s.sources.iter().filter_map(|&source| rule(open, source));
+    let formulas = s.sources.iter().filter_map(|&source| formula(open, source, s.kind));
     let names: Vec<String> =
         s.sources.iter().filter_map(|&source| words::source_name(state, source)).collect();
-    let reads: Vec<String> = s
+    let mut reads: Vec<String> = s
         .reads
         .iter()
         .take(12)
@@ -96,41 +111,61 @@ fn step(open: &Open, s: &plan::ExplainedStep) -> ExplainedStep {
         .collect();
     let mut reason = match names.is_empty() {
         true => "the edit wants it".to_string(),
-        false => format!("{} shall hold", names.join(", ")),
+        false => format!("{} must hold", enumerated(&names)),
     };
     if !reads.is_empty() {
-        reason.push_str(&format!(", with {}", reads.join(", ")));
-        if s.reads.len() > reads.len() {
-            reason.push_str(&format!(" and {} more", s.reads.len() - reads.len()));
+        let more = s.reads.len() - reads.len();
+        if more > 0 {
+            reads.push(format!("{more} more"));
         }
+        reason.push_str(&format!(", given {}", enumerated(&reads)));
     }
     ExplainedStep {
         targets: s.targets.iter().map(|&t| state.slot_path(t).to_string()).collect(),
         method: method(s.kind),
-        formula: rules.collect::<Vec<_>>().join("\n"),
+        formula: formulas.collect::<Vec<_>>().join("\n"),
         reason,
         values: s.targets.iter().map(|&t| value(open, t)).collect(),
     }
 }
 
-/// Returns what was written for a constraint.
-fn rule(open: &Open, source: Source) -> Option<String> {
+/// Returns what was written for a constraint: the method that ran, else the rule.
+fn formula(open: &Open, source: Source, kind: ExplainedKind) -> Option<String> {
     let Source::Constraint(index) = source else { return None };
     let state = &open.state;
     let instance = state.structure.constraints[index as usize];
-    let class = &state.lowered.document.classes[instance.class];
-    Some(state.lowered.source_of(class.constraints[instance.index as usize].origin))
+    let constraint =
+        &state.lowered.document.classes[instance.class].constraints[instance.index as usize];
+    if let ExplainedKind::Method { index, .. } = kind
+        && let Some(method) = constraint.methods.get(index as usize)
+    {
+        return Some(state.lowered.source_of(method.origin));
+    }
+    let written = state.lowered.source_of(constraint.origin);
+    let rule = written.strip_suffix('}').and_then(|w| w.split_once('{')).map(|(rule, _)| rule);
+    Some(rule.unwrap_or(&written).trim().to_string())
 }
 
 fn method(kind: ExplainedKind) -> String {
     match kind {
-        ExplainedKind::Alias => "takes the value of its equal".into(),
-        ExplainedKind::Method { index, of } => format!("written method {} of {of}", index + 1),
-        ExplainedKind::Isolated { roots: 1 } => "isolated".into(),
-        ExplainedKind::Isolated { roots } => format!("isolated, the nearest of {roots} solutions"),
-        ExplainedKind::Linear { unknowns } => format!("linear block of {unknowns}"),
-        ExplainedKind::Newton { unknowns } => format!("Newton block of {unknowns}"),
-        ExplainedKind::LeastChange { unknowns } => format!("least change of {unknowns}"),
-        ExplainedKind::Compromise { unknowns } => format!("compromise of {unknowns}"),
+        ExplainedKind::Alias => "equal to another part".into(),
+        ExplainedKind::Method { of: 1, .. } => "its one method".into(),
+        ExplainedKind::Method { index, of } => format!("method {} of {of}", index + 1),
+        ExplainedKind::Isolated { roots: 1 } => "its rule, solved for it".into(),
+        ExplainedKind::Isolated { roots } => {
+            format!("its rule, solved for it: the nearest of {roots} solutions")
+        }
+        ExplainedKind::Linear { unknowns: 1 } => "a linear equation".into(),
+        ExplainedKind::Linear { unknowns } => {
+            format!("{unknowns} linear equations, solved together")
+        }
+        ExplainedKind::Newton { unknowns: 1 } => "an equation, solved by Newton's method".into(),
+        ExplainedKind::Newton { unknowns } => {
+            format!("{unknowns} equations, solved together by Newton's method")
+        }
+        ExplainedKind::LeastChange { unknowns: 1 } => "least change".into(),
+        ExplainedKind::LeastChange { unknowns } => format!("least change of {unknowns} numbers"),
+        ExplainedKind::Compromise { unknowns: 1 } => "compromise".into(),
+        ExplainedKind::Compromise { unknowns } => format!("compromise of {unknowns} numbers"),
     }
 }

@@ -15,12 +15,23 @@ pub(crate) fn view(open: &Open) -> Status {
         status.redundant.iter().filter_map(|&s| words::source_name(state, s)).collect();
     let satisfied = status.unmet.iter().all(|u| u.level != Level::Required);
     let errors = state.diagnostics.iter().filter(|d| d.severity == base::Severity::Error).count();
-    let message = sentence(satisfied, &unmet, status.freedom, errors);
+    let notes: Vec<String> = state
+        .double_roots
+        .iter()
+        .map(|&slot| {
+            format!("{} is a double root: two solutions coincide there", state.slot_path(slot))
+        })
+        .collect();
+    let mut message = sentence(satisfied, &unmet, status.freedom, errors);
+    for note in &notes {
+        message = format!("{message}; {note}");
+    }
     Status {
         satisfied,
         freedom: status.freedom as u32,
         unmet,
         redundant,
+        notes,
         message,
         undo: open.done.last().map(|s| s.label.clone()),
         redo: open.undone.last().map(|s| s.label.clone()),

@@ -3,8 +3,10 @@
 use crate::state::State;
 use crate::view::ValueRow;
 use crate::words;
+use base::Name;
 use eval::Answer;
-use kernel::{ClassKind, Step, ThingId, Values};
+use indexmap::IndexMap;
+use kernel::{ClassId, ClassKind, Document, Step, ThingId, Values};
 
 /// Returns the rows, in order of declaration, merged values once.
 pub(crate) fn rows(state: &State, values: &Values, status: &plan::Status) -> Vec<ValueRow> {
@@ -54,36 +56,52 @@ fn add_virtual(state: &State, values: &Values, thing: ThingId, rows: &mut Vec<Va
     let (document, structure) = (&state.lowered.document, &state.structure);
     let evaluator = state.evaluator(values);
     let path = structure.path(document, thing);
-    for class in document.primary_line(structure.things[thing].class).into_iter().rev() {
-        for message in document.classes[class].messages.iter().filter(|m| m.parameters.is_empty()) {
-            let (text, unit, number, kind) = match evaluator.ask(thing, &message.name) {
-                Ok(Answer::Number(x, dimension)) => {
-                    let (text, unit) = lang::show_number(x, dimension, document);
-                    (text, unit, Some(x), dimension.named().unwrap_or("Real"))
-                }
-                Ok(Answer::Text(t)) => (t.to_string(), String::new(), None, "Text"),
-                Ok(Answer::Bool(b)) => (b.to_string(), String::new(), None, "Bool"),
-                Ok(
-                    Answer::Thing(_)
-                    | Answer::Made(_)
-                    | Answer::List(_)
-                    | Answer::Picture(_)
-                    | Answer::Function(_),
-                )
-                | Err(_) => continue,
-            };
-            rows.push(ValueRow {
-                path: path.then(Step::Part(message.name.clone())).to_string(),
-                class: kind.into(),
-                text,
-                unit,
-                number,
-                given: false,
-                is_virtual: true,
-                anchored: false,
-                freedom: None,
-                doc: message.doc.clone(),
-            });
+    for (name, doc) in virtual_parts(document, structure.things[thing].class) {
+        let (text, unit, number, kind) = match evaluator.ask(thing, name) {
+            Ok(Answer::Number(x, dimension)) => {
+                let (text, unit) = lang::show_number(x, dimension, document);
+                (text, unit, Some(x), dimension.named().unwrap_or("Real"))
+            }
+            Ok(Answer::Text(t)) => (t.to_string(), String::new(), None, "Text"),
+            Ok(Answer::Bool(b)) => (b.to_string(), String::new(), None, "Bool"),
+            Ok(
+                Answer::Thing(_)
+                | Answer::Made(_)
+                | Answer::List(_)
+                | Answer::Picture(_)
+                | Answer::Function(_),
+            )
+            | Err(_) => continue,
+        };
+        rows.push(ValueRow {
+            path: path.then(Step::Part(name.clone())).to_string(),
+            class: kind.into(),
+            text,
+            unit,
+            number,
+            given: false,
+            is_virtual: true,
+            anchored: false,
+            freedom: None,
+            doc: doc.to_string(),
+        });
+    }
+}
+
+/// Returns the messages that read as values, with what `///` says of them, in order of declaration.
+///
+/// One that a subclass defines anew stands where it was first declared, once. The picture is no value,
+/// whatever it answers.
+fn virtual_parts(document: &Document, class: ClassId) -> IndexMap<&Name, &str> {
+    let mut found: IndexMap<&Name, &str> = IndexMap::new();
+    for class in document.primary_line(class).into_iter().rev() {
+        let messages = document.classes[class].messages.iter();
+        for message in messages.filter(|m| m.parameters.is_empty() && *m.name != *"picture") {
+            let doc = found.entry(&message.name).or_default();
+            if !message.doc.is_empty() {
+                *doc = &message.doc;
+            }
         }
     }
+    found
 }

@@ -1,0 +1,80 @@
+//! Explanations: a plan and its reasons, as a page of a textbook has them.
+
+use crate::desk::{Desk, at, gallery};
+use session::view::Explanation;
+use std::fmt::Write as _;
+
+fn page(explanation: &Explanation) -> String {
+    let mut page = format!("{}\n", explanation.summary);
+    for step in &explanation.steps {
+        let _ = writeln!(page, "{}: {}; {}", step.targets.join(", "), step.method, step.reason);
+        let _ = writeln!(page, "  {}", step.formula);
+        let _ = writeln!(page, "  {}", step.values.join(", "));
+    }
+    page
+}
+
+#[test]
+fn setting_celsius() {
+    let mut desk = Desk::of(&gallery("temperature"));
+    desk.set("celsius.node.number", 100.0).expect("it is free");
+    let wanted = "\
+set celsius.node.number: 6 steps, one after the other.
+celsius.mercury.p1.y: method 1 of 2; celsius.height must hold, given celsius.node.number = 100, celsius.degree = 0.4 and celsius.mercury.p2.y = 141
+  mercury.p1.y := mercury.p2.y - 30 - node.number * degree
+  71
+celsius.shown: method 1 of 2; celsius.correctText must hold, given celsius.node.number = 100
+  shown := node.number.text(digits: 3)
+  100
+times.result.number: its rule, solved for it; times.times must hold, given celsius.node.number = 100 and factor.node.number = 1.8
+  constraint times: result.number = operand1.number * operand2.number
+  180
+fahrenheit.node.number: method 1 of 3; plus.plus must hold, given offset.node.number = 32 and times.result.number = 180
+  result.number := operand1.number + operand2.number
+  212
+fahrenheit.mercury.p1.y: method 1 of 2; fahrenheit.height must hold, given fahrenheit.node.number = 212, fahrenheit.degree = 0.4 and fahrenheit.mercury.p2.y = 145
+  mercury.p1.y := mercury.p2.y - 30 - node.number * degree
+  30.19999999999999
+fahrenheit.shown: method 1 of 2; fahrenheit.correctText must hold, given fahrenheit.node.number = 212
+  shown := node.number.text(digits: 3)
+  212
+";
+    assert_eq!(page(&desk.session.explain(desk.id, None)), wanted);
+}
+
+#[test]
+fn why_fahrenheit_is_what_it_is() {
+    let desk = Desk::of(&gallery("temperature"));
+    let about = at("fahrenheit.node.number");
+    let wanted = "\
+fahrenheit.node.number is 162.5, because celsius.node.number = 72.5 is given in the text, factor.node.number = 1.8 is anchored and offset.node.number = 32 is anchored.
+times.result.number: its rule, solved for it; times.times must hold, given celsius.node.number = 72.5 and factor.node.number = 1.8
+  constraint times: result.number = operand1.number * operand2.number
+  130.5
+fahrenheit.node.number: method 1 of 3; plus.plus must hold, given offset.node.number = 32 and times.result.number = 130.5
+  result.number := operand1.number + operand2.number
+  162.5
+";
+    assert_eq!(page(&desk.session.explain(desk.id, Some(&about))), wanted);
+}
+
+#[test]
+fn why_a_given_number_is_what_it_is() {
+    let desk = Desk::of(&gallery("temperature"));
+    let why = |path: &str| desk.session.explain(desk.id, Some(&at(path))).summary;
+    assert_eq!(why("celsius.node.number"), "celsius.node.number is 72.5: it is given in the text.");
+    assert_eq!(why("factor.node.number"), "factor.node.number is 1.8: it is anchored.");
+    assert_eq!(why("factor.mode"), "there is no mode in factor.mode; did you mean node?");
+}
+
+#[test]
+fn equations_that_are_solved_together() {
+    let desk =
+        Desk::of("x: Real\ny: Real\nconstraint sum: x + y = 5\nconstraint product: x * y = 6\n");
+    let explanation = desk.session.explain(desk.id, None);
+    assert_eq!(explanation.about, "opening");
+    let block = &explanation.steps[0];
+    assert_eq!(block.method, "2 equations, solved together by Newton's method");
+    assert_eq!(block.formula, "constraint sum: x + y = 5\nconstraint product: x * y = 6");
+    assert_eq!(block.reason, "sum and product must hold");
+}

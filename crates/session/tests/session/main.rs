@@ -1,0 +1,9 @@
+//! The session, from outside: what a person does to a document, and what its text says then.
+mod desk;
+
+mod explaining;
+mod refusing;
+mod saving;
+mod undoing;
+mod viewing;
+mod wrong_text;

@@ -1,0 +1,90 @@
+//! Refusals: nothing changes, and the words name what stands in the way.
+
+use crate::desk::{Desk, at, gallery};
+use session::view::{Change, Refusal};
+use session::{Command, Literal};
+
+/// Tries something that must be refused; the document must not show that it was tried.
+fn refused(desk: &mut Desk, act: impl FnOnce(&mut Desk) -> Result<Change, Refusal>) -> Refusal {
+    let before = (desk.moment(), desk.session.status(desk.id));
+    let refusal = act(desk).expect_err("this cannot be");
+    assert_eq!((desk.moment(), desk.session.status(desk.id)), before);
+    refusal
+}
+
+#[test]
+fn two_wishes_against_a_rule() {
+    let mut desk = Desk::of("c: Real = 20\nf: Real\nconstraint convert: c * 1.8 + 32 = f\n");
+    desk.set("c", 30.0).expect("c is free");
+    let both =
+        Command::Set(vec![(at("c"), Literal::Number(10.0)), (at("f"), Literal::Number(10.0))]);
+    let refusal = refused(&mut desk, |d| d.apply(&both));
+    assert_eq!(refusal.message, "refused: convert would not hold");
+    assert_eq!(refusal.constraints, ["convert"]);
+    desk.undo();
+    assert_eq!(desk.number("c"), 20.0);
+}
+
+#[test]
+fn a_method_that_fails() {
+    let mut desk = Desk::of(&gallery("temperature"));
+    let refusal = refused(&mut desk, |d| d.type_in("celsius.shown", "hot"));
+    assert_eq!(refusal.constraints, ["celsius.correctText"]);
+    assert!(refusal.message.starts_with("refused by celsius.correctText: "), "{}", refusal.message);
+}
+
+#[test]
+fn no_real_root() {
+    let mut desk = Desk::of(&gallery("square-root"));
+    let refusal = refused(&mut desk, |d| d.set("product.node.number", -1.0));
+    assert!(refusal.message.starts_with("refused: times.times"), "{}", refusal.message);
+}
+
+fn line() -> Literal {
+    Literal::Tuple([1.0, 2.0, 3.0, 4.0].into_iter().map(Literal::Number).collect())
+}
+
+#[test]
+fn an_anchored_place() {
+    let mut desk = Desk::of("use geometry\nl: Line\nanchor l.p1\n");
+    let pressed = desk.session.press(desk.id, &at("l.p1")).expect_err("an anchor holds it");
+    assert_eq!(pressed.message, "refused: l.p1.x is anchored");
+    let refusal = refused(&mut desk, |d| d.apply(&Command::Set(vec![(at("l"), line())])));
+    assert_eq!(refusal.message, "refused: l.p1.x is anchored");
+    let before = desk.moment();
+    let change = desk.move_to("l.p1", 1.0, 1.0).expect("a wish may come to nothing");
+    assert_eq!((change.edits.len(), desk.moment()), (0, before));
+}
+
+#[test]
+fn what_is_not_there_and_what_is_no_value() {
+    let mut desk = Desk::of("use geometry\nline: Line\n");
+    let refusal = refused(&mut desk, |d| d.set("lime.p1.x", 1.0));
+    assert!(refusal.message.contains("lime"), "{}", refusal.message);
+    let refusal = refused(&mut desk, |d| d.type_in("line.p1.x", "wide"));
+    assert!(refusal.message.starts_with("`wide` is no value"), "{}", refusal.message);
+    let refusal = refused(&mut desk, |d| d.type_in("line.p1.x", "3 kohm"));
+    assert_eq!(refusal.message, "`3 kohm` is Resistance (ohm), wanted is Length (m)");
+    let refusal = refused(&mut desk, |d| d.set("line.p1.x", f64::NAN));
+    assert!(!refusal.message.is_empty());
+    let refusal = refused(&mut desk, |d| d.set("line.p1.x", f64::INFINITY));
+    assert!(!refusal.message.is_empty());
+}
+
+#[test]
+fn merges_that_say_nothing() {
+    let mut desk = Desk::of("use geometry\nl: Line\na: Real = 1\n");
+    let refusal = refused(&mut desk, |d| d.apply(&Command::Merge(vec![at("l.p1"), at("l.p9")])));
+    assert!(refusal.message.contains("l.p9"), "{}", refusal.message);
+    let refusal = refused(&mut desk, |d| d.apply(&Command::Merge(vec![at("l.p1"), at("a")])));
+    assert!(!refusal.diagnostics.is_empty(), "{refusal:?}");
+    let refusal = refused(&mut desk, |d| d.apply(&Command::Unmerge(at("l.p1"))));
+    assert!(refusal.message.contains("l.p1"), "{}", refusal.message);
+}
+
+#[test]
+fn nothing_to_undo_or_redo() {
+    let mut desk = Desk::of("a: Real = 1\n");
+    assert_eq!(refused(&mut desk, |d| d.apply(&Command::Undo)).message, "there is nothing to undo");
+    assert_eq!(refused(&mut desk, |d| d.apply(&Command::Redo)).message, "there is nothing to redo");
+}

@@ -1,0 +1,167 @@
+//! Saving: the text after an edit differs from the text before by the fewest numbers.
+
+use crate::desk::{Desk, edited, gallery};
+
+/// Opens a text, does something, and returns the text after it; opening that gives the same values.
+fn after(text: &str, act: impl FnOnce(&mut Desk) -> session::view::Change) -> String {
+    let mut desk = Desk::of(text);
+    let change = act(&mut desk);
+    let saved = desk.text();
+    assert_eq!(edited(text, &change), saved, "the change's edits give the new text");
+    assert_eq!(Desk::of(&saved).bits(), desk.bits(), "opening it again gives the same bits");
+    assert_eq!(desk.session.complaints(desk.id), Vec::<String>::new());
+    saved
+}
+
+#[test]
+fn a_document_that_was_only_opened_is_as_it_was() {
+    for name in ["quadrilateral", "temperature", "voltage-divider", "bridge", "text-box"] {
+        let text = gallery(name);
+        let mut desk = Desk::of(&text);
+        assert_eq!(desk.text(), text);
+        let nothing = desk.session.release(desk.id).expect("nothing was pressed");
+        assert_eq!((nothing.edits.len(), desk.undo_label()), (0, None));
+    }
+}
+
+#[test]
+fn an_edit_that_changes_nothing_is_no_step() {
+    let text = "a: Real = 1.50 // as it was typed\n";
+    let mut desk = Desk::of(text);
+    let change = desk.set("a", 1.5).expect("it is so already");
+    assert_eq!((change.edits.len(), change.moved.len()), (0, 0));
+    assert_eq!((desk.text().as_str(), desk.undo_label()), (text, None));
+}
+
+#[test]
+fn a_set_number_is_the_only_change() {
+    let text = "// two\n  a:   Real =  1   /* one */\nb: Real = 2 // kept\nc: Real\n\n\nconstraint   c = a+b // odd\n";
+    let saved = after(text, |d| d.set("a", 10.25).expect("a is free to be set"));
+    assert_eq!(saved, text.replace("=  1   /*", "=  10.25   /*"));
+}
+
+#[test]
+fn a_computed_number_that_is_set_rewrites_what_gave_way() {
+    let text = "a: Real = 1 // gives way\nb: Real = 2 // stays\nc: Real\nanchor b\nconstraint sum: c = a + b\n";
+    let saved = after(text, |d| d.set("c", 10.0).expect("a can give way"));
+    assert_eq!(saved, text.replace("a: Real = 1 ", "a: Real = 8 "));
+}
+
+#[test]
+fn a_unit_is_kept_as_it_was_written() {
+    let text = "r: Resistance =   4.7 kohm   // a usual one\nd: Length = 30\n";
+    let saved = after(text, |d| d.type_in("r", "4800 ohm").expect("r is free"));
+    assert_eq!(saved, text.replace("4.7 kohm", "4.8 kohm"));
+}
+
+#[test]
+fn a_dragged_place_keeps_its_layout() {
+    let text = "use geometry\n\nl: Line {  p1 = ( 0,0 ) /* left */   p2 = (10 ,  5) // right\n}\n";
+    let saved = after(text, |d| d.drag("l.p2", &[(11.0, 5.0), (12.5, 5.0)]));
+    assert_eq!(saved, text.replace("(10 ,", "(12.5 ,"));
+}
+
+#[test]
+fn coordinates_written_apart_are_rewritten_apart() {
+    let text = "use geometry\np: Point { x = 1 // across\n    y = 2 // up\n}\n";
+    let saved = after(text, |d| d.drag("p", &[(1.0, 7.0)]));
+    assert_eq!(saved, text.replace("y = 2", "y = 7"));
+}
+
+#[test]
+fn a_negative_number_may_follow_a_positive_one() {
+    let text = "use geometry\np: Point = (1, -2) // there\n";
+    let saved = after(text, |d| d.drag("p", &[(-3.0, 4.0)]));
+    assert_eq!(saved, "use geometry\np: Point = (-3, 4) // there\n");
+}
+
+#[test]
+fn a_class_default_is_overridden_in_the_thing_itself() {
+    let text = "class Box { wide: Real = 3 }\na: Box\nb: Box // the other\n";
+    let saved = after(text, |d| d.set("b.wide", 5.0).expect("it is free"));
+    assert_eq!(saved, "class Box { wide: Real = 3 }\na: Box\nb: Box { wide = 5 } // the other\n");
+}
+
+#[test]
+fn a_default_of_a_library_is_overridden_in_the_document() {
+    let text = "use geometry\nl: Line // from the library\n";
+    let saved = after(text, |d| d.drag("l.p1", &[(60.0, 100.0)]));
+    assert_eq!(saved, "use geometry\nl: Line { p1 = (60, 100) } // from the library\n");
+}
+
+#[test]
+fn a_corner_of_the_quadrilateral_is_written_once() {
+    let text = gallery("quadrilateral");
+    let saved = after(&text, |d| d.drag("q.outer.side3.p1", &[(455.0, 154.0), (465.0, 164.0)]));
+    let written = "q: MidpointQuadrilateral { outer.side2.p2 = (465, 164) }";
+    assert_eq!(saved, text.replace("q: MidpointQuadrilateral", written));
+}
+
+#[test]
+fn a_midpoint_writes_the_corner_that_gave_way() {
+    let text = gallery("quadrilateral");
+    let saved = after(&text, |d| d.drag("q.inner.side3.p1", &[(394.0, 228.0)]));
+    let written = "q: MidpointQuadrilateral { outer.side3.p2 = (343, 312) }";
+    assert_eq!(saved, text.replace("q: MidpointQuadrilateral", written));
+}
+
+#[test]
+fn the_mercury_writes_the_temperature() {
+    let text = gallery("temperature");
+    let saved = after(&text, |d| d.drag("celsius.mercury.p1", &[(174.0, 80.0), (174.0, 78.0)]));
+    assert_eq!(saved, text.replacen("node.number = 72.5", "node.number = 82.5", 1));
+}
+
+#[test]
+fn a_resistor_of_the_divider_is_the_only_change() {
+    let text = gallery("voltage-divider");
+    let mut desk = Desk::of(&text);
+    let rows = desk.session.values(desk.id);
+    let resistances: Vec<_> = rows.iter().filter(|r| r.path.ends_with(".resistance")).collect();
+    assert_eq!(resistances.len(), 2);
+    let path = resistances[1].path.clone();
+    desk.type_in(&path, "300 ohm").expect("the resistance is free");
+    let saved = desk.text();
+    let changed: Vec<_> = text.lines().zip(saved.lines()).filter(|(a, b)| a != b).collect();
+    assert_eq!(changed.len(), 1, "{changed:?}");
+    assert!(changed[0].1.contains("300 ohm"), "{changed:?}");
+    assert_eq!(Desk::of(&saved).bits(), desk.bits());
+}
+
+#[test]
+fn a_computed_value_that_was_moved_is_given_itself() {
+    let text =
+        "c: Real\nd: Real\ne: Real\nconstraint twice: d = 2 * c\nconstraint thrice: e = 3 * c\n";
+    let saved = after(text, |d| d.set("d", 4.0).expect("c can give way"));
+    assert_eq!(saved, text.replace("d: Real", "d: Real = 4"));
+}
+
+#[test]
+fn a_text_is_written_with_its_quotes() {
+    let text = "t: Text = \"one\" // words\n";
+    let saved = after(text, |d| d.type_in("t", "say \"two\" \\ three").expect("it is free"));
+    assert_eq!(saved, "t: Text = \"say \\\"two\\\" \\\\ three\" // words\n");
+}
+
+#[test]
+fn a_value_without_a_given_gets_one() {
+    let text = "a: Real // nothing yet\n";
+    let saved = after(text, |d| d.set("a", 2.0).expect("it is free"));
+    assert_eq!(saved, "a: Real = 2 // nothing yet\n");
+}
+
+#[test]
+fn what_merged_parts_are_worth_stands_under_the_first_path() {
+    let text = "use geometry\na: Line { p1 = (0, 0)  p2 = (9, 9) }\nb: Line { p1 = (5, 5)  p2 = (30, 0) }\nmerge a.p2 = b.p1\n";
+    let saved = after(text, |d| d.drag("b.p1", &[(8.0, 9.0)]));
+    assert_eq!(saved, text.replace("p2 = (9, 9)", "p2 = (8, 9)"));
+}
+
+#[test]
+fn numbers_survive_to_the_last_bit() {
+    let text = "a: Real = 1\n";
+    let third = 1.0 / 3.0;
+    let saved = after(text, |d| d.set("a", third).expect("it is free"));
+    assert_eq!(saved, "a: Real = 0.3333333333333333\n");
+    assert_eq!(Desk::of(&saved).number("a").to_bits(), third.to_bits());
+}

@@ -1,0 +1,113 @@
+//! Undo and redo: every step comes back bit for bit, whatever kind it was.
+
+use crate::desk::{Desk, at, gallery};
+use session::Command;
+
+#[test]
+fn a_released_drag_is_one_step() {
+    let mut desk = Desk::of(&gallery("quadrilateral"));
+    let before = desk.moment();
+    let many: Vec<(f64, f64)> = (0..30).map(|i| (445.0 + f64::from(i), 144.0)).collect();
+    let change = desk.drag("q.outer.side3.p1", &many);
+    assert_eq!(change.label, "move q.outer.side3.p1");
+    assert_eq!(desk.undo_label().as_deref(), Some("move q.outer.side3.p1"));
+    let after = desk.moment();
+    desk.undo();
+    assert_eq!(desk.moment(), before);
+    assert_eq!(desk.undo_label(), None);
+    desk.redo();
+    assert_eq!(desk.moment(), after);
+}
+
+#[test]
+fn nothing_is_written_before_the_release() {
+    let mut desk = Desk::of(&gallery("quadrilateral"));
+    let text = desk.text();
+    desk.hold("q.outer.side3.p1", &[(465.0, 164.0)]);
+    assert_eq!(desk.text(), text);
+    assert_eq!(desk.number("q.outer.side2.p2.x"), 465.0);
+    assert_eq!(desk.undo_label(), None);
+}
+
+#[test]
+fn a_cancelled_drag_never_was() {
+    let mut desk = Desk::of(&gallery("quadrilateral"));
+    let before = desk.moment();
+    desk.hold("q.inner.side3.p1", &[(394.0, 228.0), (1e6, -3.0)]);
+    assert_ne!(desk.bits(), before.1);
+    desk.session.cancel(desk.id);
+    assert_eq!((desk.moment(), desk.undo_label()), (before, None));
+}
+
+#[test]
+fn a_drag_out_and_back_changes_nothing() {
+    let mut desk = Desk::of(&gallery("quadrilateral"));
+    let before = desk.moment();
+    let change = desk.drag("q.outer.side3.p1", &[(500.0, 200.0), (400.0, 0.0), (445.0, 144.0)]);
+    assert_eq!((change.edits.len(), desk.moment()), (0, before));
+}
+
+#[test]
+fn every_kind_of_step_comes_back() {
+    let mut desk = Desk::of("use geometry\n// two lines\na: Line { p2 = (9, 9) }\nb: Line\n");
+    type Act = fn(&mut Desk);
+    let acts: [Act; 7] = [
+        |d| drop(d.move_to("a.p1", 1.0, 2.0).expect("free")),
+        |d| drop(d.apply(&Command::Merge(vec![at("a.p2"), at("b.p1")])).expect("both are points")),
+        |d| drop(d.drag("b.p1", &[(20.0, 20.0), (30.0, 10.0)])),
+        |d| drop(d.apply(&Command::Anchor { path: at("a.p1"), held: true }).expect("a place")),
+        |d| d.type_text(&d.text().replace("// two lines", "// two lines, joined")),
+        |d| drop(d.apply(&Command::Unmerge(at("b.p1"))).expect("it is merged")),
+        |d| d.type_text(&format!("{}c: Real = 1 +\n", d.text())),
+    ];
+    let mut moments = vec![desk.moment()];
+    for act in acts {
+        act(&mut desk);
+        moments.push(desk.moment());
+    }
+    for round in 0..2 {
+        for moment in moments.iter().rev().skip(1) {
+            desk.undo();
+            assert_eq!(desk.moment(), *moment, "round {round}");
+        }
+        for moment in moments.iter().skip(1) {
+            desk.redo();
+            assert_eq!(desk.moment(), *moment, "round {round}");
+        }
+    }
+}
+
+#[test]
+fn an_unmerged_part_keeps_its_place() {
+    let mut desk = Desk::of(
+        "use geometry\na: Line { p1 = (0, 0)  p2 = (9, 9) }\nb: Line { p1 = (5, 5)  p2 = (30, 0) }\nmerge a.p2 = b.p1\n",
+    );
+    assert_eq!(desk.row("a.p2.x").number, Some(9.0));
+    desk.apply(&Command::Unmerge(at("b.p1"))).expect("it is merged");
+    assert_eq!((desk.number("a.p2.x"), desk.number("b.p1.x")), (9.0, 9.0));
+    assert_eq!((desk.number("a.p2.y"), desk.number("b.p1.y")), (9.0, 9.0));
+    assert_eq!(
+        desk.text(),
+        "use geometry\na: Line { p1 = (0, 0)  p2 = (9, 9) }\nb: Line { p1 = (9, 9)  p2 = (30, 0) }\n"
+    );
+}
+
+#[test]
+fn what_a_deleted_part_held_stays_where_it_was() {
+    let mut desk = Desk::of("a: Real = 1\nb: Real\nc: Real\nconstraint b = a + 2\n");
+    desk.apply(&Command::Delete(at("a"))).expect("nothing forbids it");
+    assert_eq!(desk.text(), "b: Real = 3\nc: Real\n");
+    desk.undo();
+    assert_eq!(desk.number("a"), 1.0);
+}
+
+#[test]
+fn a_new_step_ends_what_could_be_redone() {
+    let mut desk = Desk::of("a: Real = 1\n");
+    desk.set("a", 2.0).expect("free");
+    desk.undo();
+    desk.set("a", 3.0).expect("free");
+    assert_eq!(desk.session.status(desk.id).redo, None);
+    desk.undo();
+    assert_eq!(desk.text(), "a: Real = 1\n");
+}
