@@ -3,7 +3,8 @@
 //! Columns: opening from the text; a press; one step of a drag on a circle around the grip, from the
 //! pointer's event to the new values; the same with the picture evaluated anew; the release, which
 //! writes the text and opens it. Each is the median of many, in microseconds. Figures to read, not
-//! tests: nothing here fails for being slow.
+//! tests: nothing here fails for being slow. `cargo bench-table NAME PATH` measures one document by
+//! one grip: `cargo bench-table bridge bridge.load.tip`.
 
 use base::number::{cos, sin};
 use session::{Host, Path as ThingPath, Session, parse_path};
@@ -46,10 +47,15 @@ fn main() -> std::io::Result<()> {
         "{:24} {:>9} {:>9} {:>9} {:>9} {:>9}",
         "µs", "open", "press", "step", "frame", "release"
     )?;
+    let mut wanted = std::env::args().skip(1);
+    let (document, grip) = (wanted.next(), wanted.next());
     for path in documents {
         let text = fs::read_to_string(&path)?;
         let name = path.file_stem().unwrap_or_default().to_string_lossy().into_owned();
-        let Some(f) = measure(&top, &name, &text) else { continue };
+        if document.as_ref().is_some_and(|d| *d != name) {
+            continue;
+        }
+        let Some(f) = measure(&top, &name, &text, grip.as_deref()) else { continue };
         writeln!(
             out,
             "{name:24} {:9.1} {:9.1} {:9.2} {:9.2} {:9.1}",
@@ -60,7 +66,7 @@ fn main() -> std::io::Result<()> {
 }
 
 /// Measures one document; nothing if it has no grip that can be pressed.
-fn measure(top: &Path, name: &str, text: &str) -> Option<Figures> {
+fn measure(top: &Path, name: &str, text: &str, grip: Option<&str>) -> Option<Figures> {
     let open_once = || {
         let mut session = Session::new(Box::new(Library(top.to_path_buf())));
         let id = session.open(name, text);
@@ -71,7 +77,7 @@ fn measure(top: &Path, name: &str, text: &str) -> Option<Figures> {
     let grips = session.picture(id).grips;
     let (path, x, y): (ThingPath, f64, f64) = grips
         .iter()
-        .filter(|g| !g.anchored)
+        .filter(|g| grip.map_or(!g.anchored, |path| path == g.path))
         .find_map(|g| parse_path(&g.path).map(|p| (p, g.x, g.y)))?;
     let around = |i: usize| {
         let turn = std::f64::consts::TAU * (i as f64) / 360.0;
