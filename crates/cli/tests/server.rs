@@ -1,6 +1,8 @@
 //! The server as a stranger meets it: raw bytes on its port, every attack that other local servers
 //! fell to, and what an honest page asks.
 
+#![expect(clippy::unwrap_used, reason = "what these helpers cannot do, the test fails by")]
+
 use std::fs;
 use std::io::{BufRead, BufReader, Read, Write};
 use std::net::TcpStream;
