@@ -150,7 +150,7 @@ fn approach_region(
         let reason = Reason::NoSolution { step: index as u32 };
         return Err(Failure { reason, region: step.region });
     }
-    for &u in &measure.unknowns {
+    for u in measure.targets() {
         buffers.motion[u as usize] = motion(frame, values, u);
     }
     Ok(())

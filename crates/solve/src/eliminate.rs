@@ -6,7 +6,7 @@
 //! what is iterated is what remains, from where it is.
 
 use crate::lower::{Problem, ProblemRow};
-use crate::system::SlotIndex;
+use crate::system::{Level, SlotIndex};
 use expr::{Arena, ExprId, Node, Var};
 use std::collections::BTreeMap;
 
@@ -18,7 +18,7 @@ const LARGEST: usize = 400;
 pub(crate) struct Definition {
     /// The unknown.
     pub(crate) slot: SlotIndex,
-    /// Its value, in terms of what remains and of definitions after it.
+    /// Its value, in terms of what remains.
     pub(crate) value: ExprId,
     /// The row, by its position in the block.
     pub(crate) row: usize,
@@ -35,8 +35,17 @@ pub(crate) struct Reduced {
     pub(crate) definitions: Vec<Definition>,
 }
 
-/// Takes every unknown out of a square block that one of its rows defines.
-pub(crate) fn eliminate(arena: &mut Arena, problem: &Problem) -> Reduced {
+/// Which rows may define an unknown.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub(crate) enum Definers {
+    /// All: every row will hold.
+    Any,
+    /// Required ones: the others may have to give way.
+    Required,
+}
+
+/// Takes every unknown out of a block that one of its rows defines.
+pub(crate) fn eliminate(arena: &mut Arena, problem: &Problem, definers: Definers) -> Reduced {
     let mut known: BTreeMap<Var, ExprId> = BTreeMap::new();
     let mut definitions: Vec<Definition> = Vec::new();
     let mut rows: Vec<(usize, ProblemRow)> = Vec::new();
@@ -44,7 +53,12 @@ pub(crate) fn eliminate(arena: &mut Arena, problem: &Problem) -> Reduced {
     for (position, row) in problem.rows.iter().enumerate() {
         let row = replaced(arena, *row, &known);
         let left = problem.unknowns.len() - definitions.len();
-        let defined = if small && left > 1 { definition(arena, problem, &row) } else { None };
+        let may = match definers {
+            Definers::Any => true,
+            Definers::Required => row.level == Level::Required,
+        };
+        let defined =
+            if small && left > 1 && may { definition(arena, problem, &row) } else { None };
         match defined {
             Some((slot, value)) => {
                 known.insert(Var(slot), value);
@@ -57,6 +71,7 @@ pub(crate) fn eliminate(arena: &mut Arena, problem: &Problem) -> Reduced {
     for at in (0..definitions.len()).rev() {
         let value = arena.substitute(definitions[at].value, &|v| known.get(&v).copied());
         known.insert(Var(definitions[at].slot), value);
+        definitions[at].value = value;
     }
     let mut reduced = Problem {
         rows: Vec::with_capacity(rows.len()),

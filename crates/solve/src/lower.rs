@@ -3,7 +3,7 @@
 //! In: the blocks in order. Out: steps, each with a program that runs without looking at the system
 //! again, and the regions, whose soft rows can be approached where they cannot be met.
 
-use crate::eliminate::{Definition, Reduced, eliminate};
+use crate::eliminate::{Definers, Definition, Reduced, eliminate};
 use crate::measure::Measure;
 use crate::order::Block;
 use crate::plan::{Analysis, Step, StepKind};
@@ -249,7 +249,7 @@ fn square_block(
     problem: &Problem,
     steps: &mut Vec<Step>,
 ) {
-    let Reduced { problem: left, rows, definitions } = eliminate(arena, problem);
+    let Reduced { problem: left, rows, definitions } = eliminate(arena, problem, Definers::Any);
     let (kind, formulas, program) = square(arena, &left);
     let rows: Vec<usize> = rows.into_iter().map(|r| block.rows[r]).collect();
     let reads = reads_of(analysis, block).into_iter().collect();

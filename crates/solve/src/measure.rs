@@ -13,9 +13,11 @@
 //! **Source:** Nocedal and Wright, *Numerical Optimization*, 2nd ed., §18.1 and §3.4.
 
 use crate::dense::{self, Spaces};
+use crate::eliminate::{Definers, Definition, eliminate};
 use crate::lower::{Problem, ProblemRow};
 use crate::square::Trust;
 use crate::system::{Level, SlotIndex};
+use base::number::close;
 use expr::{Arena, Tape, Var};
 
 /// A compiled block of rows and unknowns of any number.
@@ -34,6 +36,9 @@ pub(crate) struct Measure {
     /// Row and two unknowns, the first not after the second.
     curvature: Vec<(u32, u32, u32)>,
     outs: usize,
+    /// Unknowns that required rows define outright, and the tape that computes them afterwards.
+    defined: Vec<SlotIndex>,
+    definitions: Tape,
 }
 
 /// What came of it.
@@ -66,6 +71,20 @@ impl Measure {
         problem: &Problem,
         kind: &dyn Fn(SlotIndex) -> (u16, bool),
     ) -> Self {
+        // Where the rows leave no choice, distance decides nothing, and definitions can be put in.
+        if problem.rows.len() < problem.unknowns.len() {
+            return Self::of_core(arena, problem, &[], kind);
+        }
+        let reduced = eliminate(arena, problem, Definers::Required);
+        Self::of_core(arena, &reduced.problem, &reduced.definitions, kind)
+    }
+
+    fn of_core(
+        arena: &mut Arena,
+        problem: &Problem,
+        definitions: &[Definition],
+        kind: &dyn Fn(SlotIndex) -> (u16, bool),
+    ) -> Self {
         let vars: Vec<Var> = problem.unknowns.iter().map(|&s| Var(s)).collect();
         let (mut outs, mut first, mut second) = (Vec::new(), Vec::new(), Vec::new());
         let (mut gradient, mut curvature) = (Vec::new(), Vec::new());
@@ -93,7 +112,17 @@ impl Measure {
             gradient,
             curvature,
             outs: outs.len(),
+            defined: definitions.iter().map(|d| d.slot).collect(),
+            definitions: Tape::compile(
+                arena,
+                &definitions.iter().map(|d| d.value).collect::<Vec<_>>(),
+            ),
         }
+    }
+
+    /// Returns every slot that solving writes.
+    pub(crate) fn targets(&self) -> impl Iterator<Item = SlotIndex> + '_ {
+        self.unknowns.iter().chain(&self.defined).copied()
     }
 
     /// Solves from the values that the unknowns have now; distance is measured from `x0`.
@@ -155,8 +184,20 @@ impl Measure {
             self.advance(values, &step, &scale, hard, &weights, registers);
         }
         match self.evaluate(values, &scale, &weights, registers) {
-            Some(local) if settled && self.hard_rows_hold(&local) => Measured::Least,
+            Some(local) if settled && self.hard_rows_hold(&local) => {
+                self.define(values, registers);
+                Measured::Least
+            }
             Some(_) | None => Measured::Failed,
+        }
+    }
+
+    /// Computes what required rows define outright.
+    fn define(&self, values: &mut [f64], registers: &mut Vec<f64>) {
+        let mut out = vec![0.0; self.defined.len()];
+        self.definitions.run(values, registers, &mut out);
+        for (&slot, value) in self.defined.iter().zip(out) {
+            values[slot as usize] = value;
         }
     }
 
@@ -181,7 +222,12 @@ impl Measure {
             .map(|(&u, s)| (values[u as usize] - x0[u as usize]) / s)
             .collect();
         let step = self.direction(&local, &away, &weights, &scale);
-        self.hard_rows_hold(&local) && step.iter().all(|d| d.abs() <= 1e-9)
+        let mut out = vec![0.0; self.defined.len()];
+        self.definitions.run(values, registers, &mut out);
+        let agrees = |(&slot, &x): (&SlotIndex, &f64)| close(values[slot as usize], x);
+        self.hard_rows_hold(&local)
+            && step.iter().all(|d| d.abs() <= 1e-9)
+            && self.defined.iter().zip(&out).all(agrees)
     }
 
     fn hard_rows_hold(&self, local: &Local) -> bool {
