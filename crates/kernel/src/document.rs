@@ -2,6 +2,7 @@
 
 use crate::class::{Class, ClassId, ClassKind, Message, Part};
 use base::{IdVec, Name};
+use std::collections::BTreeSet;
 
 /// Which way `y` runs on the sheet.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
@@ -48,14 +49,9 @@ pub enum PartRole {
 impl Document {
     /// Returns the class and its primary superclasses, from the class upwards.
     pub fn primary_line(&self, class: ClassId) -> Vec<ClassId> {
-        let mut line = vec![class];
-        while let Some(above) = self.classes[line[line.len() - 1]].supers.first() {
-            if line.contains(&above.class) {
-                break;
-            }
-            line.push(above.class);
-        }
-        line
+        let above = |&c: &ClassId| self.classes[c].supers.first().map(|s| s.class);
+        // no line is longer than there are classes, even where superclasses stand in a ring
+        std::iter::successors(Some(class), above).take(self.classes.len()).collect()
     }
     /// Returns the fields of an instance: inherited parts first, superclass parts where declared.
     pub fn layout(&self, class: ClassId) -> Vec<PartRef> {
@@ -97,13 +93,15 @@ impl Document {
     /// Returns every class that `class` is: itself, and all superclasses, nearest first, once each.
     pub fn lineage(&self, class: ClassId) -> Vec<ClassId> {
         let mut all = self.primary_line(class);
+        let mut known: BTreeSet<ClassId> = all.iter().copied().collect();
         let mut i = 0;
         while i < all.len() {
             for s in self.classes[all[i]].supers.iter().skip(1) {
-                for above in self.primary_line(s.class) {
-                    if !all.contains(&above) {
-                        all.push(above);
-                    }
+                let mut next = Some(s.class);
+                // what stands above a known class is known
+                while let Some(c) = next.filter(|&c| known.insert(c)) {
+                    all.push(c);
+                    next = self.classes[c].supers.first().map(|s| s.class);
                 }
             }
             i += 1;

@@ -5,7 +5,7 @@ use crate::scope::Scope;
 use base::{Diagnostic, FileId, Name, Place, Span};
 use expr::dimension::Dimension;
 use kernel::{Class, ClassId, ClassKind, Count, OriginId, Primitive, Superclass};
-use std::collections::BTreeSet;
+use std::collections::BTreeMap;
 use syntax::ast::{self, AstNode, Member, TypeShape};
 
 impl Lowerer<'_> {
@@ -136,28 +136,44 @@ impl Lowerer<'_> {
     }
 
     /// Superclasses in a ring are reported, and the class that closes it is an Object.
+    ///
+    /// One visit of every class, superclasses first.
     fn break_cycles(&mut self) {
-        for (id, file, class) in self.declared.clone() {
-            let mut above: Vec<ClassId> =
-                self.document.classes[id].supers.iter().map(|s| s.class).collect();
-            let mut seen = BTreeSet::new();
-            while let Some(next) = above.pop() {
-                if next == id {
-                    let span = class.name().map_or(class.span(), |n| n.span());
-                    let name = self.document.classes[id].name.clone();
-                    let message =
-                        format!("{name} is its own superclass, by way of the classes above it");
-                    self.error("superclass-cycle", file, span, message);
-                    let name = Name::new("object");
-                    self.document.classes[id].supers =
-                        vec![Superclass { class: self.object, name }];
-                    break;
+        let declared = self.declared.clone();
+        let index: BTreeMap<ClassId, usize> =
+            declared.iter().enumerate().map(|(i, (id, _, _))| (*id, i)).collect();
+        let mut visits = vec![Visit::Not; declared.len()];
+        for first in 0..declared.len() {
+            // each class on the way up, with the superclasses that are still to be visited
+            let mut way: Vec<(usize, Vec<usize>)> = Vec::new();
+            let mut next = (visits[first] == Visit::Not).then_some(first);
+            loop {
+                if let Some(i) = next.take() {
+                    visits[i] = Visit::OnTheWay;
+                    let above = self.document.classes[declared[i].0].supers.iter().rev();
+                    way.push((i, above.filter_map(|s| index.get(&s.class).copied()).collect()));
                 }
-                if seen.insert(next) {
-                    above.extend(self.document.classes[next].supers.iter().map(|s| s.class));
+                let Some((at, above)) = way.last_mut() else { break };
+                match above.pop().map(|i| (i, visits[i])) {
+                    None => {
+                        visits[*at] = Visit::Done;
+                        way.pop();
+                    }
+                    Some((i, Visit::Not)) => next = Some(i),
+                    Some((i, Visit::OnTheWay)) => self.break_cycle(&declared[i]),
+                    Some((_, Visit::Done)) => {}
                 }
             }
         }
+    }
+
+    fn break_cycle(&mut self, (id, file, class): &(ClassId, FileId, ast::Class)) {
+        let span = class.name().map_or(class.span(), |n| n.span());
+        let name = self.document.classes[*id].name.clone();
+        let message = format!("{name} is its own superclass, by way of the classes above it");
+        self.error("superclass-cycle", *file, span, message);
+        let name = Name::new("object");
+        self.document.classes[*id].supers = vec![Superclass { class: self.object, name }];
     }
 
     /// Returns the class that a type names; reports what it does not find.
@@ -171,7 +187,7 @@ impl Lowerer<'_> {
                     let place = Place { file, span: word.span() };
                     let mut d = Diagnostic::error("unknown-class", place, message);
                     let names = self.names.keys().map(Name::as_str);
-                    if let Some(near) = base::diagnostic::nearest(word.text(), names) {
+                    if let Some(near) = self.nearest(word.text(), names) {
                         d = d.hint(format!("did you mean `{near}`?"));
                     } else {
                         d = d.hint("declare it, or `use` the library that has it");
@@ -199,14 +215,16 @@ impl Lowerer<'_> {
         }
     }
 
-    fn class_made_of(&mut self, word: &str, kind: ClassKind, element: ClassId) -> ClassId {
+    fn class_made_of(&mut self, word: &'static str, kind: ClassKind, element: ClassId) -> ClassId {
+        if let Some(&known) = self.made.get(&(word, element)) {
+            return known;
+        }
         let name = format!("{word} {}", self.document.classes[element].name);
-        let known = self.document.classes.iter().find(|(_, c)| c.kind == kind).map(|(id, _)| id);
-        known.unwrap_or_else(|| {
-            let object = self.object;
-            let origin = self.document.classes[object].origin;
-            self.add_class(&name, kind, &[object], origin)
-        })
+        let object = self.object;
+        let origin = self.document.classes[object].origin;
+        let class = self.add_class(&name, kind, &[object], origin);
+        self.made.insert((word, element), class);
+        class
     }
 
     pub(crate) fn declared_count(&mut self, scope: &Scope, ty: &ast::Type) -> Option<Count> {
@@ -222,6 +240,14 @@ impl Lowerer<'_> {
             }
         }
     }
+}
+
+/// How far a class has been visited on the way up.
+#[derive(Clone, Copy, PartialEq, Eq)]
+enum Visit {
+    Not,
+    OnTheWay,
+    Done,
 }
 
 /// Returns a name with a small first letter.

@@ -110,6 +110,8 @@ pub(crate) struct Lowerer<'l> {
     pub(crate) names: BTreeMap<Name, ClassId>,
     pub(crate) origins: Origins,
     pub(crate) diagnostics: Vec<Diagnostic>,
+    /// What has been reported, so that it is said once.
+    said: BTreeSet<(Place, String)>,
     pub(crate) object: ClassId,
     pub(crate) classes_of_one: BTreeSet<ClassId>,
     /// Members whose expressions are still to be lowered.
@@ -128,6 +130,10 @@ pub(crate) struct Lowerer<'l> {
     pub(crate) masks: Vec<(ClassId, Path, Place)>,
     /// How many members `for` has made.
     pub(crate) unrolled: usize,
+    /// Classes of lists and sets, by `List of` or `Set of` and what they hold.
+    pub(crate) made: BTreeMap<(&'static str, ClassId), ClassId>,
+    /// How many expressions are being lowered inside one another.
+    pub(crate) depth: u32,
     /// While positive, nothing is reported.
     pub(crate) silent: u32,
     pub(crate) declared: Vec<(ClassId, FileId, ast::Class)>,
@@ -150,6 +156,9 @@ impl<'l> Lowerer<'l> {
             names: BTreeMap::new(),
             origins: Origins::default(),
             diagnostics: Vec::new(),
+            said: BTreeSet::new(),
+            made: BTreeMap::new(),
+            depth: 0,
             object: ClassId(0),
             classes_of_one: BTreeSet::new(),
             pending: Vec::new(),
@@ -172,7 +181,8 @@ impl<'l> Lowerer<'l> {
     }
 
     pub(crate) fn report(&mut self, diagnostic: Diagnostic) {
-        if self.silent == 0 && !self.diagnostics.contains(&diagnostic) {
+        let (place, message) = (diagnostic.place, diagnostic.message.clone());
+        if self.silent == 0 && self.said.insert((place, message)) {
             self.diagnostics.push(diagnostic);
         }
     }

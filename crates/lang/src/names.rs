@@ -3,11 +3,23 @@
 use crate::kinds::Kind;
 use crate::lower::Lowerer;
 use crate::scope::Scope;
-use base::diagnostic::nearest;
 use base::{Diagnostic, Name, Place};
 use kernel::builtin;
 use kernel::{ClassId, ClassKind, Document, Path, Step, Term};
+use std::collections::BTreeSet;
 use syntax::ast;
+
+/// How many expressions may stand inside one another before a message's worth is left open.
+const DEEPEST: u32 = 200;
+
+/// Beyond so many diagnostics no nearest name is looked for: each costs a look at every name.
+const MOST_GUESSES: usize = 100;
+
+/// The longest word that a nearest one is looked for.
+const LONGEST_WORD: usize = 100;
+
+/// How many names a hint lists.
+const MOST_LISTED: usize = 12;
 
 impl Lowerer<'_> {
     /// Resolves a bare name.
@@ -40,22 +52,42 @@ impl Lowerer<'_> {
     }
 
     pub(crate) fn unknown_name(&mut self, scope: &Scope, word: &ast::Word) {
-        let mut names: Vec<String> = scope.locals.iter().map(|(n, _)| n.to_string()).collect();
-        names.extend(scope.constants.keys().map(ToString::to_string));
-        for &class in &scope.classes {
-            names.extend(self.names_of(class));
-        }
-        names.extend(builtin::FUNCTIONS.iter().map(|b| b.name.to_string()));
         let message = format!("there is nothing called {} here", word.text());
         let place = Place { file: scope.file, span: word.span() };
         let mut d = Diagnostic::error("unknown-name", place, message);
         if self.names.contains_key(word.text()) {
             let made = format!("it is a class: `{}(…)` makes a thing of it", word.text());
             d = d.hint(made);
-        } else if let Some(near) = nearest(word.text(), names.iter().map(String::as_str)) {
-            d = d.hint(format!("did you mean `{near}`?"));
+        } else if self.may_guess() {
+            let locals = scope.locals.iter().map(|(n, _)| n.to_string());
+            let constants = scope.constants.keys().map(ToString::to_string);
+            let parts = scope.classes.iter().flat_map(|&class| self.names_of(class));
+            let functions = builtin::FUNCTIONS.iter().map(|b| b.name.to_string());
+            let classes = self.names.keys().map(ToString::to_string);
+            let names = locals.chain(constants).chain(parts).chain(functions).chain(classes);
+            let names: Vec<String> = names.collect();
+            if let Some(near) = self.nearest(word.text(), names.iter().map(String::as_str)) {
+                d = d.hint(format!("did you mean `{near}`?"));
+            }
         }
         self.report(d);
+    }
+
+    /// Returns true while errors are reported and few.
+    fn may_guess(&self) -> bool {
+        self.silent == 0 && self.diagnostics.len() < MOST_GUESSES
+    }
+
+    /// Returns the name that was perhaps meant, while errors are few.
+    pub(crate) fn nearest<'n>(
+        &self,
+        found: &str,
+        names: impl IntoIterator<Item = &'n str>,
+    ) -> Option<&'n str> {
+        if !self.may_guess() || found.len() > LONGEST_WORD {
+            return None;
+        }
+        base::diagnostic::nearest(found, names.into_iter().filter(|n| n.len() <= LONGEST_WORD))
     }
 
     /// Says that a receiver has no part or message of this name, and which it has.
@@ -65,6 +97,7 @@ impl Lowerer<'_> {
         let place = Place { file: scope.file, span: word.span() };
         let mut d = Diagnostic::error("unknown-part", place, message);
         let names: Vec<String> = match receiver {
+            _ if !self.may_guess() => Vec::new(),
             Kind::Thing(class) => self.names_of(*class),
             Kind::Number(_) => builtin::NUMBER_MESSAGES.iter().map(|b| b.name.into()).collect(),
             Kind::Text => builtin::TEXT_MESSAGES.iter().map(|b| b.name.into()).collect(),
@@ -72,9 +105,12 @@ impl Lowerer<'_> {
             Kind::Picture => builtin::PICTURE_MESSAGES.iter().map(|b| b.name.into()).collect(),
             Kind::Bool | Kind::Tuple(_) | Kind::Function | Kind::Unknown => Vec::new(),
         };
-        d = match nearest(word.text(), names.iter().map(String::as_str)) {
+        d = match self.nearest(word.text(), names.iter().map(String::as_str)) {
             Some(near) => d.hint(format!("did you mean `{near}`?")),
             None if names.is_empty() => d,
+            None if names.len() > MOST_LISTED => {
+                d.hint(format!("it has {}, …", names[..MOST_LISTED].join(", ")))
+            }
             None => d.hint(format!("it has {}", names.join(", "))),
         };
         self.report(d);
@@ -97,18 +133,11 @@ impl Lowerer<'_> {
 
     /// Returns the class of the part of this name, seen from a class.
     pub(crate) fn class_of_part(&self, class: ClassId, name: &Name) -> Option<ClassId> {
-        let line = self.document.primary_line(class);
-        for &c in &line {
-            if let Some(&part) = self.parts.get(&(c, name.clone())) {
-                return Some(self.document.classes[c].parts[part].class);
-            }
-            let supers = &self.document.classes[c].supers;
-            if let Some(s) = supers.iter().filter(|_| supers.len() > 1).find(|s| s.name == *name) {
-                return Some(s.class);
-            }
-        }
-        let others = line.iter().flat_map(|&c| self.document.classes[c].supers.iter().skip(1));
-        others.map(|s| s.class).find_map(|c| self.class_of_part(c, name))
+        let own = |c: ClassId| {
+            let index = *self.parts.get(&(c, name.clone()))?;
+            Some(self.document.classes[c].parts[index].class)
+        };
+        find_part(&self.document, class, name, &own)
     }
 
     /// Returns what the part or message of this name is worth, seen from a class.
@@ -126,6 +155,9 @@ impl Lowerer<'_> {
         if let Some(known) = self.message_kinds.get(&key) {
             return known.clone().unwrap_or(Kind::Unknown);
         }
+        if self.depth > DEEPEST {
+            return Kind::Unknown;
+        }
         let Some((answer, scope)) = self.definitions.get(&key).cloned() else {
             return Kind::Unknown;
         };
@@ -138,7 +170,12 @@ impl Lowerer<'_> {
     }
 
     pub(crate) fn class_at(&self, class: ClassId, path: &Path) -> Option<ClassId> {
-        class_at(&self.document, class, path)
+        path.0.iter().try_fold(class, |class, step| match step {
+            Step::Part(name) => self.class_of_part(class, name),
+            Step::Index(_) | Step::Last | Step::Owner => {
+                class_at(&self.document, class, &Path(vec![step.clone()]))
+            }
+        })
     }
 }
 
@@ -155,16 +192,38 @@ pub(crate) fn owners(scope: &Scope) -> Vec<(ClassId, Term)> {
 
 /// Returns the class of the part of this name, seen from a class.
 pub(crate) fn class_of_part(document: &Document, class: ClassId, name: &str) -> Option<ClassId> {
-    let layout = document.layout(class);
-    if let Some(&field) = layout.iter().find(|&&f| *document.field_name(f) == *name) {
-        return Some(document.field_class(field));
+    let own = |c: ClassId| {
+        document.classes[c].parts.iter().find(|p| *p.name == *name).map(|part| part.class)
+    };
+    find_part(document, class, name, &own)
+}
+
+/// Finds a part: in the primary line, then in each other superclass once, the nearest first.
+///
+/// `own` returns the class of the part of this name that a class declares itself.
+fn find_part(
+    document: &Document,
+    class: ClassId,
+    name: &str,
+    own: &dyn Fn(ClassId) -> Option<ClassId>,
+) -> Option<ClassId> {
+    let mut seen = BTreeSet::new();
+    let mut waiting = vec![class];
+    while let Some(class) = waiting.pop() {
+        let mut others = Vec::new();
+        let mut next = Some(class);
+        while let Some(c) = next.filter(|&c| seen.insert(c)) {
+            let supers = &document.classes[c].supers;
+            let named = supers.iter().filter(|_| supers.len() > 1).find(|s| *s.name == *name);
+            if let Some(found) = own(c).or(named.map(|s| s.class)) {
+                return Some(found);
+            }
+            others.extend(supers.iter().skip(1).map(|s| s.class));
+            next = supers.first().map(|s| s.class);
+        }
+        waiting.extend(others.into_iter().rev());
     }
-    let supers = &document.classes[class].supers;
-    if let Some(first) = supers.first().filter(|s| supers.len() > 1 && s.name == *name) {
-        return Some(first.class);
-    }
-    let others = layout.iter().filter(|f| f.role == kernel::PartRole::Superclass);
-    others.map(|&f| document.field_class(f)).find_map(|c| class_of_part(document, c, name))
+    None
 }
 
 /// Returns the class of what a path leads to, if that is known.

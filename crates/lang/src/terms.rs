@@ -15,6 +15,13 @@ type Lowered = Option<(Term, Kind)>;
 impl Lowerer<'_> {
     /// Lowers an expression.
     pub(crate) fn expr(&mut self, scope: &Scope, e: &Expr) -> Lowered {
+        self.depth += 1;
+        let lowered = self.expr_inside(scope, e);
+        self.depth -= 1;
+        lowered
+    }
+
+    fn expr_inside(&mut self, scope: &Scope, e: &Expr) -> Lowered {
         match e {
             Expr::Number(n) => self.number(scope, n),
             Expr::Text(t) => Some((Term::Text(t.text()?.unquoted()), Kind::Text)),
