@@ -6,7 +6,7 @@ use crate::state::State;
 use crate::texts::Texts;
 use crate::view::{Change, Refusal, TextChange};
 use crate::words;
-use crate::write_back::write_back;
+use crate::write_back::{differing, write_back};
 use kernel::{Command, DOCUMENT, Literal, Path, SlotId, Step, Term, ThingId, Value, Values};
 use plan::{EditKind, Target};
 use std::sync::Arc;
@@ -75,7 +75,7 @@ fn edit(
     }
     let label = label(kind, &aims_paths(&state, &aims));
     let edited = aims.iter().flat_map(|(aim, _)| slots_of(&state, aim)).collect();
-    Ok(keep(open, host, label, edited, &values))
+    keep(open, host, label, edited, &values)
 }
 
 /// Returns the slots that an aim is about: those of a thing, or those that an expression reads.
@@ -134,23 +134,44 @@ fn flatten(literal: &Literal, values: &mut Vec<Value>) {
 }
 
 /// Makes values the document's own, as one step: written back, opened anew.
+///
+/// # Errors
+/// That the text cannot say them, because what would have to say them is wrong; or that a required
+/// constraint that held would not.
 pub(crate) fn keep(
     open: &mut Open,
     host: &dyn Host,
     label: String,
     edited: Vec<SlotId>,
     values: &Values,
-) -> Change {
+) -> Result<Change, Refusal> {
     let before = open.state.clone();
     if values.changed(&before.values).next().is_none() {
-        return Change { label, ..Change::default() };
+        return Ok(Change { label, ..Change::default() });
     }
     let latest = open.planner.take_latest();
     let plans = open.planner.take_plans();
     let (state, mut planner) = write_back(&before, values, &edited, host, plans);
+    let unsaid = differing(&state, values).next().filter(|_| !state.diagnostics.is_empty());
+    let refusal = match unsaid {
+        Some(slot) => {
+            let path = before.slot_path(slot);
+            let message = format!("refused: where {path} would be written, the text has an error");
+            Some(words::refuse(message))
+        }
+        None if open.status.satisfied => {
+            words::refusal_of_status(&state, &state.status(&mut planner))
+        }
+        None => None,
+    };
+    if let Some(refusal) = refusal {
+        open.planner.give_plans(planner.into_plans());
+        open.planner.restore_latest(latest);
+        return Err(refusal);
+    }
     planner.restore_latest(latest);
     open.step_to(label.clone(), edited, state, planner);
-    change(label, &before, &open.state)
+    Ok(change(label, &before, &open.state))
 }
 
 /// Takes a text as it was typed. It may be wrong: what was right before stays in force.

@@ -63,6 +63,15 @@ pub(crate) fn refusal_for(state: &State, reason: &RefusalReason, report: &EditRe
     Refusal { message, constraints, ..Refusal::default() }
 }
 
+/// Says which required constraints do not hold, as the reason why an edit was refused; nothing if all
+/// do.
+pub(crate) fn refusal_of_status(state: &State, status: &plan::Status) -> Option<Refusal> {
+    let unmet = status.unmet.iter().filter(|u| u.level == solve::Level::Required);
+    let constraints: Vec<String> = unmet.filter_map(|u| source_name(state, u.source)).collect();
+    let message = format!("refused: {} would not hold", constraints.join(", "));
+    (!status.satisfied).then(|| Refusal { message, constraints, ..Refusal::default() })
+}
+
 /// Says why a drag did not reach the pointer.
 pub(crate) fn why_not_reached(state: &State, report: &EditReport) -> String {
     let mut names: Vec<String> = Vec::new();

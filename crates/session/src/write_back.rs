@@ -63,7 +63,10 @@ pub(crate) fn write_back(
 }
 
 /// Returns the slots whose values differ by more than rounding.
-fn differing<'a>(next: &'a State, wanted: &'a Values) -> impl Iterator<Item = SlotId> + 'a {
+pub(crate) fn differing<'a>(
+    next: &'a State,
+    wanted: &'a Values,
+) -> impl Iterator<Item = SlotId> + 'a {
     next.values.changed(wanted).filter(|&slot| match (next.values.get(slot), wanted.get(slot)) {
         (Value::Number(a), Value::Number(b)) => !close(a, b),
         (a, b) => !a.same_bits(&b),

@@ -57,6 +57,13 @@ fn an_anchored_place() {
 }
 
 #[test]
+fn a_rule_without_a_value() {
+    let mut desk = Desk::of(&gallery("temperature"));
+    let refusal = refused(&mut desk, |d| d.set("fahrenheit.degree", 0.0));
+    assert_eq!(refusal.message, "refused: fahrenheit.height would not hold");
+}
+
+#[test]
 fn what_is_not_there_and_what_is_no_value() {
     let mut desk = Desk::of("use geometry\nline: Line\n");
     let refusal = refused(&mut desk, |d| d.set("lime.p1.x", 1.0));

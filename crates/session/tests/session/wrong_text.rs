@@ -86,6 +86,17 @@ fn a_value_inside_a_wrong_line_is_not_rewritten() {
 }
 
 #[test]
+fn what_a_wrong_text_cannot_say_is_refused() {
+    let good = "class Box {\n    wide: Real = 3\n    high: Real\n    constraint square: high = wide\n}\nb: Box { wide = 5 }\n";
+    let mut desk = Desk::of(good);
+    desk.type_text(&good.replace("    wide: Real = 3\n", ""));
+    let before = (desk.moment(), desk.undo_label());
+    let refusal = desk.set("b.wide", 6.0).expect_err("there is no line to write it in");
+    assert_eq!(refusal.message, "refused: where b.wide would be written, the text has an error");
+    assert_eq!((desk.moment(), desk.undo_label()), before);
+}
+
+#[test]
 fn an_anchor_can_be_set_beside_a_wrong_line() {
     let mut desk = Desk::of(GOOD);
     let wrong = GOOD.replace("b = a + 2", "b = = a");
