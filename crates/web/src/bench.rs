@@ -8,9 +8,11 @@ use crate::{js, orbit, route};
 use leptos::prelude::*;
 use session::view::Grip;
 
-/// Frames that are counted, and steps of the session in each.
+/// Frames that are counted; the most steps of the session in each, and the time after which no
+/// further one begins, in milliseconds.
 const FRAMES: u32 = 240;
 const STEPS: u32 = 20;
+const STEPPING: f64 = 8.0;
 
 #[derive(Clone, Debug)]
 struct Run {
@@ -18,6 +20,7 @@ struct Run {
     grip: Grip,
     radius: f64,
     frame: u32,
+    steps: u32,
     begun: f64,
     in_steps: f64,
     in_frames: f64,
@@ -46,20 +49,22 @@ pub fn Bench(
         begun.set_value(true);
         set_timeout(
             move || {
-                if lab.press(&grip.path) {
-                    let radius = 0.1 * across;
-                    let run = Run {
-                        lab,
-                        grip,
-                        radius,
-                        frame: 0,
-                        begun: now(),
-                        in_steps: 0.0,
-                        in_frames: 0.0,
-                        report,
-                    };
-                    request_animation_frame(move || frame(run));
+                if !lab.press(&grip.path) {
+                    report.set(format!("{}: {}", grip.path, crate::words::NOT_DRAGGED));
+                    return;
                 }
+                let run = Run {
+                    lab,
+                    grip,
+                    radius: 0.1 * across,
+                    frame: 0,
+                    steps: 0,
+                    begun: now(),
+                    in_steps: 0.0,
+                    in_frames: 0.0,
+                    report,
+                };
+                request_animation_frame(move || frame(run));
             },
             std::time::Duration::from_millis(300),
         );
@@ -84,6 +89,10 @@ fn frame(mut run: Run) {
     for step in 0..STEPS {
         let to = orbit::place(&run.grip, run.radius, turn(step));
         run.lab.order(|session| session.drag(id, to));
+        run.steps += 1;
+        if now() - start > STEPPING {
+            break;
+        }
     }
     let stepped = now();
     run.lab.drag(orbit::place(&run.grip, run.radius, turn(STEPS)));
@@ -99,12 +108,11 @@ fn frame(mut run: Run) {
 fn finish(run: &Run) {
     let seconds = (now() - run.begun) / 1000.0;
     run.lab.cancel();
-    let steps = f64::from(FRAMES * STEPS);
     let json = format!(
         "{{\"path\": {:?}, \"frames\": {FRAMES}, \"steps\": {}, \"step_us\": {:.3}, \"frame_ms\": {:.3}, \"fps\": {:.1}}}",
         run.grip.path,
-        FRAMES * STEPS,
-        1000.0 * run.in_steps / steps,
+        run.steps,
+        1000.0 * run.in_steps / f64::from(run.steps),
         run.in_frames / f64::from(FRAMES),
         f64::from(FRAMES) / seconds,
     );

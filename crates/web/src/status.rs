@@ -26,6 +26,7 @@ pub fn StatusLine(
             Some(Notice::Refused(_)) | None => None,
         })
     });
+    let heard = Memo::new(move |_| drag.get().or_else(|| said.get()));
     view! {
         <footer class="status" class:wrong=move || !holds.get() class:doubtful=doubtful>
             <button class="verdict" aria-expanded=move || lab.why.get().to_string()
@@ -34,7 +35,7 @@ pub fn StatusLine(
                 {move || if holds.get() && !doubtful.get() { icons::holds() } else { icons::warning() }}
                 <span role="status" aria-label=words::STATUS>{sentence}</span>
             </button>
-            <span class="said" aria-live="polite">{move || drag.get().or_else(|| said.get())}</span>
+            <span class="said" aria-live="polite" title=heard>{heard}</span>
         </footer>
     }
 }

@@ -1,6 +1,7 @@
 //! The structure view: the tree of parts, constraints and merges, the picture's accessible twin.
 
 use crate::lab::Lab;
+use crate::values::rounded_all;
 use crate::{field, icons, words};
 use leptos::ev::KeyboardEvent;
 use leptos::prelude::*;
@@ -284,7 +285,7 @@ fn Row(tree: Tree, at: usize) -> impl IntoView {
                         done=move || { tree.editing.set(None); focus_row(at); } />
                 }.into_any()
             } else {
-                view! { <span class="value">{value}</span> }.into_any()
+                view! { <span class="value">{move || value.get().map(|value| rounded_all(&value))}</span> }.into_any()
             }}
             <span class=move || format!("state {}", state.get()) title=state>
                 <span class="unseen">{state}</span>

@@ -292,6 +292,16 @@ fn Field(lab: Lab, row: Memo<Option<ValueRow>>) -> impl IntoView {
     }
 }
 
+/// The same for every number of a place: `(1.5, 59.99999999999999)` is `(1.5, 60)`.
+pub(crate) fn rounded_all(text: &str) -> String {
+    let words = text.split_inclusive(|c: char| "(), ".contains(c));
+    let shown = words.map(|word| {
+        let number = word.trim_end_matches(|c: char| "(), ".contains(c));
+        rounded(number) + &word[number.len()..]
+    });
+    shown.collect()
+}
+
 /// A long number as it is shown while nobody types it: to seven figures.
 fn rounded(text: &str) -> String {
     match text.parse::<f64>() {
@@ -347,7 +357,7 @@ fn focus_beside(e: &KeyboardEvent, which: Beside) -> bool {
 
 #[cfg(test)]
 mod tests {
-    use super::{rounded, split, step, with_unit};
+    use super::{rounded, rounded_all, split, step, with_unit};
 
     #[test]
     fn a_bare_number_takes_the_unit_beside_it() {
@@ -364,6 +374,8 @@ mod tests {
         assert_eq!(rounded("251.5"), "251.5");
         assert_eq!(rounded("0.0037500000000000003"), "0.00375");
         assert_eq!(rounded("some words"), "some words");
+        assert_eq!(rounded_all("(180, 164.51260387656265)"), "(180, 164.5126)");
+        assert_eq!(rounded_all("7.185222099999999 N"), "7.185222 N");
     }
 
     #[test]

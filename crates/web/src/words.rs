@@ -83,6 +83,7 @@ pub const CONFLICT: &str = "The file has changed on disk since it was opened.";
 pub const CONFLICT_GONE: &str = "The file has been removed from disk since it was opened.";
 pub const TAKE_THEIRS: &str = "Take what is on disk";
 pub const OVERWRITE: &str = "Overwrite with this";
+pub const NOT_DRAGGED: &str = "cannot be dragged";
 pub const REPAIRS: &str = "What would work:";
 pub const IN_THE_WAY: &str = "In the way:";
 
