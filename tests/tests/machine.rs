@@ -77,7 +77,7 @@ fn number() -> impl Strategy<Value = f64> {
     prop_oneof![
         6 => (-40i32..400).prop_map(|n| f64::from(n) / 2.0),
         3 => -500.0..500.0f64,
-        1 => select(vec![0.0, -0.0, 1e-9, 1e5, -1e-300, f64::NAN, f64::INFINITY]),
+        1 => select(vec![0.0, -0.0, 1e-9, 1e9, 1e15, -1e-300, f64::NAN, f64::INFINITY]),
     ]
 }
 
