@@ -8,7 +8,7 @@
 //! stays in force; reading a number that was written gives its bits.
 //!
 //! Reading order: `origins`, `lower`, `files`, `classes`, `scope`, `members`, `rules`, `names`,
-//! `paths`, `terms`, `calls`, `kinds`, `settle`, `restore`, `checks`, `numbers`, `write`, `edits`.
+//! `paths`, `terms`, `calls`, `kinds`, `settle`, `restore`, `checks`, `numbers`, `write`, `uses`, `edits`.
 mod calls;
 mod checks;
 mod classes;
@@ -26,6 +26,7 @@ mod rules;
 mod scope;
 mod settle;
 mod terms;
+mod uses;
 mod write;
 
 pub use checks::{Check, Expectation, PlanKind, Statement, StatementKind};

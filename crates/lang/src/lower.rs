@@ -9,7 +9,7 @@ use crate::files::File;
 use crate::kinds::Kind;
 use crate::members::Pending;
 use crate::origins::Origins;
-use crate::restore::Patch;
+use crate::restore::{Grain, Patch};
 use crate::scope::Scope;
 use base::{Diagnostic, FileId, IdVec, Name, Place, Severity, Span};
 use kernel::{ClassId, Document, Fault, OriginId, Path, Vertical};
@@ -54,18 +54,28 @@ pub fn lower(
     before: Option<&Lowered>,
 ) -> Lowered {
     let first = lower_text(text, load);
-    let wrong = |l: &Lowered| l.diagnostics.iter().any(|d| d.severity == Severity::Error);
-    let Some(before) = before.filter(|_| wrong(&first)) else { return first };
+    let Some(before) = before.filter(|_| errors(&first) > 0) else { return first };
     // Members with an error are read as they were when they last had none.
-    let (patched, patches) = crate::restore::restore(&first, &before.effective);
-    let mut second = lower_text(&patched, load);
-    if wrong(&second) {
-        return first;
+    let mut best: Option<Lowered> = None;
+    for grain in [Grain::Inner, Grain::Outer] {
+        let (patched, patches) = crate::restore::restore(&first, &before.effective, grain);
+        let mut mended = lower_text(&patched, load);
+        mended.patches = patches;
+        if errors(&mended) < best.as_ref().map_or(errors(&first), errors) {
+            best = Some(mended);
+        }
+        if best.as_ref().is_some_and(|b| errors(b) == 0) {
+            break;
+        }
     }
-    second.files[OWN] = first.files[OWN].clone();
-    second.diagnostics = first.diagnostics;
-    second.patches = patches;
-    second
+    let Some(mut best) = best else { return first };
+    best.files[OWN] = first.files[OWN].clone();
+    best.diagnostics = first.diagnostics;
+    best
+}
+
+fn errors(lowered: &Lowered) -> usize {
+    lowered.diagnostics.iter().filter(|d| d.severity == Severity::Error).count()
 }
 
 pub(crate) fn lower_text(text: &str, load: &dyn Fn(&str) -> Option<String>) -> Lowered {
@@ -251,6 +261,12 @@ impl Lowered {
         let place = self.origins.place(origin);
         let own = place.file == OWN && place.span != Span::default();
         own.then(|| self.in_text(place.span)).flatten()
+    }
+    /// Returns the innermost member that stands around a byte of the document's own text.
+    pub fn origin_at(&self, offset: u32) -> Option<OriginId> {
+        let spans = self.origins.ids().filter_map(|o| Some((self.own_span(o)?, o)));
+        let around = spans.filter(|(span, _)| span.touches(offset));
+        around.min_by_key(|(span, _)| span.end - span.start).map(|(_, origin)| origin)
     }
     /// Returns what was written for a member, without its comments.
     pub fn source_of(&self, origin: OriginId) -> String {

@@ -35,7 +35,7 @@ pub fn write_values(lowered: &Lowered, writes: &[(Path, Literal)]) -> Vec<TextEd
 }
 
 /// Carries edits of the effective text over to the text itself.
-pub(crate) fn in_text(lowered: &Lowered, edits: Vec<TextEdit>) -> Vec<TextEdit> {
+fn in_text(lowered: &Lowered, edits: Vec<TextEdit>) -> Vec<TextEdit> {
     let carry = |e: TextEdit| Some(TextEdit { span: lowered.in_text(e.span)?, insert: e.insert });
     edits.into_iter().filter_map(carry).collect()
 }

@@ -1,0 +1,169 @@
+//! Uses: what the expressions of the document's own text speak of, as paths from the document.
+//!
+//! The same names mean the same things here as when the text is lowered: locals first, then the thing
+//! whose body it is, then those around it. What stands in a class speaks of no thing of the document.
+
+use crate::lower::{Lowered, OWN};
+use crate::names::class_at;
+use base::{Diagnostic, Name, Place, Span};
+use kernel::{ClassId, Path, Step};
+use syntax::ast::{self, AstNode, Expr, Member};
+use syntax::{SyntaxKind, SyntaxNode};
+
+/// The document's text as it is in force, with what it means.
+pub(crate) struct Text<'l> {
+    pub(crate) lowered: &'l Lowered,
+    pub(crate) file: ast::File,
+}
+
+/// Makes a diagnostic of a command: it has no place in the text.
+pub(crate) fn refused(code: &'static str, message: String) -> Diagnostic {
+    Diagnostic::error(code, Place { file: OWN, span: Span::default() }, message)
+}
+
+impl<'l> Text<'l> {
+    pub(crate) fn of(lowered: &'l Lowered) -> Self {
+        Self { lowered, file: syntax::parse(OWN, &lowered.effective).file() }
+    }
+
+    /// Returns the path from the document of what an expression leads to.
+    pub(crate) fn path_of(&self, e: &Expr) -> Option<Path> {
+        match e {
+            Expr::Name(name) => self.owner_of_name(e.syntax(), &name.name()?.name()),
+            Expr::Owner(_) => {
+                let (mut thing, _) = self.things_around(e.syntax())?.into_iter().next()?;
+                thing.0.pop();
+                Some(thing)
+            }
+            Expr::Field(field) => {
+                let name = field.name()?.name();
+                let step = if name == "last" { Step::Last } else { Step::Part(name) };
+                Some(self.path_of(&field.receiver()?)?.then(step))
+            }
+            Expr::Paren(inner) => self.path_of(&inner.inner()?),
+            Expr::Index(index) => {
+                let i = crate::numbers::constant(&|_| None, &index.index()?)?;
+                let i = (i.fract() == 0.0 && (0.0..4e9).contains(&i)).then_some(i as u32)?;
+                Some(self.path_of(&index.receiver()?)?.then(Step::Index(i)))
+            }
+            _ => None,
+        }
+    }
+
+    /// Finds the thing that a bare name belongs to, and returns the path by that name.
+    fn owner_of_name(&self, node: &SyntaxNode, name: &Name) -> Option<Path> {
+        if node.ancestors().any(|above| binds(&above, node, name)) {
+            return None;
+        }
+        let things = self.things_around(node)?;
+        let document = &self.lowered.document;
+        let step = Path(vec![Step::Part(name.clone())]);
+        let knows = |class: ClassId| {
+            class_at(document, class, &step).is_some()
+                || document.find_message(class, name, None).is_some()
+        };
+        let owner = things.into_iter().find(|(_, class)| class.is_some_and(knows));
+        owner.map(|(thing, _)| thing.join(&step))
+    }
+
+    /// Returns the things whose bodies a node stands in, the innermost first, the document last;
+    /// nothing in a class.
+    fn things_around(&self, node: &SyntaxNode) -> Option<Vec<(Path, Option<ClassId>)>> {
+        let mut names: Vec<Name> = Vec::new();
+        let mut below = node.clone();
+        for above in node.ancestors().skip(1) {
+            if matches!(above.kind(), SyntaxKind::Class | SyntaxKind::Modify | SyntaxKind::Program)
+            {
+                return None;
+            }
+            if let (Some(part), SyntaxKind::Body) = (ast::Part::cast(above.clone()), below.kind()) {
+                names.push(part.names().next()?.name());
+            }
+            below = above;
+        }
+        let steps: Vec<Step> = names.into_iter().rev().map(Step::Part).collect();
+        let document = &self.lowered.document;
+        let thing = |n: usize| {
+            let path = Path(steps[..n].to_vec());
+            let class = class_at(document, document.root, &path);
+            (path, class)
+        };
+        Some((0..=steps.len()).rev().map(thing).collect())
+    }
+
+    /// Returns every expression below a node that leads to a thing or to a part of it.
+    pub(crate) fn uses(&self, node: &SyntaxNode, of: &Path) -> Vec<Expr> {
+        let all = node.descendants().filter_map(Expr::cast);
+        let leads = |e: &Expr| self.path_of(e).is_some_and(|p| p.0.starts_with(&of.0));
+        all.filter(leads).collect()
+    }
+
+    /// Finds where a part of the document, or of a body in it, is declared.
+    ///
+    /// # Errors
+    /// The path leads nowhere, or to what a class declares.
+    pub(crate) fn declaration(&self, path: &Path) -> Result<(ast::Part, ast::Word), Diagnostic> {
+        let mut members: Vec<Member> = self.file.members().collect();
+        let mut found = None;
+        for step in &path.0 {
+            let Step::Part(name) = step else {
+                found = None;
+                break;
+            };
+            let named = |m: &Member| match m {
+                Member::Part(p) => p.names().find(|w| w.name() == *name).map(|w| (p.clone(), w)),
+                _ => None,
+            };
+            found = members.iter().find_map(named);
+            let body = found.as_ref().and_then(|(part, _)| part.body());
+            members = body.into_iter().flat_map(|b| b.members()).collect();
+        }
+        found.ok_or_else(|| {
+            let document = &self.lowered.document;
+            match class_at(document, document.root, path) {
+                Some(_) => {
+                    let message = format!("{path} is declared by a class, not by the document");
+                    refused("of-a-class", message).hint("edit the class, or the thing as a whole")
+                }
+                None => refused("unknown-part", format!("the document has no part {path}")),
+            }
+        })
+    }
+
+    /// Finds the class of this name that the document declares.
+    pub(crate) fn class(&self, path: &Path) -> Option<ast::Class> {
+        let [Step::Part(name)] = path.0.as_slice() else { return None };
+        self.file.members().find_map(|m| match m {
+            Member::Class(c) if c.name().is_some_and(|w| w.name() == *name) => Some(c),
+            _ => None,
+        })
+    }
+}
+
+/// Returns true if a node gives a name another meaning where `at` stands.
+fn binds(node: &SyntaxNode, at: &SyntaxNode, name: &Name) -> bool {
+    let is_inside = |inner: &SyntaxNode| inner.text_range().contains_range(at.text_range());
+    if let Some(lambda) = ast::LambdaExpr::cast(node.clone()) {
+        return lambda.params().any(|w| w.name() == *name);
+    }
+    if let Some(each) = ast::For::cast(node.clone()) {
+        let in_body = each.body().is_some_and(|b| is_inside(b.syntax()));
+        return in_body && each.names().any(|w| w.name() == *name);
+    }
+    if let Some(message) = ast::Message::cast(node.clone()) {
+        let mut params = message.params().into_iter().flat_map(|p| p.params());
+        return params.any(|p| p.name().is_some_and(|w| w.name() == *name));
+    }
+    if let Some(bindings) = ast::LetExpr::cast(node.clone()) {
+        let before = bindings.bindings().take_while(|b| !is_inside(b.syntax()));
+        return before.into_iter().any(|b| b.name().is_some_and(|w| w.name() == *name));
+    }
+    if let Some(check) = ast::Check::cast(node.clone()) {
+        let mut own = check.body().into_iter().flat_map(|b| b.members());
+        return own.any(|m| match m {
+            Member::Part(part) => part.names().any(|w| w.name() == *name),
+            _ => false,
+        });
+    }
+    false
+}

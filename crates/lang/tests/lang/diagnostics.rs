@@ -1,0 +1,180 @@
+//! Wrong documents: the code of what is wrong, and the text that it is at.
+
+use super::{lower, wrong};
+
+#[track_caller]
+fn assert_wrong(text: &str, code: &str, at: &str) {
+    assert_eq!(wrong(text), [(code, at.to_string())].map(|(c, a)| (leak(c), a)), "{text}");
+}
+
+fn leak(code: &str) -> &'static str {
+    Box::leak(code.to_string().into_boxed_str())
+}
+
+/// Every row stands alone: a document, the code of its one diagnostic, and what is underlined.
+const WRONG: &[(&str, &str, &str)] = &[
+    // names
+    ("a: Real = bee", "unknown-name", "bee"),
+    ("a: Real\nconstraint a = let b = 1 in c", "unknown-name", "c"),
+    ("b: Real = [1, 2].map(x => y).sum", "unknown-name", "y"),
+    ("a: Real = nothing(3)", "unknown-name", "nothing"),
+    ("use shapes\np: Real = Point", "unknown-name", "Point"),
+    ("use shapes\na: Line\nx: Real = a.p3", "unknown-part", "p3"),
+    ("use shapes\na: Line\na.p3 = (1, 2)", "unknown-part", "p3"),
+    ("use shapes\na: Line { p3 = (1, 2) }", "unknown-name", "p3"),
+    ("use shapes\na: Line\nmerge a.p1 = a.q", "unknown-part", "q"),
+    ("use shapes\na: Line\nstay a.q", "unknown-part", "q"),
+    ("a: Real = 3\nb: Text = a.txt", "unknown-part", "txt"),
+    ("a: Bool\nb: Bool = a.not", "expected-name", "not"),
+    ("use shapes\nclass T is HorizontalLine { without levle }", "unknown-name", "levle"),
+    ("use shapes\nclass T is Quad { without level }", "unknown-name", "level"),
+    // classes
+    ("p: Pont", "unknown-class", "Pont"),
+    ("class A is Bee { }", "unknown-class", "Bee"),
+    ("l: List of Reel", "unknown-class", "Reel"),
+    ("class A is A { }", "superclass-cycle", "A"),
+    ("class A is Real { }", "primitive-superclass", "Real"),
+    ("class A { inside: A }\na: A", "endless-parts", "inside: A"),
+    ("abstract class A { }\na: A", "abstract-part", "a: A"),
+    ("abstract class A { x: Real }\nclass B { f => A(3) }", "abstract-part", "A"),
+    ("class A { x: Real }\nclass B is A, A { }", "duplicate-name", "A"),
+    ("class A { size => 1 }\nclass B { size => 2 }\nclass C is A, B { }", "conflict", "C"),
+    // names that are there already
+    ("a: Real\na: Text", "duplicate-name", "a"),
+    ("a: Real\na => 3", "duplicate-name", "a"),
+    ("class A { }\nclass A { }", "duplicate-name", "A"),
+    ("class A { x: Real }\nclass B is A { x: Text }", "duplicate-name", "x"),
+    ("class B is A { x => 3 }\nclass A { x: Real }", "duplicate-name", "x"),
+    ("a: Real\nconstraint c: a = 1\nconstraint c: a = 1", "duplicate-name", "c"),
+    ("a, b: Real\nmerge m: a = b\nconstraint m: a = 1", "duplicate-name", "m"),
+    ("let: Real", "reserved-word", "let"),
+    // messages and functions
+    ("class A { f(x: Real) => x }\nclass B is A { f => 3 }", "override-signature", "f"),
+    ("class B is A { f => 3 }\nclass A { f(x: Real) => x }", "override-signature", "f"),
+    ("class A { f(x: Real) => x }\na: A\nb: Real = a.f(1, 2)", "wrong-arity", "f"),
+    ("class A { f(x: Real) => x }\na: A\nb: Real = a.f", "wrong-arity", "f"),
+    ("class A { f(x: Real) => x  g => f }", "wrong-arity", "f"),
+    ("class A { f(x: Real) => x }\na: A\nb: Real = a.f(\"x\")", "value-of-wrong-class", "\"x\""),
+    ("class A { f(by x: Real) => x }\na: A\nb: Real = a.f(bye: 1)", "unknown-part", "bye"),
+    ("class A { f(x: Length) => x }\na: A\nb: Length = a.f(3 V)", "dimension-mismatch", "3 V"),
+    ("class A { x: Real }\na: A\nb: Real = a.x(1)", "wrong-arity", "x"),
+    ("a: Real = sqrt(1, 2)", "wrong-arity", "sqrt(1, 2)"),
+    ("a: Length = 3\nb: Real = sin(a)", "dimension-mismatch", "a"),
+    ("a: Real = sin(\"a\")", "value-of-wrong-class", "\"a\""),
+    ("a: Length = max(1 m, 2 s)", "dimension-mismatch", "2 s"),
+    ("a: Text = \"b\".width(3 V)", "dimension-mismatch", "3 V"),
+    ("a: Length = 3\nb: Real = a.round", "dimension-mismatch", "round"),
+    ("use shapes\np: Point = Point(1, 2, 3)", "wrong-arity", "Point"),
+    ("use shapes\np: Point = Point(1, z: 2)", "unknown-part", "z"),
+    ("use shapes\np: Point = Point(x: 1, x: 2)", "wrong-arity", "2"),
+    ("use shapes\np: Point = Point(1, \"two\")", "value-of-wrong-class", "\"two\""),
+    ("class A { f => super.g }", "unknown-part", "g"),
+    ("a: Real = super", "unknown-name", "super"),
+    // what values are
+    ("a: Real = \"one\"", "value-of-wrong-class", "\"one\""),
+    ("v: Voltage = 3 mm", "dimension-mismatch", "3 mm"),
+    ("use shapes\np: Point = (1, \"a\")", "value-of-wrong-class", "(1, \"a\")"),
+    ("use shapes\np: Point = (1, 2, 3)", "value-of-wrong-class", "(1, 2, 3)"),
+    ("use shapes\np: Point\nl: Line\nconstraint p = l", "value-of-wrong-class", "p = l"),
+    ("a: Voltage\nb: Length\nconstraint a = b", "dimension-mismatch", "a = b"),
+    ("a: Voltage\nb: Length\nconstraint a = 2 * (b + a)", "dimension-mismatch", "b + a"),
+    ("a: Text = \"n\" + 3", "value-of-wrong-class", "\"n\" + 3"),
+    ("a: Bool = 1 and true", "value-of-wrong-class", "1 and true"),
+    ("a: Bool = not 3", "value-of-wrong-class", "3"),
+    ("a: Real = if 1 then 2 else 3", "value-of-wrong-class", "1"),
+    ("a: Real = if true then 2 else \"3\"", "value-of-wrong-class", "if true then 2 else \"3\""),
+    ("a: Real = -\"3\"", "value-of-wrong-class", "\"3\""),
+    ("a: Real = 2 ^ 3 m", "dimension-mismatch", "2 ^ 3 m"),
+    ("a: List of Real = [1, \"2\"]", "value-of-wrong-class", "\"2\""),
+    ("a: Length => 3 V", "dimension-mismatch", "3 V"),
+    ("a: Real = 3 furlong", "unknown-unit", "furlong"),
+    ("a: Real = 3 kohn", "unknown-unit", "kohn"),
+    ("unit furlong", "unknown-unit", "unit furlong"),
+    ("a: Real = 1e999", "too-large", "1e999"),
+    // rules
+    ("a: Real\nconstraint a + 1", "not-a-rule", "a + 1"),
+    ("a: Length\nconstraint a = 1 within 3 V", "dimension-mismatch", "3 V"),
+    ("a, b, c: Real\nconstraint a = b { c := a }", "method-target-not-in-rule", "c"),
+    ("a, b: Real\nconstraint a = b { a, b := (a, b, a) }", "wrong-arity", "(a, b, a)"),
+    ("a: Real\nt: Text\nconstraint a = t.number { t := a }", "value-of-wrong-class", "a"),
+    ("use shapes\na: Line\nconstraint a.length = 3 { a.length := 3 }", "virtual-part", "length"),
+    ("use shapes\na: Line\na.length = 5", "virtual-part", "length"),
+    ("use shapes\na: Line\nmerge a.p1 = a.midpoint", "virtual-part", "midpoint"),
+    ("use shapes\na, b: Point\nstay a.distance(to: b)", "not-a-path", "a.distance(to: b)"),
+    ("use shapes\na: Line\nt: Text\nmerge a = t", "unlike-merge", "merge a = t"),
+    ("use shapes\na: Point\nb: Line\nmerge a = b", "vacuous-merge", "merge a = b"),
+    ("a: Real\nb: Real\ninsert a into b", "value-of-wrong-class", "b"),
+    ("a: Text\nb: Set of Real\ninsert a into b", "value-of-wrong-class", "insert a into b"),
+    // lists and `for`
+    ("l: List of 3 Real\nconstraint l[3] = 1", "index", "3"),
+    ("l: List of 3 Real\nconstraint l[0.5] = 1", "index", "0.5"),
+    ("l: List of 3 Real\nstay l[3]", "index", "3"),
+    ("l: List of 3 Real\nfor i in 0..3 { constraint l[i] = 1 }", "index", "i"),
+    ("l: List of 2.5 Real", "not-a-count", "2.5"),
+    ("a: Real\nconstraint a[0] = 1", "value-of-wrong-class", "a"),
+    ("for i in 0..999 { for j in 0..999 { constraint i = j } }", "too-many-members", "0..999"),
+    // files
+    ("use nowhere", "missing-file", "nowhere"),
+    ("use ring", "use-cycle", "ring"),
+    // what is not there yet
+    ("program P() { a = 3 }", "not-yet", "program P() { a = 3 }"),
+    ("use shapes\np: Path to Line", "not-yet", "Path to Line"),
+    ("use shapes\np: Placed of Line", "not-yet", "Placed of Line"),
+    ("use shapes\nconstraint (all Line).count = 3", "not-yet", "all Line"),
+    ("a: Real in 0 .. 1.5", "not-yet", "0 .. 1.5"),
+];
+
+#[test]
+fn every_wrong_document_says_what_and_where() {
+    let mut failures = String::new();
+    for (text, code, at) in WRONG {
+        let found = wrong(text);
+        if found != [(*code, (*at).to_string())] {
+            failures += &format!("\n{text}\n    wanted {code} at {at:?}\n    found {found:?}\n");
+        }
+    }
+    assert!(failures.is_empty(), "{failures}");
+}
+
+#[test]
+fn a_dimension_mismatch_shows_both_sides() {
+    let lowered = lower("a: Voltage\nb: Length\nconstraint a = b");
+    assert_eq!(lowered.diagnostics[0].message, "left is Voltage (V), right is Length (m)");
+}
+
+#[test]
+fn hints_name_what_is_near_or_what_there_is() {
+    let hint = |text: &str| lower(text).diagnostics[0].hint.clone().unwrap_or_default();
+    assert_eq!(hint("use shapes\na: Line\nx: Real = a.lenght"), "did you mean `length`?");
+    assert_eq!(hint("use shapes\np: Pont"), "did you mean `Point`?");
+    assert_eq!(hint("a: Resistance = 3 kohn"), "did you mean `kohm`?");
+    let all = hint("use shapes\np: Point\nx: Real = p.voltage");
+    assert!(all.contains("x, y, distance"), "{all}");
+    assert_eq!(
+        hint("use shapes\np: Real = Point"),
+        "it is a class: `Point(…)` makes a thing of it"
+    );
+}
+
+#[test]
+fn a_conflict_names_both_origins_and_both_ways_out() {
+    let lowered = lower("class A { size => 1 }\nclass B { size => 2 }\nclass C is A, B { }");
+    let conflict = &lowered.diagnostics[0];
+    assert_eq!(conflict.message, "size comes from A and from B, which differ");
+    assert_eq!(
+        conflict.hint.as_deref(),
+        Some("define it here, `size => …`, or choose, `size => b.size`")
+    );
+    assert_eq!(conflict.labels.len(), 2);
+}
+
+#[test]
+fn a_wrong_member_leaves_the_others() {
+    let lowered =
+        lower("a: Real = 1\nb: Real = nothing\nconstraint a = bee\nconstraint c: a = b\n");
+    let root = &lowered.document.classes[lowered.document.root];
+    assert_eq!(root.parts.len(), 2);
+    assert_eq!(root.givens.len(), 1);
+    assert_eq!(root.constraints.len(), 1);
+    assert_wrong("a: Real = 1\nconstraint a = bee", "unknown-name", "bee");
+}
