@@ -1,7 +1,7 @@
 //! A drawing: exact curves and text in layers, the only way out to painters and writers.
 //!
 //! Coordinates are in the document's units of length on the sheet; `y` runs as the drawing says.
-//! Every element has a [`Tag`](element::Tag), which the session maps to the path of a thing.
+//! Every element has a [`Tag`], which the session maps to the path of a thing.
 //!
 //! Reading order: [`element`], [`metrics`], [`mod@bounds`], [`svg`].
 pub mod bounds;
