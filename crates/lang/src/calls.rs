@@ -1,6 +1,6 @@
 //! Calls: messages, functions of the language, constructors; their arguments checked.
 
-use crate::kinds::{Kind, measured, wanted_in_words};
+use crate::kinds::{Kind, measured, wanted_in_words, with_article};
 use crate::lower::Lowerer;
 use crate::names::owners;
 use crate::scope::Scope;
@@ -376,11 +376,12 @@ impl Lowerer<'_> {
         let fields: Vec<Wanted> = fields.collect();
         if args.len() > fields.len() {
             let n = fields.len();
-            let message = format!("a {} has {n} parts, here are {}", word.text(), args.len());
+            let what = with_article(word.text());
+            let message = format!("{what} has {n} parts, here are {}", args.len());
             self.error("wrong-arity", scope.file, word.span(), message);
             return None;
         }
-        let what = format!("a {}", word.text());
+        let what = with_article(word.text());
         let arguments = self.bound(scope, &what, &fields, args)?;
         Some((Term::Make { class, arguments }, Kind::of_class(&self.document, class)))
     }

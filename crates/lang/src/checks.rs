@@ -196,13 +196,13 @@ fn targets(
     for target in targets {
         let e = target.path()?;
         // the path may be virtual: it is lowered as an expression to be checked
-        l.expr(scope, &e)?;
+        let (_, kind) = l.expr(scope, &e)?;
         let Some(path) = loose_path(&e) else {
             let message = "a path is wanted: `a.b.c`".to_string();
             l.error("not-a-path", scope.file, e.span(), message);
             return None;
         };
-        all.push((path, l.expr(scope, &target.value()?)?.0));
+        all.push((path, l.expr_of(scope, &target.value()?, &kind)?));
     }
     Some(all)
 }
@@ -238,9 +238,10 @@ fn expectation(l: &mut Lowerer<'_>, scope: &Scope, e: &ast::Expect) -> Option<Ex
         },
         ast::Expectation::Error(word) => Some(Expectation::Error(word?.unquoted())),
         ast::Expectation::Holds { condition, tolerance } => {
-            let (rule, _) = l.expr(scope, &condition?)?;
+            let condition = condition?;
+            let rule = l.expr_of(scope, &condition, &crate::kinds::Kind::Bool)?;
             let within = match tolerance {
-                Some(t) => Some(l.expr(scope, &t)?.0),
+                Some(t) => Some(l.tolerance(scope, &condition, &t)?),
                 None => None,
             };
             Some(Expectation::Rule { rule, within })

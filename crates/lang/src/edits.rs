@@ -115,7 +115,7 @@ impl Text<'_> {
         let names = |n: &SyntaxNode| {
             let mut paths = n.children().filter_map(Expr::cast);
             let in_check = n.ancestors().any(|a| a.kind() == SyntaxKind::Check);
-            !in_check && paths.any(|e| self.path_of(&e).as_ref() == Some(path))
+            !in_check && paths.any(|e| self.leads_to(&e, path))
         };
         members.filter(names).collect()
     }
@@ -127,7 +127,7 @@ impl Text<'_> {
             let d = refused("not-merged", message);
             return Err(d.hint("what a class merges is masked by `without NAME` in a body"));
         }
-        let stays = |e: &Expr| self.path_of(e).as_ref() != Some(path);
+        let stays = |e: &Expr| !self.leads_to(e, path);
         Ok(members.iter().flat_map(|m| shortened(m, &stays)).collect())
     }
 
@@ -138,7 +138,7 @@ impl Text<'_> {
                 format!("{path} is not anchored by the document itself, but by its class");
             return Err(refused("not-anchored", message));
         }
-        let stays = |e: &Expr| self.path_of(e).as_ref() != Some(path);
+        let stays = |e: &Expr| !self.leads_to(e, path);
         Ok(members.iter().flat_map(|m| shortened(m, &stays)).collect())
     }
 
@@ -242,9 +242,7 @@ impl Text<'_> {
                 Expr::Field(field) => field.name(),
                 _ => None,
             };
-            if let Some(named) = named.filter(|_| self.path_of(&e).as_ref() == Some(from)) {
-                edits.push(edit::rename(&named.token, to));
-            }
+            edits.extend(named.map(|word| edit::rename(&word.token, to)));
         }
         Ok(edits)
     }

@@ -56,7 +56,7 @@ impl Kind {
             Self::Number(Some(d)) => dimension_in_words(*d),
             Self::Bool => "a truth value".into(),
             Self::Text => "a text".into(),
-            Self::Thing(class) => format!("a {}", document.classes[*class].name),
+            Self::Thing(class) => with_article(&document.classes[*class].name),
             Self::List(element) if **element == Self::Unknown => "a list".into(),
             Self::List(element) => format!("a list, each element {}", element.words(document)),
             Self::Tuple(items) => {
@@ -124,6 +124,14 @@ impl Kind {
             (Builtin::Function, _) => *self == Self::Function,
             (Builtin::Picture, _) => *self == Self::Picture,
         }
+    }
+}
+
+/// Returns a noun with its article.
+pub(crate) fn with_article(noun: &str) -> String {
+    match noun.starts_with(['A', 'E', 'I', 'O', 'U', 'a', 'e', 'i', 'o', 'u']) {
+        true => format!("an {noun}"),
+        false => format!("a {noun}"),
     }
 }
 

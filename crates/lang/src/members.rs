@@ -38,6 +38,7 @@ impl Lowerer<'_> {
                 Member::Message(message) => self.declare_message(scope, message),
                 Member::For(each) => self.unroll(scope, each),
                 Member::Assign(assign) => {
+                    self.refuse_block(scope, assign.value());
                     let value = assign.value().and_then(ast::Value::expr);
                     if let (Some(target), Some(value)) = (assign.target(), value) {
                         let (scope, prefix, target) = (scope.clone(), Vec::new(), Some(target));
@@ -54,11 +55,23 @@ impl Lowerer<'_> {
                     self.pending.push(Pending::Member(scope.clone(), member.clone()));
                 }
                 Member::Unit(_) | Member::Y(_) | Member::Use(_) | Member::Error(_) => {}
-                Member::Class(_) | Member::Check(_) if scope.class() == self.document.root => {}
+                Member::Class(_) | Member::Check(_) if self.is_top_level(scope) => {}
                 Member::Class(_) if scope.file != OWN => {}
                 Member::Check(_) if scope.file != OWN => {}
                 other => self.refuse(scope.file, other, span),
             }
+        }
+    }
+
+    /// Returns true at the top level of the document's own text, outside of any `for`.
+    fn is_top_level(&self, scope: &Scope) -> bool {
+        scope.class() == self.document.root && scope.constants.is_empty()
+    }
+
+    /// Reports a value that is a block of steps, as only programs have.
+    fn refuse_block(&mut self, scope: &Scope, value: Option<ast::Value>) {
+        if let Some(value) = value.filter(|v| v.clone().expr().is_none()) {
+            self.not_yet(scope.file, value.span(), "blocks of steps as values are");
         }
     }
 
@@ -77,7 +90,10 @@ impl Lowerer<'_> {
             Member::Family(_) => "families are",
             Member::Class(_) => "classes inside of others are",
             Member::Check(_) => "checks inside of classes are",
-            _ => "this is",
+            Member::Repeat(_) | Member::While(_) | Member::Next(_) => "steps of programs are",
+            Member::Table(_) | Member::Rows(_) => "rows of families are",
+            // statements outside of checks: the text was refused already
+            _ => return,
         };
         let first = self.files[file].text.get(span.range()).unwrap_or_default();
         let line = first.lines().next().unwrap_or_default().trim_end().len() as u32;
@@ -139,6 +155,7 @@ impl Lowerer<'_> {
         if let Some(domain) = part.domain().filter(|_| range.is_some()) {
             self.not_yet(scope.file, domain.span(), "the search for whole numbers in a domain is");
         }
+        self.refuse_block(scope, part.value());
         for word in part.names() {
             if !self.is_new(scope, &word) {
                 continue;

@@ -3,7 +3,7 @@
 use crate::kinds::Kind;
 use crate::lower::Lowerer;
 use crate::scope::Scope;
-use base::{Diagnostic, Place};
+use base::{Diagnostic, Name, Place};
 use kernel::{ClassId, ClassKind, Count, Path, Step};
 use syntax::ast::{self, AstNode, Expr};
 
@@ -132,6 +132,11 @@ impl Lowerer<'_> {
         if scope.local(&name).is_some() {
             return None;
         }
+        self.count_of_part(class, &name)
+    }
+
+    /// Returns how many elements the list of this name has, if its class tells.
+    pub(crate) fn count_of_part(&self, class: ClassId, name: &Name) -> Option<u32> {
         let line = self.document.primary_line(class);
         let own = |c: ClassId| Some((c, *self.parts.get(&(c, name.clone()))?));
         let (c, part) = line.into_iter().find_map(own)?;

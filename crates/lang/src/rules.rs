@@ -8,8 +8,8 @@ use crate::scope::Scope;
 use crate::terms::code_for;
 use base::{Diagnostic, Name, Place};
 use kernel::{
-    ClassId, ClassKind, Constraint, Given, Insert, Merge, Method, OriginId, Path, Stay, Step,
-    Strength, Term,
+    ClassId, ClassKind, Constraint, Given, Insert, Merge, Method, OriginId, Path, Primitive, Stay,
+    Step, Strength, Term,
 };
 use syntax::ast::{self, AstNode, Expr, Member, MethodItem, Rule, span_without_doc};
 
@@ -67,8 +67,43 @@ impl Lowerer<'_> {
             return self.error(code_for(&kind, &wanted), scope.file, value.span(), message);
         }
         let term = measured(&self.document, term, &kind, &wanted);
+        if self.misfits(scope, &path, class, &term, value) {
+            return;
+        }
         let origin = self.origin(scope.file, value.span());
         self.document.classes[scope.class()].givens.push(Given { path, value: term, origin });
+    }
+
+    /// Reports a fraction where a whole number is wanted, and a list of another length.
+    fn misfits(
+        &mut self,
+        scope: &Scope,
+        path: &Path,
+        class: Option<ClassId>,
+        term: &Term,
+        value: &Expr,
+    ) -> bool {
+        let kind = class.map(|c| &self.document.classes[c].kind);
+        let message = match (kind, term) {
+            (Some(ClassKind::Primitive(Primitive::Integer)), Term::Number { value: x, .. })
+                if x.fract() != 0.0 =>
+            {
+                format!("{path} is a whole number, and is given {x}")
+            }
+            (Some(ClassKind::List(_)), Term::List(items)) => {
+                let count = match path.0.as_slice() {
+                    [Step::Part(name)] => self.count_of_part(scope.class(), name),
+                    _ => None,
+                };
+                match count.filter(|&n| n as usize != items.len()) {
+                    Some(n) => format!("{path} has {n} elements, and is given {}", items.len()),
+                    None => return false,
+                }
+            }
+            _ => return false,
+        };
+        self.error("value-of-wrong-class", scope.file, value.span(), message);
+        true
     }
 
     fn define(&mut self, scope: &Scope, member: &Member) {

@@ -91,11 +91,15 @@ impl<'l> Text<'l> {
         Some((0..=steps.len()).rev().map(thing).collect())
     }
 
-    /// Returns every expression below a node that leads to a thing or to a part of it.
+    /// Returns every expression below a node that leads to a thing; paths to its parts hold one.
     pub(crate) fn uses(&self, node: &SyntaxNode, of: &Path) -> Vec<Expr> {
         let all = node.descendants().filter_map(Expr::cast);
-        let leads = |e: &Expr| self.path_of(e).is_some_and(|p| p.0.starts_with(&of.0));
-        all.filter(leads).collect()
+        all.filter(|e| self.leads_to(e, of)).collect()
+    }
+
+    /// Returns true if an expression leads to the thing at a path.
+    pub(crate) fn leads_to(&self, e: &Expr, path: &Path) -> bool {
+        ends_like(e, path) && self.path_of(e).as_ref() == Some(path)
     }
 
     /// Finds where a part of the document, or of a body in it, is declared.
@@ -138,6 +142,21 @@ impl<'l> Text<'l> {
             _ => None,
         })
     }
+}
+
+/// Returns true if the last step of an expression is that of a path, as far as words tell.
+fn ends_like(e: &Expr, path: &Path) -> bool {
+    let word = match e {
+        Expr::Name(name) => name.name(),
+        Expr::Field(field) => field.name(),
+        Expr::Index(_) => return matches!(path.0.last(), Some(Step::Index(_))),
+        _ => return false,
+    };
+    word.is_some_and(|w| match path.0.last() {
+        Some(Step::Part(name)) => *name == *w.text(),
+        Some(Step::Last) => w.text() == "last",
+        Some(Step::Index(_) | Step::Owner) | None => false,
+    })
 }
 
 /// Returns true if a node gives a name another meaning where `at` stands.
