@@ -4,11 +4,22 @@
 //! [`Origins`], which know where every member was written. [`write_values`] and [`edits_for`] go the
 //! other way: from values and Commands to the smallest edits of the text.
 //!
+//! ```
+//! use kernel::{Literal, Path};
+//! let text = "a: Real = 1  // one\nb: Real\nconstraint b = 2 * a\n";
+//! let lowered = lang::lower(text, &|_| None, None);
+//! assert!(lowered.diagnostics.is_empty());
+//! let edits = lang::write_values(&lowered, &[(Path::of(&["a"]), Literal::Number(3.0))]);
+//! let written = syntax::edit::apply(text, &edits);
+//! assert_eq!(written, "a: Real = 3  // one\nb: Real\nconstraint b = 2 * a\n");
+//! ```
+//!
 //! **Invariants**: lowering never fails; a member with an error is left out, or what it said before
 //! stays in force; reading a number that was written gives its bits.
 //!
 //! Reading order: `origins`, `lower`, `files`, `classes`, `scope`, `members`, `rules`, `names`,
-//! `paths`, `terms`, `calls`, `kinds`, `settle`, `restore`, `checks`, `numbers`, `write`, `uses`, `edits`.
+//! `paths`, `terms`, `calls`, `kinds`, `settle`, `restore`, `checks`, `numbers`, `write`, `uses`,
+//! `edits`.
 mod calls;
 mod checks;
 mod classes;
