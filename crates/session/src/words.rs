@@ -48,7 +48,7 @@ pub(crate) fn refusal_for(state: &State, reason: &RefusalReason, report: &EditRe
         RefusalReason::Unmet if unmet.is_empty() => {
             "refused: what stands fixed does not leave room for this".to_string()
         }
-        RefusalReason::Unmet => format!("refused: {} would not hold", unmet.join(", ")),
+        RefusalReason::Unmet => format!("refused: {} would not hold", listed(&unmet)),
         RefusalReason::Anchored(slot) => {
             format!("refused: {} is anchored", state.slot_path(*slot))
         }
@@ -68,8 +68,18 @@ pub(crate) fn refusal_for(state: &State, reason: &RefusalReason, report: &EditRe
 pub(crate) fn refusal_of_status(state: &State, status: &plan::Status) -> Option<Refusal> {
     let unmet = status.unmet.iter().filter(|u| u.level == solve::Level::Required);
     let constraints: Vec<String> = unmet.filter_map(|u| source_name(state, u.source)).collect();
-    let message = format!("refused: {} would not hold", constraints.join(", "));
+    let message = format!("refused: {} would not hold", listed(&constraints));
     (!status.satisfied).then(|| Refusal { message, constraints, ..Refusal::default() })
+}
+
+/// Lists names for a sentence: the first few, and how many more there are.
+fn listed(names: &[String]) -> String {
+    const SHOWN: usize = 4;
+    let first = names[..names.len().min(SHOWN)].join(", ");
+    match names.len().saturating_sub(SHOWN) {
+        0 => first,
+        more => format!("{first} and {more} more"),
+    }
 }
 
 /// Says why a drag did not reach the pointer.
@@ -85,7 +95,7 @@ pub(crate) fn why_not_reached(state: &State, report: &EditReport) -> String {
     }
     match names.is_empty() {
         true => "this is as far as the constraints let it go".into(),
-        false => format!("held by {}", names.join(", ")),
+        false => format!("held by {}", listed(&names)),
     }
 }
 
