@@ -5,6 +5,7 @@
 //!
 //! - `//~ error[code] LINE:COLUMN` (place optional): a diagnostic; without any, there must be none
 //! - `//~ value PATH = TEXT`: what the values view shows, unit included
+//! - `//~ note WORDS`: something that the status says, by its first words
 //! - `//~ unsatisfied NAME`: a required constraint that does not hold; without any, all must hold
 //!
 //! The `check` blocks of every file must pass, and the independent checker must agree with the status.
@@ -78,6 +79,12 @@ fn differences(path: &Path) -> String {
         let found = row.map(|r| format!("{} {}", r.text, r.unit).trim().to_string());
         if found.as_deref() != Some(value) {
             let _ = writeln!(out, "  {path} is {found:?}, not {value}");
+        }
+    }
+    for claim in wanted("note ") {
+        let notes = session.status(id).notes;
+        if !notes.iter().any(|n| n.starts_with(&claim)) {
+            let _ = writeln!(out, "  nothing is noted like {claim}: {notes:?}");
         }
     }
     let broken = wanted("unsatisfied ");
