@@ -26,7 +26,7 @@ const fn scaled(dimension: Dimension, mantissa: f64, exponent: i8) -> Unit {
 }
 
 /// Every spelling, by quantity.
-const UNITS: [(&str, Unit); 59] = [
+const UNITS: [(&str, Unit); 86] = [
     ("m", decimal(Dimension::LENGTH, 0)),
     ("mm", decimal(Dimension::LENGTH, -3)),
     ("cm", decimal(Dimension::LENGTH, -2)),
@@ -86,7 +86,39 @@ const UNITS: [(&str, Unit); 59] = [
     ("kHz", decimal(Dimension::FREQUENCY, 3)),
     ("MHz", decimal(Dimension::FREQUENCY, 6)),
     ("GHz", decimal(Dimension::FREQUENCY, 9)),
+    ("nm", decimal(Dimension::LENGTH, -9)),
+    ("dm", decimal(Dimension::LENGTH, -1)),
+    ("yd", scaled(Dimension::LENGTH, 9144.0, -4)),
+    ("°", scaled(Dimension::ANGLE, PI / 180.0, 0)),
+    ("mrad", decimal(Dimension::ANGLE, -3)),
+    ("grad", scaled(Dimension::ANGLE, PI / 200.0, 0)),
+    ("mg", decimal(Dimension::MASS, -6)),
+    ("hPa", decimal(Dimension::PRESSURE, 2)),
+    ("bar", decimal(Dimension::PRESSURE, 5)),
+    ("mJ", decimal(Dimension::ENERGY, -3)),
+    ("nV", decimal(Dimension::VOLTAGE, -9)),
+    ("pA", decimal(Dimension::CURRENT, -12)),
+    ("nA", decimal(Dimension::CURRENT, -9)),
+    ("kA", decimal(Dimension::CURRENT, 3)),
+    ("mohm", decimal(Dimension::RESISTANCE, -3)),
+    ("nH", decimal(Dimension::INDUCTANCE, -9)),
+    ("nC", decimal(Dimension::CHARGE, -9)),
+    ("uC", decimal(Dimension::CHARGE, -6)),
+    ("mC", decimal(Dimension::CHARGE, -3)),
+    ("uS", decimal(Dimension::CONDUCTANCE, -6)),
+    ("mS", decimal(Dimension::CONDUCTANCE, -3)),
+    ("T", decimal(FLUX_DENSITY, 0)),
+    ("mT", decimal(FLUX_DENSITY, -3)),
+    ("Wb", decimal(FLUX, 0)),
+    ("mol", decimal(Dimension([0, 0, 0, 0, 0, 1, 0]), 0)),
+    ("cd", decimal(Dimension([0, 0, 0, 0, 0, 0, 1]), 0)),
+    ("%", decimal(Dimension::NONE, -2)),
 ];
+
+/// Magnetic flux: V·s.
+const FLUX: Dimension = Dimension([2, 1, -2, -1, 0, 0, 0]);
+/// Magnetic flux density: V·s/m².
+const FLUX_DENSITY: Dimension = Dimension([0, 1, -2, -1, 0, 0, 0]);
 
 /// Returns the unit of a spelling, simple or compound: `mm`, `m/s^2`, `N*m`, `kg/m^3`.
 ///
@@ -97,11 +129,14 @@ const UNITS: [(&str, Unit); 59] = [
 /// use expr::{Dimension, units::unit};
 /// assert_eq!(unit("m/s^2").map(|u| u.dimension), Some(Dimension::ACCELERATION));
 /// assert_eq!(unit("N*m").map(|u| u.dimension), Some(Dimension::MOMENT));
+/// assert_eq!(unit("kΩ"), unit("kohm"));
 /// assert_eq!(unit("furlong"), None);
 /// ```
 pub fn unit(spelling: &str) -> Option<Unit> {
+    // the two letters µ and the sign Ω are other spellings of u and ohm
+    let plain = spelling.replace(['µ', 'μ'], "u").replace('Ω', "ohm");
     let mut whole = decimal(Dimension::NONE, 0);
-    let mut rest = spelling;
+    let mut rest = plain.as_str();
     let mut above = true;
     loop {
         let end = rest.find(['*', '/']).unwrap_or(rest.len());
