@@ -105,3 +105,63 @@ fn definition(arena: &Arena, problem: &Problem, row: &ProblemRow) -> Option<(Slo
         own.then_some((var.0, other))
     })
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn row(level: Level, left: ExprId, right: ExprId) -> ProblemRow {
+        ProblemRow { level, left, right, within: 1e-9 }
+    }
+
+    /// z = x², w = z + x, p = w, in x, z and w.
+    fn chain(arena: &mut Arena, last: Level) -> Problem {
+        let [x, z, w, p] = [0, 1, 2, 3].map(|i| arena.var(Var(i)));
+        let square = arena.square(x);
+        let sum = arena.add(z, x);
+        let required = Level::Required;
+        let rows = vec![row(required, z, square), row(required, w, sum), row(last, p, w)];
+        Problem { rows, unknowns: vec![0, 1, 2] }
+    }
+
+    #[test]
+    fn what_rows_define_leaves_and_is_computed_afterwards() {
+        let mut arena = Arena::new();
+        let problem = chain(&mut arena, Level::Required);
+        let reduced = eliminate(&mut arena, &problem, Definers::Any);
+        assert_eq!(reduced.problem.unknowns, [0]);
+        assert_eq!(reduced.rows, [2]);
+        // x = 3: z = 9, w = 12, and the row that is left says p = 12
+        let values = [3.0, f64::NAN, f64::NAN, 12.0];
+        let left = &reduced.problem.rows[0];
+        assert_eq!(arena.evaluate(left.left, &values), arena.evaluate(left.right, &values));
+        let computed: Vec<(SlotIndex, f64)> = reduced
+            .definitions
+            .iter()
+            .map(|d| (d.slot, arena.evaluate(d.value, &values)))
+            .collect();
+        assert_eq!(computed, [(2, 12.0), (1, 9.0)]);
+    }
+
+    #[test]
+    fn soft_rows_define_nothing_where_they_may_give_way() {
+        let mut arena = Arena::new();
+        let [x, z] = [0, 1].map(|i| arena.var(Var(i)));
+        let square = arena.square(x);
+        let rows = vec![row(Level::Weak, z, square), row(Level::Required, z, x)];
+        let problem = Problem { rows, unknowns: vec![0, 1] };
+        let reduced = eliminate(&mut arena, &problem, Definers::Required);
+        assert_eq!(reduced.definitions.len(), 1);
+        assert_eq!(reduced.definitions[0].row, 1);
+    }
+
+    #[test]
+    fn an_unknown_on_both_sides_is_not_defined() {
+        let mut arena = Arena::new();
+        let [x, y] = [0, 1].map(|i| arena.var(Var(i)));
+        let product = arena.mul(x, y);
+        let rows = vec![row(Level::Required, x, product), row(Level::Required, y, product)];
+        let problem = Problem { rows, unknowns: vec![0, 1] };
+        assert!(eliminate(&mut arena, &problem, Definers::Any).definitions.is_empty());
+    }
+}
