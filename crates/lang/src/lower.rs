@@ -262,12 +262,6 @@ impl Lowered {
         let own = place.file == OWN && place.span != Span::default();
         own.then(|| self.in_text(place.span)).flatten()
     }
-    /// Returns the innermost member that stands around a byte of the document's own text.
-    pub fn origin_at(&self, offset: u32) -> Option<OriginId> {
-        let spans = self.origins.ids().filter_map(|o| Some((self.own_span(o)?, o)));
-        let around = spans.filter(|(span, _)| span.touches(offset));
-        around.min_by_key(|(span, _)| span.end - span.start).map(|(_, origin)| origin)
-    }
     /// Returns what was written for a member, without its comments.
     pub fn source_of(&self, origin: OriginId) -> String {
         let place = self.origins.place(origin);

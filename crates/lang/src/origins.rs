@@ -13,10 +13,6 @@ impl Origins {
     pub(crate) fn add(&mut self, place: Place) -> OriginId {
         self.places.push(place)
     }
-    /// Returns every member.
-    pub fn ids(&self) -> impl Iterator<Item = OriginId> + use<> {
-        self.places.ids()
-    }
     /// Returns where a member was written.
     pub fn place(&self, origin: OriginId) -> Place {
         self.places[origin]

@@ -248,19 +248,6 @@ fn a_class_that_lost_a_part_is_restored_whole() {
 }
 
 #[test]
-fn every_member_is_found_where_it_stands() {
-    let text = "use shapes\na: Line\nb: Line { p1 = (1, 2)  constraint level: p1.y = p2.y }\n";
-    let lowered = right(text);
-    let at = |word: &str| {
-        let offset = text.find(word).unwrap() as u32;
-        lowered.source_of(lowered.origin_at(offset).unwrap())
-    };
-    assert_eq!(at("level"), "constraint level: p1.y = p2.y");
-    assert_eq!(at("1, 2"), "(1, 2)");
-    assert_eq!(at("a: L"), "a: Line");
-}
-
-#[test]
 fn checks_are_data() {
     let lowered = right(
         "use shapes\ncheck \"a line\" {\n  l: Line\n  set l.p1.x to 3, l.p2 to (1, 2)\n  try merge l.p1 = l.p2\n  expect l.length = 2 within 1e-9\n  expect moved l.p1 only\n  expect free = 4\n}\n",
