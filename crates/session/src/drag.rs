@@ -7,7 +7,7 @@ use crate::state::State;
 use crate::texts::Texts;
 use crate::view::{Change, DragState, Refusal};
 use crate::words;
-use kernel::{Path, SlotId, ThingId, Values};
+use kernel::{Path, SlotId, Structure, ThingId, Values};
 use plan::{Planner, Press, RefusalReason, Target};
 
 /// A drag between press and release.
@@ -16,12 +16,14 @@ pub(crate) struct Drag {
     pub(crate) path: Path,
     /// What holds its numbers.
     slots: Vec<SlotId>,
+    /// Where each of them was at the press.
+    start: Vec<f64>,
     press: Press,
     /// The values as of the last event.
     pub(crate) values: Values,
 }
 
-/// Begins a drag of a place.
+/// Begins a drag: of a number, of a place, or of a thing with all the places that it is made of.
 ///
 /// # Errors
 /// Why the thing cannot be dragged.
@@ -31,19 +33,72 @@ pub(crate) fn press(
     thing: ThingId,
     path: Path,
 ) -> Result<Drag, RefusalReason> {
-    let mut texts = Texts::new(&state.lowered.document, &state.structure);
-    let targets = [Target::Thing(thing)];
+    let structure = &state.structure;
+    let handles = match structure.slot_of[thing] {
+        Some(_) => vec![thing],
+        None => places(structure, thing),
+    };
+    let slots = |&t: &ThingId| structure.slots_under(t);
+    let is_held = |t: &ThingId| slots(t).iter().all(|&s| structure.slots[s].anchored);
+    let Some(first) = handles.first().and_then(|t| slots(t).first().copied()) else {
+        return Err(RefusalReason::Target(format!("{path} has no place that could be dragged")));
+    };
+    // an anchored corner stays where it is while the others are dragged
+    let free: Vec<ThingId> = handles.into_iter().filter(|t| !is_held(t)).collect();
+    if free.is_empty() {
+        return Err(RefusalReason::Anchored(first));
+    }
+    let targets: Vec<Target<'_>> = free.iter().map(|&t| Target::Thing(t)).collect();
+    let slots: Vec<SlotId> = free.iter().flat_map(slots).collect();
+    let mut texts = Texts::new(&state.lowered.document, structure);
     let press = planner.press(state.model(), &state.values, &targets, &mut texts)?;
-    let slots = state.structure.slots_under(thing);
-    Ok(Drag { path, slots, press, values: state.values.clone() })
+    let start = slots.iter().map(|&s| state.values.numbers[s]).collect();
+    Ok(Drag { path, slots, start, press, values: state.values.clone() })
+}
+
+/// Returns the places that a thing is made of, each merged one once: itself, or those of its parts.
+fn places(structure: &Structure, thing: ThingId) -> Vec<ThingId> {
+    let mut places: Vec<ThingId> = Vec::new();
+    let mut stack = vec![thing];
+    while let Some(t) = stack.pop() {
+        let coordinate = |name| structure.slot_of[structure.part_named(t, name)?];
+        let is_place = match (coordinate("x"), coordinate("y")) {
+            (Some(x), Some(y)) => structure.slots_under(t) == [x, y],
+            (_, None) | (None, _) => false,
+        };
+        let known = |&p: &ThingId| structure.identity(p) == structure.identity(t);
+        match is_place {
+            true if places.iter().any(known) => {}
+            true => places.push(t),
+            false => stack.extend(structure.parts(t).rev()),
+        }
+    }
+    places
 }
 
 impl Drag {
+    /// Returns where the first of its places was at the press: what the pointer drags.
+    pub(crate) fn handle(&self) -> (f64, f64) {
+        (self.start[0], self.start.get(1).copied().unwrap_or(0.0))
+    }
     /// Follows the pointer to a place on the sheet; a number follows the first of its coordinates.
-    pub(crate) fn to(&mut self, state: &State, planner: &Planner, to: &[f64]) -> DragState {
+    /// The first place goes there, the others as far and in the same direction.
+    pub(crate) fn to(&mut self, state: &State, planner: &Planner, to: (f64, f64)) -> DragState {
         let mut texts = Texts::new(&state.lowered.document, &state.structure);
-        let to = &to[..self.slots.len().min(to.len())];
-        let report = planner.drag(state.model(), &mut self.press, &mut self.values, to, &mut texts);
+        let (x0, y0) = self.handle();
+        let to: Vec<f64> = self
+            .start
+            .iter()
+            .enumerate()
+            .map(|(i, start)| match i {
+                0 => to.0,
+                1 => to.1,
+                _ if i % 2 == 0 => start + (to.0 - x0),
+                _ => start + (to.1 - y0),
+            })
+            .collect();
+        let report =
+            planner.drag(state.model(), &mut self.press, &mut self.values, &to, &mut texts);
         let message = (!report.reached).then(|| words::why_not_reached(state, &report));
         DragState { reached: report.reached, message }
     }

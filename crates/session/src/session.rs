@@ -83,31 +83,29 @@ impl Session {
         let literal = words::read_typed(&self.document(id).state, &path, typed)?;
         self.apply(id, &Command::Set(vec![(path, literal)]))
     }
-    /// Begins a drag of a place.
+    /// Begins a drag of a number, of a place, or of a thing with all the places that it is made of.
+    ///
+    /// Returns where its handle is on the sheet: what [`Session::drag`] then moves. For a thing it is
+    /// the first of its places.
     ///
     /// # Errors
-    /// Why the thing cannot be dragged: there is none, or an anchor holds it.
-    pub fn press(&mut self, id: DocumentId, path: &Path) -> Result<(), Refusal> {
+    /// Why the thing cannot be dragged: there is none, it has no place, or an anchor holds it.
+    pub fn press(&mut self, id: DocumentId, path: &Path) -> Result<(f64, f64), Refusal> {
         let open = self.document_mut(id);
         let thing = words::find(&open.state, path)?;
         let state = open.state.clone();
-        let slots = state.structure.slots_under(thing);
-        let held = slots.iter().all(|&s| state.structure.slots[s].anchored);
-        if let (true, Some(&slot)) = (held, slots.first()) {
-            let reason = plan::RefusalReason::Anchored(slot);
-            return Err(words::refusal_for(&state, &reason, &plan::EditReport::default()));
-        }
         let drag = drag::press(&state, &mut open.planner, thing, path.clone())
             .map_err(|reason| words::refusal_for(&state, &reason, &plan::EditReport::default()))?;
+        let handle = drag.handle();
         open.drag = Some(drag);
-        Ok(())
+        Ok(handle)
     }
     /// Follows the pointer to a place on the sheet. Without a press it does nothing.
     pub fn drag(&mut self, id: DocumentId, to: (f64, f64)) -> DragState {
         let open = self.document_mut(id);
         let state = open.state.clone();
         match &mut open.drag {
-            Some(drag) => drag.to(&state, &open.planner, &[to.0, to.1]),
+            Some(drag) => drag.to(&state, &open.planner, to),
             None => DragState::default(),
         }
     }

@@ -49,7 +49,7 @@ pub fn Bench(
         begun.set_value(true);
         set_timeout(
             move || {
-                if !lab.press(&grip.path) {
+                if lab.press(&grip.path).is_none() {
                     report.set(format!("{}: {}", grip.path, crate::words::NOT_DRAGGED));
                     return;
                 }

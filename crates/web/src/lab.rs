@@ -291,21 +291,20 @@ impl Lab {
         }
     }
 
-    /// Begins a drag; returns whether there is something to drag.
-    pub fn press(self, path: &str) -> bool {
+    /// Begins a drag; returns where the handle of what is dragged lies on the sheet, if there is one.
+    pub fn press(self, path: &str) -> Option<(f64, f64)> {
         self.flush_text();
-        let Some(path) = session::parse_path(path) else { return false };
-        match self.tell(|session, id| session.press(id, &path)) {
-            Some(Ok(())) => {
+        let path = session::parse_path(path)?;
+        match self.tell(|session, id| session.press(id, &path))? {
+            Ok(handle) => {
                 self.notice.set(None);
                 self.dragging.set(Some(DragState::default()));
-                true
+                Some(handle)
             }
-            Some(Err(refusal)) => {
+            Err(refusal) => {
                 self.notice.set(Some(Notice::Refused(refusal)));
-                false
+                None
             }
-            None => false,
         }
     }
 

@@ -14,7 +14,6 @@ use leptos::ev::{KeyboardEvent, PointerEvent, WheelEvent};
 use leptos::html::Canvas;
 use leptos::prelude::*;
 use session::view::{Freedom, Grip, PictureView, StructureRow};
-use session::{Command, Literal};
 use std::collections::BTreeMap;
 use wasm_bindgen::closure::Closure;
 use wasm_bindgen::{JsCast, JsValue};
@@ -252,16 +251,17 @@ fn selected_grip(lab: Lab) -> Option<Grip> {
     lab.picture.with_untracked(|p| p.grips.iter().find(|grip| grip.path == selected).cloned())
 }
 
-/// Moves the selected point from where it is now; `dy` runs down the screen.
+/// Moves what is selected from where it is now; `dy` runs down the screen.
 fn nudge(lab: Lab, dx: f64, dy: f64) -> bool {
-    let Some(grip) = selected_grip(lab) else { return false };
-    let Some(path) = session::parse_path(&grip.path) else { return false };
+    let Some(selected) = lab.selected.get_untracked() else { return false };
+    let selected = lab.structure.with_untracked(|rows| first_path(rows, selected));
+    let Some((x, y)) = lab.press(&selected) else { return true };
     let down = match lab.view.get_untracked().vertical {
         Vertical::Up => -1.0,
         Vertical::Down => 1.0,
     };
-    let to = [grip.x + dx, grip.y + down * dy].map(Literal::Number);
-    lab.apply(&Command::Move(vec![(path, Literal::Tuple(to.to_vec()))]));
+    lab.drag((x + dx, y + down * dy));
+    lab.release();
     true
 }
 

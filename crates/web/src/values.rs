@@ -175,7 +175,7 @@ fn Scrub(
             if (x - from).abs() < 3.0 {
                 return;
             }
-            if !path().is_some_and(|path| lab.press(&path)) {
+            if path().and_then(|path| lab.press(&path)).is_none() {
                 start.set_value(None);
                 return;
             }

@@ -2,7 +2,7 @@
 //!
 //! A press does nothing until the pointer moves; then it drags what was under it, or the sheet.
 
-use super::pick::{Kind, pick};
+use super::pick::pick;
 use super::sheet_point;
 use crate::js;
 use crate::lab::Lab;
@@ -94,7 +94,7 @@ impl Hand {
         self.state.update_value(|state| state.mode = mode);
     }
 
-    fn pick(self, at: (f64, f64)) -> Option<(String, Kind)> {
+    fn pick(self, at: (f64, f64)) -> Option<String> {
         let reach = if self.state.with_value(|s| s.touch) { REACH.1 } else { REACH.0 };
         let view = self.lab.view.get_untracked();
         self.lab.picture.with_untracked(|picture| pick(picture, &view, at, reach))
@@ -123,10 +123,10 @@ impl Hand {
             self.set_mode(Mode::Pan { last: at });
         } else if e.button() == 0 {
             let picked = self.pick(at);
-            self.lab.select(picked.clone().map(|(path, _)| path));
+            self.lab.select(picked.clone());
             self.set_mode(match picked {
-                Some((path, Kind::Grip)) => Mode::Pressed { path, start: at },
-                Some((_, Kind::Shape)) | None => Mode::Pan { last: at },
+                Some(path) => Mode::Pressed { path, start: at },
+                None => Mode::Pan { last: at },
             });
         }
     }
@@ -160,7 +160,7 @@ impl Hand {
         let latest = self.state.try_update_value(|state| state.latest.take());
         let Some(at) = latest.flatten() else { return };
         match self.mode() {
-            Mode::Idle => self.lab.hover(self.pick(at).map(|(path, _)| path)),
+            Mode::Idle => self.lab.hover(self.pick(at)),
             Mode::Pressed { path, start } => {
                 if distance(at, start) >= STIR {
                     self.begin_drag(&path, start);
@@ -183,16 +183,12 @@ impl Hand {
     }
 
     fn begin_drag(self, path: &str, start: (f64, f64)) {
-        if !self.lab.press(path) {
+        let Some(handle) = self.lab.press(path) else {
             self.set_mode(Mode::Pan { last: start });
             return;
-        }
+        };
         let p = sheet_point(self.lab, start);
-        let grip = self.lab.picture.with_untracked(|picture| {
-            picture.grips.iter().find(|grip| grip.path == path).map(|grip| (grip.x, grip.y))
-        });
-        let offset = grip.map_or((0.0, 0.0), |grip| (grip.0 - p.x, grip.1 - p.y));
-        self.set_mode(Mode::Drag { offset });
+        self.set_mode(Mode::Drag { offset: (handle.0 - p.x, handle.1 - p.y) });
     }
 
     fn drag_to(self, at: (f64, f64)) {

@@ -4,36 +4,25 @@ use crate::sheet::View;
 use drawing::{Point, Shape};
 use session::view::PictureView;
 
-/// Returns the path of what lies within `reach` pixels of a place on the screen, and whether it is a
-/// grip, which can be dragged.
+/// Returns the path of what lies within `reach` pixels of a place on the screen.
 pub(super) fn pick(
     picture: &PictureView,
     view: &View,
     at: (f64, f64),
     reach: f64,
-) -> Option<(String, Kind)> {
+) -> Option<String> {
     let p = view.sheet_from_screen(at);
     let reach = reach / view.scale;
     let grips =
         picture.grips.iter().map(|grip| (distance(p, Point { x: grip.x, y: grip.y }), grip));
     let grip = grips.filter(|(d, _)| *d <= reach).min_by(|a, b| a.0.total_cmp(&b.0));
     if let Some((_, grip)) = grip {
-        return Some((grip.path.clone(), Kind::Grip));
+        return Some(grip.path.clone());
     }
     let near =
         picture.drawing.elements.iter().map(|element| (from_shape(p, &element.shape), element));
     let nearest = near.filter(|(d, _)| *d <= 0.6 * reach).min_by(|a, b| a.0.total_cmp(&b.0))?;
-    let path = picture.paths.get(nearest.1.tag.0 as usize)?;
-    Some((path.clone(), Kind::Shape))
-}
-
-/// What was found.
-#[derive(Clone, Copy, PartialEq, Eq, Debug)]
-pub(super) enum Kind {
-    /// Something that can be dragged.
-    Grip,
-    /// Something that can be selected.
-    Shape,
+    picture.paths.get(nearest.1.tag.0 as usize).cloned()
 }
 
 fn distance(p: Point, q: Point) -> f64 {
@@ -74,7 +63,7 @@ fn from_shape(p: Point, shape: &Shape) -> f64 {
 
 #[cfg(test)]
 mod tests {
-    use super::{Kind, from_shape, pick};
+    use super::{from_shape, pick};
     use crate::sheet::View;
     use drawing::{Drawing, Element, Layer, Point, Shape, Style, Tag};
     use session::view::{Grip, PictureView};
@@ -110,8 +99,8 @@ mod tests {
         };
         let view = View { scale: 2.0, ..View::default() };
         let at = |x, y| pick(&picture, &view, (x, y), 10.0);
-        assert_eq!(at(6.0, 0.0), Some((String::from("line.p1"), Kind::Grip)));
-        assert_eq!(at(60.0, 5.0), Some((String::from("line"), Kind::Shape)));
+        assert_eq!(at(6.0, 0.0), Some(String::from("line.p1")));
+        assert_eq!(at(60.0, 5.0), Some(String::from("line")));
         assert_eq!(at(60.0, 15.0), None);
     }
 }

@@ -1,0 +1,61 @@
+//! Drags of whole things: every place of them goes as far as the handle.
+
+use crate::desk::{Desk, at, gallery};
+
+const TWO: &str = "\
+class Point { x, y: Length   picture => dot(x, y) }
+class Line { p1: Point = (0, 0)  p2: Point = (30, 40)  picture => segment(p1, p2) }
+class Chain { a: Line  b: Line { p1 = (30, 40)  p2 = (60, 0) }  merge a.p2 = b.p1 }
+chain: Chain
+";
+
+fn place(desk: &Desk, path: &str) -> [f64; 2] {
+    ["x", "y"].map(|axis| desk.number(&format!("{path}.{axis}")))
+}
+
+#[test]
+fn a_line_moves_as_a_whole_and_its_neighbour_keeps_its_far_end() {
+    let mut desk = Desk::of(TWO);
+    let before = desk.text();
+    assert_eq!(desk.session.press(desk.id, &at("chain.a")).expect("a line has places"), (0.0, 0.0));
+    assert!(desk.session.drag(desk.id, (5.0, -3.0)).reached);
+    assert!(desk.session.drag(desk.id, (10.0, 20.0)).reached);
+    desk.session.release(desk.id).expect("nothing forbids it");
+    assert_eq!(place(&desk, "chain.a.p1"), [10.0, 20.0]);
+    assert_eq!(place(&desk, "chain.a.p2"), [40.0, 60.0]);
+    assert_eq!(place(&desk, "chain.b.p2"), [60.0, 0.0]);
+    desk.undo();
+    assert_eq!(desk.text(), before);
+}
+
+#[test]
+fn a_merged_corner_is_moved_once() {
+    let mut desk = Desk::of(TWO);
+    desk.drag("chain", &[(1.0, 1.0)]);
+    assert_eq!(place(&desk, "chain.a.p2"), [31.0, 41.0]);
+    assert_eq!(place(&desk, "chain.b.p2"), [61.0, 1.0]);
+}
+
+#[test]
+fn an_anchored_end_stays_where_it_is() {
+    let mut desk = Desk::of(&format!("{TWO}anchor chain.a.p1\n"));
+    desk.drag("chain.a", &[(35.0, 45.0)]);
+    assert_eq!(place(&desk, "chain.a.p1"), [0.0, 0.0]);
+    // the handle is the first end that can move
+    assert_eq!(place(&desk, "chain.a.p2"), [35.0, 45.0]);
+}
+
+#[test]
+fn a_side_of_the_quadrilateral_takes_its_midpoints_along() {
+    let mut desk = Desk::of(&gallery("quadrilateral"));
+    let (corner, middle) = (place(&desk, "q.outer.side1.p1"), place(&desk, "q.inner.side1.p1"));
+    desk.drag("q.outer.side1", &[(corner[0] + 8.0, corner[1] - 6.0)]);
+    assert_eq!(place(&desk, "q.inner.side1.p1"), [middle[0] + 8.0, middle[1] - 6.0]);
+}
+
+#[test]
+fn what_has_no_place_is_not_dragged() {
+    let mut desk = Desk::of("class Box { n: Real = 1  t: Text = \"a\" }\nbox: Box\n");
+    let refusal = desk.session.press(desk.id, &at("box")).expect_err("it has no place");
+    assert!(refusal.message.contains("no place"), "{}", refusal.message);
+}
