@@ -1,6 +1,6 @@
 //! The suite: documents that say what must come of them.
 //!
-//! Every file below `tests/suite`, `gallery` and `library` is opened. Lines that begin with `//~` say
+//! Every file below `tests/suite`, `gallery` and `library` is opened, and every example of the book. Lines that begin with `//~` say
 //! what is expected:
 //!
 //! - `//~ error[code] LINE:COLUMN` (place optional): a diagnostic; without any, there must be none
@@ -62,9 +62,8 @@ fn opened(path: &Path, text: &str) -> (Session, DocumentId) {
 }
 
 /// Opens a document and returns everything that differs from what it says of itself.
-fn differences(path: &Path) -> String {
-    let text = read(path);
-    let (session, id) = opened(path, &text);
+fn differences(path: &Path, text: &str) -> String {
+    let (session, id) = opened(path, text);
     let mut out = String::new();
     let wanted = |word: &str| {
         let prefix = format!("//~ {word}");
@@ -139,7 +138,7 @@ fn compare_diagnostics(session: &Session, id: DocumentId, wanted: Vec<String>, o
 fn assert_as_written(folder: &str) {
     let mut failures = String::new();
     for path in documents(folder) {
-        let difference = differences(&path);
+        let difference = differences(&path, &read(&path));
         if !difference.is_empty() {
             let shown = path.strip_prefix(root()).unwrap_or(&path).display();
             let _ = write!(failures, "{shown}\n{difference}");
@@ -156,6 +155,30 @@ fn the_suite_comes_out_as_it_says() {
 #[test]
 fn the_gallery_comes_out_as_it_says() {
     assert_as_written("gallery");
+}
+
+/// The documents between the fences of a page, with the line before each.
+fn examples(page: &str) -> Vec<(usize, String)> {
+    let mut found = Vec::new();
+    let mut lines = page.lines().enumerate();
+    while let Some((at, line)) = lines.next() {
+        if line.trim() == "```thing" {
+            let text = lines.by_ref().map(|(_, line)| line).take_while(|line| *line != "```");
+            found.push((at + 1, text.collect::<Vec<_>>().join("\n")));
+        }
+    }
+    found
+}
+
+#[test]
+fn the_examples_of_the_book_come_out_as_they_say() {
+    let page = root().join("book/language.md");
+    let examples = examples(&read(&page));
+    assert!(examples.len() > 5, "the page has its examples");
+    for (line, text) in examples {
+        let difference = differences(&page, &text);
+        assert!(difference.is_empty(), "the example after line {line}:\n{difference}");
+    }
 }
 
 #[test]

@@ -6,8 +6,9 @@ use super::rules::tolerance;
 use super::types::paths;
 use super::{Scope, body};
 use crate::kind::SyntaxKind::{
-    Comma, Delete, Edit, ElseKw, Eq, Expect, Hint, Ident, If, IfKw, LBrace, Move, Number, OwnerKw,
-    Promote, Redo, Rename, Say, Set, Simulate, Target, Task, Text, Try, Undo, Unmerge,
+    Comma, Delete, Dot, Edit, ElseKw, Eq, Expect, Hint, Ident, If, IfKw, LBrace, LBracket, Move,
+    Number, OwnerKw, Promote, Redo, Rename, Say, Set, Simulate, Target, Task, Text, Try, Undo,
+    Unmerge,
 };
 use crate::parser::Parser;
 
@@ -110,9 +111,10 @@ fn targets(p: &mut Parser<'_>) {
     }
 }
 
-/// What is expected, after `expect`, where `satisfied moved free solutions plan error` are reserved.
+/// What is expected, after `expect`, where `satisfied moved free solutions plan error` are reserved
+/// unless a path goes on after them.
 fn expectation(p: &mut Parser<'_>) {
-    match (p.at(Ident), p.word(0)) {
+    match (p.at(Ident) && !matches!(p.nth(1), Dot | LBracket), p.word(0)) {
         (true, "satisfied") => p.bump_keyword(),
         (true, "moved") => {
             p.bump_keyword();
