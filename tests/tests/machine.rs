@@ -216,7 +216,7 @@ fn step(desk: &mut Desk, act: &Act) -> Result<(), TestCaseError> {
     let result = match act {
         Act::Drag(i, along) => {
             let Some(path) = picked(i, &desk.grips()) else { return Ok(()) };
-            desk.session.press(desk.id, &path).and_then(|()| {
+            desk.session.press(desk.id, &path).and_then(|_| {
                 for &to in along {
                     desk.session.drag(desk.id, to);
                 }
