@@ -65,6 +65,10 @@ impl<I: Id, T> IdVec<I, T> {
         self.items.push(item);
         I::from_index(self.items.len() - 1)
     }
+    /// Adds elements, in order.
+    pub fn extend(&mut self, items: impl IntoIterator<Item = T>) {
+        self.items.extend(items);
+    }
     /// Returns the number of elements.
     pub fn len(&self) -> usize {
         self.items.len()

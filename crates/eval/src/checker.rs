@@ -79,7 +79,7 @@ fn check_values(
                 if x.fract() != 0.0 {
                     wrong.push(format!("{} is {}, no whole number", path(), shortest(x)));
                 }
-                if let Some((least, most)) = slot.range
+                if let Some((least, most)) = structure.ranges.get(&id).copied()
                     && !(least as f64..=most as f64).contains(&x)
                 {
                     let (path, x) = (path(), shortest(x));

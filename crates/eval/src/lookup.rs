@@ -48,7 +48,7 @@ impl<'a> Evaluator<'a> {
         if let Some(layout) = &self.tables.layouts.borrow()[class] {
             return layout.clone();
         }
-        let known = self.structure.layouts.get(&class).cloned();
+        let known = self.structure.layout(class).cloned();
         let layout = known.unwrap_or_else(|| Rc::new(Layout::new(self.document, class)));
         self.tables.layouts.borrow_mut()[class] = Some(layout.clone());
         layout
@@ -66,7 +66,7 @@ impl<'a> Evaluator<'a> {
                 None => s.part_named(thing, name),
             }
         };
-        own(thing).or_else(|| s.merges.get(&s.merged[thing])?.iter().find_map(|&t| own(t)))
+        own(thing).or_else(|| s.unlike(thing).iter().find_map(|&t| own(t)))
     }
 
     /// Finds a class's message by the thesis's order, once for every class and name.
@@ -87,7 +87,7 @@ impl<'a> Evaluator<'a> {
     /// Returns the things of a class in order of declaration, merged ones once.
     pub(crate) fn all(&self, class: ClassId) -> Rc<[Answer<'a>]> {
         let is: BTreeMap<ClassId, bool> =
-            self.structure.layouts.keys().map(|&c| (c, self.document.is_a(c, class))).collect();
+            self.structure.classes().map(|c| (c, self.document.is_a(c, class))).collect();
         let of_class = |t: &ThingId| {
             let c = self.structure.things[*t].class;
             self.structure.merged[*t] == *t

@@ -71,7 +71,7 @@ impl<'a> Evaluator<'a> {
         };
         match to {
             Answer::Thing(t) => find(s.things[*t].class).or_else(|| {
-                let alike = s.merges.get(&s.merged[*t])?;
+                let alike = s.unlike(*t);
                 alike.iter().find_map(|&t| find(s.things[t].class))
             }),
             Answer::Made(made) => find(made.class),

@@ -119,20 +119,13 @@ impl<'a> Evaluator<'a> {
     /// # Errors
     /// Why it has no value, or one that the slot cannot hold; named by the given value.
     pub fn given(&self, slot: SlotId) -> Result<Option<Value>> {
-        match &self.structure.slots[slot].given {
-            Some(given) => self.given_in(given, slot).map(Some),
-            None => Ok(None),
-        }
-    }
-
-    /// Computes a given value for a slot.
-    ///
-    /// # Errors
-    /// Why it has no value, or one that the slot cannot hold; named by the given value.
-    pub fn given_in(&self, given: &'a GivenIn, slot: SlotId) -> Result<Value> {
+        let Some(GivenIn { value, me }) = self.structure.slots[slot].given else {
+            return Ok(None);
+        };
+        let given = &self.structure.givens[value];
         self.begin();
         let value = || {
-            let mut answer = self.term(&given.value, &Frame::of(given.me))?;
+            let mut answer = self.term(&given.term, &Frame::of(me))?;
             if let Answer::Thing(_) | Answer::Made(_) | Answer::List(_) = answer {
                 let field = self.structure.things[self.structure.slots[slot].thing].field;
                 let parts = self.by_position(&answer)?;
@@ -142,7 +135,7 @@ impl<'a> Evaluator<'a> {
             }
             self.value_for(slot, &answer)
         };
-        value().map_err(|f: Fault| f.within(given.origin))
+        value().map(Some).map_err(|f: Fault| f.within(given.origin))
     }
 
     /// Hands a value to the slots of a thing: itself, by position, or part by part.
@@ -249,7 +242,7 @@ pub fn given_values(document: &Document, structure: &Structure) -> (Values, Vec<
             for slot in waiting {
                 let message = "a given value that depends on itself";
                 let fault = Fault::new(FaultKind::Endless, message);
-                let origin = structure.slots[slot].given.as_ref().map(|g| g.origin);
+                let origin = structure.given(slot).map(|g| g.origin);
                 faults.push(Fault { origin, ..fault });
             }
             return (values, faults);

@@ -31,8 +31,8 @@ pub use document::{Document, PartRef, PartRole, Vertical};
 pub use instantiate::{Fault, FaultKind, instantiate};
 pub use path::{Path, Step};
 pub use structure::{
-    Astray, ConstraintInstance, DOCUMENT, GivenIn, Layout, Slot, SlotId, StayInstance, Structure,
-    Thing, ThingId,
+    Astray, ConstraintInstance, DOCUMENT, GivenId, GivenIn, GivenTerm, Layout, Slot, SlotId,
+    StayInstance, Structure, Thing, ThingId,
 };
 pub use term::{Argument, BinaryOperator, OriginId, Term, UnaryOperator};
 pub use values::{Value, Values};

@@ -10,6 +10,7 @@ use std::rc::Rc;
 
 base::define_id!(ThingId, "t", "A thing: the document, a part, a part of a part, a number.");
 base::define_id!(SlotId, "s", "Where the value of a primitive thing is stored.");
+base::define_id!(GivenId, "g", "A given value: one for all things that get it from their class.");
 
 /// A thing, before merging: one for every path of the document.
 #[derive(Clone, Debug)]
@@ -33,23 +34,28 @@ pub struct Slot {
     pub thing: ThingId,
     /// What it holds.
     pub primitive: Primitive,
-    /// Its given value, if it has one: a term, and the thing that is `Me` in it.
+    /// Its given value, if it has one.
     pub given: Option<GivenIn>,
     /// True if an anchor holds it.
     pub anchored: bool,
     /// The place that it is a coordinate of, named by that place's thing.
     pub place: Option<ThingId>,
-    /// The values that an integer may take.
-    pub range: Option<(i64, i64)>,
 }
 
 /// A given value in its context.
-#[derive(Clone, Debug)]
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub struct GivenIn {
     /// The value.
-    pub value: Term,
-    /// The thing that the value is in terms of.
+    pub value: GivenId,
+    /// The thing that the value is in terms of: `Me` in its term.
     pub me: ThingId,
+}
+
+/// A given value as it was written, or what a part gets of one: a coordinate of `(3, 4)`.
+#[derive(Clone, PartialEq, Debug)]
+pub struct GivenTerm {
+    /// The value.
+    pub term: Term,
     /// Where it was written; for a coordinate of `(3, 4)`, where the whole was.
     pub origin: OriginId,
 }
@@ -81,21 +87,31 @@ pub struct Structure {
     pub things: IdVec<ThingId, Thing>,
     /// For every thing, the first thing that it is merged with (itself where it is not).
     pub merged: IdVec<ThingId, ThingId>,
+    /// For every thing, the next that it is merged with, in order of declaration; the first again
+    /// after the last.
+    pub(crate) next_merged: IdVec<ThingId, ThingId>,
+    /// For every first thing of a merge of unlike things, the first of each class, in order.
+    pub(crate) unlike: BTreeMap<ThingId, Vec<ThingId>>,
     /// For every primitive thing, its slot.
     pub slot_of: IdVec<ThingId, Option<SlotId>>,
     /// Every slot, in order of declaration of its first thing.
     pub slots: IdVec<SlotId, Slot>,
+    /// The given values of slots.
+    pub givens: IdVec<GivenId, GivenTerm>,
+    /// The values that an integer may take, for slots where that is written.
+    pub ranges: BTreeMap<SlotId, (i64, i64)>,
     /// Every constraint, in order of declaration, each merged one once.
     pub constraints: Vec<ConstraintInstance>,
     /// Declared stays and anchors.
     pub stays: Vec<StayInstance>,
     /// The members of every set, by the set's first thing, in order of declaration, merged ones once.
     pub sets: BTreeMap<ThingId, Vec<ThingId>>,
-    /// For every first thing of a merge, all things merged with it, itself first.
-    pub merges: BTreeMap<ThingId, Vec<ThingId>>,
     /// The layout of every class that has things.
-    pub layouts: BTreeMap<ClassId, Rc<Layout>>,
+    pub(crate) layouts: Layouts,
 }
+
+/// The layouts of classes, each made when its first thing is.
+pub(crate) type Layouts = IdVec<ClassId, Option<Rc<Layout>>>;
 
 /// The fields of a class's instances, and where each name stands.
 #[derive(Clone, Debug)]
@@ -140,6 +156,63 @@ pub struct Astray {
 /// The document's own thing.
 pub const DOCUMENT: ThingId = ThingId(0);
 
+/// Things as far as they are merged: what paths are followed through.
+#[derive(Clone, Copy)]
+pub(crate) struct Paths<'s> {
+    pub(crate) things: &'s IdVec<ThingId, Thing>,
+    /// For every thing, one that it is merged with and that stands before it, or itself.
+    pub(crate) merged: &'s IdVec<ThingId, ThingId>,
+    pub(crate) unlike: &'s BTreeMap<ThingId, Vec<ThingId>>,
+    pub(crate) layouts: &'s Layouts,
+}
+
+impl Paths<'_> {
+    pub(crate) fn identity(&self, thing: ThingId) -> ThingId {
+        let mut at = thing;
+        while self.merged[at] != at {
+            at = self.merged[at];
+        }
+        at
+    }
+    pub(crate) fn part_named(&self, thing: ThingId, name: &str) -> Option<ThingId> {
+        let own = self.own_part_named(thing, name);
+        if own.is_some() || self.unlike.is_empty() {
+            return own;
+        }
+        let unlike = self.unlike.get(&self.identity(thing))?;
+        unlike.iter().find_map(|&t| self.own_part_named(t, name))
+    }
+    fn own_part_named(&self, thing: ThingId, name: &str) -> Option<ThingId> {
+        let layout = self.layouts[self.things[thing].class].as_ref()?;
+        let part = |i: u32| ThingId(self.things[thing].first_part.0 + i);
+        if let Some(&i) = layout.index.get(name) {
+            // a thing that could not be made has no parts
+            return (i < self.things[thing].parts).then(|| part(i));
+        }
+        if layout.own_names.iter().any(|n| *n == name) {
+            return Some(thing);
+        }
+        let has = layout.superclasses.iter().filter(|&&i| i < self.things[thing].parts);
+        let mut found = has.filter_map(|&i| self.own_part_named(part(i), name));
+        let first = found.next()?;
+        found.all(|t| self.identity(t) == self.identity(first)).then_some(first)
+    }
+    pub(crate) fn follow(&self, from: ThingId, path: &Path) -> Result<ThingId, Astray> {
+        let mut at = from;
+        for (i, step) in path.0.iter().enumerate() {
+            let t = &self.things[at];
+            let next = match step {
+                Step::Part(name) => self.part_named(at, name),
+                Step::Index(n) => (*n < t.parts).then(|| ThingId(t.first_part.0 + n)),
+                Step::Last => t.parts.checked_sub(1).map(|n| ThingId(t.first_part.0 + n)),
+                Step::Owner => t.owner,
+            };
+            at = next.ok_or(Astray { step: i, at })?;
+        }
+        Ok(at)
+    }
+}
+
 impl Structure {
     /// Returns the parts of a thing, in order.
     pub fn parts(
@@ -150,6 +223,14 @@ impl Structure {
         let (first, n) = (t.first_part.0, t.parts);
         (0..n).map(move |i| ThingId(first + i))
     }
+    /// Returns the layout of a class, if it has things.
+    pub fn layout(&self, class: ClassId) -> Option<&Rc<Layout>> {
+        self.layouts.get(class)?.as_ref()
+    }
+    /// Returns the classes that have things with parts.
+    pub fn classes(&self) -> impl Iterator<Item = ClassId> {
+        self.layouts.iter().filter(|(_, l)| l.is_some()).map(|(c, _)| c)
+    }
     /// Returns the first thing that `thing` is merged with: its identity.
     pub fn identity(&self, thing: ThingId) -> ThingId {
         self.merged[thing]
@@ -157,55 +238,43 @@ impl Structure {
     /// Returns everything that is merged with `thing`, the first first; itself alone where nothing is.
     pub fn merged_with(&self, thing: ThingId) -> Vec<ThingId> {
         let first = self.merged[thing];
-        self.merges.get(&first).cloned().unwrap_or_else(|| vec![first])
+        let next = |&t: &ThingId| Some(self.next_merged[t]).filter(|&t| t != first);
+        std::iter::successors(Some(first), next).collect()
+    }
+    /// Returns the first thing of each class that `thing` is merged with, in order of declaration;
+    /// nothing where all are of its own class.
+    pub fn unlike(&self, thing: ThingId) -> &[ThingId] {
+        if self.unlike.is_empty() {
+            return &[];
+        }
+        self.unlike.get(&self.merged[thing]).map_or(&[], |all| all)
+    }
+    /// Returns the given value of a slot.
+    pub fn given(&self, slot: SlotId) -> Option<&GivenTerm> {
+        self.slots[slot].given.map(|g| &self.givens[g.value])
     }
     /// Returns the name of the field that a thing is, or nothing for the document and list elements.
     pub fn field_name<'d>(&self, document: &'d Document, thing: ThingId) -> Option<&'d Name> {
         let owner = self.things[thing].owner?;
-        let layout = self.layouts.get(&self.things[owner].class)?;
+        let layout = self.layout(self.things[owner].class)?;
         layout.fields.get(self.things[thing].field as usize).map(|&f| document.field_name(f))
+    }
+    fn paths(&self) -> Paths<'_> {
+        let Self { things, merged, unlike, layouts, .. } = self;
+        Paths { things, merged, unlike, layouts }
     }
     /// Returns the part of `thing` named `name`, looking at what it is merged with as well.
     ///
     /// A bare name means the primary line's part, else the only other superclass's that has it.
     pub fn part_named(&self, thing: ThingId, name: &str) -> Option<ThingId> {
-        let own = self.own_part_named(thing, name);
-        if own.is_some() {
-            return own;
-        }
-        let alike = self.merges.get(&self.merged[thing])?;
-        alike.iter().find_map(|&t| self.own_part_named(t, name))
-    }
-    fn own_part_named(&self, thing: ThingId, name: &str) -> Option<ThingId> {
-        let layout = self.layouts.get(&self.things[thing].class)?;
-        let part = |i: u32| ThingId(self.things[thing].first_part.0 + i);
-        if let Some(&i) = layout.index.get(&Name::new(name)) {
-            return Some(part(i));
-        }
-        if layout.own_names.iter().any(|n| *n == name) {
-            return Some(thing);
-        }
-        let mut found =
-            layout.superclasses.iter().filter_map(|&i| self.own_part_named(part(i), name));
-        let first = found.next()?;
-        found.all(|t| self.merged[t] == self.merged[first]).then_some(first)
+        self.paths().part_named(thing, name)
     }
     /// Follows a path from a thing.
     ///
     /// # Errors
     /// The first step that leads nowhere, and the thing where it was taken.
     pub fn follow(&self, from: ThingId, path: &Path) -> Result<ThingId, Astray> {
-        let mut at = from;
-        for (i, step) in path.0.iter().enumerate() {
-            let next = match step {
-                Step::Part(name) => self.part_named(at, name),
-                Step::Index(n) => self.parts(at).nth(*n as usize),
-                Step::Last => self.parts(at).next_back(),
-                Step::Owner => self.things[at].owner,
-            };
-            at = next.ok_or(Astray { step: i, at })?;
-        }
-        Ok(at)
+        self.paths().follow(from, path)
     }
     /// Returns the path from the document to a thing.
     pub fn path(&self, document: &Document, thing: ThingId) -> Path {

@@ -95,7 +95,7 @@ fn at(structure: &Structure, path: &[&str]) -> ThingId {
 
 fn given_number(structure: &Structure, path: &[&str]) -> Option<f64> {
     let slot = structure.slot_of[at(structure, path)].expect("a number has a slot");
-    match &structure.slots[slot].given.as_ref()?.value {
+    match &structure.given(slot)?.term {
         Term::Number { value, .. } => Some(*value),
         other => panic!("given {other:?}"),
     }

@@ -286,7 +286,7 @@ impl<'a, 'w> Opening<'a, 'w> {
         let find = |class| document.find_message(class, name, above).map(|found| found.1);
         match to {
             Meaning::Thing(t) => find(self.structure.things[*t].class).or_else(|| {
-                let alike = self.structure.merges.get(&self.structure.merged[*t])?;
+                let alike = self.structure.unlike(*t);
                 alike.iter().find_map(|&t| find(self.structure.things[t].class))
             }),
             Meaning::Made(made) => find(made.class),

@@ -158,7 +158,7 @@ pub(crate) fn term_path(term: &Term) -> String {
 /// That there is none, with the nearest name that there is.
 pub(crate) fn find(state: &State, path: &Path) -> Result<ThingId, Refusal> {
     state.structure.follow(kernel::DOCUMENT, path).map_err(|astray| {
-        let layout = state.structure.layouts.get(&state.structure.things[astray.at].class);
+        let layout = state.structure.layout(state.structure.things[astray.at].class);
         let step = Path(vec![path.0[astray.step].clone()]).to_string();
         let names = layout.into_iter().flat_map(|l| l.index.keys().map(base::Name::as_str));
         let hint = base::diagnostic::nearest(&step, names)
@@ -217,7 +217,7 @@ pub(crate) fn doc_of(state: &State, thing: ThingId) -> String {
     let (document, structure) = (&state.lowered.document, &state.structure);
     let t = &structure.things[thing];
     let declared = t.owner.and_then(|owner| {
-        let layout = structure.layouts.get(&structure.things[owner].class)?;
+        let layout = structure.layout(structure.things[owner].class)?;
         document.declared(*layout.fields.get(t.field as usize)?)
     });
     match declared {

@@ -26,12 +26,13 @@ pub(crate) fn write_back(
     let mut written: BTreeSet<ThingId> = state
         .structure
         .slots
-        .iter()
-        .filter(|(slot, s)| {
-            s.given.as_ref().is_some_and(|g| state.lowered.is_own_given(g.origin))
-                && !wanted.get(*slot).same_bits(&state.values.get(*slot))
+        .ids()
+        .filter(|&slot| {
+            let given = state.structure.given(slot);
+            given.is_some_and(|g| state.lowered.is_own_given(g.origin))
+                && !wanted.get(slot).same_bits(&state.values.get(slot))
         })
-        .map(|(slot, _)| unit_of_writing(state, slot))
+        .map(|slot| unit_of_writing(state, slot))
         .collect();
     let mut more = 1;
     loop {

@@ -316,8 +316,8 @@ impl Terms<'_> {
 
 impl Host for Terms<'_> {
     fn given(&mut self, slot: SlotId, values: &Values) -> Option<Value> {
-        let given = self.structure.slots[slot].given.as_ref()?;
-        self.term(given.me, &given.value, values).ok()
+        let given = self.structure.slots[slot].given?;
+        self.term(given.me, &self.structure.givens[given.value].term, values).ok()
     }
     fn compute(
         &mut self,

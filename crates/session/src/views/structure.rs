@@ -95,7 +95,7 @@ impl Maker<'_> {
         let (document, structure) = (&self.state.lowered.document, &self.state.structure);
         let t = &structure.things[thing];
         let declared = t.owner.and_then(|owner| {
-            let layout = structure.layouts.get(&structure.things[owner].class)?;
+            let layout = structure.layout(structure.things[owner].class)?;
             document.declared(*layout.fields.get(t.field as usize)?)
         });
         declared.map_or(document.classes[t.class].origin, |p| p.origin)

@@ -1,0 +1,178 @@
+//! Filling: a thing without parts in, its parts and all below them out.
+
+use super::body::{Body, ROOT};
+use super::givens::{Binding, ShareOf, own_bindings, put, shares};
+use super::{FaultKind, MOST_COPIES, MOST_THINGS, Maker, rules};
+use crate::class::{ClassId, ClassKind, Count};
+use crate::document::{Document, PartRef, PartRole};
+use crate::structure::ThingId;
+use crate::term::{OriginId, Term};
+use std::rc::Rc;
+
+/// How deep parts may lie in parts of classes: what the stack holds.
+const DEEPEST: usize = 200;
+
+/// Makes what is below a thing. `bindings` are given values from its owners, the outermost last.
+pub(super) fn fill<'d>(
+    maker: &mut Maker<'d>,
+    body: &mut Body,
+    thing: ThingId,
+    bindings: &[Binding<'d>],
+    origin: OriginId,
+) {
+    let document = maker.document;
+    let class = body.things[thing].class;
+    if document.classes[class].is_abstract {
+        let name = &document.classes[class].name;
+        let message = format!("{name} is abstract: it has no things of its own");
+        maker.fault(origin, FaultKind::AbstractPart, message);
+    }
+    match document.classes[class].kind {
+        ClassKind::Primitive(_) | ClassKind::Reference(_) | ClassKind::Set(_) => {}
+        ClassKind::List(element) => {
+            return fill_list(maker, body, thing, element, bindings, origin);
+        }
+        ClassKind::Composite => {
+            let Some(known) = body_of(maker, class, origin) else { return };
+            if known.counts_givens && !bindings.is_empty() {
+                return fill_fields(maker, body, thing, bindings);
+            }
+            if !has_room(maker, body, known.len(), origin) {
+                return;
+            }
+            body.copy(thing, &known);
+        }
+    }
+    bindings.iter().for_each(|&b| put(maker, body, thing, b));
+}
+
+/// Returns the body of a class: what its things have below them where nothing else is given.
+fn body_of(maker: &mut Maker<'_>, class: ClassId, origin: OriginId) -> Option<Rc<Body>> {
+    if let Some(body) = &maker.bodies[class] {
+        return Some(body.clone());
+    }
+    if maker.on_the_way.contains(&class) {
+        let name = &maker.document.classes[class].name;
+        let message = format!("a {name} would have another {name} as a part, without end");
+        maker.fault(origin, FaultKind::EndlessParts, message);
+        return None;
+    }
+    if maker.on_the_way.len() >= DEEPEST {
+        let message = format!("parts of parts more than {DEEPEST} deep");
+        maker.fault(origin, FaultKind::TooDeep, message);
+        return None;
+    }
+    let body = Rc::new(make_body(maker, class));
+    maker.bodies[class] = Some(body.clone());
+    Some(body)
+}
+
+/// Makes what things of a class have below them.
+pub(super) fn make_body(maker: &mut Maker<'_>, class: ClassId) -> Body {
+    let mut body = Body::new(class);
+    fill_fields(maker, &mut body, ROOT, &[]);
+    body.settle_merges();
+    rules::keep_each_once(&mut body);
+    body
+}
+
+/// Tests whether a body may have so many things more; reports it once where it may not.
+fn has_room(maker: &mut Maker<'_>, body: &Body, more: usize, origin: OriginId) -> bool {
+    maker.copied = maker.copied.saturating_add(more);
+    let fits = body.len().saturating_add(more) <= MOST_THINGS && maker.copied <= MOST_COPIES;
+    if !fits && !std::mem::replace(&mut maker.is_full, true) {
+        let message = format!("{more} more things than a document may have");
+        maker.fault(origin, FaultKind::TooManyThings, message);
+    }
+    fits
+}
+
+fn fill_list<'d>(
+    maker: &mut Maker<'d>,
+    body: &mut Body,
+    thing: ThingId,
+    element: ClassId,
+    bindings: &[Binding<'d>],
+    origin: OriginId,
+) {
+    let whole = bindings.iter().rev().find(|b| b.path.is_empty());
+    let given = whole.map_or(0, |b| match &maker.givens[b.given.value].term {
+        Term::List(items) => items.len(),
+        _ => 0,
+    });
+    let count = match declared(maker, body, thing).and_then(|field| field.1) {
+        Some(Count::Fixed(n)) => n as usize,
+        Some(Count::Given) | None => {
+            body.counts_givens = true;
+            given
+        }
+    };
+    if !has_room(maker, body, count, origin) {
+        return;
+    }
+    body.add_parts(thing, std::iter::repeat_n(element, count));
+    fill_parts(maker, body, thing, bindings, |_| origin);
+}
+
+/// Returns the field that a thing is, and how many elements its declaration says.
+fn declared(maker: &Maker<'_>, body: &Body, thing: ThingId) -> Option<(PartRef, Option<Count>)> {
+    let t = &body.things[thing];
+    let layout = maker.layouts[body.things[t.owner?].class].as_ref()?;
+    let field = *layout.fields.get(t.field as usize)?;
+    Some((field, maker.document.declared(field)?.count))
+}
+
+fn fill_fields<'d>(
+    maker: &mut Maker<'d>,
+    body: &mut Body,
+    thing: ThingId,
+    bindings: &[Binding<'d>],
+) {
+    let document = maker.document;
+    let class = body.things[thing].class;
+    let layout = maker.layout(class);
+    let origin = document.classes[class].origin;
+    if !has_room(maker, body, layout.fields.len(), origin) {
+        return;
+    }
+    body.add_parts(thing, layout.fields.iter().map(|&f| document.field_class(f)));
+    let mut all = own_bindings(maker, thing, class);
+    all.extend(bindings);
+    let waiting = body.waiting.len();
+    maker.on_the_way.push(class);
+    fill_parts(maker, body, thing, &all, |i| field_origin(document, layout.fields[i]));
+    maker.on_the_way.pop();
+    rules::apply(maker, body, thing, waiting);
+}
+
+/// Fills the parts of a thing in order, each with its share of the given values.
+fn fill_parts<'d>(
+    maker: &mut Maker<'d>,
+    body: &mut Body,
+    thing: ThingId,
+    bindings: &[Binding<'d>],
+    origin: impl Fn(usize) -> OriginId,
+) {
+    let shared = shares(maker, body, thing, bindings);
+    let mut rest = shared.as_slice();
+    let mut of_part = Vec::new();
+    let mut rank = body.rank[thing] + 1;
+    for i in 0..body.things[thing].parts as usize {
+        let here = rest.iter().take_while(|s| s.part == i as u32).count();
+        of_part.clear();
+        of_part.extend(rest[..here].iter().map(|s: &ShareOf<'d>| s.binding));
+        rest = &rest[here..];
+        let part = body.part(thing, i);
+        body.rank[part] = rank;
+        let before = body.len();
+        fill(maker, body, part, &of_part, origin(i));
+        rank += 1 + (body.len() - before) as u32;
+    }
+}
+
+fn field_origin(document: &Document, field: PartRef) -> OriginId {
+    match field.role {
+        PartRole::Part => document.classes[field.class].parts[field.index].origin,
+        PartRole::Superclass => document.classes[field.class].origin,
+    }
+}

@@ -1,0 +1,119 @@
+//! Finishing: the document's body in, its structure out, with slots and sets.
+
+use super::Maker;
+use super::body::Body;
+use crate::class::{ClassId, ClassKind};
+use crate::structure::{Slot, Structure, ThingId};
+use base::IdVec;
+
+/// Gives slots to the primitive things, and members to the sets.
+pub(super) fn finish(maker: &mut Maker<'_>, body: Body) -> Structure {
+    let order = in_order(&body);
+    let mut structure = Structure {
+        slot_of: IdVec::filled(None, body.things.len()),
+        next_merged: rings(&body, &order),
+        givens: std::mem::take(&mut maker.givens),
+        layouts: std::mem::take(&mut maker.layouts),
+        ..Structure::default()
+    };
+    give_slots(maker, &body, &order, &mut structure);
+    let first = |t: ThingId| body.merged[t];
+    let mut members: Vec<(ThingId, ThingId)> =
+        body.members.iter().map(|&(set, part)| (first(set), first(part))).collect();
+    members.sort_by_key(|&(set, part)| (body.rank[set], body.rank[part]));
+    members.dedup();
+    for (set, part) in members {
+        structure.sets.entry(set).or_default().push(part);
+    }
+    structure.things = body.things;
+    structure.merged = body.merged;
+    structure.constraints = body.constraints;
+    structure.stays = body.stays;
+    structure.unlike = body.unlike.keys().map(|&t| (t, first_of_each(&structure, t))).collect();
+    for index in 0..structure.stays.len() {
+        let stay = structure.stays[index];
+        if stay.strength.is_none() {
+            for slot in structure.slots_under(stay.thing) {
+                structure.slots[slot].anchored = true;
+            }
+        }
+    }
+    structure
+}
+
+/// Returns every thing in order of declaration.
+fn in_order(body: &Body) -> Vec<ThingId> {
+    let mut order = vec![ThingId(0); body.len()];
+    for (thing, &rank) in body.rank.iter() {
+        order[rank as usize] = thing;
+    }
+    order
+}
+
+/// Returns for every thing the next that it is merged with.
+fn rings(body: &Body, order: &[ThingId]) -> IdVec<ThingId, ThingId> {
+    let mut next: IdVec<ThingId, ThingId> = body.things.ids().collect();
+    // From the last to the first, each is put right behind the one that is first of all.
+    for &thing in order.iter().rev() {
+        let first = body.merged[thing];
+        if thing != first {
+            next[thing] = next[first];
+            next[first] = thing;
+        }
+    }
+    next
+}
+
+/// Returns the first thing of each class in a ring.
+fn first_of_each(structure: &Structure, thing: ThingId) -> Vec<ThingId> {
+    let mut found: Vec<ThingId> = Vec::new();
+    for t in structure.merged_with(thing) {
+        let class = structure.things[t].class;
+        if found.iter().all(|&f| structure.things[f].class != class) {
+            found.push(t);
+        }
+    }
+    found
+}
+
+fn give_slots(maker: &Maker<'_>, body: &Body, order: &[ThingId], structure: &mut Structure) {
+    let document = maker.document;
+    let mut places: IdVec<ClassId, Option<bool>> = IdVec::filled(None, document.classes.len());
+    for &thing in order {
+        let t = &body.things[thing];
+        let ClassKind::Primitive(primitive) = document.classes[t.class].kind else { continue };
+        let first = body.merged[thing];
+        let slot = structure.slot_of[first].unwrap_or_else(|| {
+            let place = t.owner.filter(|&owner| {
+                let class = body.things[owner].class;
+                *places[class].get_or_insert_with(|| document.is_place(class))
+            });
+            let place = place.map(|owner| body.merged[owner]);
+            structure.slots.push(Slot {
+                thing: first,
+                primitive,
+                given: None,
+                anchored: false,
+                place,
+            })
+        });
+        structure.slot_of[first] = Some(slot);
+        structure.slot_of[thing] = Some(slot);
+        let s = &mut structure.slots[slot];
+        s.given = s.given.or(body.givens[thing]);
+        if let Some(range) = declared_range(maker, structure, body, thing) {
+            structure.ranges.entry(slot).or_insert(range);
+        }
+    }
+}
+
+fn declared_range(
+    maker: &Maker<'_>,
+    structure: &Structure,
+    body: &Body,
+    thing: ThingId,
+) -> Option<(i64, i64)> {
+    let t = &body.things[thing];
+    let layout = structure.layouts[body.things[t.owner?].class].as_ref()?;
+    maker.document.declared(*layout.fields.get(t.field as usize)?)?.range
+}

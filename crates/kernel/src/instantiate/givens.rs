@@ -1,0 +1,185 @@
+//! Given values on their way down: a value for a path in, a value for each primitive part out.
+
+use super::body::Body;
+use super::{FaultKind, Maker};
+use crate::class::{ClassId, ClassKind};
+use crate::document::Document;
+use crate::path::{Path, Step};
+use crate::structure::{GivenId, GivenIn, GivenTerm, ThingId};
+use crate::term::Term;
+use base::Name;
+
+/// A given value on its way to the thing that it is for.
+#[derive(Clone, Copy)]
+pub(super) struct Binding<'d> {
+    /// The way that is still to go.
+    pub(super) path: &'d [Step],
+    pub(super) given: GivenIn,
+}
+
+/// A binding, and the part of a thing that it leads to or through.
+#[derive(Clone, Copy)]
+pub(super) struct ShareOf<'d> {
+    pub(super) part: u32,
+    pub(super) binding: Binding<'d>,
+}
+
+/// Returns what a thing's class gives its parts, superclasses first.
+pub(super) fn own_bindings<'d>(
+    maker: &mut Maker<'d>,
+    me: ThingId,
+    class: ClassId,
+) -> Vec<Binding<'d>> {
+    let document = maker.document;
+    let mut bindings = Vec::new();
+    for class in document.primary_line(class).into_iter().rev() {
+        for given in &document.classes[class].givens {
+            let term = GivenTerm { term: given.value.clone(), origin: given.origin };
+            let value = maker.givens.push(term);
+            bindings.push(Binding { path: &given.path.0, given: GivenIn { value, me } });
+        }
+    }
+    bindings
+}
+
+/// Splits bindings of a thing among its parts: part by part, and for each in the order given.
+pub(super) fn shares<'d>(
+    maker: &mut Maker<'d>,
+    body: &Body,
+    thing: ThingId,
+    bindings: &[Binding<'d>],
+) -> Vec<ShareOf<'d>> {
+    let mut shared = Vec::with_capacity(bindings.len());
+    for &b in bindings {
+        each_share(maker, body, thing, b, &mut |share| shared.push(share));
+    }
+    shared.sort_by_key(|s| s.part);
+    shared
+}
+
+/// Puts a given value over what the parts of a thing have.
+pub(super) fn put<'d>(maker: &mut Maker<'d>, body: &mut Body, thing: ThingId, b: Binding<'d>) {
+    match maker.document.classes[body.things[thing].class].kind {
+        ClassKind::Primitive(_) | ClassKind::Reference(_) | ClassKind::Set(_) => {
+            if b.path.is_empty() {
+                body.givens[thing] = Some(b.given);
+            }
+        }
+        ClassKind::List(_) | ClassKind::Composite => {
+            let mut shared = Vec::new();
+            each_share(maker, body, thing, b, &mut |share| shared.push(share));
+            for s in shared {
+                put(maker, body, body.part(thing, s.part as usize), s.binding);
+            }
+        }
+    }
+}
+
+/// Hands a binding on to the parts that it is for.
+fn each_share<'d>(
+    maker: &mut Maker<'d>,
+    body: &Body,
+    thing: ThingId,
+    b: Binding<'d>,
+    hand: &mut dyn FnMut(ShareOf<'d>),
+) {
+    let t = &body.things[thing];
+    let class = t.class;
+    let is_list = matches!(maker.document.classes[class].kind, ClassKind::List(_));
+    let Some((step, rest)) = b.path.split_first() else {
+        let layout = (!is_list).then(|| maker.layout(class));
+        for part in 0..t.parts {
+            let name =
+                layout.as_ref().map(|l| maker.document.field_name(l.fields[part as usize]).clone());
+            let value = share_of_whole(maker, b.given.value, part, name.as_ref());
+            if let Some(value) = value {
+                let given = GivenIn { value, ..b.given };
+                hand(ShareOf { part, binding: Binding { path: b.path, given } });
+            }
+        }
+        return;
+    };
+    let towards = match step {
+        Step::Index(i) if is_list => (*i < t.parts).then_some(Towards::Part(*i)),
+        Step::Last if is_list => t.parts.checked_sub(1).map(Towards::Part),
+        Step::Part(name) if !is_list => towards(maker, class, name),
+        Step::Part(_) | Step::Index(_) | Step::Last | Step::Owner => None,
+    };
+    let further = Binding { path: rest, ..b };
+    match towards {
+        Some(Towards::Part(part)) => hand(ShareOf { part, binding: further }),
+        Some(Towards::Within(part)) => hand(ShareOf { part, binding: b }),
+        Some(Towards::Itself) => each_share(maker, body, thing, further, hand),
+        None => {
+            let path = Path(b.path.to_vec());
+            let message = if is_list {
+                format!("{path} leads nowhere in a list of {}", t.parts)
+            } else {
+                format!("{} has no part {path}", maker.document.classes[class].name)
+            };
+            let origin = maker.givens[b.given.value].origin;
+            maker.fault(origin, FaultKind::UnknownPart, message);
+        }
+    }
+}
+
+/// Where a bare name leads from a thing.
+enum Towards {
+    /// To the part of this index.
+    Part(u32),
+    /// Through the superclass part of this index, which has the name.
+    Within(u32),
+    /// To the thing itself, by the name of its primary superclass.
+    Itself,
+}
+
+/// Finds the part that a bare name leads to or through.
+fn towards(maker: &mut Maker<'_>, class: ClassId, name: &Name) -> Option<Towards> {
+    let layout = maker.layout(class);
+    if let Some(&i) = layout.index.get(name) {
+        return Some(Towards::Part(i));
+    }
+    if layout.own_names.contains(name) {
+        return Some(Towards::Itself);
+    }
+    let document = maker.document;
+    let has =
+        |&&i: &&u32| has_part(document, document.field_class(layout.fields[i as usize]), name);
+    layout.superclasses.iter().find(has).map(|&i| Towards::Within(i))
+}
+
+/// Returns true if a bare name leads to a part or a superclass of a class's things.
+fn has_part(document: &Document, class: ClassId, name: &Name) -> bool {
+    document.lineage(class).into_iter().any(|c| {
+        let c = &document.classes[c];
+        let names_superclass = c.supers.len() > 1 && c.supers.iter().any(|s| s.name == *name);
+        names_superclass || c.parts.iter().any(|p| p.name == *name)
+    })
+}
+
+/// Returns what a part gets of a value for the whole: by position, by name, or by asking for it.
+///
+/// Fields of a thing have a name, elements of a list have none.
+fn share_of_whole(
+    maker: &mut Maker<'_>,
+    whole: GivenId,
+    part: u32,
+    name: Option<&Name>,
+) -> Option<GivenId> {
+    let GivenTerm { term, origin } = &maker.givens[whole];
+    let i = part as usize;
+    let term = match (term, name) {
+        (Term::List(items), None) | (Term::Tuple(items), Some(_)) => items.get(i)?.clone(),
+        (Term::Make { arguments, .. }, Some(name)) => {
+            let labelled = arguments.iter().find(|a| a.label.as_ref() == Some(name));
+            let positional = || arguments.get(i).filter(|a| a.label.is_none());
+            labelled.or_else(positional)?.value.clone()
+        }
+        (other, Some(name)) => Term::send(other.clone(), name),
+        (other, None) => {
+            Term::Index(Box::new(other.clone()), Box::new(Term::number(f64::from(part))))
+        }
+    };
+    let term = GivenTerm { term, origin: *origin };
+    Some(maker.givens.push(term))
+}

@@ -1,0 +1,132 @@
+//! Merging: two things become one, with all that they have from their nearest common ancestor.
+
+use super::body::Body;
+use super::{FaultKind, Maker};
+use crate::class::{ClassId, ClassKind};
+use crate::structure::ThingId;
+use crate::term::OriginId;
+
+/// Makes two things one, recursively. What cannot be one is reported, and stays apart.
+pub(super) fn merge_pair(
+    maker: &mut Maker<'_>,
+    body: &mut Body,
+    a: ThingId,
+    b: ThingId,
+    origin: OriginId,
+) {
+    let mut pairs = vec![(a, b)];
+    while let Some((a, b)) = pairs.pop() {
+        if body.identity(a) == body.identity(b) {
+            continue;
+        }
+        for one in alike(body, a) {
+            for other in alike(body, b) {
+                match common_parts(maker, body, one, other, (one, other) == (a, b)) {
+                    Ok(common) => pairs.extend(common),
+                    Err((kind, message)) => return maker.fault(origin, kind, message),
+                }
+            }
+        }
+        unite(body, a, b);
+    }
+}
+
+/// Returns one thing of each class among those merged with `thing`, `thing` itself first.
+fn alike(body: &mut Body, thing: ThingId) -> Vec<ThingId> {
+    let mut alike = vec![thing];
+    if !body.unlike.is_empty() {
+        let first = body.identity(thing);
+        let class = body.things[thing].class;
+        let others = body.unlike.get(&first).into_iter().flatten();
+        alike.extend(others.filter(|&&t| body.things[t].class != class));
+    }
+    alike
+}
+
+/// Returns the parts that two things have from their nearest common ancestor, pair by pair.
+///
+/// `named` pairs must have some: an ancestor without parts is a vacuous merge.
+fn common_parts(
+    maker: &Maker<'_>,
+    body: &Body,
+    a: ThingId,
+    b: ThingId,
+    named: bool,
+) -> Result<Vec<(ThingId, ThingId)>, (FaultKind, String)> {
+    let document = maker.document;
+    let (ca, cb) = (body.things[a].class, body.things[b].class);
+    let pairs = |a: ThingId, b: ThingId, n: u32| {
+        let n = n.min(body.things[a].parts).min(body.things[b].parts) as usize;
+        (0..n).map(|i| (body.part(a, i), body.part(b, i))).collect::<Vec<_>>()
+    };
+    let name = |c: ClassId| &document.classes[c].name;
+    let (ka, kb) = (&document.classes[ca].kind, &document.classes[cb].kind);
+    match (ka, kb) {
+        (ClassKind::Composite, ClassKind::Composite) if ca == cb => {
+            return Ok(pairs(a, b, u32::MAX));
+        }
+        (ClassKind::Composite, ClassKind::Composite) => {}
+        (ClassKind::List(_), ClassKind::List(_)) if ka == kb => {
+            let (na, nb) = (body.things[a].parts, body.things[b].parts);
+            if na == nb {
+                return Ok(pairs(a, b, na));
+            }
+            let message = format!("a list of {na} and a list of {nb} cannot be one list");
+            return Err((FaultKind::UnlikeMerge, message));
+        }
+        _ if ka == kb => return Ok(Vec::new()),
+        _ => {
+            let message = format!("{} and {} cannot be one part", name(ca), name(cb));
+            return Err((FaultKind::UnlikeMerge, message));
+        }
+    }
+    let others = document.lineage(cb);
+    let ancestor = document.lineage(ca).into_iter().find(|c| others.contains(c));
+    let seen = |t, c| seen_as(maker, body, t, c);
+    let views = ancestor.and_then(|c| Some((seen(a, c)?, seen(b, c)?, c)));
+    let pairs =
+        views.map_or_else(Vec::new, |(a, b, c)| pairs(a, b, document.layout(c).len() as u32));
+    if named && pairs.is_empty() {
+        let message = format!(
+            "a {} and a {} have no parts in common: merging them would say nothing",
+            name(ca),
+            name(cb)
+        );
+        return Err((FaultKind::VacuousMerge, message));
+    }
+    Ok(pairs)
+}
+
+/// Finds the thing or superclass part that is `thing` seen as a `class`.
+fn seen_as(maker: &Maker<'_>, body: &Body, thing: ThingId, class: ClassId) -> Option<ThingId> {
+    let own = body.things[thing].class;
+    if maker.document.primary_line(own).contains(&class) {
+        return Some(thing);
+    }
+    let layout = maker.layouts[own].as_ref()?;
+    let parts = body.things[thing].parts;
+    let superclasses = layout.superclasses.iter().filter(|&&i| i < parts);
+    superclasses.map(|&i| body.part(thing, i as usize)).find_map(|t| seen_as(maker, body, t, class))
+}
+
+/// Makes two things one: the one that was declared first.
+fn unite(body: &mut Body, a: ThingId, b: ThingId) {
+    let (a, b) = (body.identity(a), body.identity(b));
+    let (first, last) = if body.rank[a] < body.rank[b] { (a, b) } else { (b, a) };
+    body.merged[last] = first;
+    let known = body.unlike.remove(&first);
+    let others = body.unlike.remove(&last);
+    if known.is_none() && others.is_none() && body.things[a].class == body.things[b].class {
+        return;
+    }
+    let mut classes = known.unwrap_or_else(|| vec![first]);
+    for thing in others.unwrap_or_else(|| vec![last]) {
+        let class = body.things[thing].class;
+        if classes.iter().all(|&t| body.things[t].class != class) {
+            classes.push(thing);
+        }
+    }
+    if classes.len() > 1 {
+        body.unlike.insert(first, classes);
+    }
+}

@@ -1,0 +1,157 @@
+//! Rules: what the classes of a thing say of its parts, once these are made.
+
+use super::body::{Body, Member, Waiting};
+use super::merge::merge_pair;
+use super::{FaultKind, Maker};
+use crate::class::{ClassId, Merge};
+use crate::path::{Path, Step};
+use crate::structure::{ConstraintInstance, StayInstance, ThingId};
+use crate::term::OriginId;
+use base::{IdVec, Name};
+use std::collections::BTreeSet;
+
+/// Applies what a thing's classes say: its merges, then constraints, stays and set members.
+///
+/// What its parts could not apply, from `waiting` on, is tried again.
+pub(super) fn apply(maker: &mut Maker<'_>, body: &mut Body, thing: ThingId, waiting: usize) {
+    let document = maker.document;
+    let line = document.primary_line(body.things[thing].class);
+    let masks: Vec<&Name> = line.iter().flat_map(|&c| masks(maker, c)).collect();
+    let masked = |name: &Option<Name>| name.as_ref().is_some_and(|n| masks.contains(&n));
+    for &class in line.iter().rev() {
+        let c = &document.classes[class];
+        let mut wait = |member| body.waiting.push(Waiting { thing, class, member });
+        for (index, merge) in (0..).zip(&c.merges) {
+            if !masked(&merge.name) {
+                wait(Member::Merge(index));
+            }
+        }
+        (0..c.stays.len() as u32).for_each(|i| wait(Member::Stay(i)));
+        (0..c.inserts.len() as u32).for_each(|i| wait(Member::Insert(i)));
+        for (index, constraint) in (0..).zip(&c.constraints) {
+            if !masked(&constraint.name) {
+                body.constraints.push(ConstraintInstance { owner: thing, class, index });
+            }
+        }
+    }
+    merge_waiting(maker, body, waiting);
+    follow_waiting(maker, body, waiting);
+}
+
+fn masks<'d>(maker: &Maker<'d>, class: ClassId) -> impl Iterator<Item = &'d Name> + use<'d> {
+    let document = maker.document;
+    document.classes[class].without.iter().filter_map(|path| match path.0.last() {
+        Some(Step::Part(name)) => Some(name),
+        Some(Step::Index(_) | Step::Last | Step::Owner) | None => None,
+    })
+}
+
+/// Makes the merges whose paths can be followed, until no merge opens up another.
+fn merge_waiting(maker: &mut Maker<'_>, body: &mut Body, from: usize) {
+    let mut more = true;
+    while std::mem::take(&mut more) {
+        let waiting = body.waiting.split_off(from);
+        for w in waiting {
+            let Some(merge) = merge_of(maker, w) else {
+                body.waiting.push(w);
+                continue;
+            };
+            let paths = body.paths(&maker.layouts);
+            let all: Result<Vec<_>, _> =
+                merge.paths.iter().map(|p| paths.follow(w.thing, p)).collect();
+            let Ok(things) = all else {
+                body.waiting.push(w);
+                continue;
+            };
+            more = true;
+            for pair in things.windows(2) {
+                merge_pair(maker, body, pair[0], pair[1], merge.origin);
+            }
+        }
+    }
+}
+
+fn merge_of<'d>(maker: &Maker<'d>, waiting: Waiting) -> Option<&'d Merge> {
+    let document = maker.document;
+    match waiting.member {
+        Member::Merge(index) => Some(&document.classes[waiting.class].merges[index as usize]),
+        Member::Stay(_) | Member::Insert(_) => None,
+    }
+}
+
+/// Finds the things of stays and set members, where their paths can be followed.
+fn follow_waiting(maker: &Maker<'_>, body: &mut Body, from: usize) {
+    for w in body.waiting.split_off(from) {
+        let class = &maker.document.classes[w.class];
+        let paths = body.paths(&maker.layouts);
+        match w.member {
+            Member::Merge(_) => {}
+            Member::Stay(index) => {
+                let stay = &class.stays[index as usize];
+                if let Ok(at) = paths.follow(w.thing, &stay.path) {
+                    body.stays.push(StayInstance { thing: at, strength: stay.strength });
+                    continue;
+                }
+            }
+            Member::Insert(index) => {
+                let insert = &class.inserts[index as usize];
+                let set = paths.follow(w.thing, &insert.set);
+                if let (Ok(part), Ok(set)) = (paths.follow(w.thing, &insert.part), set) {
+                    body.members.push((set, part));
+                    continue;
+                }
+            }
+        }
+        body.waiting.push(w);
+    }
+}
+
+/// Reports every path that could not be followed in the whole document.
+pub(super) fn give_up(maker: &mut Maker<'_>, body: &mut Body) {
+    for w in std::mem::take(&mut body.waiting) {
+        let class = &maker.document.classes[w.class];
+        match w.member {
+            Member::Merge(index) => {
+                let merge = &class.merges[index as usize];
+                astray(maker, body, w.thing, &merge.paths, merge.origin);
+            }
+            Member::Stay(index) => {
+                let stay = &class.stays[index as usize];
+                astray(maker, body, w.thing, std::slice::from_ref(&stay.path), stay.origin);
+            }
+            Member::Insert(index) => {
+                let insert = &class.inserts[index as usize];
+                let paths = [insert.part.clone(), insert.set.clone()];
+                astray(maker, body, w.thing, &paths, insert.origin);
+            }
+        }
+    }
+}
+
+fn astray(maker: &mut Maker<'_>, body: &Body, thing: ThingId, paths: &[Path], origin: OriginId) {
+    for path in paths {
+        if let Err(astray) = body.paths(&maker.layouts).follow(thing, path) {
+            let class = body.things[astray.at].class;
+            let step = Path(vec![path.0[astray.step].clone()]);
+            let name = &maker.document.classes[class].name;
+            let message = format!("{name} has no part {step}, in {path}");
+            maker.fault(origin, FaultKind::UnknownPart, message);
+        }
+    }
+}
+
+/// Keeps of the constraints that merged things have in common the first.
+pub(super) fn keep_each_once(body: &mut Body) {
+    let mut is_shared = IdVec::filled(false, body.len());
+    for (thing, &first) in body.merged.iter() {
+        if thing != first {
+            is_shared[first] = true;
+        }
+    }
+    let mut seen = BTreeSet::new();
+    let merged = &body.merged;
+    body.constraints.retain(|c| {
+        let first = merged[c.owner];
+        !is_shared[first] || seen.insert((first, c.class, c.index))
+    });
+}
