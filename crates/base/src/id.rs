@@ -1,5 +1,9 @@
 //! Identity: what has identity lives in an arena and is named by a `u32` newtype.
 
+mod mixer;
+
+pub use mixer::Mixer;
+
 use std::fmt;
 use std::marker::PhantomData;
 use std::ops::{Index, IndexMut};

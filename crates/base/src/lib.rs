@@ -16,5 +16,5 @@ pub mod number;
 pub mod text;
 
 pub use diagnostic::{Diagnostic, Label, Severity};
-pub use id::{Id, IdVec};
+pub use id::{Id, IdVec, Mixer};
 pub use text::{FileId, LineIndex, Name, Place, Span};

@@ -5,7 +5,7 @@
 //! nothing is reordered, collected or distributed, so that what is built computes what was written.
 
 use crate::op::{Binary, Unary, number_from_truth};
-use base::Id;
+use base::{Id, Mixer};
 use indexmap::IndexSet;
 use std::collections::BTreeSet;
 use std::hash::{BuildHasherDefault, Hash, Hasher};
@@ -51,34 +51,6 @@ impl Node {
                 visit(otherwise);
             }
         }
-    }
-}
-
-/// Mixes small integers quickly and alike on every machine; nodes are not chosen by an adversary.
-#[derive(Clone, Copy, Default, Debug)]
-pub(crate) struct Mixer(u64);
-
-impl Hasher for Mixer {
-    fn finish(&self) -> u64 {
-        // The table takes its slot from the low bits, which a product mixes least.
-        self.0 ^ (self.0 >> 32)
-    }
-    fn write(&mut self, bytes: &[u8]) {
-        for &byte in bytes {
-            self.write_u64(u64::from(byte));
-        }
-    }
-    fn write_u32(&mut self, x: u32) {
-        self.write_u64(u64::from(x));
-    }
-    fn write_u64(&mut self, x: u64) {
-        self.0 = (self.0.rotate_left(5) ^ x).wrapping_mul(0x9e37_79b9_7f4a_7c15);
-    }
-    fn write_usize(&mut self, x: usize) {
-        self.write_u64(x as u64);
-    }
-    fn write_isize(&mut self, x: isize) {
-        self.write_u64(x as u64);
     }
 }
 
@@ -443,6 +415,34 @@ impl Arena {
         }
         made[place(&order, id)]
     }
+    /// Takes expressions out, alone: nodes and variables are numbered anew, in their order here.
+    ///
+    /// Two excerpts are equal if the expressions differ in nothing but which variables they speak of;
+    /// what else either arena holds does not matter, except that operands of a sum or a product stand
+    /// in the order in which they were made.
+    pub fn excerpt(&self, roots: &[ExprId]) -> (Excerpt, Vec<Var>) {
+        let order = self.reachable(roots);
+        let mut variables = Vec::new();
+        let at = |id: ExprId| ExprId::from_index(place(&order, id));
+        let nodes = order.iter().map(|&id| match self.node(id) {
+            Node::Constant(bits) => Node::Constant(bits),
+            Node::Var(var) => {
+                variables.push(var);
+                Node::Var(Var::from_index(variables.len() - 1))
+            }
+            Node::Unary(op, a) => Node::Unary(op, at(a)),
+            Node::Binary(op, a, b) => Node::Binary(op, at(a), at(b)),
+            Node::Select { condition, then, otherwise } => {
+                Node::Select { condition: at(condition), then: at(then), otherwise: at(otherwise) }
+            }
+        });
+        let nodes = nodes.collect();
+        (Excerpt { nodes, roots: roots.iter().map(|&r| at(r)).collect() }, variables)
+    }
+    /// Makes the arena of an excerpt, in which its roots have the ids that they have there.
+    pub fn of_excerpt(excerpt: &Excerpt) -> Self {
+        Self { nodes: excerpt.nodes.iter().copied().collect() }
+    }
     /// Makes a node again over other operands, simplified anew.
     fn rebuild(&mut self, node: Node, operand: impl Fn(ExprId) -> ExprId) -> ExprId {
         match node {
@@ -455,6 +455,15 @@ impl Arena {
             }
         }
     }
+}
+
+/// Expressions by themselves, in the smallest arena that holds them.
+#[derive(Clone, PartialEq, Eq, Hash, Debug)]
+pub struct Excerpt {
+    /// Every node, operands before users.
+    pub nodes: Vec<Node>,
+    /// The expressions that were asked for, as places among the nodes.
+    pub roots: Vec<ExprId>,
 }
 
 /// Returns where `id` stands in an order that holds it.

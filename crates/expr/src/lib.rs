@@ -45,7 +45,7 @@ pub mod tape;
 pub mod dimension;
 pub mod units;
 
-pub use arena::{Arena, ExprId, Node, Var};
+pub use arena::{Arena, Excerpt, ExprId, Node, Var};
 pub use derivative::{derivative, gradient};
 pub use dimension::Dimension;
 pub use interval::Interval;

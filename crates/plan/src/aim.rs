@@ -6,11 +6,12 @@ use crate::fault::Trouble;
 use crate::holds::agree;
 use crate::meaning::{Frame, Meaning};
 use crate::planner::{Model, Planner};
+use crate::rule::Formula;
 use crate::say::lone_slot;
 use crate::task::Wish;
-use expr::ExprId;
+use expr::{Arena, Var};
 use kernel::{Primitive, SlotId, Value, Values};
-use solve::Level;
+use solve::{Level, Patterns};
 use std::collections::{BTreeMap, BTreeSet};
 
 /// What an edit does to the slots, before anything is solved.
@@ -29,8 +30,8 @@ impl Planner {
     /// Returns true if every wish is met and every set slot has its value.
     pub(crate) fn reached(&self, aim: &Aim, values: &Values) -> bool {
         let met = |(wish, wanted): (&Wish, &Vec<f64>)| {
-            wish.expressions.iter().zip(wanted).all(|(&e, &w)| {
-                let is = self.arena.evaluate(e, values.numbers.as_slice());
+            wish.formulas.iter().zip(wanted).all(|(f, &w)| {
+                let is = f.value(self.plans.patterns(), &values.numbers);
                 agree(is, w, base::number::RULE_TOLERANCE)
             })
         };
@@ -54,7 +55,7 @@ impl Planner {
                 let message = format!("{} values for {} numbers", wanted.len(), leaves.len());
                 return Err(RefusalReason::Target(message));
             }
-            let mut wish = Wish { level: Level::Move, expressions: Vec::new() };
+            let mut wish = Wish { level: Level::Move, formulas: Vec::new() };
             let mut numbers = Vec::new();
             for (leaf, value) in leaves.into_iter().zip(wanted) {
                 match (leaf, value) {
@@ -69,7 +70,7 @@ impl Planner {
                     }
                     (Leaf::Slot(slot), Value::Number(x)) if kind == EditKind::Move => {
                         aim.alone.insert(slot);
-                        wish.expressions.push(self.arena.var(expr::Var(slot.0)));
+                        wish.formulas.push(self.itself(slot));
                         numbers.push(x + 0.0);
                     }
                     (Leaf::Slot(slot), value) => {
@@ -82,11 +83,11 @@ impl Planner {
                             return Err(RefusalReason::Target(message.into()));
                         }
                     }
-                    (Leaf::Expression(id), Value::Number(x)) if x.is_finite() => {
-                        wish.expressions.push(id);
+                    (Leaf::Formula(formula), Value::Number(x)) if x.is_finite() => {
+                        wish.formulas.push(formula);
                         numbers.push(x + 0.0);
                     }
-                    (Leaf::Expression(_), value) => {
+                    (Leaf::Formula(_), value) => {
                         let message = format!("{value:?} is not a number");
                         return Err(RefusalReason::Target(message));
                     }
@@ -95,7 +96,7 @@ impl Planner {
             if kind == EditKind::Set {
                 wish.level = Level::Required;
             }
-            if !wish.expressions.is_empty() {
+            if !wish.formulas.is_empty() {
                 aim.wishes.push(wish);
                 aim.wanted.push(numbers);
             }
@@ -103,12 +104,19 @@ impl Planner {
         Ok(aim)
     }
 
+    /// Returns a slot as an expression.
+    fn itself(&mut self, slot: SlotId) -> Formula {
+        let mut arena = Arena::new();
+        let variable = arena.var(Var(slot.0));
+        Formula::of(self.plans.patterns_mut(), &arena, &[variable])
+    }
+
     /// Aims a wish at one number, whatever it shall be.
     pub(crate) fn aim_at(&mut self, slot: SlotId) -> Aim {
-        let variable = self.arena.var(expr::Var(slot.0));
+        let itself = self.itself(slot);
         Aim {
             fixed: BTreeMap::new(),
-            wishes: vec![Wish { level: Level::Move, expressions: vec![variable] }],
+            wishes: vec![Wish { level: Level::Move, formulas: vec![itself] }],
             wanted: vec![vec![0.0]],
             alone: BTreeSet::from([slot]),
         }
@@ -121,10 +129,10 @@ impl Planner {
                 Ok(model.structure.slots_under(thing).into_iter().map(Leaf::Slot).collect())
             }
             Target::Term { me, term } => {
-                let mut opening = Opening::new(model.document, model.structure, &mut self.arena);
+                let mut opening = Opening::new(model.document, model.structure);
                 let meaning = opening.meaning(term, &Frame::of(me))?;
                 let mut leaves = Vec::new();
-                flatten(&mut opening, &meaning, &mut leaves)?;
+                flatten(&mut opening, self.plans.patterns_mut(), &meaning, &mut leaves)?;
                 Ok(leaves)
             }
         }
@@ -149,9 +157,7 @@ pub(crate) fn with_present_values<'t>(
         let leaves = planner.leaves(model, *target)?;
         let value = |leaf: Leaf| match leaf {
             Leaf::Slot(slot) => values.get(slot),
-            Leaf::Expression(id) => {
-                Value::Number(planner.arena.evaluate(id, values.numbers.as_slice()))
-            }
+            Leaf::Formula(f) => Value::Number(f.value(planner.plans.patterns(), &values.numbers)),
         };
         Ok((*target, leaves.into_iter().map(value).collect()))
     };
@@ -162,11 +168,12 @@ pub(crate) fn with_present_values<'t>(
 /// What an edit can give a value to.
 enum Leaf {
     Slot(SlotId),
-    Expression(ExprId),
+    Formula(Formula),
 }
 
 fn flatten<'a>(
-    opening: &mut Opening<'a, '_>,
+    opening: &mut Opening<'a>,
+    patterns: &mut Patterns,
     meaning: &Meaning<'a>,
     leaves: &mut Vec<Leaf>,
 ) -> Result<(), Trouble> {
@@ -175,18 +182,20 @@ fn flatten<'a>(
         return Ok(());
     }
     match meaning {
-        Meaning::Number(id) => leaves.push(Leaf::Expression(*id)),
+        Meaning::Number(id) => {
+            leaves.push(Leaf::Formula(Formula::of(patterns, &opening.arena, &[*id])));
+        }
         Meaning::Thing(t) => {
             leaves.extend(opening.structure.slots_under(*t).into_iter().map(Leaf::Slot));
         }
         Meaning::Made(made) => {
             for (_, field) in &made.fields {
-                flatten(opening, field, leaves)?;
+                flatten(opening, patterns, field, leaves)?;
             }
         }
         Meaning::List(items) => {
             for item in items.iter() {
-                flatten(opening, item, leaves)?;
+                flatten(opening, patterns, item, leaves)?;
             }
         }
         Meaning::Opaque(_) => {

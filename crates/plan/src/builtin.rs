@@ -6,7 +6,7 @@ use crate::meaning::Meaning;
 use base::Name;
 use expr::{Binary, ExprId, Unary};
 
-impl<'a> Opening<'a, '_> {
+impl<'a> Opening<'a> {
     /// Calls a function of the language: `sqrt(x)`, `max(a, b, c)`.
     pub(crate) fn call(&mut self, name: &Name, arguments: &[Given<'a>]) -> Answer<'a> {
         let arguments: Vec<Meaning<'a>> = arguments.iter().map(|a| a.1.clone()).collect();

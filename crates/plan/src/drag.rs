@@ -128,8 +128,8 @@ impl Planner {
     ) -> Pull {
         let mut x0 = task.gather(&start.numbers);
         for &(known, wish, coordinate) in &task.targets {
-            let expression = aim.wishes[wish as usize].expressions[coordinate as usize];
-            x0[known as usize] = self.arena.evaluate(expression, start.numbers.as_slice());
+            let formula = &aim.wishes[wish as usize].formulas[coordinate as usize];
+            x0[known as usize] = formula.value(self.plans.patterns(), &start.numbers);
         }
         let known: Vec<u32> = task.targets.iter().map(|t| t.0).collect();
         let inputs: Vec<(u32, u32)> = task.targets.iter().map(|t| (t.1, t.2)).collect();

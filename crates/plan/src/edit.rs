@@ -7,9 +7,8 @@ use crate::host::{Failure, Host};
 use crate::planner::{Latest, Model, Planner, Unmet};
 use crate::rule::Source;
 use crate::run::{Ran, run};
-use crate::task::{Holding, Task};
+use crate::task::{Holding, Task, Wish};
 use base::IdVec;
-use expr::ExprId;
 use kernel::{SlotId, Term, ThingId, Value, Values};
 use solve::Level;
 use std::collections::BTreeSet;
@@ -191,8 +190,7 @@ impl Planner {
                 held => held,
             }
         };
-        let tied: Vec<Vec<SlotId>> =
-            aim.wishes.iter().map(|w| slots_of(&self.arena, &w.expressions)).collect();
+        let tied: Vec<Vec<SlotId>> = aim.wishes.iter().map(Wish::slots).collect();
         let start: BTreeSet<SlotId> =
             aim.slots().into_iter().chain(tied.iter().flatten().copied()).collect();
         let is_fixed = |s| holding(s) == Holding::Fixed;
@@ -234,10 +232,4 @@ pub(crate) fn note(report: &mut EditReport, ran: Ran) {
     if report.refusal.is_none() {
         report.refusal = ran.failure.map(RefusalReason::Method);
     }
-}
-
-fn slots_of(arena: &expr::Arena, ids: &[ExprId]) -> Vec<SlotId> {
-    let all: BTreeSet<SlotId> =
-        ids.iter().flat_map(|&id| crate::meaning::slots_of_expression(arena, id)).collect();
-    all.into_iter().collect()
 }

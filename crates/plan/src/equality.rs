@@ -9,7 +9,7 @@ use kernel::{ClassId, ClassKind, ThingId};
 /// Two meanings that are to be one, neither of them a thing.
 pub(crate) type Leaf<'a> = (Meaning<'a>, Meaning<'a>);
 
-impl<'a> Opening<'a, '_> {
+impl<'a> Opening<'a> {
     /// Returns the pairs of numbers and texts that are equal where `a` and `b` are.
     pub(crate) fn leaves(
         &mut self,

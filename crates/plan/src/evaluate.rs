@@ -28,22 +28,19 @@ pub(crate) type Given<'a> = (Option<Name>, Meaning<'a>);
 pub(crate) type Answer<'a> = Result<Meaning<'a>, Trouble>;
 
 /// The context of symbolic evaluation.
-pub(crate) struct Opening<'a, 'w> {
+pub(crate) struct Opening<'a> {
     pub(crate) document: &'a Document,
     pub(crate) structure: &'a Structure,
-    pub(crate) arena: &'w mut Arena,
+    /// The expressions of the rule at hand.
+    pub(crate) arena: Arena,
     depth: u32,
     nested: u32,
     terms: u32,
 }
 
-impl<'a, 'w> Opening<'a, 'w> {
-    pub(crate) fn new(
-        document: &'a Document,
-        structure: &'a Structure,
-        arena: &'w mut Arena,
-    ) -> Self {
-        Self { document, structure, arena, depth: 0, nested: 0, terms: 0 }
+impl<'a> Opening<'a> {
+    pub(crate) fn new(document: &'a Document, structure: &'a Structure) -> Self {
+        Self { document, structure, arena: Arena::new(), depth: 0, nested: 0, terms: 0 }
     }
 
     /// Finds what a term stands for.
@@ -153,8 +150,9 @@ impl<'a, 'w> Opening<'a, 'w> {
         Ok(())
     }
 
-    /// Begins the count for another rule.
+    /// Begins another rule: with no expression, so that it is stated alike wherever it stands.
     pub(crate) fn begin(&mut self) {
+        self.arena = Arena::new();
         self.terms = 0;
         self.depth = 0;
         self.nested = 0;
@@ -402,7 +400,7 @@ impl<'a, 'w> Opening<'a, 'w> {
         'a: 'm,
     {
         let mut slots: BTreeSet<SlotId> = BTreeSet::new();
-        from.into_iter().for_each(|m| collect_slots(self.arena, m, &mut slots));
+        from.into_iter().for_each(|m| collect_slots(&self.arena, m, &mut slots));
         Meaning::Opaque(Opaque::over(slots))
     }
 

@@ -2,25 +2,26 @@
 
 use crate::host::Host;
 use crate::rule::{Body, How, Rule, Source};
-use expr::Arena;
 use kernel::{Structure, Values};
+use solve::{Patterns, Scratch};
 
 /// Returns nothing if the rule holds, else its error, where it has one.
 ///
 /// A declared stay always holds: it only says what was.
 pub(crate) fn fails(
-    arena: &Arena,
+    patterns: &Patterns,
     structure: &Structure,
     rule: &Rule,
     values: &Values,
     host: &mut dyn Host,
+    scratch: &mut Scratch,
 ) -> Option<Option<f64>> {
     match &rule.body {
         Body::Equations(equations) => {
             let mut worst = None;
             for e in equations {
-                let left = arena.evaluate(e.left, values.numbers.as_slice());
-                let right = arena.evaluate(e.right, values.numbers.as_slice());
+                let sides = e.evaluate(patterns, &values.numbers, scratch);
+                let (left, right) = (sides[0], sides[1]);
                 if !agree(left, right, rule.within) {
                     worst = larger(worst, Some((left - right).abs()));
                 }

@@ -6,14 +6,14 @@
 
 use crate::evaluate::Opening;
 use crate::fault::{Fault, Trouble};
-use crate::meaning::{Frame, Meaning, collect_slots, slots_of_expression};
-use crate::rule::{Body, How, Rule, RuleMethod, Source, Way};
+use crate::meaning::{Frame, Meaning, collect_slots};
+use crate::rule::{Body, Formula, How, Rule, RuleMethod, Source, Way};
 use crate::say::{Said, Standing, say};
 use kernel::{
     Constraint, ConstraintInstance, Method, Path, SlotId, StayInstance, Step, Strength, Structure,
     ThingId,
 };
-use solve::Level;
+use solve::{Level, Patterns};
 use std::collections::BTreeSet;
 
 /// Lowers a declared stay. Anchors are no rules: their slots are fixed.
@@ -49,7 +49,8 @@ pub(crate) fn level(strength: Strength) -> Level {
 /// # Errors
 /// What in it cannot be planned, at the constraint's or the method's place.
 pub(crate) fn lower_constraint<'a>(
-    opening: &mut Opening<'a, '_>,
+    opening: &mut Opening<'a>,
+    patterns: &mut Patterns,
     index: u32,
     instance: ConstraintInstance,
 ) -> Result<Vec<Rule>, Fault> {
@@ -62,7 +63,9 @@ pub(crate) fn lower_constraint<'a>(
     let parts = lower_parts(opening, constraint, &me).map_err(|t| t.at(constraint.origin))?;
     let methods: Result<Vec<RuleMethod>, Fault> = (0..)
         .zip(&constraint.methods)
-        .map(|(i, m)| lower_method(opening, instance.owner, i, m).map_err(|t| t.at(m.origin)))
+        .map(|(i, m)| {
+            lower_method(opening, patterns, instance.owner, i, m).map_err(|t| t.at(m.origin))
+        })
         .collect();
     let rule = Rule {
         source: Source::Constraint(index),
@@ -74,27 +77,25 @@ pub(crate) fn lower_constraint<'a>(
         within: parts.within,
         slots: Vec::new(),
     };
-    Ok(assemble(opening, rule, parts.said))
+    Ok(assemble(opening, patterns, rule, parts.said))
 }
 
 /// Makes the rules of what a constraint says.
-fn assemble(opening: &Opening<'_, '_>, rule: Rule, said: Said) -> Vec<Rule> {
-    let arena = &*opening.arena;
+fn assemble(opening: &Opening<'_>, patterns: &mut Patterns, rule: Rule, said: Said) -> Vec<Rule> {
+    let equations: Vec<Formula> =
+        said.equations.iter().map(|e| Formula::of(patterns, &opening.arena, e)).collect();
     let mut rules = Vec::new();
     if said.opaque.is_empty() {
-        rules.push(Rule { body: Body::Equations(said.equations), ..rule });
+        rules.push(Rule { body: Body::Equations(equations), ..rule });
     } else if !rule.methods.is_empty() {
         // Written methods make the whole rule hold, so it is one.
         let mut slots: BTreeSet<SlotId> = BTreeSet::new();
         said.opaque.iter().for_each(|o| slots.extend(&o.slots));
-        for e in &said.equations {
-            slots.extend(slots_of_expression(arena, e.left));
-            slots.extend(slots_of_expression(arena, e.right));
-        }
+        equations.iter().for_each(|e| slots.extend(&e.slots));
         rules.push(Rule { body: Body::Opaque(slots.into_iter().collect()), ..rule });
     } else {
-        if !said.equations.is_empty() {
-            rules.push(Rule { body: Body::Equations(said.equations), ..rule.clone() });
+        if !equations.is_empty() {
+            rules.push(Rule { body: Body::Equations(equations), ..rule.clone() });
         }
         rules.extend(said.opaque.into_iter().map(|o| Rule {
             body: Body::Opaque(o.slots.into_iter().collect()),
@@ -106,10 +107,7 @@ fn assemble(opening: &Opening<'_, '_>, rule: Rule, said: Said) -> Vec<Rule> {
         let mut slots: BTreeSet<SlotId> = rule.reads.iter().copied().collect();
         match &rule.body {
             Body::Equations(equations) => {
-                for e in equations {
-                    slots.extend(slots_of_expression(arena, e.left));
-                    slots.extend(slots_of_expression(arena, e.right));
-                }
+                equations.iter().for_each(|e| slots.extend(&e.slots));
             }
             Body::Opaque(over) | Body::Hold(over) => slots.extend(over),
         }
@@ -128,7 +126,7 @@ struct Parts {
 }
 
 fn lower_parts<'a>(
-    opening: &mut Opening<'a, '_>,
+    opening: &mut Opening<'a>,
     constraint: &'a Constraint,
     me: &Frame<'a>,
 ) -> Result<Parts, Trouble> {
@@ -139,7 +137,7 @@ fn lower_parts<'a>(
         let meaning = meaning_of_path(opening, &me.me, path)?;
         match meaning {
             Meaning::Thing(t) => reads.extend(opening.structure.slots_under(t)),
-            other => collect_slots(opening.arena, &other, &mut reads),
+            other => collect_slots(&opening.arena, &other, &mut reads),
         }
     }
     let within = match &constraint.within {
@@ -156,7 +154,7 @@ fn lower_parts<'a>(
 
 /// Follows a path through parts, virtual ones included.
 fn meaning_of_path<'a>(
-    opening: &mut Opening<'a, '_>,
+    opening: &mut Opening<'a>,
     from: &Meaning<'a>,
     path: &Path,
 ) -> Result<Meaning<'a>, Trouble> {
@@ -191,7 +189,8 @@ fn meaning_of_path<'a>(
 }
 
 fn lower_method<'a>(
-    opening: &mut Opening<'a, '_>,
+    opening: &mut Opening<'a>,
+    patterns: &mut Patterns,
     owner: ThingId,
     index: u32,
     method: &'a Method,
@@ -218,7 +217,7 @@ fn lower_method<'a>(
             ))
         })?;
         for (slot, value) in opening.share(target, value)? {
-            collect_slots(opening.arena, &value, &mut reads);
+            collect_slots(&opening.arena, &value, &mut reads);
             targets.push(slot);
             match value {
                 Meaning::Number(id) if opening.structure.slots[slot].primitive.is_number() => {
@@ -233,6 +232,10 @@ fn lower_method<'a>(
             }
         }
     }
-    let how = if opaque { How::Host(Way::Written(index)) } else { How::Expressions(expressions) };
+    let how = if opaque {
+        How::Host(Way::Written(index))
+    } else {
+        How::Formulas(Formula::of(patterns, &opening.arena, &expressions))
+    };
     Ok(RuleMethod { targets, reads: reads.into_iter().collect(), how })
 }

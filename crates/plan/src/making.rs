@@ -7,7 +7,7 @@ use base::Name;
 use kernel::{ClassId, ClassKind};
 use std::rc::Rc;
 
-impl<'a> Opening<'a, '_> {
+impl<'a> Opening<'a> {
     /// Makes a thing from its fields, by name or by position; the rest is as its class says.
     pub(crate) fn make(&mut self, class: ClassId, arguments: &[Given<'a>]) -> Answer<'a> {
         let document = self.document;

@@ -7,7 +7,7 @@ use expr::{Binary, Unary};
 use kernel::BinaryOperator;
 use std::rc::Rc;
 
-impl<'a> Opening<'a, '_> {
+impl<'a> Opening<'a> {
     /// Applies an operation to a number.
     pub(crate) fn unary(&mut self, operator: Unary, operand: &Meaning<'a>) -> Answer<'a> {
         match operand {

@@ -9,9 +9,8 @@ use crate::lower;
 use crate::plans::{PlanCounts, Plans};
 use crate::rule::{Rule, Source};
 use crate::task::{Holding, Setting, Task, Wish, task};
-use expr::Arena;
 use kernel::{Document, SlotId, Structure, Values};
-use solve::Level;
+use solve::{Level, Scratch};
 use std::collections::BTreeSet;
 
 /// A document and its structure: what every question to the planner is about.
@@ -26,7 +25,6 @@ pub struct Model<'a> {
 /// Rules, components and plans of one structure. Made anew when the structure changes.
 #[derive(Debug)]
 pub struct Planner {
-    pub(crate) arena: Arena,
     pub(crate) rules: Vec<Rule>,
     pub(crate) net: Net,
     pub(crate) plans: Plans,
@@ -49,13 +47,12 @@ impl Planner {
     ///
     /// `plans` are those that an earlier planner made; the default is none. Cost: linear in what
     /// the rules open into.
-    pub fn new(model: Model<'_>, plans: Plans) -> (Self, Vec<Fault>) {
-        let mut arena = Arena::new();
+    pub fn new(model: Model<'_>, mut plans: Plans) -> (Self, Vec<Fault>) {
         let mut rules = Vec::new();
         let mut faults = Vec::new();
-        let mut opening = Opening::new(model.document, model.structure, &mut arena);
+        let mut opening = Opening::new(model.document, model.structure);
         for (index, &instance) in (0..).zip(&model.structure.constraints) {
-            match lower::lower_constraint(&mut opening, index, instance) {
+            match lower::lower_constraint(&mut opening, plans.patterns_mut(), index, instance) {
                 Ok(lowered) => rules.extend(lowered),
                 Err(fault) => faults.push(fault),
             }
@@ -65,7 +62,7 @@ impl Planner {
         }
         let net = Net::new(model.structure, &rules);
         let latest = Latest::default();
-        (Self { arena, rules, net, plans, latest, resting: None }, faults)
+        (Self { rules, net, plans, latest, resting: None }, faults)
     }
 
     /// Returns the plans made so far, to be handed to the next planner.
@@ -114,8 +111,7 @@ impl Planner {
         holding: &dyn Fn(SlotId) -> Holding,
         wishes: &[Wish],
     ) -> Vec<Task> {
-        let setting =
-            Setting { structure, arena: &self.arena, rules: &self.rules, holding, wishes };
+        let setting = Setting { structure, rules: &self.rules, holding, wishes };
         components.iter().map(|c| task(&mut self.plans, &setting, c)).collect()
     }
 
@@ -142,9 +138,13 @@ impl Planner {
         host: &mut dyn Host,
     ) -> Vec<Unmet> {
         let mut unmet: Vec<Unmet> = Vec::new();
+        let patterns = self.plans.patterns();
+        let mut scratch = Scratch::default();
         for index in rules {
             let rule = &self.rules[index as usize];
-            let Some(error) = holds::fails(&self.arena, model.structure, rule, values, host) else {
+            let Some(error) =
+                holds::fails(patterns, model.structure, rule, values, host, &mut scratch)
+            else {
                 continue;
             };
             // A constraint of several rules is told once.

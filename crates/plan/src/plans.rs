@@ -1,44 +1,41 @@
 //! Plans by shape: what is planned once serves every component of the same shape.
 
-use expr::{ExprId, Node};
+use base::Mixer;
 use indexmap::IndexMap;
-use solve::{Plan, Relation, System};
+use solve::{Patterns, Plan, System};
+use std::hash::BuildHasherDefault;
 use std::rc::Rc;
 
-/// Everything that two systems have to agree in to have one plan.
-#[derive(Clone, PartialEq, Eq, Hash, Debug)]
-struct Shape {
-    slots: Vec<solve::Slot>,
-    relations: Vec<Relation>,
-    nodes: Vec<Node>,
-}
-
-/// Plans by the shape of their systems.
+/// Patterns of rules, and plans by the systems that they are of.
 #[derive(Debug, Default)]
 pub struct Plans {
-    by_shape: IndexMap<Shape, (Rc<System>, Rc<Plan>)>,
+    patterns: Patterns,
+    made: IndexMap<Rc<System>, Rc<Plan>, BuildHasherDefault<Mixer>>,
     reused: usize,
 }
 
 impl Plans {
     /// Returns how many systems were planned, and how many found their plan made.
     pub fn counts(&self) -> PlanCounts {
-        PlanCounts { planned: self.by_shape.len(), reused: self.reused }
+        PlanCounts { planned: self.made.len(), reused: self.reused }
+    }
+    /// Returns what rules say.
+    pub(crate) fn patterns(&self) -> &Patterns {
+        &self.patterns
+    }
+    /// Returns what rules say, to be added to.
+    pub(crate) fn patterns_mut(&mut self) -> &mut Patterns {
+        &mut self.patterns
     }
     /// Returns the plan of a system, and a system that it is the plan of.
     pub(crate) fn plan(&mut self, system: System) -> (Rc<System>, Rc<Plan>) {
-        let shape = Shape {
-            slots: system.slots.clone(),
-            relations: system.relations.clone(),
-            nodes: (0..system.arena.len()).map(|i| system.arena.node(ExprId(i as u32))).collect(),
-        };
-        if let Some((system, plan)) = self.by_shape.get(&shape) {
+        if let Some((system, plan)) = self.made.get_key_value(&system) {
             self.reused += 1;
             return (system.clone(), plan.clone());
         }
-        let plan = Rc::new(solve::plan(&system));
         let system = Rc::new(system);
-        self.by_shape.insert(shape, (system.clone(), plan.clone()));
+        let plan = Rc::new(solve::plan(&system, &self.patterns));
+        self.made.insert(system.clone(), plan.clone());
         (system, plan)
     }
 }

@@ -1,8 +1,9 @@
 //! Rules over slots: what constraints and declared stays say, in the slots of the document.
 
-use expr::ExprId;
+use base::IdVec;
+use expr::{Arena, ExprId};
 use kernel::SlotId;
-use solve::{Equation, Level};
+use solve::{Level, PatternId, Patterns, Scratch};
 
 /// Where a rule comes from.
 #[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Debug)]
@@ -29,11 +30,41 @@ pub(crate) struct Rule {
     pub(crate) slots: Vec<SlotId>,
 }
 
+/// A pattern over slots of the document: an equation, or what a method or a wish computes.
+#[derive(Clone, Debug)]
+pub(crate) struct Formula {
+    pub(crate) pattern: PatternId,
+    /// Its arguments, in order.
+    pub(crate) slots: Box<[SlotId]>,
+}
+
+impl Formula {
+    /// States expressions whose variables are slots by number.
+    pub(crate) fn of(patterns: &mut Patterns, arena: &Arena, roots: &[ExprId]) -> Self {
+        let (pattern, variables) = patterns.intern(arena, roots);
+        Self { pattern, slots: variables.into_iter().map(|v| SlotId(v.0)).collect() }
+    }
+    /// Computes its expressions.
+    pub(crate) fn evaluate<'s>(
+        &self,
+        patterns: &Patterns,
+        numbers: &IdVec<SlotId, f64>,
+        scratch: &'s mut Scratch,
+    ) -> &'s [f64] {
+        let arguments = self.slots.iter().map(|&s| numbers[s]);
+        patterns.get(self.pattern).evaluate(arguments, scratch)
+    }
+    /// Computes the one expression that it is of.
+    pub(crate) fn value(&self, patterns: &Patterns, numbers: &IdVec<SlotId, f64>) -> f64 {
+        self.evaluate(patterns, numbers, &mut Scratch::default())[0]
+    }
+}
+
 /// What a rule says.
 #[derive(Clone, Debug)]
 pub(crate) enum Body {
     /// Equations that hold together.
-    Equations(Vec<Equation>),
+    Equations(Vec<Formula>),
     /// Something that only the host can test.
     Opaque(Vec<SlotId>),
     /// The slots keep the values that they had when the edit began.
@@ -51,8 +82,8 @@ pub(crate) struct RuleMethod {
 /// How a method computes its targets.
 #[derive(Clone, Debug)]
 pub(crate) enum How {
-    /// By one expression for each target.
-    Expressions(Vec<ExprId>),
+    /// By a pattern of one expression for each target.
+    Formulas(Formula),
     /// The host does.
     Host(Way),
     /// The one target takes what is in the one slot that is read.

@@ -2,12 +2,13 @@
 
 use crate::aim::Aim;
 use crate::edit::Conflict;
+use crate::holds::fails;
 use crate::host::{Failure, Host};
 use crate::planner::{Model, Planner};
 use crate::rule::{How, Source};
 use crate::task::{Origin, Task};
 use kernel::{SlotId, Value, Values};
-use solve::{Outcome, Reason, Runner, SlotIndex, Status};
+use solve::{Outcome, Reason, Runner, Scratch, SlotIndex, Status};
 use std::collections::BTreeSet;
 
 /// What came of a task.
@@ -38,8 +39,8 @@ pub(crate) fn run(
     }
     let mut changed: Vec<SlotIndex> = Vec::new();
     for &(known, wish, coordinate) in &task.targets {
-        let expression = aim.wishes[wish as usize].expressions[coordinate as usize];
-        x0[known as usize] = planner.arena.evaluate(expression, start.numbers.as_slice());
+        let formula = &aim.wishes[wish as usize].formulas[coordinate as usize];
+        x0[known as usize] = formula.value(planner.plans.patterns(), &start.numbers);
         local[known as usize] = aim.wanted[wish as usize][coordinate as usize];
         changed.push(known);
     }
@@ -120,7 +121,7 @@ impl solve::Host for Adapter<'_> {
                 let constraint = self.model.structure.constraints[c as usize];
                 self.host.compute(constraint, *way, self.values)?
             }
-            (How::Host(_) | How::Expressions(_), _) => {
+            (How::Host(_) | How::Formulas(_), _) => {
                 return Err("this method is not the host's".into());
             }
         };
@@ -135,7 +136,9 @@ impl solve::Host for Adapter<'_> {
         scatter(self.task, values, self.values);
         let rule = &self.planner.rules[rule as usize];
         let structure = self.model.structure;
-        crate::holds::fails(&self.planner.arena, structure, rule, self.values, self.host).is_none()
+        let patterns = self.planner.plans.patterns();
+        let scratch = &mut Scratch::default();
+        fails(patterns, structure, rule, self.values, self.host, scratch).is_none()
     }
 }
 

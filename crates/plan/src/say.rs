@@ -7,15 +7,15 @@ use crate::evaluate::{Opening, bind_arguments};
 use crate::fault::{FaultKind, Trouble};
 use crate::meaning::{Frame, Meaning, Opaque, collect_slots};
 use crate::rule::{How, RuleMethod, Way};
-use expr::Node;
+use expr::{ExprId, Node};
 use kernel::{BinaryOperator, SlotId, Term, UnaryOperator};
-use solve::Equation;
 use std::collections::BTreeSet;
 
 /// What a constraint says.
 #[derive(Default)]
 pub(crate) struct Said {
-    pub(crate) equations: Vec<Equation>,
+    /// Left and right sides that are equal.
+    pub(crate) equations: Vec<[ExprId; 2]>,
     pub(crate) opaque: Vec<OpaqueRow>,
 }
 
@@ -34,7 +34,7 @@ pub(crate) enum Standing {
 
 /// Collects what must hold where `term` is true.
 pub(crate) fn say<'a>(
-    opening: &mut Opening<'a, '_>,
+    opening: &mut Opening<'a>,
     term: &'a Term,
     frame: &Frame<'a>,
     standing: Standing,
@@ -112,7 +112,7 @@ pub(crate) fn say<'a>(
 }
 
 /// Returns true if the name is not that of a stored part.
-fn is_message(opening: &Opening<'_, '_>, to: &Meaning<'_>, name: &str) -> bool {
+fn is_message(opening: &Opening<'_>, to: &Meaning<'_>, name: &str) -> bool {
     match to {
         Meaning::Thing(t) => opening.structure.part_named(*t, name).is_none(),
         Meaning::Made(made) => made.fields.iter().all(|f| f.0 != *name),
@@ -122,7 +122,7 @@ fn is_message(opening: &Opening<'_, '_>, to: &Meaning<'_>, name: &str) -> bool {
 
 /// Says of every element what a function says of one.
 fn say_all<'a>(
-    opening: &mut Opening<'a, '_>,
+    opening: &mut Opening<'a>,
     items: &[Meaning<'a>],
     function: &'a Term,
     frame: &Frame<'a>,
@@ -140,7 +140,7 @@ fn say_all<'a>(
 
 /// Wants a truth value to be 1 or 0.
 fn want<'a>(
-    opening: &mut Opening<'a, '_>,
+    opening: &mut Opening<'a>,
     truth: &Meaning<'a>,
     wanted: f64,
     said: &mut Said,
@@ -154,7 +154,7 @@ fn want<'a>(
             Node::Constant(bits) if (f64::from_bits(bits) != 0.0) == (wanted != 0.0) => Ok(()),
             Node::Constant(_) | Node::Var(_) => {
                 let right = opening.arena.constant(wanted);
-                said.equations.push(Equation { left: *id, right });
+                said.equations.push([*id, right]);
                 Ok(())
             }
             Node::Unary(..) | Node::Binary(..) | Node::Select { .. } => {
@@ -172,7 +172,7 @@ fn want<'a>(
 
 /// Makes two meanings equal, part by part.
 fn equate<'a>(
-    opening: &mut Opening<'a, '_>,
+    opening: &mut Opening<'a>,
     a: &Meaning<'a>,
     b: &Meaning<'a>,
     standing: Standing,
@@ -180,13 +180,13 @@ fn equate<'a>(
 ) -> Result<(), Trouble> {
     for (left, right) in opening.leaves(a, b)? {
         if let (Meaning::Number(left), Meaning::Number(right)) = (&left, &right) {
-            said.equations.push(Equation { left: *left, right: *right });
+            said.equations.push([*left, *right]);
             continue;
         }
         let (l, r) = (lone_slot(opening, &left), lone_slot(opening, &right));
         let reads = |m: &Meaning<'a>| {
             let mut slots = BTreeSet::new();
-            collect_slots(opening.arena, m, &mut slots);
+            collect_slots(&opening.arena, m, &mut slots);
             slots
         };
         let (ls, rs) = (reads(&left), reads(&right));
@@ -211,7 +211,7 @@ fn equate<'a>(
 }
 
 /// Returns the slot that a meaning is, where it is just what is stored there.
-pub(crate) fn lone_slot(opening: &Opening<'_, '_>, meaning: &Meaning<'_>) -> Option<SlotId> {
+pub(crate) fn lone_slot(opening: &Opening<'_>, meaning: &Meaning<'_>) -> Option<SlotId> {
     match meaning {
         Meaning::Number(id) => match opening.arena.node(*id) {
             Node::Var(v) => Some(SlotId(v.0)),

@@ -86,7 +86,7 @@ fn movable(task: &Task) -> Vec<SlotId> {
             .relations
             .iter()
             .map(|&r| match &task.system.relations[r as usize].body {
-                solve::RelationBody::Equations(equations) => equations.len(),
+                solve::RelationBody::Equations(equations) => equations.len as usize,
                 solve::RelationBody::Opaque { .. } => step.targets.len(),
             })
             .sum();
@@ -108,7 +108,7 @@ fn surplus(planner: &Planner, task: &Task) -> Vec<Source> {
     let is_surplus = |&(r, n): &(u32, usize)| {
         let relation = &task.system.relations[r as usize];
         let rows = match &relation.body {
-            solve::RelationBody::Equations(equations) => equations.len(),
+            solve::RelationBody::Equations(equations) => equations.len as usize,
             solve::RelationBody::Opaque { .. } => 1,
         };
         relation.level == Level::Required && rows == n

@@ -5,13 +5,15 @@
 
 use crate::component::Component;
 use crate::plans::Plans;
-use crate::rule::{Body, How, Rule, Source};
+use crate::rule::{Body, Formula, How, Rule, Source};
 use base::IdVec;
-use expr::{Arena, ExprId, Node, Var};
 use indexmap::IndexMap;
 use kernel::{Primitive, SlotId, Structure};
-use solve::{Level, Method, MethodBody, Plan, Relation, RelationBody, SlotIndex, Stay, System};
-use std::collections::BTreeMap;
+use solve::{
+    Level, Method, MethodBody, PatternId, Patterns, Plan, Relation, RelationBody, SlotIndex, Span,
+    Stay, System,
+};
+use std::collections::{BTreeMap, BTreeSet};
 use std::rc::Rc;
 
 /// What holds a slot of the document in an edit.
@@ -33,8 +35,16 @@ pub(crate) enum Holding {
 #[derive(Clone, Debug)]
 pub(crate) struct Wish {
     pub(crate) level: Level,
-    /// One for each coordinate, over the slots of the document.
-    pub(crate) expressions: Vec<ExprId>,
+    /// One for each coordinate.
+    pub(crate) formulas: Vec<Formula>,
+}
+
+impl Wish {
+    /// Returns the slots that it speaks of, in order.
+    pub(crate) fn slots(&self) -> Vec<SlotId> {
+        let all: BTreeSet<SlotId> = self.formulas.iter().flat_map(|f| f.slots.to_vec()).collect();
+        all.into_iter().collect()
+    }
 }
 
 /// One component in one edit.
@@ -64,7 +74,6 @@ pub(crate) enum Origin {
 /// What makes a task besides its component.
 pub(crate) struct Setting<'s> {
     pub(crate) structure: &'s Structure,
-    pub(crate) arena: &'s Arena,
     pub(crate) rules: &'s [Rule],
     pub(crate) holding: &'s dyn Fn(SlotId) -> Holding,
     /// Wishes by their index in the edit.
@@ -73,12 +82,12 @@ pub(crate) struct Setting<'s> {
 
 /// States a component as a system and plans it.
 pub(crate) fn task(plans: &mut Plans, setting: &Setting<'_>, component: &Component) -> Task {
-    let mut making = Making::new(setting, component);
+    let mut making = Making::new(setting, plans.patterns_mut().same(), component);
     for &rule in &component.rules {
         making.rule(rule);
     }
     for (index, wish) in (0..).zip(setting.wishes) {
-        making.wish(index, wish);
+        making.wish(plans.patterns_mut(), index, wish);
     }
     let Making { system, holds, targets, relations, .. } = making;
     let (system, plan) = plans.plan(system);
@@ -89,10 +98,8 @@ pub(crate) fn task(plans: &mut Plans, setting: &Setting<'_>, component: &Compone
 struct Making<'s> {
     setting: &'s Setting<'s>,
     local: BTreeMap<SlotId, SlotIndex>,
-    /// For every slot of the component, its variable.
-    variables: Vec<ExprId>,
-    /// Expressions of the document that are in the system's arena, and where.
-    copied: BTreeMap<ExprId, ExprId>,
+    /// What says that two slots are equal.
+    same: PatternId,
     system: System,
     holds: Vec<(SlotIndex, SlotId)>,
     targets: Vec<(SlotIndex, u32, u32)>,
@@ -100,7 +107,7 @@ struct Making<'s> {
 }
 
 impl<'s> Making<'s> {
-    fn new(setting: &'s Setting<'s>, component: &Component) -> Self {
+    fn new(setting: &'s Setting<'s>, same: PatternId, component: &Component) -> Self {
         let mut scales = IndexMap::new();
         let mut groups = IndexMap::new();
         let mut system = System::default();
@@ -128,12 +135,9 @@ impl<'s> Making<'s> {
             let is_number = s.primitive.is_number();
             system.slots.push(solve::Slot { stay, scale, is_number, is_discrete });
         }
-        let variables = (0..component.slots.len() as u32).map(|i| system.arena.var(Var(i)));
-        let variables = variables.collect();
         Self {
             setting,
-            variables,
-            copied: BTreeMap::new(),
+            same,
             local: component.slots.iter().copied().zip(0..).collect(),
             system,
             holds: Vec::new(),
@@ -146,48 +150,10 @@ impl<'s> Making<'s> {
         slots.iter().map(|s| self.local[s]).collect()
     }
 
-    /// Copies an expression into the system's arena.
-    ///
-    /// Operands are made constants first, then as they stand: which other expressions the document
-    /// has does not matter, so that equal components get equal arenas.
-    fn import(&mut self, id: ExprId) -> ExprId {
-        let from = self.setting.arena;
-        let mut waiting = vec![id];
-        while let Some(&old) = waiting.last() {
-            if self.copied.contains_key(&old) {
-                waiting.pop();
-                continue;
-            }
-            let before = waiting.len();
-            let mut constants = Vec::new();
-            from.node(old).each_operand(|a| match from.node(a) {
-                _ if self.copied.contains_key(&a) => {}
-                Node::Constant(_) => constants.push(a),
-                Node::Var(_) | Node::Unary(..) | Node::Binary(..) | Node::Select { .. } => {
-                    waiting.push(a);
-                }
-            });
-            waiting[before..].reverse();
-            waiting.extend(constants.into_iter().rev());
-            if waiting.len() > before {
-                continue;
-            }
-            waiting.pop();
-            let arena = &mut self.system.arena;
-            let new = match from.node(old) {
-                Node::Constant(bits) => arena.constant(f64::from_bits(bits)),
-                Node::Var(v) => self.variables[self.local[&SlotId(v.0)] as usize],
-                Node::Unary(op, a) => arena.unary(op, self.copied[&a]),
-                Node::Binary(op, a, b) => arena.binary(op, self.copied[&a], self.copied[&b]),
-                Node::Select { condition, then, otherwise } => arena.select(
-                    self.copied[&condition],
-                    self.copied[&then],
-                    self.copied[&otherwise],
-                ),
-            };
-            self.copied.insert(old, new);
-        }
-        self.copied[&id]
+    /// Adds the slots of a formula as arguments.
+    fn arguments(&mut self, slots: &[SlotId]) -> Span {
+        let local = &self.local;
+        self.system.add_arguments(slots.iter().map(|s| local[s]))
     }
 
     /// Adds a known slot of the same kind as another.
@@ -201,11 +167,10 @@ impl<'s> Making<'s> {
         let rule = &self.setting.rules[index as usize];
         let body = match &rule.body {
             Body::Equations(equations) => {
-                let equations = equations.iter().map(|e| solve::Equation {
-                    left: self.import(e.left),
-                    right: self.import(e.right),
-                });
-                RelationBody::Equations(equations.collect())
+                let local = &self.local;
+                RelationBody::Equations(self.system.add_equations(
+                    equations.iter().map(|e| (e.pattern, e.slots.iter().map(|s| local[s]))),
+                ))
             }
             Body::Opaque(slots) => RelationBody::Opaque { slots: self.local(slots) },
             Body::Hold(slots) => {
@@ -223,18 +188,16 @@ impl<'s> Making<'s> {
                     let local = self.local[&slot];
                     let known = self.known_like(local);
                     self.holds.push((known, slot));
-                    let left = self.system.arena.var(Var(local));
-                    let right = self.system.arena.var(Var(known));
-                    equations.push(solve::Equation { left, right });
+                    equations.push((self.same, [local, known]));
                 }
-                RelationBody::Equations(equations)
+                RelationBody::Equations(self.system.add_equations(equations))
             }
         };
         let methods = rule.methods.iter().map(|m| Method {
             targets: self.local(&m.targets),
             body: match &m.how {
-                How::Expressions(ids) => {
-                    MethodBody::Expressions(ids.iter().map(|&id| self.import(id)).collect())
+                How::Formulas(f) => {
+                    MethodBody::Formulas { pattern: f.pattern, arguments: self.arguments(&f.slots) }
                 }
                 How::Host(_) | How::Copy => MethodBody::Opaque { reads: self.local(&m.reads) },
             },
@@ -254,23 +217,24 @@ impl<'s> Making<'s> {
     }
 
     /// Adds a wish if it speaks of this component.
-    fn wish(&mut self, index: u32, wish: &Wish) {
+    fn wish(&mut self, patterns: &mut Patterns, index: u32, wish: &Wish) {
         let mut equations = Vec::new();
-        for (coordinate, &id) in (0..).zip(&wish.expressions) {
-            let variables = self.setting.arena.variables(id);
+        for (coordinate, formula) in (0..).zip(&wish.formulas) {
             let locals: Option<Vec<SlotIndex>> =
-                variables.iter().map(|v| self.local.get(&SlotId(v.0)).copied()).collect();
+                formula.slots.iter().map(|s| self.local.get(s).copied()).collect();
             let moves = |&&i: &&SlotIndex| self.system.slots[i as usize].stay != Stay::Fixed;
-            let Some(&first) = locals.iter().flatten().find(moves) else { continue };
+            let Some(locals) = locals else { continue };
+            let Some(&first) = locals.iter().find(moves) else { continue };
             let known = self.known_like(first);
             self.targets.push((known, index, coordinate));
-            let left = self.import(id);
-            let right = self.system.arena.var(Var(known));
-            equations.push(solve::Equation { left, right });
+            let mut arguments = locals;
+            arguments.push(known);
+            equations.push((patterns.wanting(formula.pattern), arguments));
         }
         if equations.is_empty() {
             return;
         }
+        let equations = self.system.add_equations(equations);
         let source = self.relations.len() as u32;
         self.relations.push(Origin::Wish(index));
         self.system.relations.push(Relation {

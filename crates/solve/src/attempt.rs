@@ -7,6 +7,7 @@
 use crate::lower::{GuardKind, Program, Roots};
 use crate::measure::{Measure, Measured};
 use crate::outcome::{Host, Note, Reason};
+use crate::pattern::Scratch;
 use crate::plan::{Plan, Step};
 use crate::rows::{Point, generic_number};
 use crate::square::{Solved, Square, SquareScratch, Trust};
@@ -30,7 +31,9 @@ pub(crate) struct Buffers {
     pub(crate) out: Vec<f64>,
     pub(crate) square: SquareScratch,
     pub(crate) motion: Vec<Motion>,
-    pub(crate) sides: Vec<f64>,
+    /// Both sides of every equation.
+    pub(crate) sides: Vec<[f64; 2]>,
+    pub(crate) scratch: Scratch,
     pub(crate) approached: Vec<bool>,
     pub(crate) notes: Vec<Note>,
 }

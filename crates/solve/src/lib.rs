@@ -5,25 +5,30 @@
 //! through an edit and [`Drag`] through a drag, for any values.
 //!
 //! ```
-//! use solve::{Equation, Level, NoHost, Relation, RelationBody, Runner, Slot, Stay, System};
+//! use solve::{Level, NoHost, Patterns, Relation, RelationBody, Runner, Slot, Stay, System};
+//! // 1.8 c + 32 = f, over argument 0 and argument 1
+//! let mut arena = expr::Arena::new();
+//! let (c, f) = (arena.var(expr::Var(0)), arena.var(expr::Var(1)));
+//! let (factor, offset) = (arena.constant(1.8), arena.constant(32.0));
+//! let scaled = arena.mul(c, factor);
+//! let left = arena.add(scaled, offset);
+//! let mut patterns = Patterns::default();
+//! let (pattern, _) = patterns.intern(&arena, &[left, f]);
+//! // celsius is set, fahrenheit follows
 //! let mut system = System::default();
 //! let slot = |stay| Slot { stay, scale: 0, is_number: true, is_discrete: false };
-//! // celsius is set, fahrenheit follows
 //! system.slots = vec![slot(Stay::Fixed), slot(Stay::Kept { group: 0 })];
-//! let (c, f) = (system.arena.var(expr::Var(0)), system.arena.var(expr::Var(1)));
-//! let (factor, offset) = (system.arena.constant(1.8), system.arena.constant(32.0));
-//! let scaled = system.arena.mul(c, factor);
-//! let left = system.arena.add(scaled, offset);
+//! let equations = system.add_equations([(pattern, [0, 1])]);
 //! system.relations = vec![Relation {
 //!     level: Level::Required,
-//!     body: RelationBody::Equations(vec![Equation { left, right: f }]),
+//!     body: RelationBody::Equations(equations),
 //!     methods: Vec::new(),
 //!     derived: true,
 //!     reads: Vec::new(),
 //!     within: 1e-9f64.to_bits(),
 //!     source: 0,
 //! }];
-//! let plan = solve::plan(&system);
+//! let plan = solve::plan(&system.into(), &patterns);
 //! let mut values = [100.0, 68.0];
 //! let outcome =
 //!     solve::run(&plan, &mut Runner::new(), &[20.0, 68.0], &mut values, &[0], &mut NoHost);
@@ -34,8 +39,10 @@
 //! Invariants: equal systems have equal plans; a run that is refused changes nothing; what is not
 //! downstream of a change keeps its bits; a second run changes no bit; no value is ever infinite or
 //! not a number.
+pub mod pattern;
 pub mod system;
 
+mod stated;
 mod substitute;
 
 mod tableau;
@@ -66,8 +73,10 @@ mod attempt;
 pub mod run;
 
 pub use outcome::{Host, NoHost, Note, Outcome, Reason, Status, Unmet};
+pub use pattern::{Pattern, PatternId, Patterns, Scratch};
 pub use plan::{Plan, Rejected, Report, Step, StepKind, plan};
 pub use run::{Drag, Runner, run};
 pub use system::{
-    Equation, Level, Method, MethodBody, Relation, RelationBody, Slot, SlotIndex, Stay, System,
+    Equation, Level, Method, MethodBody, Relation, RelationBody, Slot, SlotIndex, Span, Stay,
+    System,
 };

@@ -7,7 +7,7 @@ use crate::eliminate::{Definers, Definition, Reduced, eliminate};
 use crate::measure::Measure;
 use crate::order::Block;
 use crate::plan::{Analysis, Step, StepKind};
-use crate::rows::{self, Row};
+use crate::rows::Row;
 use crate::square::Square;
 use crate::system::{Level, MethodBody, SlotIndex, Stay};
 use expr::{Arena, ExprId, Guard, Tape, Var};
@@ -270,7 +270,7 @@ fn square_block(
 fn measure(analysis: &Analysis<'_>, arena: &mut Arena, problem: &Problem) -> Program {
     let kind = |s: SlotIndex| {
         let given = analysis.classes.stay[s as usize] == Stay::Given;
-        (analysis.system.slots[s as usize].scale, given)
+        (analysis.stated.system.slots[s as usize].scale, given)
     };
     Program::Measure(Measure::compile(arena, problem, &kind))
 }
@@ -311,7 +311,7 @@ fn by_method(
     rows: &[usize],
 ) -> Option<Step> {
     let index = *analysis.direction.method.get(&relation)?;
-    let stated = &analysis.system.relations[relation as usize];
+    let stated = &analysis.stated.system.relations[relation as usize];
     let method = &stated.methods[index];
     let classes = &analysis.classes;
     let targets: Vec<SlotIndex> =
@@ -319,9 +319,9 @@ fn by_method(
     let reads = analysis.method_reads[&relation].iter().copied().collect();
     let m = index as u32;
     let (kind, formulas, program) = match &method.body {
-        MethodBody::Expressions(values) => {
-            let values: Vec<ExprId> =
-                values.iter().map(|&v| rows::over_representatives(arena, classes, v)).collect();
+        MethodBody::Formulas { pattern, arguments } => {
+            let stated = analysis.stated;
+            let values = stated.write_out(arena, &classes.representative, *pattern, *arguments);
             let tape = Tape::compile(arena, &values);
             (StepKind::Method { relation, method: m }, values, Program::Formulas(tape))
         }

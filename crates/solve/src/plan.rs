@@ -7,11 +7,14 @@ use crate::accept::{self, Acceptance};
 use crate::direct::{self, Direction};
 use crate::lower::{self, Program, Region};
 use crate::order::{self, Block, Incidence};
+use crate::pattern::{Patterns, Scratch};
 use crate::rows::{self, Row};
+use crate::stated::Stated;
 use crate::substitute::{self, Classes};
-use crate::system::{Level, RelationBody, Slot, SlotIndex, Stay, System};
-use expr::{Arena, ExprId, Tape};
+use crate::system::{Level, RelationBody, Slot, SlotIndex, Span, Stay, System};
+use expr::{Arena, ExprId};
 use std::collections::{BTreeMap, BTreeSet};
+use std::rc::Rc;
 use std::sync::OnceLock;
 
 /// How a step computes its targets.
@@ -65,7 +68,7 @@ pub struct Step {
     pub(crate) program: Program,
     /// Which region it lies in; regions share no unknown.
     pub(crate) region: u32,
-    /// The rows that it makes hold, as indices of sides in [`Plan::sides`].
+    /// The rows that it makes hold, by the places of their equations in the system.
     pub(crate) rows: Vec<u32>,
 }
 
@@ -108,15 +111,13 @@ pub struct Plan {
     pub arena: Arena,
     pub(crate) slots: Vec<PlannedSlot>,
     pub(crate) relations: Vec<PlannedRelation>,
-    /// Both sides of every equation, over all slots.
-    pub(crate) sides: Tape,
     pub(crate) regions: Vec<Region>,
     /// Classes of several given numbers: the representative and those numbers.
     pub(crate) shared_given: Vec<(SlotIndex, Vec<SlotIndex>)>,
     pub(crate) scale_classes: usize,
     /// True if a step depends on the branch that the state is on.
     pub(crate) has_branches: bool,
-    system: System,
+    stated: Stated,
     relaxed: OnceLock<Option<Box<Plan>>>,
 }
 
@@ -136,7 +137,7 @@ pub(crate) struct PlannedRelation {
     pub(crate) level: Level,
     pub(crate) within: f64,
     pub(crate) source: u32,
-    /// Its first row among the sides; an opaque relation has none.
+    /// Its first equation in the system; an opaque relation has none.
     pub(crate) first_row: u32,
     pub(crate) rows: u32,
     /// For an opaque relation, the slots that it speaks of.
@@ -145,21 +146,26 @@ pub(crate) struct PlannedRelation {
 
 /// Everything known before blocks are lowered.
 pub(crate) struct Analysis<'a> {
-    pub(crate) system: &'a System,
+    pub(crate) stated: &'a Stated,
     pub(crate) classes: Classes,
     pub(crate) rows: Vec<Row>,
     pub(crate) acceptance: Acceptance,
     pub(crate) direction: Direction,
     pub(crate) method_reads: BTreeMap<u32, BTreeSet<SlotIndex>>,
-    /// For every relation, its first row among all sides.
+    /// For every relation, its first equation in the system.
     pub(crate) first_row: Vec<u32>,
 }
 
-/// Plans a system. Equal systems have equal plans.
-pub fn plan(system: &System) -> Plan {
-    let mut arena = system.arena.clone();
-    let classes = substitute::substitute(system);
-    let rows = rows::rows(system, &classes, &mut arena);
+/// Plans a system over these patterns. Equal systems have equal plans.
+pub fn plan(system: &Rc<System>, patterns: &Patterns) -> Plan {
+    plan_stated(Stated::new(system, patterns))
+}
+
+fn plan_stated(stated: Stated) -> Plan {
+    let system = &*stated.system;
+    let mut arena = stated.arena();
+    let classes = substitute::substitute(&stated);
+    let rows = rows::rows(&stated, &classes, &mut arena);
     let acceptance = accept::accept(system, &classes, &rows);
     let direction = direct::direct(system, &classes, &rows, &acceptance);
     let method_reads = direction
@@ -167,12 +173,12 @@ pub fn plan(system: &System) -> Plan {
         .iter()
         .map(|(&r, &m)| {
             let body = &system.relations[r as usize].methods[m].body;
-            (r, rows::method_reads(&arena, &classes, body))
+            (r, rows::method_reads(system, &classes, body))
         })
         .collect();
-    let (relations, first_row, sides) = tests_of_relations(system);
+    let (relations, first_row) = tests_of_relations(system);
     let analysis =
-        Analysis { system, classes, rows, acceptance, direction, method_reads, first_row };
+        Analysis { stated: &stated, classes, rows, acceptance, direction, method_reads, first_row };
     let (report, together) = report(&analysis);
     let blocks = blocks(&analysis, &together);
     let lowered = lower::lower(&analysis, &mut arena, &blocks);
@@ -187,52 +193,46 @@ pub fn plan(system: &System) -> Plan {
         steps: lowered.steps,
         report,
         arena,
-        slots: planned_slots(&analysis),
+        slots: planned_slots(system),
         relations,
-        sides,
         regions: lowered.regions,
         shared_given: shared_given(&analysis),
         scale_classes: system.slots.iter().map(|s| s.scale as usize + 1).max().unwrap_or(0),
         has_branches,
-        system: system.clone(),
+        stated,
         relaxed: OnceLock::new(),
     }
 }
 
-fn planned_slots(analysis: &Analysis<'_>) -> Vec<PlannedSlot> {
+fn planned_slots(system: &System) -> Vec<PlannedSlot> {
     let one = |s: &Slot| PlannedSlot {
         stay: s.stay,
         scale: s.scale,
         is_number: s.is_number,
         is_discrete: s.is_discrete,
     };
-    analysis.system.slots.iter().map(one).collect()
+    system.slots.iter().map(one).collect()
 }
 
-fn tests_of_relations(system: &System) -> (Vec<PlannedRelation>, Vec<u32>, Tape) {
+fn tests_of_relations(system: &System) -> (Vec<PlannedRelation>, Vec<u32>) {
     let mut relations = Vec::new();
     let mut first = Vec::new();
-    let mut sides: Vec<ExprId> = Vec::new();
     for relation in &system.relations {
-        let first_row = (sides.len() / 2) as u32;
-        let opaque = match &relation.body {
-            RelationBody::Equations(equations) => {
-                sides.extend(equations.iter().flat_map(|e| [e.left, e.right]));
-                None
-            }
-            RelationBody::Opaque { slots } => Some(slots.clone()),
+        let (rows, opaque) = match &relation.body {
+            RelationBody::Equations(span) => (*span, None),
+            RelationBody::Opaque { slots } => (Span::default(), Some(slots.clone())),
         };
         relations.push(PlannedRelation {
             level: relation.level,
             within: f64::from_bits(relation.within),
             source: relation.source,
-            first_row,
-            rows: (sides.len() / 2) as u32 - first_row,
+            first_row: rows.start,
+            rows: rows.len,
             opaque,
         });
-        first.push(first_row);
+        first.push(rows.start);
     }
-    (relations, first, Tape::compile(&system.arena, &sides))
+    (relations, first)
 }
 
 /// States what was rejected, and which rows have to be solved together because they compromise.
@@ -272,7 +272,7 @@ fn report(analysis: &Analysis<'_>) -> (Report, Vec<Vec<usize>>) {
             compromises,
         });
     }
-    let slots = &analysis.system.slots;
+    let slots = &analysis.stated.system.slots;
     let classes = &analysis.classes;
     let mut yielded = analysis.acceptance.yielded.clone();
     for members in classes.members.values() {
@@ -324,7 +324,7 @@ fn shared_given(analysis: &Analysis<'_>) -> Vec<(SlotIndex, Vec<SlotIndex>)> {
         members
             .iter()
             .copied()
-            .filter(|&s| analysis.system.slots[s as usize].stay == Stay::Given)
+            .filter(|&s| analysis.stated.system.slots[s as usize].stay == Stay::Given)
             .collect()
     };
     classes
@@ -337,18 +337,29 @@ fn shared_given(analysis: &Analysis<'_>) -> Vec<(SlotIndex, Vec<SlotIndex>)> {
 }
 
 impl Plan {
+    /// Computes both sides of every equation, by its place in the system.
+    pub(crate) fn sides(&self, values: &[f64], scratch: &mut Scratch, out: &mut Vec<[f64; 2]>) {
+        let system = &self.stated.system;
+        out.clear();
+        out.extend(system.equations.iter().map(|e| {
+            let arguments = system.arguments(e.arguments).iter().map(|&s| values[s as usize]);
+            let sides = self.stated.pattern(e.pattern).evaluate(arguments, scratch);
+            [sides[0], sides[1]]
+        }));
+    }
     /// The plan in which every place may yield: for a state that does not hold, where those that
     /// structure lets yield cannot reach far enough. None where nothing more would yield.
     pub(crate) fn relaxed(&self) -> Option<&Plan> {
         let make = || {
-            let mut system = self.system.clone();
+            let mut system = (*self.stated.system).clone();
             let kept = |s: &&mut Slot| matches!(s.stay, Stay::Kept { .. });
             let mut yields = false;
             for slot in system.slots.iter_mut().filter(kept) {
                 slot.stay = Stay::Free;
                 yields = true;
             }
-            (yields && system.slots.len() <= RELAXED_SLOTS).then(|| Box::new(plan(&system)))
+            (yields && system.slots.len() <= RELAXED_SLOTS)
+                .then(|| Box::new(plan_stated(self.stated.with(system))))
         };
         self.relaxed.get_or_init(make).as_deref()
     }

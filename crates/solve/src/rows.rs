@@ -4,6 +4,7 @@
 //! an opaque relation). The point is the same for every system, so no value is consulted: a
 //! coefficient is zero there only if it is zero everywhere.
 
+use crate::stated::Stated;
 use crate::substitute::Classes;
 use crate::system::{Level, MethodBody, Relation, RelationBody, SlotIndex, Stay, System};
 use crate::tableau::SparseRow;
@@ -37,20 +38,25 @@ impl Row {
 }
 
 /// Makes every row, in order of relation and equation.
-pub(crate) fn rows(system: &System, classes: &Classes, arena: &mut Arena) -> Vec<Row> {
+pub(crate) fn rows(stated: &Stated, classes: &Classes, arena: &mut Arena) -> Vec<Row> {
+    let system = &*stated.system;
     let mut rows = Vec::new();
     let mut derivatives: Vec<(usize, SlotIndex, ExprId)> = Vec::new();
     for (r, relation) in system.relations.iter().enumerate() {
         let writable = Writable::of(relation, classes);
         match &relation.body {
-            RelationBody::Equations(equations) => {
-                for (e, equation) in equations.iter().enumerate() {
+            RelationBody::Equations(_) => {
+                for (e, equation) in system.equations_of(relation).iter().enumerate() {
                     let key = (r as u32, e as u32);
                     if classes.used.contains_key(&key) || classes.repeated.contains_key(&key) {
                         continue;
                     }
-                    let sides = [equation.left, equation.right]
-                        .map(|side| over_representatives(arena, classes, side));
+                    let sides = stated.write_out(
+                        arena,
+                        &classes.representative,
+                        equation.pattern,
+                        equation.arguments,
+                    );
                     let residual = arena.sub(sides[0], sides[1]);
                     let mut mentions: BTreeSet<SlotIndex> =
                         arena.variables(sides[0]).iter().map(|v| v.0).collect();
@@ -93,21 +99,6 @@ fn row(
         columns: Vec::new(),
         within: f64::from_bits(relation.within),
     }
-}
-
-/// Returns an expression with every slot replaced by its representative.
-pub(crate) fn over_representatives(arena: &mut Arena, classes: &Classes, id: ExprId) -> ExprId {
-    let replaced: Vec<(u32, ExprId)> = arena
-        .variables(id)
-        .into_iter()
-        .map(|v| (v.0, classes.representative[v.0 as usize]))
-        .filter(|(v, r)| v != r)
-        .map(|(v, r)| (v, arena.var(Var(r))))
-        .collect();
-    if replaced.is_empty() {
-        return id;
-    }
-    arena.substitute(id, &|v| replaced.iter().find(|(from, _)| *from == v.0).map(|(_, to)| *to))
 }
 
 /// Which slots a relation may write.
@@ -265,15 +256,13 @@ pub(crate) fn generic_number(seed: u64, point: Point) -> f64 {
 
 /// Collects the slots that a method reads, over representatives.
 pub(crate) fn method_reads(
-    arena: &Arena,
+    system: &System,
     classes: &Classes,
     body: &MethodBody,
 ) -> BTreeSet<SlotIndex> {
-    let representative = |s: SlotIndex| classes.representative[s as usize];
-    match body {
-        MethodBody::Expressions(values) => {
-            values.iter().flat_map(|&id| arena.variables(id)).map(|v| representative(v.0)).collect()
-        }
-        MethodBody::Opaque { reads } => reads.iter().map(|&s| representative(s)).collect(),
-    }
+    let reads = match body {
+        MethodBody::Formulas { arguments, .. } => system.arguments(*arguments),
+        MethodBody::Opaque { reads } => reads,
+    };
+    reads.iter().map(|&s| classes.representative[s as usize]).collect()
 }

@@ -226,14 +226,11 @@ fn measure_scales(plan: &Plan, frame: &mut Frame) {
 }
 
 fn test_sides(plan: &Plan, values: &[f64], buffers: &mut Buffers) {
-    let rows: u32 = plan.relations.iter().map(|r| r.rows).sum();
-    buffers.sides.clear();
-    buffers.sides.resize(2 * rows as usize, 0.0);
-    plan.sides.run(values, &mut buffers.registers, &mut buffers.sides);
+    plan.sides(values, &mut buffers.scratch, &mut buffers.sides);
 }
 
 fn error_of(buffers: &Buffers, row: u32, within: f64) -> (f64, f64) {
-    let (left, right) = (buffers.sides[2 * row as usize], buffers.sides[2 * row as usize + 1]);
+    let [left, right] = buffers.sides[row as usize];
     let error = if left == right { 0.0 } else { (left - right).abs() };
     let error = if error.is_nan() { f64::INFINITY } else { error };
     (error, within * left.abs().max(right.abs()).max(1.0))

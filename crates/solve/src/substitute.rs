@@ -4,7 +4,8 @@
 //! which equations were used up. Only `a = b` and `a = number` between slots that the relation may
 //! write are taken; a relation with written methods is never substituted.
 
-use crate::system::{Equation, Level, Relation, RelationBody, SlotIndex, Stay, System};
+use crate::stated::Stated;
+use crate::system::{Equation, Level, Relation, SlotIndex, Stay, System};
 use expr::{ExprId, Node};
 use std::collections::BTreeMap;
 
@@ -78,7 +79,8 @@ fn firmness(stay: Stay) -> (u8, u32) {
 }
 
 /// Finds the classes of equal slots.
-pub(crate) fn substitute(system: &System) -> Classes {
+pub(crate) fn substitute(stated: &Stated) -> Classes {
+    let system = &*stated.system;
     let n = system.slots.len();
     let mut parent: Vec<SlotIndex> = (0..n as u32).collect();
     let mut stay: Vec<Stay> = system.slots.iter().map(|s| s.stay).collect();
@@ -87,12 +89,11 @@ pub(crate) fn substitute(system: &System) -> Classes {
     let mut repeated: BTreeMap<(u32, u32), Vec<(u32, u32)>> = BTreeMap::new();
     let mut edges = Edges { at: vec![Vec::new(); n + 1] };
     for (r, relation) in system.relations.iter().enumerate() {
-        let RelationBody::Equations(equations) = &relation.body else { continue };
         if relation.level != Level::Required || !relation.methods.is_empty() {
             continue;
         }
-        for (e, equation) in equations.iter().enumerate() {
-            let Some(simple) = simple(system, relation, *equation) else { continue };
+        for (e, equation) in system.equations_of(relation).iter().enumerate() {
+            let Some(simple) = simple(stated, relation, *equation) else { continue };
             let key = (r as u32, e as u32);
             let root = match simple {
                 Simple::Same(a, b) => unite(system, &mut parent, &stay, a, b),
@@ -157,22 +158,27 @@ enum Simple {
     Number(SlotIndex, u64),
 }
 
-fn simple(system: &System, relation: &Relation, equation: Equation) -> Option<Simple> {
-    let slot = |id: ExprId| match system.arena.node(id) {
+fn simple(stated: &Stated, relation: &Relation, equation: Equation) -> Option<Simple> {
+    let system = &*stated.system;
+    let pattern = stated.pattern(equation.pattern);
+    let arguments = system.arguments(equation.arguments);
+    let slot = |id: ExprId| match pattern.arena().node(id) {
         Node::Var(v) => {
-            let s = system.slots.get(v.0 as usize)?;
-            (s.is_number && !relation.reads.contains(&v.0)).then_some(v.0)
+            let s = arguments[v.0 as usize];
+            let is_number = system.slots[s as usize].is_number;
+            (is_number && !relation.reads.contains(&s)).then_some(s)
         }
         _ => None,
     };
-    let number = |id: ExprId| match system.arena.node(id) {
+    let number = |id: ExprId| match pattern.arena().node(id) {
         Node::Constant(bits) => f64::from_bits(bits).is_finite().then_some(bits),
         _ => None,
     };
-    match (slot(equation.left), slot(equation.right)) {
+    let &[left, right] = pattern.roots() else { return None };
+    match (slot(left), slot(right)) {
         (Some(a), Some(b)) => Some(Simple::Same(a, b)),
-        (Some(a), None) => number(equation.right).map(|bits| Simple::Number(a, bits)),
-        (None, Some(b)) => number(equation.left).map(|bits| Simple::Number(b, bits)),
+        (Some(a), None) => number(right).map(|bits| Simple::Number(a, bits)),
+        (None, Some(b)) => number(left).map(|bits| Simple::Number(b, bits)),
         (None, None) => None,
     }
 }

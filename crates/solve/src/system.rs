@@ -3,7 +3,7 @@
 //! In: relations among slots, each slot with the stay that it has in this edit. The system holds no
 //! values: a plan made of it serves all. Two systems that are equal have the same plan.
 
-use expr::{Arena, ExprId};
+use crate::pattern::PatternId;
 
 /// A slot of the system: an unknown or a known. It is also the `expr::Var` of the same number.
 pub type SlotIndex = u32;
@@ -54,20 +54,36 @@ pub struct Slot {
     pub is_discrete: bool,
 }
 
-/// `left = right`, both expressions over slots.
+/// A stretch of one of the lists of a [`System`].
+#[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, Debug, Default)]
+pub struct Span {
+    /// Where it begins.
+    pub start: u32,
+    /// How long it is.
+    pub len: u32,
+}
+
+impl Span {
+    /// Returns the places in the list.
+    pub fn range(self) -> std::ops::Range<usize> {
+        self.start as usize..(self.start + self.len) as usize
+    }
+}
+
+/// `left = right`: a pattern of two expressions, and the slots that are its arguments.
 #[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, Debug)]
 pub struct Equation {
-    /// The left side.
-    pub left: ExprId,
-    /// The right side.
-    pub right: ExprId,
+    /// What it says.
+    pub pattern: PatternId,
+    /// Of what, in [`System::arguments`]; no slot twice.
+    pub arguments: Span,
 }
 
 /// What a relation says.
 #[derive(Clone, PartialEq, Eq, PartialOrd, Ord, Hash, Debug)]
 pub enum RelationBody {
-    /// Equations that hold together: one for a number, two for a place, ….
-    Equations(Vec<Equation>),
+    /// Equations that hold together: one for a number, two for a place, …; in [`System::equations`].
+    Equations(Span),
     /// Something that only the host can test (by the relation's `source`), over these slots:
     /// text, or a rule without an error expression. It counts as one row.
     Opaque {
@@ -79,8 +95,13 @@ pub enum RelationBody {
 /// How a method computes its targets.
 #[derive(Clone, PartialEq, Eq, PartialOrd, Ord, Hash, Debug)]
 pub enum MethodBody {
-    /// One expression for each target.
-    Expressions(Vec<ExprId>),
+    /// A pattern of one expression for each target.
+    Formulas {
+        /// The expressions.
+        pattern: PatternId,
+        /// Of which slots, in [`System::arguments`].
+        arguments: Span,
+    },
     /// The host computes them (by the relation's `source` and the method's index) from `reads`.
     Opaque {
         /// The slots that the host reads.
@@ -119,12 +140,46 @@ pub struct Relation {
 /// One connected component.
 ///
 /// Relations stand in order of declaration; slots too.
-#[derive(Clone, Debug, Default)]
+#[derive(Clone, PartialEq, Eq, Hash, Debug, Default)]
 pub struct System {
-    /// The expressions of all relations; `Var(i)` is slot `i`.
-    pub arena: Arena,
     /// The slots.
     pub slots: Vec<Slot>,
     /// The relations.
     pub relations: Vec<Relation>,
+    /// The equations of all relations, one relation's after the other's.
+    pub equations: Vec<Equation>,
+    /// The arguments of all equations and methods.
+    pub arguments: Vec<SlotIndex>,
+}
+
+impl System {
+    /// Adds a list of arguments.
+    pub fn add_arguments(&mut self, slots: impl IntoIterator<Item = SlotIndex>) -> Span {
+        let start = self.arguments.len() as u32;
+        self.arguments.extend(slots);
+        Span { start, len: self.arguments.len() as u32 - start }
+    }
+    /// Adds equations, each by its pattern and its arguments.
+    pub fn add_equations<A: IntoIterator<Item = SlotIndex>>(
+        &mut self,
+        equations: impl IntoIterator<Item = (PatternId, A)>,
+    ) -> Span {
+        let start = self.equations.len() as u32;
+        for (pattern, arguments) in equations {
+            let arguments = self.add_arguments(arguments);
+            self.equations.push(Equation { pattern, arguments });
+        }
+        Span { start, len: self.equations.len() as u32 - start }
+    }
+    /// Returns the slots of a list of arguments.
+    pub fn arguments(&self, span: Span) -> &[SlotIndex] {
+        &self.arguments[span.range()]
+    }
+    /// Returns the equations of a relation; an opaque one has none.
+    pub fn equations_of(&self, relation: &Relation) -> &[Equation] {
+        match &relation.body {
+            RelationBody::Equations(span) => &self.equations[span.range()],
+            RelationBody::Opaque { .. } => &[],
+        }
+    }
 }

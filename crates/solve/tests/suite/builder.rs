@@ -1,15 +1,18 @@
 //! A small language for systems in tests: `number` makes slots, operators make equations.
 
-use expr::{ExprId, Var};
+use expr::{Arena, ExprId, Var};
 use solve::{
-    Drag, Equation, Host, Level, Method, MethodBody, NoHost, Outcome, Plan, Relation, RelationBody,
+    Drag, Host, Level, Method, MethodBody, NoHost, Outcome, Patterns, Plan, Relation, RelationBody,
     Runner, Slot, SlotIndex, Stay, System,
 };
+use std::rc::Rc;
 
 /// A system under construction, with the state that it starts from.
 #[derive(Default)]
 pub(crate) struct Sheet {
     pub(crate) system: System,
+    patterns: Patterns,
+    arena: Arena,
     pub(crate) x0: Vec<f64>,
     groups: u32,
 }
@@ -48,36 +51,43 @@ impl Sheet {
         self.x0.len() as u32 - 1
     }
     pub(crate) fn v(&mut self, slot: SlotIndex) -> ExprId {
-        self.system.arena.var(Var(slot))
+        self.arena.var(Var(slot))
     }
     pub(crate) fn c(&mut self, value: f64) -> ExprId {
-        self.system.arena.constant(value)
+        self.arena.constant(value)
     }
     pub(crate) fn add(&mut self, a: ExprId, b: ExprId) -> ExprId {
-        self.system.arena.add(a, b)
+        self.arena.add(a, b)
     }
     pub(crate) fn sub(&mut self, a: ExprId, b: ExprId) -> ExprId {
-        self.system.arena.sub(a, b)
+        self.arena.sub(a, b)
     }
     pub(crate) fn mul(&mut self, a: ExprId, b: ExprId) -> ExprId {
-        self.system.arena.mul(a, b)
+        self.arena.mul(a, b)
     }
     pub(crate) fn div(&mut self, a: ExprId, b: ExprId) -> ExprId {
-        self.system.arena.div(a, b)
+        self.arena.div(a, b)
     }
     pub(crate) fn distance(&mut self, a: [SlotIndex; 2], b: [SlotIndex; 2]) -> ExprId {
         let mut sum = self.c(0.0);
         for (p, q) in a.into_iter().zip(b) {
             let (p, q) = (self.v(p), self.v(q));
             let d = self.sub(p, q);
-            let square = self.system.arena.square(d);
+            let square = self.arena.square(d);
             sum = self.add(sum, square);
         }
-        self.system.arena.sqrt(sum)
+        self.arena.sqrt(sum)
     }
     /// States a relation with derived methods; returns its index.
     pub(crate) fn relate(&mut self, level: Level, sides: &[(ExprId, ExprId)]) -> u32 {
-        let equations = sides.iter().map(|&(left, right)| Equation { left, right }).collect();
+        let equations: Vec<_> = sides
+            .iter()
+            .map(|&(left, right)| {
+                let (pattern, slots) = self.patterns.intern(&self.arena, &[left, right]);
+                (pattern, slots.into_iter().map(|v| v.0))
+            })
+            .collect();
+        let equations = self.system.add_equations(equations);
         let index = self.system.relations.len() as u32;
         self.system.relations.push(Relation {
             level,
@@ -95,11 +105,12 @@ impl Sheet {
     }
     /// A written method: one target, one value.
     pub(crate) fn method(&mut self, relation: u32, target: SlotIndex, value: ExprId) {
+        let (pattern, slots) = self.patterns.intern(&self.arena, &[value]);
+        let arguments = self.system.add_arguments(slots.into_iter().map(|v| v.0));
         let relation = &mut self.system.relations[relation as usize];
         relation.derived = false;
-        relation
-            .methods
-            .push(Method { targets: vec![target], body: MethodBody::Expressions(vec![value]) });
+        let body = MethodBody::Formulas { pattern, arguments };
+        relation.methods.push(Method { targets: vec![target], body });
     }
     pub(crate) fn reads(&mut self, relation: u32, slot: SlotIndex) {
         self.system.relations[relation as usize].reads.push(slot);
@@ -117,7 +128,10 @@ impl Sheet {
             .collect()
     }
     pub(crate) fn plan(&self) -> Plan {
-        solve::plan(&self.system)
+        self.plan_of(self.system.clone())
+    }
+    fn plan_of(&self, system: System) -> Plan {
+        solve::plan(&Rc::new(system), &self.patterns)
     }
     /// Makes slots known for one edit, as `set` does, and runs it.
     pub(crate) fn set(&self, edits: &[(SlotIndex, f64)]) -> (Vec<f64>, Outcome, Plan) {
@@ -125,7 +139,7 @@ impl Sheet {
         for &(slot, _) in edits {
             system.slots[slot as usize].stay = Stay::Fixed;
         }
-        let plan = solve::plan(&system);
+        let plan = self.plan_of(system);
         let (values, outcome) = self.run(&plan, edits, &mut NoHost);
         (values, outcome, plan)
     }

@@ -1,0 +1,179 @@
+//! Patterns: what rows say, each stored once.
+//!
+//! A pattern is a few expressions over arguments, `Var(i)` being argument `i`: the two sides of an
+//! equation, or the values that a method gives to its targets. A row is a pattern and the slots that
+//! it speaks of: two thousand distances are one pattern with two thousand lists of arguments.
+//! Whatever can be known of a row without its slots is worked out once, for the pattern.
+
+use crate::system::SlotIndex;
+use base::{Id, Mixer, define_id};
+use expr::{Arena, Excerpt, ExprId, Node, Tape, Var};
+use indexmap::IndexSet;
+use std::cell::OnceCell;
+use std::hash::{BuildHasherDefault, Hash, Hasher};
+use std::rc::Rc;
+
+define_id!(PatternId, "p", "A pattern, by its place among those of one planner.");
+
+/// Expressions over arguments.
+#[derive(Debug)]
+pub struct Pattern {
+    excerpt: Excerpt,
+    arena: Arena,
+    arity: usize,
+    values: OnceCell<Tape>,
+}
+
+impl Pattern {
+    fn new(excerpt: Excerpt) -> Self {
+        let arena = Arena::of_excerpt(&excerpt);
+        let arity = excerpt.nodes.iter().filter(|n| matches!(n, Node::Var(_))).count();
+        Self { excerpt, arena, arity, values: OnceCell::new() }
+    }
+    /// Returns its expressions, in an arena that holds nothing else.
+    pub fn arena(&self) -> &Arena {
+        &self.arena
+    }
+    /// Returns its expressions: of an equation, the left and the right side.
+    pub fn roots(&self) -> &[ExprId] {
+        &self.excerpt.roots
+    }
+    /// Returns the number of arguments; each occurs in it.
+    pub fn arity(&self) -> usize {
+        self.arity
+    }
+    /// Computes its expressions; the arguments are gathered by `argument`.
+    pub fn evaluate<'s>(
+        &self,
+        arguments: impl IntoIterator<Item = f64>,
+        scratch: &'s mut Scratch,
+    ) -> &'s [f64] {
+        let tape = self.values.get_or_init(|| Tape::compile(&self.arena, self.roots()));
+        scratch.arguments.clear();
+        scratch.arguments.extend(arguments);
+        scratch.out.clear();
+        scratch.out.resize(self.roots().len(), 0.0);
+        tape.run(&scratch.arguments, &mut scratch.registers, &mut scratch.out);
+        &scratch.out
+    }
+    /// Writes its expressions out over slots.
+    pub fn write_out(&self, arena: &mut Arena, arguments: &[SlotIndex]) -> Vec<ExprId> {
+        let mut made: Vec<ExprId> = Vec::with_capacity(self.excerpt.nodes.len());
+        for &node in &self.excerpt.nodes {
+            let at = |id: ExprId| made[id.index()];
+            let id = match node {
+                Node::Constant(bits) => arena.constant(f64::from_bits(bits)),
+                Node::Var(v) => arena.var(Var(arguments[v.index()])),
+                Node::Unary(op, a) => arena.unary(op, at(a)),
+                Node::Binary(op, a, b) => arena.binary(op, at(a), at(b)),
+                Node::Select { condition, then, otherwise } => {
+                    arena.select(at(condition), at(then), at(otherwise))
+                }
+            };
+            made.push(id);
+        }
+        self.roots().iter().map(|r| made[r.index()]).collect()
+    }
+}
+
+/// Working space for evaluating patterns, of any content.
+#[derive(Clone, Debug, Default)]
+pub struct Scratch {
+    arguments: Vec<f64>,
+    registers: Vec<f64>,
+    out: Vec<f64>,
+}
+
+/// A pattern under which it is found again.
+#[derive(Debug)]
+struct Interned(Rc<Pattern>);
+
+impl PartialEq for Interned {
+    fn eq(&self, other: &Self) -> bool {
+        self.0.excerpt == other.0.excerpt
+    }
+}
+impl Eq for Interned {}
+impl Hash for Interned {
+    fn hash<H: Hasher>(&self, state: &mut H) {
+        self.0.excerpt.hash(state);
+    }
+}
+impl indexmap::Equivalent<Interned> for Excerpt {
+    fn equivalent(&self, key: &Interned) -> bool {
+        *self == key.0.excerpt
+    }
+}
+
+/// Every pattern that was met, each stored once.
+#[derive(Debug, Default)]
+pub struct Patterns {
+    all: IndexSet<Interned, BuildHasherDefault<Mixer>>,
+}
+
+impl Patterns {
+    /// Finds or adds the pattern of these expressions; returns it and the variables that are its
+    /// arguments.
+    pub fn intern(&mut self, arena: &Arena, roots: &[ExprId]) -> (PatternId, Vec<Var>) {
+        let (excerpt, variables) = arena.excerpt(roots);
+        let index = match self.all.get_index_of(&excerpt) {
+            Some(index) => index,
+            None => self.all.insert_full(Interned(Rc::new(Pattern::new(excerpt)))).0,
+        };
+        (PatternId::from_index(index), variables)
+    }
+    /// Returns the pattern that says that two arguments are equal.
+    pub fn same(&mut self) -> PatternId {
+        let mut arena = Arena::new();
+        let (a, b) = (arena.var(Var(0)), arena.var(Var(1)));
+        self.intern(&arena, &[a, b]).0
+    }
+    /// Returns the pattern that says that the one expression of a pattern equals one more argument.
+    ///
+    /// # Panics
+    /// If the pattern has no expression.
+    pub fn wanting(&mut self, pattern: PatternId) -> PatternId {
+        let pattern = self.get(pattern).clone();
+        let mut arena = pattern.arena().clone();
+        let wanted = arena.var(Var::from_index(pattern.arity()));
+        self.intern(&arena, &[pattern.roots()[0], wanted]).0
+    }
+    /// Returns a pattern.
+    ///
+    /// # Panics
+    /// If the id is not from here.
+    pub fn get(&self, id: PatternId) -> &Rc<Pattern> {
+        &self.all[id.index()].0
+    }
+    /// Returns how many patterns there are.
+    pub fn len(&self) -> usize {
+        self.all.len()
+    }
+    /// Returns true if there is no pattern.
+    pub fn is_empty(&self) -> bool {
+        self.all.is_empty()
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn rows_that_differ_in_their_slots_alone_have_one_pattern() {
+        let mut patterns = Patterns::default();
+        let mut one = |slots: [u32; 3]| {
+            let mut arena = Arena::new();
+            let [a, b, c] = slots.map(|s| arena.var(Var(s)));
+            let product = arena.mul(a, b);
+            patterns.intern(&arena, &[product, c])
+        };
+        let (p, first) = one([5, 9, 2]);
+        let (q, second) = one([4, 0, 7]);
+        assert_eq!(p, q);
+        assert_eq!((first, second), ([5, 9, 2].map(Var).to_vec(), [4, 0, 7].map(Var).to_vec()));
+        assert_ne!(one([1, 1, 7]).0, p, "a square is not a product of two");
+        let mut scratch = Scratch::default();
+        assert_eq!(patterns.get(p).evaluate([3.0, 4.0, 12.5], &mut scratch), [12.0, 12.5]);
+    }
+}
