@@ -6,6 +6,8 @@
 //! tests: nothing here fails for being slow. `cargo bench-table NAME PATH` measures one document by
 //! one grip: `cargo bench-table bridge bridge.load.tip`.
 
+mod things;
+
 use base::number::{cos, sin};
 use session::{Host, Path as ThingPath, Session, parse_path};
 use std::fs;
@@ -49,6 +51,9 @@ fn main() -> std::io::Result<()> {
     )?;
     let mut wanted = std::env::args().skip(1);
     let (document, grip) = (wanted.next(), wanted.next());
+    if document.as_deref() == Some("things") {
+        return things::table(&mut out);
+    }
     for path in documents {
         let text = fs::read_to_string(&path)?;
         let name = path.file_stem().unwrap_or_default().to_string_lossy().into_owned();

@@ -1,86 +1,10 @@
 //! Structures of documents built by hand: parts, given values, merges, sets, faults.
 
-use base::{IdVec, Name};
-use expr::dimension::Dimension;
+use crate::builder::{Builder, ORIGIN};
 use kernel::{
-    Argument, Class, ClassId, ClassKind, Constraint, Count, Document, FaultKind, Given, Insert,
-    Merge, OriginId, Part, Path, Primitive, SlotId, Stay, Step, Strength, Structure, Superclass,
-    Term, ThingId, Vertical, check, instantiate,
+    Argument, ClassId, ClassKind, Count, Document, FaultKind, Given, Insert, Path, Primitive,
+    SlotId, Stay, Step, Structure, Term, ThingId, check, instantiate,
 };
-
-const ORIGIN: OriginId = OriginId(0);
-
-/// Classes under construction; the last one made is the document's.
-struct Builder(IdVec<ClassId, Class>);
-
-impl Builder {
-    fn new() -> (Self, ClassId, ClassId) {
-        let mut b = Self(IdVec::new());
-        let object = b.class("Object", ClassKind::Composite, &[]);
-        let real = ClassKind::Primitive(Primitive::Real(Dimension::NONE));
-        let real = b.class("Real", real, &[object]);
-        (b, object, real)
-    }
-    fn class(&mut self, name: &str, kind: ClassKind, supers: &[ClassId]) -> ClassId {
-        let supers = supers.iter().map(|&class| Superclass {
-            class,
-            name: Name::new(&self.0[class].name.to_lowercase()),
-        });
-        let supers = supers.collect();
-        self.0.push(Class {
-            name: name.into(),
-            doc: String::new(),
-            kind,
-            supers,
-            is_abstract: false,
-            parts: Vec::new(),
-            givens: Vec::new(),
-            messages: Vec::new(),
-            constraints: Vec::new(),
-            merges: Vec::new(),
-            inserts: Vec::new(),
-            stays: Vec::new(),
-            attachers: Vec::new(),
-            without: Vec::new(),
-            origin: ORIGIN,
-        })
-    }
-    fn composite(&mut self, name: &str, above: ClassId, parts: &[(&str, ClassId)]) -> ClassId {
-        let id = self.class(name, ClassKind::Composite, &[above]);
-        for &(name, class) in parts {
-            self.part(id, name, class, None);
-        }
-        id
-    }
-    fn part(&mut self, owner: ClassId, name: &str, class: ClassId, count: Option<Count>) {
-        let (name, doc) = (name.into(), String::new());
-        self.0[owner].parts.push(Part { name, doc, class, count, range: None, origin: ORIGIN });
-    }
-    fn merge(&mut self, class: ClassId, paths: &[&[&str]]) {
-        let paths = paths.iter().map(|p| Path::of(p)).collect();
-        self.0[class].merges.push(Merge { name: None, paths, origin: ORIGIN });
-    }
-    fn given(&mut self, class: ClassId, path: &[&str], value: Term) {
-        self.0[class].givens.push(Given { path: Path::of(path), value, origin: ORIGIN });
-    }
-    fn constraint(&mut self, class: ClassId, name: &str) {
-        self.0[class].constraints.push(Constraint {
-            name: Some(name.into()),
-            doc: String::new(),
-            rule: Term::Bool(true),
-            strength: Strength::Required,
-            methods: Vec::new(),
-            derived: true,
-            reads: Vec::new(),
-            within: None,
-            enabled: true,
-            origin: ORIGIN,
-        });
-    }
-    fn document(self, root: ClassId) -> Document {
-        Document { classes: self.0, root, vertical: Vertical::Up, units_per_metre: 1.0 }
-    }
-}
 
 fn make(document: &Document) -> Structure {
     let (structure, faults) = instantiate(document);
@@ -321,6 +245,68 @@ fn more_things_than_fit() {
     let root = b.composite("document", object, &[]);
     b.part(root, "cells", list, Some(Count::Fixed(u32::MAX)));
     assert_eq!(faults_of(b, root), [FaultKind::TooManyThings]);
+}
+
+#[test]
+fn parts_of_parts_without_measure() {
+    let (mut b, object, real) = Builder::new();
+    let classes = (0..3000)
+        .fold(real, |inner, i| b.composite(&format!("Box{i}"), object, &[("inside", inner)]));
+    let root = b.composite("document", object, &[("box", classes)]);
+    assert_eq!(faults_of(b, root), [FaultKind::TooDeep]);
+}
+
+#[test]
+fn lists_of_lists_that_do_not_fit() {
+    let (mut b, object, real) = Builder::new();
+    let mut inner = real;
+    for i in 0..8 {
+        let list = b.class(&format!("List {i}"), ClassKind::List(inner), &[object]);
+        inner = b.composite(&format!("Rows{i}"), object, &[]);
+        b.part(inner, "rows", list, Some(Count::Fixed(1000)));
+    }
+    let root = b.composite("document", object, &[("all", inner)]);
+    assert_eq!(faults_of(b, root), [FaultKind::TooManyThings]);
+}
+
+#[test]
+fn a_list_in_a_part_takes_as_many_elements_as_its_owner_gives() {
+    let (mut b, object, real) = Builder::new();
+    let list = b.class("List of Real", ClassKind::List(real), &[object]);
+    let row = b.composite("Row", object, &[]);
+    b.part(row, "cells", list, Some(Count::Given));
+    let root = b.composite("document", object, &[("two", row), ("none", row), ("one", row)]);
+    let cells = |n: usize| Term::List((0..n).map(|i| Term::number(i as f64)).collect());
+    b.given(root, &["two", "cells"], cells(2));
+    b.given(root, &["one", "cells"], cells(1));
+    let s = make(&b.document(root));
+    let counts = ["two", "none", "one"].map(|row| s.parts(at(&s, &[row, "cells"])).len());
+    assert_eq!(counts, [2, 0, 1]);
+    let last = s.parts(at(&s, &["two", "cells"])).last().and_then(|cell| s.slot_of[cell]);
+    let given = last.and_then(|slot| s.given(slot)).map(|g| g.term.clone());
+    assert_eq!(given, Some(Term::number(1.0)));
+}
+
+#[test]
+fn a_path_that_leads_out_of_its_class_is_followed_where_it_leads() {
+    let (mut b, _, line, root) = plane();
+    let object = ClassId(0);
+    let inner = b.composite("Inner", object, &[("side", line)]);
+    let outside = Path(vec![Step::Owner, Step::Part("spot".into())]);
+    let paths = vec![Path::of(&["side", "p1"]), outside.clone()];
+    b.0[inner].merges.push(kernel::Merge { name: None, paths, origin: ORIGIN });
+    b.0[inner].stays.push(Stay { path: outside, strength: None, origin: ORIGIN });
+    let point = ClassId(2);
+    let outer = b.composite("Outer", object, &[("spot", point), ("inner", inner)]);
+    b.part(root, "first", outer, None);
+    b.part(root, "second", outer, None);
+    let s = make(&b.document(root));
+    for name in ["first", "second"] {
+        let spot = at(&s, &[name, "spot"]);
+        assert_eq!(s.identity(at(&s, &[name, "inner", "side", "p1"])), spot);
+        assert!(s.slots_under(spot).iter().all(|&slot| s.slots[slot].anchored));
+    }
+    assert_eq!(s.slots.len(), 8);
 }
 
 #[test]

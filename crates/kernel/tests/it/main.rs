@@ -1,0 +1,5 @@
+//! What structures are made of documents.
+
+mod builder;
+mod naive;
+mod structure;

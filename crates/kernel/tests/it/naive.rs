@@ -1,0 +1,271 @@
+//! Random documents: their structures, beside what a naive reading of the same classes comes to.
+//!
+//! The naive reading knows no copies, no forest and no ring. Things are paths; merged things are
+//! a relation that is closed again and again; a given value is looked for from the outside in.
+
+use crate::builder::{Builder, ORIGIN};
+use base::Name;
+use kernel::{
+    ClassId, ClassKind, Count, DOCUMENT, Document, Given, Insert, Merge, Path, Step, Structure,
+    Term, check, instantiate,
+};
+use std::collections::{BTreeMap, BTreeSet};
+
+/// Numbers that look random, the same in every run.
+struct Dice(u64);
+
+impl Dice {
+    fn below(&mut self, n: usize) -> usize {
+        self.0 = self.0.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963);
+        ((self.0 >> 33) as usize) % n
+    }
+    fn pick<T: Clone>(&mut self, all: &[T]) -> T {
+        all[self.below(all.len())].clone()
+    }
+}
+
+/// Makes a document of a few classes, each of parts of earlier ones.
+fn random_document(dice: &mut Dice) -> Document {
+    let (mut b, object, real) = Builder::new();
+    let set = b.class("Set of Real", ClassKind::Set(real), &[object]);
+    let mut classes = vec![real];
+    let last = 3 + dice.below(3);
+    for i in 0..=last {
+        let composites: Vec<ClassId> =
+            classes.iter().copied().filter(|&c| b.0[c].kind == ClassKind::Composite).collect();
+        let mut supers = vec![object];
+        if !composites.is_empty() && dice.below(2) == 0 {
+            supers = vec![dice.pick(&composites)];
+            if dice.below(3) == 0 {
+                supers.push(dice.pick(&composites));
+            }
+        }
+        let class = b.class(&format!("C{i}"), ClassKind::Composite, &supers);
+        for (k, above) in b.0[class].supers.iter_mut().enumerate() {
+            above.name = Name::new(&format!("s{i}{k}"));
+        }
+        for j in 0..1 + dice.below(3) {
+            let part = dice.pick(&classes);
+            let name = format!("p{i}{j}");
+            if dice.below(5) == 0 {
+                let list = b.class(&format!("List {i}{j}"), ClassKind::List(part), &[object]);
+                let count = 1 + dice.below(3) as u32;
+                b.part(class, &name, list, Some(Count::Fixed(count)));
+            } else {
+                b.part(class, &name, part, None);
+            }
+        }
+        if dice.below(4) == 0 {
+            b.part(class, &format!("all{i}"), set, None);
+        }
+        if dice.below(2) == 0 {
+            b.constraint(class, &format!("rule{i}"));
+        }
+        classes.push(class);
+        say_something(dice, &mut b, class);
+    }
+    let root = *classes.last().expect("there is a class");
+    b.document(root)
+}
+
+/// Adds merges, given values and set members over paths that exist.
+fn say_something(dice: &mut Dice, b: &mut Builder, class: ClassId) {
+    let document = Builder(b.0.clone()).document(class);
+    let (things, faults) = instantiate(&document);
+    assert_eq!(faults, []);
+    let paths: Vec<(Path, ClassId)> = things
+        .things
+        .iter()
+        .skip(1)
+        .map(|(t, thing)| (things.path(&document, t), thing.class))
+        .collect();
+    if paths.is_empty() || paths.len() > 200 {
+        return;
+    }
+    for _ in 0..dice.below(3) {
+        let (one, class_of_one) = dice.pick(&paths);
+        let alike: Vec<_> = paths.iter().filter(|p| p.1 == class_of_one).cloned().collect();
+        let paths = vec![one, dice.pick(&alike).0];
+        b.0[class].merges.push(Merge { name: None, paths, origin: ORIGIN });
+    }
+    let numbers: Vec<_> = paths.iter().filter(|p| b.0[p.1].name == "Real").cloned().collect();
+    let sets: Vec<_> = paths.iter().filter(|p| b.0[p.1].name == "Set of Real").cloned().collect();
+    if numbers.is_empty() {
+        return;
+    }
+    for _ in 0..dice.below(4) {
+        let value = Term::number(dice.below(1000) as f64);
+        b.0[class].givens.push(Given { path: dice.pick(&numbers).0, value, origin: ORIGIN });
+    }
+    if let (Some((set, _)), 0) = (sets.first().cloned(), dice.below(2)) {
+        let part = dice.pick(&numbers).0;
+        b.0[class].inserts.push(Insert { part, set, origin: ORIGIN });
+    }
+}
+
+/// A document read naively.
+struct Naive<'d> {
+    document: &'d Document,
+    /// Every thing in order of declaration, with its class.
+    things: Vec<(Path, ClassId)>,
+    /// Every thing, and what it is the same as: the first.
+    same: BTreeMap<Path, Path>,
+}
+
+impl<'d> Naive<'d> {
+    fn read(document: &'d Document) -> Self {
+        let mut naive = Self { document, things: Vec::new(), same: BTreeMap::new() };
+        naive.add(Path::default(), document.root, 0);
+        naive.merge();
+        naive
+    }
+    fn add(&mut self, path: Path, class: ClassId, count: u32) {
+        self.same.insert(path.clone(), path.clone());
+        self.things.push((path.clone(), class));
+        if let ClassKind::List(element) = self.document.classes[class].kind {
+            (0..count).for_each(|i| self.add(path.then(Step::Index(i)), element, 0));
+        }
+        for field in self.document.layout(class) {
+            let name = self.document.field_name(field).clone();
+            let count = match self.document.declared(field).and_then(|part| part.count) {
+                Some(Count::Fixed(n)) => n,
+                Some(Count::Given) | None => 0,
+            };
+            let part = self.document.field_class(field);
+            self.add(path.then(Step::Part(name)), part, count);
+        }
+    }
+    fn rank(&self, path: &Path) -> usize {
+        self.things.iter().position(|t| t.0 == *path).expect("the path is that of a thing")
+    }
+    /// Makes one all that is said to be one, and what is below it, until nothing changes.
+    fn merge(&mut self) {
+        let mut pairs: Vec<(Path, Path)> = Vec::new();
+        for (thing, class) in &self.things {
+            for class in self.document.primary_line(*class) {
+                for merge in &self.document.classes[class].merges {
+                    pairs.push((thing.join(&merge.paths[0]), thing.join(&merge.paths[1])));
+                }
+            }
+        }
+        while let Some((a, b)) = pairs.pop() {
+            let (a, b) = (self.same[&a].clone(), self.same[&b].clone());
+            if a == b {
+                continue;
+            }
+            let (first, last) =
+                if self.rank(&a) < self.rank(&b) { (a.clone(), b.clone()) } else { (b, a) };
+            for known in self.same.values_mut().filter(|known| **known == last) {
+                *known = first.clone();
+            }
+            for (path, _) in &self.things {
+                if path.0.len() == last.0.len() + 1 && path.0.starts_with(&last.0) {
+                    let step = path.0.last().expect("a part's path has a step").clone();
+                    pairs.push((first.then(step), path.clone()));
+                }
+            }
+        }
+    }
+    /// Finds what a number is given: by its outermost owner that says something, the last time.
+    fn given(&self, path: &Path) -> Option<&'d Term> {
+        for (owner, class) in &self.things {
+            if !path.0.starts_with(&owner.0) {
+                continue;
+            }
+            let rest = Path(path.0[owner.0.len()..].to_vec());
+            for class in self.document.primary_line(*class) {
+                let mut givens = self.document.classes[class].givens.iter().rev();
+                if let Some(given) = givens.find(|g| g.path == rest) {
+                    return Some(&given.value);
+                }
+            }
+        }
+        None
+    }
+    /// Returns the values of all numbers that are not merged with an earlier one.
+    fn slots(&self) -> Vec<(Path, Option<Term>)> {
+        let is_number =
+            |c: ClassId| matches!(self.document.classes[c].kind, ClassKind::Primitive(_));
+        let mut slots: Vec<(Path, Option<Term>)> = Vec::new();
+        for (path, _) in self.things.iter().filter(|t| is_number(t.1)) {
+            let first = &self.same[path];
+            let known = slots.iter().position(|s| s.0 == *first).unwrap_or_else(|| {
+                slots.push((first.clone(), None));
+                slots.len() - 1
+            });
+            slots[known].1 = slots[known].1.take().or_else(|| self.given(path).cloned());
+        }
+        slots
+    }
+    /// Returns which constraints there are, by the thing that they are about first of all.
+    fn constraints(&self) -> BTreeSet<(Path, ClassId, u32)> {
+        let mut all = BTreeSet::new();
+        for (path, class) in &self.things {
+            for class in self.document.primary_line(*class) {
+                for index in 0..self.document.classes[class].constraints.len() as u32 {
+                    all.insert((self.same[path].clone(), class, index));
+                }
+            }
+        }
+        all
+    }
+    fn members(&self) -> BTreeMap<Path, BTreeSet<Path>> {
+        let mut sets: BTreeMap<Path, BTreeSet<Path>> = BTreeMap::new();
+        for (path, class) in &self.things {
+            for class in self.document.primary_line(*class) {
+                for insert in &self.document.classes[class].inserts {
+                    let set = self.same[&path.join(&insert.set)].clone();
+                    let part = self.same[&path.join(&insert.part)].clone();
+                    sets.entry(set).or_default().insert(part);
+                }
+            }
+        }
+        sets
+    }
+}
+
+fn compare(document: &Document, s: &Structure) {
+    let naive = Naive::read(document);
+    let path = |t| s.path(document, t);
+    assert_eq!(s.things.len(), naive.things.len());
+    for (at, _) in &naive.things {
+        let thing = s.follow(DOCUMENT, at).expect("every naive path leads somewhere");
+        assert_eq!(path(s.identity(thing)), naive.same[at], "what {at} is the same as");
+        let all: Vec<Path> = s.merged_with(thing).into_iter().map(path).collect();
+        let same = naive.things.iter().map(|t| &t.0).filter(|p| naive.same[*p] == naive.same[at]);
+        assert_eq!(all, same.cloned().collect::<Vec<_>>(), "all that {at} is the same as");
+    }
+    let slots: Vec<(Path, Option<Term>)> = s
+        .slots
+        .iter()
+        .map(|(id, slot)| (path(slot.thing), s.given(id).map(|g| g.term.clone())))
+        .collect();
+    assert_eq!(slots, naive.slots());
+    let constraints: Vec<_> =
+        s.constraints.iter().map(|c| (path(s.identity(c.owner)), c.class, c.index)).collect();
+    let once: BTreeSet<_> = constraints.iter().cloned().collect();
+    assert_eq!(once.len(), constraints.len(), "every constraint stands there once");
+    assert_eq!(once, naive.constraints());
+    let members =
+        s.sets.iter().map(|(&set, all)| (path(set), all.iter().map(|&t| path(t)).collect()));
+    assert_eq!(members.collect::<BTreeMap<_, _>>(), naive.members());
+}
+
+#[test]
+fn random_documents_are_what_a_naive_reading_says() {
+    let mut dice = Dice(1979);
+    let (mut compared, mut merged) = (0, 0);
+    while compared < 400 {
+        let document = random_document(&mut dice);
+        let (structure, faults) = instantiate(&document);
+        assert_eq!(faults, []);
+        check::structure(&document, &structure).expect("the structure keeps its invariants");
+        if structure.things.len() > 300 {
+            continue;
+        }
+        compare(&document, &structure);
+        compared += 1;
+        merged += usize::from(structure.merged.iter().any(|(t, &first)| t != first));
+    }
+    assert!(merged > 100, "many of the documents merge something: {merged}");
+}
