@@ -126,11 +126,19 @@ impl Document {
         name: &str,
         above: Option<ClassId>,
     ) -> Option<(ClassId, &Message)> {
+        let own = |c: ClassId| self.classes[c].messages.iter().rev().find(|m| m.name == name);
+        self.find_message_by(class, above, &own)
+    }
+    /// Finds a message by the thesis's order, where `own` returns what a class defines itself.
+    pub fn find_message_by<'m>(
+        &self,
+        class: ClassId,
+        above: Option<ClassId>,
+        own: &dyn Fn(ClassId) -> Option<&'m Message>,
+    ) -> Option<(ClassId, &'m Message)> {
         let lineage = self.lineage(class);
         let skip = above.and_then(|a| lineage.iter().position(|&c| c == a)).map_or(0, |p| p + 1);
-        let mut found = lineage[skip..].iter().filter_map(|&c| {
-            self.classes[c].messages.iter().rev().find(|m| m.name == name).map(|m| (c, m))
-        });
+        let mut found = lineage[skip..].iter().filter_map(|&c| Some((c, own(c)?)));
         let first = found.next()?;
         if !first.1.is_default {
             return Some(first);

@@ -49,7 +49,7 @@ impl Lowerer<'_> {
     ) -> Option<(Term, Kind)> {
         let (class, name) = (scope.class(), word.name());
         let args = self.arguments(scope, field.args(), &Kind::Unknown)?;
-        let above = self.document.find_message(class, &name, Some(class)).map(|(c, _)| c);
+        let above = self.find_message(class, &name, Some(class)).map(|(c, _)| c);
         let (arguments, kind) = match above {
             Some(definer) => self.user_message(scope, definer, word, args)?,
             None if builtin::find(builtin::THING_MESSAGES, &name).is_some() => {
@@ -98,7 +98,7 @@ impl Lowerer<'_> {
                     self.takes_none(scope, word, &args)?;
                     return Some((Vec::new(), Kind::of_class(&self.document, part)));
                 }
-                match self.document.find_message(*class, &name, None).map(|(c, _)| c) {
+                match self.find_message(*class, &name, None).map(|(c, _)| c) {
                     Some(definer) => self.user_message(scope, definer, word, args),
                     None => self.own_message(scope, builtin::THING_MESSAGES, receiver, word, args),
                 }
@@ -350,7 +350,7 @@ impl Lowerer<'_> {
 
     /// Returns false if a name is one of the language's functions and of a part or plain message.
     fn takes_arguments(&self, class: ClassId, name: &Name) -> bool {
-        let message = self.document.find_message(class, name, None);
+        let message = self.find_message(class, name, None);
         let plain = message.is_none_or(|(_, m)| m.parameters.is_empty());
         !(plain && builtin::find(builtin::FUNCTIONS, name).is_some())
     }

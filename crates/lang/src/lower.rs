@@ -37,6 +37,8 @@ pub struct Lowered {
     /// Where the effective text differs from the text.
     pub(crate) patches: Vec<Patch>,
     pub(crate) classes_of_one: BTreeSet<ClassId>,
+    /// Every part that a class declares, by its name: its index among the class's parts.
+    pub(crate) parts: BTreeMap<(ClassId, Name), usize>,
     /// Where the document's own text declares classes.
     pub(crate) class_spans: Vec<Span>,
 }
@@ -99,6 +101,7 @@ pub(crate) fn lower_text(text: &str, load: &dyn Fn(&str) -> Option<String>) -> L
         patches: Vec::new(),
         files: l.files,
         classes_of_one: l.classes_of_one,
+        parts: l.parts,
         class_spans: own
             .members()
             .filter_map(|m| matches!(m, Member::Class(_)).then(|| m.syntax().clone()))
@@ -132,6 +135,8 @@ pub(crate) struct Lowerer<'l> {
     pub(crate) message_kinds: BTreeMap<(ClassId, Name), Option<Kind>>,
     /// Every part that a class declares, by its name: its index among the class's parts.
     pub(crate) parts: BTreeMap<(ClassId, Name), usize>,
+    /// Every message that a class defines, by its name: the index of the last among its messages.
+    pub(crate) messages: BTreeMap<(ClassId, Name), usize>,
     /// Where parts and messages are named.
     pub(crate) named_at: BTreeMap<(ClassId, Name), Place>,
     /// Names of constraints and merges.
@@ -175,6 +180,7 @@ impl<'l> Lowerer<'l> {
             definitions: BTreeMap::new(),
             message_kinds: BTreeMap::new(),
             parts: BTreeMap::new(),
+            messages: BTreeMap::new(),
             named_at: BTreeMap::new(),
             rule_names: BTreeSet::new(),
             masks: Vec::new(),
@@ -226,7 +232,17 @@ impl<'l> Lowerer<'l> {
 
     /// Returns a class's own definition of a message.
     pub(crate) fn defined_message(&self, class: ClassId, name: &Name) -> Option<&kernel::Message> {
-        self.document.classes[class].messages.iter().rev().find(|m| m.name == *name)
+        let index = *self.messages.get(&(class, name.clone()))?;
+        self.document.classes[class].messages.get(index)
+    }
+    /// Finds a message by the thesis's order, as [`Document::find_message`] does.
+    pub(crate) fn find_message(
+        &self,
+        class: ClassId,
+        name: &Name,
+        above: Option<ClassId>,
+    ) -> Option<(ClassId, &kernel::Message)> {
+        self.document.find_message_by(class, above, &|c| self.defined_message(c, name))
     }
 }
 

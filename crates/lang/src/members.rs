@@ -290,6 +290,7 @@ impl Lowerer<'_> {
         self.named_at.insert(key.clone(), Place { file: scope.file, span: word.span() });
         self.definitions.insert(key, (answer.clone(), scope.clone()));
         let index = self.document.classes[class].messages.len();
+        self.messages.insert((class, message.name.clone()), index);
         self.document.classes[class].messages.push(message);
         let (scope, answer) = (scope.clone(), answer.clone());
         self.pending.push(Pending::Answer { scope, index, answer });

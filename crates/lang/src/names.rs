@@ -1,7 +1,7 @@
 //! Names: what a word means where it stands, and the nearest that could have been meant.
 
 use crate::kinds::Kind;
-use crate::lower::Lowerer;
+use crate::lower::{Lowered, Lowerer};
 use crate::scope::Scope;
 use base::{Diagnostic, Name, Place};
 use kernel::builtin;
@@ -33,7 +33,7 @@ impl Lowerer<'_> {
         }
         for (class, me) in owners(scope) {
             if let Some(kind) = self.kind_of_part(class, &name) {
-                let takes = self.document.find_message(class, &name, None);
+                let takes = self.find_message(class, &name, None);
                 let takes = takes.map_or(0, |(_, m)| m.parameters.len());
                 if takes > 0 && self.class_of_part(class, &name).is_none() {
                     let message = format!("{name} is a message that takes {takes} arguments");
@@ -145,7 +145,7 @@ impl Lowerer<'_> {
         if let Some(part) = self.class_of_part(class, name) {
             return Some(Kind::of_class(&self.document, part));
         }
-        let (definer, _) = self.document.find_message(class, name, None)?;
+        let (definer, _) = self.find_message(class, name, None)?;
         Some(self.message_kind(definer, name))
     }
 
@@ -196,6 +196,22 @@ pub(crate) fn class_of_part(document: &Document, class: ClassId, name: &str) -> 
         document.classes[c].parts.iter().find(|p| *p.name == *name).map(|part| part.class)
     };
     find_part(document, class, name, &own)
+}
+
+impl Lowered {
+    /// Returns the class of what a path leads to, if that is known.
+    pub(crate) fn class_at(&self, class: ClassId, path: &Path) -> Option<ClassId> {
+        let document = &self.document;
+        path.0.iter().try_fold(class, |class, step| match step {
+            Step::Part(name) => find_part(document, class, name, &|c| {
+                let index = *self.parts.get(&(c, name.clone()))?;
+                document.classes[c].parts.get(index).map(|part| part.class)
+            }),
+            Step::Index(_) | Step::Last | Step::Owner => {
+                class_at(document, class, &Path(vec![step.clone()]))
+            }
+        })
+    }
 }
 
 /// Finds a part: in the primary line, then in each other superclass once, the nearest first.

@@ -60,7 +60,7 @@ impl Lowerer<'_> {
             if let Some(part) = self.class_of_part(class, &word.name()) {
                 return Some((path.then(Step::Part(word.name())), Some(part)));
             }
-            if self.document.find_message(class, word.text(), None).is_some() {
+            if self.find_message(class, &word.name(), None).is_some() {
                 return self.refuse_virtual(scope, word);
             }
             path = path.then(Step::Owner);
@@ -87,7 +87,7 @@ impl Lowerer<'_> {
         }
         match self.class_of_part(class, &word.name()) {
             Some(part) => Some((path.then(Step::Part(word.name())), Some(part))),
-            None if self.document.find_message(class, word.text(), None).is_some() => {
+            None if self.find_message(class, &word.name(), None).is_some() => {
                 self.refuse_virtual(scope, word)
             }
             None => {

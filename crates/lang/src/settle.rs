@@ -35,7 +35,7 @@ impl Lowerer<'_> {
             }
             let parameters = |m: &kernel::Message| m.parameters.len();
             let own = self.defined_message(class, &name).map(parameters);
-            let inherited = self.document.find_message(class, &name, Some(class));
+            let inherited = self.find_message(class, &name, Some(class));
             let (Some(own), Some((from, message))) = (own, inherited) else { continue };
             let wanted = parameters(message);
             if own != wanted {

@@ -4,11 +4,12 @@
 //! is added to the thing's own body, never to a class.
 
 use crate::lower::{Lowered, OWN};
-use crate::names::class_at;
 use crate::numbers::{from_bare, from_si, write_number};
 use crate::paths::loose_path;
 use expr::dimension::Dimension;
+use indexmap::IndexMap;
 use kernel::{ClassId, ClassKind, Document, Literal, Path, Primitive, Step};
+use std::collections::BTreeMap;
 use syntax::SyntaxNode;
 use syntax::ast::{self, AstNode, Expr, Member};
 use syntax::edit::{self, Spot, TextEdit};
@@ -17,12 +18,18 @@ use syntax::edit::{self, Spot, TextEdit};
 ///
 /// Where the text has an error, what would have to be written inside of it is left out.
 pub fn write_values(lowered: &Lowered, writes: &[(Path, Literal)]) -> Vec<TextEdit> {
-    let file = syntax::parse(OWN, &lowered.effective).file();
-    let members: Vec<Member> = file.members().collect();
-    let mut writer = Writer { document: &lowered.document, edits: Vec::new(), added: Vec::new() };
+    let own = &lowered.files[OWN];
+    let file = if own.text == lowered.effective {
+        own.parse.file()
+    } else {
+        syntax::parse(OWN, &lowered.effective).file()
+    };
+    let members = Members::of(file.members());
+    let mut writer =
+        Writer { lowered, document: &lowered.document, edits: Vec::new(), added: IndexMap::new() };
     for (path, literal) in writes {
         let root = lowered.document.root;
-        let class = class_at(&lowered.document, root, path);
+        let class = lowered.class_at(root, path);
         let part = Value { literal, class };
         let body = Body { owner: Some(root), end: Spot::EndOf(file.syntax().clone()) };
         writer.write(&body, &members, path, part);
@@ -55,18 +62,46 @@ struct Body {
     end: Spot,
 }
 
+/// The members of a body that speak of values, by the first step to what they speak of.
+struct Members(BTreeMap<Step, Vec<Member>>);
+
+impl Members {
+    fn of(members: impl Iterator<Item = Member>) -> Self {
+        let mut by_first: BTreeMap<Step, Vec<Member>> = BTreeMap::new();
+        for member in members {
+            let first: Vec<Step> = match &member {
+                Member::Assign(assign) => {
+                    let target = assign.target().and_then(|t| loose_path(&t));
+                    target.and_then(|t| t.0.first().cloned()).into_iter().collect()
+                }
+                Member::Part(part) => part.names().map(|n| Step::Part(n.name())).collect(),
+                _ => continue,
+            };
+            for step in first {
+                by_first.entry(step).or_default().push(member.clone());
+            }
+        }
+        Self(by_first)
+    }
+    /// Returns the members that may speak of what a path leads to, in the order of the text.
+    fn about(&self, path: &Path) -> &[Member] {
+        path.0.first().and_then(|step| self.0.get(step)).map_or(&[], |members| members)
+    }
+}
+
 struct Writer<'d> {
+    lowered: &'d Lowered,
     document: &'d Document,
     edits: Vec<TextEdit>,
     /// New members by where they go, so that a body is opened once.
-    added: Vec<(Spot, Vec<String>)>,
+    added: IndexMap<Spot, Vec<String>>,
 }
 
 impl Writer<'_> {
     /// Writes the value of the part at `path` from the thing that has these members.
-    fn write(&mut self, body: &Body, members: &[Member], path: &Path, value: Value<'_>) {
+    fn write(&mut self, body: &Body, members: &Members, path: &Path, value: Value<'_>) {
         // later values win, so the last that speaks of the part counts
-        for member in members.iter().rev() {
+        for member in members.about(path).iter().rev() {
             match member {
                 Member::Assign(assign) => {
                     let Some(target) = assign.target().and_then(|t| loose_path(&t)) else {
@@ -91,11 +126,7 @@ impl Writer<'_> {
                     }
                 }
                 Member::Part(part) => {
-                    let names: Vec<_> = part.names().collect();
-                    let Some(Step::Part(first)) = path.0.first() else { continue };
-                    if names.iter().any(|n| n.name() == *first) {
-                        return self.write_part(body, part, names.len(), path, value);
-                    }
+                    return self.write_part(body, part, part.names().count(), path, value);
                 }
                 _ => {}
             }
@@ -129,8 +160,7 @@ impl Writer<'_> {
             }
             (Expr::List(list), Step::Index(i), _) => {
                 let Some(element) = list.elements().nth(*i as usize) else { return false };
-                let class =
-                    class.and_then(|c| class_at(self.document, c, &Path(vec![step.clone()])));
+                let class = class.and_then(|c| self.lowered.class_at(c, &Path(vec![step.clone()])));
                 self.write_inside(&element, class, rest, value)
             }
             _ => false,
@@ -138,7 +168,7 @@ impl Writer<'_> {
     }
 
     fn part(&self, owner: Option<ClassId>, steps: &[Step]) -> Option<ClassId> {
-        owner.and_then(|c| class_at(self.document, c, &Path(steps.to_vec())))
+        owner.and_then(|c| self.lowered.class_at(c, &Path(steps.to_vec())))
     }
 
     fn write_part(
@@ -166,7 +196,7 @@ impl Writer<'_> {
             return self.add(body.end.clone(), path, value);
         }
         let inner = Body { owner: class, end: Spot::EndOf(part.syntax().clone()) };
-        let members: Vec<Member> = part.body().into_iter().flat_map(|b| b.members()).collect();
+        let members = Members::of(part.body().into_iter().flat_map(|b| b.members()));
         if !rest.is_empty() {
             return self.write(&inner, &members, &rest, value);
         }
@@ -184,7 +214,7 @@ impl Writer<'_> {
     fn write_coordinates(
         &mut self,
         body: &Body,
-        members: &[Member],
+        members: &Members,
         path: &Path,
         value: Value<'_>,
         items: &[Literal],
@@ -257,10 +287,7 @@ impl Writer<'_> {
 
     fn add(&mut self, spot: Spot, path: &Path, value: Value<'_>) {
         let text = format!("{path} = {}", self.text(value));
-        match self.added.iter_mut().find(|(s, _)| *s == spot) {
-            Some((_, texts)) => texts.push(text),
-            None => self.added.push((spot, vec![text])),
-        }
+        self.added.entry(spot).or_default().push(text);
     }
 
     fn dimension(&self, class: Option<ClassId>) -> Dimension {

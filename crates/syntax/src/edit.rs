@@ -28,7 +28,7 @@ impl TextEdit {
 }
 
 /// Where a new member goes.
-#[derive(Clone, PartialEq, Eq, Debug)]
+#[derive(Clone, PartialEq, Eq, Hash, Debug)]
 pub enum Spot {
     /// Before a member.
     Before(SyntaxNode),
