@@ -115,15 +115,15 @@ struct Naive<'d> {
 impl<'d> Naive<'d> {
     fn read(document: &'d Document) -> Self {
         let mut naive = Self { document, things: Vec::new(), same: BTreeMap::new() };
-        naive.add(Path::default(), document.root, 0);
+        naive.add(&Path::default(), document.root, 0);
         naive.merge();
         naive
     }
-    fn add(&mut self, path: Path, class: ClassId, count: u32) {
+    fn add(&mut self, path: &Path, class: ClassId, count: u32) {
         self.same.insert(path.clone(), path.clone());
         self.things.push((path.clone(), class));
         if let ClassKind::List(element) = self.document.classes[class].kind {
-            (0..count).for_each(|i| self.add(path.then(Step::Index(i)), element, 0));
+            (0..count).for_each(|i| self.add(&path.then(Step::Index(i)), element, 0));
         }
         for field in self.document.layout(class) {
             let name = self.document.field_name(field).clone();
@@ -132,7 +132,7 @@ impl<'d> Naive<'d> {
                 Some(Count::Given) | None => 0,
             };
             let part = self.document.field_class(field);
-            self.add(path.then(Step::Part(name)), part, count);
+            self.add(&path.then(Step::Part(name)), part, count);
         }
     }
     fn rank(&self, path: &Path) -> usize {
