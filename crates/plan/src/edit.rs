@@ -119,6 +119,21 @@ impl Planner {
         report
     }
 
+    /// Makes the constraints hold from these values, with nothing edited: given numbers hold, places
+    /// move as little as they can. Returns true if every required one could be had.
+    ///
+    /// Plans what was not planned yet; after that it is numbers only.
+    pub fn satisfy(&mut self, model: Model<'_>, values: &mut Values, host: &mut dyn Host) -> bool {
+        self.plan_resting(model.structure);
+        let start = values.clone();
+        let aim = Aim::default();
+        let mut is_solved = true;
+        for task in self.resting() {
+            is_solved &= run(self, model, task, &aim, &start, values, host).is_solved;
+        }
+        is_solved
+    }
+
     /// Sets or moves targets, each to its values in order, as one edit.
     ///
     /// A refused edit leaves every bit as it was. A move that cannot reach its target comes as near

@@ -14,6 +14,8 @@ use std::collections::BTreeSet;
 /// What came of a task.
 #[derive(Debug, Default)]
 pub(crate) struct Ran {
+    /// True if every required relation holds.
+    pub(crate) is_solved: bool,
     pub(crate) conflicts: Vec<Conflict>,
     pub(crate) failure: Option<Failure>,
     /// Slots where two solutions coincide.
@@ -89,7 +91,8 @@ pub(crate) fn ran(planner: &Planner, task: &Task, outcome: &Outcome) -> Ran {
     let double_roots = outcome.notes.iter().filter_map(|n| match n {
         solve::Note::DoubleRoot { slot } => task.component.slots.get(*slot as usize).copied(),
     });
-    Ran { conflicts, failure, double_roots: double_roots.collect() }
+    let is_solved = outcome.is_solved();
+    Ran { is_solved, conflicts, failure, double_roots: double_roots.collect() }
 }
 
 /// The host as the solver sees it: relations by number, texts kept aside.
