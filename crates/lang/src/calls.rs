@@ -326,7 +326,7 @@ impl Lowerer<'_> {
             return None;
         }
         let args = self.arguments(scope, call.args(), &Kind::Unknown)?;
-        if let Some(&class) = self.names.get(&name) {
+        if let Some(class) = self.visible.class(scope.file, &name) {
             return self.constructor(scope, &word, class, args);
         }
         for (class, me) in owners(scope) {

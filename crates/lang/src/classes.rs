@@ -13,6 +13,7 @@ impl Lowerer<'_> {
     pub(crate) fn own_classes(&mut self) {
         let nowhere = self.origins.add(Place { file: OWN, span: Span::default() });
         self.object = self.add_class("Object", ClassKind::Composite, &[], nowhere);
+        self.visible.add_own("Object".into(), self.object);
         let primitives = [
             ("Real", Primitive::Real(Dimension::NONE)),
             ("Angle", Primitive::Real(Dimension::NONE)),
@@ -27,7 +28,8 @@ impl Lowerer<'_> {
         });
         for (name, primitive) in primitives.into_iter().chain(quantities) {
             let object = self.object;
-            self.add_class(name, ClassKind::Primitive(primitive), &[object], nowhere);
+            let class = self.add_class(name, ClassKind::Primitive(primitive), &[object], nowhere);
+            self.visible.add_own(name.into(), class);
         }
     }
 
@@ -59,9 +61,7 @@ impl Lowerer<'_> {
             without: Vec::new(),
             origin,
         };
-        let id = self.document.classes.push(class);
-        self.names.entry(name.into()).or_insert(id);
-        id
+        self.document.classes.push(class)
     }
 
     /// Adds a class that no text can name: of one thing, of the document, of a check.
@@ -71,11 +71,7 @@ impl Lowerer<'_> {
         above: ClassId,
         origin: OriginId,
     ) -> ClassId {
-        let id = self.add_class(name, ClassKind::Composite, &[above], origin);
-        if self.names.get(name) == Some(&id) {
-            self.names.remove(name);
-        }
-        id
+        self.add_class(name, ClassKind::Composite, &[above], origin)
     }
 
     /// Names every class of every file, then finds superclasses.
@@ -85,16 +81,13 @@ impl Lowerer<'_> {
                 let Member::Class(class) = member else { continue };
                 let Some(name) = class.name() else { continue };
                 let origin = self.origin(file, class.span());
-                if let Some(&known) = self.names.get(&name.name()) {
-                    let place = self.origins.place(self.document.classes[known].origin);
-                    if place.file == file && place.span != Span::default() {
-                        let message = format!("there is a class {} already", name.text());
-                        self.error("duplicate-name", file, name.span(), message);
-                        continue;
-                    }
+                if self.visible.declared(file, name.text()).is_some() {
+                    let message = format!("there is a class {} already", name.text());
+                    self.error("duplicate-name", file, name.span(), message);
+                    continue;
                 }
                 let id = self.add_class(name.text(), ClassKind::Composite, &[], origin);
-                self.names.insert(name.name(), id);
+                self.visible.add(file, name.name(), id);
                 self.document.classes[id].doc = class.doc().unwrap_or_default();
                 self.document.classes[id].is_abstract = class.is_abstract();
                 self.declared.push((id, file, class));
@@ -181,12 +174,12 @@ impl Lowerer<'_> {
         match ty.shape() {
             TypeShape::Named(words) => {
                 let word = words.last()?;
-                let found = self.names.get(word.text()).copied();
+                let found = self.visible.class(file, word.text());
                 if found.is_none() {
                     let message = format!("there is no class {}", word.text());
                     let place = Place { file, span: word.span() };
                     let mut d = Diagnostic::error("unknown-class", place, message);
-                    let names = self.names.keys().map(Name::as_str);
+                    let names = self.visible.names(file).map(Name::as_str);
                     if let Some(near) = self.nearest(word.text(), names) {
                         d = d.hint(format!("did you mean `{near}`?"));
                     } else {

@@ -21,8 +21,8 @@ pub struct File {
 }
 
 impl Lowerer<'_> {
-    /// Reads a text and what it uses.
-    pub(crate) fn read(&mut self, name: &str, text: &str) {
+    /// Reads a text and what it uses; returns its id.
+    pub(crate) fn read(&mut self, name: &str, text: &str) -> FileId {
         let id = self.files.next_id();
         let parse = syntax::parse(id, text);
         for diagnostic in parse.diagnostics() {
@@ -46,6 +46,7 @@ impl Lowerer<'_> {
         }
         self.reading.pop();
         self.order.push(id);
+        id
     }
 
     fn read_used(&mut self, file: FileId, used: &ast::Use) {
@@ -55,12 +56,15 @@ impl Lowerer<'_> {
         if let Some(known) = known {
             if self.reading.contains(&known) {
                 let message = format!("{name} uses this text, which uses {name}");
-                self.error("use-cycle", file, path.span(), message);
+                return self.error("use-cycle", file, path.span(), message);
             }
-            return;
+            return self.visible.add_use(file, known);
         }
         match (self.load)(&name) {
-            Some(text) => self.read(&name, &text),
+            Some(text) => {
+                let used = self.read(&name, &text);
+                self.visible.add_use(file, used);
+            }
             None => {
                 let message =
                     format!("there is no library and no file beside this one named {name}");

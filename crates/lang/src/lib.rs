@@ -17,7 +17,7 @@
 //! **Invariants**: lowering never fails; a member with an error is left out, or what it said before
 //! stays in force; reading a number that was written gives its bits.
 //!
-//! Reading order: `origins`, `lower`, `files`, `classes`, `scope`, `members`, `rules`, `names`,
+//! Reading order: `origins`, `lower`, `files`, `visible`, `classes`, `scope`, `members`, `rules`, `names`,
 //! `paths`, `terms`, `calls`, `kinds`, `settle`, `restore`, `checks`, `numbers`, `write`, `uses`,
 //! `edits`.
 mod calls;
@@ -38,6 +38,7 @@ mod scope;
 mod settle;
 mod terms;
 mod uses;
+mod visible;
 mod write;
 
 pub use checks::{Check, Expectation, PlanKind, Statement, StatementKind};

@@ -11,6 +11,7 @@ use crate::members::Pending;
 use crate::origins::Origins;
 use crate::restore::{Grain, Patch};
 use crate::scope::Scope;
+use crate::visible::Visible;
 use base::{Diagnostic, FileId, IdVec, Name, Place, Severity, Span};
 use kernel::{ClassId, Document, Fault, OriginId, Path, Vertical};
 use std::collections::{BTreeMap, BTreeSet};
@@ -120,7 +121,7 @@ pub(crate) struct Lowerer<'l> {
     /// Files after those that they use; the document last.
     pub(crate) order: Vec<FileId>,
     pub(crate) document: Document,
-    pub(crate) names: BTreeMap<Name, ClassId>,
+    pub(crate) visible: Visible,
     pub(crate) origins: Origins,
     pub(crate) diagnostics: Vec<Diagnostic>,
     /// What has been reported, so that it is said once.
@@ -168,7 +169,7 @@ impl<'l> Lowerer<'l> {
                 vertical: Vertical::Up,
                 units_per_metre: 1.0,
             },
-            names: BTreeMap::new(),
+            visible: Visible::default(),
             origins: Origins::default(),
             diagnostics: Vec::new(),
             said: BTreeSet::new(),

@@ -55,7 +55,7 @@ impl Lowerer<'_> {
         let message = format!("there is nothing called {} here", word.text());
         let place = Place { file: scope.file, span: word.span() };
         let mut d = Diagnostic::error("unknown-name", place, message);
-        if self.names.contains_key(word.text()) {
+        if self.visible.class(scope.file, word.text()).is_some() {
             let made = format!("it is a class: `{}(…)` makes a thing of it", word.text());
             d = d.hint(made);
         } else if self.may_guess() {
@@ -63,7 +63,7 @@ impl Lowerer<'_> {
             let constants = scope.constants.keys().map(ToString::to_string);
             let parts = scope.classes.iter().flat_map(|&class| self.names_of(class));
             let functions = builtin::FUNCTIONS.iter().map(|b| b.name.to_string());
-            let classes = self.names.keys().map(ToString::to_string);
+            let classes = self.visible.names(scope.file).map(ToString::to_string);
             let names = locals.chain(constants).chain(parts).chain(functions).chain(classes);
             let names: Vec<String> = names.collect();
             if let Some(near) = self.nearest(word.text(), names.iter().map(String::as_str)) {

@@ -273,3 +273,23 @@ fn nothing_makes_lowering_panic() {
         lang::lower(&without, &load, Some(&lower(text)));
     }
 }
+
+#[test]
+fn a_class_of_the_document_is_nothing_to_the_libraries_that_have_one_of_its_name() {
+    let text = "use parts.bolts\nclass Point { z: Text }\np: Point\nl: Line\n";
+    let lowered = right(text);
+    let (structure, faults) = kernel::instantiate(&lowered.document);
+    assert_eq!(faults, []);
+    let leads = |path: &[&str]| structure.follow(kernel::DOCUMENT, &Path::of(path)).is_ok();
+    assert!(leads(&["p", "z"]), "the document means its own class");
+    assert!(leads(&["l", "p1", "x"]), "the library means its own");
+    assert!(leads(&["bolts", "bolt", "p2", "y"]), "and so does what uses the library");
+}
+
+#[test]
+fn a_library_does_not_see_the_classes_of_the_document() {
+    let load = |_: &str| Some("class A { part: Mine }\n".to_string());
+    let lowered = lang::lower("use lib\nclass Mine { }\n", &load, None);
+    let codes: Vec<&str> = lowered.diagnostics.iter().map(|d| d.code).collect();
+    assert_eq!(codes, ["unknown-class"]);
+}

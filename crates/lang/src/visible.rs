@@ -1,0 +1,54 @@
+//! Which class a name means in a text: one of its own, else of a text that it uses, else the
+//! language's.
+
+use base::{FileId, Name};
+use kernel::ClassId;
+use std::collections::{BTreeMap, BTreeSet};
+
+/// The classes that can be named.
+#[derive(Default)]
+pub(crate) struct Visible {
+    /// The classes of each name, in order of declaration, with their texts; the language's own have
+    /// none.
+    classes: BTreeMap<Name, Vec<(Option<FileId>, ClassId)>>,
+    /// For every text, all that it uses, directly or by way of others.
+    uses: BTreeMap<FileId, BTreeSet<FileId>>,
+}
+
+impl Visible {
+    /// Names a class of the language.
+    pub(crate) fn add_own(&mut self, name: Name, class: ClassId) {
+        self.classes.entry(name).or_default().push((None, class));
+    }
+    /// Names a class of a text. Texts come after those that they use.
+    pub(crate) fn add(&mut self, file: FileId, name: Name, class: ClassId) {
+        self.classes.entry(name).or_default().push((Some(file), class));
+    }
+    /// Lets a text use another, which has been read, and all that it uses.
+    pub(crate) fn add_use(&mut self, file: FileId, used: FileId) {
+        let mut all = self.uses.get(&used).cloned().unwrap_or_default();
+        all.insert(used);
+        self.uses.entry(file).or_default().extend(all);
+    }
+    /// Returns the class that a name means in a text.
+    pub(crate) fn class(&self, file: FileId, name: &str) -> Option<ClassId> {
+        let all = self.classes.get(name)?.iter().rev();
+        let seen = |class: &&(Option<FileId>, ClassId)| self.sees(file, class.0);
+        // what the text itself declares was declared last of what it sees
+        all.into_iter().find(seen).map(|c| c.1)
+    }
+    /// Returns the class of this name that a text itself declares.
+    pub(crate) fn declared(&self, file: FileId, name: &str) -> Option<ClassId> {
+        self.classes.get(name)?.iter().find(|c| c.0 == Some(file)).map(|c| c.1)
+    }
+    /// Returns the names of all classes that a text can name.
+    pub(crate) fn names(&self, file: FileId) -> impl Iterator<Item = &Name> {
+        let seen =
+            move |all: &[(Option<FileId>, ClassId)]| all.iter().any(|c| self.sees(file, c.0));
+        self.classes.iter().filter(move |(_, all)| seen(all)).map(|(name, _)| name)
+    }
+    fn sees(&self, file: FileId, other: Option<FileId>) -> bool {
+        let Some(other) = other else { return true };
+        other == file || self.uses.get(&file).is_some_and(|all| all.contains(&other))
+    }
+}
