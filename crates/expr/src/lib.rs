@@ -51,4 +51,4 @@ pub use dimension::Dimension;
 pub use interval::Interval;
 pub use isolate::{Guard, Root, is_linear_in, isolate};
 pub use op::{Binary, Unary};
-pub use tape::Tape;
+pub use tape::{LANES, Lanes, Tape};

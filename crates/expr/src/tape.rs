@@ -53,6 +53,51 @@ struct Run {
     count: u32,
 }
 
+/// How many sets of values [`Tape::run_lanes`] takes at once.
+pub const LANES: usize = 8;
+/// One number of each of several sets.
+pub type Lanes = [f64; LANES];
+
+/// What a register holds: one number, or one of each set.
+trait Word: Copy {
+    /// The same number in every set.
+    fn of(x: f64) -> Self;
+    fn map(self, f: impl Fn(f64) -> f64) -> Self;
+    fn join(self, other: Self, f: impl Fn(f64, f64) -> f64) -> Self;
+    /// `then` where this is not zero.
+    fn choose(self, then: Self, otherwise: Self) -> Self;
+}
+
+impl Word for f64 {
+    fn of(x: f64) -> Self {
+        x
+    }
+    fn map(self, f: impl Fn(f64) -> f64) -> Self {
+        f(self)
+    }
+    fn join(self, other: Self, f: impl Fn(f64, f64) -> f64) -> Self {
+        f(self, other)
+    }
+    fn choose(self, then: Self, otherwise: Self) -> Self {
+        if self != 0.0 { then } else { otherwise }
+    }
+}
+
+impl Word for Lanes {
+    fn of(x: f64) -> Self {
+        [x; LANES]
+    }
+    fn map(self, f: impl Fn(f64) -> f64) -> Self {
+        std::array::from_fn(|i| f(self[i]))
+    }
+    fn join(self, other: Self, f: impl Fn(f64, f64) -> f64) -> Self {
+        std::array::from_fn(|i| f(self[i], other[i]))
+    }
+    fn choose(self, then: Self, otherwise: Self) -> Self {
+        std::array::from_fn(|i| if self[i] != 0.0 { then[i] } else { otherwise[i] })
+    }
+}
+
 /// Expressions to be run again and again.
 ///
 /// ```
@@ -158,12 +203,28 @@ impl Tape {
     /// # Panics
     /// If a variable has no value, or `out` has not the length of the outputs.
     pub fn run(&self, values: &[f64], registers: &mut Vec<f64>, out: &mut [f64]) {
+        self.run_on(values, registers, out);
+    }
+
+    /// Computes every output for [`LANES`] sets of values at once, to the bits of [`Tape::run`].
+    ///
+    /// `values[v][lane]` is variable `v` of one set. Working space is as for [`Tape::run`].
+    ///
+    /// # Panics
+    /// If a variable has no value, or `out` has not the length of the outputs.
+    pub fn run_lanes(&self, values: &[Lanes], registers: &mut Vec<Lanes>, out: &mut [Lanes]) {
+        self.run_on(values, registers, out);
+    }
+
+    fn run_on<W: Word>(&self, values: &[W], registers: &mut Vec<W>, out: &mut [W]) {
         assert_eq!(out.len(), self.outputs.len(), "there is a place for every output");
         if registers.len() < self.registers {
-            registers.resize(self.registers, 0.0);
+            registers.resize(self.registers, W::of(0.0));
         }
         let registers = &mut registers[..self.registers];
-        registers[..self.constants.len()].copy_from_slice(&self.constants);
+        for (register, &constant) in registers.iter_mut().zip(&self.constants) {
+            *register = W::of(constant);
+        }
         let mut operands = self.operands.as_slice();
         for run in &self.runs {
             let (mine, rest) = operands.split_at(run.count as usize * run.operation.arity());
@@ -180,7 +241,7 @@ impl Tape {
                 Operation::Select => {
                     for (i, operand) in mine.as_chunks::<3>().0.iter().enumerate() {
                         let [condition, then, otherwise] = operand.map(|r| registers[r as usize]);
-                        registers[first + i] = if condition != 0.0 { then } else { otherwise };
+                        registers[first + i] = condition.choose(then, otherwise);
                     }
                 }
             }
@@ -230,12 +291,12 @@ impl Lowering {
     }
 }
 
-fn run_unary(op: Unary, registers: &mut [f64], first: usize, operands: &[u32]) {
+fn run_unary<W: Word>(op: Unary, registers: &mut [W], first: usize, operands: &[u32]) {
     macro_rules! each {
         ($($op:ident)*) => {
             match op {
                 $(Unary::$op => for (i, &a) in operands.iter().enumerate() {
-                    registers[first + i] = Unary::$op.apply(registers[a as usize]);
+                    registers[first + i] = registers[a as usize].map(|x| Unary::$op.apply(x));
                 })*
             }
         };
@@ -243,14 +304,14 @@ fn run_unary(op: Unary, registers: &mut [f64], first: usize, operands: &[u32]) {
     each!(Neg Abs Sqrt Sin Cos Tan Asin Acos Atan Exp Ln Floor Round Sign Not);
 }
 
-fn run_binary(op: Binary, registers: &mut [f64], first: usize, operands: &[u32]) {
+fn run_binary<W: Word>(op: Binary, registers: &mut [W], first: usize, operands: &[u32]) {
     let operands = operands.as_chunks::<2>().0;
     macro_rules! each {
         ($($op:ident)*) => {
             match op {
                 $(Binary::$op => for (i, &[a, b]) in operands.iter().enumerate() {
                     let (a, b) = (registers[a as usize], registers[b as usize]);
-                    registers[first + i] = Binary::$op.apply(a, b);
+                    registers[first + i] = a.join(b, |x, y| Binary::$op.apply(x, y));
                 })*
             }
         };
@@ -346,6 +407,29 @@ mod tests {
         let wanted = "r1 = v0\nr2 = v1\nr3 = r1 * r1\nr4 = r2 * 2\nr5 = r3 < r2\n\
                       r6 = if r5 then r3 else r4\nout 0 = r6\n";
         assert_eq!(text, wanted);
+    }
+    #[test]
+    fn lanes_have_the_bits_of_single_runs() {
+        let mut arena = Arena::new();
+        let (x, y) = (arena.var(Var(0)), arena.var(Var(1)));
+        let product = arena.mul(x, y);
+        let less = arena.binary(Binary::Less, x, y);
+        let root = arena.sqrt(product);
+        let sine = arena.unary(Unary::Sin, x);
+        let chosen = arena.select(less, root, sine);
+        let tape = Tape::compile(&arena, &[chosen, product]);
+        let values: [Lanes; 2] = [
+            std::array::from_fn(|i| 0.3 * i as f64 - 1.0),
+            std::array::from_fn(|i| 1.1 - 0.2 * i as f64),
+        ];
+        let mut wide = [[0.0; LANES]; 2];
+        tape.run_lanes(&values, &mut Vec::new(), &mut wide);
+        for lane in 0..LANES {
+            let single = run(&tape, &[values[0][lane], values[1][lane]], 2);
+            for (out, wide) in single.iter().zip(&wide) {
+                assert_eq!(out.to_bits(), wide[lane].to_bits());
+            }
+        }
     }
     #[test]
     fn old_registers_of_another_tape_do_no_harm() {

@@ -4,7 +4,9 @@
 //! Out: the values, or the step that failed. A step whose reads are as in x0 and whose relations hold
 //! there keeps x0's bits.
 
-use crate::lower::{GuardKind, Program, Roots};
+use crate::block::Workspace;
+use crate::kernel::GuardKind;
+use crate::lower::{Inverse, Program};
 use crate::measure::{Measure, Measured};
 use crate::outcome::{Host, Note, Reason};
 use crate::pattern::Scratch;
@@ -27,7 +29,7 @@ pub(crate) enum Motion {
 /// Buffers that runs share.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct Buffers {
-    pub(crate) registers: Vec<f64>,
+    pub(crate) work: Workspace,
     pub(crate) out: Vec<f64>,
     pub(crate) square: SquareScratch,
     pub(crate) motion: Vec<Motion>,
@@ -140,20 +142,19 @@ fn approach_region(
     }
     let region = &plan.regions[step.region as usize];
     let measure = region.approach.get_or_init(|| {
-        let mut arena = plan.arena.clone();
         let kind = |s: SlotIndex| {
             let slot = &plan.slots[s as usize];
             (slot.scale, slot.stay == Stay::Given)
         };
-        Measure::compile(&mut arena, &region.problem, &kind)
+        Measure::new(&region.problem, &kind)
     });
-    let registers = &mut buffers.registers;
-    let result = measure.solve(&frame.x0, values, &frame.scales, Trust::Any, registers);
+    let work = &mut buffers.work;
+    let result = measure.solve(&frame.x0, values, &frame.scales, Trust::Any, work);
     if result == Measured::Failed {
         let reason = Reason::NoSolution { step: index as u32 };
         return Err(Failure { reason, region: step.region });
     }
-    for u in measure.targets() {
+    for &u in measure.targets() {
         buffers.motion[u as usize] = motion(frame, values, u);
     }
     Ok(())
@@ -227,12 +228,12 @@ impl Run<'_> {
                 self.values[t as usize] = self.frame.x0[t as usize];
             }
             let (x0, scales) = (&self.frame.x0, &self.frame.scales);
-            return measure.is_settled(x0, self.values, scales, &mut self.buffers.registers);
+            return measure.is_settled(x0, self.values, scales, &mut self.buffers.work);
         }
         if inputs == Motion::Still {
             return match &step.program {
                 Program::Constant(_) | Program::Copy => false,
-                Program::Formulas(_) | Program::Roots(_) | Program::Square(_) => {
+                Program::Formulas(_) | Program::Inverse(_) | Program::Square(_) => {
                     step.rows.iter().all(|&r| self.frame.held[r as usize])
                 }
                 Program::Host { source, .. } => self.host.holds(*source, self.values),
@@ -244,13 +245,19 @@ impl Run<'_> {
         }
         let square = match &step.program {
             Program::Square(square) => square,
-            Program::Roots(roots) => &roots.fallback,
+            Program::Inverse(inverse) => {
+                let row = &inverse.row;
+                let sides =
+                    self.buffers.work.run(&row.kernel.sides, &row.arguments, self.values, 2);
+                let larger = sides[0].abs().max(sides[1].abs()).max(1.0);
+                return (sides[0] - sides[1]).abs() <= row.within * larger;
+            }
             Program::Host { source, .. } => return self.host.holds(*source, self.values),
             Program::Formulas(tape) => {
                 let out = &mut self.buffers.out;
                 out.clear();
                 out.resize(step.targets.len(), 0.0);
-                tape.run(self.values, &mut self.buffers.registers, out);
+                tape.run(self.values, &mut self.buffers.work.registers, out);
                 return step
                     .targets
                     .iter()
@@ -259,7 +266,7 @@ impl Run<'_> {
             }
             Program::Constant(_) | Program::Copy | Program::Measure(_) => return false,
         };
-        square.holds_at(self.values, &mut self.buffers.registers, &mut self.buffers.square)
+        square.holds_at(self.values, &mut self.buffers.work, &mut self.buffers.square)
     }
 
     fn compute(&mut self, step: &Step) -> Result<(), Failure> {
@@ -272,12 +279,12 @@ impl Run<'_> {
                 let out = &mut self.buffers.out;
                 out.clear();
                 out.resize(step.targets.len(), 0.0);
-                tape.run(self.values, &mut self.buffers.registers, out);
+                tape.run(self.values, &mut self.buffers.work.registers, out);
                 for (&t, &value) in step.targets.iter().zip(out.iter()) {
                     self.values[t as usize] = value;
                 }
             }
-            Program::Roots(roots) => return self.roots(step, roots),
+            Program::Inverse(inverse) => return self.inverse(step, inverse),
             Program::Square(square) => return self.square(step, square),
             Program::Measure(measure) => return self.measure(step, measure),
             Program::Host { source, method } => {
@@ -310,8 +317,8 @@ impl Run<'_> {
             self.start_from_last(&step.targets);
             self.scatter(&step.targets, k);
             let Frame { x0, scales, .. } = self.frame;
-            let registers = &mut self.buffers.registers;
-            if measure.solve(x0, self.values, scales, self.trust, registers) == Measured::Least {
+            let work = &mut self.buffers.work;
+            if measure.solve(x0, self.values, scales, self.trust, work) == Measured::Least {
                 return Ok(());
             }
         }
@@ -334,12 +341,11 @@ impl Run<'_> {
                 self.start_from_last(&step.targets);
                 self.scatter(&step.targets, k);
                 let buffers = &mut *self.buffers;
-                let (registers, scratch) = (&mut buffers.registers, &mut buffers.square);
+                let (work, scratch) = (&mut buffers.work, &mut buffers.square);
                 let (last, scales) = (self.last, &self.frame.scales);
-                match square.solve(last, self.values, scales, way, registers, scratch) {
+                match square.solve(last, self.values, scales, way, work, scratch) {
                     Solved::Regular => return Ok(()),
-                    Solved::Double(at) => {
-                        let slot = square.unknowns[at as usize];
+                    Solved::Double(slot) => {
                         self.buffers.notes.push(Note::DoubleRoot { slot });
                         return Ok(());
                     }
@@ -363,22 +369,26 @@ impl Run<'_> {
         }
     }
 
-    fn roots(&mut self, step: &Step, roots: &Roots) -> Result<(), Failure> {
+    fn inverse(&mut self, step: &Step, inverse: &Inverse) -> Result<(), Failure> {
+        let row = &inverse.row;
+        let Some(roots) = row.kernel.solved(inverse.argument) else {
+            return self.square(step, inverse.fallback());
+        };
         let target = step.targets[0] as usize;
         let count = roots.guards.len();
         let size = count + roots.guards.iter().map(Vec::len).sum::<usize>();
         let buffers = &mut *self.buffers;
         buffers.out.clear();
-        buffers.out.resize(2 * size, 0.0);
-        let (now, before) = buffers.out.split_at_mut(size);
-        roots.tape.run(self.values, &mut buffers.registers, now);
+        let now = buffers.work.run(&roots.tape, &row.arguments, self.values, size);
+        buffers.out.extend_from_slice(now);
         let at = |i: usize| roots.guards[..=i].iter().map(Vec::len).sum::<usize>() + i;
+        let now = &buffers.out;
         let previous = self.last[target];
         let mut chosen = None;
         if count == 1 {
             chosen = Some(0);
         } else {
-            roots.tape.run(self.last, &mut buffers.registers, before);
+            let before = buffers.work.run(&roots.tape, &row.arguments, self.last, size);
             let off = |out: &[f64], i: usize| (out[at(i)] - previous).abs();
             let near = 1e-6 * previous.abs().max(self.frame.scales[target]);
             let on_branch: Vec<usize> = (0..count).filter(|&i| off(before, i) <= near).collect();
@@ -411,6 +421,6 @@ impl Run<'_> {
                 return Ok(());
             }
         }
-        self.square(step, &roots.fallback)
+        self.square(step, inverse.fallback())
     }
 }

@@ -55,8 +55,11 @@ pub(crate) fn factorise(a: &mut [f64], n: usize, swaps: &mut Vec<usize>) -> Fact
 
 /// Solves with the factors; `b` becomes the solution.
 pub(crate) fn substitute_back(a: &[f64], n: usize, swaps: &[usize], b: &mut [f64]) {
+    // rows were exchanged as wholes, multipliers included
+    for (k, &other) in swaps.iter().enumerate() {
+        b.swap(k, other);
+    }
     for k in 0..n {
-        b.swap(k, swaps[k]);
         let value = b[k];
         for i in k + 1..n {
             b[i] -= a[i * n + k] * value;
@@ -240,6 +243,18 @@ mod tests {
         let mut b = vec![4.0, 5.0];
         substitute_back(&a, 2, &swaps, &mut b);
         assert_eq!(b, vec![1.0, 2.0]);
+    }
+
+    #[test]
+    fn later_exchanges_move_earlier_multipliers() {
+        let a = [1.0, 2.0, 0.0, 2.0, 1.0, 1.0, 4.0, 0.0, 1.0];
+        let (mut factors, mut swaps) = (a.to_vec(), Vec::new());
+        factorise(&mut factors, 3, &mut swaps);
+        let mut b = vec![5.0, 7.0, 7.0];
+        substitute_back(&factors, 3, &swaps, &mut b);
+        for (x, wanted) in b.iter().zip([1.0, 2.0, 3.0]) {
+            assert!((x - wanted).abs() < 1e-14, "{b:?}");
+        }
     }
 
     #[test]

@@ -52,15 +52,19 @@ mod rows;
 mod accept;
 
 mod direct;
-mod eliminate;
 
 mod order;
 
 pub mod plan;
 
+mod kernel;
+
 mod lower;
 
+mod block;
+
 mod dense;
+mod sparse;
 
 mod square;
 

@@ -3,15 +3,17 @@
 //! In: the blocks in order. Out: steps, each with a program that runs without looking at the system
 //! again, and the regions, whose soft rows can be approached where they cannot be met.
 
-use crate::eliminate::{Definers, Definition, Reduced, eliminate};
+use crate::block::Block as Laid;
+use crate::kernel::{Kernel, Kernels};
 use crate::measure::Measure;
 use crate::order::Block;
 use crate::plan::{Analysis, Step, StepKind};
 use crate::rows::Row;
 use crate::square::Square;
 use crate::system::{Level, MethodBody, SlotIndex, Stay};
-use expr::{Arena, ExprId, Guard, Tape, Var};
+use expr::{Arena, Tape};
 use std::collections::{BTreeMap, BTreeSet};
+use std::rc::Rc;
 use std::sync::OnceLock;
 
 /// What a step runs.
@@ -23,8 +25,8 @@ pub(crate) enum Program {
     Copy,
     /// A value for each target.
     Formulas(Tape),
-    /// One target, several formulas for it.
-    Roots(Roots),
+    /// One equation solved for its target.
+    Inverse(Inverse),
     /// As many equations as unknowns.
     Square(Square),
     /// Anything else.
@@ -40,21 +42,35 @@ pub(crate) enum Program {
 
 /// One equation solved for one slot.
 #[derive(Debug)]
-pub(crate) struct Roots {
-    /// Guards and value of each root, in order.
-    pub(crate) tape: Tape,
-    /// For each root, the kinds of its guards.
-    pub(crate) guards: Vec<Vec<GuardKind>>,
-    /// What solves it where the guards fail.
-    pub(crate) fallback: Square,
+pub(crate) struct Inverse {
+    /// The equation.
+    pub(crate) row: ProblemRow,
+    /// Which argument is the target; the kernel has formulas for it.
+    pub(crate) argument: u32,
+    /// What solves it where the guards fail; made when it is first needed.
+    fallback: OnceLock<Square>,
 }
 
-/// What a guard demands of its value.
-#[derive(Clone, Copy, PartialEq, Eq, Debug)]
-pub(crate) enum GuardKind {
-    NonZero,
-    NonNegative,
-    Positive,
+impl Inverse {
+    /// Solves a row by formula, where there is one.
+    fn new(row: &ProblemRow, target: SlotIndex) -> Option<Self> {
+        let mut places = (0..).zip(&row.arguments).filter(|a| *a.1 == target);
+        let (argument, _) = places.next()?;
+        let once = places.next().is_none();
+        row.kernel.solved(argument).filter(|_| once)?;
+        Some(Self { row: row.clone(), argument, fallback: OnceLock::new() })
+    }
+    /// Returns the number of formulas.
+    fn roots(&self) -> u32 {
+        self.row.kernel.solved(self.argument).map_or(0, |s| s.guards.len() as u32)
+    }
+    /// Returns what solves it step by step.
+    pub(crate) fn fallback(&self) -> &Square {
+        self.fallback.get_or_init(|| {
+            let target = self.row.arguments[self.argument as usize];
+            Square::new(&Problem { rows: vec![self.row.clone()], unknowns: vec![target] })
+        })
+    }
 }
 
 /// Unknowns connected by rows, with everything that is needed to approach what cannot be met.
@@ -62,26 +78,37 @@ pub(crate) enum GuardKind {
 pub(crate) struct Region {
     /// True if a row in it is soft and none is opaque.
     pub(crate) can_approach: bool,
-    /// The rows of the whole region, over [`Region::arena`].
+    /// The rows of the whole region.
     pub(crate) problem: Problem,
     /// Made when it is first needed.
     pub(crate) approach: OnceLock<Measure>,
 }
 
-/// Rows and unknowns before their derivatives are taken.
+/// Rows and unknowns before they are laid out.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct Problem {
     pub(crate) rows: Vec<ProblemRow>,
     pub(crate) unknowns: Vec<SlotIndex>,
 }
 
-/// One row of a block.
-#[derive(Clone, Copy, Debug)]
+/// One row of a block: a kernel and what it speaks of.
+#[derive(Clone, Debug)]
 pub(crate) struct ProblemRow {
+    pub(crate) kernel: Rc<Kernel>,
+    pub(crate) arguments: Vec<SlotIndex>,
     pub(crate) level: Level,
-    pub(crate) left: ExprId,
-    pub(crate) right: ExprId,
     pub(crate) within: f64,
+}
+
+/// Which rows may define an unknown.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub(crate) enum Definers {
+    /// None: distance counts every unknown.
+    None,
+    /// All: every row will hold.
+    Any,
+    /// Required ones: the others may have to give way.
+    Required,
 }
 
 /// Steps and regions.
@@ -109,6 +136,7 @@ pub(crate) fn lower(analysis: &Analysis<'_>, arena: &mut Arena, blocks: &[Block]
             Vec::new(),
         ));
     }
+    let mut kernels = Kernels::default();
     let region_of = regions_of(analysis, blocks);
     let mut regions: Vec<Region> = Vec::new();
     for (block, &region) in blocks.iter().zip(&region_of) {
@@ -116,14 +144,14 @@ pub(crate) fn lower(analysis: &Analysis<'_>, arena: &mut Arena, blocks: &[Block]
             regions.push(Region { can_approach: true, ..Region::default() });
         }
         let first = steps.len();
-        lower_block(analysis, arena, block, &mut steps);
+        lower_block(analysis, arena, &mut kernels, block, &mut steps);
         for step in &mut steps[first..] {
             step.region = region;
         }
         let home = &mut regions[region as usize];
         home.problem.unknowns.extend(&block.unknowns);
         for &r in &block.rows {
-            match problem_row(&analysis.rows[r]) {
+            match problem_row(arena, &mut kernels, &analysis.rows[r]) {
                 Some(row) => home.problem.rows.push(row),
                 None => home.can_approach = false,
             }
@@ -154,16 +182,16 @@ fn alias(
         targets: vec![target],
         reads,
         relations,
-        formulas: Vec::new(),
         program,
         region: u32::MAX,
         rows: Vec::new(),
     }
 }
 
-fn problem_row(row: &Row) -> Option<ProblemRow> {
+fn problem_row(arena: &Arena, kernels: &mut Kernels, row: &Row) -> Option<ProblemRow> {
     let (left, right) = row.sides?;
-    Some(ProblemRow { level: row.level, left, right, within: row.within })
+    let (kernel, arguments) = kernels.row(arena, left, right);
+    Some(ProblemRow { kernel, arguments, level: row.level, within: row.within })
 }
 
 /// Numbers the regions by their first block.
@@ -210,7 +238,13 @@ fn reads_of(analysis: &Analysis<'_>, block: &Block) -> BTreeSet<SlotIndex> {
     reads
 }
 
-fn lower_block(analysis: &Analysis<'_>, arena: &mut Arena, block: &Block, steps: &mut Vec<Step>) {
+fn lower_block(
+    analysis: &Analysis<'_>,
+    arena: &mut Arena,
+    kernels: &mut Kernels,
+    block: &Block,
+    steps: &mut Vec<Step>,
+) {
     let first = &analysis.rows[block.rows[0]];
     let one_relation = block.rows.iter().all(|&r| analysis.rows[r].relation == first.relation);
     if one_relation && let Some(step) = by_method(analysis, arena, first.relation, &block.rows) {
@@ -220,59 +254,98 @@ fn lower_block(analysis: &Analysis<'_>, arena: &mut Arena, block: &Block, steps:
     let opaque = block.rows.iter().any(|&r| analysis.rows[r].sides.is_none());
     let writes_more = block.unknowns.iter().any(|s| analysis.direction.written_by.contains_key(s));
     if opaque || writes_more {
-        once_round(analysis, arena, block, steps);
+        once_round(analysis, arena, kernels, block, steps);
         return;
     }
+    let rows = block.rows.iter();
     let problem = Problem {
-        rows: block.rows.iter().filter_map(|&r| problem_row(&analysis.rows[r])).collect(),
+        rows: rows.filter_map(|&r| problem_row(arena, kernels, &analysis.rows[r])).collect(),
         unknowns: block.unknowns.clone(),
     };
     if problem.rows.len() == problem.unknowns.len() {
-        square_block(analysis, arena, block, &problem, steps);
+        square_block(analysis, block, &problem, steps);
         return;
     }
     let soft = problem.rows.iter().any(|r| r.level != Level::Required);
     let over = problem.rows.len() > problem.unknowns.len()
         || block.rows.iter().any(|&r| analysis.direction.slot_of_row[r].is_none());
     let kind = if soft && over { StepKind::Compromise } else { StepKind::LeastChange };
-    let formulas = residuals(arena, &problem);
-    let program = measure(analysis, arena, &problem);
+    let program = measure(analysis, &problem);
     let reads = reads_of(analysis, block).into_iter().collect();
-    steps.push(step(analysis, kind, &block.rows, block.unknowns.clone(), reads, formulas, program));
+    steps.push(step(analysis, kind, &block.rows, block.unknowns.clone(), reads, program));
 }
 
-/// The steps of a square block: what has to be solved at once, then what its rows state outright.
-fn square_block(
-    analysis: &Analysis<'_>,
-    arena: &mut Arena,
-    block: &Block,
-    problem: &Problem,
-    steps: &mut Vec<Step>,
-) {
-    let Reduced { problem: left, rows, definitions } = eliminate(arena, problem, Definers::Any);
-    let (kind, formulas, program) = square(arena, &left);
-    let rows: Vec<usize> = rows.into_iter().map(|r| block.rows[r]).collect();
-    let reads = reads_of(analysis, block).into_iter().collect();
-    let mut core = step(analysis, kind, &rows, left.unknowns, reads, formulas, program);
-    // it has nothing to do only where the rows that were put into it hold as well
-    core.rows = sides_of(analysis, &block.rows);
-    steps.push(core);
-    for Definition { row, slot, value } in definitions {
-        let reads = arena.variables(value).into_iter().map(|v| v.0).collect();
-        let program = Program::Formulas(Tape::compile(arena, &[value]));
-        let kind = StepKind::Inverse { roots: 1 };
-        let row = block.rows[row];
-        steps.push(step(analysis, kind, &[row], vec![slot], reads, vec![value], program));
+/// The steps of a square block: by formula where all comes from one unknown that has one, and at once
+/// where not.
+fn square_block(analysis: &Analysis<'_>, block: &Block, problem: &Problem, steps: &mut Vec<Step>) {
+    let reads: Vec<SlotIndex> = reads_of(analysis, block).into_iter().collect();
+    if let ([row], [slot]) = (&problem.rows[..], &problem.unknowns[..])
+        && let Some(inverse) = Inverse::new(row, *slot)
+    {
+        steps.push(inverse_step(analysis, &block.rows, inverse, reads));
+        return;
     }
+    let square = Square::new(problem);
+    if let Some(((row, core), rest)) = closed_form(&square.block, problem) {
+        let mut step = inverse_step(analysis, &[block.rows[row]], core, reads);
+        // it has nothing to do only where the rows that were put into it hold as well
+        step.rows = sides_of(analysis, &block.rows);
+        steps.push(step);
+        for (row, inverse) in rest {
+            let target = inverse.row.arguments[inverse.argument as usize];
+            let mut reads = inverse.row.arguments.clone();
+            reads.retain(|&s| s != target);
+            steps.push(inverse_step(analysis, &[block.rows[row]], inverse, reads));
+        }
+        return;
+    }
+    let kind = if square.block.is_linear { StepKind::Linear } else { StepKind::Newton };
+    let targets = block.unknowns.clone();
+    steps.push(step(analysis, kind, &block.rows, targets, reads, Program::Square(square)));
+}
+
+/// The largest block that is looked at for a closed form.
+const CLOSED: usize = 24;
+
+/// A row, by its position in the block, with its formula.
+type Formula = (usize, Inverse);
+
+/// Solves a block of one core unknown by formula: the core's, then those of what it defines.
+fn closed_form(laid: &Laid, problem: &Problem) -> Option<(Formula, Vec<Formula>)> {
+    let ([core], [row]) = (&laid.core[..], &laid.core_rows[..]) else { return None };
+    if problem.rows.len() > CLOSED {
+        return None;
+    }
+    let row = *row as usize;
+    let (kernel, arguments) = laid.substituted(row);
+    let put = ProblemRow { kernel: Rc::new(kernel), arguments, ..problem.rows[row].clone() };
+    let inverse = Inverse::new(&put, laid.unknowns[*core as usize])?;
+    let rest = laid.definitions.iter().map(|d| {
+        let row = d.row as usize;
+        let slot = laid.unknowns[d.unknown as usize];
+        Inverse::new(&problem.rows[row], slot).map(|inverse| (row, inverse))
+    });
+    Some(((row, inverse), rest.collect::<Option<_>>()?))
+}
+
+fn inverse_step(
+    analysis: &Analysis<'_>,
+    rows: &[usize],
+    inverse: Inverse,
+    reads: Vec<SlotIndex>,
+) -> Step {
+    let target = inverse.row.arguments[inverse.argument as usize];
+    let kind = StepKind::Inverse { roots: inverse.roots() };
+    step(analysis, kind, rows, vec![target], reads, Program::Inverse(inverse))
 }
 
 /// Makes the program that handles rows and unknowns of any number.
-fn measure(analysis: &Analysis<'_>, arena: &mut Arena, problem: &Problem) -> Program {
+fn measure(analysis: &Analysis<'_>, problem: &Problem) -> Program {
     let kind = |s: SlotIndex| {
         let given = analysis.classes.stay[s as usize] == Stay::Given;
         (analysis.stated.system.slots[s as usize].scale, given)
     };
-    Program::Measure(Measure::compile(arena, problem, &kind))
+    Program::Measure(Measure::new(problem, &kind))
 }
 
 fn step(
@@ -281,13 +354,12 @@ fn step(
     rows: &[usize],
     targets: Vec<SlotIndex>,
     reads: Vec<SlotIndex>,
-    formulas: Vec<ExprId>,
     program: Program,
 ) -> Step {
     let mut relations: Vec<u32> = rows.iter().map(|&r| analysis.rows[r].relation).collect();
     relations.dedup();
     let rows = sides_of(analysis, rows);
-    Step { kind, targets, reads, relations, formulas, program, region: u32::MAX, rows }
+    Step { kind, targets, reads, relations, program, region: u32::MAX, rows }
 }
 
 /// Where the sides of rows stand among all sides.
@@ -297,10 +369,6 @@ fn sides_of(analysis: &Analysis<'_>, rows: &[usize]) -> Vec<u32> {
         row.sides.map(|_| analysis.first_row[row.relation as usize] + row.equation)
     };
     rows.iter().filter_map(side).collect()
-}
-
-fn residuals(arena: &mut Arena, problem: &Problem) -> Vec<ExprId> {
-    problem.rows.iter().map(|r| arena.sub(r.left, r.right)).collect()
 }
 
 /// The step of a relation whose written method was chosen.
@@ -318,23 +386,29 @@ fn by_method(
         method.targets.iter().map(|&t| classes.representative[t as usize]).collect();
     let reads = analysis.method_reads[&relation].iter().copied().collect();
     let m = index as u32;
-    let (kind, formulas, program) = match &method.body {
+    let (kind, program) = match &method.body {
         MethodBody::Formulas { pattern, arguments } => {
             let stated = analysis.stated;
             let values = stated.write_out(arena, &classes.representative, *pattern, *arguments);
             let tape = Tape::compile(arena, &values);
-            (StepKind::Method { relation, method: m }, values, Program::Formulas(tape))
+            (StepKind::Method { relation, method: m }, Program::Formulas(tape))
         }
         MethodBody::Opaque { .. } => {
             let program = Program::Host { source: stated.source, method: m };
-            (StepKind::Opaque { relation, method: m }, Vec::new(), program)
+            (StepKind::Opaque { relation, method: m }, program)
         }
     };
-    Some(step(analysis, kind, rows, targets, reads, formulas, program))
+    Some(step(analysis, kind, rows, targets, reads, program))
 }
 
 /// Rows that only methods can satisfy, in a cycle: each once, in order of declaration, then tested.
-fn once_round(analysis: &Analysis<'_>, arena: &mut Arena, block: &Block, steps: &mut Vec<Step>) {
+fn once_round(
+    analysis: &Analysis<'_>,
+    arena: &mut Arena,
+    kernels: &mut Kernels,
+    block: &Block,
+    steps: &mut Vec<Step>,
+) {
     let mut done = BTreeSet::new();
     for &r in &block.rows {
         let row = &analysis.rows[r];
@@ -351,51 +425,11 @@ fn once_round(analysis: &Analysis<'_>, arena: &mut Arena, block: &Block, steps: 
                 steps.push(step);
             }
         } else if let (Some(one), Some(slot)) =
-            (problem_row(row), analysis.direction.slot_of_row[r])
+            (problem_row(arena, kernels, row), analysis.direction.slot_of_row[r])
         {
+            let single = Block { rows: vec![r], unknowns: vec![slot] };
             let problem = Problem { rows: vec![one], unknowns: vec![slot] };
-            let (kind, formulas, program) = square(arena, &problem);
-            let reads = row.mentions.iter().copied().filter(|&s| s != slot).collect();
-            steps.push(step(analysis, kind, &[r], vec![slot], reads, formulas, program));
+            square_block(analysis, &single, &problem, steps);
         }
     }
-}
-
-/// As many rows as unknowns: by formula, by elimination, or by Newton steps.
-fn square(arena: &mut Arena, problem: &Problem) -> (StepKind, Vec<ExprId>, Program) {
-    if let ([row], [slot]) = (&problem.rows[..], &problem.unknowns[..])
-        && let Some(roots) = expr::isolate(arena, row.left, row.right, Var(*slot))
-        && !roots.is_empty()
-    {
-        let values: Vec<ExprId> = roots.iter().map(|r| r.value).collect();
-        let plain = roots.len() == 1 && roots[0].guards.is_empty();
-        let kind = StepKind::Inverse { roots: roots.len() as u32 };
-        if plain {
-            let tape = Tape::compile(arena, &values);
-            return (kind, values, Program::Formulas(tape));
-        }
-        let mut outs = Vec::new();
-        let mut guards = Vec::new();
-        for root in &roots {
-            let mut kinds = Vec::new();
-            for guard in &root.guards {
-                let (id, kind) = match *guard {
-                    Guard::NonZero(id) => (id, GuardKind::NonZero),
-                    Guard::NonNegative(id) => (id, GuardKind::NonNegative),
-                    Guard::Positive(id) => (id, GuardKind::Positive),
-                };
-                outs.push(id);
-                kinds.push(kind);
-            }
-            outs.push(root.value);
-            guards.push(kinds);
-        }
-        let tape = Tape::compile(arena, &outs);
-        let fallback = Square::compile(arena, problem);
-        return (kind, values, Program::Roots(Roots { tape, guards, fallback }));
-    }
-    let formulas = residuals(arena, problem);
-    let fallback = Square::compile(arena, problem);
-    let kind = if fallback.is_linear { StepKind::Linear } else { StepKind::Newton };
-    (kind, formulas, Program::Square(fallback))
 }

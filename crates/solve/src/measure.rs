@@ -12,33 +12,26 @@
 //!
 //! **Source:** Nocedal and Wright, *Numerical Optimization*, 2nd ed., §18.1 and §3.4.
 
+use crate::block::{Block, Local, Workspace};
 use crate::dense::{self, Spaces};
-use crate::eliminate::{Definers, Definition, eliminate};
-use crate::lower::{Problem, ProblemRow};
+use crate::lower::{Definers, Problem, ProblemRow};
 use crate::square::Trust;
 use crate::system::{Level, SlotIndex};
-use base::number::close;
-use expr::{Arena, Tape, Var};
 
-/// A compiled block of rows and unknowns of any number.
+/// A block of rows and unknowns of any number.
 #[derive(Debug)]
 pub(crate) struct Measure {
-    pub(crate) unknowns: Vec<SlotIndex>,
+    block: Block,
+    /// The unknowns of the core.
+    unknowns: Vec<SlotIndex>,
+    /// The levels of the core's rows.
     levels: Vec<Level>,
-    within: Vec<f64>,
-    /// For every row, the scale of the slots that it speaks of, where they have one.
+    /// For every row of the core, the scale of the slots that it speaks of, where they have one.
     classes: Vec<Option<u16>>,
-    /// For every unknown: it is a given number that yields.
+    /// For every unknown of the core: it is a given number that yields.
     given: Vec<bool>,
-    /// Left and right of every row, first derivatives, second derivatives.
-    tape: Tape,
-    gradient: Vec<(u32, u32)>,
-    /// Row and two unknowns, the first not after the second.
-    curvature: Vec<(u32, u32, u32)>,
-    outs: usize,
-    /// Unknowns that required rows define outright, and the tape that computes them afterwards.
-    defined: Vec<SlotIndex>,
-    definitions: Tape,
+    /// True if no second derivative is there.
+    is_linear: bool,
 }
 
 /// What came of it.
@@ -50,11 +43,13 @@ pub(crate) enum Measured {
     Failed,
 }
 
-/// One evaluation, in scaled unknowns and weighted rows.
-struct Local {
+/// One evaluation of the core, in scaled unknowns and weighted rows.
+struct Scaled {
     residual: Vec<f64>,
     jacobian: Vec<Vec<f64>>,
-    out: Vec<f64>,
+    local: Local,
+    /// Every unknown's gradient by the core.
+    gradients: Vec<f64>,
 }
 
 const STEPS: usize = 200;
@@ -64,65 +59,28 @@ const FLAT: f64 = 1e-9;
 const SETTLED: f64 = 1e-12;
 
 impl Measure {
-    /// Compiles sides, derivatives and second derivatives; `kind` tells a slot's scale, and whether it is
-    /// a given number.
-    pub(crate) fn compile(
-        arena: &mut Arena,
-        problem: &Problem,
-        kind: &dyn Fn(SlotIndex) -> (u16, bool),
-    ) -> Self {
-        // Where the rows leave no choice, distance decides nothing, and definitions can be put in.
-        if problem.rows.len() < problem.unknowns.len() {
-            return Self::of_core(arena, problem, &[], kind);
-        }
-        let reduced = eliminate(arena, problem, Definers::Required);
-        Self::of_core(arena, &reduced.problem, &reduced.definitions, kind)
-    }
-
-    fn of_core(
-        arena: &mut Arena,
-        problem: &Problem,
-        definitions: &[Definition],
-        kind: &dyn Fn(SlotIndex) -> (u16, bool),
-    ) -> Self {
-        let vars: Vec<Var> = problem.unknowns.iter().map(|&s| Var(s)).collect();
-        let (mut outs, mut first, mut second) = (Vec::new(), Vec::new(), Vec::new());
-        let (mut gradient, mut curvature) = (Vec::new(), Vec::new());
-        for (r, row) in problem.rows.iter().enumerate() {
-            outs.extend([row.left, row.right]);
-            let residual = arena.sub(row.left, row.right);
-            for (i, d) in non_zero_gradient(arena, residual, &vars, 0) {
-                gradient.push((r as u32, i));
-                first.push(d);
-                for (j, h) in non_zero_gradient(arena, d, &vars, i as usize) {
-                    curvature.push((r as u32, i, j));
-                    second.push(h);
-                }
-            }
-        }
-        outs.extend(first);
-        outs.extend(second);
+    /// Lays a block out; `kind` tells a slot's scale, and whether it is a given number.
+    pub(crate) fn new(problem: &Problem, kind: &dyn Fn(SlotIndex) -> (u16, bool)) -> Self {
+        // Where the rows leave a choice, distance decides, and counts every unknown.
+        let has_choice = problem.rows.len() < problem.unknowns.len();
+        let definers = if has_choice { Definers::None } else { Definers::Required };
+        let block = Block::new(problem, definers);
+        let unknowns: Vec<SlotIndex> =
+            block.core.iter().map(|&u| block.unknowns[u as usize]).collect();
+        let rows = || block.core_rows.iter().map(|&r| r as usize);
         Self {
-            unknowns: problem.unknowns.clone(),
-            levels: problem.rows.iter().map(|r| r.level).collect(),
-            within: problem.rows.iter().map(|r| r.within).collect(),
-            classes: problem.rows.iter().map(|r| common_scale(arena, r, kind)).collect(),
-            given: problem.unknowns.iter().map(|&s| kind(s).1).collect(),
-            tape: Tape::compile(arena, &outs),
-            gradient,
-            curvature,
-            outs: outs.len(),
-            defined: definitions.iter().map(|d| d.slot).collect(),
-            definitions: Tape::compile(
-                arena,
-                &definitions.iter().map(|d| d.value).collect::<Vec<_>>(),
-            ),
+            levels: rows().map(|r| block.levels[r]).collect(),
+            classes: rows().map(|r| common_scale(&problem.rows[r], kind)).collect(),
+            given: unknowns.iter().map(|&s| kind(s).1).collect(),
+            is_linear: block.is_linear,
+            unknowns,
+            block,
         }
     }
 
     /// Returns every slot that solving writes.
-    pub(crate) fn targets(&self) -> impl Iterator<Item = SlotIndex> + '_ {
-        self.unknowns.iter().chain(&self.defined).copied()
+    pub(crate) fn targets(&self) -> &[SlotIndex] {
+        &self.block.unknowns
     }
 
     /// Solves from the values that the unknowns have now; distance is measured from `x0`.
@@ -132,14 +90,14 @@ impl Measure {
         values: &mut [f64],
         scales: &[f64],
         trust: Trust,
-        registers: &mut Vec<f64>,
+        w: &mut Workspace,
     ) -> Measured {
         let scale: Vec<f64> = self.unknowns.iter().map(|&u| scales[u as usize]).collect();
-        let weights = self.weights(x0, values, &scale, registers);
+        let weights = self.weights(x0, values, &scale, w);
         let (mut smallest, mut idle) = (f64::INFINITY, 0);
         let mut settled = false;
         for iteration in 0..STEPS {
-            let Some(local) = self.evaluate(values, &scale, &weights, registers) else {
+            let Some(local) = self.evaluate(values, &scale, &weights, w) else {
                 return Measured::Failed;
             };
             let away: Vec<f64> = self
@@ -148,12 +106,12 @@ impl Measure {
                 .zip(&scale)
                 .map(|(&u, s)| (values[u as usize] - x0[u as usize]) / s)
                 .collect();
-            let mut step = self.direction(&local, &away, &weights, &scale);
+            let mut step = self.direction(&local, &away, &weights, values, w);
             let size = step.iter().fold(0.0f64, |m, d| m.max(d.abs()));
             if !size.is_finite() {
                 return Measured::Failed;
             }
-            let curved = !self.curvature.is_empty();
+            let curved = !self.is_linear;
             let leaps = match iteration {
                 0 => size > 0.5,
                 1 => size > 1e-3f64.max(0.5 * smallest),
@@ -181,23 +139,11 @@ impl Measure {
                     return Measured::Failed;
                 }
             }
-            self.advance(values, &step, &scale, hard, &weights, registers);
+            self.advance(values, &step, &scale, hard, &weights, w);
         }
-        match self.evaluate(values, &scale, &weights, registers) {
-            Some(local) if settled && self.hard_rows_hold(&local) => {
-                self.define(values, registers);
-                Measured::Least
-            }
+        match self.evaluate(values, &scale, &weights, w) {
+            Some(local) if settled && self.hard_rows_hold(&local) => Measured::Least,
             Some(_) | None => Measured::Failed,
-        }
-    }
-
-    /// Computes what required rows define outright.
-    fn define(&self, values: &mut [f64], registers: &mut Vec<f64>) {
-        let mut out = vec![0.0; self.defined.len()];
-        self.definitions.run(values, registers, &mut out);
-        for (&slot, value) in self.defined.iter().zip(out) {
-            values[slot as usize] = value;
         }
     }
 
@@ -206,13 +152,13 @@ impl Measure {
     pub(crate) fn is_settled(
         &self,
         x0: &[f64],
-        values: &[f64],
+        values: &mut [f64],
         scales: &[f64],
-        registers: &mut Vec<f64>,
+        w: &mut Workspace,
     ) -> bool {
         let scale: Vec<f64> = self.unknowns.iter().map(|&u| scales[u as usize]).collect();
-        let weights = self.weights(x0, values, &scale, registers);
-        let Some(local) = self.evaluate(values, &scale, &weights, registers) else {
+        let weights = self.weights(x0, values, &scale, w);
+        let Some(local) = self.evaluate(values, &scale, &weights, w) else {
             return false;
         };
         let away: Vec<f64> = self
@@ -221,23 +167,15 @@ impl Measure {
             .zip(&scale)
             .map(|(&u, s)| (values[u as usize] - x0[u as usize]) / s)
             .collect();
-        let step = self.direction(&local, &away, &weights, &scale);
-        let mut out = vec![0.0; self.defined.len()];
-        self.definitions.run(values, registers, &mut out);
-        let agrees = |(&slot, &x): (&SlotIndex, &f64)| close(values[slot as usize], x);
-        self.hard_rows_hold(&local)
-            && step.iter().all(|d| d.abs() <= 1e-9)
-            && self.defined.iter().zip(&out).all(agrees)
+        let step = self.direction(&local, &away, &weights, values, w);
+        self.hard_rows_hold(&local) && step.iter().all(|d| d.abs() <= 1e-9)
     }
 
-    fn hard_rows_hold(&self, local: &Local) -> bool {
-        (0..self.levels.len()).all(|r| {
-            let (left, right) = (local.out[2 * r], local.out[2 * r + 1]);
-            self.levels[r] != Level::Required
-                || (left - right).abs() <= self.within[r] * left.abs().max(right.abs()).max(1.0)
-        })
+    fn hard_rows_hold(&self, scaled: &Scaled) -> bool {
+        let hard = |&r: &usize| self.block.levels[r] == Level::Required;
+        (0..self.block.height()).filter(hard).all(|r| self.block.row_holds(&scaled.local, r))
     }
-    fn hard_norm(&self, local: &Local) -> f64 {
+    fn hard_norm(&self, local: &Scaled) -> f64 {
         let mut sum = 0.0;
         for (r, level) in local.residual.iter().zip(&self.levels) {
             if *level == Level::Required {
@@ -254,15 +192,20 @@ impl Measure {
     fn weights(
         &self,
         x0: &[f64],
-        values: &[f64],
+        values: &mut [f64],
         scale: &[f64],
-        registers: &mut Vec<f64>,
+        w: &mut Workspace,
     ) -> Vec<f64> {
         let ones = vec![1.0; self.levels.len()];
-        let Some(local) = self
-            .evaluate(x0, scale, &ones, registers)
-            .or_else(|| self.evaluate(values, scale, &ones, registers))
-        else {
+        let now: Vec<f64> = self.block.unknowns.iter().map(|&u| values[u as usize]).collect();
+        for &u in &self.block.unknowns {
+            values[u as usize] = x0[u as usize];
+        }
+        let at_start = self.evaluate(values, scale, &ones, w);
+        for (&u, x) in self.block.unknowns.iter().zip(now) {
+            values[u as usize] = x;
+        }
+        let Some(local) = at_start.or_else(|| self.evaluate(values, scale, &ones, w)) else {
             return ones;
         };
         let own: Vec<f64> = local
@@ -287,31 +230,45 @@ impl Measure {
             .collect()
     }
 
-    /// Evaluates in scaled unknowns and weighted rows; nothing where that is not finite.
+    /// Computes what is defined, then evaluates in scaled unknowns and weighted rows; nothing where
+    /// that is not finite.
     fn evaluate(
         &self,
-        values: &[f64],
+        values: &mut [f64],
         scale: &[f64],
         weights: &[f64],
-        registers: &mut Vec<f64>,
-    ) -> Option<Local> {
+        w: &mut Workspace,
+    ) -> Option<Scaled> {
+        let block = &self.block;
         let n = self.unknowns.len();
-        let rows = self.levels.len();
-        let mut out = vec![0.0; self.outs];
-        self.tape.run(values, registers, &mut out);
-        let mut jacobian = vec![vec![0.0; n]; rows];
-        for (&(r, c), &d) in self.gradient.iter().zip(&out[2 * rows..]) {
-            let (r, c) = (r as usize, c as usize);
-            jacobian[r][c] = d * scale[c] * weights[r];
+        block.compute_defined(values, w);
+        let mut local = Local::default();
+        block.slopes(values, w, &mut local);
+        let mut gradients = Vec::new();
+        block.gradients(&local, &|i| scale[i], &mut gradients);
+        let mut jacobian = vec![vec![0.0; n]; block.core_rows.len()];
+        let mut residual = Vec::with_capacity(block.core_rows.len());
+        for ((row, &r), weight) in jacobian.iter_mut().zip(&block.core_rows).zip(weights) {
+            let r = r as usize;
+            for e in block.pattern.range(r) {
+                let gradient = &gradients[block.pattern.column(e) * n..][..n];
+                dense::add(row, local.jacobian[e] * weight, gradient);
+            }
+            residual.push((local.left[r] - local.right[r]) * weight);
         }
-        let residual: Vec<f64> =
-            (0..rows).map(|r| (out[2 * r] - out[2 * r + 1]) * weights[r]).collect();
         let finite = residual.iter().chain(jacobian.iter().flatten()).all(|v| v.is_finite());
-        finite.then_some(Local { residual, jacobian, out })
+        finite.then_some(Scaled { residual, jacobian, local, gradients })
     }
 
     /// The step that all levels together ask for.
-    fn direction(&self, local: &Local, away: &[f64], weights: &[f64], scale: &[f64]) -> Vec<f64> {
+    fn direction(
+        &self,
+        local: &Scaled,
+        away: &[f64],
+        weights: &[f64],
+        values: &[f64],
+        w: &mut Workspace,
+    ) -> Vec<f64> {
         let n = self.unknowns.len();
         let of_level =
             |level: Level| (0..self.levels.len()).filter(move |&r| self.levels[r] == level);
@@ -339,7 +296,7 @@ impl Measure {
             for &r in &own {
                 factor[r] += local.residual[r];
             }
-            self.add_curvature(local, &factor, weights, scale, &mut hessian);
+            self.add_curvature(local, &factor, weights, values, w, &mut hessian);
             free = descend(&mut step, &free, &gradient, &hessian, n);
             above.extend(own);
         }
@@ -354,14 +311,14 @@ impl Measure {
                 hessian[i * n + i] = 1.0;
             }
             let factor = self.multipliers(local, &above, &gradient);
-            self.add_curvature(local, &factor, weights, scale, &mut hessian);
+            self.add_curvature(local, &factor, weights, values, w, &mut hessian);
             free = descend(&mut step, &free, &gradient, &hessian, n);
         }
         step
     }
 
     /// Multipliers of the rows above that best balance a gradient, by row.
-    fn multipliers(&self, local: &Local, above: &[usize], gradient: &[f64]) -> Vec<f64> {
+    fn multipliers(&self, local: &Scaled, above: &[usize], gradient: &[f64]) -> Vec<f64> {
         let mut out = vec![0.0; self.levels.len()];
         let m = above.len();
         if m == 0 {
@@ -389,26 +346,34 @@ impl Measure {
         out
     }
 
+    /// Adds the second derivatives of the core's rows, each times its factor, to the Hessian.
     fn add_curvature(
         &self,
-        local: &Local,
+        local: &Scaled,
         factor: &[f64],
         weights: &[f64],
-        scale: &[f64],
+        values: &[f64],
+        w: &mut Workspace,
         hessian: &mut [f64],
     ) {
-        let n = self.unknowns.len();
-        let second = &local.out[2 * self.levels.len() + self.gradient.len()..];
-        for (&(r, i, j), &h) in self.curvature.iter().zip(second) {
-            let (r, i, j) = (r as usize, i as usize, j as usize);
-            let value = factor[r] * weights[r] * h * scale[i] * scale[j];
-            if value.is_finite() {
-                hessian[i * n + j] += value;
-                if i != j {
-                    hessian[j * n + i] += value;
+        if self.is_linear {
+            return;
+        }
+        let (block, n) = (&self.block, self.unknowns.len());
+        let mut by_row = vec![0.0; block.height()];
+        for ((&r, f), weight) in block.core_rows.iter().zip(factor).zip(weights) {
+            by_row[r as usize] = f * weight;
+        }
+        block.pass_back(&local.local, &mut by_row);
+        block.each_second(values, w, &mut |row, i, j, second| {
+            let value = by_row[row] * second;
+            if value.is_finite() && value != 0.0 {
+                let (from, to) = (&local.gradients[i * n..][..n], &local.gradients[j * n..][..n]);
+                for (a, x) in from.iter().enumerate().filter(|g| *g.1 != 0.0) {
+                    dense::add(&mut hessian[a * n..][..n], value * x, to);
                 }
             }
-        }
+        });
     }
 
     /// Goes along the step, shortened until the hard rows are not torn apart.
@@ -419,7 +384,7 @@ impl Measure {
         scale: &[f64],
         hard: f64,
         weights: &[f64],
-        registers: &mut Vec<f64>,
+        w: &mut Workspace,
     ) {
         let start: Vec<f64> = self.unknowns.iter().map(|&u| values[u as usize]).collect();
         let mut length = 1.0;
@@ -428,7 +393,7 @@ impl Measure {
                 values[u as usize] = start[i] + length * step[i] * scale[i];
             }
             let now = self
-                .evaluate(values, scale, weights, registers)
+                .evaluate(values, scale, weights, w)
                 .map_or(f64::INFINITY, |local| self.hard_norm(&local));
             if now <= 0.1f64.max(2.0 * hard) || length < 1e-6 {
                 return;
@@ -438,44 +403,14 @@ impl Measure {
     }
 }
 
-fn common_scale(
-    arena: &Arena,
-    row: &ProblemRow,
-    kind: &dyn Fn(SlotIndex) -> (u16, bool),
-) -> Option<u16> {
-    let mut scales = [row.left, row.right]
-        .into_iter()
-        .flat_map(|side| arena.variables(side))
-        .map(|v| kind(v.0).0);
+fn common_scale(row: &ProblemRow, kind: &dyn Fn(SlotIndex) -> (u16, bool)) -> Option<u16> {
+    let mut scales = row.arguments.iter().map(|&s| kind(s).0);
     let first = scales.next()?;
     scales.all(|s| s == first).then_some(first)
 }
 
-fn non_zero_gradient(
-    arena: &mut Arena,
-    id: expr::ExprId,
-    vars: &[Var],
-    from: usize,
-) -> Vec<(u32, expr::ExprId)> {
-    let mentioned = arena.variables(id);
-    let own: Vec<(u32, Var)> = vars
-        .iter()
-        .enumerate()
-        .skip(from)
-        .filter(|(_, v)| mentioned.contains(v))
-        .map(|(i, v)| (i as u32, *v))
-        .collect();
-    let own_vars: Vec<Var> = own.iter().map(|o| o.1).collect();
-    let gradient = expr::gradient(arena, id, &own_vars);
-    own.iter()
-        .zip(gradient)
-        .filter(|(_, d)| arena.as_constant(*d) != Some(0.0))
-        .map(|(o, d)| (o.0, d))
-        .collect()
-}
-
 /// The smallest step that makes the linearised hard rows hold, or nearly so where they contradict.
-fn least_norm(rows: &[usize], local: &Local, range: &[Vec<f64>], n: usize) -> Vec<f64> {
+fn least_norm(rows: &[usize], local: &Scaled, range: &[Vec<f64>], n: usize) -> Vec<f64> {
     let k = range.len();
     let mut normal = vec![0.0; k * k];
     let mut right = vec![0.0; k];

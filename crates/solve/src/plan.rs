@@ -12,7 +12,6 @@ use crate::rows::{self, Row};
 use crate::stated::Stated;
 use crate::substitute::{self, Classes};
 use crate::system::{Level, RelationBody, Slot, SlotIndex, Span, Stay, System};
-use expr::{Arena, ExprId};
 use std::collections::{BTreeMap, BTreeSet};
 use std::rc::Rc;
 use std::sync::OnceLock;
@@ -62,9 +61,6 @@ pub struct Step {
     pub reads: Vec<SlotIndex>,
     /// The relations that it makes hold, by index in the system.
     pub relations: Vec<u32>,
-    /// What is computed, over [`Plan::arena`]: a value for each target or root; for blocks `left -
-    /// right` of each row.
-    pub formulas: Vec<ExprId>,
     pub(crate) program: Program,
     /// Which region it lies in; regions share no unknown.
     pub(crate) region: u32,
@@ -107,8 +103,6 @@ pub struct Plan {
     pub steps: Vec<Step>,
     /// What the planner found out.
     pub report: Report,
-    /// The expressions that steps show.
-    pub arena: Arena,
     pub(crate) slots: Vec<PlannedSlot>,
     pub(crate) relations: Vec<PlannedRelation>,
     pub(crate) regions: Vec<Region>,
@@ -192,7 +186,6 @@ fn plan_stated(stated: Stated) -> Plan {
     Plan {
         steps: lowered.steps,
         report,
-        arena,
         slots: planned_slots(system),
         relations,
         regions: lowered.regions,

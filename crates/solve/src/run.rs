@@ -373,16 +373,17 @@ impl Way<'_> {
         if self.stride(&x0, goal, 1.0, Trust::Any, &Approach::Nowhere).is_err() {
             return false;
         }
-        let Buffers { registers, square: scratch, .. } = &mut *self.buffers;
+        let Buffers { work, square: scratch, .. } = &mut *self.buffers;
+        let scales = &self.frame.scales;
         self.plan.steps.iter().all(|step| match &step.program {
-            Program::Square(square) if !square.is_linear => {
-                let before = square.orientation(&x0, registers, scratch);
-                let after = square.orientation(self.trial, registers, scratch);
+            Program::Square(square) if !square.block.is_linear => {
+                let before = square.orientation(&x0, scales, work, scratch);
+                let after = square.orientation(self.trial, scales, work, scratch);
                 before == after && before != 0
             }
             Program::Measure(_) => false,
             Program::Square(_)
-            | Program::Roots(_)
+            | Program::Inverse(_)
             | Program::Constant(_)
             | Program::Copy
             | Program::Formulas(_)

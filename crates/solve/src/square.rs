@@ -1,37 +1,53 @@
 //! Square blocks: as many equations as unknowns, solved by damped Newton steps.
 //!
-//! In: the block's tape (sides and exact derivatives), the state so far, the branch to stay on. Out: the
+//! In: the block, the state so far, the branch to stay on. Out: the
 //! unknowns, in place, or the reason why not. Linear blocks take one step. Steps are accepted while
 //! the norm of the scaled residuals falls (Armijo); where Newton's direction is no help, Levenberg
 //! and Marquardt's is. Iteration goes on to stagnation, so that double roots come out as well as the
-//! arithmetic allows.
+//! arithmetic allows. The linear algebra is dense where the core is small, sparse where it is not.
 
-use crate::dense;
-use crate::lower::Problem;
+use crate::block::{Block, Local, Workspace};
+use crate::dense::{self, Factors};
+use crate::lower::{Definers, Problem};
+use crate::rows::{Point, generic_number};
+use crate::sparse::{Ldl, Lu, Symbolic, Symmetric, pivot};
 use crate::system::SlotIndex;
-use expr::{Arena, Tape, Var};
+use std::sync::OnceLock;
 
 /// A compiled square block.
 #[derive(Debug)]
 pub(crate) struct Square {
-    pub(crate) unknowns: Vec<SlotIndex>,
-    within: Vec<f64>,
-    /// Left and right of every row, then every derivative that is not zero everywhere.
-    tape: Tape,
-    entries: Vec<(u32, u32)>,
-    pub(crate) is_linear: bool,
+    pub(crate) block: Block,
+    /// Pivots that suit the block at a generic point; made when they are first needed.
+    pivots: OnceLock<Symbolic>,
+    /// The order for damped steps, of rows then unknowns.
+    damped: OnceLock<Symmetric>,
 }
 
 /// Buffers that a block needs while it is solved.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct SquareScratch {
-    out: Vec<f64>,
-    jacobian: Vec<f64>,
+    local: Local,
+    /// The scaled Jacobian of the core, dense, or of all rows, in the order of their pattern.
+    matrix: Vec<f64>,
     factors: Vec<f64>,
     swaps: Vec<usize>,
+    lu: Lu,
+    ldl: Ldl,
+    /// The matrix of a damped step.
+    saddle: Vec<f64>,
+    /// Pivots for numbers that the generic ones do not suit.
+    own: Option<Symbolic>,
+    /// Gradients of what is defined, by the core.
+    gradients: Vec<f64>,
+    /// A right side and the solution, by row and unknown.
+    right: Vec<f64>,
+    /// Residuals of the core rows.
     residual: Vec<f64>,
+    /// By unknown of the core.
     step: Vec<f64>,
     start: Vec<f64>,
+    /// By row.
     weight: Vec<f64>,
 }
 
@@ -51,8 +67,8 @@ pub(crate) enum Trust {
 pub(crate) enum Solved {
     /// Solved; the Jacobian is regular there.
     Regular,
-    /// Solved where the Jacobian is singular; the unknown, by position, that is least determined.
-    Double(u32),
+    /// Solved where the Jacobian is singular; the unknown that is least determined.
+    Double(SlotIndex),
     /// Not solved, or not within the trust.
     Failed,
 }
@@ -60,38 +76,18 @@ pub(crate) enum Solved {
 const STEPS: usize = 200;
 /// How many steps may be taken whatever the residuals do.
 const LEAPS: usize = 60;
+/// The largest core whose linear algebra is dense.
+const DENSE: usize = 12;
+/// The largest core whose least determined unknown is sought by eigenvectors.
+const EIGEN: usize = 30;
 
 impl Square {
-    /// Compiles sides and derivatives of a block.
-    pub(crate) fn compile(arena: &mut Arena, problem: &Problem) -> Self {
-        let vars: Vec<Var> = problem.unknowns.iter().map(|&s| Var(s)).collect();
-        let mut outs = Vec::new();
-        let mut derivatives = Vec::new();
-        let mut entries = Vec::new();
-        let mut is_linear = true;
-        for (r, row) in problem.rows.iter().enumerate() {
-            outs.extend([row.left, row.right]);
-            let residual = arena.sub(row.left, row.right);
-            let mentioned = arena.variables(residual);
-            let own: Vec<(usize, Var)> =
-                vars.iter().copied().enumerate().filter(|(_, v)| mentioned.contains(v)).collect();
-            let own_vars: Vec<Var> = own.iter().map(|o| o.1).collect();
-            let gradient = expr::gradient(arena, residual, &own_vars);
-            for (&(column, _), d) in own.iter().zip(gradient) {
-                if arena.as_constant(d) != Some(0.0) {
-                    entries.push((r as u32, column as u32));
-                    is_linear &= arena.variables(d).iter().all(|v| !vars.contains(v));
-                    derivatives.push(d);
-                }
-            }
-        }
-        outs.extend(derivatives);
+    /// Lays a block out.
+    pub(crate) fn new(problem: &Problem) -> Self {
         Self {
-            unknowns: problem.unknowns.clone(),
-            within: problem.rows.iter().map(|r| r.within).collect(),
-            tape: Tape::compile(arena, &outs),
-            entries,
-            is_linear,
+            block: Block::new(problem, Definers::Any),
+            pivots: OnceLock::new(),
+            damped: OnceLock::new(),
         }
     }
 
@@ -99,11 +95,10 @@ impl Square {
     pub(crate) fn holds_at(
         &self,
         values: &[f64],
-        registers: &mut Vec<f64>,
+        w: &mut Workspace,
         s: &mut SquareScratch,
     ) -> bool {
-        self.prepare(s);
-        self.evaluate(values, registers, s);
+        self.block.sides(values, w, &mut s.local);
         self.holds(s)
     }
 
@@ -111,66 +106,170 @@ impl Square {
     pub(crate) fn orientation(
         &self,
         values: &[f64],
-        registers: &mut Vec<f64>,
+        scales: &[f64],
+        w: &mut Workspace,
         s: &mut SquareScratch,
     ) -> i8 {
-        self.prepare(s);
-        self.evaluate(values, registers, s);
-        self.fill_jacobian(s);
-        dense::factorise(&mut s.jacobian, self.unknowns.len(), &mut s.swaps).sign
+        self.block.slopes(values, w, &mut s.local);
+        s.own = None;
+        s.weight.clear();
+        s.weight.resize(self.block.height(), 1.0);
+        self.fill(scales, s);
+        if !self.is_dense() {
+            self.weigh(scales, s);
+            self.fill(scales, s);
+        }
+        self.factorise(s).sign
     }
 
-    fn evaluate(&self, values: &[f64], registers: &mut Vec<f64>, s: &mut SquareScratch) {
-        self.tape.run(values, registers, &mut s.out);
-        for r in 0..self.within.len() {
-            s.residual[r] = s.out[2 * r] - s.out[2 * r + 1];
-        }
+    fn is_dense(&self) -> bool {
+        self.block.core.len() <= DENSE
+    }
+    fn slot(&self, core: usize) -> usize {
+        self.block.unknowns[self.block.core[core] as usize] as usize
+    }
+
+    /// Computes what is defined, then sides and Jacobian.
+    fn evaluate(&self, values: &mut [f64], w: &mut Workspace, s: &mut SquareScratch) {
+        self.block.compute_defined(values, w);
+        self.block.slopes(values, w, &mut s.local);
+        s.residual.clear();
+        let rows = self.block.core_rows.iter().map(|&r| r as usize);
+        s.residual.extend(rows.map(|r| s.local.left[r] - s.local.right[r]));
     }
     fn holds(&self, s: &SquareScratch) -> bool {
-        (0..self.within.len()).all(|r| {
-            let (left, right) = (s.out[2 * r], s.out[2 * r + 1]);
-            (left - right).abs() <= self.within[r] * left.abs().max(right.abs()).max(1.0)
-        })
+        (0..self.block.height()).all(|r| self.block.row_holds(&s.local, r))
     }
-    fn fill_jacobian(&self, s: &mut SquareScratch) {
-        let n = self.unknowns.len();
-        s.jacobian.clear();
-        s.jacobian.resize(n * n, 0.0);
-        for (&(r, c), &d) in self.entries.iter().zip(&s.out[2 * n..]) {
-            s.jacobian[r as usize * n + c as usize] = d;
-        }
-    }
-    fn prepare(&self, s: &mut SquareScratch) {
-        let n = self.unknowns.len();
-        s.out.clear();
-        s.out.resize(2 * n + self.entries.len(), 0.0);
-        for buffer in [&mut s.residual, &mut s.step, &mut s.start, &mut s.weight] {
-            buffer.clear();
-            buffer.resize(n, 0.0);
-        }
-    }
-    /// Freezes a weight for every row that makes it dimensionless.
-    fn weigh(&self, scales: &[f64], s: &mut SquareScratch) {
-        let n = self.unknowns.len();
-        for r in 0..n {
-            let mut size = 0.0f64;
-            for c in 0..n {
-                size = size.max((s.jacobian[r * n + c] * scales[self.unknowns[c] as usize]).abs());
+
+    /// Puts the weighted Jacobian in scaled unknowns together.
+    fn fill(&self, scales: &[f64], s: &mut SquareScratch) {
+        let block = &self.block;
+        let scale = |u: usize| scales[block.unknowns[u] as usize];
+        s.matrix.clear();
+        if !self.is_dense() {
+            for r in 0..block.height() {
+                let weight = s.weight[r];
+                let entries = block.pattern.range(r);
+                s.matrix.extend(
+                    entries.map(|e| s.local.jacobian[e] * weight * scale(block.pattern.column(e))),
+                );
             }
-            s.weight[r] = if size > 0.0 && size.is_finite() { 1.0 / size } else { 1.0 };
+            return;
+        }
+        let n = block.core.len();
+        s.matrix.resize(n * n, 0.0);
+        if block.definitions.is_empty() {
+            for r in 0..n {
+                for e in block.pattern.range(r) {
+                    let c = block.pattern.column(e);
+                    s.matrix[r * n + c] = s.local.jacobian[e] * s.weight[r] * scale(c);
+                }
+            }
+            return;
+        }
+        block.gradients(&s.local, &|i| scales[self.slot(i)], &mut s.gradients);
+        for (i, &r) in block.core_rows.iter().enumerate() {
+            let weight = s.weight[r as usize];
+            for e in block.pattern.range(r as usize) {
+                let gradient = &s.gradients[block.pattern.column(e) * n..][..n];
+                dense::add(&mut s.matrix[i * n..][..n], s.local.jacobian[e] * weight, gradient);
+            }
         }
     }
+
+    /// Freezes a weight for every row that makes it dimensionless; the matrix is filled with none.
+    fn weigh(&self, scales: &[f64], s: &mut SquareScratch) {
+        let weight = |sizes: &[f64]| {
+            let size = sizes.iter().fold(0.0f64, |m, v| m.max(v.abs()));
+            if size > 0.0 && size.is_finite() { 1.0 / size } else { 1.0 }
+        };
+        s.weight.clear();
+        s.weight.resize(self.block.height(), 1.0);
+        self.fill(scales, s);
+        if self.is_dense() {
+            let n = self.block.core.len();
+            for (i, &r) in self.block.core_rows.iter().enumerate() {
+                s.weight[r as usize] = weight(&s.matrix[i * n..][..n]);
+            }
+        } else {
+            for r in 0..self.block.height() {
+                s.weight[r] = weight(&s.matrix[self.block.pattern.range(r)]);
+            }
+        }
+    }
+
+    /// Factorises the matrix.
+    fn factorise(&self, s: &mut SquareScratch) -> Factors {
+        if self.is_dense() {
+            s.factors.clear();
+            s.factors.extend_from_slice(&s.matrix);
+            return dense::factorise(&mut s.factors, self.block.core.len(), &mut s.swaps);
+        }
+        let pattern = &self.block.pattern;
+        let singular = Factors { sign: 0, ratio: 0.0 };
+        if s.own.is_none() {
+            let symbolic = self.pivots.get_or_init(|| self.generic_pivots());
+            if let Some(factors) = symbolic.factorise(pattern, &s.matrix, &mut s.lu) {
+                return factors;
+            }
+        }
+        let symbolic = Symbolic::new(pivot::choose(pattern, &s.matrix));
+        let factors = symbolic.factorise(pattern, &s.matrix, &mut s.lu);
+        s.own = Some(symbolic);
+        factors.unwrap_or(singular)
+    }
+
+    /// Chooses pivots by numbers that depend on the block alone.
+    fn generic_pivots(&self) -> Symbolic {
+        let (mut local, mut w) = (Local::default(), Workspace::default());
+        let last = self.block.slots().max().map_or(0, |s| s as usize + 1);
+        let values: Vec<f64> =
+            (0..last as u64).map(|i| generic_number(i, Point::Positive)).collect();
+        self.block.slopes(&values, &mut w, &mut local);
+        for (i, value) in local.jacobian.iter_mut().enumerate() {
+            if !value.is_finite() || *value == 0.0 {
+                *value = generic_number(i as u64, Point::Mixed);
+            }
+        }
+        Symbolic::new(pivot::choose(&self.block.pattern, &local.jacobian))
+    }
+
+    /// Newton's step for the core, from the factors.
+    fn newton(&self, scales: &[f64], s: &mut SquareScratch) {
+        let weighted = s.residual.iter().zip(&self.block.core_rows);
+        if self.is_dense() {
+            s.step.clear();
+            s.step.extend(weighted.map(|(v, &r)| -v * s.weight[r as usize]));
+            dense::substitute_back(&s.factors, self.block.core.len(), &s.swaps, &mut s.step);
+        } else {
+            s.right.clear();
+            s.right.resize(self.block.height(), 0.0);
+            for (v, &r) in weighted {
+                s.right[r as usize] = -v * s.weight[r as usize];
+            }
+            let symbolic = s.own.as_ref().or(self.pivots.get());
+            let symbolic = symbolic.expect("there are factors");
+            symbolic.solve(&mut s.lu, &mut s.right);
+            s.step.clear();
+            s.step.extend(self.block.core.iter().map(|&u| s.right[u as usize]));
+        }
+        for (c, step) in s.step.iter_mut().enumerate() {
+            *step *= scales[self.slot(c)];
+        }
+    }
+
     fn weighted_norm(&self, s: &SquareScratch) -> f64 {
         let mut sum = 0.0;
-        for (r, w) in s.residual.iter().zip(&s.weight) {
-            sum += (r * w) * (r * w);
+        for (v, &r) in s.residual.iter().zip(&self.block.core_rows) {
+            let w = s.weight[r as usize];
+            sum += (v * w) * (v * w);
         }
         base::number::sqrt(sum)
     }
     fn step_size(&self, scales: &[f64], s: &SquareScratch) -> f64 {
         let mut size = 0.0f64;
-        for (&u, d) in self.unknowns.iter().zip(&s.step) {
-            size = size.max((d / scales[u as usize]).abs());
+        for (c, d) in s.step.iter().enumerate() {
+            size = size.max((d / scales[self.slot(c)]).abs());
         }
         size
     }
@@ -183,37 +282,31 @@ impl Square {
         values: &mut [f64],
         scales: &[f64],
         trust: Trust,
-        registers: &mut Vec<f64>,
+        w: &mut Workspace,
         s: &mut SquareScratch,
     ) -> Solved {
-        let n = self.unknowns.len();
+        let is_linear = self.block.is_linear;
         let branch = match trust {
-            Trust::Branch if !self.is_linear => Some(self.orientation(last, registers, s)),
+            Trust::Branch if !is_linear => Some(self.orientation(last, scales, w, s)),
             Trust::Branch | Trust::Any | Trust::Leap => None,
         };
-        self.prepare(s);
-        self.evaluate(values, registers, s);
-        self.fill_jacobian(s);
+        s.own = None;
+        self.evaluate(values, w, s);
         self.weigh(scales, s);
         let mut norm = self.weighted_norm(s);
         if !norm.is_finite() {
             return Solved::Failed;
         }
         let (mut first_size, mut damping) = (0.0, 0.0f64);
-        let mut ratio = 1.0;
+        let mut factors = Factors { sign: 0, ratio: 1.0 };
         for iteration in 0..STEPS {
             if norm == 0.0 && iteration > 0 {
                 break;
             }
-            s.factors.clear();
-            s.factors.extend_from_slice(&s.jacobian);
-            for r in 0..n {
-                for c in 0..n {
-                    s.factors[r * n + c] *= s.weight[r] * scales[self.unknowns[c] as usize];
-                }
+            if iteration == 0 || !is_linear {
+                self.fill(scales, s);
+                factors = self.factorise(s);
             }
-            let factors = dense::factorise(&mut s.factors, n, &mut s.swaps);
-            ratio = factors.ratio;
             if branch.is_some_and(|sign| sign != factors.sign || sign == 0) && norm > 0.0 {
                 return Solved::Failed;
             }
@@ -222,13 +315,7 @@ impl Square {
             }
             let newton = factors.ratio > 1e-14 && damping == 0.0;
             if newton {
-                for r in 0..n {
-                    s.step[r] = -s.residual[r] * s.weight[r];
-                }
-                dense::substitute_back(&s.factors, n, &s.swaps, &mut s.step);
-                for c in 0..n {
-                    s.step[c] *= scales[self.unknowns[c] as usize];
-                }
+                self.newton(scales, s);
             } else {
                 self.damped_direction(scales, damping.max(1e-12), s);
             }
@@ -242,9 +329,9 @@ impl Square {
             }
             let was_held = self.holds(s);
             let found = if trust == Trust::Leap && !was_held && iteration < LEAPS {
-                Some((1.0, self.leap(values, size, registers, s)))
+                Some((1.0, self.leap(values, size, w, s)))
             } else {
-                self.search(values, norm, was_held, registers, s)
+                self.search(values, norm, was_held, w, s)
             };
             match found {
                 Some((length, better)) => {
@@ -256,7 +343,6 @@ impl Square {
                     }
                     let slow = better > 0.5 * norm;
                     norm = better;
-                    self.fill_jacobian(s);
                     damping = if newton { 0.0 } else { damping * 0.1 };
                     if damping < 1e-10 {
                         damping = 0.0;
@@ -279,26 +365,19 @@ impl Square {
                 }
             }
         }
-        self.evaluate(values, registers, s);
         if !self.holds(s) {
             return Solved::Failed;
         }
-        if ratio < 1e-6 { self.least_determined(s) } else { Solved::Regular }
+        if factors.ratio < 1e-6 { self.least_determined(s) } else { Solved::Regular }
     }
 
     /// Takes the whole step, but not more than half the extent; returns the norm there.
-    fn leap(
-        &self,
-        values: &mut [f64],
-        size: f64,
-        registers: &mut Vec<f64>,
-        s: &mut SquareScratch,
-    ) -> f64 {
+    fn leap(&self, values: &mut [f64], size: f64, w: &mut Workspace, s: &mut SquareScratch) -> f64 {
         let length = if size > 0.5 { 0.5 / size } else { 1.0 };
-        for (&u, d) in self.unknowns.iter().zip(&s.step) {
-            values[u as usize] += length * d;
+        for (c, d) in s.step.iter().enumerate() {
+            values[self.slot(c)] += length * d;
         }
-        self.evaluate(values, registers, s);
+        self.evaluate(values, w, s);
         self.weighted_norm(s)
     }
 
@@ -308,88 +387,119 @@ impl Square {
         values: &mut [f64],
         norm: f64,
         was_held: bool,
-        registers: &mut Vec<f64>,
+        w: &mut Workspace,
         s: &mut SquareScratch,
     ) -> Option<(f64, f64)> {
-        for (start, &u) in s.start.iter_mut().zip(&self.unknowns) {
-            *start = values[u as usize];
-        }
+        s.start.clear();
+        s.start.extend((0..s.step.len()).map(|c| values[self.slot(c)]));
         let mut length = 1.0;
         let shortest = if was_held { 1.0 } else { 1e-7 };
         while length >= shortest {
-            for ((&u, start), d) in self.unknowns.iter().zip(&s.start).zip(&s.step) {
-                values[u as usize] = start + length * d;
+            for (c, (start, d)) in s.start.iter().zip(&s.step).enumerate() {
+                values[self.slot(c)] = start + length * d;
             }
-            self.evaluate(values, registers, s);
+            self.evaluate(values, w, s);
             let now = self.weighted_norm(s);
             if now.is_finite() && now < (1.0 - 1e-4 * length) * norm {
                 return Some((length, now));
             }
             length *= 0.5;
         }
-        for (&u, start) in self.unknowns.iter().zip(&s.start) {
-            values[u as usize] = *start;
+        for (c, start) in s.start.iter().enumerate() {
+            values[self.slot(c)] = *start;
         }
-        self.evaluate(values, registers, s);
+        self.evaluate(values, w, s);
         None
     }
 
     /// The step of Levenberg and Marquardt in scaled unknowns.
     fn damped_direction(&self, scales: &[f64], damping: f64, s: &mut SquareScratch) {
-        let n = self.unknowns.len();
-        let scaled = |s: &SquareScratch, r: usize, c: usize| {
-            s.jacobian[r * n + c] * s.weight[r] * scales[self.unknowns[c] as usize]
-        };
-        s.factors.clear();
-        s.factors.resize(n * n, 0.0);
-        for i in 0..n {
-            for j in 0..n {
-                let mut sum = 0.0;
-                for r in 0..n {
-                    sum += scaled(s, r, i) * scaled(s, r, j);
-                }
-                s.factors[i * n + j] = sum;
-            }
-            s.factors[i * n + i] += damping;
+        let n = self.block.core.len();
+        s.right.clear();
+        if self.is_dense() {
+            let weighted = s.residual.iter().zip(&self.block.core_rows);
+            s.right.extend(weighted.map(|(v, &r)| -v * s.weight[r as usize]));
+            normal_step(&s.matrix, n, damping, &s.right, &mut s.factors, &mut s.swaps, &mut s.step);
+        } else {
+            self.damped_sparse(damping, s);
         }
-        for i in 0..n {
-            let mut sum = 0.0;
-            for r in 0..n {
-                sum -= scaled(s, r, i) * s.residual[r] * s.weight[r];
-            }
-            s.step[i] = sum;
+        for (c, d) in s.step.iter_mut().enumerate() {
+            *d *= scales[self.slot(c)];
         }
-        let mut swaps = std::mem::take(&mut s.swaps);
-        dense::factorise(&mut s.factors, n, &mut swaps);
-        let mut step = std::mem::take(&mut s.step);
-        dense::substitute_back(&s.factors, n, &swaps, &mut step);
-        for (c, d) in step.iter_mut().enumerate() {
-            *d *= scales[self.unknowns[c] as usize];
-        }
-        (s.swaps, s.step) = (swaps, step);
     }
 
-    /// The unknown whose column the others come nearest to replacing.
+    /// The damped step of all unknowns, by the residuals that it leaves: `[I A; Aᵀ -damping]`.
+    fn damped_sparse(&self, damping: f64, s: &mut SquareScratch) {
+        let (block, n) = (&self.block, self.block.height() as u32);
+        let symmetric = self.damped.get_or_init(|| {
+            let mut entries: Vec<(u32, u32)> = (0..2 * n).map(|i| (i, i)).collect();
+            for r in 0..n {
+                entries.extend(block.pattern.row(r as usize).iter().map(|c| (r, n + c)));
+            }
+            Symmetric::new(2 * n as usize, &entries)
+        });
+        s.saddle.clear();
+        s.saddle.resize(n as usize, 1.0);
+        s.saddle.resize(2 * n as usize, -damping);
+        s.saddle.extend_from_slice(&s.matrix);
+        s.right.clear();
+        s.right.resize(2 * n as usize, 0.0);
+        for (v, &r) in s.residual.iter().zip(&block.core_rows) {
+            s.right[r as usize] = -v * s.weight[r as usize];
+        }
+        s.step.clear();
+        if symmetric.factorise(&s.saddle, &mut s.ldl).is_some() {
+            symmetric.solve(&mut s.ldl, &mut s.right);
+        }
+        s.step.extend(block.core.iter().map(|&u| s.right[(n + u) as usize]));
+    }
+
+    /// The unknown whose column the others come nearest to replacing; in a large core, the one that
+    /// moved most in the end.
     fn least_determined(&self, s: &mut SquareScratch) -> Solved {
-        let n = self.unknowns.len();
-        self.fill_jacobian(s);
-        let rows: Vec<Vec<f64>> = (0..n).map(|r| s.jacobian[r * n..][..n].to_vec()).collect();
+        let n = self.block.core.len();
+        let largest =
+            |v: &[f64]| (0..n).fold(0, |best, c| if v[c].abs() > v[best].abs() { c } else { best });
+        if !self.is_dense() || n > EIGEN {
+            return Solved::Double(self.slot(largest(&s.step)) as SlotIndex);
+        }
         let mut normal = vec![0.0; n * n];
-        for i in 0..n {
-            for j in 0..n {
-                for row in &rows {
+        for row in s.matrix.chunks_exact(n) {
+            for i in 0..n {
+                for j in 0..n {
                     normal[i * n + j] += row[i] * row[j];
                 }
             }
         }
         let (values, vectors) = dense::eigen(normal, n);
         let least = (0..n).min_by(|&a, &b| values[a].total_cmp(&values[b])).unwrap_or(0);
-        let mut slot = 0;
-        for c in 1..n {
-            if vectors[least][c].abs() > vectors[least][slot].abs() {
-                slot = c;
-            }
-        }
-        Solved::Double(slot as u32)
+        Solved::Double(self.slot(largest(&vectors[least])) as SlotIndex)
     }
+}
+
+/// Solves `(AᵀA + damping) step = Aᵀ right`.
+fn normal_step(
+    matrix: &[f64],
+    n: usize,
+    damping: f64,
+    right: &[f64],
+    normal: &mut Vec<f64>,
+    swaps: &mut Vec<usize>,
+    step: &mut Vec<f64>,
+) {
+    normal.clear();
+    normal.resize(n * n, 0.0);
+    step.clear();
+    step.resize(n, 0.0);
+    for (row, b) in matrix.chunks_exact(n).zip(right) {
+        dense::add(step, *b, row);
+        for i in 0..n {
+            dense::add(&mut normal[i * n..][..n], row[i], row);
+        }
+    }
+    for i in 0..n {
+        normal[i * n + i] += damping;
+    }
+    dense::factorise(normal, n, swaps);
+    dense::substitute_back(normal, n, swaps, step);
 }

@@ -1,0 +1,578 @@
+//! Blocks: rows over unknowns, laid out to be evaluated again and again.
+//!
+//! In: the rows and unknowns of a block. Out: both sides of every row and the Jacobian, at any state.
+//! Rows of one kernel are evaluated together. An unknown that a row states outright (`u = e`, with u
+//! on one side alone and not in e) is *defined*: it is computed forward, exactly, and what is
+//! iterated is the core, from where it is. Forces between beams, results of operations are such.
+
+use crate::kernel::{Kernel, Side};
+use crate::lower::{Definers, Problem};
+use crate::sparse::Pattern;
+use crate::system::{Level, SlotIndex};
+use expr::{Arena, ExprId, LANES, Lanes, Var};
+use std::rc::Rc;
+
+/// Rows over unknowns.
+#[derive(Debug)]
+pub(crate) struct Block {
+    /// The unknowns, in order of slots.
+    pub(crate) unknowns: Vec<SlotIndex>,
+    /// For every row, the tolerance of its sides.
+    pub(crate) within: Vec<f64>,
+    /// For every row, how strongly it wants to hold.
+    pub(crate) levels: Vec<Level>,
+    /// Where rows depend on unknowns, both by position.
+    pub(crate) pattern: Pattern,
+    /// Rows that define nothing, by position.
+    pub(crate) core_rows: Vec<u32>,
+    /// Unknowns that nothing defines, by position.
+    pub(crate) core: Vec<u32>,
+    /// In the order in which they are computed.
+    pub(crate) definitions: Vec<Definition>,
+    /// True if no derivative depends on an unknown.
+    pub(crate) is_linear: bool,
+    groups: Vec<Group>,
+    /// For every row, its group and its place there.
+    place: Vec<(u32, u32)>,
+}
+
+/// An unknown that a row states outright.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub(crate) struct Definition {
+    /// The unknown, by position.
+    pub(crate) unknown: u32,
+    /// The row, by position.
+    pub(crate) row: u32,
+    /// The side on which the unknown stands alone.
+    pub(crate) side: Side,
+}
+
+/// Rows of one kernel.
+#[derive(Debug)]
+struct Group {
+    kernel: Rc<Kernel>,
+    /// The rows, by position.
+    rows: Vec<u32>,
+    /// The slots of every row, one row after the other.
+    arguments: Vec<SlotIndex>,
+    /// For every row, where each of the kernel's derivatives goes in the Jacobian.
+    entries: Vec<u32>,
+}
+
+/// The derivative is by something known.
+const KNOWN: u32 = u32::MAX;
+
+/// A block at one state.
+#[derive(Clone, Debug, Default)]
+pub(crate) struct Local {
+    /// The left side of every row.
+    pub(crate) left: Vec<f64>,
+    /// The right side of every row.
+    pub(crate) right: Vec<f64>,
+    /// The entries of the Jacobian of `left - right`, in the order of the pattern.
+    pub(crate) jacobian: Vec<f64>,
+}
+
+/// Working space for evaluation; serves any number of blocks.
+#[derive(Clone, Debug, Default)]
+pub(crate) struct Workspace {
+    pub(crate) registers: Vec<f64>,
+    arguments: Vec<f64>,
+    out: Vec<f64>,
+    wide_registers: Vec<Lanes>,
+    wide_arguments: Vec<Lanes>,
+    wide_out: Vec<Lanes>,
+}
+
+impl Workspace {
+    /// Runs a tape for one row; the outputs are in what is returned.
+    pub(crate) fn run(
+        &mut self,
+        tape: &expr::Tape,
+        arguments: &[SlotIndex],
+        values: &[f64],
+        outs: usize,
+    ) -> &mut [f64] {
+        self.arguments.clear();
+        self.arguments.extend(arguments.iter().map(|&s| values[s as usize]));
+        self.out.clear();
+        self.out.resize(outs, 0.0);
+        tape.run(&self.arguments, &mut self.registers, &mut self.out);
+        &mut self.out
+    }
+}
+
+/// From how many rows of a kernel on they are evaluated in lanes.
+const WIDE: usize = 3;
+
+impl Block {
+    /// Lays a block out.
+    pub(crate) fn new(problem: &Problem, definers: Definers) -> Self {
+        let unknowns = problem.unknowns.clone();
+        let position = |slot: SlotIndex| unknowns.binary_search(&slot).ok();
+        let mut groups: Vec<Group> = Vec::new();
+        let mut place = Vec::with_capacity(problem.rows.len());
+        let mut is_linear = true;
+        for (r, row) in problem.rows.iter().enumerate() {
+            let same = |g: &Group| Rc::ptr_eq(&g.kernel, &row.kernel);
+            let at = groups.iter().rposition(same).unwrap_or_else(|| {
+                groups.push(Group {
+                    kernel: Rc::clone(&row.kernel),
+                    rows: Vec::new(),
+                    arguments: Vec::new(),
+                    entries: Vec::new(),
+                });
+                groups.len() - 1
+            });
+            place.push((at as u32, groups[at].rows.len() as u32));
+            groups[at].rows.push(r as u32);
+            groups[at].arguments.extend(&row.arguments);
+            let is_unknown = |a: u32| position(row.arguments[a as usize]).is_some();
+            is_linear &= row
+                .kernel
+                .entries
+                .iter()
+                .all(|e| !is_unknown(e.argument) || !e.depends.iter().any(|&a| is_unknown(a)));
+        }
+        let columns = |row: &crate::lower::ProblemRow| -> Vec<u32> {
+            let of = |e: &crate::kernel::Entry| position(row.arguments[e.argument as usize]);
+            row.kernel.entries.iter().filter_map(of).map(|c| c as u32).collect()
+        };
+        let pattern = Pattern::of_rows(unknowns.len(), problem.rows.iter().map(columns));
+        for group in &mut groups {
+            for (i, &r) in group.rows.iter().enumerate() {
+                let arguments = &group.arguments[i * group.kernel.arity()..];
+                let entry = |e: &crate::kernel::Entry| {
+                    position(arguments[e.argument as usize])
+                        .and_then(|c| pattern.find(r as usize, c as u32))
+                        .map_or(KNOWN, |at| at as u32)
+                };
+                group.entries.extend(group.kernel.entries.iter().map(entry));
+            }
+        }
+        let mut block = Self {
+            within: problem.rows.iter().map(|r| r.within).collect(),
+            levels: problem.rows.iter().map(|r| r.level).collect(),
+            unknowns,
+            pattern,
+            core_rows: Vec::new(),
+            core: Vec::new(),
+            definitions: Vec::new(),
+            is_linear,
+            groups,
+            place,
+        };
+        block.define(definers);
+        block
+    }
+
+    /// Returns the number of rows.
+    pub(crate) fn height(&self) -> usize {
+        self.within.len()
+    }
+    /// Returns every slot that the rows speak of, some more than once.
+    pub(crate) fn slots(&self) -> impl Iterator<Item = SlotIndex> + '_ {
+        self.groups
+            .iter()
+            .flat_map(|g| g.arguments.iter().copied())
+            .chain(self.unknowns.iter().copied())
+    }
+    /// Returns a row's kernel and arguments.
+    pub(crate) fn row(&self, row: usize) -> (&Rc<Kernel>, &[SlotIndex]) {
+        let (group, at) = self.place[row];
+        let group = &self.groups[group as usize];
+        let arity = group.kernel.arity();
+        (&group.kernel, &group.arguments[at as usize * arity..][..arity])
+    }
+
+    /// Finds what the rows define, in an order in which it can be computed.
+    fn define(&mut self, definers: Definers) {
+        let mut defined: Vec<Option<Definition>> = vec![None; self.unknowns.len()];
+        let mut count = 0;
+        let mut seen = vec![u32::MAX; self.unknowns.len()];
+        let mut core_rows = Vec::new();
+        for r in 0..self.height() {
+            let may = match definers {
+                Definers::None => false,
+                Definers::Any => true,
+                Definers::Required => self.levels[r] == Level::Required,
+            };
+            if !may || count + 1 >= self.unknowns.len() {
+                core_rows.push(r as u32);
+                continue;
+            }
+            let (kernel, arguments) = self.row(r);
+            let found = kernel.stated().find_map(|(argument, side)| {
+                let slot = arguments[argument as usize];
+                let once = arguments.iter().filter(|&&s| s == slot).count() == 1;
+                let unknown = self.unknowns.binary_search(&slot).ok()?;
+                let is_free = once && defined[unknown].is_none();
+                let definition = Definition { unknown: unknown as u32, row: r as u32, side };
+                (is_free && !self.leads_to(&defined, definition, &mut seen)).then_some(definition)
+            });
+            match found {
+                Some(definition) => {
+                    defined[definition.unknown as usize] = Some(definition);
+                    count += 1;
+                }
+                None => core_rows.push(r as u32),
+            }
+        }
+        self.definitions = self.in_order(&defined);
+        self.core =
+            (0..self.unknowns.len() as u32).filter(|&u| defined[u as usize].is_none()).collect();
+        self.core_rows = core_rows;
+    }
+
+    /// Returns true if what a definition is made of comes from the unknown that it would define, or
+    /// from more than is worth following.
+    fn leads_to(
+        &self,
+        defined: &[Option<Definition>],
+        definition: Definition,
+        seen: &mut [u32],
+    ) -> bool {
+        const FAR: usize = 2000;
+        let mut visits = 0;
+        let mut rows = vec![definition.row];
+        while let Some(r) = rows.pop() {
+            let first = r == definition.row;
+            for &u in self.pattern.row(r as usize) {
+                if first && u == definition.unknown {
+                    continue;
+                }
+                if u == definition.unknown || visits > FAR {
+                    return true;
+                }
+                if seen[u as usize] != definition.row {
+                    seen[u as usize] = definition.row;
+                    visits += 1;
+                    rows.extend(defined[u as usize].map(|d| d.row));
+                }
+            }
+        }
+        false
+    }
+
+    /// Orders definitions so that each is computed after those that it is made of.
+    fn in_order(&self, defined: &[Option<Definition>]) -> Vec<Definition> {
+        let mut order = Vec::new();
+        let mut done = vec![false; self.unknowns.len()];
+        let mut stack: Vec<(u32, usize)> = Vec::new();
+        for u in 0..self.unknowns.len() as u32 {
+            stack.push((u, 0));
+            while let Some((u, next)) = stack.pop() {
+                let Some(definition) = defined[u as usize] else { continue };
+                if done[u as usize] {
+                    continue;
+                }
+                let row = self.pattern.row(definition.row as usize);
+                if let Some(&other) = row.get(next) {
+                    stack.push((u, next + 1));
+                    if other != u && !done[other as usize] {
+                        stack.push((other, 0));
+                    }
+                } else {
+                    done[u as usize] = true;
+                    order.push(definition);
+                }
+            }
+        }
+        order
+    }
+
+    /// Returns the equation of a row with every definition put in, and the slots that it is then of.
+    pub(crate) fn substituted(&self, row: usize) -> (Kernel, Vec<SlotIndex>) {
+        let mut arena = Arena::new();
+        let mut slots: Vec<SlotIndex> = self.slots().collect();
+        slots.sort_unstable();
+        slots.dedup();
+        let mut known: Vec<ExprId> = slots.iter().map(|&s| arena.var(Var(s))).collect();
+        let mut put = |row: usize, known: &[ExprId]| {
+            let (kernel, arguments) = self.row(row);
+            kernel.sides_over(&mut arena, &|a| known[slots.partition_point(|&s| s < arguments[a])])
+        };
+        for d in &self.definitions {
+            let (left, right) = put(d.row as usize, &known);
+            let slot = self.unknowns[d.unknown as usize];
+            known[slots.partition_point(|&s| s < slot)] = match d.side {
+                Side::Left => right,
+                Side::Right => left,
+            };
+        }
+        let (left, right) = put(row, &known);
+        Kernel::of_slots(&arena, left, right)
+    }
+
+    /// Computes every defined unknown from the core.
+    pub(crate) fn compute_defined(&self, values: &mut [f64], w: &mut Workspace) {
+        for d in &self.definitions {
+            let (kernel, arguments) = self.row(d.row as usize);
+            let sides = w.run(&kernel.sides, arguments, values, 2);
+            let value = match d.side {
+                Side::Left => sides[1],
+                Side::Right => sides[0],
+            };
+            values[self.unknowns[d.unknown as usize] as usize] = value;
+        }
+    }
+
+    /// Computes every unknown's gradient by the core, each unknown of the core in units of its `scale`: one
+    /// row of as many numbers as the core has for every unknown.
+    pub(crate) fn gradients(
+        &self,
+        local: &Local,
+        scale: &dyn Fn(usize) -> f64,
+        gradients: &mut Vec<f64>,
+    ) {
+        let n = self.core.len();
+        gradients.clear();
+        gradients.resize(self.unknowns.len() * n, 0.0);
+        for (i, &u) in self.core.iter().enumerate() {
+            gradients[u as usize * n + i] = scale(i);
+        }
+        for d in &self.definitions {
+            let own = d.unknown as usize;
+            let mut pivot = 1.0;
+            for e in self.pattern.range(d.row as usize) {
+                let c = self.pattern.column(e);
+                let slope = local.jacobian[e];
+                if c == own {
+                    pivot = slope;
+                } else {
+                    for i in 0..n {
+                        gradients[own * n + i] -= slope * gradients[c * n + i];
+                    }
+                }
+            }
+            for gradient in &mut gradients[own * n..][..n] {
+                *gradient /= pivot;
+            }
+        }
+    }
+
+    /// Finds the factors of the defining rows that make a sum of rows, each times its factor, stationary in
+    /// what they define.
+    pub(crate) fn pass_back(&self, local: &Local, factor: &mut [f64]) {
+        if self.definitions.is_empty() {
+            return;
+        }
+        let mut slope = vec![0.0; self.unknowns.len()];
+        let add = |row: usize, factor: f64, slope: &mut [f64]| {
+            for e in self.pattern.range(row) {
+                slope[self.pattern.column(e)] += factor * local.jacobian[e];
+            }
+        };
+        for &r in &self.core_rows {
+            add(r as usize, factor[r as usize], &mut slope);
+        }
+        for d in self.definitions.iter().rev() {
+            let row = d.row as usize;
+            let pivot = self.pattern.find(row, d.unknown).map_or(1.0, |e| local.jacobian[e]);
+            factor[row] = -slope[d.unknown as usize] / pivot;
+            add(row, factor[row], &mut slope);
+        }
+    }
+
+    /// Evaluates both sides of every row.
+    pub(crate) fn sides(&self, values: &[f64], w: &mut Workspace, local: &mut Local) {
+        self.prepare(local);
+        for group in &self.groups {
+            let Local { left, right, .. } = local;
+            group.each(&group.kernel.sides, 2, values, w, &mut |row, out, value| {
+                let side = if out == 0 { &mut *left } else { &mut *right };
+                side[group.rows[row] as usize] = value;
+            });
+        }
+    }
+
+    /// Evaluates both sides and the Jacobian.
+    pub(crate) fn slopes(&self, values: &[f64], w: &mut Workspace, local: &mut Local) {
+        self.prepare(local);
+        local.jacobian.clear();
+        local.jacobian.resize(self.pattern.len(), 0.0);
+        for group in &self.groups {
+            let count = group.kernel.entries.len();
+            let Local { left, right, jacobian } = local;
+            group.each(
+                &group.kernel.slopes,
+                2 + count,
+                values,
+                w,
+                &mut |row, out, value| match out {
+                    0 => left[group.rows[row] as usize] = value,
+                    1 => right[group.rows[row] as usize] = value,
+                    _ => {
+                        let at = group.entries[row * count + out - 2];
+                        if at != KNOWN {
+                            jacobian[at as usize] += value;
+                        }
+                    }
+                },
+            );
+        }
+    }
+
+    /// Calls `visit` with every second derivative by two unknowns that is not zero everywhere: its row, both
+    /// unknowns, its value.
+    pub(crate) fn each_second(
+        &self,
+        values: &[f64],
+        w: &mut Workspace,
+        visit: &mut dyn FnMut(usize, usize, usize, f64),
+    ) {
+        for group in &self.groups {
+            let second = group.kernel.second();
+            let arity = group.kernel.arity();
+            let at = |row: usize, argument: u32| {
+                let slot = group.arguments[row * arity + argument as usize];
+                self.unknowns.binary_search(&slot).ok()
+            };
+            group.each(&second.tape, second.entries.len(), values, w, &mut |row, out, value| {
+                let (a, b) = second.entries[out];
+                if let (Some(i), Some(j)) = (at(row, a), at(row, b)) {
+                    visit(group.rows[row] as usize, i, j, value);
+                    if a != b {
+                        visit(group.rows[row] as usize, j, i, value);
+                    }
+                }
+            });
+        }
+    }
+
+    fn prepare(&self, local: &mut Local) {
+        local.left.resize(self.height(), 0.0);
+        local.right.resize(self.height(), 0.0);
+    }
+
+    /// Returns true if a row holds.
+    pub(crate) fn row_holds(&self, local: &Local, row: usize) -> bool {
+        let (left, right) = (local.left[row], local.right[row]);
+        (left - right).abs() <= self.within[row] * left.abs().max(right.abs()).max(1.0)
+    }
+}
+
+impl Group {
+    /// Runs a tape for every row; calls `visit` with the row's place, the output and its value.
+    fn each(
+        &self,
+        tape: &expr::Tape,
+        outs: usize,
+        values: &[f64],
+        w: &mut Workspace,
+        visit: &mut impl FnMut(usize, usize, f64),
+    ) {
+        if outs == 0 {
+            return;
+        }
+        let arity = self.kernel.arity();
+        let rows = self.rows.len();
+        let mut row = 0;
+        w.wide_arguments.resize(w.wide_arguments.len().max(arity), [0.0; LANES]);
+        w.wide_out.resize(w.wide_out.len().max(outs), [0.0; LANES]);
+        while rows - row >= WIDE {
+            let lanes = LANES.min(rows - row);
+            for a in 0..arity {
+                let of = |lane: usize| {
+                    values[self.arguments[(row + lane.min(lanes - 1)) * arity + a] as usize]
+                };
+                w.wide_arguments[a] = std::array::from_fn(of);
+            }
+            let out = &mut w.wide_out[..outs];
+            tape.run_lanes(&w.wide_arguments[..arity], &mut w.wide_registers, out);
+            for lane in 0..lanes {
+                for (i, value) in out.iter().enumerate() {
+                    visit(row + lane, i, value[lane]);
+                }
+            }
+            row += lanes;
+        }
+        for row in row..rows {
+            let out = w.run(tape, &self.arguments[row * arity..][..arity], values, outs);
+            for (i, &value) in out.iter().enumerate() {
+                visit(row, i, value);
+            }
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::kernel::Kernels;
+    use crate::lower::ProblemRow;
+
+    fn row(arena: &Arena, level: Level, left: ExprId, right: ExprId) -> ProblemRow {
+        let (kernel, arguments) = Kernels::default().row(arena, left, right);
+        ProblemRow { kernel, arguments, level, within: 1e-9 }
+    }
+
+    /// z = x², w = z + x, p = w, in x, z and w.
+    fn chain() -> Problem {
+        let mut arena = Arena::new();
+        let [x, z, w, p] = [0, 1, 2, 3].map(|i| arena.var(Var(i)));
+        let square = arena.square(x);
+        let sum = arena.add(z, x);
+        let sides = [(z, square), (w, sum), (p, w)];
+        let rows = sides.map(|(left, right)| row(&arena, Level::Required, left, right));
+        Problem { rows: rows.to_vec(), unknowns: vec![0, 1, 2] }
+    }
+
+    #[test]
+    fn what_rows_define_is_computed_forward() {
+        let block = Block::new(&chain(), Definers::Any);
+        assert_eq!((&block.core[..], &block.core_rows[..]), (&[0][..], &[2][..]));
+        let mut values = [3.0, f64::NAN, f64::NAN, 12.0];
+        let (mut w, mut local) = (Workspace::default(), Local::default());
+        block.compute_defined(&mut values, &mut w);
+        assert_eq!(values, [3.0, 9.0, 12.0, 12.0]);
+        // p - w = p - x² - x, whose derivative is -2x - 1
+        block.slopes(&values, &mut w, &mut local);
+        let mut gradients = Vec::new();
+        block.gradients(&local, &|_| 1.0, &mut gradients);
+        assert_eq!(gradients, [1.0, 6.0, 7.0]);
+        // and whose second derivative is -2: that of the row that defines z, with its factor
+        let mut factors = [0.0, 0.0, 1.0];
+        block.pass_back(&local, &mut factors);
+        let mut second = 0.0;
+        block.each_second(&values, &mut w, &mut |row, i, j, value| {
+            second += factors[row] * value * gradients[i] * gradients[j];
+        });
+        assert_eq!(second, -2.0);
+    }
+
+    #[test]
+    fn definitions_put_in_leave_one_equation() {
+        let block = Block::new(&chain(), Definers::Any);
+        let (kernel, slots) = block.substituted(2);
+        assert_eq!(slots, [0, 3]);
+        let mut w = Workspace::default();
+        let values = [3.0, f64::NAN, f64::NAN, 11.0];
+        assert_eq!(w.run(&kernel.sides, &slots, &values, 2), [11.0, 12.0]);
+    }
+
+    #[test]
+    fn soft_rows_define_nothing_where_they_may_give_way() {
+        let mut arena = Arena::new();
+        let [x, z] = [0, 1].map(|i| arena.var(Var(i)));
+        let square = arena.square(x);
+        let rows = vec![row(&arena, Level::Weak, z, square), row(&arena, Level::Required, z, x)];
+        let block = Block::new(&Problem { rows, unknowns: vec![0, 1] }, Definers::Required);
+        assert_eq!(block.definitions.iter().map(|d| d.row).collect::<Vec<_>>(), [1]);
+    }
+
+    #[test]
+    fn what_would_define_itself_is_not_defined() {
+        let mut arena = Arena::new();
+        let [x, y, z] = [0, 1, 2].map(|i| arena.var(Var(i)));
+        let product = arena.mul(x, y);
+        let rows = vec![
+            row(&arena, Level::Required, x, product),
+            row(&arena, Level::Required, y, z),
+            row(&arena, Level::Required, z, y),
+        ];
+        let block = Block::new(&Problem { rows, unknowns: vec![0, 1, 2] }, Definers::Any);
+        assert_eq!(block.definitions.len(), 1);
+        assert_eq!(block.core_rows, [0, 2]);
+    }
+}

@@ -1,0 +1,225 @@
+//! Kernels: an equation of numbered arguments, compiled once for all rows that say it of other slots.
+//!
+//! In: `left = right` over `Var(i)`, argument `i`. Out: tapes for its sides, its gradient, its second
+//! derivatives and its solutions for each argument. A row is a kernel and the slots that are its
+//! arguments: two thousand distances are one kernel.
+
+use crate::system::SlotIndex;
+use expr::{Arena, ExprId, Guard, Node, Tape, Var, gradient};
+use std::collections::BTreeMap;
+use std::rc::Rc;
+use std::sync::OnceLock;
+
+/// An equation of numbered arguments, with everything derived from it.
+pub(crate) struct Kernel {
+    arena: Arena,
+    left: ExprId,
+    right: ExprId,
+    /// The derivatives of `left - right` that are not zero everywhere, by argument.
+    pub(crate) entries: Vec<Entry>,
+    /// Both sides.
+    pub(crate) sides: Tape,
+    /// Both sides, then the derivatives.
+    pub(crate) slopes: Tape,
+    derivatives: Vec<ExprId>,
+    second: OnceLock<Second>,
+    solved: Vec<OnceLock<Option<Solved>>>,
+}
+
+/// A derivative that is not zero everywhere.
+#[derive(Clone, PartialEq, Debug)]
+pub(crate) struct Entry {
+    /// By which argument.
+    pub(crate) argument: u32,
+    /// The arguments that it depends on.
+    pub(crate) depends: Vec<u32>,
+}
+
+/// Second derivatives that are not zero everywhere.
+#[derive(Debug)]
+pub(crate) struct Second {
+    /// Both arguments, the first not after the second.
+    pub(crate) entries: Vec<(u32, u32)>,
+    /// Their values.
+    pub(crate) tape: Tape,
+}
+
+/// The equation solved for one argument.
+#[derive(Debug)]
+pub(crate) struct Solved {
+    /// Guards and value of each root, in order.
+    pub(crate) tape: Tape,
+    /// For each root, the kinds of its guards.
+    pub(crate) guards: Vec<Vec<GuardKind>>,
+}
+
+/// What a guard demands of its value.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub(crate) enum GuardKind {
+    NonZero,
+    NonNegative,
+    Positive,
+}
+
+/// A side of an equation.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub(crate) enum Side {
+    Left,
+    Right,
+}
+
+impl Kernel {
+    /// Compiles an equation whose variables are `Var(0)` to `Var(arity - 1)`.
+    pub(crate) fn compile(from: &Arena, left: ExprId, right: ExprId, arity: u32) -> Self {
+        let mut arena = Arena::new();
+        let same = |arena: &mut Arena, id| {
+            let vars: Vec<ExprId> = (0..arity).map(|i| arena.var(Var(i))).collect();
+            arena.import(from, id, &mut |v: Var| vars[v.0 as usize])
+        };
+        let (left, right) = (same(&mut arena, left), same(&mut arena, right));
+        let residual = arena.sub(left, right);
+        let vars: Vec<Var> = arena.variables(residual).into_iter().collect();
+        let (mut entries, mut derivatives) = (Vec::new(), Vec::new());
+        for (var, d) in vars.iter().zip(gradient(&mut arena, residual, &vars)) {
+            if arena.as_constant(d) != Some(0.0) {
+                let depends = arena.variables(d).into_iter().map(|v| v.0).collect();
+                entries.push(Entry { argument: var.0, depends });
+                derivatives.push(d);
+            }
+        }
+        let mut outs = vec![left, right];
+        let sides = Tape::compile(&arena, &outs);
+        outs.extend(&derivatives);
+        let slopes = Tape::compile(&arena, &outs);
+        let solved = (0..arity).map(|_| OnceLock::new()).collect();
+        let second = OnceLock::new();
+        Self { arena, left, right, entries, sides, slopes, derivatives, second, solved }
+    }
+
+    /// Compiles an equation of slots; returns the slots that are its arguments too.
+    pub(crate) fn of_slots(from: &Arena, left: ExprId, right: ExprId) -> (Self, Vec<SlotIndex>) {
+        let mut arena = Arena::new();
+        let (left, right, arguments) = canonical(from, left, right, &mut arena);
+        (Self::compile(&arena, left, right, arguments.len() as u32), arguments)
+    }
+
+    /// Returns both sides in another arena, every argument replaced.
+    pub(crate) fn sides_over(
+        &self,
+        arena: &mut Arena,
+        argument: &dyn Fn(usize) -> ExprId,
+    ) -> (ExprId, ExprId) {
+        let mut over = |id| arena.import(&self.arena, id, &mut |v: Var| argument(v.0 as usize));
+        (over(self.left), over(self.right))
+    }
+
+    /// Returns how many arguments it has.
+    pub(crate) fn arity(&self) -> usize {
+        self.solved.len()
+    }
+
+    /// Returns the second derivatives of `left - right`.
+    pub(crate) fn second(&self) -> &Second {
+        self.second.get_or_init(|| {
+            let mut arena = self.arena.clone();
+            let (mut entries, mut outs) = (Vec::new(), Vec::new());
+            for (entry, &d) in self.entries.iter().zip(&self.derivatives) {
+                let from = entry.argument;
+                let vars: Vec<Var> =
+                    entry.depends.iter().filter(|&&a| a >= from).map(|&a| Var(a)).collect();
+                for (var, second) in vars.iter().zip(gradient(&mut arena, d, &vars)) {
+                    if arena.as_constant(second) != Some(0.0) {
+                        entries.push((from, var.0));
+                        outs.push(second);
+                    }
+                }
+            }
+            Second { entries, tape: Tape::compile(&arena, &outs) }
+        })
+    }
+
+    /// Returns the formulas for an argument, in terms of the others; none where there is no rule.
+    pub(crate) fn solved(&self, argument: u32) -> Option<&Solved> {
+        let solve = || {
+            let mut arena = self.arena.clone();
+            let roots = expr::isolate(&mut arena, self.left, self.right, Var(argument))?;
+            let (mut outs, mut guards) = (Vec::new(), Vec::new());
+            for root in &roots {
+                let mut kinds = Vec::new();
+                for guard in &root.guards {
+                    outs.push(guard.subject());
+                    kinds.push(match guard {
+                        Guard::NonZero(_) => GuardKind::NonZero,
+                        Guard::NonNegative(_) => GuardKind::NonNegative,
+                        Guard::Positive(_) => GuardKind::Positive,
+                    });
+                }
+                outs.push(root.value);
+                guards.push(kinds);
+            }
+            (!roots.is_empty()).then(|| Solved { tape: Tape::compile(&arena, &outs), guards })
+        };
+        self.solved[argument as usize].get_or_init(solve).as_ref()
+    }
+
+    /// Returns the arguments that the equation states outright, each with its side: alone there, and
+    /// not on the other.
+    pub(crate) fn stated(&self) -> impl Iterator<Item = (u32, Side)> + '_ {
+        let sides = [(self.left, self.right, Side::Left), (self.right, self.left, Side::Right)];
+        sides.into_iter().filter_map(|(side, other, name)| match self.arena.node(side) {
+            Node::Var(var) if !self.arena.variables(other).contains(&var) => Some((var.0, name)),
+            Node::Var(_)
+            | Node::Constant(_)
+            | Node::Unary(..)
+            | Node::Binary(..)
+            | Node::Select { .. } => None,
+        })
+    }
+}
+
+impl std::fmt::Debug for Kernel {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        write!(f, "{}", self.sides)
+    }
+}
+
+/// Kernels by the equations that they compile.
+#[derive(Debug, Default)]
+pub(crate) struct Kernels {
+    arena: Arena,
+    kernels: BTreeMap<(ExprId, ExprId), Rc<Kernel>>,
+}
+
+impl Kernels {
+    /// Returns the kernel of an equation, and the slots that are its arguments.
+    pub(crate) fn row(
+        &mut self,
+        from: &Arena,
+        left: ExprId,
+        right: ExprId,
+    ) -> (Rc<Kernel>, Vec<SlotIndex>) {
+        let (left, right, arguments) = canonical(from, left, right, &mut self.arena);
+        let arity = arguments.len() as u32;
+        let Self { arena, kernels } = self;
+        let kernel = kernels
+            .entry((left, right))
+            .or_insert_with(|| Rc::new(Kernel::compile(arena, left, right, arity)));
+        (Rc::clone(kernel), arguments)
+    }
+}
+
+/// Copies an equation of slots with its variables numbered in their order; returns them.
+fn canonical(
+    from: &Arena,
+    left: ExprId,
+    right: ExprId,
+    into: &mut Arena,
+) -> (ExprId, ExprId, Vec<SlotIndex>) {
+    let mut slots = from.variables(left);
+    slots.append(&mut from.variables(right));
+    let arguments: Vec<SlotIndex> = slots.iter().map(|v| v.0).collect();
+    let vars: Vec<ExprId> = (0..arguments.len() as u32).map(|i| into.var(Var(i))).collect();
+    let at = |v: Var| arguments.partition_point(|&a| a < v.0);
+    let [left, right] = [left, right].map(|id| into.import(from, id, &mut |v| vars[at(v)]));
+    (left, right, arguments)
+}

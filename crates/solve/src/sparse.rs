@@ -1,0 +1,15 @@
+//! Sparse kernels: patterns, pivots, LU and LDLᵀ.
+//!
+//! Scalar, every sum in one written order: the same bits everywhere. What is decided by structure
+//! (pivots, fill) is decided once for a pattern; numbers are put in as often as they change.
+pub(crate) mod pattern;
+
+pub(crate) mod pivot;
+
+pub(crate) mod lu;
+
+pub(crate) mod ldl;
+
+pub(crate) use ldl::{Ldl, Symmetric};
+pub(crate) use lu::{Lu, Symbolic};
+pub(crate) use pattern::Pattern;

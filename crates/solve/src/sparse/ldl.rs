@@ -1,0 +1,242 @@
+//! LDLᵀ: factors of a symmetric matrix, without exchanges.
+//!
+//! In: the places of a symmetric matrix's entries; then numbers. Out: factors, how many pivots are
+//! negative (the inertia), solutions. The order has minimum degree and is chosen by structure alone, so the
+//! matrix has to be quasi-definite, or its failure to be so has to be what the caller asks.
+//!
+//! **Source:** Davis, *Algorithm 849: a concise sparse Cholesky factorization package*, ACM TOMS 31
+//! (2005); Vanderbei, *Symmetric quasidefinite matrices*, SIAM J. Optim. 5 (1995).
+
+use super::pivot::Counts;
+
+/// The factors' structure: every index is a place in the order of elimination.
+#[derive(Clone, Debug, Default)]
+pub(crate) struct Symmetric {
+    /// What is eliminated, in order.
+    order: Vec<u32>,
+    /// For every place, where its entries of the matrix start.
+    entry_starts: Vec<u32>,
+    /// The earlier place (or the same) and the number of an entry.
+    entries: Vec<(u32, u32)>,
+    /// For every place, where its row of L starts, and the earlier places in it, in order.
+    row_starts: Vec<u32>,
+    rows: Vec<u32>,
+    /// For every place, where its column of L starts.
+    column_starts: Vec<u32>,
+}
+
+/// Factors with their numbers, and working space.
+#[derive(Clone, Debug, Default)]
+pub(crate) struct Ldl {
+    pivots: Vec<f64>,
+    /// Columns of L: rows and values.
+    below: Vec<(u32, f64)>,
+    filled: Vec<u32>,
+    work: Vec<f64>,
+}
+
+impl Symmetric {
+    /// Lays the factors out for a matrix of `n` rows; each entry stands for its mirror too, and
+    /// those at one place are summed.
+    pub(crate) fn new(n: usize, entries: &[(u32, u32)]) -> Self {
+        let (order, columns) = minimum_degree(n, entries);
+        let mut place = vec![0u32; n];
+        for (k, &i) in order.iter().enumerate() {
+            place[i as usize] = k as u32;
+        }
+        let mut of_place: Vec<Vec<(u32, u32)>> = vec![Vec::new(); n];
+        for (number, &(i, j)) in (0..).zip(entries) {
+            let (i, j) = (place[i as usize], place[j as usize]);
+            of_place[i.max(j) as usize].push((i.min(j), number));
+        }
+        let mut made = Self { order, ..Self::default() };
+        made.entry_starts.push(0);
+        for own in of_place {
+            made.entries.extend(own);
+            made.entry_starts.push(made.entries.len() as u32);
+        }
+        let mut rows: Vec<Vec<u32>> = vec![Vec::new(); n];
+        made.column_starts.push(0);
+        let mut total = 0;
+        for (k, column) in (0..).zip(&columns) {
+            for &i in column {
+                rows[place[i as usize] as usize].push(k);
+            }
+            total += column.len() as u32;
+            made.column_starts.push(total);
+        }
+        made.row_starts.push(0);
+        for row in rows {
+            made.rows.extend(row);
+            made.row_starts.push(made.rows.len() as u32);
+        }
+        made
+    }
+
+    /// Puts numbers in, in the order of the entries; returns how many pivots are negative, or
+    /// nothing where one vanished.
+    pub(crate) fn factorise(&self, values: &[f64], ldl: &mut Ldl) -> Option<usize> {
+        let n = self.order.len();
+        ldl.pivots.clear();
+        ldl.pivots.resize(n, 0.0);
+        ldl.below.resize(self.rows.len(), (0, 0.0));
+        ldl.filled.clear();
+        ldl.filled.extend_from_slice(&self.column_starts[..n]);
+        ldl.work.clear();
+        ldl.work.resize(n, 0.0);
+        let work = &mut ldl.work;
+        let mut negative = 0;
+        for k in 0..n {
+            let range = self.entry_starts[k] as usize..self.entry_starts[k + 1] as usize;
+            for &(j, number) in &self.entries[range] {
+                work[j as usize] += values[number as usize];
+            }
+            let mut pivot = std::mem::take(&mut work[k]);
+            for &j in &self.rows[self.row_starts[k] as usize..self.row_starts[k + 1] as usize] {
+                let j = j as usize;
+                let value = std::mem::take(&mut work[j]);
+                let (start, end) = (self.column_starts[j] as usize, ldl.filled[j] as usize);
+                for &(i, l) in &ldl.below[start..end] {
+                    work[i as usize] -= l * value;
+                }
+                let l = value / ldl.pivots[j];
+                pivot -= l * value;
+                ldl.below[end] = (k as u32, l);
+                ldl.filled[j] += 1;
+            }
+            if pivot == 0.0 || !pivot.is_finite() {
+                return None;
+            }
+            negative += usize::from(pivot < 0.0);
+            ldl.pivots[k] = pivot;
+        }
+        Some(negative)
+    }
+
+    /// Solves with the factors; `b` becomes the solution.
+    pub(crate) fn solve(&self, ldl: &mut Ldl, b: &mut [f64]) {
+        let n = self.order.len();
+        let work = &mut ldl.work;
+        for (value, &i) in work.iter_mut().zip(&self.order) {
+            *value = b[i as usize];
+        }
+        let column = |k: usize| self.column_starts[k] as usize..self.column_starts[k + 1] as usize;
+        for k in 0..n {
+            let value = work[k];
+            for &(i, l) in &ldl.below[column(k)] {
+                work[i as usize] -= l * value;
+            }
+        }
+        for k in (0..n).rev() {
+            let mut value = work[k] / ldl.pivots[k];
+            for &(i, l) in &ldl.below[column(k)] {
+                value -= l * work[i as usize];
+            }
+            work[k] = value;
+        }
+        for (value, &i) in work.iter().zip(&self.order) {
+            b[i as usize] = *value;
+        }
+    }
+}
+
+/// An order in which each has the fewest neighbours left, and the neighbours that each then has.
+fn minimum_degree(n: usize, entries: &[(u32, u32)]) -> (Vec<u32>, Vec<Vec<u32>>) {
+    let mut near: Vec<Vec<u32>> = vec![Vec::new(); n];
+    for &(i, j) in entries.iter().filter(|e| e.0 != e.1) {
+        near[i as usize].push(j);
+        near[j as usize].push(i);
+    }
+    for own in &mut near {
+        own.sort_unstable();
+        own.dedup();
+    }
+    let mut degrees = Counts::new(near.iter().map(|own| own.len() as u32).collect());
+    let (mut order, mut columns) = (Vec::with_capacity(n), Vec::with_capacity(n));
+    let mut mark = vec![u32::MAX; n];
+    let mut least = 0;
+    for _ in 0..n {
+        let found = (least..n).find_map(|d| degrees.of(d).next());
+        let i = found.expect("as many are left as have not been taken");
+        let own = std::mem::take(&mut near[i as usize]);
+        least = own.len().saturating_sub(1);
+        degrees.unlink(i);
+        for &j in &own {
+            let others = &mut near[j as usize];
+            others.retain(|&o| o != i);
+            for &o in others.iter() {
+                mark[o as usize] = j;
+            }
+            mark[j as usize] = j;
+            others.extend(own.iter().filter(|&&o| mark[o as usize] != j));
+            let degree = others.len();
+            degrees.set(j, degree);
+            least = least.min(degree);
+        }
+        order.push(i);
+        columns.push(own);
+    }
+    (order, columns)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_vanishing_pivot_is_told() {
+        let symmetric = Symmetric::new(2, &[(0, 0), (1, 0), (1, 1)]);
+        assert_eq!(symmetric.factorise(&[1.0, 1.0, 1.0], &mut Ldl::default()), None);
+    }
+
+    #[test]
+    fn a_saddle_has_as_many_negative_pivots_as_rows() {
+        // least x² + y² + z² where x + y = 3 and y + z = 3
+        let entries = [(0, 0), (1, 1), (2, 2), (3, 0), (3, 1), (4, 1), (4, 2), (3, 3), (4, 4)];
+        let values = [1.0, 1.0, 1.0, 1.0, 1.0, 1.0, 1.0, -1e-14, -1e-14];
+        let symmetric = Symmetric::new(5, &entries);
+        let mut ldl = Ldl::default();
+        assert_eq!(symmetric.factorise(&values, &mut ldl), Some(2));
+        let mut b = [0.0, 0.0, 0.0, 3.0, 3.0];
+        symmetric.solve(&mut ldl, &mut b);
+        for (x, wanted) in b.iter().zip([1.0, 2.0, 1.0, -1.0, -1.0]) {
+            assert!((x - wanted).abs() < 1e-12, "{b:?}");
+        }
+    }
+
+    #[test]
+    fn a_grid_solves() {
+        let side = 20u32;
+        let at = |i: u32, j: u32| i * side + j;
+        let (mut entries, mut values) = (Vec::new(), Vec::new());
+        for i in 0..side {
+            for j in 0..side {
+                let mut next = vec![(at(i, j), 4.5)];
+                if i > 0 {
+                    next.push((at(i - 1, j), -1.0));
+                }
+                if j > 0 {
+                    next.push((at(i, j - 1), -1.0));
+                }
+                for (other, value) in next {
+                    entries.push((at(i, j), other));
+                    values.push(value);
+                }
+            }
+        }
+        let n = (side * side) as usize;
+        let symmetric = Symmetric::new(n, &entries);
+        let mut ldl = Ldl::default();
+        assert_eq!(symmetric.factorise(&values, &mut ldl), Some(0));
+        let wanted: Vec<f64> = (0..n).map(|i| (i % 7) as f64).collect();
+        let mut b = vec![0.0; n];
+        for (&(i, j), v) in entries.iter().zip(&values) {
+            b[i as usize] += v * wanted[j as usize];
+            if i != j {
+                b[j as usize] += v * wanted[i as usize];
+            }
+        }
+        symmetric.solve(&mut ldl, &mut b);
+        assert!(b.iter().zip(&wanted).all(|(x, y)| (x - y).abs() < 1e-10));
+    }
+}

@@ -1,0 +1,265 @@
+//! LU: factors of a square matrix whose pivots are known.
+//!
+//! In: the pivots of a pattern, numbers. Out: factors, the sign of the determinant, solutions. The
+//! tail, dense, is factorised with partial pivoting of its own.
+
+use super::pattern::Pattern;
+use super::pivot::Pivots;
+use crate::dense::{self, Factors};
+
+/// Multipliers beyond this mean that the pivots do not suit the numbers.
+const WILD: f64 = 1e6;
+
+/// The factors' structure: every index is a place in the order of elimination.
+#[derive(Clone, Debug, Default)]
+pub(crate) struct Symbolic {
+    rows: Vec<u32>,
+    columns: Vec<u32>,
+    /// For every column, its place.
+    place: Vec<u32>,
+    sparse: usize,
+    lower_starts: Vec<u32>,
+    lower: Vec<u32>,
+    upper_starts: Vec<u32>,
+    upper: Vec<u32>,
+    /// The sign of both orders as permutations.
+    parity: i8,
+}
+
+/// Factors with their numbers, and working space.
+#[derive(Clone, Debug, Default)]
+pub(crate) struct Lu {
+    lower: Vec<f64>,
+    upper: Vec<f64>,
+    pivots: Vec<f64>,
+    tail: Vec<f64>,
+    swaps: Vec<usize>,
+    work: Vec<f64>,
+}
+
+impl Symbolic {
+    /// Lays the factors out.
+    pub(crate) fn new(pivots: Pivots) -> Self {
+        let n = pivots.rows.len();
+        let mut place = vec![0; n];
+        for (k, &c) in pivots.columns.iter().enumerate() {
+            place[c as usize] = k as u32;
+        }
+        let mut made = Self {
+            parity: parity(&pivots.rows) * parity(&pivots.columns),
+            sparse: pivots.sparse,
+            lower_starts: vec![0],
+            upper_starts: vec![0],
+            ..Self::default()
+        };
+        for &r in &pivots.rows {
+            made.lower.extend(&pivots.lower[r as usize]);
+            made.lower_starts.push(made.lower.len() as u32);
+        }
+        for row in &pivots.upper {
+            let from = made.upper.len();
+            made.upper.extend(row.iter().map(|&c| place[c as usize]));
+            made.upper[from..].sort_unstable();
+            made.upper_starts.push(made.upper.len() as u32);
+        }
+        Self { rows: pivots.rows, columns: pivots.columns, place, ..made }
+    }
+
+    fn lower(&self, k: usize) -> std::ops::Range<usize> {
+        self.lower_starts[k] as usize..self.lower_starts[k + 1] as usize
+    }
+    fn upper(&self, k: usize) -> std::ops::Range<usize> {
+        self.upper_starts[k] as usize..self.upper_starts[k + 1] as usize
+    }
+
+    /// Puts numbers in; nothing where the pivots do not suit them.
+    pub(crate) fn factorise(
+        &self,
+        pattern: &Pattern,
+        values: &[f64],
+        lu: &mut Lu,
+    ) -> Option<Factors> {
+        let n = self.rows.len();
+        let tail = n - self.sparse;
+        lu.lower.resize(self.lower.len(), 0.0);
+        lu.upper.resize(self.upper.len(), 0.0);
+        lu.pivots.resize(self.sparse, 0.0);
+        lu.tail.clear();
+        lu.tail.resize(tail * tail, 0.0);
+        lu.work.clear();
+        lu.work.resize(n, 0.0);
+        let work = &mut lu.work;
+        let mut sign = self.parity;
+        let (mut least, mut most) = (f64::INFINITY, 0.0f64);
+        for k in 0..n {
+            for e in pattern.range(self.rows[k] as usize) {
+                work[self.place[pattern.column(e)] as usize] = values[e];
+            }
+            for i in self.lower(k) {
+                let j = self.lower[i] as usize;
+                let factor = work[j] / lu.pivots[j];
+                work[j] = 0.0;
+                lu.lower[i] = factor;
+                let row = self.upper(j);
+                if factor.abs() > WILD && !row.is_empty() {
+                    return None;
+                }
+                if factor != 0.0 {
+                    for (&c, u) in self.upper[row.clone()].iter().zip(&lu.upper[row]) {
+                        work[c as usize] -= factor * u;
+                    }
+                }
+            }
+            if k < self.sparse {
+                let pivot = std::mem::take(&mut work[k]);
+                if pivot == 0.0 || !pivot.is_finite() {
+                    return None;
+                }
+                lu.pivots[k] = pivot;
+                least = least.min(pivot.abs());
+                most = most.max(pivot.abs());
+                if pivot < 0.0 {
+                    sign = -sign;
+                }
+                for i in self.upper(k) {
+                    lu.upper[i] = std::mem::take(&mut work[self.upper[i] as usize]);
+                }
+            } else {
+                let row = &mut lu.tail[(k - self.sparse) * tail..][..tail];
+                row.copy_from_slice(&work[self.sparse..]);
+                work[self.sparse..].fill(0.0);
+            }
+        }
+        let dense = dense::factorise(&mut lu.tail, tail, &mut lu.swaps);
+        for i in 0..lu.swaps.len() {
+            let pivot = lu.tail[i * tail + i].abs();
+            least = least.min(pivot);
+            most = most.max(pivot);
+        }
+        let ratio = if n == 0 { 1.0 } else { least / most };
+        Some(Factors { sign: sign * dense.sign, ratio })
+    }
+
+    /// Solves with the factors; `b` becomes the solution.
+    pub(crate) fn solve(&self, lu: &mut Lu, b: &mut [f64]) {
+        let n = self.rows.len();
+        let work = &mut lu.work;
+        for k in 0..n {
+            let mut value = b[self.rows[k] as usize];
+            for i in self.lower(k) {
+                value -= lu.lower[i] * work[self.lower[i] as usize];
+            }
+            work[k] = value;
+        }
+        dense::substitute_back(&lu.tail, n - self.sparse, &lu.swaps, &mut work[self.sparse..]);
+        for k in (0..self.sparse).rev() {
+            let mut value = work[k];
+            for i in self.upper(k) {
+                value -= lu.upper[i] * work[self.upper[i] as usize];
+            }
+            work[k] = value / lu.pivots[k];
+        }
+        for (k, &c) in self.columns.iter().enumerate() {
+            b[c as usize] = std::mem::take(&mut work[k]);
+        }
+    }
+}
+
+fn parity(order: &[u32]) -> i8 {
+    let mut seen = vec![false; order.len()];
+    let mut sign = 1;
+    for i in 0..order.len() {
+        let mut at = i;
+        let mut length = 0;
+        while !std::mem::replace(&mut seen[at], true) {
+            at = order[at] as usize;
+            length += 1;
+        }
+        if length > 0 && length % 2 == 0 {
+            sign = -sign;
+        }
+    }
+    sign
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::sparse::pivot;
+
+    fn random(seed: &mut u64) -> f64 {
+        *seed =
+            seed.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
+        (*seed >> 11) as f64 / (1u64 << 53) as f64 - 0.5
+    }
+
+    fn case(n: usize, others: usize, seed: &mut u64) -> (Pattern, Vec<f64>) {
+        let rows = (0..n).map(|r| {
+            let some = (0..others).map(|_| ((random(seed) + 0.5) * n as f64) as u32);
+            some.chain([(r * 7 + 3) as u32 % n as u32]).collect()
+        });
+        let rows: Vec<Vec<u32>> = rows.collect();
+        let pattern = Pattern::of_rows(n, rows.into_iter());
+        let values = (0..pattern.len()).map(|_| random(seed)).collect();
+        (pattern, values)
+    }
+
+    #[test]
+    fn a_singular_matrix_is_told() {
+        let pattern = Pattern::of_rows(2, [vec![0, 1], vec![0, 1]].into_iter());
+        let values = [1.0, 2.0, 2.0, 4.0];
+        let symbolic = Symbolic::new(pivot::choose(&pattern, &values));
+        let factors = symbolic.factorise(&pattern, &values, &mut Lu::default());
+        assert!(factors.is_none_or(|f| f.sign == 0));
+    }
+
+    #[test]
+    fn random_sparse_systems_agree_with_dense_ones() {
+        let mut seed = 1;
+        for n in [1, 5, 30, 200] {
+            for others in [1, 3] {
+                let (pattern, values) = case(n, others, &mut seed);
+                let mut full = vec![0.0; n * n];
+                for r in 0..n {
+                    for e in pattern.range(r) {
+                        full[r * n + pattern.column(e)] = values[e];
+                    }
+                }
+                let symbolic = Symbolic::new(pivot::choose(&pattern, &values));
+                let mut lu = Lu::default();
+                let right: Vec<f64> = (0..n).map(|_| random(&mut seed)).collect();
+                let dense = dense::factorise(&mut full.clone(), n, &mut Vec::new());
+                let Some(factors) = symbolic.factorise(&pattern, &values, &mut lu) else {
+                    assert!(dense.ratio < 1e-9);
+                    continue;
+                };
+                if dense.ratio < 1e-9 {
+                    continue;
+                }
+                assert_eq!(factors.sign, dense.sign);
+                let mut x = right.clone();
+                symbolic.solve(&mut lu, &mut x);
+                for r in 0..n {
+                    let got: f64 = dense::dot(&full[r * n..][..n], &x);
+                    assert!((got - right[r]).abs() < 1e-6, "{n} {others}: {got} {}", right[r]);
+                }
+            }
+        }
+    }
+
+    #[test]
+    fn factors_serve_other_numbers_of_the_pattern() {
+        let mut seed = 5;
+        let (pattern, values) = case(60, 2, &mut seed);
+        let symbolic = Symbolic::new(pivot::choose(&pattern, &values));
+        let others: Vec<f64> = values.iter().map(|v| v * 3.0).collect();
+        let mut lu = Lu::default();
+        assert!(symbolic.factorise(&pattern, &others, &mut lu).is_some());
+        let mut b = vec![0.0; 60];
+        for (r, sum) in b.iter_mut().enumerate() {
+            *sum = others[pattern.range(r)].iter().sum();
+        }
+        symbolic.solve(&mut lu, &mut b);
+        assert!(b.iter().all(|x| (x - 1.0).abs() < 1e-8), "{b:?}");
+    }
+}

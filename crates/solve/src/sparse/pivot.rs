@@ -1,0 +1,270 @@
+//! Pivots: an order of elimination that makes few new entries and keeps the numbers tame.
+//!
+//! In: a square pattern and numbers to judge by. Out: rows and columns in the order of elimination, and
+//! what the factors will look like. Of the entries that are not much smaller than the largest in
+//! their column, the one whose row and column have the fewest others is next; a few candidates are
+//! looked at. What is left when it has become dense is one dense tail.
+//!
+//! **Source:** Markowitz, *The elimination form of the inverse*, Management Science 3 (1957);
+//! Duff, Erisman and Reid, *Direct Methods for Sparse Matrices*, 2nd ed., §10.2.
+
+use super::pattern::Pattern;
+
+/// An entry this much smaller than the largest in its column is no pivot.
+const THRESHOLD: f64 = 0.1;
+/// How many rows and columns are looked at for one pivot.
+const CANDIDATES: usize = 4;
+/// A remainder with this part of its entries present is dense.
+const DENSE: f64 = 0.4;
+/// A remainder of so many rows is dense in any case.
+const SMALL: usize = 8;
+
+/// The order of elimination, and the entries of the factors.
+#[derive(Clone, Debug, Default)]
+pub(crate) struct Pivots {
+    /// Rows, in order; those of the tail last.
+    pub(crate) rows: Vec<u32>,
+    /// Columns, in order; those of the tail last.
+    pub(crate) columns: Vec<u32>,
+    /// How many are eliminated before the tail.
+    pub(crate) sparse: usize,
+    /// For every row, by its number, the earlier pivots that are subtracted from it, in order.
+    pub(crate) lower: Vec<Vec<u32>>,
+    /// For every pivot before the tail, the other columns of its row, by their number.
+    pub(crate) upper: Vec<Vec<u32>>,
+}
+
+/// Numbered things by how many entries each has, to find those with few.
+#[derive(Debug)]
+pub(super) struct Counts {
+    count: Vec<u32>,
+    head: Vec<u32>,
+    next: Vec<u32>,
+    previous: Vec<u32>,
+}
+
+const NONE: u32 = u32::MAX;
+
+impl Counts {
+    pub(super) fn new(counts: Vec<u32>) -> Self {
+        let n = counts.len();
+        let mut made = Self {
+            head: vec![NONE; n + 1],
+            next: vec![NONE; n],
+            previous: vec![NONE; n],
+            count: counts,
+        };
+        for i in (0..n as u32).rev() {
+            made.link(i);
+        }
+        made
+    }
+    fn link(&mut self, i: u32) {
+        let head = &mut self.head[self.count[i as usize] as usize];
+        self.next[i as usize] = *head;
+        self.previous[i as usize] = NONE;
+        if *head != NONE {
+            self.previous[*head as usize] = i;
+        }
+        *head = i;
+    }
+    pub(super) fn unlink(&mut self, i: u32) {
+        let (next, previous) = (self.next[i as usize], self.previous[i as usize]);
+        if previous == NONE {
+            self.head[self.count[i as usize] as usize] = next;
+        } else {
+            self.next[previous as usize] = next;
+        }
+        if next != NONE {
+            self.previous[next as usize] = previous;
+        }
+    }
+    pub(super) fn set(&mut self, i: u32, count: usize) {
+        if self.count[i as usize] != count as u32 {
+            self.unlink(i);
+            self.count[i as usize] = count as u32;
+            self.link(i);
+        }
+    }
+    pub(super) fn of(&self, count: usize) -> impl Iterator<Item = u32> + '_ {
+        let mut at = self.head[count];
+        std::iter::from_fn(move || {
+            let i = at;
+            (i != NONE).then(|| {
+                at = self.next[i as usize];
+                i
+            })
+        })
+    }
+}
+
+/// What is left to be eliminated.
+struct Remainder {
+    rows: Vec<Vec<(u32, f64)>>,
+    columns: Vec<Vec<u32>>,
+    by_row: Counts,
+    by_column: Counts,
+    entries: usize,
+    left: usize,
+}
+
+/// Chooses the pivots. What is singular for these numbers is left to the tail.
+pub(crate) fn choose(pattern: &Pattern, values: &[f64]) -> Pivots {
+    let n = pattern.height();
+    let mut rest = Remainder::new(pattern, values);
+    let mut out = Pivots { lower: vec![Vec::new(); n], ..Pivots::default() };
+    let mut at = vec![NONE; n];
+    let mut is_left = (vec![true; n], vec![true; n]);
+    while rest.left > SMALL && (rest.entries as f64) < DENSE * (rest.left * rest.left) as f64 {
+        let Some((row, column)) = rest.best() else { break };
+        rest.eliminate(row, column, &mut out, &mut at);
+        is_left.0[row as usize] = false;
+        is_left.1[column as usize] = false;
+    }
+    out.sparse = out.rows.len();
+    out.rows.extend((0..n as u32).filter(|&r| is_left.0[r as usize]));
+    out.columns.extend((0..n as u32).filter(|&c| is_left.1[c as usize]));
+    out
+}
+
+impl Remainder {
+    fn new(pattern: &Pattern, values: &[f64]) -> Self {
+        let n = pattern.height();
+        let mut columns: Vec<Vec<u32>> = vec![Vec::new(); n];
+        let rows: Vec<Vec<(u32, f64)>> = (0..n)
+            .map(|r| {
+                pattern
+                    .range(r)
+                    .map(|e| {
+                        columns[pattern.column(e)].push(r as u32);
+                        (pattern.column(e) as u32, values[e])
+                    })
+                    .collect()
+            })
+            .collect();
+        let by_row = Counts::new(rows.iter().map(|r| r.len() as u32).collect());
+        let by_column = Counts::new(columns.iter().map(|c| c.len() as u32).collect());
+        Self { rows, columns, by_row, by_column, entries: pattern.len(), left: n }
+    }
+
+    fn value(&self, row: u32, column: u32) -> f64 {
+        self.rows[row as usize].iter().find(|e| e.0 == column).map_or(0.0, |e| e.1)
+    }
+    fn largest_in(&self, column: u32) -> f64 {
+        self.columns[column as usize]
+            .iter()
+            .fold(0.0f64, |most, &r| most.max(self.value(r, column).abs()))
+    }
+
+    /// The pivot that makes the fewest new entries, among a few candidates.
+    fn best(&self) -> Option<(u32, u32)> {
+        let mut best: Option<(usize, f64, u32, u32)> = None;
+        let mut looked = 0;
+        for count in 1..=self.left {
+            for column in self.by_column.of(count) {
+                let largest = self.largest_in(column);
+                for &row in &self.columns[column as usize] {
+                    let cost = (count - 1) * (self.rows[row as usize].len() - 1);
+                    self.offer(row, column, cost, largest, &mut best);
+                }
+                looked += 1;
+                if done(best, count - 1, looked) {
+                    return best.map(|b| (b.2, b.3));
+                }
+            }
+            for row in self.by_row.of(count) {
+                for &(column, value) in &self.rows[row as usize] {
+                    let cost = (count - 1) * (self.columns[column as usize].len() - 1);
+                    // what stands alone in its row changes no other entry
+                    let largest = if count == 1 { value.abs() } else { self.largest_in(column) };
+                    self.offer(row, column, cost, largest, &mut best);
+                }
+                looked += 1;
+                if done(best, count, looked) {
+                    return best.map(|b| (b.2, b.3));
+                }
+            }
+        }
+        best.map(|b| (b.2, b.3))
+    }
+
+    fn offer(
+        &self,
+        row: u32,
+        column: u32,
+        cost: usize,
+        largest: f64,
+        best: &mut Option<(usize, f64, u32, u32)>,
+    ) {
+        if best.is_some_and(|b| b.0 < cost) {
+            return;
+        }
+        let size = self.value(row, column).abs();
+        if size > 0.0 && size.is_finite() && size >= THRESHOLD * largest {
+            let better = best.is_none_or(|b| cost < b.0 || size > b.1);
+            if better {
+                *best = Some((cost, size, row, column));
+            }
+        }
+    }
+
+    fn eliminate(&mut self, row: u32, column: u32, out: &mut Pivots, at: &mut [u32]) {
+        let pivot_row = std::mem::take(&mut self.rows[row as usize]);
+        let number = out.rows.len() as u32;
+        let mut pivot = 0.0;
+        for &(c, value) in &pivot_row {
+            let own = &mut self.columns[c as usize];
+            if let Some(i) = own.iter().position(|&r| r == row) {
+                own.swap_remove(i);
+            }
+            if c == column {
+                pivot = value;
+            }
+        }
+        self.entries -= pivot_row.len();
+        let below = std::mem::take(&mut self.columns[column as usize]);
+        for &r in &below {
+            let target = &mut self.rows[r as usize];
+            for (i, e) in target.iter().enumerate() {
+                at[e.0 as usize] = i as u32;
+            }
+            let own = at[column as usize] as usize;
+            let factor = target[own].1 / pivot;
+            let before = target.len();
+            for &(c, value) in &pivot_row {
+                if c == column {
+                    continue;
+                }
+                let place = at[c as usize];
+                if place == NONE {
+                    target.push((c, -factor * value));
+                    self.columns[c as usize].push(r);
+                } else {
+                    target[place as usize].1 -= factor * value;
+                }
+            }
+            for e in target.iter() {
+                at[e.0 as usize] = NONE;
+            }
+            target.swap_remove(own);
+            self.entries += target.len();
+            self.entries -= before;
+            self.by_row.set(r, target.len());
+            out.lower[r as usize].push(number);
+        }
+        self.by_row.unlink(row);
+        self.by_column.unlink(column);
+        for &(c, _) in pivot_row.iter().filter(|e| e.0 != column) {
+            self.by_column.set(c, self.columns[c as usize].len());
+        }
+        self.left -= 1;
+        out.rows.push(row);
+        out.columns.push(column);
+        out.upper.push(pivot_row.into_iter().map(|e| e.0).filter(|&c| c != column).collect());
+    }
+}
+
+/// Whether nothing noticeably better will be found.
+fn done(best: Option<(usize, f64, u32, u32)>, bound: usize, looked: usize) -> bool {
+    best.is_some_and(|b| b.0 <= bound * bound || looked >= CANDIDATES)
+}
