@@ -105,7 +105,7 @@ impl Planner {
     }
 
     /// Returns a slot as an expression.
-    fn itself(&mut self, slot: SlotId) -> Formula {
+    fn itself(&mut self, slot: SlotId) -> Formula<SlotId> {
         let mut arena = Arena::new();
         let variable = arena.var(Var(slot.0));
         Formula::of(self.plans.patterns_mut(), &arena, &[variable])
@@ -130,6 +130,7 @@ impl Planner {
             }
             Target::Term { me, term } => {
                 let mut opening = Opening::new(model.document, model.structure);
+                opening.begin(me);
                 let meaning = opening.meaning(term, &Frame::of(me))?;
                 let mut leaves = Vec::new();
                 flatten(&mut opening, self.plans.patterns_mut(), &meaning, &mut leaves)?;
@@ -168,7 +169,7 @@ pub(crate) fn with_present_values<'t>(
 /// What an edit can give a value to.
 enum Leaf {
     Slot(SlotId),
-    Formula(Formula),
+    Formula(Formula<SlotId>),
 }
 
 fn flatten<'a>(

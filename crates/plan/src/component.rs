@@ -3,10 +3,11 @@
 //! Two rules belong together if they share a slot that is not fixed, or if they speak of two
 //! coordinates of one place: a place yields as one.
 
-use crate::rule::Rule;
-use base::IdVec;
+use crate::rule::Rules;
+use base::{IdVec, Mixer};
+use indexmap::IndexSet;
 use kernel::{SlotId, Structure, ThingId};
-use std::collections::BTreeMap;
+use std::hash::BuildHasherDefault;
 
 /// Rules with the slots that they mention, both in order of declaration.
 #[derive(Clone, PartialEq, Eq, Debug, Default)]
@@ -21,15 +22,54 @@ pub(crate) struct Net {
     /// For every slot, where its rules begin in `rules`; one more at the end.
     first: Vec<u32>,
     rules: Vec<u32>,
-    place: IdVec<SlotId, Option<u32>>,
-    places: Vec<Vec<SlotId>>,
+    places: Places,
+}
+
+/// Which slots are coordinates of one place.
+#[derive(Clone, Debug, Default)]
+struct Places {
+    /// For every slot, its place by number.
+    of: IdVec<SlotId, u32>,
+    /// For every place, where its slots begin; one more at the end.
+    first: Vec<u32>,
+    slots: Vec<SlotId>,
+}
+
+/// The slot is a lone number.
+const NO_PLACE: u32 = u32::MAX;
+
+impl Places {
+    fn new(structure: &Structure) -> Self {
+        let mut of = IdVec::filled(NO_PLACE, structure.slots.len());
+        let mut number: IdVec<ThingId, u32> = IdVec::filled(NO_PLACE, structure.things.len());
+        let mut first = vec![0];
+        for (slot, s) in structure.slots.iter() {
+            let Some(thing) = s.place else { continue };
+            if number[thing] == NO_PLACE {
+                number[thing] = first.len() as u32 - 1;
+                first.push(0);
+            }
+            of[slot] = number[thing];
+            first[number[thing] as usize + 1] += 1;
+        }
+        for i in 1..first.len() {
+            first[i] += first[i - 1];
+        }
+        let mut next = first.clone();
+        let mut slots = vec![SlotId(0); *first.last().unwrap_or(&0) as usize];
+        for (slot, &place) in of.iter().filter(|(_, p)| **p != NO_PLACE) {
+            slots[next[place as usize] as usize] = slot;
+            next[place as usize] += 1;
+        }
+        Self { of, first, slots }
+    }
 }
 
 impl Net {
-    pub(crate) fn new(structure: &Structure, rules: &[Rule]) -> Self {
+    pub(crate) fn new(structure: &Structure, rules: &Rules) -> Self {
         let n = structure.slots.len();
         let mut first = vec![0; n + 1];
-        for rule in rules {
+        for rule in rules.iter() {
             rule.slots.iter().for_each(|s| first[s.0 as usize + 1] += 1);
         }
         for i in 0..n {
@@ -37,26 +77,13 @@ impl Net {
         }
         let mut next = first.clone();
         let mut by_slot = vec![0; first[n] as usize];
-        for (i, rule) in rules.iter().enumerate() {
-            for s in &rule.slots {
-                by_slot[next[s.0 as usize] as usize] = i as u32;
+        for (i, rule) in (0..).zip(rules.iter()) {
+            for s in rule.slots {
+                by_slot[next[s.0 as usize] as usize] = i;
                 next[s.0 as usize] += 1;
             }
         }
-        let mut places: Vec<Vec<SlotId>> = Vec::new();
-        let mut index: BTreeMap<ThingId, u32> = BTreeMap::new();
-        let mut place = IdVec::filled(None, n);
-        for (slot, s) in structure.slots.iter() {
-            if let Some(thing) = s.place {
-                let i = *index.entry(thing).or_insert_with(|| {
-                    places.push(Vec::new());
-                    places.len() as u32 - 1
-                });
-                places[i as usize].push(slot);
-                place[slot] = Some(i);
-            }
-        }
-        Self { first, rules: by_slot, place, places }
+        Self { first, rules: by_slot, places: Places::new(structure) }
     }
 
     /// Returns the rules that mention a slot, in order.
@@ -67,108 +94,132 @@ impl Net {
 
     /// Returns the coordinates of the slot's place, itself included; nothing for a lone number.
     pub(crate) fn place_of(&self, slot: SlotId) -> &[SlotId] {
-        self.place[slot].map_or(&[], |p| &self.places[p as usize])
+        let place = self.places.of[slot];
+        if place == NO_PLACE {
+            return &[];
+        }
+        let [from, to] = [place, place + 1].map(|p| self.places.first[p as usize] as usize);
+        &self.places.slots[from..to]
     }
 
     /// Returns every component of the document, in order of their first slot.
-    pub(crate) fn all(&self, rules: &[Rule], is_fixed: &dyn Fn(SlotId) -> bool) -> Vec<Component> {
-        let slots = (0..self.place.len() as u32).map(SlotId);
+    pub(crate) fn all(&self, rules: &Rules, is_fixed: &dyn Fn(SlotId) -> bool) -> Vec<Component> {
+        let slots = (0..self.places.of.len() as u32).map(SlotId);
         let slots = slots.filter(|&s| !self.rules_of(s).is_empty());
-        self.around(slots, rules, is_fixed, &[])
+        let slot_seen = Seen::Dense(vec![false; self.places.of.len()]);
+        let rule_seen = Seen::Dense(vec![false; rules.len()]);
+        let walk = Walk { net: self, rules, is_fixed, rule_seen, slot_seen, tied: &[] };
+        walk.around(slots)
     }
 
     /// Returns the components of these slots; those of a fixed slot are the components of its rules.
     ///
-    /// Each of `tied` speaks of several slots and ties them together, as a rule does.
+    /// Each of `tied` speaks of several slots and ties them together, as a rule does. Cost: that of
+    /// the components, whatever else the document holds.
     pub(crate) fn around(
         &self,
         slots: impl IntoIterator<Item = SlotId>,
-        rules: &[Rule],
+        rules: &Rules,
         is_fixed: &dyn Fn(SlotId) -> bool,
         tied: &[Vec<SlotId>],
     ) -> Vec<Component> {
-        let mut walk = Walk { rule_seen: Seen::default(), slot_seen: Seen::default(), tied };
+        let [rule_seen, slot_seen] = [(); 2].map(|()| Seen::Sparse(IndexSet::default()));
+        Walk { net: self, rules, is_fixed, rule_seen, slot_seen, tied }.around(slots)
+    }
+}
+
+/// Which numbers were met.
+enum Seen {
+    /// For a walk through everything.
+    Dense(Vec<bool>),
+    /// For a walk through a little.
+    Sparse(IndexSet<u32, BuildHasherDefault<Mixer>>),
+}
+
+impl Seen {
+    /// Returns true the first time.
+    fn add(&mut self, i: u32) -> bool {
+        match self {
+            Self::Dense(seen) => !std::mem::replace(&mut seen[i as usize], true),
+            Self::Sparse(seen) => seen.insert(i),
+        }
+    }
+}
+
+struct Walk<'w> {
+    net: &'w Net,
+    rules: &'w Rules,
+    is_fixed: &'w dyn Fn(SlotId) -> bool,
+    rule_seen: Seen,
+    slot_seen: Seen,
+    tied: &'w [Vec<SlotId>],
+}
+
+/// A component on the way: what was reached and not yet looked at.
+#[derive(Default)]
+struct Found {
+    component: Component,
+    fixed: Vec<SlotId>,
+    slots: Vec<SlotId>,
+    rules: Vec<u32>,
+}
+
+impl Walk<'_> {
+    fn around(mut self, slots: impl IntoIterator<Item = SlotId>) -> Vec<Component> {
         let mut components = Vec::new();
         for slot in slots {
-            if !is_fixed(slot) {
-                let component = walk.from(self, rules, is_fixed, &[slot], &[]);
-                components.extend(component);
+            if !(self.is_fixed)(slot) {
+                let mut found = Found::default();
+                self.reach(slot, &mut found);
+                components.extend(self.complete(found));
                 continue;
             }
-            for &rule in self.rules_of(slot) {
-                components.extend(walk.from(self, rules, is_fixed, &[], &[rule]));
+            for &rule in self.net.rules_of(slot) {
+                if self.rule_seen.add(rule) {
+                    let found = Found { rules: vec![rule], ..Found::default() };
+                    components.extend(self.complete(found));
+                }
             }
         }
         components
     }
-}
 
-/// Small sets of numbers that start empty: the walk costs what it visits, not the document.
-#[derive(Default)]
-struct Seen(std::collections::BTreeSet<u32>);
-
-impl Seen {
-    fn add(&mut self, i: u32) -> bool {
-        self.0.insert(i)
-    }
-}
-
-struct Walk<'t> {
-    rule_seen: Seen,
-    slot_seen: Seen,
-    tied: &'t [Vec<SlotId>],
-}
-
-impl Walk<'_> {
-    fn from(
-        &mut self,
-        net: &Net,
-        rules: &[Rule],
-        is_fixed: &dyn Fn(SlotId) -> bool,
-        slots: &[SlotId],
-        first_rules: &[u32],
-    ) -> Option<Component> {
-        let mut component = Component::default();
-        let mut fixed = Vec::new();
-        let mut waiting: Vec<SlotId> = Vec::new();
-        let reach =
-            |seen: &mut Seen, s: SlotId, waiting: &mut Vec<SlotId>, fixed: &mut Vec<SlotId>| {
-                if is_fixed(s) {
-                    fixed.push(s);
-                } else if seen.add(s.0) {
-                    waiting.push(s);
-                }
-            };
-        for &s in slots {
-            reach(&mut self.slot_seen, s, &mut waiting, &mut fixed);
+    fn reach(&mut self, slot: SlotId, found: &mut Found) {
+        if (self.is_fixed)(slot) {
+            found.fixed.push(slot);
+        } else if self.slot_seen.add(slot.0) {
+            found.slots.push(slot);
         }
-        let mut new_rules: Vec<u32> =
-            first_rules.iter().copied().filter(|&r| self.rule_seen.add(r)).collect();
+    }
+
+    fn complete(&mut self, mut found: Found) -> Option<Component> {
+        let net = self.net;
         loop {
-            while let Some(rule) = new_rules.pop() {
-                component.rules.push(rule);
-                for &s in &rules[rule as usize].slots {
-                    reach(&mut self.slot_seen, s, &mut waiting, &mut fixed);
+            while let Some(rule) = found.rules.pop() {
+                found.component.rules.push(rule);
+                for &s in self.rules.get(rule).slots {
+                    self.reach(s, &mut found);
                 }
             }
-            let Some(slot) = waiting.pop() else { break };
-            component.slots.push(slot);
+            let Some(slot) = found.slots.pop() else { break };
+            found.component.slots.push(slot);
             for &rule in net.rules_of(slot) {
                 if self.rule_seen.add(rule) {
-                    new_rules.push(rule);
+                    found.rules.push(rule);
                 }
             }
-            for &s in net.place_of(slot).iter().filter(|&&s| s != slot) {
-                if !net.rules_of(s).is_empty() {
-                    reach(&mut self.slot_seen, s, &mut waiting, &mut fixed);
+            for &s in net.place_of(slot) {
+                if s != slot && !net.rules_of(s).is_empty() {
+                    self.reach(s, &mut found);
                 }
             }
             for tied in self.tied.iter().filter(|t| t.contains(&slot)) {
                 for &s in tied {
-                    reach(&mut self.slot_seen, s, &mut waiting, &mut fixed);
+                    self.reach(s, &mut found);
                 }
             }
         }
+        let Found { mut component, fixed, .. } = found;
         if component.slots.is_empty() && component.rules.is_empty() {
             return None;
         }

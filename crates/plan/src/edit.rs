@@ -106,7 +106,7 @@ impl Planner {
             if has_value[slot] { resting } else { Holding::Free }
         };
         let components = self.net.all(&self.rules, &|s| holding(s) == Holding::Fixed);
-        let tasks = self.tasks(model.structure, &components, &holding, &[]);
+        let tasks = self.tasks(model.structure, components, &holding, &[]);
         let mut report = EditReport { reached: true, ..EditReport::default() };
         let before = values.clone();
         for task in &tasks {
@@ -210,7 +210,7 @@ impl Planner {
             aim.slots().into_iter().chain(tied.iter().flatten().copied()).collect();
         let is_fixed = |s| holding(s) == Holding::Fixed;
         let components = self.net.around(start, &self.rules, &is_fixed, &tied);
-        self.tasks(structure, &components, &holding, &aim.wishes)
+        self.tasks(structure, components, &holding, &aim.wishes)
     }
 
     /// Lets soft constraints act when the wishes are withdrawn.
@@ -221,11 +221,11 @@ impl Planner {
         values: &mut Values,
         host: &mut dyn Host,
     ) -> Option<Failure> {
-        let is_soft = |&&r: &&u32| self.rules[r as usize].level != Level::Required;
+        let is_soft = |&&r: &&u32| self.rules.get(r).shape.level != Level::Required;
         let soft: Vec<SlotId> = components
             .iter()
             .flat_map(|c| c.rules.iter().filter(is_soft))
-            .flat_map(|&r| self.rules[r as usize].slots.clone())
+            .flat_map(|&r| self.rules.get(r).slots.iter().copied())
             .collect();
         if soft.is_empty() {
             return None;
@@ -233,7 +233,7 @@ impl Planner {
         let holding = |s| Self::resting_hold(model.structure, s);
         let is_fixed = |s| holding(s) == Holding::Fixed;
         let components = self.net.around(soft, &self.rules, &is_fixed, &[]);
-        let tasks = self.tasks(model.structure, &components, &holding, &[]);
+        let tasks = self.tasks(model.structure, components, &holding, &[]);
         let start = values.clone();
         let aim = Aim::default();
         tasks.iter().find_map(|task| run(self, model, task, &aim, &start, values, host).failure)

@@ -43,11 +43,7 @@ impl<'a> Opening<'a> {
             (Meaning::Number(_), _) | (_, Meaning::Number(_)) => {
                 Err(Trouble::wrong(format!("{} and {} are never equal", kind(a), kind(b))))
             }
-            (Meaning::Thing(s), Meaning::Thing(t))
-                if self.structure.merged[*s] == self.structure.merged[*t] =>
-            {
-                Ok(())
-            }
+            (Meaning::Thing(s), Meaning::Thing(t)) if self.reach.is_same(*s, *t) => Ok(()),
             (Meaning::List(_), _) | (_, Meaning::List(_)) => {
                 let (a, b) = (self.by_position(a)?, self.by_position(b)?);
                 self.pairs(&a, &b, leaves)
@@ -86,7 +82,7 @@ impl<'a> Opening<'a> {
             return Ok(items.to_vec());
         }
         match meaning {
-            Meaning::Thing(t) => self.structure.parts(*t).map(|t| self.part(t)).collect(),
+            Meaning::Thing(t) => self.reach.parts(*t).into_iter().map(|t| self.part(t)).collect(),
             Meaning::Made(made) => Ok(made.fields.iter().map(|f| f.1.clone()).collect()),
             Meaning::Number(_) | Meaning::List(_) | Meaning::Opaque(_) | Meaning::Lambda(_) => {
                 Err(Trouble::wrong(format!("{} has no parts", kind(meaning))))
@@ -131,14 +127,14 @@ impl<'a> Opening<'a> {
         target: ThingId,
         value: &Meaning<'a>,
     ) -> Result<Vec<(kernel::SlotId, Meaning<'a>)>, Trouble> {
-        if let Some(slot) = self.structure.slot_of[target] {
+        if let Some(slot) = self.reach.slot(target) {
             return match value {
                 Meaning::Number(_) | Meaning::Opaque(_) => Ok(vec![(slot, value.clone())]),
                 other => Err(Trouble::wrong(format!("{} is no value for a number", kind(other)))),
             };
         }
         if let Meaning::Opaque(_) = value {
-            let slots = self.structure.slots_under(target);
+            let slots = self.reach.slots_under(target);
             return Ok(slots.into_iter().map(|s| (s, value.clone())).collect());
         }
         let by_name = match value {
@@ -153,19 +149,19 @@ impl<'a> Opening<'a> {
         if by_name {
             let class = self.common_ancestor(&Meaning::Thing(target), value)?;
             for name in self.field_names(class) {
-                let part = self.structure.part_named(target, &name);
+                let part = self.reach.part_named(target, &name);
                 let part = part.ok_or_else(|| Trouble::wrong(format!("no part `{name}`")))?;
                 let value = self.send(value, &name, &[], None)?;
                 shared.extend(self.share(part, &value)?);
             }
         } else {
-            let parts = self.structure.parts(target);
+            let parts = self.reach.parts(target);
             let values = self.by_position(value)?;
             if parts.len() != values.len() {
                 let message = format!("{} values for {} parts", values.len(), parts.len());
                 return Err(Trouble::wrong(message));
             }
-            for (part, value) in parts.zip(values) {
+            for (part, value) in parts.into_iter().zip(values) {
                 shared.extend(self.share(part, &value)?);
             }
         }

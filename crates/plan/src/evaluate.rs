@@ -5,10 +5,11 @@
 
 use crate::fault::{FaultKind, Trouble};
 use crate::meaning::{Closure, Frame, Meaning, Opaque, collect_slots};
+use crate::reach::Reach;
 use base::Name;
 use expr::{Arena, ExprId, Node, Unary, Var};
 use kernel::{
-    Argument, ClassId, ClassKind, DOCUMENT, Document, Message, SlotId, Structure, Term, ThingId,
+    Argument, ClassId, ClassKind, Document, Message, SlotId, Structure, Term, ThingId,
     UnaryOperator,
 };
 use std::collections::BTreeSet;
@@ -30,7 +31,9 @@ pub(crate) type Answer<'a> = Result<Meaning<'a>, Trouble>;
 /// The context of symbolic evaluation.
 pub(crate) struct Opening<'a> {
     pub(crate) document: &'a Document,
+    /// The structure, for what follows from the class of a thing; the rest is asked of `reach`.
     pub(crate) structure: &'a Structure,
+    pub(crate) reach: Reach<'a>,
     /// The expressions of the rule at hand.
     pub(crate) arena: Arena,
     depth: u32,
@@ -40,7 +43,8 @@ pub(crate) struct Opening<'a> {
 
 impl<'a> Opening<'a> {
     pub(crate) fn new(document: &'a Document, structure: &'a Structure) -> Self {
-        Self { document, structure, arena: Arena::new(), depth: 0, nested: 0, terms: 0 }
+        let reach = Reach::new(structure);
+        Self { document, structure, reach, arena: Arena::new(), depth: 0, nested: 0, terms: 0 }
     }
 
     /// Finds what a term stands for.
@@ -63,7 +67,7 @@ impl<'a> Opening<'a> {
             Term::Bool(b) => Ok(self.number(f64::from(u8::from(*b)))),
             Term::Me => Ok(frame.me.clone()),
             Term::Owner => self.owner(&frame.me),
-            Term::Document => Ok(Meaning::Thing(DOCUMENT)),
+            Term::Document => Ok(Meaning::Thing(self.reach.document())),
             Term::Local(name) => frame.local(name).ok_or_else(|| {
                 Trouble::new(FaultKind::UnknownName, format!("nothing is named `{name}` here"))
             }),
@@ -151,7 +155,8 @@ impl<'a> Opening<'a> {
     }
 
     /// Begins another rule: with no expression, so that it is stated alike wherever it stands.
-    pub(crate) fn begin(&mut self) {
+    pub(crate) fn begin(&mut self, owner: ThingId) {
+        self.reach.begin(owner);
         self.arena = Arena::new();
         self.terms = 0;
         self.depth = 0;
@@ -162,9 +167,9 @@ impl<'a> Opening<'a> {
         Meaning::Number(self.arena.constant(value))
     }
 
-    fn owner(&self, me: &Meaning<'a>) -> Answer<'a> {
+    fn owner(&mut self, me: &Meaning<'a>) -> Answer<'a> {
         match me {
-            Meaning::Thing(t) => match self.structure.things[*t].owner {
+            Meaning::Thing(t) => match self.reach.owner(*t) {
                 Some(owner) => Ok(Meaning::Thing(owner)),
                 None => Err(Trouble::wrong("the document is not a part of anything")),
             },
@@ -212,7 +217,7 @@ impl<'a> Opening<'a> {
 
     /// Returns what is stored in a part, or the part itself where it has parts.
     pub(crate) fn part(&mut self, thing: ThingId) -> Answer<'a> {
-        if let Some(slot) = self.structure.slot_of[thing] {
+        if let Some(slot) = self.reach.slot(thing) {
             return Ok(if self.structure.slots[slot].primitive.is_number() {
                 Meaning::Number(self.arena.var(Var(slot.0)))
             } else {
@@ -260,7 +265,7 @@ impl<'a> Opening<'a> {
             return Ok(None);
         }
         match to {
-            Meaning::Thing(t) => match self.structure.part_named(*t, name) {
+            Meaning::Thing(t) => match self.reach.part_named(*t, name) {
                 Some(part) => self.part(part).map(Some),
                 None => Ok(None),
             },
@@ -349,11 +354,8 @@ impl<'a> Opening<'a> {
             Meaning::List(items) => Ok(items.clone()),
             Meaning::Thing(t) => {
                 let things: Vec<ThingId> = match self.structure_kind(*t) {
-                    ClassKind::List(_) => self.structure.parts(*t).collect(),
-                    ClassKind::Set(_) => {
-                        let members = self.structure.sets.get(&self.structure.merged[*t]);
-                        members.cloned().unwrap_or_default()
-                    }
+                    ClassKind::List(_) => self.reach.parts(*t),
+                    ClassKind::Set(_) => self.reach.members(*t),
                     ClassKind::Primitive(_) | ClassKind::Composite | ClassKind::Reference(_) => {
                         let class = self.structure.things[*t].class;
                         let name = &self.document.classes[class].name;
@@ -386,7 +388,8 @@ impl<'a> Opening<'a> {
         }
     }
 
-    fn all(&self, class: ClassId) -> Meaning<'a> {
+    fn all(&mut self, class: ClassId) -> Meaning<'a> {
+        self.reach.looks_around();
         let mut seen = BTreeSet::new();
         let things = self.structure.things.iter().filter(|(id, t)| {
             self.document.is_a(t.class, class) && seen.insert(self.structure.merged[*id])

@@ -11,27 +11,28 @@ use solve::{Patterns, Scratch};
 pub(crate) fn fails(
     patterns: &Patterns,
     structure: &Structure,
-    rule: &Rule,
+    rule: Rule<'_>,
     values: &Values,
     host: &mut dyn Host,
     scratch: &mut Scratch,
 ) -> Option<Option<f64>> {
-    match &rule.body {
+    match &rule.shape.body {
         Body::Equations(equations) => {
             let mut worst = None;
             for e in equations {
-                let sides = e.evaluate(patterns, &values.numbers, scratch);
+                let sides = rule.evaluate(e, patterns, &values.numbers, scratch);
                 let (left, right) = (sides[0], sides[1]);
-                if !agree(left, right, rule.within) {
+                if !agree(left, right, rule.shape.within) {
                     worst = larger(worst, Some((left - right).abs()));
                 }
             }
             worst.map(Some)
         }
         Body::Opaque(_) => {
-            let holds = match (rule.methods.as_slice(), rule.source) {
+            let holds = match (rule.shape.methods.as_slice(), rule.source) {
                 ([copy, ..], _) if matches!(copy.how, How::Copy) => {
-                    values.get(copy.targets[0]).same_bits(&values.get(copy.reads[0]))
+                    let slot = |position: u32| values.get(rule.slots[position as usize]);
+                    slot(copy.targets[0]).same_bits(&slot(copy.reads[0]))
                 }
                 (_, Source::Constraint(c)) => host.holds(structure.constraints[c as usize], values),
                 (_, Source::Stay(_) | Source::Wish(_)) => true,

@@ -42,7 +42,9 @@ mod lower;
 mod making;
 mod meaning;
 mod operator;
+mod reach;
 mod say;
+mod template;
 
 pub mod fault;
 pub mod host;

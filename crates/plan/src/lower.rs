@@ -1,13 +1,12 @@
 //! Lowering: constraints and declared stays become rules.
 //!
-//! In: the constraints of a structure. Out: [`Rule`]s, whose expressions' variables are slots by
-//! their number in the document. A constraint becomes one rule, or several where it speaks of
-//! numbers and texts at once and has no methods of its own.
+//! In: a constraint of a thing. Out: what it says, over slots of the document. A constraint becomes
+//! one rule, or several where it speaks of numbers and texts at once and has no methods of its own.
 
 use crate::evaluate::Opening;
 use crate::fault::{Fault, Trouble};
 use crate::meaning::{Frame, Meaning, collect_slots};
-use crate::rule::{Body, Formula, How, Rule, RuleMethod, Source, Way};
+use crate::rule::{Body, Formula, How, RuleMethod, Shape, Way};
 use crate::say::{Said, Standing, say};
 use kernel::{
     Constraint, ConstraintInstance, Method, Path, SlotId, StayInstance, Step, Strength, Structure,
@@ -16,22 +15,22 @@ use kernel::{
 use solve::{Level, Patterns};
 use std::collections::BTreeSet;
 
-/// Lowers a declared stay. Anchors are no rules: their slots are fixed.
-pub(crate) fn lower_stay(structure: &Structure, index: u32, stay: StayInstance) -> Option<Rule> {
-    let level = level(stay.strength?);
+/// Returns the numbers that a declared stay holds. Anchors are no rules: their slots are fixed.
+pub(crate) fn held(structure: &Structure, stay: StayInstance) -> Vec<SlotId> {
     let slots = structure.slots_under(stay.thing);
-    let numbers = slots.into_iter().filter(|&s| structure.slots[s].primitive.is_number());
-    let slots: Vec<SlotId> = numbers.collect();
-    Some(Rule {
-        source: Source::Stay(index),
-        level,
-        body: Body::Hold(slots.clone()),
+    slots.into_iter().filter(|&s| structure.slots[s].primitive.is_number()).collect()
+}
+
+/// Returns what a declared stay of so many slots says.
+pub(crate) fn hold(strength: Strength, count: u32) -> Shape {
+    Shape {
+        level: level(strength),
+        body: Body::Hold((0..count).collect()),
         methods: Vec::new(),
         derived: true,
         reads: Vec::new(),
         within: base::number::RULE_TOLERANCE,
-        slots,
-    })
+    }
 }
 
 /// Returns the level at which a constraint of this strength stands.
@@ -48,75 +47,64 @@ pub(crate) fn level(strength: Strength) -> Level {
 ///
 /// # Errors
 /// What in it cannot be planned, at the constraint's or the method's place.
-pub(crate) fn lower_constraint<'a>(
-    opening: &mut Opening<'a>,
+pub(crate) fn lower_constraint(
+    opening: &mut Opening<'_>,
     patterns: &mut Patterns,
-    index: u32,
     instance: ConstraintInstance,
-) -> Result<Vec<Rule>, Fault> {
+) -> Result<Vec<Shape<SlotId>>, Fault> {
     let constraint = &opening.document.classes[instance.class].constraints[instance.index as usize];
+    opening.begin(instance.owner);
     if !constraint.enabled {
         return Ok(Vec::new());
     }
-    opening.begin();
     let me = Frame::of(instance.owner);
     let parts = lower_parts(opening, constraint, &me).map_err(|t| t.at(constraint.origin))?;
-    let methods: Result<Vec<RuleMethod>, Fault> = (0..)
+    let methods: Result<Vec<RuleMethod<SlotId>>, Fault> = (0..)
         .zip(&constraint.methods)
         .map(|(i, m)| {
             lower_method(opening, patterns, instance.owner, i, m).map_err(|t| t.at(m.origin))
         })
         .collect();
-    let rule = Rule {
-        source: Source::Constraint(index),
+    let shape = Shape {
         level: level(constraint.strength),
         body: Body::Equations(Vec::new()),
         methods: methods?,
         derived: constraint.derived || constraint.methods.is_empty(),
         reads: parts.reads,
         within: parts.within,
-        slots: Vec::new(),
     };
-    Ok(assemble(opening, patterns, rule, parts.said))
+    Ok(assemble(opening, patterns, shape, parts.said))
 }
 
 /// Makes the rules of what a constraint says.
-fn assemble(opening: &Opening<'_>, patterns: &mut Patterns, rule: Rule, said: Said) -> Vec<Rule> {
-    let equations: Vec<Formula> =
+fn assemble(
+    opening: &Opening<'_>,
+    patterns: &mut Patterns,
+    shape: Shape<SlotId>,
+    said: Said,
+) -> Vec<Shape<SlotId>> {
+    let equations: Vec<Formula<SlotId>> =
         said.equations.iter().map(|e| Formula::of(patterns, &opening.arena, e)).collect();
-    let mut rules = Vec::new();
     if said.opaque.is_empty() {
-        rules.push(Rule { body: Body::Equations(equations), ..rule });
-    } else if !rule.methods.is_empty() {
+        return vec![Shape { body: Body::Equations(equations), ..shape }];
+    }
+    if !shape.methods.is_empty() {
         // Written methods make the whole rule hold, so it is one.
         let mut slots: BTreeSet<SlotId> = BTreeSet::new();
         said.opaque.iter().for_each(|o| slots.extend(&o.slots));
         equations.iter().for_each(|e| slots.extend(&e.slots));
-        rules.push(Rule { body: Body::Opaque(slots.into_iter().collect()), ..rule });
-    } else {
-        if !equations.is_empty() {
-            rules.push(Rule { body: Body::Equations(equations), ..rule.clone() });
-        }
-        rules.extend(said.opaque.into_iter().map(|o| Rule {
-            body: Body::Opaque(o.slots.into_iter().collect()),
-            methods: o.methods,
-            ..rule.clone()
-        }));
+        return vec![Shape { body: Body::Opaque(slots.into_iter().collect()), ..shape }];
     }
-    for rule in &mut rules {
-        let mut slots: BTreeSet<SlotId> = rule.reads.iter().copied().collect();
-        match &rule.body {
-            Body::Equations(equations) => {
-                equations.iter().for_each(|e| slots.extend(&e.slots));
-            }
-            Body::Opaque(over) | Body::Hold(over) => slots.extend(over),
-        }
-        for m in &rule.methods {
-            slots.extend(m.targets.iter().chain(&m.reads));
-        }
-        rule.slots = slots.into_iter().collect();
+    let mut shapes = Vec::new();
+    if !equations.is_empty() {
+        shapes.push(Shape { body: Body::Equations(equations), ..shape.clone() });
     }
-    rules
+    shapes.extend(said.opaque.into_iter().map(|o| Shape {
+        body: Body::Opaque(o.slots.into_iter().collect()),
+        methods: o.methods,
+        ..shape.clone()
+    }));
+    shapes
 }
 
 struct Parts {
@@ -136,7 +124,7 @@ fn lower_parts<'a>(
     for path in &constraint.reads {
         let meaning = meaning_of_path(opening, &me.me, path)?;
         match meaning {
-            Meaning::Thing(t) => reads.extend(opening.structure.slots_under(t)),
+            Meaning::Thing(t) => reads.extend(opening.reach.slots_under(t)),
             other => collect_slots(&opening.arena, &other, &mut reads),
         }
     }
@@ -172,7 +160,7 @@ fn meaning_of_path<'a>(
             }
             Step::Owner => match at {
                 Meaning::Thing(t) => {
-                    let owner = opening.structure.things[t].owner;
+                    let owner = opening.reach.owner(t);
                     Meaning::Thing(
                         owner.ok_or_else(|| Trouble::wrong("the document has no owner"))?,
                     )
@@ -194,7 +182,7 @@ fn lower_method<'a>(
     owner: ThingId,
     index: u32,
     method: &'a Method,
-) -> Result<RuleMethod, Trouble> {
+) -> Result<RuleMethod<SlotId>, Trouble> {
     let frame = Frame::of(owner);
     let values: Result<Vec<Meaning<'a>>, _> =
         method.values.iter().map(|v| opening.meaning(v, &frame)).collect();
@@ -211,7 +199,7 @@ fn lower_method<'a>(
     let mut opaque = false;
     let mut reads = BTreeSet::new();
     for (path, value) in method.targets.iter().zip(&values) {
-        let target = opening.structure.follow(owner, path).map_err(|_| {
+        let target = opening.reach.follow(owner, path).ok_or_else(|| {
             Trouble::not_yet(format!(
                 "a method that writes {path}, which is not stored, is not planned yet"
             ))

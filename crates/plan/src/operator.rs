@@ -91,7 +91,7 @@ impl<'a> Opening<'a> {
         for item in self.items(b)?.iter() {
             let one = match (a, item) {
                 (Meaning::Thing(a), Meaning::Thing(b)) => {
-                    let same = self.structure.merged[*a] == self.structure.merged[*b];
+                    let same = self.reach.is_same(*a, *b);
                     self.number(f64::from(u8::from(same)))
                 }
                 _ => self.equal(a, item)?,

@@ -1,14 +1,13 @@
 //! The planner: rules lowered once for a structure, components, and plans by shape.
 
 use crate::component::{Component, Net};
-use crate::evaluate::Opening;
 use crate::fault::Fault;
 use crate::holds;
 use crate::host::Host;
-use crate::lower;
 use crate::plans::{PlanCounts, Plans};
-use crate::rule::{Rule, Source};
-use crate::task::{Holding, Setting, Task, Wish, task};
+use crate::rule::{Rules, Source};
+use crate::task::{Holding, Locals, Setting, Task, Wish, task};
+use crate::template::lower_all;
 use kernel::{Document, SlotId, Structure, Values};
 use solve::{Level, Scratch};
 use std::collections::BTreeSet;
@@ -25,7 +24,7 @@ pub struct Model<'a> {
 /// Rules, components and plans of one structure. Made anew when the structure changes.
 #[derive(Debug)]
 pub struct Planner {
-    pub(crate) rules: Vec<Rule>,
+    pub(crate) rules: Rules,
     pub(crate) net: Net,
     pub(crate) plans: Plans,
     /// The tasks of the latest edit, and what it changed.
@@ -48,18 +47,7 @@ impl Planner {
     /// `plans` are those that an earlier planner made; the default is none. Cost: linear in what
     /// the rules open into.
     pub fn new(model: Model<'_>, mut plans: Plans) -> (Self, Vec<Fault>) {
-        let mut rules = Vec::new();
-        let mut faults = Vec::new();
-        let mut opening = Opening::new(model.document, model.structure);
-        for (index, &instance) in (0..).zip(&model.structure.constraints) {
-            match lower::lower_constraint(&mut opening, plans.patterns_mut(), index, instance) {
-                Ok(lowered) => rules.extend(lowered),
-                Err(fault) => faults.push(fault),
-            }
-        }
-        for (index, &stay) in (0..).zip(&model.structure.stays) {
-            rules.extend(lower::lower_stay(model.structure, index, stay));
-        }
+        let (rules, faults) = lower_all(model, plans.patterns_mut());
         let net = Net::new(model.structure, &rules);
         let latest = Latest::default();
         (Self { rules, net, plans, latest, resting: None }, faults)
@@ -107,12 +95,13 @@ impl Planner {
     pub(crate) fn tasks(
         &mut self,
         structure: &Structure,
-        components: &[Component],
+        components: Vec<Component>,
         holding: &dyn Fn(SlotId) -> Holding,
         wishes: &[Wish],
     ) -> Vec<Task> {
-        let setting = Setting { structure, rules: &self.rules, holding, wishes };
-        components.iter().map(|c| task(&mut self.plans, &setting, c)).collect()
+        let setting = Setting { structure, rules: &self.rules, net: &self.net, holding, wishes };
+        let mut locals = Locals::new(structure);
+        components.into_iter().map(|c| task(&mut self.plans, &setting, &mut locals, c)).collect()
     }
 
     /// Plans every component with nothing edited, unless that was done.
@@ -120,7 +109,7 @@ impl Planner {
         if self.resting.is_none() {
             let holding = |s| Self::resting_hold(structure, s);
             let components = self.net.all(&self.rules, &|s| holding(s) == Holding::Fixed);
-            self.resting = Some(self.tasks(structure, &components, &holding, &[]));
+            self.resting = Some(self.tasks(structure, components, &holding, &[]));
         }
     }
 
@@ -141,7 +130,7 @@ impl Planner {
         let patterns = self.plans.patterns();
         let mut scratch = Scratch::default();
         for index in rules {
-            let rule = &self.rules[index as usize];
+            let rule = self.rules.get(index);
             let Some(error) =
                 holds::fails(patterns, model.structure, rule, values, host, &mut scratch)
             else {
@@ -150,7 +139,7 @@ impl Planner {
             // A constraint of several rules is told once.
             match unmet.iter_mut().find(|u| u.source == rule.source) {
                 Some(known) => known.error = holds::larger(known.error, error),
-                None => unmet.push(Unmet { source: rule.source, level: rule.level, error }),
+                None => unmet.push(Unmet { source: rule.source, level: rule.shape.level, error }),
             }
         }
         unmet

@@ -1,9 +1,14 @@
 //! Rules over slots: what constraints and declared stays say, in the slots of the document.
+//!
+//! A rule is a *shape* and the slots that it speaks of. A constraint of a class has one shape for all
+//! instances of the class that are built alike: it says of positions what each instance says of its
+//! slots.
 
-use base::IdVec;
+use base::{IdVec, define_id};
 use expr::{Arena, ExprId};
 use kernel::SlotId;
-use solve::{Level, PatternId, Patterns, Scratch};
+use solve::{Level, PatternId, Patterns, Scratch, Span};
+use std::collections::BTreeMap;
 
 /// Where a rule comes from.
 #[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Debug)]
@@ -16,80 +21,6 @@ pub enum Source {
     Wish(u32),
 }
 
-/// A constraint or a declared stay, over the slots of the document.
-#[derive(Clone, Debug)]
-pub(crate) struct Rule {
-    pub(crate) source: Source,
-    pub(crate) level: Level,
-    pub(crate) body: Body,
-    pub(crate) methods: Vec<RuleMethod>,
-    pub(crate) derived: bool,
-    pub(crate) reads: Vec<SlotId>,
-    pub(crate) within: f64,
-    /// Every slot that it mentions, in order.
-    pub(crate) slots: Vec<SlotId>,
-}
-
-/// A pattern over slots of the document: an equation, or what a method or a wish computes.
-#[derive(Clone, Debug)]
-pub(crate) struct Formula {
-    pub(crate) pattern: PatternId,
-    /// Its arguments, in order.
-    pub(crate) slots: Box<[SlotId]>,
-}
-
-impl Formula {
-    /// States expressions whose variables are slots by number.
-    pub(crate) fn of(patterns: &mut Patterns, arena: &Arena, roots: &[ExprId]) -> Self {
-        let (pattern, variables) = patterns.intern(arena, roots);
-        Self { pattern, slots: variables.into_iter().map(|v| SlotId(v.0)).collect() }
-    }
-    /// Computes its expressions.
-    pub(crate) fn evaluate<'s>(
-        &self,
-        patterns: &Patterns,
-        numbers: &IdVec<SlotId, f64>,
-        scratch: &'s mut Scratch,
-    ) -> &'s [f64] {
-        let arguments = self.slots.iter().map(|&s| numbers[s]);
-        patterns.get(self.pattern).evaluate(arguments, scratch)
-    }
-    /// Computes the one expression that it is of.
-    pub(crate) fn value(&self, patterns: &Patterns, numbers: &IdVec<SlotId, f64>) -> f64 {
-        self.evaluate(patterns, numbers, &mut Scratch::default())[0]
-    }
-}
-
-/// What a rule says.
-#[derive(Clone, Debug)]
-pub(crate) enum Body {
-    /// Equations that hold together.
-    Equations(Vec<Formula>),
-    /// Something that only the host can test.
-    Opaque(Vec<SlotId>),
-    /// The slots keep the values that they had when the edit began.
-    Hold(Vec<SlotId>),
-}
-
-/// A way to make a rule hold.
-#[derive(Clone, Debug)]
-pub(crate) struct RuleMethod {
-    pub(crate) targets: Vec<SlotId>,
-    pub(crate) reads: Vec<SlotId>,
-    pub(crate) how: How,
-}
-
-/// How a method computes its targets.
-#[derive(Clone, Debug)]
-pub(crate) enum How {
-    /// By a pattern of one expression for each target.
-    Formulas(Formula),
-    /// The host does.
-    Host(Way),
-    /// The one target takes what is in the one slot that is read.
-    Copy,
-}
-
 /// A way to make a constraint hold that only the host can go.
 #[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Debug)]
 pub enum Way {
@@ -99,4 +30,187 @@ pub enum Way {
     Left,
     /// The right side takes the value of the left side.
     Right,
+}
+
+define_id!(ShapeId, "h", "What rules of one kind say.");
+
+/// Where a slot stands among those of a rule.
+pub(crate) type Position = u32;
+
+/// What a rule says, of slots of the document or of positions among those of a rule.
+#[derive(Clone, Debug)]
+pub(crate) struct Shape<S = Position> {
+    pub(crate) level: Level,
+    pub(crate) body: Body<S>,
+    pub(crate) methods: Vec<RuleMethod<S>>,
+    pub(crate) derived: bool,
+    pub(crate) reads: Vec<S>,
+    pub(crate) within: f64,
+}
+
+/// What holds where a rule holds.
+#[derive(Clone, Debug)]
+pub(crate) enum Body<S = Position> {
+    /// Equations that hold together.
+    Equations(Vec<Formula<S>>),
+    /// Something that only the host can test.
+    Opaque(Vec<S>),
+    /// The slots keep the values that they had when the edit began.
+    Hold(Vec<S>),
+}
+
+/// A way to make a rule hold.
+#[derive(Clone, Debug)]
+pub(crate) struct RuleMethod<S = Position> {
+    pub(crate) targets: Vec<S>,
+    pub(crate) reads: Vec<S>,
+    pub(crate) how: How<S>,
+}
+
+/// How a method computes its targets.
+#[derive(Clone, Debug)]
+pub(crate) enum How<S = Position> {
+    /// By a pattern of one expression for each target.
+    Formulas(Formula<S>),
+    /// The host does.
+    Host(Way),
+    /// The one target takes what is in the one slot that is read.
+    Copy,
+}
+
+/// A pattern over slots: an equation, or what a method or a wish computes.
+#[derive(Clone, Debug)]
+pub(crate) struct Formula<S = Position> {
+    pub(crate) pattern: PatternId,
+    /// Its arguments, in order.
+    pub(crate) slots: Box<[S]>,
+}
+
+impl Formula<SlotId> {
+    /// States expressions whose variables are slots by number.
+    pub(crate) fn of(patterns: &mut Patterns, arena: &Arena, roots: &[ExprId]) -> Self {
+        let (pattern, variables) = patterns.intern(arena, roots);
+        Self { pattern, slots: variables.into_iter().map(|v| SlotId(v.0)).collect() }
+    }
+    /// Computes the one expression that it is of.
+    pub(crate) fn value(&self, patterns: &Patterns, numbers: &IdVec<SlotId, f64>) -> f64 {
+        let arguments = self.slots.iter().map(|&s| numbers[s]);
+        patterns.get(self.pattern).evaluate(arguments, &mut Scratch::default())[0]
+    }
+}
+
+/// Gives slots their positions, in the order in which they are met.
+#[derive(Default)]
+struct Numbering {
+    slots: Vec<SlotId>,
+    position: BTreeMap<SlotId, Position>,
+}
+
+impl Numbering {
+    fn one(&mut self, slot: &SlotId) -> Position {
+        let Self { slots, position } = self;
+        *position.entry(*slot).or_insert_with(|| {
+            slots.push(*slot);
+            slots.len() as Position - 1
+        })
+    }
+    fn all(&mut self, slots: &[SlotId]) -> Vec<Position> {
+        slots.iter().map(|s| self.one(s)).collect()
+    }
+    fn formula(&mut self, formula: &Formula<SlotId>) -> Formula {
+        Formula { pattern: formula.pattern, slots: self.all(&formula.slots).into() }
+    }
+}
+
+impl Shape<SlotId> {
+    /// Says the same of positions; returns the slots by position, each once.
+    pub(crate) fn numbered(&self) -> (Shape, Vec<SlotId>) {
+        let mut numbering = Numbering::default();
+        let n = &mut numbering;
+        let body = match &self.body {
+            Body::Equations(equations) => {
+                Body::Equations(equations.iter().map(|e| n.formula(e)).collect())
+            }
+            Body::Opaque(slots) => Body::Opaque(n.all(slots)),
+            Body::Hold(slots) => Body::Hold(n.all(slots)),
+        };
+        let method = |m: &RuleMethod<SlotId>| RuleMethod {
+            targets: n.all(&m.targets),
+            reads: n.all(&m.reads),
+            how: match &m.how {
+                How::Formulas(formula) => How::Formulas(n.formula(formula)),
+                How::Host(way) => How::Host(*way),
+                How::Copy => How::Copy,
+            },
+        };
+        let methods = self.methods.iter().map(method).collect();
+        let reads = n.all(&self.reads);
+        let Self { level, derived, within, .. } = *self;
+        (Shape { level, body, methods, derived, reads, within }, numbering.slots)
+    }
+}
+
+/// A constraint or a declared stay, over the slots of the document.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Rule<'r> {
+    pub(crate) source: Source,
+    pub(crate) shape: &'r Shape,
+    /// Every slot that it mentions, by position, each once.
+    pub(crate) slots: &'r [SlotId],
+}
+
+impl Rule<'_> {
+    /// Returns the slots at these positions.
+    pub(crate) fn slots_at(self, positions: &[Position]) -> impl Iterator<Item = SlotId> {
+        positions.iter().map(move |&p| self.slots[p as usize])
+    }
+    /// Computes a formula of its shape.
+    pub(crate) fn evaluate<'s>(
+        self,
+        formula: &Formula,
+        patterns: &Patterns,
+        numbers: &IdVec<SlotId, f64>,
+        scratch: &'s mut Scratch,
+    ) -> &'s [f64] {
+        let arguments = self.slots_at(&formula.slots).map(|s| numbers[s]);
+        patterns.get(formula.pattern).evaluate(arguments, scratch)
+    }
+}
+
+/// All rules of a structure, in order of declaration: constraints, then stays.
+#[derive(Clone, Debug, Default)]
+pub(crate) struct Rules {
+    shapes: IdVec<ShapeId, Shape>,
+    rules: Vec<(Source, ShapeId, Span)>,
+    slots: Vec<SlotId>,
+}
+
+impl Rules {
+    pub(crate) fn add_shape(&mut self, shape: Shape) -> ShapeId {
+        self.shapes.push(shape)
+    }
+    pub(crate) fn add(
+        &mut self,
+        source: Source,
+        shape: ShapeId,
+        slots: impl IntoIterator<Item = SlotId>,
+    ) {
+        let start = self.slots.len() as u32;
+        self.slots.extend(slots);
+        let len = self.slots.len() as u32 - start;
+        self.rules.push((source, shape, Span { start, len }));
+    }
+    pub(crate) fn len(&self) -> usize {
+        self.rules.len()
+    }
+    pub(crate) fn get(&self, index: u32) -> Rule<'_> {
+        let (source, shape, slots) = self.rules[index as usize];
+        Rule { source, shape: &self.shapes[shape], slots: &self.slots[slots.range()] }
+    }
+    pub(crate) fn iter(&self) -> impl Iterator<Item = Rule<'_>> {
+        (0..self.rules.len() as u32).map(|i| self.get(i))
+    }
+    pub(crate) fn source(&self, index: u32) -> Source {
+        self.rules[index as usize].0
+    }
 }

@@ -115,11 +115,15 @@ impl solve::Host for Adapter<'_> {
         let Origin::Rule(rule) = self.task.relations[source as usize] else {
             return Err("a wish has no methods".into());
         };
-        let rule = &self.planner.rules[rule as usize];
+        let rule = self.planner.rules.get(rule);
         scatter(self.task, values, self.values);
-        let method = &rule.methods[method];
+        let method = &rule.shape.methods[method];
+        let targets: Vec<SlotId> = rule.slots_at(&method.targets).collect();
         let written = match (&method.how, rule.source) {
-            (How::Copy, _) => vec![(method.targets[0], self.values.get(method.reads[0]))],
+            (How::Copy, _) => {
+                let from = rule.slots[method.reads[0] as usize];
+                vec![(targets[0], self.values.get(from))]
+            }
             (How::Host(way), Source::Constraint(c)) => {
                 let constraint = self.model.structure.constraints[c as usize];
                 self.host.compute(constraint, *way, self.values)?
@@ -129,7 +133,7 @@ impl solve::Host for Adapter<'_> {
             }
         };
         for (slot, value) in written {
-            self.write(&method.targets, slot, value, out)?;
+            self.write(&targets, slot, value, out)?;
         }
         Ok(())
     }
@@ -137,7 +141,7 @@ impl solve::Host for Adapter<'_> {
     fn holds(&mut self, source: u32, values: &[f64]) -> bool {
         let Origin::Rule(rule) = self.task.relations[source as usize] else { return true };
         scatter(self.task, values, self.values);
-        let rule = &self.planner.rules[rule as usize];
+        let rule = self.planner.rules.get(rule);
         let structure = self.model.structure;
         let patterns = self.planner.plans.patterns();
         let scratch = &mut Scratch::default();

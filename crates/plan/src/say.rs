@@ -22,7 +22,7 @@ pub(crate) struct Said {
 /// Something in a rule that only the host can test.
 pub(crate) struct OpaqueRow {
     pub(crate) slots: BTreeSet<SlotId>,
-    pub(crate) methods: Vec<RuleMethod>,
+    pub(crate) methods: Vec<RuleMethod<SlotId>>,
 }
 
 /// Whether a term is the whole rule, or a part of it or of a message that it opens into.
@@ -112,9 +112,9 @@ pub(crate) fn say<'a>(
 }
 
 /// Returns true if the name is not that of a stored part.
-fn is_message(opening: &Opening<'_>, to: &Meaning<'_>, name: &str) -> bool {
+fn is_message(opening: &mut Opening<'_>, to: &Meaning<'_>, name: &str) -> bool {
     match to {
-        Meaning::Thing(t) => opening.structure.part_named(*t, name).is_none(),
+        Meaning::Thing(t) => opening.reach.part_named(*t, name).is_none(),
         Meaning::Made(made) => made.fields.iter().all(|f| f.0 != *name),
         Meaning::Number(_) | Meaning::List(_) | Meaning::Opaque(_) | Meaning::Lambda(_) => true,
     }

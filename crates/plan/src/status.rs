@@ -61,8 +61,8 @@ impl Planner {
             }
             redundant.extend(surplus(self, task).into_iter().filter(|&s| !is_unmet(s)));
         }
-        for rule in &self.rules {
-            if rule.level == Level::Required && is_unmet(rule.source) {
+        for rule in self.rules.iter() {
+            if rule.shape.level == Level::Required && is_unmet(rule.source) {
                 rule.slots.iter().for_each(|&s| slots[s] = SlotState::Conflicting);
             }
         }

@@ -3,17 +3,17 @@
 //! Equal components have equal systems whatever their slots and rules are called in the document,
 //! so that one plan serves all of them.
 
-use crate::component::Component;
+use crate::component::{Component, Net};
 use crate::plans::Plans;
-use crate::rule::{Body, Formula, How, Rule, Source};
+use crate::rule::{Body, Formula, How, Position, Rule, Rules, Source};
 use base::IdVec;
-use indexmap::IndexMap;
+use expr::Dimension;
 use kernel::{Primitive, SlotId, Structure};
 use solve::{
-    Level, Method, MethodBody, PatternId, Patterns, Plan, Relation, RelationBody, SlotIndex, Span,
-    Stay, System,
+    Level, Method, MethodBody, PatternId, Patterns, Plan, Relation, RelationBody, SlotIndex, Stay,
+    System,
 };
-use std::collections::{BTreeMap, BTreeSet};
+use std::collections::BTreeSet;
 use std::rc::Rc;
 
 /// What holds a slot of the document in an edit.
@@ -36,7 +36,7 @@ pub(crate) enum Holding {
 pub(crate) struct Wish {
     pub(crate) level: Level,
     /// One for each coordinate.
-    pub(crate) formulas: Vec<Formula>,
+    pub(crate) formulas: Vec<Formula<SlotId>>,
 }
 
 impl Wish {
@@ -74,15 +74,22 @@ pub(crate) enum Origin {
 /// What makes a task besides its component.
 pub(crate) struct Setting<'s> {
     pub(crate) structure: &'s Structure,
-    pub(crate) rules: &'s [Rule],
+    pub(crate) rules: &'s Rules,
+    pub(crate) net: &'s Net,
     pub(crate) holding: &'s dyn Fn(SlotId) -> Holding,
     /// Wishes by their index in the edit.
     pub(crate) wishes: &'s [Wish],
 }
 
 /// States a component as a system and plans it.
-pub(crate) fn task(plans: &mut Plans, setting: &Setting<'_>, component: &Component) -> Task {
-    let mut making = Making::new(setting, plans.patterns_mut().same(), component);
+pub(crate) fn task(
+    plans: &mut Plans,
+    setting: &Setting<'_>,
+    locals: &mut Locals,
+    component: Component,
+) -> Task {
+    let same = plans.patterns_mut().same();
+    let mut making = Making::new(setting, same, locals, &component);
     for &rule in &component.rules {
         making.rule(rule);
     }
@@ -91,13 +98,24 @@ pub(crate) fn task(plans: &mut Plans, setting: &Setting<'_>, component: &Compone
     }
     let Making { system, holds, targets, relations, .. } = making;
     let (system, plan) = plans.plan(system);
-    let component = component.clone();
     Task { system, plan, component, holds, targets, relations }
+}
+
+/// Where the slots of the document stand in the component at hand; what is left of another component
+/// does no harm, since the component says which slot it has there.
+#[derive(Debug)]
+pub(crate) struct Locals(IdVec<SlotId, SlotIndex>);
+
+impl Locals {
+    pub(crate) fn new(structure: &Structure) -> Self {
+        Self(IdVec::filled(0, structure.slots.len()))
+    }
 }
 
 struct Making<'s> {
     setting: &'s Setting<'s>,
-    local: BTreeMap<SlotId, SlotIndex>,
+    component: &'s Component,
+    locals: &'s mut Locals,
     /// What says that two slots are equal.
     same: PatternId,
     system: System,
@@ -107,38 +125,63 @@ struct Making<'s> {
 }
 
 impl<'s> Making<'s> {
-    fn new(setting: &'s Setting<'s>, same: PatternId, component: &Component) -> Self {
-        let mut scales = IndexMap::new();
-        let mut groups = IndexMap::new();
+    fn new(
+        setting: &'s Setting<'s>,
+        same: PatternId,
+        locals: &'s mut Locals,
+        component: &'s Component,
+    ) -> Self {
+        let mut dimensions: Vec<Dimension> = Vec::new();
+        let mut groups = 0;
         let mut system = System::default();
-        for &slot in &component.slots {
+        system.slots.reserve(component.slots.len());
+        for (&slot, local) in component.slots.iter().zip(0..) {
+            locals.0[slot] = local;
             let s = &setting.structure.slots[slot];
             let stay = match (setting.holding)(slot) {
                 Holding::Fixed => Stay::Fixed,
                 Holding::Given => Stay::Given,
                 Holding::Free => Stay::Free,
-                Holding::Kept => {
-                    let place = s.place.unwrap_or(s.thing);
-                    Stay::Kept { group: number_of(&mut groups, place) }
+                held @ (Holding::Kept | Holding::Alone) => {
+                    // the coordinates of a place have the group of the first that is kept with it
+                    let place =
+                        if held == Holding::Kept { setting.net.place_of(slot) } else { &[] };
+                    let first = place
+                        .iter()
+                        .take_while(|&&s| s < slot)
+                        .find(|&&s| {
+                            (setting.holding)(s) == Holding::Kept
+                                && component.slots.get(locals.0[s] as usize) == Some(&s)
+                        })
+                        .map(|&s| system.slots[locals.0[s] as usize].stay);
+                    first.unwrap_or_else(|| {
+                        groups += 1;
+                        Stay::Kept { group: groups - 1 }
+                    })
                 }
-                Holding::Alone => Stay::Kept { group: number_of(&mut groups, s.thing) },
             };
             let dimension = match s.primitive {
-                Primitive::Real(dimension) => Some(dimension),
-                Primitive::Integer | Primitive::Bool | Primitive::Text | Primitive::Color => None,
+                Primitive::Real(dimension) => dimension,
+                Primitive::Integer | Primitive::Bool | Primitive::Text | Primitive::Color => {
+                    Dimension::default()
+                }
             };
             let is_discrete = match s.primitive {
                 Primitive::Integer | Primitive::Bool => true,
                 Primitive::Real(_) | Primitive::Text | Primitive::Color => false,
             };
-            let scale = number_of(&mut scales, dimension.unwrap_or_default()) as u16;
+            let scale = dimensions.iter().position(|&d| d == dimension).unwrap_or_else(|| {
+                dimensions.push(dimension);
+                dimensions.len() - 1
+            }) as u16;
             let is_number = s.primitive.is_number();
             system.slots.push(solve::Slot { stay, scale, is_number, is_discrete });
         }
         Self {
             setting,
+            component,
+            locals,
             same,
-            local: component.slots.iter().copied().zip(0..).collect(),
             system,
             holds: Vec::new(),
             targets: Vec::new(),
@@ -146,14 +189,12 @@ impl<'s> Making<'s> {
         }
     }
 
-    fn local(&self, slots: &[SlotId]) -> Vec<SlotIndex> {
-        slots.iter().map(|s| self.local[s]).collect()
+    /// Returns where a slot of the component stands in it.
+    fn local(&self, slot: SlotId) -> SlotIndex {
+        self.locals.0[slot]
     }
-
-    /// Adds the slots of a formula as arguments.
-    fn arguments(&mut self, slots: &[SlotId]) -> Span {
-        let local = &self.local;
-        self.system.add_arguments(slots.iter().map(|s| local[s]))
+    fn locals(&self, rule: Rule<'_>, positions: &[Position]) -> Vec<SlotIndex> {
+        rule.slots_at(positions).map(|s| self.local(s)).collect()
     }
 
     /// Adds a known slot of the same kind as another.
@@ -164,28 +205,32 @@ impl<'s> Making<'s> {
     }
 
     fn rule(&mut self, index: u32) {
-        let rule = &self.setting.rules[index as usize];
-        let body = match &rule.body {
+        let rule = self.setting.rules.get(index);
+        let shape = rule.shape;
+        let body = match &shape.body {
             Body::Equations(equations) => {
-                let local = &self.local;
-                RelationBody::Equations(self.system.add_equations(
-                    equations.iter().map(|e| (e.pattern, e.slots.iter().map(|s| local[s]))),
-                ))
+                let locals = &self.locals.0;
+                RelationBody::Equations(
+                    self.system.add_equations(
+                        equations
+                            .iter()
+                            .map(|e| (e.pattern, rule.slots_at(&e.slots).map(|s| locals[s]))),
+                    ),
+                )
             }
-            Body::Opaque(slots) => RelationBody::Opaque { slots: self.local(slots) },
+            Body::Opaque(slots) => RelationBody::Opaque { slots: self.locals(rule, slots) },
             Body::Hold(slots) => {
                 // What has no value yet cannot be held.
-                let slots: Vec<SlotId> = slots
-                    .iter()
-                    .copied()
+                let held: Vec<SlotId> = rule
+                    .slots_at(slots)
                     .filter(|&s| (self.setting.holding)(s) != Holding::Free)
                     .collect();
-                if slots.is_empty() {
+                if held.is_empty() {
                     return;
                 }
                 let mut equations = Vec::new();
-                for slot in slots {
-                    let local = self.local[&slot];
+                for slot in held {
+                    let local = self.local(slot);
                     let known = self.known_like(local);
                     self.holds.push((known, slot));
                     equations.push((self.same, [local, known]));
@@ -193,27 +238,38 @@ impl<'s> Making<'s> {
                 RelationBody::Equations(self.system.add_equations(equations))
             }
         };
-        let methods = rule.methods.iter().map(|m| Method {
-            targets: self.local(&m.targets),
-            body: match &m.how {
+        let mut methods = Vec::with_capacity(shape.methods.len());
+        for m in &shape.methods {
+            let body = match &m.how {
                 How::Formulas(f) => {
-                    MethodBody::Formulas { pattern: f.pattern, arguments: self.arguments(&f.slots) }
+                    let locals = &self.locals.0;
+                    let slots = rule.slots_at(&f.slots).map(|s| locals[s]);
+                    let arguments = self.system.add_arguments(slots);
+                    MethodBody::Formulas { pattern: f.pattern, arguments }
                 }
-                How::Host(_) | How::Copy => MethodBody::Opaque { reads: self.local(&m.reads) },
-            },
-        });
-        let methods = methods.collect();
+                How::Host(_) | How::Copy => {
+                    MethodBody::Opaque { reads: self.locals(rule, &m.reads) }
+                }
+            };
+            methods.push(Method { targets: self.locals(rule, &m.targets), body });
+        }
         let source = self.relations.len() as u32;
         self.relations.push(Origin::Rule(index));
         self.system.relations.push(Relation {
-            level: rule.level,
+            level: shape.level,
             body,
             methods,
-            derived: rule.derived,
-            reads: self.local(&rule.reads),
-            within: rule.within.to_bits(),
+            derived: shape.derived,
+            reads: self.locals(rule, &shape.reads),
+            within: shape.within.to_bits(),
             source,
         });
+    }
+
+    /// Returns where a slot stands in the component, if it does.
+    fn find(&self, slot: SlotId) -> Option<SlotIndex> {
+        let local = self.locals.0[slot];
+        (self.component.slots.get(local as usize) == Some(&slot)).then_some(local)
     }
 
     /// Adds a wish if it speaks of this component.
@@ -221,7 +277,7 @@ impl<'s> Making<'s> {
         let mut equations = Vec::new();
         for (coordinate, formula) in (0..).zip(&wish.formulas) {
             let locals: Option<Vec<SlotIndex>> =
-                formula.slots.iter().map(|s| self.local.get(s).copied()).collect();
+                formula.slots.iter().map(|&s| self.find(s)).collect();
             let moves = |&&i: &&SlotIndex| self.system.slots[i as usize].stay != Stay::Fixed;
             let Some(locals) = locals else { continue };
             let Some(&first) = locals.iter().find(moves) else { continue };
@@ -249,16 +305,11 @@ impl<'s> Making<'s> {
     }
 }
 
-fn number_of<K: std::hash::Hash + Eq>(numbers: &mut IndexMap<K, u32>, key: K) -> u32 {
-    let next = numbers.len() as u32;
-    *numbers.entry(key).or_insert(next)
-}
-
 impl Task {
     /// Returns what a relation of the system comes from.
-    pub(crate) fn source(&self, rules: &[Rule], relation: u32) -> Source {
+    pub(crate) fn source(&self, rules: &Rules, relation: u32) -> Source {
         match self.relations[self.system.relations[relation as usize].source as usize] {
-            Origin::Rule(r) => rules[r as usize].source,
+            Origin::Rule(r) => rules.source(r),
             Origin::Wish(w) => Source::Wish(w),
         }
     }

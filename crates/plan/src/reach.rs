@@ -1,0 +1,290 @@
+//! Reach: how a rule comes to the things that it speaks of.
+//!
+//! Whatever symbolic evaluation asks of the structure it asks here, and each answer is noted as a
+//! step: the third part of the owner, four members of the set. Another thing of the same class for
+//! which the same steps lead to things of the same classes says the same of those.
+
+use kernel::{ClassId, DOCUMENT, Path, SlotId, Step as PathStep, Structure, ThingId};
+use std::collections::{BTreeMap, BTreeSet};
+
+/// A thing that was reached, by its number: the owner is the first.
+pub(crate) type Reached = u32;
+
+/// How things are reached from those reached before.
+#[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Debug)]
+pub(crate) enum Step {
+    /// The document itself.
+    Document,
+    /// What a thing is a part of.
+    Owner(Reached),
+    /// One part, by its place.
+    Part(Reached, u32),
+    /// All parts, and there are so many.
+    Parts(Reached, u32),
+    /// All members of a set, and there are so many.
+    Members(Reached, u32),
+    /// Two things are one, or not.
+    Same(Reached, Reached, bool),
+}
+
+/// The structure as one rule meets it.
+#[derive(Debug)]
+pub(crate) struct Reach<'a> {
+    structure: &'a Structure,
+    things: Vec<ThingId>,
+    number: BTreeMap<ThingId, Reached>,
+    steps: Vec<Step>,
+    noted: BTreeSet<Step>,
+    stored: Vec<(Reached, SlotId)>,
+    is_repeatable: bool,
+}
+
+/// The way to everything that a rule speaks of, for another thing to go.
+#[derive(Debug)]
+pub(crate) struct Route {
+    classes: Vec<ClassId>,
+    steps: Vec<Step>,
+    /// Where slots were met for the first time.
+    stored: Vec<Reached>,
+    /// Where a slot was met again: its place among the stored.
+    again: Vec<(Reached, u32)>,
+}
+
+impl<'a> Reach<'a> {
+    pub(crate) fn new(structure: &'a Structure) -> Self {
+        Self {
+            structure,
+            things: Vec::new(),
+            number: BTreeMap::new(),
+            steps: Vec::new(),
+            noted: BTreeSet::new(),
+            stored: Vec::new(),
+            is_repeatable: true,
+        }
+    }
+    /// Begins anew at the owner of another rule.
+    pub(crate) fn begin(&mut self, owner: ThingId) {
+        self.things.clear();
+        self.number.clear();
+        self.steps.clear();
+        self.noted.clear();
+        self.stored.clear();
+        self.is_repeatable = true;
+        self.found(owner);
+    }
+
+    /// Notes a thing; what is merged with unlike things is not the same elsewhere.
+    fn found(&mut self, thing: ThingId) {
+        if !self.structure.unlike(thing).is_empty() {
+            self.is_repeatable = false;
+        }
+        let number = self.things.len() as Reached;
+        self.things.push(thing);
+        // the last way counts: every way is noted
+        self.number.insert(thing, number);
+    }
+    fn number_of(&mut self, thing: ThingId) -> Reached {
+        if let Some(&number) = self.number.get(&thing) {
+            return number;
+        }
+        // nobody said how it was come by
+        self.is_repeatable = false;
+        0
+    }
+    fn step(&mut self, step: Step, found: impl IntoIterator<Item = ThingId>) {
+        if self.is_repeatable && self.noted.insert(step) {
+            self.steps.push(step);
+            for thing in found {
+                let known = self.number.get(&thing).copied();
+                self.found(thing);
+                if let Some(known) = known {
+                    let now = self.things.len() as Reached - 1;
+                    self.steps.push(Step::Same(known, now, true));
+                }
+            }
+        }
+    }
+
+    /// Returns the document.
+    pub(crate) fn document(&mut self) -> ThingId {
+        self.step(Step::Document, [DOCUMENT]);
+        DOCUMENT
+    }
+    /// Returns what a thing is a part of.
+    pub(crate) fn owner(&mut self, thing: ThingId) -> Option<ThingId> {
+        let owner = self.structure.things[thing].owner?;
+        let from = self.number_of(thing);
+        self.step(Step::Owner(from), [owner]);
+        Some(owner)
+    }
+    /// Returns the part of a thing that has this name.
+    pub(crate) fn part_named(&mut self, thing: ThingId, name: &str) -> Option<ThingId> {
+        let part = self.structure.part_named(thing, name)?;
+        self.descend(thing, part);
+        Some(part)
+    }
+    /// Notes the way from a thing to a part of a part of it.
+    fn descend(&mut self, thing: ThingId, part: ThingId) {
+        if thing == part || !self.is_repeatable {
+            return;
+        }
+        let t = &self.structure.things[part];
+        let Some(owner) = t.owner.filter(|_| part > thing) else {
+            self.is_repeatable = false;
+            return;
+        };
+        self.descend(thing, owner);
+        let place = part.0 - self.structure.things[owner].first_part.0;
+        let from = self.number_of(owner);
+        self.step(Step::Part(from, place), [part]);
+    }
+    /// Returns the parts of a thing, in order.
+    pub(crate) fn parts(&mut self, thing: ThingId) -> Vec<ThingId> {
+        let parts: Vec<ThingId> = self.structure.parts(thing).collect();
+        let from = self.number_of(thing);
+        self.step(Step::Parts(from, parts.len() as u32), parts.iter().copied());
+        parts
+    }
+    /// Returns the members of a set.
+    pub(crate) fn members(&mut self, set: ThingId) -> Vec<ThingId> {
+        let members = members(self.structure, set).to_vec();
+        let from = self.number_of(set);
+        self.step(Step::Members(from, members.len() as u32), members.iter().copied());
+        members
+    }
+    /// Returns true if two things are one.
+    pub(crate) fn is_same(&mut self, a: ThingId, b: ThingId) -> bool {
+        let same = self.structure.merged[a] == self.structure.merged[b];
+        let (i, j) = (self.number_of(a), self.number_of(b));
+        self.step(Step::Same(i, j, same), []);
+        same
+    }
+    /// Returns the slot of a thing, if it is primitive.
+    pub(crate) fn slot(&mut self, thing: ThingId) -> Option<SlotId> {
+        let slot = self.structure.slot_of[thing]?;
+        let number = self.number_of(thing);
+        self.stored.push((number, slot));
+        Some(slot)
+    }
+    /// Returns the slots of a thing and of all its parts, in order of declaration.
+    pub(crate) fn slots_under(&mut self, thing: ThingId) -> Vec<SlotId> {
+        let mut slots = Vec::new();
+        let mut stack = vec![thing];
+        while let Some(t) = stack.pop() {
+            match self.slot(t) {
+                Some(slot) => slots.push(slot),
+                None => stack.extend(self.parts(t).into_iter().rev()),
+            }
+        }
+        slots
+    }
+    /// Follows a path from a thing.
+    pub(crate) fn follow(&mut self, from: ThingId, path: &Path) -> Option<ThingId> {
+        let mut at = from;
+        for step in &path.0 {
+            at = match step {
+                PathStep::Part(name) => self.part_named(at, name)?,
+                PathStep::Index(n) => *self.parts(at).get(*n as usize)?,
+                PathStep::Last => *self.parts(at).last()?,
+                PathStep::Owner => self.owner(at)?,
+            };
+        }
+        Some(at)
+    }
+    /// Says that the rule looks at more of the document than is noted.
+    pub(crate) fn looks_around(&mut self) {
+        self.is_repeatable = false;
+    }
+
+    /// Returns the way that was gone, for others of its class, and the slots that it led to.
+    pub(crate) fn route(&self) -> Option<(Route, Vec<SlotId>)> {
+        if !self.is_repeatable {
+            return None;
+        }
+        let mut place: BTreeMap<SlotId, u32> = BTreeMap::new();
+        let (mut stored, mut again, mut slots) = (Vec::new(), Vec::new(), Vec::new());
+        for &(number, slot) in &self.stored {
+            match place.get(&slot) {
+                Some(&at) => again.push((number, at)),
+                None => {
+                    place.insert(slot, slots.len() as u32);
+                    stored.push(number);
+                    slots.push(slot);
+                }
+            }
+        }
+        again.sort_unstable();
+        again.dedup();
+        let classes = self.things.iter().map(|&t| self.structure.things[t].class).collect();
+        Some((Route { classes, steps: self.steps.clone(), stored, again }, slots))
+    }
+}
+
+fn members(structure: &Structure, set: ThingId) -> &[ThingId] {
+    structure.sets.get(&structure.merged[set]).map_or(&[], |m| m)
+}
+
+impl Route {
+    /// Goes the way from another thing; the slots that it leads to are left in `slots`. False where
+    /// something on the way is not as it was.
+    pub(crate) fn follow(
+        &self,
+        structure: &Structure,
+        owner: ThingId,
+        things: &mut Vec<ThingId>,
+        slots: &mut Vec<SlotId>,
+    ) -> bool {
+        things.clear();
+        slots.clear();
+        let found = |thing: ThingId, things: &mut Vec<ThingId>| {
+            let alike = structure.things[thing].class == self.classes[things.len()]
+                && structure.unlike(thing).is_empty();
+            things.push(thing);
+            alike
+        };
+        if !found(owner, things) {
+            return false;
+        }
+        for step in &self.steps {
+            let of = |n: &Reached| things[*n as usize];
+            let holds = match step {
+                Step::Document => found(DOCUMENT, things),
+                Step::Owner(n) => {
+                    structure.things[of(n)].owner.is_some_and(|owner| found(owner, things))
+                }
+                Step::Part(n, place) => {
+                    let t = &structure.things[of(n)];
+                    *place < t.parts && found(ThingId(t.first_part.0 + place), things)
+                }
+                Step::Parts(n, count) => {
+                    let mut parts = structure.parts(of(n));
+                    parts.len() == *count as usize && parts.all(|t| found(t, things))
+                }
+                Step::Members(n, count) => {
+                    let members = members(structure, of(n));
+                    members.len() == *count as usize && members.iter().all(|&t| found(t, things))
+                }
+                Step::Same(a, b, same) => {
+                    (structure.merged[of(a)] == structure.merged[of(b)]) == *same
+                }
+            };
+            if !holds {
+                return false;
+            }
+        }
+        let slot = |n: Reached| structure.slot_of[things[n as usize]];
+        slots.extend(self.stored.iter().filter_map(|&n| slot(n)));
+        slots.len() == self.stored.len()
+            && are_distinct(slots)
+            && self.again.iter().all(|&(n, at)| slot(n) == Some(slots[at as usize]))
+    }
+}
+
+fn are_distinct(slots: &[SlotId]) -> bool {
+    if slots.len() > 16 {
+        let mut sorted = slots.to_vec();
+        sorted.sort_unstable();
+        return sorted.windows(2).all(|pair| pair[0] != pair[1]);
+    }
+    slots.iter().enumerate().all(|(i, s)| !slots[..i].contains(s))
+}
