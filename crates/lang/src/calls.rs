@@ -50,6 +50,9 @@ impl Lowerer<'_> {
         let (class, name) = (scope.class(), word.name());
         let args = self.arguments(scope, field.args(), &Kind::Unknown)?;
         let above = self.find_message(class, &name, Some(class)).map(|(c, _)| c);
+        if let Some(definer) = above {
+            self.refer(Place { file: scope.file, span: word.span() }, &name, definer);
+        }
         let (arguments, kind) = match above {
             Some(definer) => self.user_message(scope, definer, word, args)?,
             None if builtin::find(builtin::THING_MESSAGES, &name).is_some() => {
@@ -77,7 +80,10 @@ impl Lowerer<'_> {
         let name = word.name();
         if name == "owner" || *receiver == Kind::Unknown || *to == Term::Owner {
             let known = match receiver {
-                Kind::Thing(class) => self.kind_of_part(*class, &name),
+                Kind::Thing(class) => {
+                    self.refer(Place { file: scope.file, span: word.span() }, &name, *class);
+                    self.kind_of_part(*class, &name)
+                }
                 _ => None,
             };
             return Some((unchecked(args), known.unwrap_or(Kind::Unknown)));
@@ -94,6 +100,7 @@ impl Lowerer<'_> {
                 self.own_message(scope, builtin::PICTURE_MESSAGES, receiver, word, args)
             }
             Kind::Thing(class) => {
+                self.refer(Place { file: scope.file, span: word.span() }, &name, *class);
                 if let Some(part) = self.class_of_part(*class, &name) {
                     self.takes_none(scope, word, &args)?;
                     return Some((Vec::new(), Kind::of_class(&self.document, part)));
@@ -380,6 +387,9 @@ impl Lowerer<'_> {
             let message = format!("{what} has {n} parts, here are {}", args.len());
             self.error("wrong-arity", scope.file, word.span(), message);
             return None;
+        }
+        for label in args.iter().filter_map(|a| a.label.as_ref()) {
+            self.refer(Place { file: scope.file, span: label.span() }, &label.name(), class);
         }
         let what = with_article(word.text());
         let arguments = self.bound(scope, &what, &fields, args)?;

@@ -46,6 +46,8 @@ pub enum StatementKind {
     Try(Box<StatementKind>),
     /// `expect …`
     Expect(Expectation),
+    /// What means nothing as the document stands; a statement before it may change that.
+    Unclear,
 }
 
 /// What is expected.
@@ -81,6 +83,14 @@ pub enum PlanKind {
     Relaxation,
 }
 
+/// Returns a text without its `check` blocks.
+pub fn without_checks(text: &str) -> String {
+    let file = syntax::parse(OWN, text).file();
+    let checks = file.members().filter(|m| matches!(m, Member::Check(_)));
+    let edits: Vec<_> = checks.map(|m| syntax::edit::delete_member(m.syntax())).collect();
+    syntax::edit::apply(text, &edits)
+}
+
 /// Lowers the checks of the document's own text.
 pub(crate) fn lower(l: &mut Lowerer<'_>) -> Vec<Check> {
     let mut checks = Vec::new();
@@ -98,11 +108,15 @@ fn lower_check(l: &mut Lowerer<'_>, check: &ast::Check) -> Check {
     let class = class_of_check(l, &own);
     let scope = Scope::of(OWN, class);
     let mut lowered = Vec::new();
+    let mut restructured = false;
     for member in statements {
         let span = ast::span_without_doc(member.syntax());
-        if let Some(kind) = statement(l, &scope, &member) {
-            lowered.push(Statement { kind, span });
-        }
+        // what stands after an edit of the structure can be told only once that edit is made
+        l.silent += u32::from(restructured);
+        let kind = statement(l, &scope, &member).unwrap_or(StatementKind::Unclear);
+        l.silent -= u32::from(restructured);
+        restructured |= restructures(&kind);
+        lowered.push(Statement { kind, span });
     }
     Check {
         title: check.name().map(|w| w.unquoted()).unwrap_or_default(),
@@ -123,6 +137,18 @@ fn class_of_check(l: &mut Lowerer<'_>, own: &[Member]) -> kernel::ClassId {
     l.declare_body(&Scope::of(OWN, class), own.to_vec());
     l.define_members();
     class
+}
+
+/// Returns true for an edit after which other names may be known.
+fn restructures(statement: &StatementKind) -> bool {
+    match statement {
+        StatementKind::Command(_) => true,
+        StatementKind::Try(inner) => restructures(inner),
+        StatementKind::Set(_)
+        | StatementKind::Move(_)
+        | StatementKind::Expect(_)
+        | StatementKind::Unclear => false,
+    }
 }
 
 fn is_statement(member: &Member) -> bool {
@@ -151,30 +177,33 @@ fn statement(l: &mut Lowerer<'_>, scope: &Scope, member: &Member) -> Option<Stat
     match member {
         Member::Set(set) => Some(StatementKind::Set(targets(l, scope, set.targets())?)),
         Member::Move(moved) => Some(StatementKind::Move(targets(l, scope, moved.targets())?)),
-        Member::Unmerge(u) => one(Command::Unmerge(loose_path(&u.paths().next()?)?)),
-        Member::Delete(d) => one(Command::Delete(loose_path(&d.paths().next()?)?)),
+        Member::Unmerge(u) => one(Command::Unmerge(spoken_of(l, scope, &u.paths().next()?)?)),
+        Member::Delete(d) => one(Command::Delete(spoken_of(l, scope, &d.paths().next()?)?)),
         Member::Edit(edit) => {
             let body = edit.body()?;
             let members: Vec<String> =
                 body.members().map(|m| m.syntax().text().to_string()).collect();
-            let target = loose_path(&edit.path()?)?;
+            let target = spoken_of(l, scope, &edit.path()?)?;
             one(Command::Edit { target, members: members.join("\n") })
         }
         Member::Rename(r) => {
-            let (from, to) = (loose_path(&r.path()?)?, r.name()?.text().to_string());
+            let (from, to) = (spoken_of(l, scope, &r.path()?)?, r.name()?.text().to_string());
             one(Command::Rename { from, to })
         }
         Member::Promote(p) => {
-            let (path, class) = (loose_path(&p.path()?)?, p.name()?.text().to_string());
+            let (path, class) = (spoken_of(l, scope, &p.path()?)?, p.name()?.text().to_string());
             one(Command::Promote { path, class })
         }
         Member::Merge(m) => {
-            let paths: Option<Vec<Path>> = m.paths().map(|p| loose_path(&p)).collect();
+            let paths: Option<Vec<Path>> = m.paths().map(|p| spoken_of(l, scope, &p)).collect();
             one(Command::Merge(paths?))
         }
         Member::Undo(_) => one(Command::Undo),
         Member::Redo(_) => one(Command::Redo),
-        Member::Try(t) => Some(StatementKind::Try(Box::new(statement(l, scope, &t.statement()?)?))),
+        Member::Try(t) => {
+            let inner = statement(l, scope, &t.statement()?).unwrap_or(StatementKind::Unclear);
+            Some(StatementKind::Try(Box::new(inner)))
+        }
         Member::Expect(e) => Some(StatementKind::Expect(expectation(l, scope, e)?)),
         Member::Simulate(s) => {
             l.not_yet(OWN, s.span(), "`simulate` is");
@@ -185,6 +214,14 @@ fn statement(l: &mut Lowerer<'_>, scope: &Scope, member: &Member) -> Option<Stat
             None
         }
     }
+}
+
+/// Reads the path that a command is about. It may lead to what an edit before it adds.
+fn spoken_of(l: &mut Lowerer<'_>, scope: &Scope, e: &ast::Expr) -> Option<Path> {
+    l.silent += 1;
+    let _ = l.expr(scope, e);
+    l.silent -= 1;
+    loose_path(e)
 }
 
 fn targets(

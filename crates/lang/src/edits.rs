@@ -1,14 +1,47 @@
 //! Commands that change structure, as the smallest edits of the text.
+//!
+//! In: what the text means, its structure, a command. Out: [`Restructuring`]: the edits, and what they
+//! imply. Every command has a *home* (`home`): the body that has to say it. That of a class changes
+//! all its things; that of a thing makes the thing a class of one.
+
+mod carry;
+mod delete;
+mod elements;
+mod home;
+mod merge;
+mod promote;
+mod rename;
+mod switch;
 
 use crate::lower::Lowered;
 use crate::uses::{Text, refused};
-use base::{Diagnostic, Span};
-use kernel::{Command, Path, Step, Structure};
-use syntax::ast::{self, AstNode, Expr, Member};
-use syntax::edit::{self, Spot, TextEdit};
-use syntax::{SyntaxElement, SyntaxKind, SyntaxNode, SyntaxToken};
+use base::Diagnostic;
+use home::Home;
+use kernel::{ClassId, Command, Path, Step, Structure};
+use syntax::ast::Expr;
+use syntax::edit::{self, TextEdit};
+use syntax::{SyntaxKind, SyntaxNode};
 
-/// Returns the edits of the text that a command is.
+/// What a command does to the text, and what that implies.
+#[derive(Clone, PartialEq, Eq, Debug, Default)]
+pub struct Restructuring {
+    /// The edits of the text.
+    pub edits: Vec<TextEdit>,
+    /// The thing that becomes a class of one.
+    pub class_of_one: Option<Path>,
+    /// The class that changes, and with it all its things.
+    pub class: Option<ClassId>,
+    /// The members that go along, or are shortened, as they were written.
+    pub along: Vec<String>,
+}
+
+impl From<Vec<TextEdit>> for Restructuring {
+    fn from(edits: Vec<TextEdit>) -> Self {
+        Self { edits, ..Self::default() }
+    }
+}
+
+/// Returns the edits of the text that a command is, and what they imply.
 ///
 /// # Errors
 /// Why the text cannot say it: a path that leads nowhere, something that is a class's to say, a
@@ -17,118 +50,105 @@ pub fn edits_for(
     lowered: &Lowered,
     structure: &Structure,
     command: &Command,
-) -> Result<Vec<TextEdit>, Diagnostic> {
+) -> Result<Restructuring, Diagnostic> {
     let text = Text::of(lowered);
-    let edits = match command {
+    let mut done: Restructuring = match command {
         Command::Merge(paths) => {
             for path in paths {
-                must_lead(structure, path)?;
+                must_lead(&text, structure, path)?;
             }
-            let paths: Vec<String> = paths.iter().map(ToString::to_string).collect();
-            vec![text.add(SyntaxKind::Merge, &format!("merge {}", paths.join(" = ")))]
+            text.merge(paths)
         }
         Command::Unmerge(path) => text.unmerge(path)?,
         Command::Delete(path) => text.delete(path)?,
         Command::Edit { target, members } => text.insert(target, members)?,
         Command::Rename { from, to } => text.rename(from, to)?,
-        Command::Promote { path, class } => text.promote(path, class)?,
+        Command::Promote { path, class } => text.promote(path, class)?.into(),
         Command::Anchor { path, held: true } => {
-            must_lead(structure, path)?;
-            if !text.lists(SyntaxKind::Anchor, path).is_empty() {
-                return Err(refused("already-anchored", format!("{path} is anchored already")));
-            }
-            vec![text.add(SyntaxKind::Anchor, &format!("anchor {path}"))]
+            must_lead(&text, structure, path)?;
+            text.anchor(path)?
         }
-        Command::Anchor { path, held: false } => text.let_go(path)?,
-        Command::Enable { path, .. } => {
-            let message = format!("switching {path} off and on is not supported yet");
-            return Err(refused("not-yet", message));
-        }
+        Command::Anchor { path, held: false } => text.let_go(path)?.into(),
+        Command::Enable { path, on } => text.switch(path, *on)?,
         Command::Set(_) | Command::Move(_) | Command::Text(_) | Command::Undo | Command::Redo => {
-            Vec::new()
+            Restructuring::default()
         }
     };
     let carry = |e: TextEdit| Some(TextEdit { span: lowered.in_text(e.span)?, insert: e.insert });
-    let carried: Option<Vec<TextEdit>> = edits.into_iter().map(carry).collect();
-    carried.ok_or_else(|| {
+    let carried: Option<Vec<TextEdit>> = done.edits.into_iter().map(carry).collect();
+    done.edits = carried.ok_or_else(|| {
         let message = "a line that has an error would have to be changed".to_string();
         refused("wrong-line", message).hint("mend the line first")
+    })?;
+    Ok(done)
+}
+
+/// Returns the same command said of every thing of the class, where it is about one thing of a class
+/// that the document's own text declares.
+pub fn for_every(lowered: &Lowered, command: &Command) -> Option<Command> {
+    let text = Text::of(lowered);
+    let one = |path: &Path| text.in_class(path, 1);
+    let several = |paths: &[Path]| -> Option<Vec<Path>> {
+        let owner = home::common_owner(paths);
+        let (whole, n) = text.class_for(&owner)?;
+        Some(paths.iter().map(|p| whole.join(&Path(p.0[n..].to_vec()))).collect())
+    };
+    Some(match command {
+        Command::Merge(paths) => Command::Merge(several(paths)?),
+        Command::Unmerge(path) => Command::Unmerge(one(path)?),
+        Command::Delete(path) => Command::Delete(one(path)?),
+        Command::Edit { target, members } => {
+            Command::Edit { target: text.in_class(target, 0)?, members: members.clone() }
+        }
+        Command::Rename { from, to } => Command::Rename { from: one(from)?, to: to.clone() },
+        Command::Enable { path, on } => Command::Enable { path: one(path)?, on: *on },
+        Command::Anchor { path, held } => Command::Anchor { path: one(path)?, held: *held },
+        Command::Set(_)
+        | Command::Move(_)
+        | Command::Promote { .. }
+        | Command::Text(_)
+        | Command::Undo
+        | Command::Redo => return None,
     })
 }
 
-fn must_lead(structure: &Structure, path: &Path) -> Result<(), Diagnostic> {
-    let nowhere = |_| refused("unknown-part", format!("{path} leads nowhere"));
-    structure.follow(kernel::DOCUMENT, path).map(drop).map_err(nowhere)
+fn must_lead(text: &Text<'_>, structure: &Structure, path: &Path) -> Result<(), Diagnostic> {
+    let known = structure.follow(kernel::DOCUMENT, path).is_ok()
+        || text.prototype(path).is_some() && text.class_at(path).is_some();
+    match known {
+        true => Ok(()),
+        false => Err(refused("unknown-part", format!("{path} leads nowhere"))),
+    }
 }
 
 impl Text<'_> {
-    /// Adds a member after the last of its kind, or at the end before any checks.
-    fn add(&self, kind: SyntaxKind, member: &str) -> TextEdit {
-        let members: Vec<Member> = self.file.members().collect();
-        let last = members.iter().rfind(|m| m.syntax().kind() == kind);
-        let before_checks = members.iter().rfind(|m| !matches!(m, Member::Check(_)));
-        let spot = match last.or(before_checks) {
-            Some(member) => Spot::After(member.syntax().clone()),
-            None => Spot::EndOf(self.file.syntax().clone()),
-        };
-        edit::insert_member(&spot, member)
-    }
-
     /// Adds members to the document, to a class, or to the body of a thing.
-    fn insert(&self, target: &Path, members: &str) -> Result<Vec<TextEdit>, Diagnostic> {
-        if target.is_empty() {
-            return Ok(vec![edit::insert_member(
-                &Spot::EndOf(self.file.syntax().clone()),
-                members,
-            )]);
+    fn insert(&self, target: &Path, members: &str) -> Result<Restructuring, Diagnostic> {
+        let home = self.home(target)?;
+        if home.path == *target {
+            return Ok(self.said_in(&home, SyntaxKind::Error, members));
         }
-        if let Some(class) = self.class(target) {
-            return Ok(vec![edit::insert_member(&Spot::EndOf(class.syntax().clone()), members)]);
+        let rest = Path(target.0[home.path.0.len()..].to_vec());
+        let Some(class) = self.class_at(target) else {
+            return Err(refused("unknown-part", format!("the document has no part {target}")));
+        };
+        match self.carried(members, &rest, class) {
+            Some(carried) => Ok(self.said_in(&home, SyntaxKind::Error, &carried)),
+            None => Err(self.of_a_class(target)),
         }
-        let (part, word) = self.declaration(target)?;
-        let Some(gone) = edit::delete_name(&word.token) else {
-            return Ok(vec![edit::insert_member(&Spot::EndOf(part.syntax().clone()), members)]);
-        };
-        // one of several names: it gets a declaration of its own
-        let shared = part.class().map_or(part.span(), |class| class.span());
-        let shared = Span::new(shared.start, part.span().end);
-        let shared = self.source(shared);
-        let (before, body) = match part.body() {
-            Some(body) => {
-                let body = body.syntax().text().to_string();
-                let before = shared.strip_suffix(&body).unwrap_or(&shared).trim_end().to_string();
-                (before, body.trim_end_matches('}').trim_end().to_string())
-            }
-            None => (shared, "{".to_string()),
-        };
-        let own = format!("{}: {before} {body} {members} }}", word.text());
-        Ok(vec![gone, edit::insert_member(&Spot::After(part.syntax().clone()), &own)])
     }
 
-    fn source(&self, span: Span) -> String {
-        self.lowered.effective.get(span.range()).unwrap_or_default().trim_end().to_string()
-    }
-
-    /// Returns the members of one kind, in the document and in bodies, that list a path.
-    fn lists(&self, kind: SyntaxKind, path: &Path) -> Vec<SyntaxNode> {
-        let members = self.file.syntax().descendants().filter(|n| n.kind() == kind);
-        let names = |n: &SyntaxNode| {
-            let mut paths = n.children().filter_map(Expr::cast);
-            let in_check = n.ancestors().any(|a| a.kind() == SyntaxKind::Check);
-            !in_check && paths.any(|e| self.leads_to(&e, path))
-        };
-        members.filter(names).collect()
-    }
-
-    fn unmerge(&self, path: &Path) -> Result<Vec<TextEdit>, Diagnostic> {
-        let members = self.lists(SyntaxKind::Merge, path);
-        if members.is_empty() {
-            let message = format!("no merge of the document names {path}");
-            let d = refused("not-merged", message);
-            return Err(d.hint("what a class merges is masked by `without NAME` in a body"));
+    /// Holds a part: by the document, or for every thing of a class.
+    fn anchor(&self, path: &Path) -> Result<Restructuring, Diagnostic> {
+        if !self.lists(SyntaxKind::Anchor, path).is_empty() {
+            return Err(refused("already-anchored", format!("{path} is anchored already")));
         }
-        let stays = |e: &Expr| !self.leads_to(e, path);
-        Ok(members.iter().flat_map(|m| shortened(m, &stays)).collect())
+        let home = match self.prototype(path) {
+            Some(_) => self.home(&Path(path.0[..1].to_vec()))?,
+            None => Home::document(self),
+        };
+        let rest = Path(path.0[home.path.0.len()..].to_vec());
+        Ok(self.said_in(&home, SyntaxKind::Anchor, &format!("anchor {rest}")))
     }
 
     fn let_go(&self, path: &Path) -> Result<Vec<TextEdit>, Diagnostic> {
@@ -142,191 +162,39 @@ impl Text<'_> {
         Ok(members.iter().flat_map(|m| shortened(m, &stays)).collect())
     }
 
-    /// Deletes a part, and every member that speaks of it.
-    fn delete(&self, path: &Path) -> Result<Vec<TextEdit>, Diagnostic> {
-        let (part, word) = self.declaration(path)?;
-        let gone = match edit::delete_name(&word.token) {
-            Some(edit) => edit,
-            None => edit::delete_member(part.syntax()),
+    /// Returns the members of one kind that list a path, those of checks left out.
+    fn lists(&self, kind: SyntaxKind, path: &Path) -> Vec<SyntaxNode> {
+        use syntax::ast::AstNode;
+        let members = self.file.syntax().descendants().filter(|n| n.kind() == kind);
+        let names = |n: &SyntaxNode| {
+            let mut paths = n.children().filter_map(Expr::cast);
+            let in_check = n.ancestors().any(|a| a.kind() == SyntaxKind::Check);
+            !in_check && paths.any(|e| self.leads_to(&e, path))
         };
-        let mut edits = vec![gone];
-        let whole = edits[0].insert.is_empty() && part.names().count() == 1;
-        self.forget(self.file.members(), path, whole.then(|| part.syntax()), &mut edits);
-        Ok(self.joined(edits))
+        members.filter(names).collect()
     }
 
-    /// Joins deletions that overlap, as those of neighbours on one line do.
-    fn joined(&self, mut edits: Vec<TextEdit>) -> Vec<TextEdit> {
-        edits.sort_by_key(|e| e.span);
-        let mut joined: Vec<TextEdit> = Vec::new();
-        for edit in edits {
-            match joined.last_mut().filter(|last| edit.span.start < last.span.end) {
-                Some(last) => {
-                    last.span = last.span.join(edit.span);
-                    let before = self.lowered.effective.get(..last.span.start as usize);
-                    let divided = before.is_some_and(|b| b.ends_with(char::is_whitespace));
-                    last.insert = if divided { String::new() } else { edit.insert };
-                }
-                None => joined.push(edit),
-            }
-        }
-        joined
-    }
-
-    /// Takes what speaks of a thing out of members; `gone` is deleted already.
-    fn forget(
-        &self,
-        members: impl Iterator<Item = Member>,
-        path: &Path,
-        gone: Option<&SyntaxNode>,
-        edits: &mut Vec<TextEdit>,
-    ) {
-        for member in members {
-            let node = member.syntax();
-            if gone == Some(node) || self.uses(node, path).is_empty() {
-                continue;
-            }
-            match &member {
-                Member::Part(part) => {
-                    let value = part.value().filter(|v| !self.uses(v.syntax(), path).is_empty());
-                    if let (Some(value), Some(class)) = (value, part.class()) {
-                        let span = Span::new(class.span().end, value.span().end);
-                        edits.push(TextEdit { span, insert: String::new() });
-                    }
-                    let inner = part.body().into_iter().flat_map(|b| b.members());
-                    let inner: Vec<Member> = inner.collect();
-                    self.forget(inner.into_iter(), path, gone, edits);
-                }
-                Member::For(each) => {
-                    let inner: Vec<Member> =
-                        each.body().into_iter().flat_map(|b| b.members()).collect();
-                    self.forget(inner.into_iter(), path, gone, edits);
-                }
-                Member::Merge(_) | Member::Stay(_) | Member::Anchor(_) | Member::Attachers(_) => {
-                    let stays = |e: &Expr| self.uses(e.syntax(), path).is_empty();
-                    edits.extend(shortened(node, &stays));
-                }
-                Member::Constraint(_) | Member::Assign(_) | Member::Insert(_) => {
-                    edits.push(edit::delete_member(node));
-                }
-                // what a message or a check says of it is an error then, and refuses the deletion
-                _ => {}
-            }
-        }
-    }
-
-    fn rename(&self, from: &Path, to: &str) -> Result<Vec<TextEdit>, Diagnostic> {
-        must_be_name(to)?;
-        if let Some(class) = self.class(from) {
-            self.must_be_new_class(to)?;
-            let word = class.name().expect("a class was found by its name");
-            return Ok(self.rename_words(word.text(), to, is_class_name));
-        }
-        let (owner, last) = match from.0.split_last() {
-            Some((last, owner)) => (Path(owner.to_vec()), last.clone()),
-            None => return Err(refused("unknown-part", "the document has no name".into())),
-        };
+    /// Says that something is a class's to say, and which class's.
+    fn of_a_class(&self, path: &Path) -> Diagnostic {
+        let owner = Path(path.0[..path.0.len().saturating_sub(1)].to_vec());
         let document = &self.lowered.document;
-        let taken = owner.then(Step::Part(to.into()));
-        if crate::names::class_at(document, document.root, &taken).is_some() {
-            return Err(refused("duplicate-name", format!("there is a part {taken} already")));
-        }
-        if let Some(rule) = self.rule(&owner, &last) {
-            return Ok(vec![edit::rename(&rule.token, to)]);
-        }
-        let (_, word) = self.declaration(from)?;
-        let mut edits = vec![edit::rename(&word.token, to)];
-        for e in self.uses(self.file.syntax(), from) {
-            let named = match &e {
-                Expr::Name(name) => name.name(),
-                Expr::Field(field) => field.name(),
-                _ => None,
-            };
-            edits.extend(named.map(|word| edit::rename(&word.token, to)));
-        }
-        Ok(edits)
-    }
-
-    /// Finds the name of a constraint or merge of the document or of a body.
-    fn rule(&self, owner: &Path, last: &Step) -> Option<ast::Word> {
-        let Step::Part(name) = last else { return None };
-        let members: Vec<Member> = match self.declaration(owner) {
-            Ok((part, _)) => part.body().into_iter().flat_map(|b| b.members()).collect(),
-            Err(_) if owner.is_empty() => self.file.members().collect(),
-            Err(_) => return None,
-        };
-        let word = |m: &Member| match m {
-            Member::Constraint(c) => c.name(),
-            Member::Merge(m) => m.name(),
-            _ => None,
-        };
-        members.iter().filter_map(word).find(|w| w.name() == *name)
-    }
-
-    fn rename_words(
-        &self,
-        from: &str,
-        to: &str,
-        wanted: fn(&SyntaxToken) -> bool,
-    ) -> Vec<TextEdit> {
-        let tokens = self.file.syntax().descendants_with_tokens();
-        tokens
-            .filter_map(SyntaxElement::into_token)
-            .filter(|t| t.kind() == SyntaxKind::Ident && t.text() == from && wanted(t))
-            .map(|t| edit::rename(&t, to))
-            .collect()
-    }
-
-    fn must_be_new_class(&self, name: &str) -> Result<(), Diagnostic> {
-        match self.lowered.document.class_named(name) {
-            Some(_) => Err(refused("duplicate-name", format!("there is a class {name} already"))),
-            None => Ok(()),
-        }
-    }
-
-    /// Gives a thing's class of one a name of its own.
-    fn promote(&self, path: &Path, class: &str) -> Result<Vec<TextEdit>, Diagnostic> {
-        must_be_name(class)?;
-        self.must_be_new_class(class)?;
-        let (part, word) = self.declaration(path)?;
-        let (Some(ty), Some(body)) = (part.class(), part.body()) else {
-            let message = format!("{path} has no body that could become a class");
-            return Err(refused("not-a-class-of-one", message));
-        };
-        let around = body.syntax().descendants().filter_map(Expr::cast).find(|e| {
-            let path_of = self.path_of(e);
-            path_of.is_some_and(|p| !p.0.starts_with(&path.0))
+        let declares = self.class_at(&owner).zip(path.0.last()).and_then(|(class, step)| {
+            let Step::Part(name) = step else { return None };
+            let lineage = document.lineage(class);
+            lineage.into_iter().find(|&c| document.classes[c].parts.iter().any(|p| p.name == *name))
         });
-        if let Some(e) = around {
-            let message = format!("{path} speaks of {}, which is around it", e.syntax().text());
-            let d = refused("speaks-of-its-owner", message);
-            return Err(d.hint("move that member out of the body first"));
-        }
-        let (above, text) = (ty.syntax().text().to_string(), body.syntax().text().to_string());
-        let declared = format!("class {class} is {above} {text}");
-        let top = word.token.parent_ancestors().filter_map(Member::cast).last();
-        let top = top.map_or_else(|| part.syntax().clone(), |m| m.syntax().clone());
-        let whole = Span::new(ty.span().start, body.span().end);
-        Ok(vec![
-            edit::insert_member(&Spot::Before(top), &declared),
-            TextEdit { span: whole, insert: self.named_instead(&part, class) },
-        ])
-    }
-
-    /// Returns what stands for a part's class and body once the body is a class.
-    fn named_instead(&self, part: &ast::Part, class: &str) -> String {
-        match (part.class(), part.value()) {
-            (Some(ty), Some(value)) => {
-                let between = Span::new(ty.span().end, value.span().end);
-                format!("{class}{}", self.source(between))
-            }
-            _ => class.to_string(),
-        }
+        let by = match declares {
+            Some(class) => document.classes[class].name.to_string(),
+            None => "a class".to_string(),
+        };
+        let message = format!("{path} is declared by {by}, not by the document");
+        refused("of-a-class", message).hint("edit the class, or the thing as a whole")
     }
 }
 
 /// Returns the edits that leave in a member's list of paths only those that stay.
 fn shortened(member: &SyntaxNode, stays: &dyn Fn(&Expr) -> bool) -> Vec<TextEdit> {
+    use syntax::ast::AstNode;
     let paths: Vec<Expr> = member.children().filter_map(Expr::cast).collect();
     let kept: Vec<String> =
         paths.iter().filter(|e| stays(e)).map(|e| e.syntax().text().to_string()).collect();
@@ -347,15 +215,5 @@ fn must_be_name(name: &str) -> Result<(), Diagnostic> {
     match plain && SyntaxKind::reserved(name).is_none() {
         true => Ok(()),
         false => Err(refused("not-a-name", format!("`{name}` is no name"))),
-    }
-}
-
-fn is_class_name(token: &SyntaxToken) -> bool {
-    let Some(parent) = token.parent() else { return false };
-    let is_use = parent.parent().is_some_and(|p| p.kind() == SyntaxKind::Use);
-    match parent.kind() {
-        SyntaxKind::Type | SyntaxKind::Class | SyntaxKind::CallExpr => true,
-        SyntaxKind::DottedName => !is_use,
-        _ => false,
     }
 }

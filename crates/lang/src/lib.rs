@@ -32,6 +32,7 @@ mod names;
 mod numbers;
 mod origins;
 mod paths;
+mod references;
 mod restore;
 mod rules;
 mod scope;
@@ -41,8 +42,8 @@ mod uses;
 mod visible;
 mod write;
 
-pub use checks::{Check, Expectation, PlanKind, Statement, StatementKind};
-pub use edits::edits_for;
+pub use checks::{Check, Expectation, PlanKind, Statement, StatementKind, without_checks};
+pub use edits::{Restructuring, edits_for, for_every};
 pub use files::File;
 pub use lower::{Lowered, lower};
 pub use numbers::{Wanted, read_literal, show_number};

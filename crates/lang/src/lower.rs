@@ -9,6 +9,7 @@ use crate::files::File;
 use crate::kinds::Kind;
 use crate::members::Pending;
 use crate::origins::Origins;
+use crate::references::References;
 use crate::restore::{Grain, Patch};
 use crate::scope::Scope;
 use crate::visible::Visible;
@@ -81,15 +82,17 @@ fn errors(lowered: &Lowered) -> usize {
     lowered.diagnostics.iter().filter(|d| d.severity == Severity::Error).count()
 }
 
+/// Finds every word of a text that speaks of a member of a class.
+pub(crate) fn references(text: &str, load: &dyn Fn(&str) -> Option<String>) -> References {
+    let mut l = Lowerer::new(load);
+    l.references = Some(References::new());
+    l.run(text);
+    l.references.unwrap_or_default()
+}
+
 pub(crate) fn lower_text(text: &str, load: &dyn Fn(&str) -> Option<String>) -> Lowered {
     let mut l = Lowerer::new(load);
-    l.read("", text);
-    l.declare_classes();
-    l.make_root();
-    l.declare_members();
-    l.define_members();
-    let checks = checks::lower(&mut l);
-    l.settle();
+    let checks = l.run(text);
     let own = l.files[OWN].parse.file();
     let doc = own.members().find_map(|m| m.doc()).unwrap_or_default();
     Lowered {
@@ -153,6 +156,8 @@ pub(crate) struct Lowerer<'l> {
     /// While positive, nothing is reported.
     pub(crate) silent: u32,
     pub(crate) declared: Vec<(ClassId, FileId, ast::Class)>,
+    /// What words speak of, where that is asked for.
+    pub(crate) references: Option<References>,
 }
 
 impl<'l> Lowerer<'l> {
@@ -188,9 +193,22 @@ impl<'l> Lowerer<'l> {
             unrolled: 0,
             silent: 0,
             declared: Vec::new(),
+            references: None,
         };
         l.own_classes();
         l
+    }
+
+    /// Lowers a text, and returns its checks.
+    fn run(&mut self, text: &str) -> Vec<Check> {
+        self.read("", text);
+        self.declare_classes();
+        self.make_root();
+        self.declare_members();
+        self.define_members();
+        let checks = checks::lower(self);
+        self.settle();
+        checks
     }
 
     pub(crate) fn origin(&mut self, file: FileId, span: Span) -> OriginId {

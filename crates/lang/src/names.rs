@@ -40,6 +40,7 @@ impl Lowerer<'_> {
                     self.error("wrong-arity", scope.file, word.span(), message);
                     return None;
                 }
+                self.refer(Place { file: scope.file, span: word.span() }, &name, class);
                 return Some((Term::send(me, &name), kind));
             }
         }

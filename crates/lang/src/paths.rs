@@ -58,6 +58,8 @@ impl Lowerer<'_> {
         let mut path = Path::default();
         for &class in &scope.classes {
             if let Some(part) = self.class_of_part(class, &word.name()) {
+                let place = Place { file: scope.file, span: word.span() };
+                self.refer(place, &word.name(), class);
                 return Some((path.then(Step::Part(word.name())), Some(part)));
             }
             if self.find_message(class, &word.name(), None).is_some() {
@@ -86,7 +88,11 @@ impl Lowerer<'_> {
             return Some((path.then(Step::Last), Some(element)));
         }
         match self.class_of_part(class, &word.name()) {
-            Some(part) => Some((path.then(Step::Part(word.name())), Some(part))),
+            Some(part) => {
+                let place = Place { file: scope.file, span: word.span() };
+                self.refer(place, &word.name(), class);
+                Some((path.then(Step::Part(word.name())), Some(part)))
+            }
             None if self.find_message(class, &word.name(), None).is_some() => {
                 self.refuse_virtual(scope, word)
             }

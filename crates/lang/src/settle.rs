@@ -52,6 +52,11 @@ impl Lowerer<'_> {
         for (class, path, place) in std::mem::take(&mut self.masks) {
             let Some((Step::Part(name), before)) = path.0.split_last() else { continue };
             let from = self.class_at(class, &Path(before.to_vec()));
+            if let Some(from) = from {
+                let start = place.span.end.saturating_sub(name.len() as u32);
+                let word = Place { file: place.file, span: base::Span::new(start, place.span.end) };
+                self.refer(word, name, from);
+            }
             let lineage = from.map(|c| self.document.lineage(c)).unwrap_or_default();
             let names: Vec<&Name> = lineage
                 .iter()

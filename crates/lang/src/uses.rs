@@ -1,7 +1,8 @@
-//! Uses: what the expressions of the document's own text speak of, as paths from the document.
+//! Uses: what the expressions of the document's own text lead to, as paths.
 //!
-//! The same names mean the same things here as when the text is lowered: locals first, then the thing
-//! whose body it is, then those around it. What stands in a class speaks of no thing of the document.
+//! A path begins at the document, or at the *prototype* of a class that the text declares: `Strut.p1`
+//! is the part `p1` of every Strut. The same names mean the same things here as when the text is
+//! lowered: locals first, then the thing whose body it is, then those around it.
 
 use crate::lower::{Lowered, OWN};
 use crate::names::class_at;
@@ -26,7 +27,25 @@ impl<'l> Text<'l> {
         Self { lowered, file: syntax::parse(OWN, &lowered.effective).file() }
     }
 
-    /// Returns the path from the document of what an expression leads to.
+    /// Returns the class of what a path leads to, if that is known.
+    pub(crate) fn class_at(&self, path: &Path) -> Option<ClassId> {
+        let document = &self.lowered.document;
+        class_at(document, document.root, path).or_else(|| {
+            let (class, rest) = self.prototype(path)?;
+            class_at(document, class, &rest)
+        })
+    }
+
+    /// Returns the class whose prototype a path begins at, and the rest of the path.
+    pub(crate) fn prototype(&self, path: &Path) -> Option<(ClassId, Path)> {
+        let (first, rest) = path.0.split_first()?;
+        let Step::Part(name) = first else { return None };
+        self.class(&Path(vec![first.clone()]))?;
+        let rest = Path(rest.to_vec());
+        Some((self.lowered.document.class_named(name)?, rest))
+    }
+
+    /// Returns the path of what an expression leads to.
     pub(crate) fn path_of(&self, e: &Expr) -> Option<Path> {
         match e {
             Expr::Name(name) => self.owner_of_name(e.syntax(), &name.name()?.name()),
@@ -66,72 +85,39 @@ impl<'l> Text<'l> {
         owner.map(|(thing, _)| thing.join(&step))
     }
 
-    /// Returns the things whose bodies a node stands in, the innermost first, the document last;
-    /// nothing in a class.
-    fn things_around(&self, node: &SyntaxNode) -> Option<Vec<(Path, Option<ClassId>)>> {
+    /// Returns the things whose bodies a node stands in, the innermost first; the document, or the
+    /// prototype of the class that the node stands in, last.
+    pub(crate) fn things_around(&self, node: &SyntaxNode) -> Option<Vec<(Path, Option<ClassId>)>> {
         let mut names: Vec<Name> = Vec::new();
+        let mut outermost = 0;
         let mut below = node.clone();
         for above in node.ancestors().skip(1) {
-            if matches!(above.kind(), SyntaxKind::Class | SyntaxKind::Modify | SyntaxKind::Program)
-            {
-                return None;
-            }
-            if let (Some(part), SyntaxKind::Body) = (ast::Part::cast(above.clone()), below.kind()) {
-                names.push(part.names().next()?.name());
+            match above.kind() {
+                SyntaxKind::Modify | SyntaxKind::Program => return None,
+                SyntaxKind::Class => {
+                    names.push(ast::Class::cast(above)?.name()?.name());
+                    outermost = 1;
+                    break;
+                }
+                SyntaxKind::Part if below.kind() == SyntaxKind::Body => {
+                    names.push(ast::Part::cast(above.clone())?.names().next()?.name());
+                }
+                _ => {}
             }
             below = above;
         }
         let steps: Vec<Step> = names.into_iter().rev().map(Step::Part).collect();
-        let document = &self.lowered.document;
         let thing = |n: usize| {
             let path = Path(steps[..n].to_vec());
-            let class = class_at(document, document.root, &path);
+            let class = self.class_at(&path);
             (path, class)
         };
-        Some((0..=steps.len()).rev().map(thing).collect())
-    }
-
-    /// Returns every expression below a node that leads to a thing; paths to its parts hold one.
-    pub(crate) fn uses(&self, node: &SyntaxNode, of: &Path) -> Vec<Expr> {
-        let all = node.descendants().filter_map(Expr::cast);
-        all.filter(|e| self.leads_to(e, of)).collect()
+        Some((outermost..=steps.len()).rev().map(thing).collect())
     }
 
     /// Returns true if an expression leads to the thing at a path.
     pub(crate) fn leads_to(&self, e: &Expr, path: &Path) -> bool {
         ends_like(e, path) && self.path_of(e).as_ref() == Some(path)
-    }
-
-    /// Finds where a part of the document, or of a body in it, is declared.
-    ///
-    /// # Errors
-    /// The path leads nowhere, or to what a class declares.
-    pub(crate) fn declaration(&self, path: &Path) -> Result<(ast::Part, ast::Word), Diagnostic> {
-        let mut members: Vec<Member> = self.file.members().collect();
-        let mut found = None;
-        for step in &path.0 {
-            let Step::Part(name) = step else {
-                found = None;
-                break;
-            };
-            let named = |m: &Member| match m {
-                Member::Part(p) => p.names().find(|w| w.name() == *name).map(|w| (p.clone(), w)),
-                _ => None,
-            };
-            found = members.iter().find_map(named);
-            let body = found.as_ref().and_then(|(part, _)| part.body());
-            members = body.into_iter().flat_map(|b| b.members()).collect();
-        }
-        found.ok_or_else(|| {
-            let document = &self.lowered.document;
-            match class_at(document, document.root, path) {
-                Some(_) => {
-                    let message = format!("{path} is declared by a class, not by the document");
-                    refused("of-a-class", message).hint("edit the class, or the thing as a whole")
-                }
-                None => refused("unknown-part", format!("the document has no part {path}")),
-            }
-        })
     }
 
     /// Finds the class of this name that the document declares.
@@ -160,7 +146,7 @@ fn ends_like(e: &Expr, path: &Path) -> bool {
 }
 
 /// Returns true if a node gives a name another meaning where `at` stands.
-fn binds(node: &SyntaxNode, at: &SyntaxNode, name: &Name) -> bool {
+pub(crate) fn binds(node: &SyntaxNode, at: &SyntaxNode, name: &Name) -> bool {
     let is_inside = |inner: &SyntaxNode| inner.text_range().contains_range(at.text_range());
     if let Some(lambda) = ast::LambdaExpr::cast(node.clone()) {
         return lambda.params().any(|w| w.name() == *name);

@@ -1,16 +1,16 @@
 //! Commands applied: each gives the next state, or a refusal that changed nothing.
 
+use crate::difference::difference;
 use crate::document::{Direction, Open};
 use crate::host::Host;
 use crate::state::State;
 use crate::texts::Texts;
-use crate::view::{Change, Refusal, TextChange};
+use crate::view::{Change, Choice, Question, Refusal};
 use crate::words;
 use crate::write_back::{differing, write_back};
 use kernel::{Command, DOCUMENT, Literal, Path, SlotId, Step, Term, ThingId, Value, Values};
 use plan::{EditKind, Target};
 use std::sync::Arc;
-use syntax::edit::TextEdit;
 
 /// Applies a command to a document.
 ///
@@ -204,9 +204,8 @@ fn travel(open: &mut Open, direction: Direction) -> Result<Change, Refusal> {
 /// Applies a command that changes structure: the smallest edit of the text that says so.
 fn restructure(open: &mut Open, host: &dyn Host, command: &Command) -> Result<Change, Refusal> {
     let before = open.state.clone();
-    let edits: Vec<TextEdit> = lang::edits_for(&before.lowered, &before.structure, command)
-        .map_err(|d| words::refusal_of_text(&before, std::slice::from_ref(&d)))?;
-    let text = syntax::edit::apply(&before.text, &edits);
+    let done = restructuring(&before, command)?;
+    let text = syntax::edit::apply(&before.text, &done.edits);
     let plans = open.planner.take_plans();
     let (state, planner) = State::of(text, Some(&before), host, plans);
     let errors =
@@ -226,8 +225,59 @@ fn restructure(open: &mut Open, host: &dyn Host, command: &Command) -> Result<Ch
         None => (state, planner),
     };
     let label = words::command_label(command);
+    let unmet = words::unmet_things(&before, &open.status);
     open.step_to(label.clone(), Vec::new(), state, planner);
-    Ok(change(label, &before, &open.state))
+    let mut unsatisfied = words::unmet_things(&open.state, &open.status);
+    unsatisfied.retain(|path| !unmet.contains(path));
+    let class = done.class.map(|c| before.lowered.document.classes[c].name.to_string());
+    let class_of_one = done.class_of_one.filter(|_| class.is_none()).map(|p| p.to_string());
+    Ok(Change {
+        class_of_one,
+        class,
+        along: done.along,
+        unsatisfied,
+        ..change(label, &before, &open.state)
+    })
+}
+
+/// Returns the edits of a command that changes structure.
+///
+/// # Errors
+/// Why the text cannot say it, and the command that would do it for a whole class.
+fn restructuring(state: &State, command: &Command) -> Result<lang::Restructuring, Refusal> {
+    lang::edits_for(&state.lowered, &state.structure, command).map_err(|d| {
+        let every = lang::for_every(&state.lowered, command).filter(|_| d.code == "of-a-class");
+        let repairs = every.iter().map(words::command_label).collect();
+        Refusal { repairs, ..words::refusal_of_text(state, &[d]) }
+    })
+}
+
+/// Returns what has to be asked before a command is applied: whether it is meant of one thing, which
+/// becomes a class of one, or of all things of its class. Nothing where there is nothing to ask.
+///
+/// # Errors
+/// Why the command would be refused.
+pub(crate) fn preview(state: &State, command: &Command) -> Result<Option<Question>, Refusal> {
+    let every = || lang::for_every(&state.lowered, command);
+    let all = |command: Command| {
+        let label = words::command_label(&command);
+        Choice { label, command }
+    };
+    let done = match restructuring(state, command) {
+        Ok(done) => done,
+        Err(refusal) if refusal.repairs.is_empty() => return Err(refusal),
+        Err(refusal) => {
+            let choices = every().into_iter().map(all).collect();
+            return Ok(Some(Question { message: refusal.message, choices }));
+        }
+    };
+    let Some(path) = done.class_of_one.filter(|_| done.class.is_none()) else { return Ok(None) };
+    let thing = words::find(state, &path)?;
+    let class = words::class_name(state, thing);
+    let message = format!("this changes {path} alone, which becomes a class of one");
+    let this = Choice { label: format!("only {path}"), command: command.clone() };
+    let every = every().map(|command| Choice { label: format!("every {class}"), command });
+    Ok(Some(Question { message, choices: std::iter::once(this).chain(every).collect() }))
 }
 
 /// Returns the values that a document keeps where a command only takes away what held it: every path
@@ -267,45 +317,6 @@ fn change(label: String, before: &State, after: &State) -> Change {
         let slots = after.values.changed(&before.values);
         slots.map(|s| after.slot_path(s).to_string()).collect()
     };
-    Change { label, edits: difference(&before.text, &after.text), moved, structure }
-}
-
-/// Returns the changed stretch of a text, as few bytes as one stretch can be; nothing if equal.
-fn difference(before: &str, after: &str) -> Vec<TextChange> {
-    if before == after {
-        return Vec::new();
-    }
-    let mut start = before.bytes().zip(after.bytes()).take_while(|(a, b)| a == b).count();
-    while !before.is_char_boundary(start) || !after.is_char_boundary(start) {
-        start -= 1;
-    }
-    let most = before.len().min(after.len()) - start;
-    let tail = before.bytes().rev().zip(after.bytes().rev()).take(most);
-    let mut end = tail.take_while(|(a, b)| a == b).count();
-    while !before.is_char_boundary(before.len() - end) || !after.is_char_boundary(after.len() - end)
-    {
-        end -= 1;
-    }
-    vec![TextChange {
-        start: start as u32,
-        end: (before.len() - end) as u32,
-        insert: after[start..after.len() - end].to_string(),
-    }]
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn the_difference_of_texts_is_one_stretch() {
-        let d = difference("a = 10  // ten", "a = 12  // ten");
-        assert_eq!(d, [TextChange { start: 5, end: 6, insert: "2".into() }]);
-        assert_eq!(difference("same", "same"), []);
-    }
-    #[test]
-    fn the_difference_never_splits_a_letter() {
-        let d = difference("x = \"é\"", "x = \"è\"");
-        assert_eq!(d, [TextChange { start: 5, end: 7, insert: "è".into() }]);
-    }
+    let edits = difference(&before.text, &after.text);
+    Change { label, edits, moved, structure, ..Change::default() }
 }

@@ -1,7 +1,8 @@
 //! Checks: the `check` blocks of a document, each run on a fresh copy.
 //!
-//! The copy is a text: the document's, with the check's own members added at its end. Statements are
-//! then the same commands that the lab applies, and `expect` asks the state that they came to.
+//! The copy is a text: the document's without its checks, with the check's own members added at its
+//! end. Statements are then the same commands that the lab applies, and `expect` asks the state that
+//! they came to. What a statement means is found out in the state that it meets.
 
 use crate::apply;
 use crate::complaints;
@@ -25,8 +26,11 @@ pub(crate) fn run_all(state: &State, host: &dyn Host) -> Vec<CheckReport> {
 struct Run<'h> {
     open: Open,
     host: &'h dyn Host,
-    /// The index of the check among the document's.
-    index: usize,
+    /// The document's own state, whose check it is.
+    of: &'h State,
+    check: &'h Check,
+    /// What the statements mean in the present structure.
+    statements: Vec<Statement>,
     /// What the latest `try` was refused with.
     refusal: Option<Refusal>,
     /// The state before the latest edit.
@@ -37,22 +41,27 @@ struct Run<'h> {
 fn run(state: &State, index: usize, host: &dyn Host) -> CheckReport {
     let check = &state.lowered.checks[index];
     let members: Vec<&str> = check.members.iter().map(|m| &**m).collect();
-    let text = format!("{}\n{}\n", state.text, members.join("\n"));
+    let document = lang::without_checks(&state.text);
+    let end = document.len() as u32;
+    let text = format!("{document}\n{}\n", members.join("\n"));
     let mut run = Run {
         open: Open::of("check", text, host),
         host,
-        index,
+        of: state,
+        check,
+        statements: Vec::new(),
         refusal: None,
         before: None,
         shortfalls: Vec::new(),
     };
-    run.note_faults(state);
+    run.statements = run.lowered(&check.statements).0;
+    run.note_faults(end);
     if let Some(first) = check.statements.first() {
         run.note_violations(first);
     }
-    for at in 0..check.statements.len() {
+    for (at, statement) in check.statements.iter().enumerate() {
         if let Err(message) = run.statement(at) {
-            run.fall_short(&check.statements[at], message);
+            run.fall_short(statement, message);
             break;
         }
     }
@@ -70,14 +79,39 @@ fn line_of(state: &State, offset: u32) -> u32 {
 }
 
 impl Run<'_> {
+    /// Finds out what statements mean in the present structure, and what is wrong with them.
+    fn lowered(&self, statements: &[Statement]) -> (Vec<Statement>, Option<String>) {
+        let sources: Vec<&str> = statements.iter().map(|s| self.source(s)).collect();
+        let document = &self.open.state.text;
+        let text = format!("{document}\ncheck \"\" {{\n{}\n}}\n", sources.join("\n"));
+        let lowered = lang::lower(&text, &|name| self.host.read(name), None);
+        let own = lowered.diagnostics.iter().find(|d| {
+            d.place.file == base::FileId(0) && d.place.span.start as usize > document.len()
+        });
+        let message = own.map(|d| d.message.clone());
+        let check = lowered.checks.into_iter().next();
+        (check.map(|c| c.statements).unwrap_or_default(), message)
+    }
+
+    fn is_told(&self, statement: &Statement) -> bool {
+        let inside = |d: &base::Diagnostic| {
+            d.place.file == base::FileId(0)
+                && statement.span.range().contains(&(d.place.span.start as usize))
+        };
+        self.of.diagnostics.iter().any(inside)
+    }
+
+    fn source(&self, statement: &Statement) -> &str {
+        self.of.text.get(statement.span.range()).unwrap_or_default()
+    }
+
     /// A check whose own members are wrong falls short at once.
-    fn note_faults(&mut self, of: &State) {
-        let known = |m: &str| of.diagnostics.iter().any(|d| d.message == m);
-        let end = of.text.len() as u32;
+    fn note_faults(&mut self, end: u32) {
+        let known = |m: &str| self.of.diagnostics.iter().any(|d| d.message == m);
         for d in &self.open.state.diagnostics {
             let own = d.place.file == base::FileId(0) && d.place.span.start >= end;
             if own && d.severity == base::Severity::Error && !known(&d.message) {
-                let line = line_of(of, of.lowered.checks[self.index].span.start);
+                let line = line_of(self.of, self.check.span.start);
                 let statement = "its own members".to_string();
                 self.shortfalls.push(Shortfall { line, statement, message: d.message.clone() });
             }
@@ -85,9 +119,8 @@ impl Run<'_> {
     }
 
     fn fall_short(&mut self, statement: &Statement, message: String) {
-        let text = &self.open.state.text;
-        let source = text.get(statement.span.range()).unwrap_or_default().trim().to_string();
-        let line = line_of(&self.open.state, statement.span.start);
+        let source = self.source(statement).trim().to_string();
+        let line = line_of(self.of, statement.span.start);
         self.shortfalls.push(Shortfall { line, statement: source, message });
     }
 
@@ -103,27 +136,36 @@ impl Run<'_> {
     /// Runs one statement; what is returned ends the check.
     fn statement(&mut self, at: usize) -> Result<(), String> {
         let state = self.open.state.clone();
-        let check: &Check =
-            state.lowered.checks.get(self.index).ok_or("the check itself was edited away")?;
-        let statement = &check.statements[at];
-        match &statement.kind {
+        let statement = &self.check.statements[at];
+        let kind = match self.statements.get(at).map(|s| s.kind.clone()) {
+            // the text's own diagnostics say so already
+            Some(StatementKind::Unclear) | None if self.is_told(statement) => return Ok(()),
+            Some(StatementKind::Unclear) | None => {
+                let (_, message) = self.lowered(std::slice::from_ref(statement));
+                return Err(message.unwrap_or_else(|| "this means nothing here".into()));
+            }
+            Some(kind) => kind,
+        };
+        match &kind {
             StatementKind::Expect(expectation) => {
                 if let Err(message) = self.expect(&state, expectation) {
                     self.fall_short(statement, message);
                 }
-                Ok(())
+            }
+            StatementKind::Try(inner) if **inner == StatementKind::Unclear => {
+                let (_, message) = self.lowered(std::slice::from_ref(statement));
+                self.refusal = Some(words::refuse(message.unwrap_or_default()));
             }
             StatementKind::Try(inner) => {
                 let result = self.edit(&state, inner);
                 self.refusal = result.err();
-                Ok(())
             }
             edit => {
                 self.edit(&state, edit).map_err(|r| r.message)?;
                 self.note_violations(statement);
-                Ok(())
             }
         }
+        Ok(())
     }
 
     fn edit(&mut self, state: &State, kind: &StatementKind) -> Result<Change, Refusal> {
@@ -131,12 +173,16 @@ impl Run<'_> {
             StatementKind::Set(targets) => Command::Set(literals(state, targets)?),
             StatementKind::Move(targets) => Command::Move(literals(state, targets)?),
             StatementKind::Command(command) => command.clone(),
-            StatementKind::Expect(_) | StatementKind::Try(_) => {
+            StatementKind::Expect(_) | StatementKind::Try(_) | StatementKind::Unclear => {
                 return Err(words::refuse("only an edit can be tried".into()));
             }
         };
         self.before = Some(self.open.state.clone());
-        apply::apply(&mut self.open, self.host, &command)
+        let change = apply::apply(&mut self.open, self.host, &command)?;
+        if change.structure || matches!(kind, StatementKind::Command(_)) {
+            self.statements = self.lowered(&self.check.statements).0;
+        }
+        Ok(change)
     }
 
     fn expect(&mut self, state: &State, expectation: &Expectation) -> Result<(), String> {

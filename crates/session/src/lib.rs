@@ -16,6 +16,7 @@ pub mod view;
 mod apply;
 mod check;
 mod complaints;
+mod difference;
 mod document;
 mod drag;
 mod session;

@@ -8,8 +8,8 @@ use crate::drag;
 use crate::host::Host;
 use crate::state::State;
 use crate::view::{
-    Change, CheckReport, DocumentId, DragState, Explanation, PictureView, Refusal, Status,
-    StructureRow, TextView, ValueRow,
+    Change, CheckReport, DocumentId, DragState, Explanation, PictureView, Question, Refusal,
+    Status, StructureRow, TextView, ValueRow,
 };
 use crate::views;
 use crate::words;
@@ -68,6 +68,14 @@ impl Session {
             .expect("a document id comes from this session's open");
         open.drag = None;
         apply::apply(open, &*self.host, command)
+    }
+    /// Returns what has to be asked before a command is applied, if anything: whether it is meant of
+    /// one thing, which becomes a class of one, or of all things of its class.
+    ///
+    /// # Errors
+    /// Why the command would be refused. Either way nothing changes.
+    pub fn preview(&self, id: DocumentId, command: &Command) -> Result<Option<Question>, Refusal> {
+        apply::preview(&self.document(id).state, command)
     }
     /// Sets a value to what a person typed: `300 ohm`, `2*80`, `(3, 4)`, any words for a text.
     ///

@@ -21,6 +21,32 @@ pub struct Change {
     pub moved: Vec<String>,
     /// Whether classes, parts, constraints or merges changed, and not values alone.
     pub structure: bool,
+    /// The path of the thing that became a class of one.
+    pub class_of_one: Option<String>,
+    /// The class that changed, and with it all its things.
+    pub class: Option<String>,
+    /// The members that went along or were shortened, as they were written.
+    pub along: Vec<String>,
+    /// The paths of the things that have constraints which cannot hold, and could before.
+    pub unsatisfied: Vec<String>,
+}
+
+/// What has to be asked before a command is applied.
+#[derive(Clone, PartialEq, Debug)]
+pub struct Question {
+    /// What the command would do.
+    pub message: String,
+    /// What can be done; none of it is done yet.
+    pub choices: Vec<Choice>,
+}
+
+/// One way to apply a command.
+#[derive(Clone, PartialEq, Debug)]
+pub struct Choice {
+    /// What a button says: "only beam", "every Strut".
+    pub label: String,
+    /// What is to be applied.
+    pub command: kernel::Command,
 }
 
 /// A replaced stretch of the text.

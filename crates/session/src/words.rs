@@ -72,6 +72,23 @@ pub(crate) fn refusal_of_status(state: &State, status: &plan::Status) -> Option<
     (!status.satisfied).then(|| Refusal { message, constraints, ..Refusal::default() })
 }
 
+/// Returns the paths of the things that have a required constraint which does not hold.
+pub(crate) fn unmet_things(state: &State, status: &plan::Status) -> Vec<String> {
+    let mut paths: Vec<String> = Vec::new();
+    let unmet = status.unmet.iter().filter(|u| u.level == solve::Level::Required);
+    for thing in unmet.filter_map(|u| match u.source {
+        Source::Constraint(c) => Some(state.structure.constraints[c as usize].owner),
+        Source::Stay(s) => Some(state.structure.stays[s as usize].thing),
+        Source::Wish(_) => None,
+    }) {
+        let path = state.structure.path(&state.lowered.document, thing).to_string();
+        if !paths.contains(&path) {
+            paths.push(path);
+        }
+    }
+    paths
+}
+
 /// Lists names for a sentence: the first few, and how many more there are.
 fn listed(names: &[String]) -> String {
     const SHOWN: usize = 4;

@@ -11,8 +11,8 @@ fn at(path: &str) -> Path {
 fn apply(text: &str, command: &Command) -> Result<String, &'static str> {
     let lowered = right(text);
     let (structure, _) = kernel::instantiate(&lowered.document);
-    let edits = edits_for(&lowered, &structure, command).map_err(|d| d.code)?;
-    Ok(syntax::edit::apply(text, &edits))
+    let done = edits_for(&lowered, &structure, command).map_err(|d| d.code)?;
+    Ok(syntax::edit::apply(text, &done.edits))
 }
 
 #[track_caller]
@@ -68,7 +68,7 @@ fn unmerging_takes_one_path_out() {
         "a: Quad { }\n",
     );
     assert_eq!(apply("use shapes\na: Point\n", &unmerge("a")), Err("not-merged"));
-    assert_eq!(apply("use shapes\na: Quad\n", &unmerge("a.side1.p2")), Err("not-merged"));
+    assert_eq!(apply("use shapes\na: Quad\n", &unmerge("a.side1.p1")), Err("not-merged"));
 }
 
 #[test]
@@ -209,6 +209,167 @@ fn a_wrong_document_can_be_edited_elsewhere() {
     let lowered = lower(text);
     let (structure, _) = kernel::instantiate(&lowered.document);
     let command = Command::Anchor { path: at("a"), held: true };
-    let edits = edits_for(&lowered, &structure, &command).unwrap();
-    assert_eq!(syntax::edit::apply(text, &edits), "b: Real = \na: Real = 1\nanchor a\n");
+    let done = edits_for(&lowered, &structure, &command).unwrap();
+    assert_eq!(syntax::edit::apply(text, &done.edits), "b: Real = \na: Real = 1\nanchor a\n");
+}
+
+#[test]
+fn what_a_class_merges_is_masked_at_one_thing() {
+    assert_becomes("a: Quad\n", &unmerge("a.side1.p2"), "a: Quad { without corner }\n");
+    // the rest stay merged; a merge without a name gets one, so that it can be masked
+    let class = "class Three { a, b, c: Point  merge a = b = c }\n";
+    assert_becomes(
+        &format!("{class}t: Three\n"),
+        &unmerge("t.b"),
+        "class Three { a, b, c: Point  merge c2: a = b = c }\nt: Three { without c2  merge a = c }\n",
+    );
+    assert_becomes(
+        &format!("{class}t: Three\n"),
+        &unmerge("Three.b"),
+        "class Three { a, b, c: Point  merge a = c }\nt: Three\n",
+    );
+}
+
+#[test]
+fn a_merge_within_one_thing_is_said_in_its_body() {
+    let merge = |a: &str, b: &str| Command::Merge(vec![at(a), at(b)]);
+    assert_becomes(
+        "q: Quad\n",
+        &merge("q.side1.p1", "q.side2.p2"),
+        "q: Quad { merge side1.p1 = side2.p2 }\n",
+    );
+    assert_becomes(
+        "class C { a, b: Line }\nq, r: C\n",
+        &merge("C.a.p1", "C.b.p1"),
+        "class C { a, b: Line  merge a.p1 = b.p1 }\nq, r: C\n",
+    );
+    let element = Command::Merge(vec![
+        Path(vec![kernel::Step::Part("l".into()), kernel::Step::Index(0)]).join(&at("p1")),
+        Path(vec![kernel::Step::Part("l".into()), kernel::Step::Index(1)]).join(&at("p2")),
+    ]);
+    assert_becomes("l: List of 2 Line\n", &element, "l: List of 2 Line\nmerge l[0].p1 = l[1].p2\n");
+}
+
+fn implied(text: &str, command: &Command) -> lang::Restructuring {
+    let lowered = right(text);
+    let (structure, _) = kernel::instantiate(&lowered.document);
+    edits_for(&lowered, &structure, command).expect("the text can say it")
+}
+
+#[test]
+fn a_member_of_a_plain_thing_makes_it_a_class_of_one() {
+    let text = "use shapes\na: Line\nb: Line { p1 = (1, 2) }\nc: Line { constraint length = 3 }\n";
+    assert_eq!(implied(text, &edit("a", "n: Real")).class_of_one, Some(at("a")));
+    assert_eq!(implied(text, &edit("b", "n: Real")).class_of_one, Some(at("b")));
+    assert_eq!(implied(text, &edit("c", "n: Real")).class_of_one, None);
+    assert_eq!(implied(text, &edit("", "n: Real")).class_of_one, None);
+    let text = "use shapes\nclass C { a: Line }\nc: C\n";
+    let done = implied(text, &edit("C.a", "n: Real"));
+    let changed = right(text).document.class_named("C");
+    assert_eq!((done.class_of_one, done.class), (Some(at("C.a")), changed));
+}
+
+#[test]
+fn a_command_on_one_thing_can_be_said_of_its_class() {
+    let lowered =
+        right("use shapes\nclass C { a: Line  constraint level: a.p1.y = 0 }\nc: C\nd: Line\n");
+    let every = |command: &Command| lang::for_every(&lowered, command);
+    assert_eq!(every(&edit("c", "n: Real")), Some(edit("C", "n: Real")));
+    assert_eq!(every(&edit("c.a", "n: Real")), Some(edit("C.a", "n: Real")));
+    assert_eq!(every(&delete("c.a")), Some(delete("C.a")));
+    assert_eq!(every(&rename("c.level", "flat")), Some(rename("C.level", "flat")));
+    // a library's class is not the document's to change
+    assert_eq!(every(&edit("d", "n: Real")), None);
+    assert_eq!(every(&edit("C", "n: Real")), None);
+}
+
+#[test]
+fn members_of_an_inherited_part_are_said_by_the_thing_around_it() {
+    assert_becomes(
+        "q: Quad\n",
+        &edit("q.side1", "constraint length = [1, 2].map(p1 => p1).sum + p2.x"),
+        "q: Quad { constraint side1.length = [1, 2].map(p1 => p1).sum + side1.p2.x }\n",
+    );
+    assert_eq!(apply("use shapes\nq: Quad\n", &edit("q.side1", "n: Real")), Err("of-a-class"));
+}
+
+#[test]
+fn a_part_of_a_class_is_renamed_for_all_its_things() {
+    assert_becomes(
+        "class C { n: Real = 1  twice => 2 * n  constraint n > 0 }\nclass D is C { constraint n = 3 }\nc: C { n = 2 }\nd: D\nm: Real = c.n + C(n: 4).twice\ncheck \"c\" { set c.n to 5  expect d.n = 3 }\n",
+        &rename("C.n", "size"),
+        "class C { size: Real = 1  twice => 2 * size  constraint size > 0 }\nclass D is C { constraint size = 3 }\nc: C { size = 2 }\nd: D\nm: Real = c.size + C(size: 4).twice\ncheck \"c\" { set c.size to 5  expect d.size = 3 }\n",
+    );
+    assert_becomes(
+        "class C { n: Real = 1  twice => 2 * n }\nc: C\nm: Real = c.twice\n",
+        &rename("C.twice", "double"),
+        "class C { n: Real = 1  double => 2 * n }\nc: C\nm: Real = c.double\n",
+    );
+    assert_becomes(
+        "class C { n: Real = 1  constraint low: n = 0 }\nc: C { without low }\ncheck \"c\" { expect error \"low\" }\n",
+        &rename("C.low", "zero"),
+        "class C { n: Real = 1  constraint zero: n = 0 }\nc: C { without zero }\ncheck \"c\" { expect error \"zero\" }\n",
+    );
+    let text = "class C { n: Real }\nc: C\n";
+    assert_eq!(apply(text, &rename("c.n", "size")), Err("of-a-class"));
+}
+
+#[test]
+fn a_part_of_a_class_goes_with_all_that_speaks_of_it() {
+    assert_becomes(
+        "class C { n, o: Real  twice => 2 * n  constraint n = o }\nc: C { n = 2  o = 3 }\nk: Real = c.twice\nl: Real\nmerge c.n = c.o = l\ncheck \"c\" { set c.n to 5  expect c.o = 3 }\n",
+        &delete("C.n"),
+        "class C { o: Real  }\nc: C { o = 3 }\nk: Real\nl: Real\nmerge c.o = l\ncheck \"c\" { expect c.o = 3 }\n",
+    );
+    let text = "class C { n: Real  constraint n = 3 }\ncheck \"kept\" { c: C  expect c.n = 3 }\n";
+    assert_eq!(
+        implied(text, &delete("C.n")).along,
+        ["constraint n = 3", "expect c.n = 3 (in the check \"kept\")"]
+    );
+    assert_eq!(apply("class C { n: Real }\nc: C\n", &delete("C")), Err("class-in-use"));
+    assert_becomes("class C { n: Real }\nc: Real\n", &delete("C"), "c: Real\n");
+}
+
+#[test]
+fn a_rule_is_deleted_where_it_is_said_and_masked_where_it_is_not() {
+    assert_becomes(
+        "a: Real\nconstraint one: a = 1\nconstraint a > 0\n",
+        &delete("one"),
+        "a: Real\nconstraint a > 0\n",
+    );
+    assert_becomes("a: Real\nconstraint a > 0\n", &delete("constraint1"), "a: Real\n");
+    assert_becomes(
+        "h: HorizontalLine\n",
+        &delete("h.level"),
+        "h: HorizontalLine { without level }\n",
+    );
+    assert_becomes("q: Quad\n", &delete("q.corner"), "q: Quad { without corner }\n");
+    assert_becomes(
+        "class C { n: Real  constraint n = 3 }\nc: C\n",
+        &delete("c.constraint1"),
+        "class C { n: Real  constraint rule: n = 3 }\nc: C { without rule }\n",
+    );
+    assert_becomes(
+        "class C { n: Real  constraint low: n = 3 }\nc: C { without low }\n",
+        &delete("C.low"),
+        "class C { n: Real }\nc: C { }\n",
+    );
+}
+
+#[test]
+fn an_element_goes_and_those_behind_move_up() {
+    let second = |list: &str| {
+        Command::Delete(Path(vec![kernel::Step::Part(list.into()), kernel::Step::Index(1)]))
+    };
+    assert_becomes(
+        "n: List of Real = [1, 2, 3]\nconstraint n[0] = 1\nconstraint n[1] = 2\nconstraint n[2] = 3\n",
+        &second("n"),
+        "n: List of Real = [1, 3]\nconstraint n[0] = 1\nconstraint n[1] = 3\n",
+    );
+    assert_becomes(
+        "l: List of 3 Line\nmerge l[0].p2 = l[1].p1\nmerge l[2].p1 = l[0].p1\n",
+        &second("l"),
+        "l: List of 2 Line\nmerge l[1].p1 = l[0].p1\n",
+    );
+    assert_eq!(apply("use shapes\nl: List of 1 Line\n", &second("l")), Err("index"));
 }

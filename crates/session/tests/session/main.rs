@@ -4,6 +4,7 @@ mod dragging;
 
 mod explaining;
 mod refusing;
+mod restructuring;
 mod saving;
 mod undoing;
 mod viewing;

@@ -1,0 +1,75 @@
+//! Elements of lists deleted: those behind move up.
+
+use super::Restructuring;
+use crate::numbers::constant;
+use crate::uses::{Text, refused};
+use base::Diagnostic;
+use kernel::{Path, Step};
+use syntax::ast::{self, AstNode, Expr, Member, TypeShape};
+use syntax::edit::{self, TextEdit};
+
+impl Text<'_> {
+    /// Deletes an element of a list that the document's own text declares.
+    pub(super) fn delete_element(&self, path: &Path, i: u32) -> Result<Restructuring, Diagnostic> {
+        let list = Path(path.0[..path.0.len() - 1].to_vec());
+        let (home, member, _) = self.declaration(&list)?;
+        let Member::Part(part) = &member else { return Err(self.of_a_class(path)) };
+        let count = part.class().and_then(|ty| match ty.shape() {
+            TypeShape::List { count, .. } => count,
+            TypeShape::Named(_) | TypeShape::Set(_) | TypeShape::Path(_) | TypeShape::Placed(_) => {
+                None
+            }
+        });
+        let mut edits = Vec::new();
+        if let Some(count) = &count {
+            let n = constant(&|_| None, count).filter(|n| f64::from(i) < *n);
+            let n = n.ok_or_else(|| refused("index", format!("there is no {path}")))?;
+            edits.push(edit::replace(count.syntax(), &format!("{}", n - 1.0)));
+        }
+        if let Some(Expr::List(items)) = part.value().and_then(ast::Value::expr) {
+            let items: Vec<Expr> = items.elements().collect();
+            let kept = items.iter().enumerate().filter(|(k, _)| *k != i as usize);
+            let kept: Vec<String> = kept.map(|(_, e)| e.syntax().text().to_string()).collect();
+            let gone = items.get(i as usize).zip(items.first().zip(items.last()));
+            let Some((_, (first, last))) = gone else {
+                return Err(refused("index", format!("there is no {path}")));
+            };
+            let span = first.span().join(last.span());
+            edits.push(TextEdit { span, insert: kept.join(", ") });
+        }
+        if edits.is_empty() {
+            return Err(self.of_a_class(path));
+        }
+        let along = self.move_up(&list, i, &mut edits);
+        Ok(Restructuring { edits, along, ..self.implied_by(&home) })
+    }
+
+    /// Deletes the members that speak of an element, and counts those behind it one less.
+    fn move_up(&self, list: &Path, i: u32, edits: &mut Vec<TextEdit>) -> Vec<String> {
+        let mut gone: Vec<Member> = Vec::new();
+        let mut moved = Vec::new();
+        for index in self.file.syntax().descendants().filter_map(ast::IndexExpr::cast) {
+            let of = index.receiver().and_then(|r| self.path_of(&r));
+            let at = self.path_of(&Expr::Index(index.clone()));
+            let (Some(at), Some(e)) = (at.filter(|_| of.as_ref() == Some(list)), index.index())
+            else {
+                continue;
+            };
+            let Some(Step::Index(n)) = at.0.last() else { continue };
+            let mut around = index.syntax().ancestors().filter_map(Member::cast);
+            match around.next() {
+                Some(member) if *n == i && !gone.contains(&member) => gone.push(member),
+                Some(_) if *n > i => moved.push(edit::replace(e.syntax(), &(n - 1).to_string())),
+                Some(_) | None => {}
+            }
+        }
+        let deletions: Vec<TextEdit> =
+            gone.iter().map(|m| edit::delete_member(m.syntax())).collect();
+        let is_gone = |e: &TextEdit| {
+            deletions.iter().any(|d| d.span.start <= e.span.start && e.span.end <= d.span.end)
+        };
+        moved.retain(|e| !is_gone(e));
+        edits.extend(deletions.iter().cloned().chain(moved));
+        gone.iter().map(|m| self.source(ast::span_without_doc(m.syntax()))).collect()
+    }
+}

@@ -1,0 +1,187 @@
+//! The difference of two texts, as few small stretches.
+//!
+//! Lines that both have, in order, are kept (greedily, the fewest changes first); of the lines between
+//! them only what differs is replaced.
+//!
+//! **Source:** Myers, "An O(ND) Difference Algorithm and Its Variations", Algorithmica 1986.
+
+use crate::view::TextChange;
+
+/// Texts that differ in more lines than this are one stretch: nobody follows so many with the eye.
+const MOST_LINES: usize = 200;
+
+/// Returns the changed stretches of a text, in order; nothing if equal.
+pub(crate) fn difference(before: &str, after: &str) -> Vec<TextChange> {
+    let (a, b): (Vec<&str>, Vec<&str>) =
+        (before.split_inclusive('\n').collect(), after.split_inclusive('\n').collect());
+    let most = a.len().min(b.len());
+    let head = a.iter().zip(&b).take_while(|(x, y)| x == y).count();
+    let tail = a.iter().rev().zip(b.iter().rev()).take(most - head);
+    let tail = tail.take_while(|(x, y)| x == y).count();
+    let (middle_a, middle_b) = (&a[head..a.len() - tail], &b[head..b.len() - tail]);
+    let mut kept = common_lines(middle_a, middle_b);
+    kept.push((middle_a.len(), middle_b.len()));
+    let mut changes = Vec::new();
+    let mut start: usize = a[..head].iter().map(|line| line.len()).sum();
+    let (mut i, mut j) = (0, 0);
+    for (next_i, next_j) in kept {
+        let (old, new) = (&middle_a[i..next_i], &middle_b[j..next_j]);
+        if old.len() == new.len() {
+            let mut at = start;
+            for (x, y) in old.iter().zip(new) {
+                changes.extend(stretch(at, x, y));
+                at += x.len();
+            }
+        } else {
+            changes.extend(stretch(start, &old.concat(), &new.concat()));
+        }
+        start += old.iter().map(|line| line.len()).sum::<usize>();
+        start += middle_a.get(next_i).map_or(0, |line| line.len());
+        (i, j) = (next_i + 1, next_j + 1);
+    }
+    changes
+}
+
+/// Returns what differs between two pieces of text, the first of which begins at `start`.
+fn stretch(start: usize, before: &str, after: &str) -> Option<TextChange> {
+    if before == after {
+        return None;
+    }
+    let mut head = before.bytes().zip(after.bytes()).take_while(|(a, b)| a == b).count();
+    while !before.is_char_boundary(head) || !after.is_char_boundary(head) {
+        head -= 1;
+    }
+    let most = before.len().min(after.len()) - head;
+    let tail = before.bytes().rev().zip(after.bytes().rev()).take(most);
+    let mut end = tail.take_while(|(a, b)| a == b).count();
+    while !before.is_char_boundary(before.len() - end) || !after.is_char_boundary(after.len() - end)
+    {
+        end -= 1;
+    }
+    Some(TextChange {
+        start: (start + head) as u32,
+        end: (start + before.len() - end) as u32,
+        insert: after[head..after.len() - end].to_string(),
+    })
+}
+
+/// Returns the places of lines that two lists have in common, as many as there are, in order; none if
+/// too many differ.
+fn common_lines(a: &[&str], b: &[&str]) -> Vec<(usize, usize)> {
+    if a.len() == b.len() {
+        // what is written back changes lines and adds none
+        let same: Vec<_> = (0..a.len()).filter(|&i| a[i] == b[i]).map(|i| (i, i)).collect();
+        if 2 * same.len() >= a.len() {
+            return same;
+        }
+    }
+    // for every number of changes, how far along `a` each diagonal has been followed
+    let most = (a.len() + b.len()).min(MOST_LINES);
+    let middle = most + 1;
+    let mut reach = vec![0usize; 2 * middle + 1];
+    let mut rounds: Vec<Vec<usize>> = Vec::new();
+    for changes in 0..=most {
+        rounds.push(reach.clone());
+        for k in (0..=2 * changes).step_by(2) {
+            let diagonal = middle + k - changes;
+            let down = k == 0 || k < 2 * changes && reach[diagonal - 1] < reach[diagonal + 1];
+            let mut x = if down { reach[diagonal + 1] } else { reach[diagonal - 1] + 1 };
+            let Some(mut y) = (x + middle).checked_sub(diagonal) else { continue };
+            while x < a.len() && y < b.len() && a[x] == b[y] {
+                (x, y) = (x + 1, y + 1);
+            }
+            reach[diagonal] = x;
+            if x >= a.len() && y >= b.len() {
+                return walked_back(a.len(), b.len(), middle, &rounds);
+            }
+        }
+    }
+    Vec::new()
+}
+
+/// Follows the fewest changes from the ends of two lists back to their beginnings.
+fn walked_back(a: usize, b: usize, middle: usize, rounds: &[Vec<usize>]) -> Vec<(usize, usize)> {
+    let mut common = Vec::new();
+    let (mut x, mut y) = (a, b);
+    for (changes, reach) in rounds.iter().enumerate().rev() {
+        let diagonal = middle + x - y;
+        let k = diagonal + changes - middle;
+        let down = k == 0 || k < 2 * changes && reach[diagonal - 1] < reach[diagonal + 1];
+        let from = if down { diagonal + 1 } else { diagonal - 1 };
+        let (from_x, from_y) = match changes {
+            0 => (0, 0),
+            _ => (reach[from], reach[from] + middle - from),
+        };
+        while x > from_x && y > from_y {
+            (x, y) = (x - 1, y - 1);
+            common.push((x, y));
+        }
+        (x, y) = (from_x, from_y);
+    }
+    common.reverse();
+    common
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn applied(text: &str, changes: &[TextChange]) -> String {
+        let (mut out, mut from) = (String::new(), 0);
+        for c in changes {
+            out.push_str(&text[from..c.start as usize]);
+            out.push_str(&c.insert);
+            from = c.end as usize;
+        }
+        out + &text[from..]
+    }
+
+    #[test]
+    fn the_difference_of_lines_is_one_stretch() {
+        let d = difference("a = 10  // ten", "a = 12  // ten");
+        assert_eq!(d, [TextChange { start: 5, end: 6, insert: "2".into() }]);
+        assert_eq!(difference("same", "same"), []);
+    }
+    #[test]
+    fn the_difference_never_splits_a_letter() {
+        let d = difference("x = \"é\"", "x = \"è\"");
+        assert_eq!(d, [TextChange { start: 5, end: 7, insert: "è".into() }]);
+    }
+    #[test]
+    fn distant_lines_are_stretches_of_their_own() {
+        let d = difference("a = 1\nb = 2\nc = 3\n", "a = 7\nb = 2\nc = 9\n");
+        assert_eq!(
+            d,
+            [
+                TextChange { start: 4, end: 5, insert: "7".into() },
+                TextChange { start: 16, end: 17, insert: "9".into() },
+            ]
+        );
+    }
+    #[test]
+    fn lines_that_come_and_go_leave_the_others_alone() {
+        let (before, after) = ("a\nb\nc\nd\ne\n", "x\na\nc\nd\ny\nz\ne\n");
+        let d = difference(before, after);
+        assert_eq!(applied(before, &d), after);
+        let replaced: u32 = d.iter().map(|c| c.end - c.start).sum();
+        let inserted: usize = d.iter().map(|c| c.insert.len()).sum();
+        assert_eq!((replaced, inserted), (2, 6));
+    }
+    #[test]
+    fn any_two_texts_differ_by_their_difference() {
+        // a few letters in every order, so that lines repeat and move
+        let mut seed = 7u32;
+        let mut next = |n: u32| {
+            seed = seed.wrapping_mul(1_664_525).wrapping_add(1_013_904_223);
+            (seed >> 16) % n
+        };
+        for _ in 0..2000 {
+            let mut text = || {
+                let n = next(9);
+                (0..n).map(|_| ["a\n", "b\n", "\n", "é", "c"][next(5) as usize]).collect::<String>()
+            };
+            let (before, after) = (text(), text());
+            assert_eq!(applied(&before, &difference(&before, &after)), after, "{before:?}");
+        }
+    }
+}

@@ -1,0 +1,111 @@
+//! Commands that change structure: of one thing, of a class and all its things.
+
+use super::desk::{Desk, at, edited};
+use session::{Command, Path};
+
+const STRUTS: &str = "use geometry
+class Strut is Line {
+    size: Length = 80
+    constraint rigid: length = size
+}
+a: Strut { p1 = (0, 0)  p2 = (80, 0) }
+b: Strut { p1 = (100, 0)  p2 = (180, 0) }
+";
+
+fn edit(target: &str, members: &str) -> Command {
+    let target = if target.is_empty() { Path::default() } else { at(target) };
+    Command::Edit { target, members: members.into() }
+}
+
+#[test]
+fn an_edit_of_a_class_reaches_every_thing_of_it() {
+    let mut desk = Desk::of(STRUTS);
+    let before = desk.moment();
+    let change = desk.apply(&edit("Strut", "constraint low: p1.y = 5")).expect("it can be said");
+    assert_eq!(change.class.as_deref(), Some("Strut"));
+    assert_eq!((change.class_of_one, change.unsatisfied), (None, vec![]));
+    assert_eq!((desk.number("a.p1.y"), desk.number("b.p1.y")), (5.0, 5.0));
+    desk.undo();
+    assert_eq!(desk.moment(), before);
+}
+
+#[test]
+fn an_edit_of_one_thing_asks_first_and_leaves_the_others() {
+    let mut desk = Desk::of(STRUTS);
+    let command = edit("a", "constraint low: p1.y = 5");
+    let question = desk.session.preview(desk.id, &command).unwrap().expect("there is a question");
+    assert_eq!(question.message, "this changes a alone, which becomes a class of one");
+    let labels: Vec<&str> = question.choices.iter().map(|c| c.label.as_str()).collect();
+    assert_eq!(labels, ["only a", "every Strut"]);
+    assert_eq!(question.choices[1].command, edit("Strut", "constraint low: p1.y = 5"));
+    let change = desk.apply(&command).expect("it can be said");
+    assert_eq!(change.class_of_one.as_deref(), Some("a"));
+    assert_eq!((desk.number("a.p1.y"), desk.number("b.p1.y")), (5.0, 0.0));
+    // it is one already: there is nothing to ask any more
+    let again = desk.session.preview(desk.id, &edit("a", "n: Real")).unwrap();
+    assert_eq!(again, None);
+}
+
+#[test]
+fn what_belongs_to_the_class_is_refused_with_the_way_out() {
+    let mut desk = Desk::of(STRUTS);
+    let before = desk.moment();
+    let refusal = desk.apply(&Command::Delete(at("a.size"))).unwrap_err();
+    assert_eq!(refusal.repairs, ["delete Strut.size"]);
+    assert_eq!(desk.moment(), before);
+    let question = desk.session.preview(desk.id, &Command::Delete(at("a.size")));
+    let question = question.unwrap().expect("there is a question");
+    let change = desk.apply(&question.choices[0].command).expect("nothing else speaks of it");
+    assert_eq!(change.along, ["constraint rigid: length = size"]);
+    assert!(!desk.text().contains("size"));
+}
+
+#[test]
+fn things_that_cannot_be_satisfied_are_told() {
+    let mut desk = Desk::of(&format!("{STRUTS}c: Strut {{ constraint long: length = 100 }}\n"));
+    let told = desk.apply(&edit("Strut", "constraint big: size = 80")).expect("it can be said");
+    assert_eq!(told.unsatisfied.len(), 1, "{told:?}");
+    assert_eq!(told.unsatisfied, ["c"]);
+    desk.undo();
+    assert!(desk.session.status(desk.id).satisfied);
+}
+
+/// Returns true for a part that is merged with none before it.
+fn is_of_its_own(desk: &Desk, path: &str) -> bool {
+    desk.session.values(desk.id).iter().any(|row| row.path == path)
+}
+
+#[test]
+fn a_merge_within_one_thing_changes_that_alone() {
+    let mut desk = Desk::of("use geometry\nclass Pair { a, b: Line }\np: Pair\nq: Pair\n");
+    let merge = Command::Merge(vec![at("p.a.p2"), at("p.b.p1")]);
+    let change = desk.apply(&merge).expect("they can be merged");
+    assert_eq!(change.class_of_one.as_deref(), Some("p"));
+    assert!(desk.text().contains("p: Pair { merge a.p2 = b.p1 }"));
+    assert!(!is_of_its_own(&desk, "p.b.p1.x") && is_of_its_own(&desk, "q.b.p1.x"));
+    let all = Command::Merge(vec![at("Pair.a.p2"), at("Pair.b.p1")]);
+    desk.undo();
+    desk.apply(&all).expect("they can be merged in the class");
+    assert!(!is_of_its_own(&desk, "p.b.p1.x") && !is_of_its_own(&desk, "q.b.p1.x"));
+}
+
+#[test]
+fn an_inherited_merge_is_undone_at_one_thing_and_every_path_keeps_its_place() {
+    let text = "use geometry\nclass Pair { a, b: Line  merge joint: a.p2 = b.p1 }\np: Pair { a.p2 = (7, 9) }\nq: Pair\n";
+    let mut desk = Desk::of(text);
+    assert!(!is_of_its_own(&desk, "p.b.p1.x"));
+    desk.apply(&Command::Unmerge(at("p.b.p1"))).expect("it can be taken out");
+    assert!(desk.text().contains("without joint"), "{}", desk.text());
+    assert_eq!((desk.number("p.b.p1.x"), desk.number("p.b.p1.y")), (7.0, 9.0));
+    desk.move_to("p.a.p2", 1.0, 2.0).expect("it is free");
+    assert_eq!(desk.number("p.b.p1.x"), 7.0);
+}
+
+#[test]
+fn a_change_is_several_small_stretches() {
+    let mut desk = Desk::of("a: Real = 1\nb: Real = 2\nc: Real = 3\nconstraint c = a + 2\n");
+    let text = desk.text();
+    let change = desk.apply(&Command::Rename { from: at("a"), to: "first".into() }).unwrap();
+    assert_eq!(change.edits.len(), 2, "{:?}", change.edits);
+    assert_eq!(edited(&text, &change), desk.text());
+}
