@@ -162,6 +162,15 @@ impl Session {
         let open = self.document(id);
         views::values::rows(&open.state, open.values(), &open.status)
     }
+    /// Brings rows of the values view up to date while dragging. Cost: that of these rows alone.
+    pub fn renew_values<'r>(
+        &self,
+        id: DocumentId,
+        rows: impl IntoIterator<Item = &'r mut ValueRow>,
+    ) {
+        let open = self.document(id);
+        views::values::renew(&open.state, open.values(), rows.into_iter());
+    }
     /// Returns the source with its colours and what is wrong with it.
     pub fn text(&self, id: DocumentId) -> TextView {
         views::text::view(&self.document(id).state)

@@ -249,6 +249,13 @@ pub(crate) fn freedom_of(
     status: &plan::Status,
     thing: ThingId,
 ) -> Option<Freedom> {
+    if let Some(slot) = structure.slot_of[thing] {
+        return Some(match status.slots[slot] {
+            plan::SlotState::Conflicting => Freedom::Conflicting,
+            plan::SlotState::Free => Freedom::Free,
+            plan::SlotState::Fixed => Freedom::Fixed,
+        });
+    }
     let slots = structure.slots_under(thing);
     let of = |f: plan::SlotState| slots.iter().any(|&s| status.slots[s] == f);
     if slots.is_empty() {

@@ -59,6 +59,8 @@ pub struct Lab {
     pub structure: RwSignal<Vec<StructureRow>>,
     /// Its values view.
     pub values: RwSignal<Vec<ValueRow>>,
+    /// Which rows of the values view are in the page, in order: those that a drag keeps up to date.
+    pub shown_values: StoredValue<Vec<usize>>,
     /// Its text view.
     pub text: RwSignal<TextView>,
     /// Its status line.
@@ -133,6 +135,7 @@ impl Lab {
             document: RwSignal::new(None),
             structure,
             values: RwSignal::new(Vec::new()),
+            shown_values: StoredValue::new(Vec::new()),
             text: RwSignal::new(no_text()),
             status: RwSignal::new(Status::default()),
             picture: RwSignal::new(PictureView::default()),
@@ -387,18 +390,25 @@ impl Lab {
         self.notice.set(Some(Notice::Refused(Refusal { message, ..Refusal::default() })));
     }
 
-    /// Makes the views that a drag changes.
+    /// Makes the views that a drag changes, as far as they are in the page.
     fn repaint(self) {
         let Some(id) = self.id() else { return };
-        let (picture, values) = self.ask(|session| (session.picture(id), session.values(id)));
-        self.picture.set(picture);
-        self.values.set(values);
+        self.picture.set(self.ask(|session| session.picture(id)));
+        let shown = self.shown_values.get_value();
+        self.values.update(|rows| {
+            let mut shown = shown.iter().peekable();
+            let rows = rows.iter_mut().enumerate();
+            let rows = rows.filter(|(at, _)| shown.next_if(|next| *next == at).is_some());
+            self.ask(|session| session.renew_values(id, rows.map(|(_, row)| row)));
+        });
     }
 
     /// Makes all views.
     fn refresh(self) {
         let Some(id) = self.id() else { return };
-        self.repaint();
+        let (picture, values) = self.ask(|session| (session.picture(id), session.values(id)));
+        self.picture.set(picture);
+        self.values.set(values);
         let (structure, text, status, title) = self.ask(|session| {
             (session.structure(id), session.text(id), session.status(id), session.title(id))
         });

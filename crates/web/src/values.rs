@@ -29,6 +29,11 @@ pub fn Values(
             all.collect::<Vec<usize>>()
         })
     });
+    let shown = move || {
+        let shown: Vec<usize> = found.with(|found| found.iter().copied().take(MOST_ROWS).collect());
+        lab.shown_values.set_value(shown.clone());
+        shown
+    };
     let more = Memo::new(move |_| found.with(|found| found.len().saturating_sub(MOST_ROWS)));
     view! {
         <section class="panel values" aria-label=words::VALUES>
@@ -51,7 +56,7 @@ pub fn Values(
                     </thead>
                     <tbody>
                         <For
-                            each=move || found.with(|found| found.iter().copied().take(MOST_ROWS).collect::<Vec<_>>())
+                            each=shown
                             key=|at| *at
                             let(at)
                         >

@@ -4,95 +4,184 @@ use crate::state::State;
 use crate::view::ValueRow;
 use crate::words;
 use base::Name;
-use eval::Answer;
+use eval::{Answer, Evaluator};
 use indexmap::IndexMap;
-use kernel::{ClassId, ClassKind, Document, Step, ThingId, Values};
+use kernel::{ClassId, ClassKind, Document, Path, SlotId, Step, ThingId, Values};
+use std::collections::BTreeMap;
+use std::fmt::Write;
+use std::rc::Rc;
 
 /// Returns the rows, in order of declaration, merged values once.
 pub(crate) fn rows(state: &State, values: &Values, status: &plan::Status) -> Vec<ValueRow> {
-    let mut rows = Vec::new();
-    add(state, values, status, kernel::DOCUMENT, &mut rows);
-    rows
+    let evaluator = state.evaluator(values);
+    let mut maker = Maker {
+        state,
+        values,
+        status,
+        evaluator,
+        virtual_parts: BTreeMap::new(),
+        rows: Vec::new(),
+    };
+    maker.add(kernel::DOCUMENT, &mut String::new());
+    maker.rows
 }
 
-fn add(
+/// Brings rows up to date with other values of the same state. Cost: that of these rows alone.
+pub(crate) fn renew<'r>(
     state: &State,
     values: &Values,
-    status: &plan::Status,
-    thing: ThingId,
-    rows: &mut Vec<ValueRow>,
+    rows: impl Iterator<Item = &'r mut ValueRow>,
 ) {
-    let (document, structure) = (&state.lowered.document, &state.structure);
-    if structure.merged[thing] != thing {
-        return;
-    }
-    if let Some(slot) = structure.slot_of[thing] {
-        let s = &structure.slots[slot];
-        let (text, unit) = words::show_slot(state, slot, values);
-        rows.push(ValueRow {
-            path: structure.path(document, thing).to_string(),
-            class: document.classes[structure.things[thing].class].name.to_string(),
-            text,
-            unit,
-            number: s.primitive.is_number().then(|| values.numbers[slot]),
-            given: s.given.is_some(),
-            is_virtual: false,
-            anchored: s.anchored,
-            freedom: words::freedom_of(structure, status, thing),
-            doc: words::doc_of(state, thing),
-        });
-        return;
-    }
-    for part in structure.parts(thing) {
-        add(state, values, status, part, rows);
-    }
-    let class = structure.things[thing].class;
-    if document.classes[class].kind == ClassKind::Composite {
-        add_virtual(state, values, thing, rows);
+    let evaluator = state.evaluator(values);
+    for row in rows {
+        let Some(path) = crate::session::parse_path(&row.path) else { continue };
+        let shown = match path.0.split_last() {
+            Some((Step::Part(name), owner)) if row.is_virtual => {
+                let owner = crate::session::thing_at(state, &Path(owner.to_vec()));
+                owner.and_then(|owner| show_virtual(state, &evaluator, owner, name))
+            }
+            _ => crate::session::thing_at(state, &path)
+                .and_then(|thing| state.structure.slot_of[thing])
+                .map(|slot| show(state, values, slot)),
+        };
+        if let Some(shown) = shown {
+            (row.text, row.unit, row.number) = (shown.text, shown.unit, shown.number);
+        }
     }
 }
 
-fn add_virtual(state: &State, values: &Values, thing: ThingId, rows: &mut Vec<ValueRow>) {
-    let (document, structure) = (&state.lowered.document, &state.structure);
-    let evaluator = state.evaluator(values);
-    let path = structure.path(document, thing);
-    for (name, doc) in virtual_parts(document, structure.things[thing].class) {
-        let (text, unit, number, kind) = match evaluator.ask(thing, name) {
-            Ok(Answer::Number(x, dimension)) => {
-                let (text, unit) = lang::show_number(x, dimension, document);
-                (text, unit, Some(x), dimension.named().unwrap_or("Real"))
-            }
-            Ok(Answer::Text(t)) => (t.to_string(), String::new(), None, "Text"),
-            Ok(Answer::Bool(b)) => (b.to_string(), String::new(), None, "Bool"),
-            Ok(
-                Answer::Thing(_)
-                | Answer::Made(_)
-                | Answer::List(_)
-                | Answer::Picture(_)
-                | Answer::Function(_),
-            )
-            | Err(_) => continue,
-        };
-        rows.push(ValueRow {
-            path: path.then(Step::Part(name.clone())).to_string(),
-            class: kind.into(),
-            text,
-            unit,
-            number,
-            given: false,
-            is_virtual: true,
-            anchored: false,
-            freedom: None,
-            doc: doc.to_string(),
-        });
+/// A value in words.
+struct Shown {
+    text: String,
+    unit: String,
+    number: Option<f64>,
+}
+
+fn show(state: &State, values: &Values, slot: SlotId) -> Shown {
+    let (text, unit) = words::show_slot(state, slot, values);
+    let is_number = state.structure.slots[slot].primitive.is_number();
+    Shown { text, unit, number: is_number.then(|| values.numbers[slot]) }
+}
+
+fn show_virtual(
+    state: &State,
+    evaluator: &Evaluator<'_>,
+    owner: ThingId,
+    name: &Name,
+) -> Option<Shown> {
+    show_answer(&state.lowered.document, &evaluator.ask(owner, name).ok()?).map(|shown| shown.0)
+}
+
+/// Returns an answer in words, and its class; nothing where it is no value.
+fn show_answer<'d>(document: &Document, answer: &Answer<'d>) -> Option<(Shown, &'d str)> {
+    let plain = |text: String| Shown { text, unit: String::new(), number: None };
+    match answer {
+        Answer::Number(x, dimension) => {
+            let (text, unit) = lang::show_number(*x, *dimension, document);
+            let class = dimension.named().unwrap_or("Real");
+            Some((Shown { text, unit, number: Some(*x) }, class))
+        }
+        Answer::Text(t) => Some((plain(t.to_string()), "Text")),
+        Answer::Bool(b) => Some((plain(b.to_string()), "Bool")),
+        Answer::Thing(_)
+        | Answer::Made(_)
+        | Answer::List(_)
+        | Answer::Picture(_)
+        | Answer::Function(_) => None,
     }
+}
+
+struct Maker<'a> {
+    state: &'a State,
+    values: &'a Values,
+    status: &'a plan::Status,
+    evaluator: Evaluator<'a>,
+    /// The virtual parts of every class met so far.
+    virtual_parts: BTreeMap<ClassId, Rc<[(Name, String)]>>,
+    rows: Vec<ValueRow>,
+}
+
+impl Maker<'_> {
+    /// Adds the rows of a thing; `path` leads there, and does so again afterwards.
+    fn add(&mut self, thing: ThingId, path: &mut String) {
+        let state = self.state;
+        let (document, structure) = (&state.lowered.document, &state.structure);
+        if structure.merged[thing] != thing {
+            return;
+        }
+        if let Some(slot) = structure.slot_of[thing] {
+            let s = &structure.slots[slot];
+            let Shown { text, unit, number } = show(state, self.values, slot);
+            self.rows.push(ValueRow {
+                path: path.clone(),
+                class: document.classes[structure.things[thing].class].name.to_string(),
+                text,
+                unit,
+                number,
+                given: s.given.is_some(),
+                is_virtual: false,
+                anchored: s.anchored,
+                freedom: words::freedom_of(structure, self.status, thing),
+                doc: words::doc_of(state, thing),
+            });
+            return;
+        }
+        let end = path.len();
+        for part in structure.parts(thing) {
+            match structure.field_name(document, part) {
+                Some(name) => append(path, name),
+                None => {
+                    let _ = write!(path, "[{}]", structure.things[part].field);
+                }
+            }
+            self.add(part, path);
+            path.truncate(end);
+        }
+        if document.classes[structure.things[thing].class].kind == ClassKind::Composite {
+            self.add_virtual(thing, path);
+        }
+    }
+
+    fn add_virtual(&mut self, thing: ThingId, path: &mut String) {
+        let document = &self.state.lowered.document;
+        let class = self.state.structure.things[thing].class;
+        let parts =
+            self.virtual_parts.entry(class).or_insert_with(|| virtual_parts(document, class));
+        let end = path.len();
+        for (name, doc) in parts.clone().iter() {
+            let Ok(answer) = self.evaluator.ask(thing, name) else { continue };
+            let Some((shown, class)) = show_answer(document, &answer) else { continue };
+            append(path, name);
+            self.rows.push(ValueRow {
+                path: path.clone(),
+                class: class.into(),
+                text: shown.text,
+                unit: shown.unit,
+                number: shown.number,
+                given: false,
+                is_virtual: true,
+                anchored: false,
+                freedom: None,
+                doc: doc.clone(),
+            });
+            path.truncate(end);
+        }
+    }
+}
+
+/// Adds a step to the part of this name.
+fn append(path: &mut String, name: &str) {
+    if !path.is_empty() {
+        path.push('.');
+    }
+    path.push_str(name);
 }
 
 /// Returns the messages that read as values, with what `///` says of them, in order of declaration.
 ///
 /// One that a subclass defines anew stands where it was first declared, once. The picture is no value,
 /// whatever it answers.
-fn virtual_parts(document: &Document, class: ClassId) -> IndexMap<&Name, &str> {
+fn virtual_parts(document: &Document, class: ClassId) -> Rc<[(Name, String)]> {
     let mut found: IndexMap<&Name, &str> = IndexMap::new();
     for class in document.primary_line(class).into_iter().rev() {
         let messages = document.classes[class].messages.iter();
@@ -103,5 +192,5 @@ fn virtual_parts(document: &Document, class: ClassId) -> IndexMap<&Name, &str> {
             }
         }
     }
-    found
+    found.into_iter().map(|(name, doc)| (name.clone(), doc.to_string())).collect()
 }

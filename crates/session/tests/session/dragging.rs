@@ -59,3 +59,19 @@ fn what_has_no_place_is_not_dragged() {
     let refusal = desk.session.press(desk.id, &at("box")).expect_err("it has no place");
     assert!(refusal.message.contains("no place"), "{}", refusal.message);
 }
+
+#[test]
+fn rows_of_values_are_renewed_while_dragging() {
+    let text = format!("{TWO}half: Length => chain.a.p1.x / 2\n");
+    let mut desk = Desk::of(&text);
+    let mut rows = desk.session.values(desk.id);
+    desk.session.press(desk.id, &at("chain.a")).expect("a line has places");
+    desk.session.drag(desk.id, (10.0, 20.0));
+    let live = desk.session.values(desk.id);
+    assert_ne!(rows, live);
+    let half = live.iter().find(|row| row.path == "half").expect("there is a row for it");
+    assert_eq!(half.number, Some(5.0));
+    desk.session.renew_values(desk.id, rows.iter_mut().skip(1));
+    assert_eq!(rows[1..], live[1..]);
+    assert_ne!(rows[0], live[0], "a row that was not asked for stays as it was");
+}
