@@ -105,7 +105,7 @@ fn check_rules(evaluator: &Evaluator<'_>, wrong: &mut Vec<String>) {
     for &constraint in &evaluator.structure.constraints {
         let class = &evaluator.document.classes[constraint.class];
         let written = &class.constraints[constraint.index as usize];
-        if written.strength != Strength::Required || !written.enabled {
+        if written.strength != Strength::Required || !evaluator.structure.is_on(constraint) {
             continue;
         }
         match evaluator.test(constraint) {
@@ -148,7 +148,7 @@ fn connected(document: &Document, structure: &Structure, edit: Edit<'_>) -> BTre
     for &constraint in &structure.constraints {
         let class = &document.classes[constraint.class];
         let written = &class.constraints[constraint.index as usize];
-        if !written.enabled {
+        if !structure.is_on(constraint) {
             continue;
         }
         let (_, mut slots) = before.listening(|| before.test(constraint));

@@ -91,6 +91,8 @@ pub struct Class {
     pub attachers: Vec<Path>,
     /// Names of inherited constraints and merges that do not apply here.
     pub without: Vec<Path>,
+    /// Constraints of its things and their parts that it switches off or on, in order.
+    pub switches: Vec<Switch>,
     /// Where it was written.
     pub origin: OriginId,
 }
@@ -190,8 +192,6 @@ pub struct Constraint {
     pub reads: Vec<Path>,
     /// How far its sides may differ, where that was written.
     pub within: Option<Term>,
-    /// False while switched off.
-    pub enabled: bool,
     /// Where it was written.
     pub origin: OriginId,
 }
@@ -225,6 +225,19 @@ pub struct Insert {
     pub part: Path,
     /// The set.
     pub set: Path,
+    /// Where it was written.
+    pub origin: OriginId,
+}
+
+/// A constraint switched off or on: `level.enabled = false`.
+#[derive(Clone, PartialEq, Debug)]
+pub struct Switch {
+    /// The thing that has the constraint.
+    pub path: Path,
+    /// The constraint's name.
+    pub name: Name,
+    /// Whether it shall hold.
+    pub on: bool,
     /// Where it was written.
     pub origin: OriginId,
 }

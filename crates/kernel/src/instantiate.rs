@@ -19,6 +19,7 @@ mod finish;
 mod givens;
 mod merge;
 mod rules;
+mod switches;
 
 use body::Body;
 
@@ -92,7 +93,8 @@ pub fn instantiate(document: &Document) -> (Structure, Vec<Fault>) {
     };
     let mut body = fill::make_body(&mut maker, document.root);
     rules::give_up(&mut maker, &mut body);
-    let structure = finish::finish(&mut maker, body);
+    let mut structure = finish::finish(&mut maker, body);
+    switches::switch(document, &mut structure);
     maker.faults.dedup();
     (structure, maker.faults)
 }

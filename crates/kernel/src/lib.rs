@@ -24,7 +24,7 @@ pub mod values;
 
 pub use class::{
     Class, ClassId, ClassKind, Constraint, Count, Given, Insert, Merge, Message, Method, Parameter,
-    Part, Primitive, Stay, Strength, Superclass,
+    Part, Primitive, Stay, Strength, Superclass, Switch,
 };
 pub use command::{Command, Literal};
 pub use document::{Document, PartRef, PartRole, Vertical};

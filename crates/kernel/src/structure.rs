@@ -5,7 +5,7 @@ use crate::document::{Document, PartRef, PartRole};
 use crate::path::{Path, Step};
 use crate::term::{OriginId, Term};
 use base::{IdVec, Name};
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 use std::rc::Rc;
 
 base::define_id!(ThingId, "t", "A thing: the document, a part, a part of a part, a number.");
@@ -102,6 +102,8 @@ pub struct Structure {
     pub ranges: BTreeMap<SlotId, (i64, i64)>,
     /// Every constraint, in order of declaration, each merged one once.
     pub constraints: Vec<ConstraintInstance>,
+    /// The constraints that are switched off.
+    pub off: BTreeSet<ConstraintInstance>,
     /// Declared stays and anchors.
     pub stays: Vec<StayInstance>,
     /// The members of every set, by the set's first thing, in order of declaration, merged ones once.
@@ -214,6 +216,17 @@ impl Paths<'_> {
 }
 
 impl Structure {
+    /// Returns true for a constraint that is not switched off.
+    pub fn is_on(&self, constraint: ConstraintInstance) -> bool {
+        self.off.is_empty() || !self.off.contains(&constraint)
+    }
+    /// Returns what a thing is by superclasses other than the primary one.
+    pub(crate) fn superclass_parts(&self, thing: ThingId) -> Vec<ThingId> {
+        let layout = self.layouts[self.things[thing].class].as_ref();
+        let fields = layout.map(|l| l.superclasses.clone()).unwrap_or_default();
+        let (first, n) = (self.things[thing].first_part.0, self.things[thing].parts);
+        fields.into_iter().filter(|&i| i < n).map(|i| ThingId(first + i)).collect()
+    }
     /// Returns the parts of a thing, in order.
     pub fn parts(
         &self,

@@ -59,6 +59,7 @@ impl Lowerer<'_> {
             stays: Vec::new(),
             attachers: Vec::new(),
             without: Vec::new(),
+            switches: Vec::new(),
             origin,
         };
         self.document.classes.push(class)

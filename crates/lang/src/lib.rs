@@ -17,7 +17,7 @@
 //! **Invariants**: lowering never fails; a member with an error is left out, or what it said before
 //! stays in force; reading a number that was written gives its bits.
 //!
-//! Reading order: `origins`, `lower`, `files`, `visible`, `classes`, `scope`, `members`, `rules`, `names`,
+//! Reading order: `origins`, `lower`, `files`, `visible`, `classes`, `scope`, `members`, `rules`, `switches`, `names`,
 //! `paths`, `terms`, `calls`, `kinds`, `settle`, `restore`, `checks`, `numbers`, `write`, `uses`,
 //! `edits`.
 mod calls;
@@ -37,6 +37,7 @@ mod restore;
 mod rules;
 mod scope;
 mod settle;
+mod switches;
 mod terms;
 mod uses;
 mod visible;

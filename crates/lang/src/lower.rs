@@ -12,6 +12,7 @@ use crate::origins::Origins;
 use crate::references::References;
 use crate::restore::{Grain, Patch};
 use crate::scope::Scope;
+use crate::switches::PendingSwitch;
 use crate::visible::Visible;
 use base::{Diagnostic, FileId, IdVec, Name, Place, Severity, Span};
 use kernel::{ClassId, Document, Fault, OriginId, Path, Vertical};
@@ -147,6 +148,8 @@ pub(crate) struct Lowerer<'l> {
     pub(crate) rule_names: BTreeSet<(ClassId, Name)>,
     /// What `without` names.
     pub(crate) masks: Vec<(ClassId, Path, Place)>,
+    /// What switches name.
+    pub(crate) switches: Vec<PendingSwitch>,
     /// How many members `for` has made.
     pub(crate) unrolled: usize,
     /// Classes of lists and sets, by `List of` or `Set of` and what they hold.
@@ -190,6 +193,7 @@ impl<'l> Lowerer<'l> {
             named_at: BTreeMap::new(),
             rule_names: BTreeSet::new(),
             masks: Vec::new(),
+            switches: Vec::new(),
             unrolled: 0,
             silent: 0,
             declared: Vec::new(),

@@ -46,6 +46,9 @@ impl Lowerer<'_> {
         target: Option<&Expr>,
         value: &Expr,
     ) {
+        if target.is_some_and(|target| self.define_switch(scope, &prefix, target, value)) {
+            return;
+        }
         let mut path = Path(prefix);
         let mut class = self.class_at(scope.class(), &path);
         if let Some(target) = target {
@@ -244,7 +247,6 @@ impl Lowerer<'_> {
             derived,
             reads,
             within,
-            enabled: true,
             origin,
         });
     }

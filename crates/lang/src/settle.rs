@@ -13,6 +13,7 @@ impl Lowerer<'_> {
     pub(crate) fn settle(&mut self) {
         self.report_overrides();
         self.report_masks();
+        self.report_switches();
         self.report_conflicts();
     }
 

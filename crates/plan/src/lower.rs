@@ -43,7 +43,7 @@ pub(crate) fn level(strength: Strength) -> Level {
     }
 }
 
-/// Lowers a constraint of the structure; a switched-off one says nothing.
+/// Lowers a constraint of the structure.
 ///
 /// # Errors
 /// What in it cannot be planned, at the constraint's or the method's place.
@@ -54,9 +54,6 @@ pub(crate) fn lower_constraint(
 ) -> Result<Vec<Shape<SlotId>>, Fault> {
     let constraint = &opening.document.classes[instance.class].constraints[instance.index as usize];
     opening.begin(instance.owner);
-    if !constraint.enabled {
-        return Ok(Vec::new());
-    }
     let me = Frame::of(instance.owner);
     let parts = lower_parts(opening, constraint, &me).map_err(|t| t.at(constraint.origin))?;
     let methods: Result<Vec<RuleMethod<SlotId>>, Fault> = (0..)

@@ -24,7 +24,7 @@ struct Template {
     rules: Vec<(ShapeId, Vec<Position>)>,
 }
 
-/// Lowers every constraint and declared stay. What cannot be planned is left out and reported.
+/// Lowers every constraint that is not switched off and every declared stay. What cannot be planned is left out and reported.
 pub(crate) fn lower_all(model: Model<'_>, patterns: &mut Patterns) -> (Rules, Vec<Fault>) {
     let structure = model.structure;
     let mut rules = Rules::default();
@@ -33,6 +33,9 @@ pub(crate) fn lower_all(model: Model<'_>, patterns: &mut Patterns) -> (Rules, Ve
     let mut templates: BTreeMap<(ClassId, u32), Vec<Template>> = BTreeMap::new();
     let (mut things, mut slots) = (Vec::new(), Vec::new());
     for (index, &instance) in (0..).zip(&structure.constraints) {
+        if !structure.is_on(instance) {
+            continue;
+        }
         let source = Source::Constraint(index);
         let known = templates.entry((instance.class, instance.index)).or_default();
         let alike = known

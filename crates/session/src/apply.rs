@@ -284,14 +284,17 @@ pub(crate) fn preview(state: &State, command: &Command) -> Result<Option<Questio
 /// keeps its present value, those of parts that are no longer one, too.
 fn carried_over(command: &Command, before: &State, after: &State) -> Option<Values> {
     match command {
-        Command::Unmerge(_) | Command::Delete(_) | Command::Anchor { .. } => {}
+        Command::Unmerge(_)
+        | Command::Delete(_)
+        | Command::Anchor { .. }
+        | Command::Enable { on: false, .. } => {}
         Command::Set(_)
         | Command::Move(_)
         | Command::Merge(_)
         | Command::Edit { .. }
         | Command::Rename { .. }
         | Command::Promote { .. }
-        | Command::Enable { .. }
+        | Command::Enable { on: true, .. }
         | Command::Text(_)
         | Command::Undo
         | Command::Redo => return None,

@@ -159,6 +159,8 @@ pub struct StructureRow {
     pub freedom: Option<Freedom>,
     /// Whether it is anchored.
     pub anchored: bool,
+    /// False for a constraint that is switched off.
+    pub enabled: bool,
     /// How many rows below belong to it.
     pub descendants: u32,
     /// Where it is written, if it is in the document's own text.

@@ -38,6 +38,7 @@ fn blank(name: &str, kind: ClassKind, supers: Vec<Superclass>) -> Class {
         stays: Vec::new(),
         attachers: Vec::new(),
         without: Vec::new(),
+        switches: Vec::new(),
         origin: OriginId(0),
     }
 }
@@ -153,7 +154,6 @@ impl Build {
             derived: true,
             reads: Vec::new(),
             within: None,
-            enabled: true,
             origin: self.origin(),
         };
         let constraints = &mut self.document.classes[class].constraints;

@@ -18,7 +18,11 @@ fn document() -> (Build, Structure) {
     b.constraint(root, "shown", equal(part("words"), send(part("a"), "text", vec![]))).methods =
         vec![method(&["words"], vec![send(part("a"), "text", vec![])])];
     b.constraint(root, "wish", equal(part("c"), num(77.0))).strength = Strength::Weak;
-    b.constraint(root, "off", equal(part("c"), part("a"))).enabled = false;
+    b.constraint(root, "off", equal(part("c"), part("a")));
+    let origin = kernel::OriginId(0);
+    let switch =
+        kernel::Switch { path: kernel::Path::default(), name: "off".into(), on: false, origin };
+    b.document.classes[root].switches.push(switch);
     let stay = Stay { path: path("d"), strength: None, origin: kernel::OriginId(0) };
     b.document.classes[root].stays.push(stay);
     let structure = b.structure();

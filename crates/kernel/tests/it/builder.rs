@@ -41,6 +41,7 @@ impl Builder {
             stays: Vec::new(),
             attachers: Vec::new(),
             without: Vec::new(),
+            switches: Vec::new(),
             origin: ORIGIN,
         })
     }
@@ -83,7 +84,6 @@ impl Builder {
             derived: true,
             reads: Vec::new(),
             within: None,
-            enabled: true,
             origin: ORIGIN,
         });
     }

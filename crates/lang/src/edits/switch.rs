@@ -34,8 +34,9 @@ impl Text<'_> {
             None if on && is_own => return Err(already(path, on)),
             None => self.said_in(&home, SyntaxKind::Assign, &format!("{switch} = {on}")),
         };
+        // it is a value of the thing: what has it is as much of its class as before
         let edits = done.edits.into_iter().chain(said.edits).collect();
-        Ok(Restructuring { edits, ..said })
+        Ok(Restructuring { edits, class_of_one: None, ..said })
     }
 
     /// Returns the members of a body that set this switch, and what they set it to.

@@ -373,3 +373,48 @@ fn an_element_goes_and_those_behind_move_up() {
     );
     assert_eq!(apply("use shapes\nl: List of 1 Line\n", &second("l")), Err("index"));
 }
+
+#[test]
+fn a_constraint_is_switched_by_a_value_of_the_thing_that_has_it() {
+    let switch = |path: &str, on| Command::Enable { path: at(path), on };
+    let off = |path: &str| switch(path, false);
+    assert_becomes(
+        "h: HorizontalLine\n",
+        &off("h.level"),
+        "h: HorizontalLine { level.enabled = false }\n",
+    );
+    assert_becomes(
+        "h: HorizontalLine { level.enabled = false }\n",
+        &switch("h.level", true),
+        "h: HorizontalLine { }\n",
+    );
+    assert_becomes(
+        "class C { l: HorizontalLine }\nc: C\n",
+        &off("c.l.level"),
+        "class C { l: HorizontalLine }\nc: C { l.level.enabled = false }\n",
+    );
+    assert_becomes(
+        "class C { l: HorizontalLine { level.enabled = false } }\nc: C\n",
+        &switch("c.l.level", true),
+        "class C { l: HorizontalLine { level.enabled = false } }\nc: C { l.level.enabled = true }\n",
+    );
+    assert_becomes(
+        "n: Real\nconstraint n = 3\n",
+        &off("constraint1"),
+        "n: Real\nconstraint rule: n = 3\nrule.enabled = false\n",
+    );
+    assert_becomes(
+        "class C { n: Real  constraint low: n = 3 }\nc: C { low.enabled = false }\n",
+        &rename("C.low", "small"),
+        "class C { n: Real  constraint small: n = 3 }\nc: C { small.enabled = false }\n",
+    );
+    assert_becomes(
+        "n: Real\nconstraint one: n = 3\none.enabled = false\n",
+        &delete("one"),
+        "n: Real\n",
+    );
+    let text = "use shapes\nh: HorizontalLine\n";
+    assert_eq!(apply(text, &switch("h.level", true)), Err("already-switched"));
+    assert_eq!(apply(text, &off("h.plumb")), Err("unknown-constraint"));
+    assert!(implied(text, &off("h.level")).class_of_one.is_none());
+}

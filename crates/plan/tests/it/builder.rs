@@ -38,6 +38,7 @@ fn blank(name: &str, kind: ClassKind, supers: Vec<Superclass>) -> Class {
         stays: Vec::new(),
         attachers: Vec::new(),
         without: Vec::new(),
+        switches: Vec::new(),
         origin: OriginId(0),
     }
 }
@@ -99,7 +100,6 @@ impl Builder {
             derived: true,
             reads: Vec::new(),
             within: None,
-            enabled: true,
             origin: OriginId(constraints.len() as u32 + 100),
         });
         constraints.last_mut().expect("it was just pushed")

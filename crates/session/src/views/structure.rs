@@ -49,6 +49,7 @@ impl Maker<'_> {
             merged_with: None,
             freedom: None,
             anchored: false,
+            enabled: true,
             descendants: 0,
             span: self.state.lowered.own_span(origin).map(|s| (s.start, s.end)),
         }
@@ -110,11 +111,17 @@ impl Maker<'_> {
             let constraint = &document.classes[instance.class].constraints[instance.index as usize];
             let name = words::constraint_name(document, instance);
             let path = owner.then(Step::Part(name.as_str().into())).to_string();
-            let holds = evaluator.test(instance).is_ok_and(|v| v.holds);
+            let is_on = structure.is_on(instance);
+            let holds = !is_on || evaluator.test(instance).is_ok_and(|v| v.holds);
             let mut row = self.row(path, depth, RowKind::Constraint, name, constraint.origin);
             row.detail = self.state.lowered.source_of(constraint.origin);
             row.doc = constraint.doc.clone();
-            row.value = Some(if holds { "holds" } else { "does not hold" }.into());
+            row.enabled = is_on;
+            row.value = Some(match (is_on, holds) {
+                (false, _) => "off".into(),
+                (true, true) => "holds".into(),
+                (true, false) => "does not hold".into(),
+            });
             row.freedom = (!holds).then_some(Freedom::Conflicting);
             self.rows.push(row);
         }

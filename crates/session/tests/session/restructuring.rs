@@ -109,3 +109,24 @@ fn a_change_is_several_small_stretches() {
     assert_eq!(change.edits.len(), 2, "{:?}", change.edits);
     assert_eq!(edited(&text, &change), desk.text());
 }
+
+#[test]
+fn a_constraint_is_switched_off_and_on_and_values_stay() {
+    let mut desk = Desk::of("a: Real = 3\nb: Real\nconstraint twice: b = 2 * a\n");
+    let before = desk.moment();
+    let enable = |on| Command::Enable { path: at("twice"), on };
+    let change = desk.apply(&enable(false)).expect("it can be switched off");
+    assert_eq!(change.class_of_one, None);
+    assert_eq!(desk.number("b"), 6.0);
+    desk.set("a", 5.0).expect("nothing holds it");
+    assert_eq!(desk.number("b"), 6.0);
+    let row = desk.session.structure(desk.id).into_iter().find(|r| r.path == "twice");
+    let row = row.expect("it is still there");
+    assert_eq!((row.enabled, row.value.as_deref()), (false, Some("off")));
+    desk.apply(&enable(true)).expect("it can be switched on");
+    assert!(desk.session.status(desk.id).satisfied);
+    for _ in 0..3 {
+        desk.undo();
+    }
+    assert_eq!(desk.moment(), before);
+}

@@ -1,0 +1,56 @@
+//! Switches: which constraints of which things are off.
+//!
+//! The class of a thing has the last word on the constraints below it: what is said of a whole counts
+//! more than what is said of its part.
+
+use crate::class::Switch;
+use crate::document::Document;
+use crate::structure::{ConstraintInstance, Structure, ThingId};
+use std::collections::BTreeMap;
+
+/// Finds the constraints that are off. A switch of nothing, as where a class masks it, does nothing.
+pub(super) fn switch(document: &Document, structure: &mut Structure) {
+    if document.classes.iter().all(|(_, c)| c.switches.is_empty()) {
+        return;
+    }
+    let mut constraints: BTreeMap<ThingId, Vec<ConstraintInstance>> = BTreeMap::new();
+    for &instance in &structure.constraints {
+        constraints.entry(structure.merged[instance.owner]).or_default().push(instance);
+    }
+    for thing in structure.things.ids().collect::<Vec<_>>().into_iter().rev() {
+        let line = document.primary_line(structure.things[thing].class);
+        for switch in line.iter().rev().flat_map(|&c| &document.classes[c].switches) {
+            let at = structure.follow(thing, &switch.path).ok();
+            let named = at.map(|at| named(document, structure, &constraints, at, switch));
+            for instance in named.unwrap_or_default() {
+                if switch.on {
+                    structure.off.remove(&instance);
+                } else {
+                    structure.off.insert(instance);
+                }
+            }
+        }
+    }
+}
+
+/// Returns the constraints of a thing that a switch names; where it has none, those of what it is by
+/// its other superclasses.
+fn named(
+    document: &Document,
+    structure: &Structure,
+    constraints: &BTreeMap<ThingId, Vec<ConstraintInstance>>,
+    thing: ThingId,
+    switch: &Switch,
+) -> Vec<ConstraintInstance> {
+    let is_named = |i: &&ConstraintInstance| {
+        let constraint = &document.classes[i.class].constraints[i.index as usize];
+        constraint.name.as_ref() == Some(&switch.name)
+    };
+    let own = constraints.get(&structure.merged[thing]).into_iter().flatten();
+    let own: Vec<ConstraintInstance> = own.filter(is_named).copied().collect();
+    if !own.is_empty() {
+        return own;
+    }
+    let others = structure.superclass_parts(thing).into_iter();
+    others.flat_map(|part| named(document, structure, constraints, part, switch)).collect()
+}
