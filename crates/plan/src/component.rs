@@ -8,6 +8,7 @@ use base::{IdVec, Mixer};
 use indexmap::IndexSet;
 use kernel::{SlotId, Structure, ThingId};
 use std::hash::BuildHasherDefault;
+use std::rc::Rc;
 
 /// Rules with the slots that they mention, both in order of declaration.
 #[derive(Clone, PartialEq, Eq, Debug, Default)]
@@ -103,7 +104,11 @@ impl Net {
     }
 
     /// Returns every component of the document, in order of their first slot.
-    pub(crate) fn all(&self, rules: &Rules, is_fixed: &dyn Fn(SlotId) -> bool) -> Vec<Component> {
+    pub(crate) fn all(
+        &self,
+        rules: &Rules,
+        is_fixed: &dyn Fn(SlotId) -> bool,
+    ) -> Vec<Rc<Component>> {
         let slots = (0..self.places.of.len() as u32).map(SlotId);
         let slots = slots.filter(|&s| !self.rules_of(s).is_empty());
         let slot_seen = Seen::Dense(vec![false; self.places.of.len()]);
@@ -122,7 +127,7 @@ impl Net {
         rules: &Rules,
         is_fixed: &dyn Fn(SlotId) -> bool,
         tied: &[Vec<SlotId>],
-    ) -> Vec<Component> {
+    ) -> Vec<Rc<Component>> {
         let [rule_seen, slot_seen] = [(); 2].map(|()| Seen::Sparse(IndexSet::default()));
         Walk { net: self, rules, is_fixed, rule_seen, slot_seen, tied }.around(slots)
     }
@@ -165,7 +170,7 @@ struct Found {
 }
 
 impl Walk<'_> {
-    fn around(mut self, slots: impl IntoIterator<Item = SlotId>) -> Vec<Component> {
+    fn around(mut self, slots: impl IntoIterator<Item = SlotId>) -> Vec<Rc<Component>> {
         let mut components = Vec::new();
         for slot in slots {
             if !(self.is_fixed)(slot) {
@@ -192,7 +197,7 @@ impl Walk<'_> {
         }
     }
 
-    fn complete(&mut self, mut found: Found) -> Option<Component> {
+    fn complete(&mut self, mut found: Found) -> Option<Rc<Component>> {
         let net = self.net;
         loop {
             while let Some(rule) = found.rules.pop() {
@@ -227,6 +232,8 @@ impl Walk<'_> {
         component.slots.sort_unstable();
         component.slots.dedup();
         component.rules.sort_unstable();
-        Some(component)
+        component.slots.shrink_to_fit();
+        component.rules.shrink_to_fit();
+        Some(Rc::new(component))
     }
 }

@@ -9,6 +9,7 @@ use crate::run::{Adapter, ran};
 use crate::task::Task;
 use kernel::{SlotId, Values};
 use std::collections::BTreeSet;
+use std::rc::Rc;
 use std::sync::Arc;
 
 /// What a drag keeps from the press to the release.
@@ -104,7 +105,7 @@ impl Planner {
     ) -> EditReport {
         let reached = self.reached(&press.aim, values);
         let mut report = EditReport { reached, ..EditReport::default() };
-        let components: Vec<Component> =
+        let components: Vec<Rc<Component>> =
             press.pulls.iter().map(|p| p.task.component.clone()).collect();
         if let Some(failure) = self.settle(model, &components, values, host) {
             *values = press.start;
@@ -127,12 +128,12 @@ impl Planner {
         host: &mut dyn Host,
     ) -> Pull {
         let mut x0 = task.gather(&start.numbers);
-        for &(known, wish, coordinate) in &task.targets {
+        for &(known, wish, coordinate) in task.targets() {
             let formula = &aim.wishes[wish as usize].formulas[coordinate as usize];
             x0[known as usize] = formula.value(self.plans.patterns(), &start.numbers);
         }
-        let known: Vec<u32> = task.targets.iter().map(|t| t.0).collect();
-        let inputs: Vec<(u32, u32)> = task.targets.iter().map(|t| (t.1, t.2)).collect();
+        let known: Vec<u32> = task.targets().iter().map(|t| t.0).collect();
+        let inputs: Vec<(u32, u32)> = task.targets().iter().map(|t| (t.1, t.2)).collect();
         let mut adapter = Adapter { planner: self, model, task: &task, values: start, host };
         let drag = solve::Drag::begin(&task.plan, &x0, &known, &mut adapter);
         let slots = &task.component.slots;

@@ -12,6 +12,7 @@ use base::IdVec;
 use kernel::{SlotId, Term, ThingId, Value, Values};
 use solve::Level;
 use std::collections::BTreeSet;
+use std::rc::Rc;
 
 /// What an edit is about.
 #[derive(Clone, Copy, Debug)]
@@ -105,7 +106,14 @@ impl Planner {
             let resting = Self::resting_hold(model.structure, slot);
             if has_value[slot] { resting } else { Holding::Free }
         };
-        let components = self.net.all(&self.rules, &|s| holding(s) == Holding::Fixed);
+        let slots = model.structure.slots.iter();
+        // an anchor holds what it has; where that is nothing yet, rules may give it a value
+        let are_anchors_given = slots.filter(|(_, s)| s.anchored).all(|(id, _)| has_value[id]);
+        let components = if are_anchors_given {
+            self.whole(model.structure)
+        } else {
+            self.net.all(&self.rules, &|s| holding(s) == Holding::Fixed)
+        };
         let tasks = self.tasks(model.structure, components, &holding, &[]);
         let mut report = EditReport { reached: true, ..EditReport::default() };
         let before = values.clone();
@@ -217,7 +225,7 @@ impl Planner {
     pub(crate) fn settle(
         &mut self,
         model: Model<'_>,
-        components: &[Component],
+        components: &[Rc<Component>],
         values: &mut Values,
         host: &mut dyn Host,
     ) -> Option<Failure> {

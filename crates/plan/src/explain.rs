@@ -199,7 +199,7 @@ impl Planner {
     /// Returns the steps of a task that the latest edit ran.
     fn ran<'t>(&self, task: &'t Task) -> impl Iterator<Item = &'t Step> + use<'t> {
         let everything = self.latest.edited.is_none();
-        let mut touched: BTreeSet<u32> = task.targets.iter().map(|t| t.0).collect();
+        let mut touched: BTreeSet<u32> = task.targets().iter().map(|t| t.0).collect();
         for &slot in self.latest.edited.iter().flatten() {
             touched.extend(local(task, slot));
         }

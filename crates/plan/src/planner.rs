@@ -6,11 +6,12 @@ use crate::holds;
 use crate::host::Host;
 use crate::plans::{PlanCounts, Plans};
 use crate::rule::{Rules, Source};
-use crate::task::{Holding, Locals, Setting, Task, Wish, task};
+use crate::task::{Alike, Holding, Locals, Setting, Task, Wish, task};
 use crate::template::lower_all;
 use kernel::{Document, SlotId, Structure, Values};
 use solve::{Level, Scratch};
 use std::collections::BTreeSet;
+use std::rc::Rc;
 
 /// A document and its structure: what every question to the planner is about.
 #[derive(Clone, Copy, Debug)]
@@ -27,6 +28,9 @@ pub struct Planner {
     pub(crate) rules: Rules,
     pub(crate) net: Net,
     pub(crate) plans: Plans,
+    alike: Alike,
+    /// Every component with nothing edited; found when first asked for.
+    whole: Option<Vec<Rc<Component>>>,
     /// The tasks of the latest edit, and what it changed.
     pub(crate) latest: Latest,
     /// One task for each component, with nothing edited; made when first asked for.
@@ -50,7 +54,10 @@ impl Planner {
         let (rules, faults) = lower_all(model, plans.patterns_mut());
         let net = Net::new(model.structure, &rules);
         let latest = Latest::default();
-        (Self { rules, net, plans, latest, resting: None }, faults)
+        (
+            Self { rules, net, plans, alike: Alike::default(), whole: None, latest, resting: None },
+            faults,
+        )
     }
 
     /// Returns the plans made so far, to be handed to the next planner.
@@ -95,22 +102,31 @@ impl Planner {
     pub(crate) fn tasks(
         &mut self,
         structure: &Structure,
-        components: Vec<Component>,
+        components: Vec<Rc<Component>>,
         holding: &dyn Fn(SlotId) -> Holding,
         wishes: &[Wish],
     ) -> Vec<Task> {
         let setting = Setting { structure, rules: &self.rules, net: &self.net, holding, wishes };
         let mut locals = Locals::new(structure);
-        components.into_iter().map(|c| task(&mut self.plans, &setting, &mut locals, c)).collect()
+        let (plans, alike) = (&mut self.plans, &mut self.alike);
+        let task = |c| task(plans, alike, &setting, &mut locals, c);
+        components.into_iter().map(task).collect()
     }
 
     /// Plans every component with nothing edited, unless that was done.
     pub(crate) fn plan_resting(&mut self, structure: &Structure) {
         if self.resting.is_none() {
             let holding = |s| Self::resting_hold(structure, s);
-            let components = self.net.all(&self.rules, &|s| holding(s) == Holding::Fixed);
+            let components = self.whole(structure);
             self.resting = Some(self.tasks(structure, components, &holding, &[]));
         }
+    }
+
+    /// Returns every component, where what is anchored is fixed; found once.
+    pub(crate) fn whole(&mut self, structure: &Structure) -> Vec<Rc<Component>> {
+        let is_fixed = |s: SlotId| structure.slots[s].anchored;
+        let whole = &mut self.whole;
+        whole.get_or_insert_with(|| self.net.all(&self.rules, &is_fixed)).clone()
     }
 
     /// Returns the tasks of all components with nothing edited, once they are planned.

@@ -27,6 +27,10 @@ impl Plans {
     pub(crate) fn patterns_mut(&mut self) -> &mut Patterns {
         &mut self.patterns
     }
+    /// Notes that a plan served once more.
+    pub(crate) fn reuse(&mut self) {
+        self.reused += 1;
+    }
     /// Returns the plan of a system, and a system that it is the plan of.
     pub(crate) fn plan(&mut self, system: System) -> (Rc<System>, Rc<Plan>) {
         if let Some((system, plan)) = self.made.get_key_value(&system) {

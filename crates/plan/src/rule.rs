@@ -210,6 +210,9 @@ impl Rules {
     pub(crate) fn iter(&self) -> impl Iterator<Item = Rule<'_>> {
         (0..self.rules.len() as u32).map(|i| self.get(i))
     }
+    pub(crate) fn shape(&self, index: u32) -> ShapeId {
+        self.rules[index as usize].1
+    }
     pub(crate) fn source(&self, index: u32) -> Source {
         self.rules[index as usize].0
     }

@@ -36,11 +36,11 @@ pub(crate) fn run(
 ) -> Ran {
     let mut x0 = task.gather(&start.numbers);
     let mut local = task.gather(&values.numbers);
-    for &(known, slot) in &task.holds {
+    for (known, slot) in task.holds() {
         local[known as usize] = start.numbers[slot];
     }
     let mut changed: Vec<SlotIndex> = Vec::new();
-    for &(known, wish, coordinate) in &task.targets {
+    for &(known, wish, coordinate) in task.targets() {
         let formula = &aim.wishes[wish as usize].formulas[coordinate as usize];
         x0[known as usize] = formula.value(planner.plans.patterns(), &start.numbers);
         local[known as usize] = aim.wanted[wish as usize][coordinate as usize];
@@ -112,7 +112,7 @@ impl solve::Host for Adapter<'_> {
         values: &[f64],
         out: &mut [f64],
     ) -> Result<(), String> {
-        let Origin::Rule(rule) = self.task.relations[source as usize] else {
+        let Origin::Rule(rule) = self.task.origin(source) else {
             return Err("a wish has no methods".into());
         };
         let rule = self.planner.rules.get(rule);
@@ -139,7 +139,7 @@ impl solve::Host for Adapter<'_> {
     }
 
     fn holds(&mut self, source: u32, values: &[f64]) -> bool {
-        let Origin::Rule(rule) = self.task.relations[source as usize] else { return true };
+        let Origin::Rule(rule) = self.task.origin(source) else { return true };
         scatter(self.task, values, self.values);
         let rule = self.planner.rules.get(rule);
         let structure = self.model.structure;

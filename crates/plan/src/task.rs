@@ -6,14 +6,16 @@
 use crate::component::{Component, Net};
 use crate::plans::Plans;
 use crate::rule::{Body, Formula, How, Position, Rule, Rules, Source};
-use base::IdVec;
+use base::{IdVec, Mixer};
 use expr::Dimension;
+use indexmap::IndexMap;
 use kernel::{Primitive, SlotId, Structure};
 use solve::{
     Level, Method, MethodBody, PatternId, Patterns, Plan, Relation, RelationBody, SlotIndex, Stay,
     System,
 };
 use std::collections::BTreeSet;
+use std::hash::BuildHasherDefault;
 use std::rc::Rc;
 
 /// What holds a slot of the document in an edit.
@@ -53,14 +55,31 @@ pub(crate) struct Task {
     pub(crate) system: Rc<System>,
     pub(crate) plan: Rc<Plan>,
     /// The rules and slots of the document that it is about. Its slots are the system's first.
-    pub(crate) component: Component,
-    /// Slots of the system that hold what another had when the edit began.
-    pub(crate) holds: Vec<(SlotIndex, SlotId)>,
-    /// Slots of the system that hold coordinates of wishes: wish and coordinate.
-    pub(crate) targets: Vec<(SlotIndex, u32, u32)>,
-    /// For every source in the system, the rule or the wish that it is.
-    pub(crate) relations: Vec<Origin>,
+    pub(crate) component: Rc<Component>,
+    /// What the system's slots and relations are in a component, whichever it is.
+    stated: Rc<Stated>,
 }
+
+/// How a system speaks of a component: the same for all components that are alike.
+#[derive(Debug)]
+struct Stated {
+    /// Slots of the system that hold what another had when the edit began.
+    holds: Vec<(SlotIndex, SlotIndex)>,
+    /// Slots of the system that hold coordinates of wishes: wish and coordinate.
+    targets: Vec<(SlotIndex, u32, u32)>,
+    /// For every source in the system, the rule of the component or the wish that it is.
+    relations: Vec<Origin>,
+}
+
+/// What components without wishes were stated as, by what there is to see of them.
+#[derive(Debug, Default)]
+pub(crate) struct Alike {
+    known: IndexMap<Box<[u32]>, Known, BuildHasherDefault<Mixer>>,
+    signature: Vec<u32>,
+}
+
+/// A system, its plan, and how it speaks of a component.
+type Known = (Rc<System>, Rc<Plan>, Rc<Stated>);
 
 /// What a relation of a system comes from.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
@@ -84,21 +103,86 @@ pub(crate) struct Setting<'s> {
 /// States a component as a system and plans it.
 pub(crate) fn task(
     plans: &mut Plans,
+    alike: &mut Alike,
     setting: &Setting<'_>,
     locals: &mut Locals,
-    component: Component,
+    component: Rc<Component>,
 ) -> Task {
+    for (&slot, local) in component.slots.iter().zip(0..) {
+        locals.0[slot] = local;
+    }
+    let remembered = setting.wishes.is_empty();
+    if remembered {
+        alike.sign(setting, locals, &component);
+        if let Some((system, plan, stated)) = alike.known.get(alike.signature.as_slice()) {
+            let (system, plan, stated) = (system.clone(), plan.clone(), stated.clone());
+            plans.reuse();
+            return Task { system, plan, component, stated };
+        }
+    }
+    let (system, plan, stated) = state(plans, setting, locals, &component);
+    let stated = Rc::new(stated);
+    if remembered {
+        let known = (system.clone(), plan.clone(), stated.clone());
+        alike.known.insert(alike.signature.as_slice().into(), known);
+    }
+    Task { system, plan, component, stated }
+}
+
+fn state(
+    plans: &mut Plans,
+    setting: &Setting<'_>,
+    locals: &mut Locals,
+    component: &Component,
+) -> (Rc<System>, Rc<Plan>, Stated) {
     let same = plans.patterns_mut().same();
-    let mut making = Making::new(setting, same, locals, &component);
-    for &rule in &component.rules {
-        making.rule(rule);
+    let mut making = Making::new(setting, same, locals, component);
+    for (position, &rule) in (0..).zip(&component.rules) {
+        making.rule(position, rule);
     }
     for (index, wish) in (0..).zip(setting.wishes) {
         making.wish(plans.patterns_mut(), index, wish);
     }
     let Making { system, holds, targets, relations, .. } = making;
     let (system, plan) = plans.plan(system);
-    Task { system, plan, component, holds, targets, relations }
+    (system, plan, Stated { holds, targets, relations })
+}
+
+impl Alike {
+    /// Notes all that a component's system depends on: what holds each slot and what it is, with
+    /// whom it is one place; what each rule says, and of which of the slots.
+    fn sign(&mut self, setting: &Setting<'_>, locals: &Locals, component: &Component) {
+        let signature = &mut self.signature;
+        signature.clear();
+        signature.push(component.slots.len() as u32);
+        for &slot in &component.slots {
+            signature.push((setting.holding)(slot) as u32);
+            signature.extend(kind_of(setting.structure.slots[slot].primitive));
+            let place = setting.net.place_of(slot).iter();
+            let here = |&&s: &&SlotId| component.slots.get(locals.0[s] as usize) == Some(&s);
+            let first = place.copied().find(|s| here(&s));
+            signature.push(first.map_or(u32::MAX, |s| locals.0[s]));
+        }
+        for &rule in &component.rules {
+            signature.push(setting.rules.shape(rule).0);
+            let slots = setting.rules.get(rule).slots;
+            signature.extend(slots.iter().map(|&s| locals.0[s]));
+        }
+    }
+}
+
+/// Returns what is stored in a slot as three numbers.
+fn kind_of(primitive: Primitive) -> [u32; 3] {
+    match primitive {
+        Primitive::Real(Dimension([a, b, c, d, e, f, g])) => {
+            let bytes = |bytes: [i8; 4]| u32::from_le_bytes(bytes.map(|x| x as u8));
+            [0, bytes([a, b, c, d]), bytes([e, f, g, 0])]
+        }
+        Primitive::Integer => [1, 0, 0],
+        Primitive::Bool => [2, 0, 0],
+        Primitive::Text => [3, 0, 0],
+        Primitive::Color => [4, 0, 0],
+    }
 }
 
 /// Where the slots of the document stand in the component at hand; what is left of another component
@@ -119,7 +203,7 @@ struct Making<'s> {
     /// What says that two slots are equal.
     same: PatternId,
     system: System,
-    holds: Vec<(SlotIndex, SlotId)>,
+    holds: Vec<(SlotIndex, SlotIndex)>,
     targets: Vec<(SlotIndex, u32, u32)>,
     relations: Vec<Origin>,
 }
@@ -135,8 +219,7 @@ impl<'s> Making<'s> {
         let mut groups = 0;
         let mut system = System::default();
         system.slots.reserve(component.slots.len());
-        for (&slot, local) in component.slots.iter().zip(0..) {
-            locals.0[slot] = local;
+        for &slot in &component.slots {
             let s = &setting.structure.slots[slot];
             let stay = match (setting.holding)(slot) {
                 Holding::Fixed => Stay::Fixed,
@@ -204,7 +287,7 @@ impl<'s> Making<'s> {
         self.system.slots.len() as SlotIndex - 1
     }
 
-    fn rule(&mut self, index: u32) {
+    fn rule(&mut self, position: u32, index: u32) {
         let rule = self.setting.rules.get(index);
         let shape = rule.shape;
         let body = match &shape.body {
@@ -232,7 +315,7 @@ impl<'s> Making<'s> {
                 for slot in held {
                     let local = self.local(slot);
                     let known = self.known_like(local);
-                    self.holds.push((known, slot));
+                    self.holds.push((known, local));
                     equations.push((self.same, [local, known]));
                 }
                 RelationBody::Equations(self.system.add_equations(equations))
@@ -254,7 +337,7 @@ impl<'s> Making<'s> {
             methods.push(Method { targets: self.locals(rule, &m.targets), body });
         }
         let source = self.relations.len() as u32;
-        self.relations.push(Origin::Rule(index));
+        self.relations.push(Origin::Rule(position));
         self.system.relations.push(Relation {
             level: shape.level,
             body,
@@ -306,9 +389,25 @@ impl<'s> Making<'s> {
 }
 
 impl Task {
+    /// Returns what a source of the system is.
+    pub(crate) fn origin(&self, source: u32) -> Origin {
+        match self.stated.relations[source as usize] {
+            Origin::Rule(position) => Origin::Rule(self.component.rules[position as usize]),
+            Origin::Wish(wish) => Origin::Wish(wish),
+        }
+    }
+    /// Returns the slots of the system that hold what a slot of the document had when the edit began.
+    pub(crate) fn holds(&self) -> impl Iterator<Item = (SlotIndex, SlotId)> {
+        let slots = &self.component.slots;
+        self.stated.holds.iter().map(|&(known, local)| (known, slots[local as usize]))
+    }
+    /// Returns the slots of the system that hold coordinates of wishes: wish and coordinate.
+    pub(crate) fn targets(&self) -> &[(SlotIndex, u32, u32)] {
+        &self.stated.targets
+    }
     /// Returns what a relation of the system comes from.
     pub(crate) fn source(&self, rules: &Rules, relation: u32) -> Source {
-        match self.relations[self.system.relations[relation as usize].source as usize] {
+        match self.origin(self.system.relations[relation as usize].source) {
             Origin::Rule(r) => rules.source(r),
             Origin::Wish(w) => Source::Wish(w),
         }
@@ -319,7 +418,7 @@ impl Task {
         for (x, &slot) in local.iter_mut().zip(&self.component.slots) {
             *x = numbers[slot];
         }
-        for &(known, slot) in &self.holds {
+        for (known, slot) in self.holds() {
             local[known as usize] = numbers[slot];
         }
         local
