@@ -6,6 +6,7 @@
 
 use crate::block::Workspace;
 use crate::kernel::GuardKind;
+use crate::least::{Least, LeastScratch};
 use crate::lower::{Inverse, Program};
 use crate::measure::{Measure, Measured};
 use crate::outcome::{Host, Note, Reason};
@@ -14,6 +15,9 @@ use crate::plan::{Plan, Step};
 use crate::rows::{Point, generic_number};
 use crate::square::{Solved, Square, SquareScratch, Trust};
 use crate::system::{SlotIndex, Stay};
+
+/// Up to this many unknowns least change is tried by the measure too, whose cost is cubic.
+const DENSE: usize = 60;
 
 /// How a slot stands to x0.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
@@ -32,6 +36,7 @@ pub(crate) struct Buffers {
     pub(crate) work: Workspace,
     pub(crate) out: Vec<f64>,
     pub(crate) square: SquareScratch,
+    pub(crate) least: LeastScratch,
     pub(crate) motion: Vec<Motion>,
     /// Both sides of every equation.
     pub(crate) sides: Vec<[f64; 2]>,
@@ -230,6 +235,13 @@ impl Run<'_> {
             let (x0, scales) = (&self.frame.x0, &self.frame.scales);
             return measure.is_settled(x0, self.values, scales, &mut self.buffers.work);
         }
+        if let Program::Least(least) = &step.program {
+            for &t in &step.targets {
+                self.values[t as usize] = self.frame.x0[t as usize];
+            }
+            let Buffers { work, least: scratch, .. } = &mut *self.buffers;
+            return least.0.holds_at(self.values, work, scratch);
+        }
         if inputs == Motion::Still {
             return match &step.program {
                 Program::Constant(_) | Program::Copy => false,
@@ -237,7 +249,7 @@ impl Run<'_> {
                     step.rows.iter().all(|&r| self.frame.held[r as usize])
                 }
                 Program::Host { source, .. } => self.host.holds(*source, self.values),
-                Program::Measure(_) => unreachable!("asked above"),
+                Program::Measure(_) | Program::Least(_) => unreachable!("asked above"),
             };
         }
         for &t in &step.targets {
@@ -264,7 +276,9 @@ impl Run<'_> {
                     .zip(out)
                     .all(|(&t, value)| base::number::close(*value, self.frame.x0[t as usize]));
             }
-            Program::Constant(_) | Program::Copy | Program::Measure(_) => return false,
+            Program::Constant(_) | Program::Copy | Program::Measure(_) | Program::Least(_) => {
+                return false;
+            }
         };
         square.holds_at(self.values, &mut self.buffers.work, &mut self.buffers.square)
     }
@@ -286,6 +300,7 @@ impl Run<'_> {
             }
             Program::Inverse(inverse) => return self.inverse(step, inverse),
             Program::Square(square) => return self.square(step, square),
+            Program::Least(least) => return self.least(step, &least.0, &least.1),
             Program::Measure(measure) => return self.measure(step, measure),
             Program::Host { source, method } => {
                 let out = &mut self.buffers.out;
@@ -309,6 +324,17 @@ impl Run<'_> {
     fn start_from_last(&mut self, targets: &[SlotIndex]) {
         for &t in targets {
             self.values[t as usize] = self.last[t as usize];
+        }
+    }
+
+    fn least(&mut self, step: &Step, least: &Least, measure: &Measure) -> Result<(), Failure> {
+        self.start_from_last(&step.targets);
+        let Frame { x0, scales, .. } = self.frame;
+        let Buffers { work, least: scratch, .. } = &mut *self.buffers;
+        match least.solve(x0, self.values, scales, self.trust, work, scratch) {
+            Measured::Least => Ok(()),
+            Measured::Failed if step.targets.len() <= DENSE => self.measure(step, measure),
+            Measured::Failed => self.fail(step),
         }
     }
 

@@ -413,28 +413,41 @@ impl Block {
         }
     }
 
-    /// Calls `visit` with every second derivative by two unknowns that is not zero everywhere: its row, both
-    /// unknowns, its value.
+    /// Returns row and unknowns of every second derivative that is not zero everywhere, in the order of
+    /// [`Block::each_second`].
+    pub(crate) fn second_places(&self) -> impl Iterator<Item = (usize, usize, usize)> + '_ {
+        let at = |slot: SlotIndex| self.unknowns.binary_search(&slot).ok();
+        self.groups.iter().flat_map(move |group| {
+            let arity = group.kernel.arity();
+            group.rows.iter().enumerate().flat_map(move |(i, &row)| {
+                let arguments = &group.arguments[i * arity..][..arity];
+                group.kernel.second().entries.iter().filter_map(move |&(a, b)| {
+                    let (i, j) = (at(arguments[a as usize])?, at(arguments[b as usize])?);
+                    Some((row as usize, i, j))
+                })
+            })
+        })
+    }
+
+    /// Calls `visit` with row, unknowns and value of every second derivative that is not zero
+    /// everywhere; one by two unknowns stands for its mirror too.
     pub(crate) fn each_second(
         &self,
         values: &[f64],
         w: &mut Workspace,
         visit: &mut dyn FnMut(usize, usize, usize, f64),
     ) {
+        let at = |slot: SlotIndex| self.unknowns.binary_search(&slot).ok();
         for group in &self.groups {
             let second = group.kernel.second();
             let arity = group.kernel.arity();
-            let at = |row: usize, argument: u32| {
-                let slot = group.arguments[row * arity + argument as usize];
-                self.unknowns.binary_search(&slot).ok()
-            };
             group.each(&second.tape, second.entries.len(), values, w, &mut |row, out, value| {
+                let arguments = &group.arguments[row * arity..][..arity];
                 let (a, b) = second.entries[out];
-                if let (Some(i), Some(j)) = (at(row, a), at(row, b)) {
-                    visit(group.rows[row] as usize, i, j, value);
-                    if a != b {
-                        visit(group.rows[row] as usize, j, i, value);
-                    }
+                if let (Some(i), Some(j)) = (at(arguments[a as usize]), at(arguments[b as usize])) {
+                    // two arguments that are one unknown are their own mirror
+                    let both = if a != b && i == j { 2.0 } else { 1.0 };
+                    visit(group.rows[row] as usize, i, j, both * value);
                 }
             });
         }

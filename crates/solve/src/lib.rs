@@ -50,6 +50,7 @@ mod tableau;
 mod rows;
 
 mod accept;
+mod tie;
 
 mod direct;
 
@@ -68,6 +69,7 @@ mod sparse;
 
 mod square;
 
+mod least;
 mod measure;
 
 pub mod outcome;

@@ -5,6 +5,7 @@
 
 use crate::block::Block as Laid;
 use crate::kernel::{Kernel, Kernels};
+use crate::least::Least;
 use crate::measure::Measure;
 use crate::order::Block;
 use crate::plan::{Analysis, Step, StepKind};
@@ -29,6 +30,8 @@ pub(crate) enum Program {
     Inverse(Inverse),
     /// As many equations as unknowns.
     Square(Square),
+    /// Fewer equations than unknowns, and the measure for where they cannot all hold.
+    Least(Box<(Least, Measure)>),
     /// Anything else.
     Measure(Measure),
     /// The host computes.
@@ -270,7 +273,7 @@ fn lower_block(
     let over = problem.rows.len() > problem.unknowns.len()
         || block.rows.iter().any(|&r| analysis.direction.slot_of_row[r].is_none());
     let kind = if soft && over { StepKind::Compromise } else { StepKind::LeastChange };
-    let program = measure(analysis, &problem);
+    let program = measure(analysis, &problem, kind);
     let reads = reads_of(analysis, block).into_iter().collect();
     steps.push(step(analysis, kind, &block.rows, block.unknowns.clone(), reads, program));
 }
@@ -340,12 +343,17 @@ fn inverse_step(
 }
 
 /// Makes the program that handles rows and unknowns of any number.
-fn measure(analysis: &Analysis<'_>, problem: &Problem) -> Program {
+fn measure(analysis: &Analysis<'_>, problem: &Problem, step: StepKind) -> Program {
     let kind = |s: SlotIndex| {
         let given = analysis.classes.stay[s as usize] == Stay::Given;
         (analysis.stated.system.slots[s as usize].scale, given)
     };
-    Program::Measure(Measure::new(problem, &kind))
+    let measure = Measure::new(problem, &kind);
+    let alike = problem.unknowns.iter().all(|&u| !kind(u).1);
+    if step == StepKind::LeastChange && alike {
+        return Program::Least(Box::new((Least::new(problem), measure)));
+    }
+    Program::Measure(measure)
 }
 
 fn step(

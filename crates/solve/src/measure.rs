@@ -368,9 +368,13 @@ impl Measure {
         block.each_second(values, w, &mut |row, i, j, second| {
             let value = by_row[row] * second;
             if value.is_finite() && value != 0.0 {
-                let (from, to) = (&local.gradients[i * n..][..n], &local.gradients[j * n..][..n]);
-                for (a, x) in from.iter().enumerate().filter(|g| *g.1 != 0.0) {
-                    dense::add(&mut hessian[a * n..][..n], value * x, to);
+                let mirror = if i == j { 1 } else { 2 };
+                for (i, j) in [(i, j), (j, i)].into_iter().take(mirror) {
+                    let (from, to) =
+                        (&local.gradients[i * n..][..n], &local.gradients[j * n..][..n]);
+                    for (a, x) in from.iter().enumerate().filter(|g| *g.1 != 0.0) {
+                        dense::add(&mut hessian[a * n..][..n], value * x, to);
+                    }
                 }
             }
         });

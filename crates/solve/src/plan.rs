@@ -12,6 +12,7 @@ use crate::rows::{self, Row};
 use crate::stated::Stated;
 use crate::substitute::{self, Classes};
 use crate::system::{Level, RelationBody, Slot, SlotIndex, Span, Stay, System};
+use crate::tie;
 use std::collections::{BTreeMap, BTreeSet};
 use std::rc::Rc;
 use std::sync::OnceLock;
@@ -160,8 +161,11 @@ fn plan_stated(stated: Stated) -> Plan {
     let mut arena = stated.arena();
     let classes = substitute::substitute(&stated);
     let rows = rows::rows(&stated, &classes, &mut arena);
-    let acceptance = accept::accept(system, &classes, &rows);
-    let direction = direct::direct(system, &classes, &rows, &acceptance);
+    let mut acceptance = accept::accept(system, &classes, &rows);
+    let mut direction = direct::direct(system, &classes, &rows, &acceptance);
+    if tie::tie(system, &classes, &rows, &direction, &mut acceptance) {
+        direction = direct::direct(system, &classes, &rows, &acceptance);
+    }
     let method_reads = direction
         .method
         .iter()

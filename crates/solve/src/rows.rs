@@ -28,6 +28,8 @@ pub(crate) struct Row {
     pub(crate) columns: SparseRow,
     /// The tolerance of its sides.
     pub(crate) within: f64,
+    /// True if a derivative by a slot that it may write depends on one.
+    pub(crate) curved: bool,
 }
 
 impl Row {
@@ -69,7 +71,11 @@ pub(crate) fn rows(stated: &Stated, classes: &Classes, arena: &mut Arena) -> Vec
                     let gradient = expr::gradient(arena, residual, &vars);
                     derivatives
                         .extend(vars.iter().zip(gradient).map(|(v, d)| (rows.len(), v.0, d)));
-                    rows.push(row(r, e, relation, Some((sides[0], sides[1])), mentions));
+                    let curved = !expr::is_linear_in(arena, residual, &vars);
+                    rows.push(Row {
+                        curved,
+                        ..row(r, e, relation, Some((sides[0], sides[1])), mentions)
+                    });
                 }
             }
             RelationBody::Opaque { slots } => {
@@ -98,6 +104,7 @@ fn row(
         mentions,
         columns: Vec::new(),
         within: f64::from_bits(relation.within),
+        curved: false,
     }
 }
 

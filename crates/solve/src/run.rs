@@ -381,7 +381,7 @@ impl Way<'_> {
                 let after = square.orientation(self.trial, scales, work, scratch);
                 before == after && before != 0
             }
-            Program::Measure(_) => false,
+            Program::Measure(_) | Program::Least(_) => false,
             Program::Square(_)
             | Program::Inverse(_)
             | Program::Constant(_)

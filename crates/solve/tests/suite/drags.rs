@@ -2,7 +2,7 @@
 
 use crate::builder::{Sheet, bits, close};
 use crate::who::quadrilateral;
-use solve::{NoHost, Reason, Status};
+use solve::{Drag, NoHost, Reason, SlotIndex, Status};
 
 #[test]
 fn out_and_back_restores_every_bit() {
@@ -107,4 +107,46 @@ fn a_held_point_does_not_move() {
     let outcome = drag.follow(&plan, &[5.0, 5.0], &mut NoHost);
     assert!(outcome.is_solved() && outcome.unmet.len() == 2);
     assert_eq!(drag.values()[..2], [1.0, 2.0]);
+}
+
+/// Bars of 10, up and down in turn, between a crank's end and an anchor; returns the crank's end too.
+fn chain_of_bars(joints: u32) -> (Sheet, [SlotIndex; 2]) {
+    let mut s = Sheet::default();
+    let at = |k: u32| [5.0 + 6.0 * f64::from(k), 75f64.sqrt() + 8.0 * f64::from(k % 2)];
+    let crank = s.anchor(at(0)[0], at(0)[1]);
+    let mut before = crank;
+    for k in 1..=joints + 1 {
+        let [x, y] = at(k);
+        let joint = if k > joints { s.anchor(x, y) } else { s.place(x, y) };
+        let (length, ten) = (s.distance(before, joint), s.c(10.0));
+        s.require(length, ten);
+        before = joint;
+    }
+    (s, crank)
+}
+
+#[test]
+fn a_chain_of_bars_follows_as_a_whole_and_comes_back() {
+    for joints in [7, 50] {
+        let (s, crank) = chain_of_bars(joints);
+        let plan = s.plan();
+        let mut drag = s.drag(&plan, &crank);
+        let turn = |drag: &mut Drag, degrees: f64| {
+            let angle = (60.0 + degrees).to_radians();
+            let before = drag.values().to_vec();
+            let target = [10.0 * base::number::cos(angle), 10.0 * base::number::sin(angle)];
+            let outcome = drag.follow(&plan, &target, &mut NoHost);
+            assert!(outcome.is_solved(), "{joints}, {degrees}: {outcome:?}");
+            for (a, b) in before.iter().zip(drag.values()) {
+                // the crank's end moves by 0.087
+                close(*a, *b, 0.15);
+            }
+        };
+        for step in (1..=100).chain((0..100).rev()) {
+            turn(&mut drag, f64::from(step) * 0.5);
+        }
+        for (a, b) in s.x0.iter().zip(drag.values()) {
+            close(*a, *b, 1e-7);
+        }
+    }
 }

@@ -1,0 +1,236 @@
+//! Least change: fewer rows than unknowns, all to hold, and the distance from x0 to be least.
+//!
+//! In: the block, the state x0 that distance is measured from, a start. Out: the unknowns, in place.
+//! Newton's method on the Lagrangian with exact second derivatives, `[H Jᵀ; J -δ]`, sparse and
+//! symmetric. Where the Hessian, reduced to what the rows leave free, is not positive (the factors have
+//! other than one negative pivot a row), its diagonal grows until it is. The small `-δ` is that of the
+//! proximal method of multipliers: it keeps the factors tame and disappears with the change of the
+//! multipliers.
+//!
+//! **Source:** Nocedal and Wright, *Numerical Optimization*, 2nd ed., §18.1 and §16.3; Friedlander and
+//! Orban, *A primal-dual regularized interior-point method*, Math. Prog. Comp. 4 (2012).
+
+use crate::block::{Block, Local, Workspace};
+use crate::lower::{Definers, Problem};
+use crate::measure::Measured;
+use crate::sparse::{Ldl, Symmetric};
+use crate::square::Trust;
+use std::sync::OnceLock;
+
+/// A block of fewer rows than unknowns.
+#[derive(Debug)]
+pub(crate) struct Least {
+    pub(crate) block: Block,
+    /// Of unknowns, then rows; made when it is first needed.
+    structure: OnceLock<Symmetric>,
+}
+
+/// Buffers that a block needs while it is solved.
+#[derive(Clone, Debug, Default)]
+pub(crate) struct LeastScratch {
+    local: Local,
+    scale: Vec<f64>,
+    weight: Vec<f64>,
+    /// What the matrix is made of: diagonals, the Jacobian, second derivatives.
+    entries: Vec<f64>,
+    ldl: Ldl,
+    /// The right side, then the step and the new multipliers.
+    right: Vec<f64>,
+    multipliers: Vec<f64>,
+    start: Vec<f64>,
+}
+
+const STEPS: usize = 100;
+/// The regularisation of the rows.
+const DELTA: f64 = 1e-6;
+/// Steps below this, in parts of the extent, are no steps.
+const SETTLED: f64 = 1e-13;
+
+impl Least {
+    /// Lays a block out.
+    pub(crate) fn new(problem: &Problem) -> Self {
+        Self { block: Block::new(problem, Definers::None), structure: OnceLock::new() }
+    }
+
+    /// Returns true if every row holds for these values.
+    pub(crate) fn holds_at(&self, values: &[f64], w: &mut Workspace, s: &mut LeastScratch) -> bool {
+        self.block.sides(values, w, &mut s.local);
+        self.holds(s)
+    }
+    fn holds(&self, s: &LeastScratch) -> bool {
+        (0..self.block.height()).all(|r| self.block.row_holds(&s.local, r))
+    }
+
+    fn structure(&self) -> &Symmetric {
+        self.structure.get_or_init(|| {
+            let (n, m) = (self.block.unknowns.len() as u32, self.block.height() as u32);
+            let mut entries: Vec<(u32, u32)> = (0..n + m).map(|i| (i, i)).collect();
+            for r in 0..m {
+                entries.extend(self.block.pattern.row(r as usize).iter().map(|&c| (c, n + r)));
+            }
+            entries.extend(self.block.second_places().map(|(_, i, j)| (i as u32, j as u32)));
+            Symmetric::new((n + m) as usize, &entries)
+        })
+    }
+
+    /// Solves from the values that the unknowns have now; distance is measured from `x0`.
+    pub(crate) fn solve(
+        &self,
+        x0: &[f64],
+        values: &mut [f64],
+        scales: &[f64],
+        trust: Trust,
+        w: &mut Workspace,
+        s: &mut LeastScratch,
+    ) -> Measured {
+        let block = &self.block;
+        s.scale.clear();
+        s.scale.extend(block.unknowns.iter().map(|&u| scales[u as usize]));
+        s.multipliers.clear();
+        s.multipliers.resize(block.height(), 0.0);
+        block.slopes(values, w, &mut s.local);
+        self.weigh(s);
+        let mut norm = self.norm(s);
+        let mut size = f64::INFINITY;
+        let mut smallest = (f64::INFINITY, 0);
+        for iteration in 0..STEPS {
+            if !norm.is_finite() || !self.step(x0, values, iteration > 0, w, s) {
+                return Measured::Failed;
+            }
+            let before = size;
+            size = s.right[..block.unknowns.len()].iter().fold(0.0, |m: f64, d| m.max(d.abs()));
+            if !size.is_finite() {
+                return Measured::Failed;
+            }
+            if trust == Trust::Branch && !block.is_linear {
+                let leaps = match iteration {
+                    0 => size > 0.5,
+                    1 => size > 1e-3f64.max(0.5 * before),
+                    _ => false,
+                };
+                if leaps {
+                    return Measured::Failed;
+                }
+            }
+            if size < 0.9 * smallest.0 {
+                smallest = (size, 0);
+            } else {
+                smallest.1 += 1;
+            }
+            // what comes after a step that shrank like this is no step
+            let next = if iteration > 0 { size * (size / before) } else { size };
+            let last = size <= SETTLED
+                || iteration > 1 && next <= SETTLED
+                || smallest.1 >= 4 && smallest.0 < 1e-7;
+            norm = self.advance(values, size, norm, w, s);
+            if last {
+                break;
+            }
+            if smallest.1 > 30 {
+                return Measured::Failed;
+            }
+        }
+        if self.holds(s) && size < 1e-6 { Measured::Least } else { Measured::Failed }
+    }
+
+    /// Freezes a weight for every row that makes it dimensionless.
+    fn weigh(&self, s: &mut LeastScratch) {
+        s.weight.clear();
+        for r in 0..self.block.height() {
+            let mut sum = 0.0;
+            for e in self.block.pattern.range(r) {
+                let d = s.local.jacobian[e] * s.scale[self.block.pattern.column(e)];
+                sum += d * d;
+            }
+            let size = base::number::sqrt(sum);
+            s.weight.push(if size > 0.0 && size.is_finite() { 1.0 / size } else { 1.0 });
+        }
+    }
+    fn norm(&self, s: &LeastScratch) -> f64 {
+        let mut sum = 0.0;
+        for ((left, right), w) in s.local.left.iter().zip(&s.local.right).zip(&s.weight) {
+            sum += (left - right) * w * ((left - right) * w);
+        }
+        base::number::sqrt(sum)
+    }
+
+    /// Finds step and multipliers; false where the matrix cannot be factorised.
+    fn step(
+        &self,
+        x0: &[f64],
+        values: &[f64],
+        curved: bool,
+        w: &mut Workspace,
+        s: &mut LeastScratch,
+    ) -> bool {
+        let block = &self.block;
+        let (n, m) = (block.unknowns.len(), block.height());
+        let structure = self.structure();
+        s.entries.clear();
+        s.entries.resize(n, 1.0);
+        s.entries.resize(n + m, -DELTA);
+        for r in 0..m {
+            for e in block.pattern.range(r) {
+                let scale = s.scale[block.pattern.column(e)];
+                s.entries.push(s.local.jacobian[e] * s.weight[r] * scale);
+            }
+        }
+        let curvature = s.entries.len();
+        block.each_second(values, w, &mut |row, i, j, second| {
+            let factor = s.multipliers[row] * s.weight[row];
+            let value = if factor == 0.0 { 0.0 } else { factor * second * s.scale[i] * s.scale[j] };
+            s.entries.push(if curved && value.is_finite() { value } else { 0.0 });
+        });
+        let mut shift = 1.0;
+        loop {
+            match structure.factorise(&s.entries, &mut s.ldl) {
+                Some(negative) if negative == m => break,
+                Some(_) | None if shift > 1e8 => return false,
+                Some(_) | None => {
+                    if s.entries[curvature..].iter().all(|&h| h == 0.0) {
+                        return false;
+                    }
+                    shift *= 4.0;
+                    s.entries[..n].fill(shift);
+                }
+            }
+        }
+        s.right.clear();
+        let away = block.unknowns.iter().zip(&s.scale);
+        s.right.extend(away.map(|(&u, scale)| (x0[u as usize] - values[u as usize]) / scale));
+        s.right.extend((0..m).map(|r| {
+            let residual = (s.local.left[r] - s.local.right[r]) * s.weight[r];
+            -residual - DELTA * s.multipliers[r]
+        }));
+        structure.solve(&mut s.ldl, &mut s.right);
+        s.multipliers.copy_from_slice(&s.right[n..]);
+        true
+    }
+
+    /// Goes along the step, shortened until the rows are not torn apart; returns the norm there.
+    fn advance(
+        &self,
+        values: &mut [f64],
+        size: f64,
+        norm: f64,
+        w: &mut Workspace,
+        s: &mut LeastScratch,
+    ) -> f64 {
+        let block = &self.block;
+        // longer steps than half the extent are not believed
+        let mut length = if size > 0.5 && !block.is_linear { 0.5 / size } else { 1.0 };
+        s.start.clear();
+        s.start.extend(block.unknowns.iter().map(|&u| values[u as usize]));
+        loop {
+            for (i, &u) in block.unknowns.iter().enumerate() {
+                values[u as usize] = s.start[i] + length * s.right[i] * s.scale[i];
+            }
+            block.slopes(values, w, &mut s.local);
+            let now = self.norm(s);
+            if now <= 0.1f64.max(2.0 * norm) || length < 1e-6 {
+                return now;
+            }
+            length *= 0.5;
+        }
+    }
+}

@@ -1,0 +1,94 @@
+//! Ties: places that curved rows tie to one that has no freedom yield with it.
+//!
+//! In: what may yield by acceptance, and which way. Out: the same, with every place to which an accepted
+//! curved row (a length, an angle) ties a place that has no freedom left. Structure lets as few places
+//! yield as the rows can do with, which in a chain of bars is every other joint: its elbows are soon
+//! stretched, and a wish would be lost to stays that are weaker. Where all of the chain yields, the change is
+//! least. A place with freedom (one end of a bar) reaches as far as it ever will, and so do linear
+//! rows (midpoints, alignments, offsets): they tie nothing; nor does a row that determines a lone number.
+
+use crate::accept::Acceptance;
+use crate::direct::Direction;
+use crate::rows::Row;
+use crate::substitute::Classes;
+use crate::system::{SlotIndex, Stay, System};
+use std::collections::BTreeMap;
+
+/// Lets tied places yield; `direction` is that of the acceptance. Returns true if any does.
+pub(crate) fn tie(
+    system: &System,
+    classes: &Classes,
+    rows: &[Row],
+    direction: &Direction,
+    acceptance: &mut Acceptance,
+) -> bool {
+    let places = places(system, classes);
+    let place = |slot: SlotIndex| match classes.stay[slot as usize] {
+        Stay::Kept { group } => places.get(&group).map_or(&[][..], |p| p),
+        Stay::Fixed | Stay::Given | Stay::Free => &[],
+    };
+    let free = with_freedom(rows, direction, acceptance);
+    let mut tied = false;
+    for &r in &acceptance.accepted {
+        let row = &rows[r];
+        let stays =
+            |&(c, _): &(SlotIndex, f64)| !acceptance.unknown[c as usize] && !place(c).is_empty();
+        let Some(slot) = direction.slot_of_row[r] else { continue };
+        let is_stiff = row.curved
+            && !free[slot as usize]
+            && !place(slot).is_empty()
+            && system.relations[row.relation as usize].methods.is_empty();
+        if !is_stiff || !row.columns.iter().any(stays) {
+            continue;
+        }
+        for &(c, _) in &row.columns {
+            for &s in place(c) {
+                acceptance.unknown[s as usize] = true;
+                tied = true;
+            }
+        }
+    }
+    tied
+}
+
+/// The coordinates of every place that yields as one, over representatives.
+fn places(system: &System, classes: &Classes) -> BTreeMap<u32, Vec<SlotIndex>> {
+    let mut places: BTreeMap<u32, Vec<SlotIndex>> = BTreeMap::new();
+    for (s, slot) in (0..).zip(&system.slots) {
+        if let Stay::Kept { group } = slot.stay {
+            places.entry(group).or_default().push(s);
+        }
+    }
+    places.retain(|&group, slots| {
+        for s in slots.iter_mut() {
+            *s = classes.representative[*s as usize];
+        }
+        let own = |s: &SlotIndex| classes.stay[*s as usize] == Stay::Kept { group };
+        slots.len() > 1 && slots.iter().all(own)
+    });
+    places
+}
+
+/// For every slot: a slot that no row determines can be exchanged for it.
+fn with_freedom(rows: &[Row], direction: &Direction, acceptance: &Acceptance) -> Vec<bool> {
+    let mut rows_of: Vec<Vec<usize>> = vec![Vec::new(); acceptance.unknown.len()];
+    for &r in &acceptance.accepted {
+        for &(c, _) in &rows[r].columns {
+            rows_of[c as usize].push(r);
+        }
+    }
+    let mut free: Vec<bool> = (0..acceptance.unknown.len())
+        .map(|s| acceptance.unknown[s] && direction.row_of_slot[s].is_none())
+        .collect();
+    let mut reached: Vec<usize> = (0..free.len()).filter(|&s| free[s]).collect();
+    while let Some(slot) = reached.pop() {
+        for &r in &rows_of[slot] {
+            if let Some(next) = direction.slot_of_row[r]
+                && !std::mem::replace(&mut free[next as usize], true)
+            {
+                reached.push(next as usize);
+            }
+        }
+    }
+    free
+}
