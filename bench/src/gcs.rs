@@ -3,9 +3,10 @@
 //! The file is a case of the format `gcs-case/1` ([`bench::case`]). Of the line: `status` is `solved`
 //! where every constraint holds to 1e-8, `unsolved` where not, or where no answer came in time, and
 //! `invalid` for a file that is no case; times are in milliseconds. `gcs --text FILE` prints the document
-//! that is solved.
+//! that is solved; `gcs --make FAMILY SIZE SEED` prints a case of a family ([`bench::families`]).
 
 use bench::case::Case;
+use bench::families::{FAMILIES, generate};
 use bench::measure::{Repeat, measure};
 use bench::{document, report};
 use std::fs;
@@ -34,11 +35,22 @@ fn main() -> io::Result<ExitCode> {
             write!(out, "{}", document::text(&case))?;
             Ok(ExitCode::SUCCESS)
         }
-        _ => {
-            writeln!(io::stderr(), "usage: gcs [--text] FILE")?;
-            Ok(ExitCode::from(2))
+        [option, family, size, seed] if option == "--make" => {
+            let family =
+                FAMILIES.iter().find(|(name, _)| name == family).map(|(_, family)| *family);
+            let (Some(family), Ok(size), Ok(seed)) = (family, size.parse(), seed.parse()) else {
+                return usage();
+            };
+            writeln!(out, "{}", serde_json::to_string(&generate(family, size, seed))?)?;
+            Ok(ExitCode::SUCCESS)
         }
+        _ => usage(),
     }
+}
+
+fn usage() -> io::Result<ExitCode> {
+    writeln!(io::stderr(), "usage: gcs FILE | gcs --text FILE | gcs --make FAMILY SIZE SEED")?;
+    Ok(ExitCode::from(2))
 }
 
 fn answer(file: &str) -> serde_json::Value {

@@ -5,10 +5,15 @@
 //! rooms that every document is solved by. [`residual::largest`] tests what came out against the case
 //! alone. Nothing here is a second solver.
 //!
-//! Reading order: [`case`], [`document`], [`sketch`], [`residual`], [`measure`], [`report`].
+//! Reading order: [`case`], [`document`], [`opened`], [`sketch`], [`residual`], [`measure`], [`report`],
+//! [`families`].
 pub mod case;
 pub mod document;
+pub mod families;
 pub mod measure;
+pub mod opened;
+#[cfg(feature = "ezpz")]
+pub mod peer;
 pub mod report;
 pub mod residual;
 pub mod sketch;

@@ -2,19 +2,14 @@
 
 use crate::case::{Case, Constraint, Drag};
 use crate::document;
-use kernel::{ConstraintInstance, DOCUMENT, SlotId, Structure, ThingId, Value, Values};
-use lang::Lowered;
-use plan::{Host, Model, Planner, Plans, Target, Way};
-
-const GEOMETRY: &str = include_str!("../../library/geometry.thing");
+use crate::opened::Opened;
+use kernel::{SlotId, Values};
+use plan::{Planner, Press, Target};
 
 /// A sketch before it is solved.
 #[derive(Debug)]
 pub struct Sketch {
-    lowered: Lowered,
-    structure: Structure,
-    /// What the text gives.
-    given: Values,
+    opened: Opened,
     /// Where the coordinates of each point are.
     points: Vec<[SlotId; 2]>,
 }
@@ -25,42 +20,25 @@ impl Sketch {
     /// # Errors
     /// What the language says against the document: a case that no document can say.
     pub fn new(case: &Case) -> Result<Self, String> {
-        let text = document::text(case);
-        let load = |name: &str| (name == "geometry").then(|| GEOMETRY.to_owned());
-        let lowered = lang::lower(&text, &load, None);
-        let (structure, faults) = kernel::instantiate(&lowered.document);
-        let wrong =
-            lowered.diagnostics.iter().chain(&lowered.fault_diagnostics(&faults)).next().cloned();
-        if let Some(wrong) = wrong {
-            return Err(wrong.message);
-        }
-        let (given, _) = eval::given_values(&lowered.document, &structure);
-        let mut sketch = Self { lowered, structure, given, points: Vec::new() };
-        for i in 0..case.start.len() {
-            let point = sketch.thing(&format!("p{i}")).ok_or("a point is missing")?;
-            let slots = sketch.structure.slots_under(point);
-            sketch.points.push([slots[0], slots[1]]);
-        }
-        Ok(sketch)
-    }
-
-    /// Returns what every question to a planner is about.
-    pub fn model(&self) -> Model<'_> {
-        Model { document: &self.lowered.document, structure: &self.structure }
+        let opened = Opened::new(&document::text(case))?;
+        let place = |i: usize| match opened.slots(&format!("p{i}"))[..] {
+            [x, y] => Ok([x, y]),
+            _ => Err(format!("point {i} has no place")),
+        };
+        let points = (0..case.start.len()).map(place).collect::<Result<_, _>>()?;
+        Ok(Self { opened, points })
     }
 
     /// Solves from the start as a document is opened: rules, plan and numbers, nothing kept.
     pub fn solve(&self) -> (Planner, Values) {
-        let (mut planner, _) = Planner::new(self.model(), Plans::default());
-        let mut values = Values::default();
-        planner.open(self.model(), &mut values, &mut Given(&self.given));
+        let (planner, values, _) = self.opened.solve();
         (planner, values)
     }
 
     /// Solves from the start by the plan that the planner has: numbers alone.
     pub fn solve_again(&self, planner: &mut Planner) -> Values {
-        let mut values = self.given.clone();
-        planner.satisfy(self.model(), &mut values, &mut Given(&self.given));
+        let mut values = self.opened.given().clone();
+        planner.satisfy(self.opened.model(), &mut values, &mut self.opened.host());
         values
     }
 
@@ -73,14 +51,14 @@ impl Sketch {
         planner: &mut Planner,
         values: &Values,
         drag: &Drag,
-    ) -> Result<plan::Press, String> {
+    ) -> Result<Press, String> {
         let path = match drag {
             Drag::Param { c, .. } => format!("c{c}.value"),
             Drag::Point { p, .. } => format!("p{p}"),
         };
-        let thing = self.thing(&path).ok_or_else(|| format!("there is no {path}"))?;
+        let thing = self.opened.thing(&path).ok_or_else(|| format!("there is no {path}"))?;
         let targets = [Target::Thing(thing)];
-        let press = planner.press(self.model(), values, &targets, &mut Given(&self.given));
+        let press = planner.press(self.opened.model(), values, &targets, &mut self.opened.host());
         press.map_err(|reason| format!("{path} cannot be dragged: {reason:?}"))
     }
 
@@ -88,25 +66,21 @@ impl Sketch {
     pub fn follow(
         &self,
         planner: &Planner,
-        press: &mut plan::Press,
+        press: &mut Press,
         values: &mut Values,
         wanted: &[f64],
     ) -> bool {
-        planner.drag(self.model(), press, values, wanted, &mut Given(&self.given)).reached
+        planner.drag(self.opened.model(), press, values, wanted, &mut self.opened.host()).reached
     }
 
     /// Says how a solved sketch stands: what is free, what says nothing new, what does not hold.
     pub fn status(&self, planner: &mut Planner, values: &Values) -> plan::Status {
-        planner.status(self.model(), values, &mut Given(&self.given))
+        planner.status(self.opened.model(), values, &mut self.opened.host())
     }
 
     /// Returns where the points are.
     pub fn points(&self, values: &Values) -> Vec<[f64; 2]> {
         self.points.iter().map(|slots| slots.map(|s| values.numbers[s])).collect()
-    }
-
-    fn thing(&self, path: &str) -> Option<ThingId> {
-        path.split('.').try_fold(DOCUMENT, |at, name| self.structure.part_named(at, name))
     }
 }
 
@@ -124,25 +98,5 @@ pub fn wishes(drag: &Drag) -> Vec<Vec<f64>> {
     match drag {
         Drag::Param { values, .. } => values.iter().map(|&v| vec![v]).collect(),
         Drag::Point { path, .. } => path.iter().map(|at| at.to_vec()).collect(),
-    }
-}
-
-/// Answers the planner: sketches are numbers throughout.
-struct Given<'a>(&'a Values);
-
-impl Host for Given<'_> {
-    fn given(&mut self, slot: SlotId, _: &Values) -> Option<Value> {
-        Some(self.0.get(slot))
-    }
-    fn compute(
-        &mut self,
-        _: ConstraintInstance,
-        _: Way,
-        _: &Values,
-    ) -> Result<Vec<(SlotId, Value)>, String> {
-        Err("a sketch has no texts".into())
-    }
-    fn holds(&mut self, _: ConstraintInstance, _: &Values) -> bool {
-        false
     }
 }
