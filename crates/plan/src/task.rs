@@ -149,15 +149,19 @@ fn state(
 }
 
 impl Alike {
-    /// Notes all that a component's system depends on: what holds each slot and what it is, with
-    /// whom it is one place; what each rule says, and of which of the slots.
+    /// Notes all that a component's system depends on: what holds each slot, what it is and may be,
+    /// with whom it is one place; what each rule says, and of which of the slots.
     fn sign(&mut self, setting: &Setting<'_>, locals: &Locals, component: &Component) {
         let signature = &mut self.signature;
         signature.clear();
         signature.push(component.slots.len() as u32);
         for &slot in &component.slots {
-            signature.push((setting.holding)(slot) as u32);
+            let is_ranged = setting.structure.ranges.contains_key(&slot);
+            signature.push((setting.holding)(slot) as u32 | u32::from(is_ranged) << 8);
             signature.extend(kind_of(setting.structure.slots[slot].primitive));
+            if let Some((least, most)) = setting.structure.ranges.get(&slot) {
+                signature.extend(halves(*least).into_iter().chain(halves(*most)));
+            }
             let place = setting.net.place_of(slot).iter();
             let here = |&&s: &&SlotId| component.slots.get(locals.0[s] as usize) == Some(&s);
             let first = place.copied().find(|s| here(&s));
@@ -169,6 +173,11 @@ impl Alike {
             signature.extend(slots.iter().map(|&s| locals.0[s]));
         }
     }
+}
+
+/// Returns a whole number in two halves.
+fn halves(x: i64) -> [u32; 2] {
+    [x as u32, (x >> 32) as u32]
 }
 
 /// Returns what is stored in a slot as three numbers.
