@@ -1,7 +1,8 @@
 //! The subcommands that work on documents: each returns what to print and whether all is well.
 //!
 //! With `--json` each prints one JSON object: `check` {files: [{path, diagnostics}]}, `test` {files:
-//! [{path, checks}], passed, failed}, `run` {path, values, status}, `explain` the explanation, `draw`
+//! [{path, checks}], passed, failed}, `run` {path, values, status}, `explain` the explanation, `recognise`
+//! {path, classes}, `draw`
 //! {path, svg}, `fmt` {files: [{path, changed}]}. The shapes of their parts are those of
 //! `session::view`.
 
@@ -211,6 +212,34 @@ pub(crate) fn explain(path: &Path, about: Option<&str>, form: Form) -> Result<Re
         }
     }
     Ok(report(form, true, words, &json!(explanation)))
+}
+
+/// Says which classes some parts of a document could be the parts of.
+///
+/// # Errors
+/// If the file cannot be read.
+pub(crate) fn recognise(path: &Path, parts: &[String], form: Form) -> Result<Report, OpenError> {
+    let opened = open(path)?;
+    let paths: Option<Vec<session::Path>> = parts.iter().map(|p| session::parse_path(p)).collect();
+    let found = match paths.map(|paths| opened.session.recognise(opened.id, &paths)) {
+        Some(Ok(found)) => found,
+        wrong => {
+            let refusal = wrong.and_then(Result::err).map(|r| r.message);
+            let message = refusal.unwrap_or_else(|| "that is no path".to_string());
+            let json = json!({ "path": path, "error": message });
+            return Ok(report(form, false, format!("{message}\n"), &json));
+        }
+    };
+    let mut words = String::new();
+    for class in &found {
+        let parts = class.parts.iter().map(|(field, part)| format!("{field} = {part}"));
+        let parts = parts.collect::<Vec<_>>().join(", ");
+        let _ = writeln!(words, "{} ({} rules): {parts}", class.class, class.constraints);
+    }
+    if found.is_empty() {
+        words.push_str("these are the parts of no class in scope\n");
+    }
+    Ok(report(form, !found.is_empty(), words, &json!({ "path": path, "classes": found })))
 }
 
 /// Draws a document as SVG, into a file or onto standard output.

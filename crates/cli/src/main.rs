@@ -51,6 +51,14 @@ enum Command {
         /// The path of the value, such as q.side1.p1.x.
         path: Option<String>,
     },
+    /// Says which classes some parts of a document could be the parts of.
+    Recognise {
+        /// The document.
+        file: PathBuf,
+        /// The paths of the parts, at most six.
+        #[arg(required = true)]
+        parts: Vec<String>,
+    },
     /// Draws a document as SVG.
     Draw {
         /// The document.
@@ -81,6 +89,7 @@ fn main() -> ExitCode {
         Command::Test { files } => commands::test(files, form),
         Command::Run { file } => commands::run(file, form),
         Command::Explain { file, path } => commands::explain(file, path.as_deref(), form),
+        Command::Recognise { file, parts } => commands::recognise(file, parts, form),
         Command::Draw { file, output } => commands::draw(file, output.as_deref(), form),
         Command::Fmt { files, check } => {
             let mode = if *check { FormatMode::Check } else { FormatMode::Write };

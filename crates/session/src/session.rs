@@ -6,10 +6,11 @@ use crate::complaints;
 use crate::document::Open;
 use crate::drag;
 use crate::host::Host;
+use crate::recognise;
 use crate::state::State;
 use crate::view::{
-    Change, CheckReport, DocumentId, DragState, Explanation, PictureView, Question, Refusal,
-    Status, StructureRow, TextView, ValueRow,
+    Change, CheckReport, DocumentId, DragState, Explanation, PictureView, Question, Recognised,
+    Refusal, Status, StructureRow, TextView, ValueRow,
 };
 use crate::views;
 use crate::words;
@@ -76,6 +77,14 @@ impl Session {
     /// Why the command would be refused. Either way nothing changes.
     pub fn preview(&self, id: DocumentId, command: &Command) -> Result<Option<Question>, Refusal> {
         apply::preview(&self.document(id).state, command)
+    }
+    /// Returns which classes some parts, at most six, could be the parts of, one to one by class and
+    /// with every constraint true; those with most constraints first.
+    ///
+    /// # Errors
+    /// No parts, too many, one twice, or a path that leads nowhere.
+    pub fn recognise(&self, id: DocumentId, paths: &[Path]) -> Result<Vec<Recognised>, Refusal> {
+        recognise::recognise(&self.document(id).state, paths)
     }
     /// Sets a value to what a person typed: `300 ohm`, `2*80`, `(3, 4)`, any words for a text.
     ///

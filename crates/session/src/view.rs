@@ -49,6 +49,19 @@ pub struct Choice {
     pub command: kernel::Command,
 }
 
+/// A class that some parts could be the parts of.
+#[derive(Clone, PartialEq, Eq, Debug, Serialize)]
+pub struct Recognised {
+    /// The class.
+    pub class: String,
+    /// What `///` says of it.
+    pub doc: String,
+    /// How many constraints and merges it has, all of them true.
+    pub constraints: u32,
+    /// For every part of the class, which of the selected parts it would be.
+    pub parts: Vec<(String, String)>,
+}
+
 /// A replaced stretch of the text.
 #[derive(Clone, PartialEq, Eq, Debug, Serialize)]
 pub struct TextChange {

@@ -3,6 +3,7 @@ mod desk;
 mod dragging;
 
 mod explaining;
+mod recognising;
 mod refusing;
 mod restructuring;
 mod saving;

@@ -1,0 +1,201 @@
+//! Recognition: which classes some selected parts could be the parts of.
+//!
+//! In: a state, and at most six of its things. Out: every class in scope whose stored parts they could
+//! be, one to one by class, so that all its constraints and merges are true of them. A thing of every
+//! such class is made for the test, filled with the values of the selected parts, and thrown away.
+
+use crate::state::State;
+use crate::view::{Recognised, Refusal};
+use crate::words;
+use base::Name;
+use base::number::close;
+use eval::Evaluator;
+use kernel::{
+    Class, ClassId, ClassKind, Document, Part, PartRole, Path, Step, Strength, Structure, ThingId,
+    Value, Values,
+};
+
+/// How many parts can be asked about: their orders are all tried.
+const MOST_PARTS: usize = 6;
+
+/// Returns the classes that some parts could be the parts of, those with most constraints first.
+///
+/// # Errors
+/// No parts, too many, one twice, or a path that leads nowhere.
+pub(crate) fn recognise(state: &State, paths: &[Path]) -> Result<Vec<Recognised>, Refusal> {
+    if paths.is_empty() || paths.len() > MOST_PARTS {
+        let message = format!("select one to {MOST_PARTS} parts; here are {}", paths.len());
+        return Err(words::refuse(message));
+    }
+    let mut things: Vec<ThingId> = Vec::new();
+    for path in paths {
+        let thing = words::find(state, path)?;
+        if things.iter().any(|&t| state.structure.identity(t) == state.structure.identity(thing)) {
+            return Err(words::refuse(format!("{path} is selected twice")));
+        }
+        things.push(thing);
+    }
+    let document = &state.lowered.document;
+    let empty = without_things(document);
+    let classes = document.classes.iter().filter(|&(id, c)| is_candidate(state, id, c));
+    let mut found: Vec<Recognised> = Vec::new();
+    for (class, _) in classes {
+        let fields = document.layout(class);
+        let stored = fields.iter().all(|f| f.role == PartRole::Part);
+        if !stored || fields.len() != things.len() {
+            continue;
+        }
+        let wanted: Vec<ClassId> = fields.iter().map(|&f| document.field_class(f)).collect();
+        let fits = |field: usize, thing: ThingId| {
+            document.is_a(state.structure.things[thing].class, wanted[field])
+        };
+        let Some(trial) = Trial::new(&empty, class) else { continue };
+        let mut order = Vec::new();
+        if trial.first_order(state, &things, &fits, &mut order) {
+            let names = fields.iter().map(|&f| document.field_name(f).to_string());
+            let parts = order.iter().map(|&i| paths[i].to_string());
+            found.push(Recognised {
+                class: document.classes[class].name.to_string(),
+                doc: document.classes[class].doc.clone(),
+                constraints: trial.rules,
+                parts: names.zip(parts).collect(),
+            });
+        }
+    }
+    found.sort_by(|a, b| b.constraints.cmp(&a.constraints).then(a.class.cmp(&b.class)));
+    Ok(found)
+}
+
+fn is_candidate(state: &State, id: ClassId, class: &Class) -> bool {
+    let document = &state.lowered.document;
+    class.kind == ClassKind::Composite
+        && !class.is_abstract
+        && !class.supers.is_empty()
+        && id != document.root
+        && !class.name.is_empty()
+        && !state.lowered.is_class_of_one(id)
+}
+
+/// Returns a document of the same classes that has no things.
+fn without_things(document: &Document) -> Document {
+    let mut empty = document.clone();
+    let root = &mut empty.classes[document.root];
+    root.parts.clear();
+    root.givens.clear();
+    root.messages.clear();
+    root.constraints.clear();
+    root.merges.clear();
+    root.inserts.clear();
+    root.stays.clear();
+    root.switches.clear();
+    empty
+}
+
+/// A thing of a class, alone in a document of its own.
+struct Trial {
+    document: Document,
+    structure: Structure,
+    thing: ThingId,
+    /// How many constraints and merges the class says of its parts.
+    rules: u32,
+}
+
+impl Trial {
+    fn new(of: &Document, class: ClassId) -> Option<Self> {
+        let mut document = of.clone();
+        let root = &mut document.classes[of.root];
+        let name = Name::new("recognised");
+        let origin = root.origin;
+        let doc = String::new();
+        root.parts =
+            vec![Part { name: name.clone(), doc, class, count: None, range: None, origin }];
+        let (structure, faults) = kernel::instantiate(&document);
+        let thing = structure.follow(kernel::DOCUMENT, &Path(vec![Step::Part(name)])).ok()?;
+        let line = of.primary_line(class);
+        let merges: usize = line.iter().map(|&c| of.classes[c].merges.len()).sum();
+        let own = structure.constraints.iter().filter(|c| c.owner == thing).count();
+        let rules = (merges + own) as u32;
+        faults.is_empty().then_some(Self { document, structure, thing, rules })
+    }
+
+    /// Finds the first order of the things in which they could be the parts, field by field.
+    fn first_order(
+        &self,
+        state: &State,
+        things: &[ThingId],
+        fits: &dyn Fn(usize, ThingId) -> bool,
+        order: &mut Vec<usize>,
+    ) -> bool {
+        let field = order.len();
+        if field == things.len() {
+            return self.holds(state, things, order);
+        }
+        for i in 0..things.len() {
+            if order.contains(&i) || !fits(field, things[i]) {
+                continue;
+            }
+            order.push(i);
+            if self.first_order(state, things, fits, order) {
+                return true;
+            }
+            order.pop();
+        }
+        false
+    }
+
+    /// Returns true if all that the class says is true of the things as its parts.
+    fn holds(&self, state: &State, things: &[ThingId], order: &[usize]) -> bool {
+        let mut values = Values::new(self.structure.slots.len());
+        let mut filled = vec![false; self.structure.slots.len()];
+        for (field, &i) in self.structure.parts(self.thing).zip(order) {
+            if !self.fill(state, field, things[i], &mut values, &mut filled) {
+                return false;
+            }
+        }
+        let evaluator = Evaluator::new(&self.document, &self.structure, &values);
+        self.structure.constraints.iter().all(|&c| {
+            let written = &self.document.classes[c.class].constraints[c.index as usize];
+            written.strength != Strength::Required
+                || !self.structure.is_on(c)
+                || evaluator.test(c).is_ok_and(|verdict| verdict.holds)
+        })
+    }
+
+    /// Copies the values of a thing into a part of the trial; returns false where parts that the class
+    /// merges have different values, or lists different lengths.
+    fn fill(
+        &self,
+        state: &State,
+        part: ThingId,
+        from: ThingId,
+        values: &mut Values,
+        filled: &mut [bool],
+    ) -> bool {
+        if let (Some(slot), Some(source)) =
+            (self.structure.slot_of[part], state.structure.slot_of[from])
+        {
+            let value = state.values.get(source);
+            let agrees = match (&value, values.get(slot)) {
+                (Value::Number(a), Value::Number(b)) => close(*a, b),
+                (a, b) => a.same_bits(&b),
+            };
+            if std::mem::replace(&mut filled[slot.0 as usize], true) {
+                return agrees;
+            }
+            values.put(slot, value);
+            return true;
+        }
+        let elements = state.structure.parts(from);
+        let mut below = self.structure.parts(part).enumerate();
+        if let ClassKind::List(_) = self.document.classes[self.structure.things[part].class].kind {
+            let elements: Vec<ThingId> = elements.collect();
+            return elements.len() == below.len()
+                && below.all(|(i, p)| self.fill(state, p, elements[i], values, filled));
+        }
+        below.all(|(_, p)| {
+            let name = self.structure.field_name(&self.document, p);
+            let source = name.and_then(|n| state.structure.part_named(from, n));
+            source.is_some_and(|s| self.fill(state, p, s, values, filled))
+        })
+    }
+}

@@ -1,0 +1,52 @@
+//! Recognition: which classes some parts could be the parts of.
+
+use super::desk::{Desk, at};
+
+const SHAPES: &str = "use geometry
+class Corner { one, two: Line  merge one.p2 = two.p1 }
+class Elbow is Corner { constraint even: one.length = two.length }
+class Plumb is Corner { constraint square: one.p2.x = two.p2.x }
+class Couple { first: HorizontalLine  second: Line }
+a: Line { p1 = (0, 0)  p2 = (30, 40) }
+b: Line { p1 = (30, 40)  p2 = (30, 90) }
+far: Line { p1 = (500, 0)  p2 = (600, 0) }
+level: HorizontalLine { p1 = (0, 7)  p2 = (9, 7) }
+n: Real = 4
+";
+
+fn classes(desk: &Desk, paths: &[&str]) -> Vec<(String, u32)> {
+    let paths: Vec<_> = paths.iter().map(|p| at(p)).collect();
+    let found = desk.session.recognise(desk.id, &paths).expect("the parts are there");
+    let own = found.into_iter().filter(|r| SHAPES.contains(&format!("class {} ", r.class)));
+    own.map(|r| (r.class, r.constraints)).collect()
+}
+
+#[test]
+fn a_class_is_recognised_by_what_is_true_of_its_parts() {
+    let desk = Desk::of(SHAPES);
+    let three = [("Elbow".to_string(), 2), ("Plumb".to_string(), 2), ("Corner".to_string(), 1)];
+    // the order of selection does not matter: they are put where they fit
+    assert_eq!(classes(&desk, &["a", "b"]), three);
+    assert_eq!(classes(&desk, &["b", "a"]), three);
+    let found = desk.session.recognise(desk.id, &[at("b"), at("a")]).unwrap();
+    let elbow = found.iter().find(|r| r.class == "Elbow").expect("it is one");
+    assert_eq!(elbow.parts, [("one".into(), "a".into()), ("two".into(), "b".into())]);
+    assert_eq!(classes(&desk, &["a", "far"]), []);
+    assert_eq!(classes(&desk, &["far", "level"]), [("Couple".to_string(), 0)]);
+    assert_eq!(classes(&desk, &["n", "far"]), []);
+}
+
+#[test]
+fn recognition_changes_nothing_and_refuses_what_it_cannot_ask() {
+    let desk = Desk::of(SHAPES);
+    let before = desk.moment();
+    let refused = |paths: &[&str]| {
+        let paths: Vec<_> = paths.iter().map(|p| at(p)).collect();
+        desk.session.recognise(desk.id, &paths).unwrap_err().message
+    };
+    assert_eq!(refused(&[]), "select one to 6 parts; here are 0");
+    assert_eq!(refused(&["a"; 7]), "select one to 6 parts; here are 7");
+    assert_eq!(refused(&["a", "a"]), "a is selected twice");
+    assert_eq!(refused(&["a", "nothing"]), "there is no nothing in nothing");
+    assert_eq!(desk.moment(), before);
+}
