@@ -40,6 +40,17 @@ pub struct Diagnostic {
     pub labels: Vec<Label>,
     /// What to do about it.
     pub hint: Option<String>,
+    /// Edits that would do it, one of which can be chosen.
+    pub fixes: Box<[Fix]>,
+}
+
+/// An edit that would mend what a diagnostic speaks of.
+#[derive(Clone, PartialEq, Eq, Debug)]
+pub struct Fix {
+    /// What it does, as a button says it.
+    pub title: String,
+    /// What goes, and what stands there instead.
+    pub edits: Vec<(Place, String)>,
 }
 
 impl Diagnostic {
@@ -51,14 +62,45 @@ impl Diagnostic {
     pub fn warning(code: &'static str, place: Place, message: impl Into<String>) -> Self {
         Self::new(Severity::Warning, code, place, message.into())
     }
+    /// Makes a note.
+    pub fn note(code: &'static str, place: Place, message: impl Into<String>) -> Self {
+        Self::new(Severity::Note, code, place, message.into())
+    }
     fn new(severity: Severity, code: &'static str, place: Place, message: String) -> Self {
-        Self { severity, code, message, place, labels: Vec::new(), hint: None }
+        Self {
+            severity,
+            code,
+            message,
+            place,
+            labels: Vec::new(),
+            hint: None,
+            fixes: Box::default(),
+        }
     }
     /// Adds what to do about it.
     #[must_use]
     pub fn hint(mut self, hint: impl Into<String>) -> Self {
         self.hint = Some(hint.into());
         self
+    }
+    /// Adds an edit that would mend it.
+    #[must_use]
+    pub fn fix(
+        mut self,
+        title: impl Into<String>,
+        edits: impl IntoIterator<Item = (Place, String)>,
+    ) -> Self {
+        let mut fixes = std::mem::take(&mut self.fixes).into_vec();
+        fixes.push(Fix { title: title.into(), edits: edits.into_iter().collect() });
+        self.fixes = fixes.into();
+        self
+    }
+    /// Says that the word at its place is perhaps another one.
+    #[must_use]
+    pub fn meant(self, near: &str) -> Self {
+        let place = self.place;
+        self.hint(format!("did you mean `{near}`?"))
+            .fix(format!("write {near}"), [(place, near.to_string())])
     }
     /// Adds a further place.
     #[must_use]

@@ -15,6 +15,6 @@ pub mod id;
 pub mod number;
 pub mod text;
 
-pub use diagnostic::{Diagnostic, Label, Severity};
+pub use diagnostic::{Diagnostic, Fix, Label, Severity};
 pub use id::{Id, IdVec, Mixer};
 pub use text::{FileId, LineIndex, Name, Place, Span};

@@ -99,6 +99,9 @@ fn show_diagnostic(opened: &Opened, d: &DiagnosticView) -> String {
     if let Some(hint) = &d.hint {
         let _ = writeln!(words, "  hint: {hint}");
     }
+    for fix in &d.fixes {
+        let _ = writeln!(words, "  fix: {}", fix.title);
+    }
     words.push('\n');
     words
 }

@@ -36,6 +36,9 @@ impl Host for FilesBeside {
         let file = self.folder.join(name.replace('.', "/")).with_extension("thing");
         fs::read_to_string(file).ok()
     }
+    fn libraries(&self) -> Vec<String> {
+        embedded::libraries()
+    }
 }
 
 /// An opened document.

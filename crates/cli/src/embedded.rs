@@ -10,6 +10,12 @@ pub(crate) fn page_file(address: &str) -> Option<(&'static str, &'static [u8])> 
     Some(PAGE[index])
 }
 
+/// The names of the libraries, as `use` names them.
+pub(crate) fn libraries() -> Vec<String> {
+    let names = LIBRARY.iter().filter_map(|(name, _)| name.strip_suffix(".thing"));
+    names.map(str::to_string).collect()
+}
+
 /// The text of a library, named as `use` names it.
 pub(crate) fn library(name: &str) -> Option<&'static str> {
     let file = format!("{name}.thing");

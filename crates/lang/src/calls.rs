@@ -175,7 +175,7 @@ impl Lowerer<'_> {
                 let mut d = Diagnostic::error("unknown-part", at, message);
                 let labels: Vec<&str> = wanted.iter().map(|w| w.labels[0].as_str()).collect();
                 d = match nearest(label.text(), labels.iter().copied()) {
-                    Some(near) => d.hint(format!("did you mean `{near}`?")),
+                    Some(near) => d.meant(near),
                     None => d.hint(format!("it has {}", labels.join(", "))),
                 };
                 self.report(d);

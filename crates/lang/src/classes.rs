@@ -182,7 +182,7 @@ impl Lowerer<'_> {
                     let mut d = Diagnostic::error("unknown-class", place, message);
                     let names = self.visible.names(file).map(Name::as_str);
                     if let Some(near) = self.nearest(word.text(), names) {
-                        d = d.hint(format!("did you mean `{near}`?"));
+                        d = d.meant(near);
                     } else {
                         d = d.hint("declare it, or `use` the library that has it");
                     }

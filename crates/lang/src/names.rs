@@ -68,7 +68,7 @@ impl Lowerer<'_> {
             let names = locals.chain(constants).chain(parts).chain(functions).chain(classes);
             let names: Vec<String> = names.collect();
             if let Some(near) = self.nearest(word.text(), names.iter().map(String::as_str)) {
-                d = d.hint(format!("did you mean `{near}`?"));
+                d = d.meant(near);
             }
         }
         self.report(d);
@@ -107,7 +107,7 @@ impl Lowerer<'_> {
             Kind::Bool | Kind::Tuple(_) | Kind::Function | Kind::Unknown => Vec::new(),
         };
         d = match self.nearest(word.text(), names.iter().map(String::as_str)) {
-            Some(near) => d.hint(format!("did you mean `{near}`?")),
+            Some(near) => d.meant(near),
             None if names.is_empty() => d,
             None if names.len() > MOST_LISTED => {
                 d.hint(format!("it has {}, …", names[..MOST_LISTED].join(", ")))

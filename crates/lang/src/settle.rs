@@ -7,6 +7,7 @@ use base::{Diagnostic, Name, Place};
 use kernel::{ClassId, Path, Step};
 use std::collections::BTreeMap;
 use syntax::ast::AstNode;
+use syntax::edit::{Spot, insert_member};
 
 impl Lowerer<'_> {
     /// Reports what can be told only once every class has its members.
@@ -15,6 +16,51 @@ impl Lowerer<'_> {
         self.report_masks();
         self.report_switches();
         self.report_conflicts();
+        self.note_correspondences();
+    }
+
+    /// Superclasses that share parts have them twice, until they are merged: worth knowing.
+    fn note_correspondences(&mut self) {
+        for (id, file, class) in self.declared.clone() {
+            let supers = self.document.classes[id].supers.clone();
+            if supers.len() < 2 || file != crate::lower::OWN {
+                continue;
+            }
+            let merges = &self.document.classes[id].merges;
+            let is_merged = |name: &Name| {
+                merges
+                    .iter()
+                    .flat_map(|m| &m.paths)
+                    .any(|p| p.0.first() == Some(&Step::Part(name.clone())))
+            };
+            let lineages: Vec<Vec<ClassId>> =
+                supers.iter().map(|s| self.document.lineage(s.class)).collect();
+            let has_parts = |c: &ClassId| !self.document.classes[*c].parts.is_empty();
+            // the nearest class with parts that several are, each still on its own
+            let shared = lineages.iter().flatten().find(|&c| {
+                let several = lineages.iter().filter(|l| l.contains(c)).count();
+                several > 1 && has_parts(c)
+            });
+            let Some(&shared) = shared else { continue };
+            let apart = supers.iter().zip(&lineages).filter(|(_, l)| l.contains(&shared));
+            let names: Vec<Name> = apart.map(|(s, _)| s.name.clone()).collect();
+            if names.iter().any(is_merged) {
+                continue;
+            }
+            let listed = names.iter().map(Name::as_str).collect::<Vec<_>>();
+            let what = &self.document.classes[shared].name;
+            let message =
+                format!("the parts of {what} are here once for each of {}", listed.join(", "));
+            let span = class.name().map_or(class.span(), |n| n.span());
+            let member = format!("merge {}", listed.join(" = "));
+            let edit = insert_member(&Spot::EndOf(class.syntax().clone()), &member);
+            let place = Place { file, span: edit.span };
+            self.report(
+                Diagnostic::note("undeclared-correspondence", Place { file, span }, message)
+                    .hint(format!("if they are the same, say so: `{member}`"))
+                    .fix(member, [(place, edit.insert)]),
+            );
+        }
     }
 
     /// A part is declared once in a line of classes; a message keeps its parameters.
@@ -73,7 +119,11 @@ impl Lowerer<'_> {
             let message = format!("no constraint or merge called {path} is inherited here");
             let mut d = Diagnostic::error("unknown-name", place, message);
             if let Some(near) = nearest(name, names.iter().map(|n| n.as_str())) {
-                d = d.hint(format!("did you mean `{near}`?"));
+                let start = place.span.end.saturating_sub(name.len() as u32);
+                let word = Place { span: base::Span::new(start, place.span.end), ..place };
+                d = d
+                    .hint(format!("did you mean `{near}`?"))
+                    .fix(format!("write {near}"), [(word, near.to_string())]);
             } else if !names.is_empty() {
                 let names: Vec<&str> = names.iter().map(|n| n.as_str()).collect();
                 d = d.hint(format!("there are {}", names.join(", ")));
@@ -102,10 +152,21 @@ impl Lowerer<'_> {
                     let defined = self.defined_message(c, &name).map(|m| m.origin);
                     self.origins.place(defined.unwrap_or(self.document.classes[c].origin))
                 };
-                let diagnostic = Diagnostic::error("conflict", Place { file, span }, message)
-                    .hint(hint)
-                    .label(place(a), "here")
-                    .label(place(b), "and here");
+                let way = |s: &kernel::Superclass| {
+                    let member = format!("{name} => {}.{name}", s.name);
+                    let spot = Spot::EndOf(class.syntax().clone());
+                    let edit = insert_member(&spot, &member);
+                    (member, [(Place { file, span: edit.span }, edit.insert)])
+                };
+                let supers = self.document.classes[id].supers.clone();
+                let says = |s: &&kernel::Superclass| {
+                    self.document.is_a(s.class, a) || self.document.is_a(s.class, b)
+                };
+                let diagnostic = Diagnostic::error("conflict", Place { file, span }, message);
+                let fixed = supers.iter().filter(says).map(way);
+                let diagnostic = fixed.fold(diagnostic, |d, (title, edits)| d.fix(title, edits));
+                let diagnostic =
+                    diagnostic.hint(hint).label(place(a), "here").label(place(b), "and here");
                 self.report(diagnostic);
             }
         }

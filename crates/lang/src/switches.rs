@@ -69,6 +69,10 @@ impl Lowerer<'_> {
             let mut d = Diagnostic::error("unknown-name", place, message);
             if let Some(near) = self.nearest(&name, names.iter().map(Name::as_str)) {
                 d = d.hint(format!("did you mean `{near}`?"));
+                let end = place.span.end - ".enabled".len() as u32;
+                let start = end.saturating_sub(name.len() as u32);
+                let word = Place { span: base::Span::new(start, end), ..place };
+                d = d.fix(format!("write {near}"), [(word, near.to_string())]);
             } else if !names.is_empty() {
                 let names: Vec<&str> = names.iter().map(Name::as_str).collect();
                 d = d.hint(format!("there are {}", names.join(", ")));

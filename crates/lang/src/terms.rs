@@ -140,7 +140,7 @@ impl Lowerer<'_> {
         let message = format!("{spelling} is no unit that is known here");
         let mut d = Diagnostic::error("unknown-unit", place, message);
         if let Some(near) = nearest(spelling, expr::units::spellings()) {
-            d = d.hint(format!("did you mean `{near}`?"));
+            d = d.meant(near);
         }
         self.report(d);
     }

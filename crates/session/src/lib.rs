@@ -19,6 +19,7 @@ mod complaints;
 mod difference;
 mod document;
 mod drag;
+mod fixes;
 mod recognise;
 mod session;
 mod state;

@@ -9,8 +9,8 @@ use crate::host::Host;
 use crate::recognise;
 use crate::state::State;
 use crate::view::{
-    Change, CheckReport, DocumentId, DragState, Explanation, PictureView, Question, Recognised,
-    Refusal, Status, StructureRow, TextView, ValueRow,
+    Change, CheckReport, DocumentId, DragState, Explanation, FixView, PictureView, Question,
+    Recognised, Refusal, Status, StructureRow, TextView, ValueRow,
 };
 use crate::views;
 use crate::words;
@@ -85,6 +85,28 @@ impl Session {
     /// No parts, too many, one twice, or a path that leads nowhere.
     pub fn recognise(&self, id: DocumentId, paths: &[Path]) -> Result<Vec<Recognised>, Refusal> {
         recognise::recognise(&self.document(id).state, paths)
+    }
+    /// Mends what a diagnostic speaks of, by one of its fixes.
+    ///
+    /// # Errors
+    /// The text is no longer the one that the fix was made for.
+    pub fn fix(&mut self, id: DocumentId, fix: &FixView) -> Result<Change, Refusal> {
+        let text = &self.document(id).state.text;
+        let fits =
+            |e: &crate::view::TextChange| text.get(e.start as usize..e.end as usize).is_some();
+        if !fix.edits.iter().all(fits) {
+            return Err(words::refuse("the text has changed meanwhile".into()));
+        }
+        let edits: Vec<syntax::TextEdit> = fix
+            .edits
+            .iter()
+            .map(|e| syntax::TextEdit {
+                span: base::Span::new(e.start, e.end),
+                insert: e.insert.clone(),
+            })
+            .collect();
+        let text = syntax::edit::apply(text, &edits);
+        self.apply(id, &Command::Text(text))
     }
     /// Sets a value to what a person typed: `300 ohm`, `2*80`, `(3, 4)`, any words for a text.
     ///

@@ -52,6 +52,7 @@ impl State {
                 Diagnostic::error(f.kind.code(), lowered.place(f.origin), f.message.clone())
             }),
         );
+        crate::fixes::add_uses(&text, &mut diagnostics, host);
         let unplanned = unplanned.iter().map(|f| f.origin).collect();
         diagnostics.sort_by_key(|d| (d.place.file, d.place.span.start));
         let mut values = Values::new(structure.slots.len());

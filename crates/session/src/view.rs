@@ -107,6 +107,17 @@ pub struct DiagnosticView {
     pub line: u32,
     /// The column in characters, from 1.
     pub column: u32,
+    /// Edits of the document's text that would mend it, one of which can be chosen.
+    pub fixes: Vec<FixView>,
+}
+
+/// An edit of the text that would mend what a diagnostic speaks of.
+#[derive(Clone, PartialEq, Eq, Debug, Serialize)]
+pub struct FixView {
+    /// What it does, as a button says it.
+    pub title: String,
+    /// The stretches to replace, each relative to the text as it is.
+    pub edits: Vec<TextChange>,
 }
 
 /// The state of a thing, as colour and word.

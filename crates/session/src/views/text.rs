@@ -1,7 +1,7 @@
 //! The text view: the source, its colours, and what is wrong with it.
 
 use crate::state::State;
-use crate::view::{DiagnosticView, TextView, TokenView};
+use crate::view::{DiagnosticView, FixView, TextChange, TextView, TokenView};
 use base::{Diagnostic, LineIndex, Severity};
 use syntax::{SyntaxKind, SyntaxToken};
 
@@ -34,6 +34,17 @@ fn token(token: &SyntaxToken) -> Option<TokenView> {
     Some(TokenView { start: span.start, end: span.end, kind: kind.into() })
 }
 
+/// Returns a fix as an editor offers it; nothing for one of another text than the document's own.
+fn fix(fix: &base::Fix) -> Option<FixView> {
+    let change = |(place, insert): &(base::Place, String)| {
+        let (start, end) = (place.span.start, place.span.end);
+        let own = place.file == base::FileId(0);
+        own.then(|| TextChange { start, end, insert: insert.clone() })
+    };
+    let edits: Option<Vec<TextChange>> = fix.edits.iter().map(change).collect();
+    Some(FixView { title: fix.title.clone(), edits: edits? })
+}
+
 /// Returns a diagnostic as an editor shows it.
 pub(crate) fn diagnostic(state: &State, d: &Diagnostic) -> DiagnosticView {
     let file = &state.lowered.files[d.place.file];
@@ -53,5 +64,6 @@ pub(crate) fn diagnostic(state: &State, d: &Diagnostic) -> DiagnosticView {
         end: d.place.span.end,
         line,
         column,
+        fixes: d.fixes.iter().filter_map(fix).collect(),
     }
 }

@@ -15,6 +15,9 @@ impl Host for Library {
     fn read(&self, name: &str) -> Option<String> {
         fs::read_to_string(project().join("library").join(name).with_extension("thing")).ok()
     }
+    fn libraries(&self) -> Vec<String> {
+        vec!["calculator".into(), "geometry".into()]
+    }
 }
 
 /// One open document.

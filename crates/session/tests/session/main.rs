@@ -3,6 +3,7 @@ mod desk;
 mod dragging;
 
 mod explaining;
+mod fixing;
 mod recognising;
 mod refusing;
 mod restructuring;

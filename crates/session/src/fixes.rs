@@ -1,0 +1,56 @@
+//! Fixes that need to know what there is outside of a text: the libraries that have what is missing.
+
+use crate::host::Host;
+use base::{Diagnostic, FileId, Place, Span};
+use syntax::ast::{AstNode, Member};
+use syntax::edit::{Spot, insert_member};
+
+/// Adds to every diagnostic of an unknown class the `use` that would bring it.
+pub(crate) fn add_uses(text: &str, diagnostics: &mut [Diagnostic], host: &dyn Host) {
+    let own = FileId(0);
+    let unknown = |d: &&mut Diagnostic| {
+        matches!(d.code, "unknown-class" | "unknown-name") && d.place.file == own
+    };
+    let mut libraries: Option<Vec<(String, String)>> = None;
+    for diagnostic in diagnostics.iter_mut().filter(unknown) {
+        let word = text.get(diagnostic.place.span.range()).unwrap_or_default();
+        if !word.starts_with(char::is_uppercase) {
+            continue;
+        }
+        let libraries = libraries.get_or_insert_with(|| {
+            let names = host.libraries().into_iter();
+            names.filter_map(|name| host.read(&name).map(|text| (name, text))).collect()
+        });
+        // what was used already would have been found
+        for (name, _) in libraries.iter().filter(|(_, library)| declares(library, word)) {
+            let (at, insert) = use_line(text, name);
+            let title = format!("use {name}");
+            let place = Place { file: own, span: at };
+            *diagnostic = diagnostic.clone().hint(format!("{name} has it: `use {name}`"));
+            *diagnostic = diagnostic.clone().fix(title, [(place, insert)]);
+        }
+    }
+}
+
+/// Returns true if a text declares a class of this name.
+fn declares(text: &str, class: &str) -> bool {
+    text.contains(class)
+        && syntax::parse(FileId(0), text).file().members().any(|m| match m {
+            Member::Class(c) => c.name().is_some_and(|w| w.text() == class),
+            _ => false,
+        })
+}
+
+/// Returns where a `use` goes, and its line.
+fn use_line(text: &str, name: &str) -> (Span, String) {
+    let file = syntax::parse(FileId(0), text).file();
+    let members: Vec<Member> = file.members().collect();
+    let last = members.iter().rfind(|m| matches!(m, Member::Use(_)));
+    let spot = match (last, members.first()) {
+        (Some(last), _) => Spot::After(last.syntax().clone()),
+        (None, Some(first)) => Spot::Before(first.syntax().clone()),
+        (None, None) => Spot::EndOf(file.syntax().clone()),
+    };
+    let edit = insert_member(&spot, &format!("use {name}"));
+    (edit.span, edit.insert)
+}
