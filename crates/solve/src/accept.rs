@@ -5,7 +5,7 @@
 //! accepted otherwise; of the rest, a place or lone number stays if the accepted rows can do without
 //! it, asked in order of declaration, all its coordinates at once.
 
-use crate::rows::Row;
+use crate::rows::Rows;
 use crate::substitute::Classes;
 use crate::system::{Level, SlotIndex, Stay, System};
 use crate::tableau::{Reduced, SparseRow, Tableau};
@@ -47,14 +47,14 @@ pub(crate) struct Acceptance {
 }
 
 /// Decides which rows are accepted and which slots stay.
-pub(crate) fn accept(system: &System, classes: &Classes, rows: &[Row]) -> Acceptance {
+pub(crate) fn accept(system: &System, classes: &Classes, rows: &Rows) -> Acceptance {
     let mut order: Vec<usize> = (0..rows.len()).collect();
     order.sort_by_key(|&r| (rows[r].level, r));
     let mut state = State::new(system, classes);
     let mut out = Acceptance::default();
     let mut required_rank = 0;
     for r in order {
-        let reduced = state.tableau.reduce(&rows[r].columns);
+        let reduced = state.tableau.reduce(rows.columns(r));
         match state.pivot(&reduced.row) {
             Some(column) => {
                 if rows[r].level == Level::Required

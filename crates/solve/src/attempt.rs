@@ -245,7 +245,7 @@ impl Run<'_> {
         if inputs == Motion::Still {
             return match &step.program {
                 Program::Constant(_) | Program::Copy => false,
-                Program::Formulas(_) | Program::Inverse(_) | Program::Square(_) => {
+                Program::Formulas(..) | Program::Inverse(_) | Program::Square(_) => {
                     step.rows.iter().all(|&r| self.frame.held[r as usize])
                 }
                 Program::Host { source, .. } => self.host.holds(*source, self.values),
@@ -265,11 +265,13 @@ impl Run<'_> {
                 return (sides[0] - sides[1]).abs() <= row.within * larger;
             }
             Program::Host { source, .. } => return self.host.holds(*source, self.values),
-            Program::Formulas(tape) => {
-                let out = &mut self.buffers.out;
-                out.clear();
-                out.resize(step.targets.len(), 0.0);
-                tape.run(self.values, &mut self.buffers.work.registers, out);
+            Program::Formulas(pattern, arguments) => {
+                let out = self.buffers.work.run(
+                    pattern.values(),
+                    arguments,
+                    self.values,
+                    step.targets.len(),
+                );
                 return step
                     .targets
                     .iter()
@@ -289,11 +291,13 @@ impl Run<'_> {
             Program::Copy => {
                 self.values[step.targets[0] as usize] = self.values[step.reads[0] as usize];
             }
-            Program::Formulas(tape) => {
-                let out = &mut self.buffers.out;
-                out.clear();
-                out.resize(step.targets.len(), 0.0);
-                tape.run(self.values, &mut self.buffers.work.registers, out);
+            Program::Formulas(pattern, arguments) => {
+                let out = self.buffers.work.run(
+                    pattern.values(),
+                    arguments,
+                    self.values,
+                    step.targets.len(),
+                );
                 for (&t, &value) in step.targets.iter().zip(out.iter()) {
                     self.values[t as usize] = value;
                 }

@@ -512,11 +512,12 @@ impl Group {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::kernel::Kernels;
+    use crate::kernel::Kernel;
     use crate::lower::ProblemRow;
 
     fn row(arena: &Arena, level: Level, left: ExprId, right: ExprId) -> ProblemRow {
-        let (kernel, arguments) = Kernels::default().row(arena, left, right);
+        let (kernel, arguments) = Kernel::of_slots(arena, left, right);
+        let (kernel, arguments) = (Rc::new(kernel), arguments.into());
         ProblemRow { kernel, arguments, level, within: 1e-9 }
     }
 

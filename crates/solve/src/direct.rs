@@ -5,10 +5,9 @@
 //! methods whose targets are all unknown and that leaves every other row a slot.
 
 use crate::accept::Acceptance;
-use crate::rows::Row;
+use crate::rows::Rows;
 use crate::substitute::Classes;
 use crate::system::{SlotIndex, System};
-use std::collections::BTreeMap;
 
 /// Which way.
 #[derive(Clone, Debug, Default)]
@@ -17,14 +16,27 @@ pub(crate) struct Direction {
     pub(crate) slot_of_row: Vec<Option<SlotIndex>>,
     /// For every slot, the row that determines it.
     pub(crate) row_of_slot: Vec<Option<usize>>,
-    /// For every relation, the written method that was chosen.
-    pub(crate) method: BTreeMap<u32, usize>,
-    /// For every slot that a method writes beyond its relation's rows, that relation's first row.
-    pub(crate) written_by: BTreeMap<SlotIndex, usize>,
+    /// Every relation with the written method that was chosen, in order.
+    pub(crate) methods: Vec<(u32, u32)>,
+    /// Every slot that a method writes beyond its relation's rows, with that relation's first row, in
+    /// order.
+    pub(crate) written_by: Vec<(SlotIndex, usize)>,
+}
+
+impl Direction {
+    /// Returns the written method that was chosen for a relation.
+    pub(crate) fn method_of(&self, relation: u32) -> Option<u32> {
+        let at = self.methods.binary_search_by_key(&relation, |m| m.0).ok()?;
+        Some(self.methods[at].1)
+    }
+    /// Returns true if a method writes the slot beyond its relation's rows.
+    pub(crate) fn is_written(&self, slot: SlotIndex) -> bool {
+        self.written_by.binary_search_by_key(&slot, |w| w.0).is_ok()
+    }
 }
 
 struct Matching<'a> {
-    rows: &'a [Row],
+    rows: &'a Rows,
     open: Vec<bool>,
     fixed_row: Vec<bool>,
     slot_of_row: Vec<Option<SlotIndex>>,
@@ -37,7 +49,7 @@ struct Matching<'a> {
 pub(crate) fn direct(
     system: &System,
     classes: &Classes,
-    rows: &[Row],
+    rows: &Rows,
     acceptance: &Acceptance,
 ) -> Direction {
     let n = system.slots.len();
@@ -53,26 +65,29 @@ pub(crate) fn direct(
     for &r in &acceptance.accepted {
         m.match_row(r);
     }
-    let mut of_relation: BTreeMap<u32, Vec<usize>> = BTreeMap::new();
-    for &r in &acceptance.accepted {
-        of_relation.entry(rows[r].relation).or_default().push(r);
-    }
-    let mut method = BTreeMap::new();
-    let mut written_by = BTreeMap::new();
-    for (&relation, own) in &of_relation {
-        for (index, written) in system.relations[relation as usize].methods.iter().enumerate() {
+    let mut with_methods: Vec<usize> = acceptance
+        .accepted
+        .iter()
+        .copied()
+        .filter(|&r| !system.relations[rows[r].relation as usize].methods.is_empty())
+        .collect();
+    with_methods.sort_unstable();
+    let mut methods = Vec::new();
+    let mut written_by = Vec::new();
+    for own in with_methods.chunk_by(|&a, &b| rows[a].relation == rows[b].relation) {
+        let relation = rows[own[0]].relation;
+        for (index, written) in (0..).zip(&system.relations[relation as usize].methods) {
             let targets: Vec<SlotIndex> =
                 written.targets.iter().map(|&t| classes.representative[t as usize]).collect();
             if m.force(own, &targets) {
-                method.insert(relation, index);
-                for &t in &targets[own.len()..] {
-                    written_by.insert(t, own[0]);
-                }
+                methods.push((relation, index));
+                written_by.extend(targets[own.len()..].iter().map(|&t| (t, own[0])));
                 break;
             }
         }
     }
-    Direction { slot_of_row: m.slot_of_row, row_of_slot: m.row_of_slot, method, written_by }
+    written_by.sort_unstable();
+    Direction { slot_of_row: m.slot_of_row, row_of_slot: m.row_of_slot, methods, written_by }
 }
 
 impl Matching<'_> {
@@ -83,7 +98,7 @@ impl Matching<'_> {
         let mut stack = vec![(row, 0usize)];
         let mut path: Vec<SlotIndex> = Vec::new();
         while let Some(&(r, next)) = stack.last() {
-            let columns = &self.rows[r].columns;
+            let columns = self.rows.columns(r);
             let free = (next == 0)
                 .then(|| columns.iter().rev().map(|e| e.0).find(|&c| self.is_free(c)))
                 .flatten();

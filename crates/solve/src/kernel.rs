@@ -5,9 +5,8 @@
 //! arguments: two thousand distances are one kernel.
 
 use crate::system::SlotIndex;
-use expr::{Arena, ExprId, Guard, Node, Tape, Var, gradient};
-use std::collections::BTreeMap;
-use std::rc::Rc;
+use expr::{Arena, Binary, ExprId, Guard, Node, Tape, Unary, Var, gradient};
+use std::collections::BTreeSet;
 use std::sync::OnceLock;
 
 /// An equation of numbered arguments, with everything derived from it.
@@ -33,6 +32,8 @@ pub(crate) struct Entry {
     pub(crate) argument: u32,
     /// The arguments that it depends on.
     pub(crate) depends: Vec<u32>,
+    /// True if it can be zero by a choice: of a sign, of the larger, of a case.
+    pub(crate) branches: bool,
 }
 
 /// Second derivatives that are not zero everywhere.
@@ -83,7 +84,8 @@ impl Kernel {
         for (var, d) in vars.iter().zip(gradient(&mut arena, residual, &vars)) {
             if arena.as_constant(d) != Some(0.0) {
                 let depends = arena.variables(d).into_iter().map(|v| v.0).collect();
-                entries.push(Entry { argument: var.0, depends });
+                let branches = branches(&arena, d);
+                entries.push(Entry { argument: var.0, depends, branches });
                 derivatives.push(d);
             }
         }
@@ -183,31 +185,6 @@ impl std::fmt::Debug for Kernel {
     }
 }
 
-/// Kernels by the equations that they compile.
-#[derive(Debug, Default)]
-pub(crate) struct Kernels {
-    arena: Arena,
-    kernels: BTreeMap<(ExprId, ExprId), Rc<Kernel>>,
-}
-
-impl Kernels {
-    /// Returns the kernel of an equation, and the slots that are its arguments.
-    pub(crate) fn row(
-        &mut self,
-        from: &Arena,
-        left: ExprId,
-        right: ExprId,
-    ) -> (Rc<Kernel>, Vec<SlotIndex>) {
-        let (left, right, arguments) = canonical(from, left, right, &mut self.arena);
-        let arity = arguments.len() as u32;
-        let Self { arena, kernels } = self;
-        let kernel = kernels
-            .entry((left, right))
-            .or_insert_with(|| Rc::new(Kernel::compile(arena, left, right, arity)));
-        (Rc::clone(kernel), arguments)
-    }
-}
-
 /// Copies an equation of slots with its variables numbered in their order; returns them.
 fn canonical(
     from: &Arena,
@@ -222,4 +199,38 @@ fn canonical(
     let at = |v: Var| arguments.partition_point(|&a| a < v.0);
     let [left, right] = [left, right].map(|id| into.import(from, id, &mut |v| vars[at(v)]));
     (left, right, arguments)
+}
+
+/// Returns true if the value of an expression depends on a choice.
+fn branches(arena: &Arena, id: ExprId) -> bool {
+    let mut seen = BTreeSet::from([id]);
+    let mut stack = vec![id];
+    while let Some(id) = stack.pop() {
+        let node = arena.node(id);
+        let chooses = match node {
+            Node::Constant(_) | Node::Var(_) => false,
+            Node::Unary(op, _) => {
+                matches!(op, Unary::Abs | Unary::Sign | Unary::Floor | Unary::Round | Unary::Not)
+            }
+            Node::Binary(op, ..) => matches!(
+                op,
+                Binary::Min
+                    | Binary::Max
+                    | Binary::Less
+                    | Binary::LessEqual
+                    | Binary::Equal
+                    | Binary::NotEqual
+            ),
+            Node::Select { .. } => true,
+        };
+        if chooses {
+            return true;
+        }
+        node.each_operand(|a| {
+            if seen.insert(a) {
+                stack.push(a);
+            }
+        });
+    }
+    false
 }

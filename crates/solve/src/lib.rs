@@ -39,11 +39,14 @@
 //! Invariants: equal systems have equal plans; a run that is refused changes nothing; what is not
 //! downstream of a change keeps its bits; a second run changes no bit; no value is ever infinite or
 //! not a number.
+pub mod few;
 pub mod pattern;
 pub mod system;
 
+mod lists;
 mod stated;
 mod substitute;
+mod union;
 
 mod tableau;
 
@@ -78,6 +81,7 @@ mod attempt;
 
 pub mod run;
 
+pub use few::Few;
 pub use outcome::{Host, NoHost, Note, Outcome, Reason, Status, Unmet};
 pub use pattern::{Pattern, PatternId, Patterns, Scratch};
 pub use plan::{Plan, Rejected, Report, Step, StepKind, plan};

@@ -4,18 +4,20 @@
 //! again, and the regions, whose soft rows can be approached where they cannot be met.
 
 use crate::block::Block as Laid;
-use crate::kernel::{Kernel, Kernels};
+use crate::few::Few;
+use crate::kernel::Kernel;
 use crate::least::Least;
 use crate::measure::Measure;
 use crate::order::Block;
+use crate::pattern::Pattern;
 use crate::plan::{Analysis, Step, StepKind};
 use crate::rows::Row;
 use crate::square::Square;
-use crate::system::{Level, MethodBody, SlotIndex, Stay};
-use expr::{Arena, Tape};
-use std::collections::{BTreeMap, BTreeSet};
+use crate::system::{Level, MethodBody, RelationBody, SlotIndex, Stay};
+use crate::union::Union;
+use std::cell::OnceCell;
+use std::collections::BTreeSet;
 use std::rc::Rc;
-use std::sync::OnceLock;
 
 /// What a step runs.
 #[derive(Debug)]
@@ -24,16 +26,16 @@ pub(crate) enum Program {
     Constant(f64),
     /// Its target takes the value of its one read.
     Copy,
-    /// A value for each target.
-    Formulas(Tape),
+    /// A pattern of a value for each target, and its arguments.
+    Formulas(Rc<Pattern>, Few),
     /// One equation solved for its target.
     Inverse(Inverse),
     /// As many equations as unknowns.
-    Square(Square),
+    Square(Box<Square>),
     /// Fewer equations than unknowns, and the measure for where they cannot all hold.
     Least(Box<(Least, Measure)>),
     /// Anything else.
-    Measure(Measure),
+    Measure(Box<Measure>),
     /// The host computes.
     Host {
         /// What the caller calls the relation.
@@ -51,7 +53,7 @@ pub(crate) struct Inverse {
     /// Which argument is the target; the kernel has formulas for it.
     pub(crate) argument: u32,
     /// What solves it where the guards fail; made when it is first needed.
-    fallback: OnceLock<Square>,
+    fallback: OnceCell<Box<Square>>,
 }
 
 impl Inverse {
@@ -61,7 +63,7 @@ impl Inverse {
         let (argument, _) = places.next()?;
         let once = places.next().is_none();
         row.kernel.solved(argument).filter(|_| once)?;
-        Some(Self { row: row.clone(), argument, fallback: OnceLock::new() })
+        Some(Self { row: row.clone(), argument, fallback: OnceCell::new() })
     }
     /// Returns the number of formulas.
     fn roots(&self) -> u32 {
@@ -71,7 +73,8 @@ impl Inverse {
     pub(crate) fn fallback(&self) -> &Square {
         self.fallback.get_or_init(|| {
             let target = self.row.arguments[self.argument as usize];
-            Square::new(&Problem { rows: vec![self.row.clone()], unknowns: vec![target] })
+            let problem = Problem { rows: vec![self.row.clone()], unknowns: vec![target] };
+            Box::new(Square::new(&problem))
         })
     }
 }
@@ -84,7 +87,7 @@ pub(crate) struct Region {
     /// The rows of the whole region.
     pub(crate) problem: Problem,
     /// Made when it is first needed.
-    pub(crate) approach: OnceLock<Measure>,
+    pub(crate) approach: OnceCell<Measure>,
 }
 
 /// Rows and unknowns before they are laid out.
@@ -98,7 +101,7 @@ pub(crate) struct Problem {
 #[derive(Clone, Debug)]
 pub(crate) struct ProblemRow {
     pub(crate) kernel: Rc<Kernel>,
-    pub(crate) arguments: Vec<SlotIndex>,
+    pub(crate) arguments: Few,
     pub(crate) level: Level,
     pub(crate) within: f64,
 }
@@ -121,148 +124,140 @@ pub(crate) struct Lowered {
 }
 
 /// Lowers every block, then the slots that equal others.
-pub(crate) fn lower(analysis: &Analysis<'_>, arena: &mut Arena, blocks: &[Block]) -> Lowered {
-    let mut steps = Vec::new();
-    let mut equalities: BTreeMap<SlotIndex, Vec<u32>> = BTreeMap::new();
-    for (&(relation, _), &root) in &analysis.classes.used {
-        let relations = equalities.entry(root).or_default();
-        if relations.last() != Some(&relation) {
-            relations.push(relation);
-        }
+pub(crate) fn lower(analysis: &Analysis<'_>, blocks: &[Block]) -> Lowered {
+    let classes = &analysis.classes;
+    let equalities = classes.equalities(&analysis.stated.system);
+    let mut steps = Vec::with_capacity(blocks.len());
+    for &(slot, bits) in &classes.constants {
+        let program = Program::Constant(f64::from_bits(bits));
+        steps.push(alias(&equalities, slot, slot, program, Few::default()));
     }
-    for (&slot, &bits) in &analysis.classes.constants {
-        steps.push(alias(
-            &equalities,
-            slot,
-            slot,
-            Program::Constant(f64::from_bits(bits)),
-            Vec::new(),
-        ));
-    }
-    let mut kernels = Kernels::default();
     let region_of = regions_of(analysis, blocks);
-    let mut regions: Vec<Region> = Vec::new();
     for (block, &region) in blocks.iter().zip(&region_of) {
-        if region as usize == regions.len() {
-            regions.push(Region { can_approach: true, ..Region::default() });
-        }
         let first = steps.len();
-        lower_block(analysis, arena, &mut kernels, block, &mut steps);
+        lower_block(analysis, block, &mut steps);
         for step in &mut steps[first..] {
             step.region = region;
         }
-        let home = &mut regions[region as usize];
-        home.problem.unknowns.extend(&block.unknowns);
-        for &r in &block.rows {
-            match problem_row(arena, &mut kernels, &analysis.rows[r]) {
-                Some(row) => home.problem.rows.push(row),
-                None => home.can_approach = false,
-            }
-        }
     }
-    for region in &mut regions {
-        region.can_approach &= region.problem.rows.iter().any(|r| r.level != Level::Required);
-        region.problem.unknowns.sort_unstable();
-    }
-    for (&root, members) in &analysis.classes.members {
+    for (root, members) in classes.members() {
         for &m in members.iter().filter(|&&m| m != root) {
-            steps.push(alias(&equalities, root, m, Program::Copy, vec![root]));
+            let reads = [root].into_iter().collect();
+            steps.push(alias(&equalities, root, m, Program::Copy, reads));
         }
     }
-    Lowered { steps, regions }
+    Lowered { steps, regions: regions(analysis, blocks, &region_of) }
 }
 
 fn alias(
-    equalities: &BTreeMap<SlotIndex, Vec<u32>>,
+    equalities: &[(SlotIndex, u32)],
     root: SlotIndex,
     target: SlotIndex,
     program: Program,
-    reads: Vec<SlotIndex>,
+    reads: Few,
 ) -> Step {
-    let relations = equalities.get(&root).cloned().unwrap_or_default();
+    let first = equalities.partition_point(|e| e.0 < root);
+    let own = equalities[first..].iter().take_while(|e| e.0 == root);
     Step {
         kind: StepKind::Alias,
-        targets: vec![target],
+        targets: [target].into_iter().collect(),
         reads,
-        relations,
+        relations: own.map(|e| e.1).collect(),
         program,
         region: u32::MAX,
-        rows: Vec::new(),
+        rows: Few::default(),
     }
 }
 
-fn problem_row(arena: &Arena, kernels: &mut Kernels, row: &Row) -> Option<ProblemRow> {
-    let (left, right) = row.sides?;
-    let (kernel, arguments) = kernels.row(arena, left, right);
-    Some(ProblemRow { kernel, arguments, level: row.level, within: row.within })
+fn problem_row(analysis: &Analysis<'_>, row: usize) -> Option<ProblemRow> {
+    let kernel = analysis.rows.kernel(row)?.clone();
+    let arguments = analysis.rows.mentions(row).into();
+    let Row { level, within, .. } = analysis.rows[row];
+    Some(ProblemRow { kernel, arguments, level, within })
 }
 
 /// Numbers the regions by their first block.
 fn regions_of(analysis: &Analysis<'_>, blocks: &[Block]) -> Vec<u32> {
-    let mut block_of_slot: BTreeMap<SlotIndex, usize> = BTreeMap::new();
-    for (b, block) in blocks.iter().enumerate() {
-        block_of_slot.extend(block.unknowns.iter().map(|&s| (s, b)));
+    const NONE: u32 = u32::MAX;
+    let mut block_of_slot = vec![NONE; analysis.stated.system.slots.len()];
+    for (b, block) in (0..).zip(blocks) {
+        block.unknowns.iter().for_each(|&s| block_of_slot[s as usize] = b);
     }
-    let mut parent: Vec<usize> = (0..blocks.len()).collect();
-    fn find(parent: &mut [usize], mut i: usize) -> usize {
-        while parent[i] != i {
-            parent[i] = parent[parent[i]];
-            i = parent[i];
-        }
-        i
-    }
+    let mut union = Union::new(blocks.len());
     for (b, block) in blocks.iter().enumerate() {
-        for s in reads_of(analysis, block) {
-            if let Some(&other) = block_of_slot.get(&s) {
-                let (x, y) = (find(&mut parent, b), find(&mut parent, other));
-                parent[x.max(y)] = x.min(y);
+        for &r in &block.rows {
+            for &s in analysis.reads_of_row(r) {
+                let other = block_of_slot[s as usize];
+                if other != NONE {
+                    union.unite(b, other as usize);
+                }
             }
         }
     }
-    let mut number: BTreeMap<usize, u32> = BTreeMap::new();
-    (0..blocks.len())
-        .map(|b| {
-            let root = find(&mut parent, b);
-            let next = number.len() as u32;
-            *number.entry(root).or_insert(next)
-        })
-        .collect()
+    let mut number = vec![NONE; blocks.len()];
+    let mut next = 0;
+    let mut number_of = |root: usize| {
+        if number[root] == NONE {
+            number[root] = next;
+            next += 1;
+        }
+        number[root]
+    };
+    (0..blocks.len()).map(|b| number_of(union.find(b))).collect()
 }
 
-fn reads_of(analysis: &Analysis<'_>, block: &Block) -> BTreeSet<SlotIndex> {
-    let mut reads = BTreeSet::new();
-    for &r in &block.rows {
-        let row = &analysis.rows[r];
-        reads.extend(analysis.method_reads.get(&row.relation).unwrap_or(&row.mentions));
+/// States the problems of regions that may have to be approached.
+fn regions(analysis: &Analysis<'_>, blocks: &[Block], region_of: &[u32]) -> Vec<Region> {
+    let count = region_of.iter().max().map_or(0, |&last| last as usize + 1);
+    let mut regions: Vec<Region> = (0..count).map(|_| Region::default()).collect();
+    let mut is_opaque = vec![false; count];
+    for (block, &region) in blocks.iter().zip(region_of) {
+        for &r in &block.rows {
+            let soft = analysis.rows[r].level != Level::Required;
+            regions[region as usize].can_approach |= soft;
+            is_opaque[region as usize] |= analysis.rows.kernel(r).is_none();
+        }
     }
-    for slot in &block.unknowns {
-        reads.remove(slot);
+    for (region, opaque) in regions.iter_mut().zip(is_opaque) {
+        region.can_approach &= !opaque;
     }
+    for (block, &region) in blocks.iter().zip(region_of) {
+        let region = &mut regions[region as usize];
+        if region.can_approach {
+            region.problem.unknowns.extend(&block.unknowns);
+            let rows = block.rows.iter().filter_map(|&r| problem_row(analysis, r));
+            region.problem.rows.extend(rows);
+        }
+    }
+    regions.iter_mut().for_each(|r| r.problem.unknowns.sort_unstable());
+    regions
+}
+
+fn reads_of(analysis: &Analysis<'_>, block: &Block) -> Vec<SlotIndex> {
+    let all = block.rows.iter().flat_map(|&r| analysis.reads_of_row(r));
+    let is_own = |s: &SlotIndex| block.unknowns.binary_search(s).is_ok();
+    let mut reads: Vec<SlotIndex> = all.copied().filter(|s| !is_own(s)).collect();
+    reads.sort_unstable();
+    reads.dedup();
     reads
 }
 
-fn lower_block(
-    analysis: &Analysis<'_>,
-    arena: &mut Arena,
-    kernels: &mut Kernels,
-    block: &Block,
-    steps: &mut Vec<Step>,
-) {
-    let first = &analysis.rows[block.rows[0]];
-    let one_relation = block.rows.iter().all(|&r| analysis.rows[r].relation == first.relation);
-    if one_relation && let Some(step) = by_method(analysis, arena, first.relation, &block.rows) {
+fn lower_block(analysis: &Analysis<'_>, block: &Block, steps: &mut Vec<Step>) {
+    let first = analysis.rows[block.rows[0]].relation;
+    let one_relation = block.rows.iter().all(|&r| analysis.rows[r].relation == first);
+    if one_relation && let Some(step) = by_method(analysis, first, &block.rows) {
         steps.push(step);
         return;
     }
-    let opaque = block.rows.iter().any(|&r| analysis.rows[r].sides.is_none());
-    let writes_more = block.unknowns.iter().any(|s| analysis.direction.written_by.contains_key(s));
+    let opaque = block.rows.iter().any(|&r| analysis.rows.kernel(r).is_none());
+    let writes_more = block.unknowns.iter().any(|s| analysis.direction.is_written(*s));
     if opaque || writes_more {
-        once_round(analysis, arena, kernels, block, steps);
+        once_round(analysis, block, steps);
         return;
     }
     let rows = block.rows.iter();
     let problem = Problem {
-        rows: rows.filter_map(|&r| problem_row(arena, kernels, &analysis.rows[r])).collect(),
+        rows: rows.filter_map(|&r| problem_row(analysis, r)).collect(),
         unknowns: block.unknowns.clone(),
     };
     if problem.rows.len() == problem.unknowns.len() {
@@ -274,14 +269,14 @@ fn lower_block(
         || block.rows.iter().any(|&r| analysis.direction.slot_of_row[r].is_none());
     let kind = if soft && over { StepKind::Compromise } else { StepKind::LeastChange };
     let program = measure(analysis, &problem, kind);
-    let reads = reads_of(analysis, block).into_iter().collect();
-    steps.push(step(analysis, kind, &block.rows, block.unknowns.clone(), reads, program));
+    let (targets, reads) = (block.unknowns.clone().into(), reads_of(analysis, block).into());
+    steps.push(step(analysis, kind, &block.rows, targets, reads, program));
 }
 
 /// The steps of a square block: by formula where all comes from one unknown that has one, and at once
 /// where not.
 fn square_block(analysis: &Analysis<'_>, block: &Block, problem: &Problem, steps: &mut Vec<Step>) {
-    let reads: Vec<SlotIndex> = reads_of(analysis, block).into_iter().collect();
+    let reads = Few::from(reads_of(analysis, block));
     if let ([row], [slot]) = (&problem.rows[..], &problem.unknowns[..])
         && let Some(inverse) = Inverse::new(row, *slot)
     {
@@ -296,15 +291,21 @@ fn square_block(analysis: &Analysis<'_>, block: &Block, problem: &Problem, steps
         steps.push(step);
         for (row, inverse) in rest {
             let target = inverse.row.arguments[inverse.argument as usize];
-            let mut reads = inverse.row.arguments.clone();
-            reads.retain(|&s| s != target);
+            let reads = inverse.row.arguments.iter().copied().filter(|&s| s != target).collect();
             steps.push(inverse_step(analysis, &[block.rows[row]], inverse, reads));
         }
         return;
     }
     let kind = if square.block.is_linear { StepKind::Linear } else { StepKind::Newton };
-    let targets = block.unknowns.clone();
-    steps.push(step(analysis, kind, &block.rows, targets, reads, Program::Square(square)));
+    let targets = block.unknowns.clone().into();
+    steps.push(step(
+        analysis,
+        kind,
+        &block.rows,
+        targets,
+        reads,
+        Program::Square(Box::new(square)),
+    ));
 }
 
 /// The largest block that is looked at for a closed form.
@@ -321,7 +322,8 @@ fn closed_form(laid: &Laid, problem: &Problem) -> Option<(Formula, Vec<Formula>)
     }
     let row = *row as usize;
     let (kernel, arguments) = laid.substituted(row);
-    let put = ProblemRow { kernel: Rc::new(kernel), arguments, ..problem.rows[row].clone() };
+    let (kernel, arguments) = (Rc::new(kernel), arguments.into());
+    let put = ProblemRow { kernel, arguments, ..problem.rows[row].clone() };
     let inverse = Inverse::new(&put, laid.unknowns[*core as usize])?;
     let rest = laid.definitions.iter().map(|d| {
         let row = d.row as usize;
@@ -331,15 +333,10 @@ fn closed_form(laid: &Laid, problem: &Problem) -> Option<(Formula, Vec<Formula>)
     Some(((row, inverse), rest.collect::<Option<_>>()?))
 }
 
-fn inverse_step(
-    analysis: &Analysis<'_>,
-    rows: &[usize],
-    inverse: Inverse,
-    reads: Vec<SlotIndex>,
-) -> Step {
+fn inverse_step(analysis: &Analysis<'_>, rows: &[usize], inverse: Inverse, reads: Few) -> Step {
     let target = inverse.row.arguments[inverse.argument as usize];
     let kind = StepKind::Inverse { roots: inverse.roots() };
-    step(analysis, kind, rows, vec![target], reads, Program::Inverse(inverse))
+    step(analysis, kind, rows, [target].into_iter().collect(), reads, Program::Inverse(inverse))
 }
 
 /// Makes the program that handles rows and unknowns of any number.
@@ -353,87 +350,77 @@ fn measure(analysis: &Analysis<'_>, problem: &Problem, step: StepKind) -> Progra
     if step == StepKind::LeastChange && alike {
         return Program::Least(Box::new((Least::new(problem), measure)));
     }
-    Program::Measure(measure)
+    Program::Measure(Box::new(measure))
 }
 
 fn step(
     analysis: &Analysis<'_>,
     kind: StepKind,
     rows: &[usize],
-    targets: Vec<SlotIndex>,
-    reads: Vec<SlotIndex>,
+    targets: Few,
+    reads: Few,
     program: Program,
 ) -> Step {
     let mut relations: Vec<u32> = rows.iter().map(|&r| analysis.rows[r].relation).collect();
     relations.dedup();
-    let rows = sides_of(analysis, rows);
+    let (relations, rows) = (relations.into(), sides_of(analysis, rows));
     Step { kind, targets, reads, relations, program, region: u32::MAX, rows }
 }
 
 /// Where the sides of rows stand among all sides.
-fn sides_of(analysis: &Analysis<'_>, rows: &[usize]) -> Vec<u32> {
+fn sides_of(analysis: &Analysis<'_>, rows: &[usize]) -> Few {
     let side = |&r: &usize| {
-        let row = &analysis.rows[r];
-        row.sides.map(|_| analysis.first_row[row.relation as usize] + row.equation)
+        let Row { relation, equation, .. } = analysis.rows[r];
+        let RelationBody::Equations(span) =
+            &analysis.stated.system.relations[relation as usize].body
+        else {
+            return None;
+        };
+        Some(span.start + equation)
     };
     rows.iter().filter_map(side).collect()
 }
 
 /// The step of a relation whose written method was chosen.
-fn by_method(
-    analysis: &Analysis<'_>,
-    arena: &mut Arena,
-    relation: u32,
-    rows: &[usize],
-) -> Option<Step> {
-    let index = *analysis.direction.method.get(&relation)?;
-    let stated = &analysis.stated.system.relations[relation as usize];
-    let method = &stated.methods[index];
-    let classes = &analysis.classes;
-    let targets: Vec<SlotIndex> =
-        method.targets.iter().map(|&t| classes.representative[t as usize]).collect();
-    let reads = analysis.method_reads[&relation].iter().copied().collect();
-    let m = index as u32;
+fn by_method(analysis: &Analysis<'_>, relation: u32, rows: &[usize]) -> Option<Step> {
+    let index = analysis.direction.method_of(relation)?;
+    let system = &analysis.stated.system;
+    let stated = &system.relations[relation as usize];
+    let method = &stated.methods[index as usize];
+    let over = |slots: &[SlotIndex]| -> Few {
+        slots.iter().map(|&s| analysis.classes.representative[s as usize]).collect()
+    };
+    let targets = over(&method.targets);
+    let reads = analysis.method_reads[&relation][..].into();
     let (kind, program) = match &method.body {
         MethodBody::Formulas { pattern, arguments } => {
-            let stated = analysis.stated;
-            let values = stated.write_out(arena, &classes.representative, *pattern, *arguments);
-            let tape = Tape::compile(arena, &values);
-            (StepKind::Method { relation, method: m }, Program::Formulas(tape))
+            let pattern = analysis.stated.pattern(*pattern).clone();
+            let program = Program::Formulas(pattern, over(system.arguments(*arguments)));
+            (StepKind::Method { relation, method: index }, program)
         }
         MethodBody::Opaque { .. } => {
-            let program = Program::Host { source: stated.source, method: m };
-            (StepKind::Opaque { relation, method: m }, program)
+            let program = Program::Host { source: stated.source, method: index };
+            (StepKind::Opaque { relation, method: index }, program)
         }
     };
     Some(step(analysis, kind, rows, targets, reads, program))
 }
 
 /// Rows that only methods can satisfy, in a cycle: each once, in order of declaration, then tested.
-fn once_round(
-    analysis: &Analysis<'_>,
-    arena: &mut Arena,
-    kernels: &mut Kernels,
-    block: &Block,
-    steps: &mut Vec<Step>,
-) {
+fn once_round(analysis: &Analysis<'_>, block: &Block, steps: &mut Vec<Step>) {
     let mut done = BTreeSet::new();
     for &r in &block.rows {
-        let row = &analysis.rows[r];
-        let own: Vec<usize> = block
-            .rows
-            .iter()
-            .copied()
-            .filter(|&o| analysis.rows[o].relation == row.relation)
-            .collect();
-        if analysis.direction.method.contains_key(&row.relation) {
-            if done.insert(row.relation)
-                && let Some(step) = by_method(analysis, arena, row.relation, &own)
+        let relation = analysis.rows[r].relation;
+        let own = block.rows.iter().copied().filter(|&o| analysis.rows[o].relation == relation);
+        if analysis.direction.method_of(relation).is_some() {
+            let own: Vec<usize> = own.collect();
+            if done.insert(relation)
+                && let Some(step) = by_method(analysis, relation, &own)
             {
                 steps.push(step);
             }
         } else if let (Some(one), Some(slot)) =
-            (problem_row(arena, kernels, row), analysis.direction.slot_of_row[r])
+            (problem_row(analysis, r), analysis.direction.slot_of_row[r])
         {
             let single = Block { rows: vec![r], unknowns: vec![slot] };
             let problem = Problem { rows: vec![one], unknowns: vec![slot] };

@@ -6,9 +6,11 @@
 //! block. The rest splits into strongly connected blocks (Tarjan).
 
 use crate::direct::Direction;
-use crate::rows::Row;
+use crate::lists::Lists;
+use crate::rows::Rows;
 use crate::system::SlotIndex;
-use std::collections::{BTreeMap, BTreeSet};
+use crate::union::Union;
+use std::collections::BTreeMap;
 
 /// Rows that are solved together, with the slots that they determine.
 #[derive(Clone, PartialEq, Eq, Debug)]
@@ -22,51 +24,30 @@ pub(crate) struct Block {
 /// What the order is made of.
 pub(crate) struct Incidence<'a> {
     /// All rows.
-    pub(crate) rows: &'a [Row],
-    /// Rows that take part: the accepted ones and those that compromise with them.
+    pub(crate) rows: &'a Rows,
+    /// Rows that take part, in order: the accepted ones and those that compromise with them.
     pub(crate) taking_part: &'a [usize],
     /// For every slot: the plan may write it.
     pub(crate) unknown: &'a [bool],
     /// Which way.
     pub(crate) direction: &'a Direction,
     /// For rows solved by a written method, what that method reads.
-    pub(crate) method_reads: &'a BTreeMap<u32, BTreeSet<SlotIndex>>,
+    pub(crate) method_reads: &'a BTreeMap<u32, Vec<SlotIndex>>,
     /// Rows that must be solved together.
     pub(crate) together: &'a [Vec<usize>],
-}
-
-/// A partition of rows and slots: rows first, then slots.
-struct Union(Vec<usize>);
-
-impl Union {
-    fn find(&mut self, i: usize) -> usize {
-        let mut root = i;
-        while self.0[root] != root {
-            root = self.0[root];
-        }
-        let mut walk = i;
-        while self.0[walk] != root {
-            walk = std::mem::replace(&mut self.0[walk], root);
-        }
-        root
-    }
-    fn unite(&mut self, a: usize, b: usize) {
-        let (a, b) = (self.find(a), self.find(b));
-        self.0[a.max(b)] = a.min(b);
-    }
 }
 
 /// Splits and orders. Unknown slots that no row reaches are in no block.
 pub(crate) fn order(incidence: &Incidence<'_>) -> Vec<Block> {
     let n = incidence.rows.len();
     let slots = incidence.unknown.len();
-    let mut union = Union((0..n + slots).collect());
+    let mut union = Union::new(n + slots);
     for (s, row) in incidence.direction.row_of_slot.iter().enumerate() {
         if let Some(row) = row {
             union.unite(*row, n + s);
         }
     }
-    for (&s, &row) in &incidence.direction.written_by {
+    for &(s, row) in &incidence.direction.written_by {
         union.unite(row, n + s as usize);
     }
     for rows in incidence.together {
@@ -74,12 +55,10 @@ pub(crate) fn order(incidence: &Incidence<'_>) -> Vec<Block> {
             union.unite(rows[0], r);
         }
     }
-    let mut by_relation: BTreeMap<u32, usize> = BTreeMap::new();
-    for &r in incidence.taking_part {
-        let relation = incidence.rows[r].relation;
-        if incidence.direction.method.contains_key(&relation) {
-            let first = *by_relation.entry(relation).or_insert(r);
-            union.unite(first, r);
+    let relation = |r: usize| incidence.rows[r].relation;
+    for own in incidence.taking_part.chunk_by(|&a, &b| relation(a) == relation(b)) {
+        if own.len() > 1 && incidence.direction.method_of(relation(own[0])).is_some() {
+            own.iter().for_each(|&r| union.unite(own[0], r));
         }
     }
     unite_free(incidence, &mut union);
@@ -89,29 +68,27 @@ pub(crate) fn order(incidence: &Incidence<'_>) -> Vec<Block> {
 /// Unites every piece of the under-determined part.
 fn unite_free(incidence: &Incidence<'_>, union: &mut Union) {
     let n = incidence.rows.len();
-    let mut rows_of_slot: BTreeMap<SlotIndex, Vec<usize>> = BTreeMap::new();
-    for &r in incidence.taking_part {
-        if !incidence.direction.method.contains_key(&incidence.rows[r].relation) {
-            for &(c, _) in &incidence.rows[r].columns {
-                if incidence.unknown[c as usize] {
-                    rows_of_slot.entry(c).or_default().push(r);
-                }
-            }
-        }
-    }
     let mut reached = vec![false; incidence.unknown.len()];
     let mut stack: Vec<SlotIndex> = (0..incidence.unknown.len() as u32)
         .filter(|&s| {
             incidence.unknown[s as usize]
                 && incidence.direction.row_of_slot[s as usize].is_none()
-                && !incidence.direction.written_by.contains_key(&s)
+                && !incidence.direction.is_written(s)
         })
         .collect();
+    if stack.is_empty() {
+        return;
+    }
     for &s in &stack {
         reached[s as usize] = true;
     }
+    let free = |&&r: &&usize| incidence.direction.method_of(incidence.rows[r].relation).is_none();
+    let columns = |&r: &usize| incidence.rows.columns(r).iter().map(move |e| (e.0, r as u32));
+    let pairs = incidence.taking_part.iter().filter(free).flat_map(columns);
+    let rows_of_slot = Lists::new(incidence.unknown.len(), pairs);
     while let Some(slot) = stack.pop() {
-        for &r in rows_of_slot.get(&slot).into_iter().flatten() {
+        for &r in rows_of_slot.of(slot) {
+            let r = r as usize;
             union.unite(n + slot as usize, r);
             if let Some(next) = incidence.direction.slot_of_row[r]
                 && !std::mem::replace(&mut reached[next as usize], true)
@@ -124,99 +101,94 @@ fn unite_free(incidence: &Incidence<'_>, union: &mut Union) {
 
 /// Strongly connected components of the united rows, each after what it reads.
 fn components(incidence: &Incidence<'_>, union: &mut Union) -> Vec<Block> {
+    const NONE: u32 = u32::MAX;
     let n = incidence.rows.len();
     // nodes are numbered by their first row, so that the order is that of declaration
-    let mut node_of_root: BTreeMap<usize, usize> = BTreeMap::new();
-    let mut rows_of_node: Vec<Vec<usize>> = Vec::new();
-    let mut taking_part = incidence.taking_part.to_vec();
-    taking_part.sort_unstable();
-    for &r in &taking_part {
-        let root = union.find(r);
-        let node = *node_of_root.entry(root).or_insert_with(|| {
-            rows_of_node.push(Vec::new());
-            rows_of_node.len() - 1
-        });
-        rows_of_node[node].push(r);
-    }
-    let mut slots_of_node: Vec<Vec<SlotIndex>> = vec![Vec::new(); rows_of_node.len()];
-    let mut node_of_slot: Vec<Option<usize>> = vec![None; incidence.unknown.len()];
-    for (s, &unknown) in incidence.unknown.iter().enumerate() {
-        if unknown && let Some(&node) = node_of_root.get(&union.find(n + s)) {
-            slots_of_node[node].push(s as u32);
-            node_of_slot[s] = Some(node);
+    let mut node_of_root = vec![NONE; n + incidence.unknown.len()];
+    let mut node_of_row = Vec::with_capacity(incidence.taking_part.len());
+    let mut nodes = 0;
+    for &r in incidence.taking_part {
+        let node = &mut node_of_root[union.find(r)];
+        if *node == NONE {
+            *node = nodes;
+            nodes += 1;
         }
+        node_of_row.push(*node);
     }
-    let before: Vec<BTreeSet<usize>> = rows_of_node
+    let node_of_slot: Vec<u32> = incidence
+        .unknown
         .iter()
         .enumerate()
-        .map(|(node, rows)| {
-            let read = rows.iter().flat_map(|&r| {
-                let row = &incidence.rows[r];
-                incidence.method_reads.get(&row.relation).unwrap_or(&row.mentions)
-            });
-            read.filter_map(|&s| node_of_slot[s as usize]).filter(|&b| b != node).collect()
-        })
+        .map(|(s, &unknown)| if unknown { node_of_root[union.find(n + s)] } else { NONE })
         .collect();
-    strong_components(&before)
-        .into_iter()
-        .map(|nodes| {
-            let mut rows: Vec<usize> =
-                nodes.iter().flat_map(|&v| rows_of_node[v].iter().copied()).collect();
-            let mut unknowns: Vec<SlotIndex> =
-                nodes.iter().flat_map(|&v| slots_of_node[v].iter().copied()).collect();
-            rows.sort_unstable();
-            unknowns.sort_unstable();
-            Block { rows, unknowns }
-        })
-        .collect()
+    let edges = |&(node, r): &(u32, usize)| {
+        let read = match incidence.method_reads.get(&incidence.rows[r].relation) {
+            Some(reads) => reads,
+            None => incidence.rows.mentions(r),
+        };
+        let read = read.iter().map(|&s| node_of_slot[s as usize]);
+        read.filter(move |&b| b != node && b != NONE).map(move |b| (node, b))
+    };
+    let rows: Vec<(u32, usize)> =
+        node_of_row.iter().copied().zip(incidence.taking_part.iter().copied()).collect();
+    let before = Lists::new(nodes as usize, rows.iter().flat_map(edges));
+    let rows_of_node = Lists::new(nodes as usize, rows.iter().map(|&(node, r)| (node, r as u32)));
+    let slots = (0..).zip(&node_of_slot).filter(|(_, n)| **n != NONE);
+    let slots_of_node = Lists::new(nodes as usize, slots.map(|(s, &node)| (node, s)));
+    let block = |nodes: &[u32]| {
+        let of = |lists: &Lists| -> Vec<u32> {
+            let mut all: Vec<u32> = nodes.iter().flat_map(|&v| lists.of(v)).copied().collect();
+            all.sort_unstable();
+            all
+        };
+        let rows = of(&rows_of_node).into_iter().map(|r| r as usize).collect();
+        Block { rows, unknowns: of(&slots_of_node) }
+    };
+    let mut blocks = Vec::with_capacity(nodes as usize);
+    strong_components(&before, &mut |component| blocks.push(block(component)));
+    blocks
 }
 
 /// Tarjan's algorithm on `before`: components in an order in which each follows what it needs.
-fn strong_components(before: &[BTreeSet<usize>]) -> Vec<Vec<usize>> {
-    const UNSEEN: usize = usize::MAX;
+pub(crate) fn strong_components(before: &Lists, found: &mut dyn FnMut(&[u32])) {
+    const UNSEEN: u32 = u32::MAX;
     let n = before.len();
-    let edges: Vec<Vec<usize>> = before.iter().map(|b| b.iter().copied().collect()).collect();
     let (mut index, mut low) = (vec![UNSEEN; n], vec![0; n]);
     let mut on_stack = vec![false; n];
-    let (mut stack, mut out, mut count) = (Vec::new(), Vec::new(), 0);
-    for root in 0..n {
-        if index[root] != UNSEEN {
+    let (mut stack, mut calls, mut count) = (Vec::new(), Vec::new(), 0);
+    for root in 0..n as u32 {
+        if index[root as usize] != UNSEEN {
             continue;
         }
-        let mut calls = vec![(root, 0)];
+        calls.push((root, 0));
         while let Some(&(v, edge)) = calls.last() {
+            let at = v as usize;
             if edge == 0 {
-                (index[v], low[v]) = (count, count);
+                (index[at], low[at]) = (count, count);
                 count += 1;
                 stack.push(v);
-                on_stack[v] = true;
+                on_stack[at] = true;
             }
-            if let Some(&w) = edges[v].get(edge) {
+            if let Some(&w) = before.of(v).get(edge) {
                 calls.last_mut().expect("the call was just seen").1 += 1;
-                if index[w] == UNSEEN {
+                if index[w as usize] == UNSEEN {
                     calls.push((w, 0));
-                } else if on_stack[w] {
-                    low[v] = low[v].min(index[w]);
+                } else if on_stack[w as usize] {
+                    low[at] = low[at].min(index[w as usize]);
                 }
                 continue;
             }
             calls.pop();
             if let Some(&(parent, _)) = calls.last() {
-                low[parent] = low[parent].min(low[v]);
+                low[parent as usize] = low[parent as usize].min(low[at]);
             }
-            if low[v] == index[v] {
-                let mut component = Vec::new();
-                while let Some(w) = stack.pop() {
-                    on_stack[w] = false;
-                    component.push(w);
-                    if w == v {
-                        break;
-                    }
-                }
-                component.sort_unstable();
-                out.push(component);
+            if low[at] == index[at] {
+                let first = stack.iter().rposition(|&w| w == v).expect("the node is on the stack");
+                stack[first..].iter().for_each(|&w| on_stack[w as usize] = false);
+                stack[first..].sort_unstable();
+                found(&stack[first..]);
+                stack.truncate(first);
             }
         }
     }
-    out
 }

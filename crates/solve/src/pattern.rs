@@ -5,11 +5,12 @@
 //! it speaks of: two thousand distances are one pattern with two thousand lists of arguments.
 //! Whatever can be known of a row without its slots is worked out once, for the pattern.
 
-use crate::system::SlotIndex;
+use crate::kernel::Kernel;
 use base::{Id, Mixer, define_id};
 use expr::{Arena, Excerpt, ExprId, Node, Tape, Var};
 use indexmap::IndexSet;
-use std::cell::OnceCell;
+use std::cell::{OnceCell, RefCell};
+use std::collections::BTreeMap;
 use std::hash::{BuildHasherDefault, Hash, Hasher};
 use std::rc::Rc;
 
@@ -21,14 +22,38 @@ pub struct Pattern {
     excerpt: Excerpt,
     arena: Arena,
     arity: usize,
+    plain: Option<Plain>,
     values: OnceCell<Tape>,
+    kernel: OnceCell<Rc<Kernel>>,
+    identified: RefCell<BTreeMap<Box<[u32]>, Identified>>,
 }
+
+/// What a pattern says that says next to nothing.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub(crate) enum Plain {
+    /// Its two arguments are equal.
+    Same,
+    /// Its argument is a number, given by its bits.
+    Number(u64),
+}
+
+/// A pattern with some of its arguments made one; which of the old ones the new ones are.
+pub(crate) type Identified = (Rc<Pattern>, Rc<[u32]>);
 
 impl Pattern {
     fn new(excerpt: Excerpt) -> Self {
         let arena = Arena::of_excerpt(&excerpt);
         let arity = excerpt.nodes.iter().filter(|n| matches!(n, Node::Var(_))).count();
-        Self { excerpt, arena, arity, values: OnceCell::new() }
+        let plain = plain(&arena, &excerpt.roots);
+        Self {
+            excerpt,
+            arena,
+            arity,
+            plain,
+            values: OnceCell::new(),
+            kernel: OnceCell::new(),
+            identified: RefCell::default(),
+        }
     }
     /// Returns its expressions, in an arena that holds nothing else.
     pub fn arena(&self) -> &Arena {
@@ -48,31 +73,62 @@ impl Pattern {
         arguments: impl IntoIterator<Item = f64>,
         scratch: &'s mut Scratch,
     ) -> &'s [f64] {
-        let tape = self.values.get_or_init(|| Tape::compile(&self.arena, self.roots()));
         scratch.arguments.clear();
         scratch.arguments.extend(arguments);
         scratch.out.clear();
         scratch.out.resize(self.roots().len(), 0.0);
-        tape.run(&scratch.arguments, &mut scratch.registers, &mut scratch.out);
+        self.values().run(&scratch.arguments, &mut scratch.registers, &mut scratch.out);
         &scratch.out
     }
-    /// Writes its expressions out over slots.
-    pub fn write_out(&self, arena: &mut Arena, arguments: &[SlotIndex]) -> Vec<ExprId> {
-        let mut made: Vec<ExprId> = Vec::with_capacity(self.excerpt.nodes.len());
-        for &node in &self.excerpt.nodes {
-            let at = |id: ExprId| made[id.index()];
-            let id = match node {
-                Node::Constant(bits) => arena.constant(f64::from_bits(bits)),
-                Node::Var(v) => arena.var(Var(arguments[v.index()])),
-                Node::Unary(op, a) => arena.unary(op, at(a)),
-                Node::Binary(op, a, b) => arena.binary(op, at(a), at(b)),
-                Node::Select { condition, then, otherwise } => {
-                    arena.select(at(condition), at(then), at(otherwise))
-                }
-            };
-            made.push(id);
+    /// Returns what it says if that is next to nothing.
+    pub(crate) fn plain(&self) -> Option<Plain> {
+        self.plain
+    }
+    /// Returns the tape of its expressions.
+    pub(crate) fn values(&self) -> &Tape {
+        self.values.get_or_init(|| Tape::compile(&self.arena, self.roots()))
+    }
+    /// Returns what is derived from it, if it is an equation's.
+    ///
+    /// # Panics
+    /// If it has not two expressions.
+    pub(crate) fn kernel(&self) -> &Rc<Kernel> {
+        self.kernel.get_or_init(|| {
+            let [left, right] = self.roots() else { panic!("an equation has two sides") };
+            Rc::new(Kernel::compile(&self.arena, *left, *right, self.arity as u32))
+        })
+    }
+    /// Returns the pattern with every argument replaced by one before it, or itself.
+    pub(crate) fn identified(&self, which: &[u32]) -> Identified {
+        if let Some(known) = self.identified.borrow().get(which) {
+            return known.clone();
         }
-        self.roots().iter().map(|r| made[r.index()]).collect()
+        let mut arena = Arena::new();
+        let roots: Vec<ExprId> = self
+            .roots()
+            .iter()
+            .map(|&root| {
+                let mut vars: Vec<ExprId> = Vec::new();
+                vars.extend((0..self.arity).map(|i| arena.var(Var::from_index(i))));
+                arena.import(&self.arena, root, &mut |v| vars[which[v.index()] as usize])
+            })
+            .collect();
+        let (excerpt, left) = arena.excerpt(&roots);
+        let left = left.into_iter().map(|v| v.0).collect();
+        let made = (Rc::new(Self::new(excerpt)), left);
+        self.identified.borrow_mut().insert(which.into(), made.clone());
+        made
+    }
+}
+
+fn plain(arena: &Arena, roots: &[ExprId]) -> Option<Plain> {
+    let &[left, right] = roots else { return None };
+    match (arena.node(left), arena.node(right)) {
+        (Node::Var(a), Node::Var(b)) if a != b => Some(Plain::Same),
+        (Node::Var(_), Node::Constant(bits)) | (Node::Constant(bits), Node::Var(_)) => {
+            f64::from_bits(bits).is_finite().then_some(Plain::Number(bits))
+        }
+        _ => None,
     }
 }
 

@@ -5,17 +5,18 @@
 
 use crate::accept::{self, Acceptance};
 use crate::direct::{self, Direction};
+use crate::few::Few;
 use crate::lower::{self, Program, Region};
 use crate::order::{self, Block, Incidence};
 use crate::pattern::{Patterns, Scratch};
-use crate::rows::{self, Row};
+use crate::rows::{self, Rows};
 use crate::stated::Stated;
 use crate::substitute::{self, Classes};
 use crate::system::{Level, RelationBody, Slot, SlotIndex, Span, Stay, System};
 use crate::tie;
-use std::collections::{BTreeMap, BTreeSet};
+use std::cell::OnceCell;
+use std::collections::BTreeMap;
 use std::rc::Rc;
-use std::sync::OnceLock;
 
 /// How a step computes its targets.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
@@ -57,16 +58,16 @@ pub struct Step {
     /// How.
     pub kind: StepKind,
     /// The slots that it writes.
-    pub targets: Vec<SlotIndex>,
+    pub targets: Few,
     /// The slots that it reads.
-    pub reads: Vec<SlotIndex>,
+    pub reads: Few,
     /// The relations that it makes hold, by index in the system.
-    pub relations: Vec<u32>,
+    pub relations: Few,
     pub(crate) program: Program,
     /// Which region it lies in; regions share no unknown.
     pub(crate) region: u32,
     /// The rows that it makes hold, by the places of their equations in the system.
-    pub(crate) rows: Vec<u32>,
+    pub(crate) rows: Few,
 }
 
 /// A row that depends on rows accepted before it.
@@ -113,7 +114,7 @@ pub struct Plan {
     /// True if a step depends on the branch that the state is on.
     pub(crate) has_branches: bool,
     stated: Stated,
-    relaxed: OnceLock<Option<Box<Plan>>>,
+    relaxed: OnceCell<Option<Box<Plan>>>,
 }
 
 /// Up to this many slots a state that does not hold may be moved as a whole.
@@ -143,12 +144,21 @@ pub(crate) struct PlannedRelation {
 pub(crate) struct Analysis<'a> {
     pub(crate) stated: &'a Stated,
     pub(crate) classes: Classes,
-    pub(crate) rows: Vec<Row>,
+    pub(crate) rows: Rows,
     pub(crate) acceptance: Acceptance,
     pub(crate) direction: Direction,
-    pub(crate) method_reads: BTreeMap<u32, BTreeSet<SlotIndex>>,
-    /// For every relation, its first equation in the system.
-    pub(crate) first_row: Vec<u32>,
+    /// For every relation whose written method was chosen, the slots that that reads, in order.
+    pub(crate) method_reads: BTreeMap<u32, Vec<SlotIndex>>,
+}
+
+impl Analysis<'_> {
+    /// Returns the slots that a row speaks of, or that its method reads.
+    pub(crate) fn reads_of_row(&self, row: usize) -> &[SlotIndex] {
+        match self.method_reads.get(&self.rows[row].relation) {
+            Some(reads) => reads,
+            None => self.rows.mentions(row),
+        }
+    }
 }
 
 /// Plans a system over these patterns. Equal systems have equal plans.
@@ -158,28 +168,26 @@ pub fn plan(system: &Rc<System>, patterns: &Patterns) -> Plan {
 
 fn plan_stated(stated: Stated) -> Plan {
     let system = &*stated.system;
-    let mut arena = stated.arena();
     let classes = substitute::substitute(&stated);
-    let rows = rows::rows(&stated, &classes, &mut arena);
+    let rows = rows::rows(&stated, &classes);
     let mut acceptance = accept::accept(system, &classes, &rows);
     let mut direction = direct::direct(system, &classes, &rows, &acceptance);
     if tie::tie(system, &classes, &rows, &direction, &mut acceptance) {
         direction = direct::direct(system, &classes, &rows, &acceptance);
     }
     let method_reads = direction
-        .method
+        .methods
         .iter()
-        .map(|(&r, &m)| {
-            let body = &system.relations[r as usize].methods[m].body;
+        .map(|&(r, m)| {
+            let body = &system.relations[r as usize].methods[m as usize].body;
             (r, rows::method_reads(system, &classes, body))
         })
         .collect();
-    let (relations, first_row) = tests_of_relations(system);
-    let analysis =
-        Analysis { stated: &stated, classes, rows, acceptance, direction, method_reads, first_row };
+    let relations = tests_of_relations(system);
+    let analysis = Analysis { stated: &stated, classes, rows, acceptance, direction, method_reads };
     let (report, together) = report(&analysis);
     let blocks = blocks(&analysis, &together);
-    let lowered = lower::lower(&analysis, &mut arena, &blocks);
+    let lowered = lower::lower(&analysis, &blocks);
     let has_branches = lowered.steps.iter().any(|s| match s.kind {
         StepKind::Inverse { roots } => roots > 1,
         StepKind::Newton | StepKind::LeastChange | StepKind::Compromise => true,
@@ -197,7 +205,7 @@ fn plan_stated(stated: Stated) -> Plan {
         scale_classes: system.slots.iter().map(|s| s.scale as usize + 1).max().unwrap_or(0),
         has_branches,
         stated,
-        relaxed: OnceLock::new(),
+        relaxed: OnceCell::new(),
     }
 }
 
@@ -211,9 +219,8 @@ fn planned_slots(system: &System) -> Vec<PlannedSlot> {
     system.slots.iter().map(one).collect()
 }
 
-fn tests_of_relations(system: &System) -> (Vec<PlannedRelation>, Vec<u32>) {
-    let mut relations = Vec::new();
-    let mut first = Vec::new();
+fn tests_of_relations(system: &System) -> Vec<PlannedRelation> {
+    let mut relations = Vec::with_capacity(system.relations.len());
     for relation in &system.relations {
         let (rows, opaque) = match &relation.body {
             RelationBody::Equations(span) => (*span, None),
@@ -227,9 +234,8 @@ fn tests_of_relations(system: &System) -> (Vec<PlannedRelation>, Vec<u32>) {
             rows: rows.len,
             opaque,
         });
-        first.push(rows.start);
     }
-    (relations, first)
+    relations
 }
 
 /// States what was rejected, and which rows have to be solved together because they compromise.
@@ -240,7 +246,7 @@ fn report(analysis: &Analysis<'_>) -> (Report, Vec<Vec<usize>>) {
         .classes
         .repeated
         .iter()
-        .map(|(&(relation, row), circuit)| Rejected {
+        .map(|&((relation, row), ref circuit)| Rejected {
             relation,
             row,
             circuit: circuit.clone(),
@@ -248,10 +254,10 @@ fn report(analysis: &Analysis<'_>) -> (Report, Vec<Vec<usize>>) {
         })
         .collect();
     for dependent in &analysis.acceptance.dependent {
-        let row = &rows[dependent.row];
+        let row = rows[dependent.row];
         let level = row.level;
         let compromises = level != Level::Required
-            && row.sides.is_some()
+            && rows.kernel(dependent.row).is_some()
             && dependent.circuit.iter().any(|&c| rows[c].level == level);
         if compromises {
             let mut set = vec![dependent.row];
@@ -272,14 +278,14 @@ fn report(analysis: &Analysis<'_>) -> (Report, Vec<Vec<usize>>) {
     let slots = &analysis.stated.system.slots;
     let classes = &analysis.classes;
     let mut yielded = analysis.acceptance.yielded.clone();
-    for members in classes.members.values() {
+    let has_yielded = |root| analysis.acceptance.yielded.binary_search(&root).is_ok();
+    for (root, members) in classes.members() {
         let given = |&&s: &&SlotIndex| slots[s as usize].stay == Stay::Given;
-        let root = classes.representative[members[0] as usize];
-        if classes.stay[root as usize] == Stay::Fixed || yielded.contains(&root) {
+        if classes.stay[root as usize] == Stay::Fixed || has_yielded(root) {
             yielded.extend(members.iter().filter(given));
         }
     }
-    for &s in classes.constants.keys() {
+    for &(s, _) in &classes.constants {
         if slots[s as usize].stay == Stay::Given {
             yielded.push(s);
         }
@@ -287,8 +293,7 @@ fn report(analysis: &Analysis<'_>) -> (Report, Vec<Vec<usize>>) {
     yielded.sort_unstable();
     yielded.dedup();
     let determined = |s: u32| {
-        analysis.direction.row_of_slot[s as usize].is_some()
-            || analysis.direction.written_by.contains_key(&s)
+        analysis.direction.row_of_slot[s as usize].is_some() || analysis.direction.is_written(s)
     };
     let free_slots = (0..slots.len() as u32)
         .filter(|&s| {
@@ -325,10 +330,9 @@ fn shared_given(analysis: &Analysis<'_>) -> Vec<(SlotIndex, Vec<SlotIndex>)> {
             .collect()
     };
     classes
-        .members
-        .iter()
-        .filter(|(root, _)| classes.stay[**root as usize] == Stay::Given)
-        .map(|(&root, members)| (root, given(members)))
+        .members()
+        .filter(|(root, _)| classes.stay[*root as usize] == Stay::Given)
+        .map(|(root, members)| (root, given(members)))
         .filter(|(_, members)| members.len() > 1)
         .collect()
 }

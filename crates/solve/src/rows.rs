@@ -1,18 +1,19 @@
 //! Rows: every equation once, over representatives, with its gradient at a generic point.
 //!
 //! In: the system and its classes. Out: one [`Row`] for each equation that substitution left (one for
-//! an opaque relation). The point is the same for every system, so no value is consulted: a
+//! an opaque relation). The point is the same for every row, so no value is consulted: a
 //! coefficient is zero there only if it is zero everywhere.
 
+use crate::kernel::Kernel;
 use crate::stated::Stated;
 use crate::substitute::Classes;
-use crate::system::{Level, MethodBody, Relation, RelationBody, SlotIndex, Stay, System};
-use crate::tableau::SparseRow;
-use expr::{Arena, Binary, ExprId, Node, Tape, Unary, Var};
+use crate::system::{Level, MethodBody, Relation, RelationBody, SlotIndex, Span, Stay, System};
+use expr::{LANES, Lanes};
 use std::collections::BTreeSet;
+use std::rc::Rc;
 
 /// One scalar condition.
-#[derive(Clone, Debug)]
+#[derive(Clone, Copy, Debug)]
 pub(crate) struct Row {
     /// The relation that it belongs to.
     pub(crate) relation: u32,
@@ -20,98 +21,321 @@ pub(crate) struct Row {
     pub(crate) equation: u32,
     /// The relation's level.
     pub(crate) level: Level,
-    /// Both sides; none for an opaque relation.
-    pub(crate) sides: Option<(ExprId, ExprId)>,
-    /// Every slot that it speaks of.
-    pub(crate) mentions: BTreeSet<SlotIndex>,
-    /// The slots that it may write, with generic coefficients.
-    pub(crate) columns: SparseRow,
     /// The tolerance of its sides.
     pub(crate) within: f64,
     /// True if a derivative by a slot that it may write depends on one.
     pub(crate) curved: bool,
+    kernel: u32,
+    mentions: Span,
+    columns: Span,
 }
 
-impl Row {
-    /// Returns true if the row may write the slot.
-    pub(crate) fn writes(&self, slot: SlotIndex) -> bool {
-        self.columns.binary_search_by_key(&slot, |e| e.0).is_ok()
+/// The kernel of an opaque row.
+const OPAQUE: u32 = u32::MAX;
+
+/// A column of a row: a slot that it may write, and its generic coefficient.
+pub(crate) type Entry = (SlotIndex, f64);
+
+/// All rows, in order of relation and equation.
+#[derive(Debug, Default)]
+pub(crate) struct Rows {
+    list: Vec<Row>,
+    kernels: Vec<Rc<Kernel>>,
+    mentions: Vec<SlotIndex>,
+    columns: Vec<Entry>,
+}
+
+impl Rows {
+    pub(crate) fn len(&self) -> usize {
+        self.list.len()
+    }
+    /// Returns every slot that a row speaks of; of an equation, the arguments of its kernel.
+    pub(crate) fn mentions(&self, row: usize) -> &[SlotIndex] {
+        &self.mentions[self.list[row].mentions.range()]
+    }
+    /// Returns the slots that a row may write, in order, with generic coefficients.
+    pub(crate) fn columns(&self, row: usize) -> &[Entry] {
+        &self.columns[self.list[row].columns.range()]
+    }
+    /// Returns what a row says; nothing for an opaque one.
+    pub(crate) fn kernel(&self, row: usize) -> Option<&Rc<Kernel>> {
+        self.kernels.get(self.list[row].kernel as usize)
     }
 }
 
-/// Makes every row, in order of relation and equation.
-pub(crate) fn rows(stated: &Stated, classes: &Classes, arena: &mut Arena) -> Vec<Row> {
-    let system = &*stated.system;
-    let mut rows = Vec::new();
-    let mut derivatives: Vec<(usize, SlotIndex, ExprId)> = Vec::new();
-    for (r, relation) in system.relations.iter().enumerate() {
-        let writable = Writable::of(relation, classes);
-        match &relation.body {
-            RelationBody::Equations(_) => {
-                for (e, equation) in system.equations_of(relation).iter().enumerate() {
-                    let key = (r as u32, e as u32);
-                    if classes.used.contains_key(&key) || classes.repeated.contains_key(&key) {
-                        continue;
-                    }
-                    let sides = stated.write_out(
-                        arena,
-                        &classes.representative,
-                        equation.pattern,
-                        equation.arguments,
-                    );
-                    let residual = arena.sub(sides[0], sides[1]);
-                    let mut mentions: BTreeSet<SlotIndex> =
-                        arena.variables(sides[0]).iter().map(|v| v.0).collect();
-                    mentions.extend(arena.variables(sides[1]).iter().map(|v| v.0));
-                    let vars: Vec<Var> = mentions
-                        .iter()
-                        .filter(|&&slot| writable.allows(classes, slot))
-                        .map(|&slot| Var(slot))
-                        .collect();
-                    let gradient = expr::gradient(arena, residual, &vars);
-                    derivatives
-                        .extend(vars.iter().zip(gradient).map(|(v, d)| (rows.len(), v.0, d)));
-                    let curved = !expr::is_linear_in(arena, residual, &vars);
-                    rows.push(Row {
-                        curved,
-                        ..row(r, e, relation, Some((sides[0], sides[1])), mentions)
-                    });
-                }
-            }
-            RelationBody::Opaque { slots } => {
-                let mentions = slots.iter().map(|&s| classes.representative[s as usize]).collect();
-                rows.push(row(r, 0, relation, None, mentions));
-            }
-        }
+impl std::ops::Index<usize> for Rows {
+    type Output = Row;
+    fn index(&self, row: usize) -> &Row {
+        &self.list[row]
     }
-    set_coefficients(system, arena, &mut rows, &derivatives);
-    add_written_targets(system, classes, &mut rows);
+}
+
+/// Makes every row.
+pub(crate) fn rows(stated: &Stated, classes: &Classes) -> Rows {
+    let mut rows = stated_rows(stated, classes);
+    let slopes = slopes(&rows, stated.system.slots.len());
+    set_columns(&stated.system, classes, &mut rows, &slopes);
     rows
 }
 
-fn row(
-    relation_index: usize,
-    equation: usize,
+/// Makes the rows without their columns.
+fn stated_rows(stated: &Stated, classes: &Classes) -> Rows {
+    let system = &*stated.system;
+    let mut rows = Rows::default();
+    rows.list.reserve(system.equations.len());
+    rows.mentions.reserve(system.arguments.len());
+    let mut kernels = Kernels::default();
+    for (r, relation) in (0..).zip(&system.relations) {
+        let one = Row {
+            relation: r,
+            equation: 0,
+            level: relation.level,
+            within: f64::from_bits(relation.within),
+            curved: false,
+            kernel: OPAQUE,
+            mentions: Span::default(),
+            columns: Span::default(),
+        };
+        match &relation.body {
+            RelationBody::Equations(span) => {
+                for (e, at) in (0..).zip(span.range()) {
+                    if classes.is_settled(at) {
+                        continue;
+                    }
+                    let equation = system.equations[at];
+                    let start = rows.mentions.len();
+                    let over = system.arguments(equation.arguments).iter();
+                    rows.mentions.extend(over.map(|&s| classes.representative[s as usize]));
+                    let pattern = stated.place(equation.pattern);
+                    let kernel = if are_distinct(&rows.mentions[start..]) {
+                        kernels.plain(stated, pattern)
+                    } else {
+                        let arguments = rows.mentions.split_off(start);
+                        let (kernel, arguments) = kernels.identified(stated, pattern, &arguments);
+                        rows.mentions.extend(arguments);
+                        kernel
+                    };
+                    let len = (rows.mentions.len() - start) as u32;
+                    let mentions = Span { start: start as u32, len };
+                    rows.list.push(Row { equation: e, kernel, mentions, ..one });
+                }
+            }
+            RelationBody::Opaque { slots } => {
+                let over: BTreeSet<SlotIndex> =
+                    slots.iter().map(|&s| classes.representative[s as usize]).collect();
+                let mentions = Span { start: rows.mentions.len() as u32, len: over.len() as u32 };
+                rows.mentions.extend(over);
+                rows.list.push(Row { mentions, ..one });
+            }
+        }
+    }
+    rows.kernels = kernels.list;
+    rows
+}
+
+fn are_distinct(slots: &[SlotIndex]) -> bool {
+    if slots.len() > 16 {
+        return slots.iter().collect::<BTreeSet<_>>().len() == slots.len();
+    }
+    slots.iter().enumerate().all(|(i, s)| !slots[..i].contains(s))
+}
+
+/// The kernels that rows have, each once.
+#[derive(Default)]
+struct Kernels {
+    list: Vec<Rc<Kernel>>,
+    /// By the place of their pattern.
+    of_pattern: Vec<Option<u32>>,
+}
+
+impl Kernels {
+    fn add(&mut self, kernel: Rc<Kernel>) -> u32 {
+        self.list.push(kernel);
+        self.list.len() as u32 - 1
+    }
+    fn plain(&mut self, stated: &Stated, pattern: usize) -> u32 {
+        if self.of_pattern.len() <= pattern {
+            self.of_pattern.resize(pattern + 1, None);
+        }
+        match self.of_pattern[pattern] {
+            Some(kernel) => kernel,
+            None => {
+                let kernel = self.add(stated.pattern_at(pattern).kernel().clone());
+                self.of_pattern[pattern] = Some(kernel);
+                kernel
+            }
+        }
+    }
+    /// A pattern some of whose arguments are one slot is another pattern.
+    fn identified(
+        &mut self,
+        stated: &Stated,
+        pattern: usize,
+        arguments: &[SlotIndex],
+    ) -> (u32, Vec<SlotIndex>) {
+        let first = |s: &SlotIndex| arguments.iter().position(|a| a == s).unwrap_or(0) as u32;
+        let which: Vec<u32> = arguments.iter().map(first).collect();
+        let (pattern, left) = stated.pattern_at(pattern).identified(&which);
+        let kernel = pattern.kernel();
+        let known = self.list.iter().position(|k| Rc::ptr_eq(k, kernel));
+        let kernel = match known {
+            Some(known) => known as u32,
+            None => self.add(kernel.clone()),
+        };
+        (kernel, left.iter().map(|&i| arguments[i as usize]).collect())
+    }
+}
+
+/// The derivatives of all rows, row after row, at the first of a few generic points that suits them
+/// best.
+fn slopes(rows: &Rows, slots: usize) -> Vec<f64> {
+    // rows of one kernel are evaluated together
+    let mut first = Vec::with_capacity(rows.len() + 1);
+    let mut count = 0;
+    let mut of_kernel: Vec<Vec<u32>> = vec![Vec::new(); rows.kernels.len()];
+    for r in 0..rows.len() {
+        first.push(count);
+        if let Some(kernel) = rows.kernel(r) {
+            count += kernel.entries.len();
+            of_kernel[rows[r].kernel as usize].push(r as u32);
+        }
+    }
+    let mut best = (usize::MAX, Vec::new());
+    for point in Point::ALL {
+        let values: Vec<f64> = (0..slots as u64).map(|i| generic_number(i, point)).collect();
+        let mut out = vec![0.0; count];
+        for (kernel, own) in rows.kernels.iter().zip(&of_kernel) {
+            kernel_slopes(rows, kernel, own, &values, &first, &mut out);
+        }
+        let bad = out.iter().filter(|v| !v.is_finite()).count();
+        if bad < best.0 {
+            best = (bad, out);
+        }
+        if bad == 0 {
+            break;
+        }
+    }
+    best.1
+}
+
+fn kernel_slopes(
+    rows: &Rows,
+    kernel: &Kernel,
+    own: &[u32],
+    values: &[f64],
+    first: &[usize],
+    out: &mut [f64],
+) {
+    let entries = kernel.entries.len();
+    let mut arguments: Vec<Lanes> = vec![[0.0; LANES]; kernel.arity()];
+    let mut results: Vec<Lanes> = vec![[0.0; LANES]; entries + 2];
+    let mut registers = Vec::new();
+    for some in own.chunks(LANES) {
+        for (lane, &r) in some.iter().enumerate() {
+            for (argument, &slot) in arguments.iter_mut().zip(rows.mentions(r as usize)) {
+                argument[lane] = values[slot as usize];
+            }
+        }
+        kernel.slopes.run_lanes(&arguments, &mut registers, &mut results);
+        for (lane, &r) in some.iter().enumerate() {
+            let own = &mut out[first[r as usize]..][..entries];
+            for (out, result) in own.iter_mut().zip(&results[2..]) {
+                *out = result[lane];
+            }
+        }
+    }
+}
+
+/// Gives every row the slots that it may write.
+fn set_columns(system: &System, classes: &Classes, rows: &mut Rows, slopes: &[f64]) {
+    let mut columns: Vec<Entry> = Vec::with_capacity(slopes.len());
+    let mut slopes = slopes.iter();
+    let mut next = 0;
+    while next < rows.len() {
+        let relation_index = rows[next].relation;
+        let relation = &system.relations[relation_index as usize];
+        let writable = Writable::of(relation, classes);
+        let first = next;
+        while next < rows.len() && rows[next].relation == relation_index {
+            let start = columns.len();
+            let mut curved = false;
+            if let Some(kernel) = rows.kernel(next) {
+                let mentions = rows.mentions(next);
+                for (entry, &value) in kernel.entries.iter().zip(slopes.by_ref()) {
+                    let slot = mentions[entry.argument as usize];
+                    if !writable.allows(classes, slot) {
+                        continue;
+                    }
+                    let may = |&a: &u32| writable.allows(classes, mentions[a as usize]);
+                    curved |= entry.depends.iter().any(may);
+                    let by_branch = value == 0.0 && entry.branches;
+                    let value = if value.is_finite() && !by_branch {
+                        value
+                    } else {
+                        generic_coefficient(next, slot)
+                    };
+                    if value != 0.0 {
+                        columns.push((slot, value));
+                    }
+                }
+            }
+            let own = &mut columns[start..];
+            own.sort_unstable_by_key(|e| e.0);
+            let largest = own.iter().fold(0.0f64, |m, e| m.max(e.1.abs()));
+            own.iter_mut().for_each(|e| e.1 /= largest);
+            let len = (columns.len() - start) as u32;
+            let row = &mut rows.list[next];
+            (row.columns, row.curved) = (Span { start: start as u32, len }, curved);
+            next += 1;
+        }
+        if !relation.methods.is_empty() {
+            add_written_targets(relation, &writable, classes, rows, first..next, &mut columns);
+        }
+    }
+    rows.columns = columns;
+}
+
+/// A written target that no derivative shows is one all the same.
+fn add_written_targets(
     relation: &Relation,
-    sides: Option<(ExprId, ExprId)>,
-    mentions: BTreeSet<SlotIndex>,
-) -> Row {
-    Row {
-        relation: relation_index as u32,
-        equation: equation as u32,
-        level: relation.level,
-        sides,
-        mentions,
-        columns: Vec::new(),
-        within: f64::from_bits(relation.within),
-        curved: false,
+    writable: &Writable,
+    classes: &Classes,
+    rows: &mut Rows,
+    own: std::ops::Range<usize>,
+    columns: &mut Vec<Entry>,
+) {
+    let shown = |rows: &Rows, columns: &[Entry], slot: SlotIndex| {
+        own.clone().any(|r| columns[rows[r].columns.range()].iter().any(|e| e.0 == slot))
+    };
+    let mut missing: Vec<SlotIndex> = relation
+        .methods
+        .iter()
+        .flat_map(|m| &m.targets)
+        .map(|&t| classes.representative[t as usize])
+        .filter(|&s| writable.allows(classes, s) && !shown(rows, columns, s))
+        .collect();
+    missing.sort_unstable();
+    missing.dedup();
+    if missing.is_empty() {
+        return;
+    }
+    let start = rows[own.start].columns.start as usize;
+    let before = columns.split_off(start);
+    for r in own {
+        let span = rows[r].columns;
+        let from = columns.len();
+        let range = span.range();
+        columns.extend(&before[range.start - start..range.end - start]);
+        columns.extend(missing.iter().map(|&slot| (slot, generic_coefficient(r, slot))));
+        columns[from..].sort_unstable_by_key(|e| e.0);
+        rows.list[r].columns = Span { start: from as u32, len: (columns.len() - from) as u32 };
     }
 }
 
 /// Which slots a relation may write.
 struct Writable {
-    never: BTreeSet<SlotIndex>,
-    only: Option<BTreeSet<SlotIndex>>,
+    never: Vec<SlotIndex>,
+    only: Option<Vec<SlotIndex>>,
 }
 
 impl Writable {
@@ -133,105 +357,6 @@ impl Writable {
     }
 }
 
-/// Evaluates all derivatives at the first of a few generic points that suits them best.
-fn set_coefficients(
-    system: &System,
-    arena: &Arena,
-    rows: &mut [Row],
-    derivatives: &[(usize, SlotIndex, ExprId)],
-) {
-    let ids: Vec<ExprId> = derivatives.iter().map(|d| d.2).collect();
-    let tape = Tape::compile(arena, &ids);
-    let mut registers = Vec::new();
-    let mut best = (usize::MAX, Vec::new());
-    for point in Point::ALL {
-        let values: Vec<f64> =
-            (0..system.slots.len()).map(|i| generic_number(i as u64, point)).collect();
-        let mut out = vec![0.0; ids.len()];
-        tape.run(&values, &mut registers, &mut out);
-        let bad = out.iter().filter(|v| !v.is_finite()).count();
-        if bad < best.0 {
-            best = (bad, out);
-        }
-        if bad == 0 {
-            break;
-        }
-    }
-    let branching = branching(arena);
-    for (&(row, slot, id), &value) in derivatives.iter().zip(&best.1) {
-        let by_branch = value == 0.0 && branching[id.0 as usize];
-        let value = if value.is_finite() && !by_branch {
-            value
-        } else {
-            generic_number((row as u64) << 32 | u64::from(slot), Point::Mixed)
-        };
-        if value != 0.0 {
-            rows[row].columns.push((slot, value));
-        }
-    }
-    for row in rows {
-        let largest = row.columns.iter().fold(0.0f64, |m, e| m.max(e.1.abs()));
-        for entry in &mut row.columns {
-            entry.1 /= largest;
-        }
-    }
-}
-
-/// A written target that no derivative shows is one all the same.
-fn add_written_targets(system: &System, classes: &Classes, rows: &mut [Row]) {
-    let mut start = 0;
-    while start < rows.len() {
-        let r = rows[start].relation;
-        let end = start + rows[start..].iter().take_while(|row| row.relation == r).count();
-        let relation = &system.relations[r as usize];
-        let writable = Writable::of(relation, classes);
-        for target in relation.methods.iter().flat_map(|m| &m.targets) {
-            let slot = classes.representative[*target as usize];
-            let shown = rows[start..end].iter().any(|row| row.writes(slot));
-            if shown || !writable.allows(classes, slot) {
-                continue;
-            }
-            for (i, row) in rows[start..end].iter_mut().enumerate() {
-                let value =
-                    generic_number(((start + i) as u64) << 32 | u64::from(slot), Point::Mixed);
-                let at = row.columns.partition_point(|e| e.0 < slot);
-                row.columns.insert(at, (slot, value));
-            }
-        }
-        start = end;
-    }
-}
-
-/// For every expression, whether its value depends on a choice.
-fn branching(arena: &Arena) -> Vec<bool> {
-    let mut found: Vec<bool> = Vec::with_capacity(arena.len());
-    for i in 0..arena.len() {
-        let of = |id: ExprId| found[id.0 as usize];
-        let branches = match arena.node(ExprId(i as u32)) {
-            Node::Constant(_) | Node::Var(_) => false,
-            Node::Unary(op, a) => {
-                matches!(op, Unary::Abs | Unary::Sign | Unary::Floor | Unary::Round | Unary::Not)
-                    || of(a)
-            }
-            Node::Binary(op, a, b) => {
-                matches!(
-                    op,
-                    Binary::Min
-                        | Binary::Max
-                        | Binary::Less
-                        | Binary::LessEqual
-                        | Binary::Equal
-                        | Binary::NotEqual
-                ) || of(a)
-                    || of(b)
-            }
-            Node::Select { .. } => true,
-        };
-        found.push(branches);
-    }
-    found
-}
-
 /// Where gradients are taken.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub(crate) enum Point {
@@ -245,6 +370,11 @@ pub(crate) enum Point {
 
 impl Point {
     const ALL: [Self; 3] = [Self::Mixed, Self::Positive, Self::Small];
+}
+
+/// Returns a coefficient that no other is equal to.
+fn generic_coefficient(row: usize, slot: SlotIndex) -> f64 {
+    generic_number((row as u64) << 32 | u64::from(slot), Point::Mixed)
 }
 
 /// Returns a number that depends on `seed` alone and on nothing else that could coincide.
@@ -261,15 +391,19 @@ pub(crate) fn generic_number(seed: u64, point: Point) -> f64 {
     }
 }
 
-/// Collects the slots that a method reads, over representatives.
+/// Collects the slots that a method reads, over representatives, in order.
 pub(crate) fn method_reads(
     system: &System,
     classes: &Classes,
     body: &MethodBody,
-) -> BTreeSet<SlotIndex> {
+) -> Vec<SlotIndex> {
     let reads = match body {
         MethodBody::Formulas { arguments, .. } => system.arguments(*arguments),
         MethodBody::Opaque { reads } => reads,
     };
-    reads.iter().map(|&s| classes.representative[s as usize]).collect()
+    let mut reads: Vec<SlotIndex> =
+        reads.iter().map(|&s| classes.representative[s as usize]).collect();
+    reads.sort_unstable();
+    reads.dedup();
+    reads
 }

@@ -386,7 +386,7 @@ impl Way<'_> {
             | Program::Inverse(_)
             | Program::Constant(_)
             | Program::Copy
-            | Program::Formulas(_)
+            | Program::Formulas(..)
             | Program::Host { .. } => true,
         })
     }

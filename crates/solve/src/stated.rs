@@ -1,24 +1,21 @@
-//! A system with the patterns that it uses, and its equations written out.
+//! A system with the patterns that it uses.
 
 use crate::pattern::{Pattern, PatternId, Patterns};
-use crate::system::{MethodBody, SlotIndex, Span, System};
-use expr::{Arena, ExprId, Var};
-use std::collections::BTreeMap;
+use crate::system::{MethodBody, System};
 use std::rc::Rc;
 
 /// A system and what its patterns are, as long as a plan of it lives.
 #[derive(Clone, Debug)]
 pub(crate) struct Stated {
     pub(crate) system: Rc<System>,
-    patterns: Rc<BTreeMap<PatternId, Rc<Pattern>>>,
+    /// In order of their ids.
+    patterns: Rc<[(PatternId, Rc<Pattern>)]>,
 }
 
 impl Stated {
     pub(crate) fn new(system: &Rc<System>, patterns: &Patterns) -> Self {
-        let mut used = BTreeMap::new();
-        let mut add = |id: PatternId| {
-            used.entry(id).or_insert_with(|| patterns.get(id).clone());
-        };
+        let mut is_used = vec![false; patterns.len()];
+        let mut add = |id: PatternId| is_used[id.0 as usize] = true;
         system.equations.iter().for_each(|e| add(e.pattern));
         for method in system.relations.iter().flat_map(|r| &r.methods) {
             match method.body {
@@ -26,33 +23,22 @@ impl Stated {
                 MethodBody::Opaque { .. } => {}
             }
         }
-        Self { system: system.clone(), patterns: Rc::new(used) }
+        let used = (0..patterns.len() as u32).filter(|&i| is_used[i as usize]).map(PatternId);
+        let patterns = used.map(|id| (id, patterns.get(id).clone())).collect();
+        Self { system: system.clone(), patterns }
     }
     /// The same patterns for another system over them.
     pub(crate) fn with(&self, system: System) -> Self {
         Self { system: Rc::new(system), patterns: self.patterns.clone() }
     }
+    /// Returns the place of a pattern among those that the system uses.
+    pub(crate) fn place(&self, id: PatternId) -> usize {
+        self.patterns.partition_point(|p| p.0 < id)
+    }
+    pub(crate) fn pattern_at(&self, place: usize) -> &Rc<Pattern> {
+        &self.patterns[place].1
+    }
     pub(crate) fn pattern(&self, id: PatternId) -> &Rc<Pattern> {
-        &self.patterns[&id]
-    }
-    /// Writes a pattern out over slots, each replaced by the one that stands for it.
-    pub(crate) fn write_out(
-        &self,
-        arena: &mut Arena,
-        representative: &[SlotIndex],
-        pattern: PatternId,
-        arguments: Span,
-    ) -> Vec<ExprId> {
-        let arguments: Vec<SlotIndex> =
-            self.system.arguments(arguments).iter().map(|&s| representative[s as usize]).collect();
-        self.pattern(pattern).write_out(arena, &arguments)
-    }
-    /// Makes an arena in which every slot has a place of its own, in order.
-    pub(crate) fn arena(&self) -> Arena {
-        let mut arena = Arena::new();
-        for slot in 0..self.system.slots.len() as u32 {
-            arena.var(Var(slot));
-        }
-        arena
+        self.pattern_at(self.place(id))
     }
 }

@@ -4,67 +4,119 @@
 //! which equations were used up. Only `a = b` and `a = number` between slots that the relation may
 //! write are taken; a relation with written methods is never substituted.
 
+use crate::pattern::Plain;
 use crate::stated::Stated;
-use crate::system::{Equation, Level, Relation, SlotIndex, Stay, System};
-use expr::{ExprId, Node};
-use std::collections::BTreeMap;
+use crate::system::{Equation, Level, Relation, RelationBody, SlotIndex, Span, Stay, System};
 
 /// Slots by representative.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct Classes {
     /// For every slot, the slot that stands for it.
     pub(crate) representative: Vec<SlotIndex>,
-    /// For every representative of several slots, all of them, in order.
-    pub(crate) members: BTreeMap<SlotIndex, Vec<SlotIndex>>,
-    /// For every representative that equals a number, that number's bits.
-    pub(crate) constants: BTreeMap<SlotIndex, u64>,
+    /// Every representative of several slots, with where those stand in `grouped`.
+    members: Vec<(SlotIndex, Span)>,
+    grouped: Vec<SlotIndex>,
+    /// Every representative that equals a number, with that number's bits, in order.
+    pub(crate) constants: Vec<(SlotIndex, u64)>,
     /// For every representative (meaningless elsewhere), the strongest stay of its class.
     pub(crate) stay: Vec<Stay>,
-    /// The equations that substitution makes hold: relation and index.
-    pub(crate) used: BTreeMap<(u32, u32), SlotIndex>,
-    /// The equations that say again, or contradict, what those of their circuit say.
-    pub(crate) repeated: BTreeMap<(u32, u32), Vec<(u32, u32)>>,
+    /// For every equation of the system, what became of it.
+    fates: Vec<Fate>,
+    /// The equations that say again, or contradict, what those of their circuit say, in order.
+    pub(crate) repeated: Vec<(Key, Vec<Key>)>,
 }
 
-/// An equation: its relation and its index.
-type Key = (u32, u32);
+/// An equation: its relation and its index there.
+pub(crate) type Key = (u32, u32);
 
-/// The way to a slot: from where, by which equation.
-type Step = Option<(usize, Key)>;
-
-/// The equations used so far, as edges between slots; the node after the last slot is all numbers.
-struct Edges {
-    at: Vec<Vec<(usize, Key)>>,
+/// What becomes of an equation.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+enum Fate {
+    /// It becomes a row.
+    Row,
+    /// Substitution makes it hold.
+    Used,
+    /// It says again what others say.
+    Repeated,
 }
 
-impl Edges {
-    fn add(&mut self, a: usize, b: usize, equation: Key) {
-        self.at[a].push((b, equation));
-        self.at[b].push((a, equation));
+impl Classes {
+    /// Returns true if an equation, by its place in the system, becomes no row.
+    pub(crate) fn is_settled(&self, equation: usize) -> bool {
+        self.fates[equation] != Fate::Row
     }
-    /// Adds the equations of the shortest way from `a` to `b` to a circuit.
-    fn way(&self, a: usize, b: usize, circuit: &mut Vec<Key>) {
-        // from where, and by which equation, each slot was reached; the start by none
-        let mut from: BTreeMap<usize, Step> = BTreeMap::from([(a, None)]);
-        let mut queue = std::collections::VecDeque::from([a]);
-        while let Some(v) = queue.pop_front() {
-            if v == b {
-                break;
+    /// Returns every class of several slots: its representative and all of them, in order.
+    pub(crate) fn members(&self) -> impl Iterator<Item = (SlotIndex, &[SlotIndex])> {
+        self.members.iter().map(|&(root, span)| (root, &self.grouped[span.range()]))
+    }
+    /// Returns the relations that substitution makes hold, each with the representative of what it
+    /// makes equal, in order.
+    pub(crate) fn equalities(&self, system: &System) -> Vec<(SlotIndex, u32)> {
+        let mut equalities = Vec::new();
+        for (r, relation) in (0..).zip(&system.relations) {
+            let RelationBody::Equations(span) = relation.body else { continue };
+            for at in span.range().filter(|&at| self.fates[at] == Fate::Used) {
+                let arguments = system.arguments(system.equations[at].arguments);
+                equalities.push((self.representative[arguments[0] as usize], r));
             }
-            for &(w, equation) in &self.at[v] {
-                if let std::collections::btree_map::Entry::Vacant(entry) = from.entry(w) {
-                    entry.insert(Some((v, equation)));
-                    queue.push_back(w);
+        }
+        equalities.sort_unstable();
+        equalities.dedup();
+        equalities
+    }
+}
+
+/// An equation that says that two slots are equal, or that one is a number (the node after the last).
+#[derive(Clone, Copy, Debug)]
+struct Edge {
+    ends: [usize; 2],
+    equation: Key,
+}
+
+/// The equations used, as a forest of slots, and all numbers as one more node.
+struct Forest {
+    /// For every node, the one towards its root, the equation between, and how far the root is.
+    up: Vec<Option<(usize, Key)>>,
+    depth: Vec<u32>,
+}
+
+impl Forest {
+    fn new(nodes: usize, edges: &[Edge]) -> Self {
+        let mut at: Vec<Vec<(usize, Key)>> = vec![Vec::new(); nodes];
+        for &Edge { ends: [a, b], equation } in edges {
+            at[a].push((b, equation));
+            at[b].push((a, equation));
+        }
+        let mut up = vec![None; nodes];
+        let mut depth = vec![u32::MAX; nodes];
+        for root in 0..nodes {
+            if depth[root] != u32::MAX {
+                continue;
+            }
+            depth[root] = 0;
+            let mut stack = vec![root];
+            while let Some(v) = stack.pop() {
+                for &(w, equation) in &at[v] {
+                    if depth[w] == u32::MAX {
+                        depth[w] = depth[v] + 1;
+                        up[w] = Some((v, equation));
+                        stack.push(w);
+                    }
                 }
             }
         }
-        let mut at = b;
-        while let Some(&Some((before, equation))) = from.get(&at) {
+        Self { up, depth }
+    }
+    /// Adds the equations of the way from `a` to `b` to a circuit.
+    fn way(&self, mut a: usize, mut b: usize, circuit: &mut Vec<Key>) {
+        while a != b {
+            if self.depth[a] < self.depth[b] {
+                std::mem::swap(&mut a, &mut b);
+            }
+            let Some((next, equation)) = self.up[a] else { return };
             circuit.push(equation);
-            at = before;
+            a = next;
         }
-        circuit.sort_unstable();
-        circuit.dedup();
     }
 }
 
@@ -84,72 +136,114 @@ pub(crate) fn substitute(stated: &Stated) -> Classes {
     let n = system.slots.len();
     let mut parent: Vec<SlotIndex> = (0..n as u32).collect();
     let mut stay: Vec<Stay> = system.slots.iter().map(|s| s.stay).collect();
-    let mut constants = BTreeMap::new();
-    let mut used = BTreeMap::new();
-    let mut repeated: BTreeMap<(u32, u32), Vec<(u32, u32)>> = BTreeMap::new();
-    let mut edges = Edges { at: vec![Vec::new(); n + 1] };
-    for (r, relation) in system.relations.iter().enumerate() {
+    let mut constants: Vec<(SlotIndex, u64)> = Vec::new();
+    let mut is_constant = vec![false; n];
+    let mut fates = vec![Fate::Row; system.equations.len()];
+    let mut edges = Vec::new();
+    // what is said again, and between which slots the way is that says it already
+    let mut again: Vec<(Key, Vec<[usize; 2]>)> = Vec::new();
+    for (r, relation) in (0..).zip(&system.relations) {
+        let RelationBody::Equations(span) = relation.body else { continue };
         if relation.level != Level::Required || !relation.methods.is_empty() {
             continue;
         }
-        for (e, equation) in system.equations_of(relation).iter().enumerate() {
-            let Some(simple) = simple(stated, relation, *equation) else { continue };
-            let key = (r as u32, e as u32);
-            let root = match simple {
+        for (e, at) in (0..).zip(span.range()) {
+            let Some(simple) = simple(stated, relation, system.equations[at]) else { continue };
+            let equation = (r, e);
+            let united = match simple {
                 Simple::Same(a, b) => unite(system, &mut parent, &stay, a, b),
                 Simple::Number(a, bits) => {
                     let root = find(&mut parent, a);
                     let is_known = stay[root as usize] == Stay::Fixed;
                     if !is_known {
                         stay[root as usize] = Stay::Fixed;
-                        constants.insert(root, bits);
+                        constants.push((root, bits));
+                        is_constant[root as usize] = true;
                     }
-                    if is_known { United::Known } else { United::Now(root) }
+                    if is_known { United::Known } else { United::Now }
                 }
             };
             let ends = match simple {
                 Simple::Same(a, b) => [a as usize, b as usize],
                 Simple::Number(a, _) => [a as usize, n],
             };
-            match root {
-                United::Now(root) => {
-                    used.insert(key, root);
-                    edges.add(ends[0], ends[1], key);
+            match united {
+                United::Now => {
+                    fates[at] = Fate::Used;
+                    edges.push(Edge { ends, equation });
                 }
                 United::Before => {
-                    edges.way(ends[0], ends[1], repeated.entry(key).or_default());
+                    fates[at] = Fate::Repeated;
+                    again.push((equation, vec![ends]));
                 }
                 United::Known => {
-                    let circuit = repeated.entry(key).or_default();
-                    for end in ends.into_iter().filter(|&end| end < n) {
+                    fates[at] = Fate::Repeated;
+                    let ways = ends.into_iter().filter(|&end| end < n).map(|end| {
                         let root = find(&mut parent, end as u32);
-                        let known = if constants.contains_key(&root) { n } else { root as usize };
-                        edges.way(end, known, circuit);
-                    }
+                        [end, if is_constant[root as usize] { n } else { root as usize }]
+                    });
+                    again.push((equation, ways.collect()));
                 }
                 United::Unlike => {}
             }
         }
     }
-    Classes { repeated, ..collect(parent, stay, &constants, used) }
+    let repeated = circuits(n + 1, &edges, again);
+    Classes { repeated, ..collect(parent, stay, constants, fates) }
+}
+
+/// Finds what every equation that was said again repeats.
+fn circuits(
+    nodes: usize,
+    edges: &[Edge],
+    again: Vec<(Key, Vec<[usize; 2]>)>,
+) -> Vec<(Key, Vec<Key>)> {
+    if again.is_empty() {
+        return Vec::new();
+    }
+    let forest = Forest::new(nodes, edges);
+    let circuit = |ways: Vec<[usize; 2]>| {
+        let mut circuit = Vec::new();
+        ways.into_iter().for_each(|[a, b]| forest.way(a, b, &mut circuit));
+        circuit.sort_unstable();
+        circuit.dedup();
+        circuit
+    };
+    again.into_iter().map(|(equation, ways)| (equation, circuit(ways))).collect()
 }
 
 fn collect(
     mut parent: Vec<SlotIndex>,
     stay: Vec<Stay>,
-    constants: &BTreeMap<SlotIndex, u64>,
-    used: BTreeMap<(u32, u32), SlotIndex>,
+    constants: Vec<(SlotIndex, u64)>,
+    fates: Vec<Fate>,
 ) -> Classes {
     let n = parent.len() as u32;
     let representative: Vec<SlotIndex> = (0..n).map(|i| find(&mut parent, i)).collect();
-    let mut members: BTreeMap<SlotIndex, Vec<SlotIndex>> = BTreeMap::new();
-    for (i, &root) in representative.iter().enumerate() {
-        members.entry(root).or_default().push(i as u32);
+    let mut size = vec![0u32; n as usize];
+    representative.iter().for_each(|&root| size[root as usize] += 1);
+    let mut members = Vec::new();
+    let mut next = vec![0; n as usize];
+    let mut start = 0;
+    for root in 0..n {
+        let len = size[root as usize];
+        if len > 1 {
+            members.push((root, Span { start, len }));
+            next[root as usize] = start as usize;
+            start += len;
+        }
     }
-    members.retain(|_, m| m.len() > 1);
-    let constants = constants.iter().map(|(&r, &b)| (representative[r as usize], b)).collect();
-    let used = used.into_iter().map(|(k, r)| (k, representative[r as usize])).collect();
-    Classes { representative, members, constants, stay, used, repeated: BTreeMap::new() }
+    let mut grouped = vec![0; start as usize];
+    for (slot, &root) in (0..).zip(&representative) {
+        if size[root as usize] > 1 {
+            grouped[next[root as usize]] = slot;
+            next[root as usize] += 1;
+        }
+    }
+    let of_root = |(slot, bits): (SlotIndex, u64)| (representative[slot as usize], bits);
+    let mut constants: Vec<(SlotIndex, u64)> = constants.into_iter().map(of_root).collect();
+    constants.sort_unstable();
+    Classes { representative, members, grouped, constants, stay, fates, repeated: Vec::new() }
 }
 
 #[derive(Clone, Copy)]
@@ -158,29 +252,19 @@ enum Simple {
     Number(SlotIndex, u64),
 }
 
+/// Finds out whether an equation only says that two slots that it may write are equal, or what one is.
 fn simple(stated: &Stated, relation: &Relation, equation: Equation) -> Option<Simple> {
     let system = &*stated.system;
-    let pattern = stated.pattern(equation.pattern);
     let arguments = system.arguments(equation.arguments);
-    let slot = |id: ExprId| match pattern.arena().node(id) {
-        Node::Var(v) => {
-            let s = arguments[v.0 as usize];
-            let is_number = system.slots[s as usize].is_number;
-            (is_number && !relation.reads.contains(&s)).then_some(s)
-        }
-        _ => None,
-    };
-    let number = |id: ExprId| match pattern.arena().node(id) {
-        Node::Constant(bits) => f64::from_bits(bits).is_finite().then_some(bits),
-        _ => None,
-    };
-    let &[left, right] = pattern.roots() else { return None };
-    match (slot(left), slot(right)) {
-        (Some(a), Some(b)) => Some(Simple::Same(a, b)),
-        (Some(a), None) => number(right).map(|bits| Simple::Number(a, bits)),
-        (None, Some(b)) => number(left).map(|bits| Simple::Number(b, bits)),
-        (None, None) => None,
+    let says = stated.pattern_at(stated.place(equation.pattern)).plain()?;
+    let may = |s: &SlotIndex| system.slots[*s as usize].is_number && !relation.reads.contains(s);
+    if !arguments.iter().all(may) {
+        return None;
     }
+    Some(match says {
+        Plain::Same => Simple::Same(arguments[0], arguments[1]),
+        Plain::Number(bits) => Simple::Number(arguments[0], bits),
+    })
 }
 
 fn find(parent: &mut [SlotIndex], slot: SlotIndex) -> SlotIndex {
@@ -197,8 +281,8 @@ fn find(parent: &mut [SlotIndex], slot: SlotIndex) -> SlotIndex {
 
 /// What became of an equality.
 enum United {
-    /// The two are one class from now on, with this root.
-    Now(SlotIndex),
+    /// They are one class from now on.
+    Now,
     /// They were one class before.
     Before,
     /// Both are known: the equality can only be tested.
@@ -227,5 +311,5 @@ fn unite(
     let rank = |i: SlotIndex| (firmness(stay[i as usize]), i);
     let (root, child) = if rank(a) <= rank(b) { (a, b) } else { (b, a) };
     parent[child as usize] = root;
-    United::Now(root)
+    United::Now
 }

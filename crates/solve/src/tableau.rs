@@ -51,7 +51,7 @@ impl Tableau {
         &self.rows[row as usize]
     }
     /// Subtracts from a row whatever accepted rows can take away.
-    pub(crate) fn reduce(&self, row: &SparseRow) -> Reduced {
+    pub(crate) fn reduce(&self, row: &[(u32, f64)]) -> Reduced {
         let mut work: BTreeMap<u32, (f64, f64)> =
             row.iter().map(|&(c, v)| (c, (v, v.abs()))).collect();
         let mut multipliers = Vec::new();
@@ -219,6 +219,6 @@ mod tests {
         t.exchange(0, 1);
         assert_eq!(t.row_with_pivot(1), Some(0));
         assert_eq!(t.row(1), &vec![(0, -1.0), (2, 1.0)]);
-        assert!(t.reduce(&vec![(0, 1.0), (2, -1.0)]).row.is_empty());
+        assert!(t.reduce(&[(0, 1.0), (2, -1.0)]).row.is_empty());
     }
 }

@@ -9,7 +9,8 @@
 
 use crate::accept::Acceptance;
 use crate::direct::Direction;
-use crate::rows::Row;
+use crate::lists::Lists;
+use crate::rows::Rows;
 use crate::substitute::Classes;
 use crate::system::{SlotIndex, Stay, System};
 use std::collections::BTreeMap;
@@ -18,7 +19,7 @@ use std::collections::BTreeMap;
 pub(crate) fn tie(
     system: &System,
     classes: &Classes,
-    rows: &[Row],
+    rows: &Rows,
     direction: &Direction,
     acceptance: &mut Acceptance,
 ) -> bool {
@@ -30,7 +31,7 @@ pub(crate) fn tie(
     let free = with_freedom(rows, direction, acceptance);
     let mut tied = false;
     for &r in &acceptance.accepted {
-        let row = &rows[r];
+        let row = rows[r];
         let stays =
             |&(c, _): &(SlotIndex, f64)| !acceptance.unknown[c as usize] && !place(c).is_empty();
         let Some(slot) = direction.slot_of_row[r] else { continue };
@@ -38,10 +39,10 @@ pub(crate) fn tie(
             && !free[slot as usize]
             && !place(slot).is_empty()
             && system.relations[row.relation as usize].methods.is_empty();
-        if !is_stiff || !row.columns.iter().any(stays) {
+        if !is_stiff || !rows.columns(r).iter().any(stays) {
             continue;
         }
-        for &(c, _) in &row.columns {
+        for &(c, _) in rows.columns(r) {
             for &s in place(c) {
                 acceptance.unknown[s as usize] = true;
                 tied = true;
@@ -70,20 +71,17 @@ fn places(system: &System, classes: &Classes) -> BTreeMap<u32, Vec<SlotIndex>> {
 }
 
 /// For every slot: a slot that no row determines can be exchanged for it.
-fn with_freedom(rows: &[Row], direction: &Direction, acceptance: &Acceptance) -> Vec<bool> {
-    let mut rows_of: Vec<Vec<usize>> = vec![Vec::new(); acceptance.unknown.len()];
-    for &r in &acceptance.accepted {
-        for &(c, _) in &rows[r].columns {
-            rows_of[c as usize].push(r);
-        }
-    }
+fn with_freedom(rows: &Rows, direction: &Direction, acceptance: &Acceptance) -> Vec<bool> {
+    let columns = |&r: &usize| rows.columns(r).iter().map(move |e| (e.0, r as u32));
+    let pairs = acceptance.accepted.iter().flat_map(columns);
+    let rows_of = Lists::new(acceptance.unknown.len(), pairs);
     let mut free: Vec<bool> = (0..acceptance.unknown.len())
         .map(|s| acceptance.unknown[s] && direction.row_of_slot[s].is_none())
         .collect();
     let mut reached: Vec<usize> = (0..free.len()).filter(|&s| free[s]).collect();
     while let Some(slot) = reached.pop() {
-        for &r in &rows_of[slot] {
-            if let Some(next) = direction.slot_of_row[r]
+        for &r in rows_of.of(slot as u32) {
+            if let Some(next) = direction.slot_of_row[r as usize]
                 && !std::mem::replace(&mut free[next as usize], true)
             {
                 reached.push(next as usize);

@@ -1,0 +1,34 @@
+//! Lists by number: what belongs to each of several numbers, one list after the other.
+
+/// A list of numbers for every one of several numbers.
+#[derive(Debug)]
+pub(crate) struct Lists {
+    first: Vec<u32>,
+    items: Vec<u32>,
+}
+
+impl Lists {
+    /// Sorts pairs by their first number; those of one number stay in order.
+    pub(crate) fn new(count: usize, pairs: impl Iterator<Item = (u32, u32)> + Clone) -> Self {
+        let mut first = vec![0; count + 1];
+        pairs.clone().for_each(|(of, _)| first[of as usize + 1] += 1);
+        for i in 0..count {
+            first[i + 1] += first[i];
+        }
+        let mut next = first.clone();
+        let mut items = vec![0; first[count] as usize];
+        for (of, item) in pairs {
+            items[next[of as usize] as usize] = item;
+            next[of as usize] += 1;
+        }
+        Self { first, items }
+    }
+    /// Returns how many lists there are.
+    pub(crate) fn len(&self) -> usize {
+        self.first.len() - 1
+    }
+    /// Returns the list of a number.
+    pub(crate) fn of(&self, of: u32) -> &[u32] {
+        &self.items[self.first[of as usize] as usize..self.first[of as usize + 1] as usize]
+    }
+}
