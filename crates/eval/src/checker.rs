@@ -60,8 +60,7 @@ fn check_values(
     values: &Values,
     wrong: &mut Vec<String>,
 ) {
-    if values.numbers.len() != structure.slots.len() || values.texts.len() != structure.slots.len()
-    {
+    if values.numbers.len() != structure.slots.len() {
         wrong.push("the state has another number of slots than the structure".into());
         return;
     }
@@ -92,7 +91,7 @@ fn check_values(
                 }
             }
             Primitive::Text | Primitive::Color => {
-                if values.texts[id].is_none() {
+                if !values.texts.contains_key(&id) {
                     wrong.push(format!("{} holds no text", path()));
                 }
             }

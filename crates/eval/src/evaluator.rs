@@ -343,7 +343,7 @@ impl<'a> Evaluator<'a> {
             Primitive::Real(dimension) => Answer::Number(number, dimension),
             Primitive::Integer => Answer::plain(number),
             Primitive::Bool => Answer::Bool(number != 0.0),
-            Primitive::Text | Primitive::Color => match &self.values.texts[slot] {
+            Primitive::Text | Primitive::Color => match self.values.texts.get(&slot) {
                 Some(text) => Answer::Text(text.clone()),
                 None => Answer::text(""),
             },

@@ -48,8 +48,7 @@ pub fn structure(document: &Document, structure: &Structure) -> Result<(), Strin
 /// # Errors
 /// The slot where it fails.
 pub fn values(structure: &Structure, values: &Values) -> Result<(), String> {
-    if values.numbers.len() != structure.slots.len() || values.texts.len() != structure.slots.len()
-    {
+    if values.numbers.len() != structure.slots.len() {
         return Err("values hold one number for each slot".into());
     }
     for (slot, &x) in values.numbers.iter() {

@@ -2,6 +2,7 @@
 
 use crate::structure::SlotId;
 use base::IdVec;
+use std::collections::BTreeMap;
 use std::sync::Arc;
 
 /// The content of one slot.
@@ -26,24 +27,25 @@ impl Value {
 
 /// The contents of all slots of a structure.
 ///
-/// Numbers are dense, one for every slot (0 where the slot holds a text); texts stand beside.
+/// Numbers are dense, one for every slot (0 where the slot holds a text); texts, which are few, stand
+/// beside.
 /// No NaN, no infinity and no negative zero is ever stored.
 #[derive(Clone, PartialEq, Debug, Default)]
 pub struct Values {
     /// The number in each slot, in base units.
     pub numbers: IdVec<SlotId, f64>,
     /// The text in each slot that holds one.
-    pub texts: IdVec<SlotId, Option<Arc<str>>>,
+    pub texts: BTreeMap<SlotId, Arc<str>>,
 }
 
 impl Values {
     /// Makes values for `n` slots: zero, and no text.
     pub fn new(n: usize) -> Self {
-        Self { numbers: IdVec::filled(0.0, n), texts: IdVec::filled(None, n) }
+        Self { numbers: IdVec::filled(0.0, n), texts: BTreeMap::new() }
     }
     /// Returns what is in a slot.
     pub fn get(&self, slot: SlotId) -> Value {
-        match &self.texts[slot] {
+        match self.texts.get(&slot) {
             Some(text) => Value::Text(text.clone()),
             None => Value::Number(self.numbers[slot]),
         }
@@ -54,16 +56,18 @@ impl Values {
             Value::Number(x) => {
                 debug_assert!(x.is_finite(), "only finite numbers are stored");
                 self.numbers[slot] = x + 0.0;
-                self.texts[slot] = None;
+                self.texts.remove(&slot);
             }
-            Value::Text(text) => self.texts[slot] = Some(text),
+            Value::Text(text) => {
+                self.texts.insert(slot, text);
+            }
         }
     }
     /// Returns the slots whose contents differ in any bit.
     pub fn changed<'a>(&'a self, other: &'a Self) -> impl Iterator<Item = SlotId> + 'a {
         self.numbers.ids().filter(move |&s| {
             self.numbers[s].to_bits() != other.numbers[s].to_bits()
-                || self.texts[s] != other.texts[s]
+                || self.texts.get(&s) != other.texts.get(&s)
         })
     }
 }

@@ -162,12 +162,15 @@ impl Pull {
             *target = aim.wanted[wish as usize][coordinate as usize];
         }
         let texts: Vec<Option<Arc<str>>> =
-            self.texts.iter().map(|&s| values.texts[s].clone()).collect();
+            self.texts.iter().map(|s| values.texts.get(s).cloned()).collect();
         let mut adapter = Adapter { planner, model, task: &self.task, values, host };
         let outcome = self.drag.follow(&self.task.plan, &self.targets, &mut adapter);
         if !outcome.is_solved() {
             for (&slot, text) in self.texts.iter().zip(texts) {
-                values.texts[slot] = text;
+                match text {
+                    Some(text) => values.texts.insert(slot, text),
+                    None => values.texts.remove(&slot),
+                };
             }
         }
         let now = self.drag.values();

@@ -165,7 +165,7 @@ impl Lab {
         self.values.numbers[self.slot(path)]
     }
     pub(crate) fn text(&self, path: &str) -> String {
-        self.values.texts[self.slot(path)].as_deref().unwrap_or("").to_owned()
+        self.values.texts.get(&self.slot(path)).map(ToString::to_string).unwrap_or_default()
     }
     pub(crate) fn status(&mut self) -> plan::Status {
         let model = Model { document: &self.document, structure: &self.structure };
