@@ -174,8 +174,19 @@ impl Pull {
             }
         }
         let now = self.drag.values();
-        for &(local, slot) in &self.written {
-            values.numbers[slot] = now[local as usize] + 0.0;
+        match self.drag.moved() {
+            Some(moved) => {
+                for &local in moved {
+                    if let Some(&slot) = self.task.component.slots.get(local as usize) {
+                        values.numbers[slot] = now[local as usize] + 0.0;
+                    }
+                }
+            }
+            None => {
+                for &(local, slot) in &self.written {
+                    values.numbers[slot] = now[local as usize] + 0.0;
+                }
+            }
         }
         if !outcome.is_solved() || !outcome.unmet.is_empty() {
             note(report, ran(planner, &self.task, &outcome));

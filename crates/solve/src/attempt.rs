@@ -41,7 +41,8 @@ pub(crate) struct Buffers {
     /// Both sides of every equation.
     pub(crate) sides: Vec<[f64; 2]>,
     pub(crate) scratch: Scratch,
-    pub(crate) approached: Vec<bool>,
+    /// The regions that were approached.
+    pub(crate) approached: Vec<u32>,
     pub(crate) notes: Vec<Note>,
 }
 
@@ -75,6 +76,58 @@ pub(crate) struct Failure {
     pub(crate) region: u32,
 }
 
+/// How much of a plan is run.
+#[derive(Clone, Copy, Debug)]
+pub(crate) enum Part<'a> {
+    /// All of it.
+    Whole,
+    /// What is downstream of a drag; the rest ran before, and nothing that it comes from has changed.
+    Downstream(&'a Slice),
+}
+
+/// What a drag can change.
+#[derive(Clone, Debug, Default)]
+pub(crate) struct Slice {
+    /// The known slots that it moves.
+    pub(crate) inputs: Vec<SlotIndex>,
+    /// The steps downstream of them, by index.
+    pub(crate) steps: Vec<u32>,
+    /// The slots that those steps write.
+    pub(crate) targets: Vec<SlotIndex>,
+    /// The relations that speak of any of these slots, or of slots of a region that may be approached.
+    pub(crate) relations: Vec<u32>,
+}
+
+impl Slice {
+    /// Finds what is downstream of the inputs.
+    pub(crate) fn new(plan: &Plan, inputs: &[SlotIndex]) -> Self {
+        let mut is_reached = vec![false; plan.slots.len()];
+        for &slot in inputs {
+            is_reached[slot as usize] = true;
+        }
+        let mut made = Self { inputs: inputs.to_vec(), ..Self::default() };
+        for (index, step) in (0..).zip(&plan.steps) {
+            if step.reads.iter().any(|&r| is_reached[r as usize]) {
+                made.steps.push(index);
+                made.targets.extend(&step.targets);
+                for &t in &step.targets {
+                    is_reached[t as usize] = true;
+                }
+                if let Some(region) = plan.regions.get(step.region as usize)
+                    && region.can_approach
+                {
+                    for &u in &region.problem.unknowns {
+                        is_reached[u as usize] = true;
+                    }
+                }
+            }
+        }
+        let touched = |r: &u32| plan.mentions(*r).any(|s| is_reached[s as usize]);
+        made.relations = (0..plan.relations.len() as u32).filter(touched).collect();
+        made
+    }
+}
+
 /// A stride to be taken: from which state, on which branch.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Attempt<'a> {
@@ -83,10 +136,11 @@ pub(crate) struct Attempt<'a> {
     /// The state that the branch is followed from.
     pub(crate) last: &'a [f64],
     pub(crate) trust: Trust,
+    pub(crate) part: Part<'a>,
 }
 
 impl Attempt<'_> {
-    /// Runs all steps once. `values` comes with the last state in it, and the known slots set.
+    /// Runs the steps once. `values` comes with the last state in it, and the known slots set.
     pub(crate) fn run(
         self,
         values: &mut [f64],
@@ -94,26 +148,47 @@ impl Attempt<'_> {
         buffers: &mut Buffers,
         host: &mut dyn Host,
     ) -> Result<(), Failure> {
-        let Self { plan, frame, last, trust } = self;
-        begin(plan, frame, values, buffers);
-        for (index, step) in plan.steps.iter().enumerate() {
-            if let Approach::In(regions) = approach
-                && regions.contains(&step.region)
-                && !matches!(step.program, Program::Host { .. })
-            {
-                approach_region(plan, frame, step, index, values, buffers)?;
-                continue;
+        buffers.notes.clear();
+        buffers.approached.clear();
+        match self.part {
+            Part::Whole => {
+                begin(self.plan, self.frame, values, buffers);
+                (0..self.plan.steps.len())
+                    .try_for_each(|index| self.step(index, values, approach, buffers, host))
             }
-            Run { plan, frame, last, values, trust, buffers, host, index }.step(step)?;
+            Part::Downstream(slice) => {
+                for &slot in &slice.inputs {
+                    buffers.motion[slot as usize] = motion(self.frame, values, slot);
+                }
+                slice
+                    .steps
+                    .iter()
+                    .try_for_each(|&i| self.step(i as usize, values, approach, buffers, host))
+            }
         }
-        Ok(())
+    }
+
+    fn step(
+        self,
+        index: usize,
+        values: &mut [f64],
+        approach: &Approach,
+        buffers: &mut Buffers,
+        host: &mut dyn Host,
+    ) -> Result<(), Failure> {
+        let Self { plan, frame, last, trust, part: _ } = self;
+        let step = &plan.steps[index];
+        if let Approach::In(regions) = approach
+            && regions.contains(&step.region)
+            && !matches!(step.program, Program::Host { .. })
+        {
+            return approach_region(plan, frame, step, index, values, buffers);
+        }
+        Run { plan, frame, last, values, trust, buffers, host, index }.step(step)
     }
 }
 
 fn begin(plan: &Plan, frame: &Frame, values: &mut [f64], buffers: &mut Buffers) {
-    buffers.notes.clear();
-    buffers.approached.clear();
-    buffers.approached.resize(plan.regions.len(), false);
     for (root, members) in &plan.shared_given {
         let first = frame.x0[members[0] as usize];
         if members.iter().any(|&m| frame.x0[m as usize].to_bits() != first.to_bits()) {
@@ -142,9 +217,10 @@ fn approach_region(
     values: &mut [f64],
     buffers: &mut Buffers,
 ) -> Result<(), Failure> {
-    if std::mem::replace(&mut buffers.approached[step.region as usize], true) {
+    if buffers.approached.contains(&step.region) {
         return Ok(());
     }
+    buffers.approached.push(step.region);
     let region = &plan.regions[step.region as usize];
     let measure = region.approach.get_or_init(|| {
         let kind = |s: SlotIndex| {

@@ -342,11 +342,23 @@ impl Plan {
     pub(crate) fn sides(&self, values: &[f64], scratch: &mut Scratch, out: &mut Vec<[f64; 2]>) {
         let system = &self.stated.system;
         out.clear();
-        out.extend(system.equations.iter().map(|e| {
-            let arguments = system.arguments(e.arguments).iter().map(|&s| values[s as usize]);
-            let sides = self.stated.pattern(e.pattern).evaluate(arguments, scratch);
-            [sides[0], sides[1]]
-        }));
+        out.extend((0..system.equations.len()).map(|row| self.sides_of(row, values, scratch)));
+    }
+    /// Computes both sides of one equation, by its place in the system.
+    pub(crate) fn sides_of(&self, row: usize, values: &[f64], scratch: &mut Scratch) -> [f64; 2] {
+        let system = &self.stated.system;
+        let equation = &system.equations[row];
+        let arguments = system.arguments(equation.arguments).iter().map(|&s| values[s as usize]);
+        let sides = self.stated.pattern(equation.pattern).evaluate(arguments, scratch);
+        [sides[0], sides[1]]
+    }
+    /// Returns every slot that a relation speaks of.
+    pub(crate) fn mentions(&self, relation: u32) -> impl Iterator<Item = SlotIndex> + '_ {
+        let planned = &self.relations[relation as usize];
+        let system = &self.stated.system;
+        let rows = planned.first_row as usize..(planned.first_row + planned.rows) as usize;
+        let stated = system.equations[rows].iter().flat_map(|e| system.arguments(e.arguments));
+        stated.chain(planned.opaque.iter().flatten()).copied()
     }
     /// The plan in which every place may yield: for a state that does not hold, where those that
     /// structure lets yield cannot reach far enough. None where nothing more would yield.

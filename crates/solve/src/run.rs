@@ -5,7 +5,7 @@
 //! state is taken in one stride where that is safe and in as many as needed where it is not; where
 //! the branch ends, soft wishes are met as nearly as they can be, and required ones stop the edit.
 
-use crate::attempt::{Approach, Attempt, Buffers, Failure, Frame};
+use crate::attempt::{Approach, Attempt, Buffers, Failure, Frame, Part, Slice};
 use crate::lower::Program;
 use crate::outcome::{Host, Outcome, Reason, Status, Unmet};
 use crate::plan::Plan;
@@ -64,7 +64,7 @@ pub fn run(
         }
     }
     let trust = if solved_before && plan.has_branches { Trust::Branch } else { Trust::Any };
-    let mut way = Way { plan, frame, buffers, host, trial };
+    let mut way = Way { plan, frame, buffers, host, trial, part: Part::Whole };
     let mut result = way.go(last, goal, values, trust);
     if let Err(Stop::NoWay(Failure { reason: Reason::NoSolution { .. }, .. })) = result
         && !solved_before
@@ -75,10 +75,10 @@ pub fn run(
         way.plan = plan;
     }
     let mut outcome = match result {
-        Ok(()) => way.test(values),
+        Ok(()) => way.test(values, &[]),
         Err(stop) => Outcome {
             status: Status::Stopped(stop.reason()),
-            unmet: way.test(goal).unmet,
+            unmet: way.test(goal, &[]).unmet,
             notes: Vec::new(),
         },
     };
@@ -99,7 +99,14 @@ pub fn run(
 #[derive(Debug)]
 pub struct Drag {
     runner: Runner,
-    inputs: Vec<SlotIndex>,
+    slice: Slice,
+    /// The relations that the drag cannot change and that do not hold.
+    upstream: Vec<Unmet>,
+    /// True if all that is not downstream has run, and stands in the branch.
+    has_run: bool,
+    /// True if the last wish changed nothing but what is downstream.
+    moved_slice: bool,
+    has_host: bool,
     /// The last state in which every accepted row held: where the branch is followed from.
     branch: Vec<f64>,
     /// False until a state was seen in which everything required holds.
@@ -115,12 +122,27 @@ impl Drag {
         let has_branch = required_rows_held(plan, &runner.frame);
         let state = runner.frame.x0.clone();
         runner.trial = state.clone();
-        Self { runner, inputs: inputs.to_vec(), branch: state.clone(), has_branch, now: state }
+        Self {
+            runner,
+            slice: Slice::new(plan, inputs),
+            upstream: Vec::new(),
+            has_run: false,
+            moved_slice: false,
+            has_host: plan.steps.iter().any(|s| matches!(s.program, Program::Host { .. })),
+            branch: state.clone(),
+            has_branch,
+            now: state,
+        }
     }
 
     /// Returns the present state.
     pub fn values(&self) -> &[f64] {
         &self.now
+    }
+
+    /// Returns the slots that the last wish may have changed, where they are not all.
+    pub fn moved(&self) -> Option<&[SlotIndex]> {
+        self.moved_slice.then_some(&self.slice.targets[..])
     }
 
     /// Follows the wish: one target for each input, in their order.
@@ -131,47 +153,60 @@ impl Drag {
     /// # Panics
     /// If there are not as many targets as inputs.
     pub fn follow(&mut self, plan: &Plan, targets: &[f64], host: &mut dyn Host) -> Outcome {
-        assert_eq!(targets.len(), self.inputs.len(), "a wish names every input");
+        let Self { slice, branch, now, .. } = self;
+        assert_eq!(targets.len(), slice.inputs.len(), "a wish names every input");
         let Runner { frame, buffers, goal, trial, .. } = &mut self.runner;
         goal.clear();
-        goal.extend_from_slice(&self.branch);
-        for (&slot, &target) in self.inputs.iter().zip(targets) {
+        goal.extend_from_slice(branch);
+        for (&slot, &target) in slice.inputs.iter().zip(targets) {
             goal[slot as usize] = target;
         }
         let is_safe = self.has_branch && plan.has_branches;
         let trust = if is_safe { Trust::Branch } else { Trust::Any };
-        let mut way = Way { plan, frame, buffers, host, trial };
+        let part = if self.has_run { Part::Downstream(slice) } else { Part::Whole };
+        self.moved_slice = self.has_run;
+        let mut way = Way { plan, frame, buffers, host, trial, part };
         let mut outcome;
-        match way.direct(&self.branch, goal, trust) {
+        match way.direct(branch, goal, trust) {
             Ok(()) => {
-                outcome = way.test_trial();
+                outcome = way.test_trial(&self.upstream);
                 if outcome.is_solved() {
-                    std::mem::swap(way.trial, &mut self.now);
-                    self.branch.copy_from_slice(&self.now);
+                    if !self.has_run {
+                        let upstream =
+                            |u: &&Unmet| slice.relations.binary_search(&u.relation).is_err();
+                        self.upstream = outcome.unmet.iter().filter(upstream).copied().collect();
+                        self.has_run = true;
+                    }
+                    std::mem::swap(way.trial, now);
+                    branch.copy_from_slice(now);
                     self.has_branch = true;
                 }
             }
             Err(failure) => {
-                let mut limit = self.branch.clone();
+                let mut limit = branch.clone();
                 let fraction = way.walk(&mut limit, goal, trust);
                 if fraction < 1.0 && way.approach(&limit, goal, &failure).is_ok() {
-                    outcome = way.test_trial();
+                    outcome = way.test_trial(&self.upstream);
                     if outcome.is_solved() {
-                        std::mem::swap(way.trial, &mut self.now);
+                        std::mem::swap(way.trial, now);
                     }
                 } else {
-                    outcome = way.test(&limit);
+                    outcome = way.test(&limit, &self.upstream);
                     if fraction < 1.0 {
                         outcome.status = Status::Stopped(Stop::At(fraction, failure).reason());
                     }
-                    self.branch.copy_from_slice(&limit);
-                    self.now.copy_from_slice(&limit);
+                    branch.copy_from_slice(&limit);
+                    now.copy_from_slice(&limit);
                 }
+                // a region that was approached is not downstream alone
+                self.has_run = false;
+                self.moved_slice = false;
             }
         }
-        if !outcome.is_solved() {
+        if !outcome.is_solved() && self.has_host {
             // the host's texts follow the state that stands; a failure here says nothing new
-            let _ = way.direct(&self.now, &self.now, trust);
+            way.part = Part::Whole;
+            let _ = way.direct(now, now, trust);
         }
         outcome.notes.append(&mut buffers.notes);
         outcome
@@ -264,6 +299,7 @@ struct Way<'a> {
     host: &'a mut dyn Host,
     /// Where attempts put their values.
     trial: &'a mut Vec<f64>,
+    part: Part<'a>,
 }
 
 impl Way<'_> {
@@ -315,13 +351,22 @@ impl Way<'_> {
     ) -> Result<(), Failure> {
         self.trial.clear();
         self.trial.extend_from_slice(last);
-        for (i, slot) in self.plan.slots.iter().enumerate() {
-            if slot.stay == Stay::Fixed && goal[i].to_bits() != last[i].to_bits() {
+        let mut move_known = |i: usize| {
+            if goal[i].to_bits() != last[i].to_bits() {
                 self.trial[i] =
                     if part == 1.0 { goal[i] } else { last[i] + (goal[i] - last[i]) * part };
             }
+        };
+        match self.part {
+            Part::Whole => (0..goal.len())
+                .filter(|&i| self.plan.slots[i].stay == Stay::Fixed)
+                .for_each(&mut move_known),
+            Part::Downstream(slice) => {
+                slice.inputs.iter().for_each(|&slot| move_known(slot as usize));
+            }
         }
-        let attempt = Attempt { plan: self.plan, frame: self.frame, last, trust };
+        let Self { plan, frame, part, .. } = *self;
+        let attempt = Attempt { plan, frame, last, trust, part };
         attempt.run(self.trial, approach, self.buffers, self.host)
     }
 
@@ -391,38 +436,59 @@ impl Way<'_> {
         })
     }
 
-    fn test_trial(&mut self) -> Outcome {
+    fn test_trial(&mut self, upstream: &[Unmet]) -> Outcome {
         let trial = std::mem::take(self.trial);
-        let outcome = self.test(&trial);
+        let outcome = self.test(&trial, upstream);
         *self.trial = trial;
         outcome
     }
 
-    /// Tests every relation against its own tolerance.
-    fn test(&mut self, values: &[f64]) -> Outcome {
-        test_sides(self.plan, values, self.buffers);
+    /// Tests the relations, each against its own tolerance; what is not met `upstream` is known.
+    fn test(&mut self, values: &[f64], upstream: &[Unmet]) -> Outcome {
         let mut unmet = Vec::new();
-        let mut conflict = false;
-        for (i, relation) in self.plan.relations.iter().enumerate() {
-            let mut worst: Option<(f64, f64)> = None;
-            if relation.opaque.is_some() {
-                if !self.host.holds(relation.source, values) {
-                    worst = Some((1.0, 0.0));
-                }
-            } else {
-                for r in relation.first_row..relation.first_row + relation.rows {
-                    let (error, tolerance) = error_of(self.buffers, r, relation.within);
-                    if error > tolerance && worst.is_none_or(|w| error > w.0) {
-                        worst = Some((error, tolerance));
-                    }
-                }
+        match self.part {
+            Part::Whole => {
+                test_sides(self.plan, values, self.buffers);
+                let all = 0..self.plan.relations.len() as u32;
+                unmet.extend(all.filter_map(|r| self.unmet(r, values)));
             }
-            if let Some((error, tolerance)) = worst {
-                unmet.push(Unmet { relation: i as u32, error, tolerance });
-                conflict |= relation.level == Level::Required;
+            Part::Downstream(slice) => {
+                for &r in &slice.relations {
+                    let relation = &self.plan.relations[r as usize];
+                    for row in relation.first_row..relation.first_row + relation.rows {
+                        let row = row as usize;
+                        let Buffers { scratch, sides, .. } = &mut *self.buffers;
+                        sides[row] = self.plan.sides_of(row, values, scratch);
+                    }
+                    unmet.extend(self.unmet(r, values));
+                }
+                unmet.extend(upstream);
+                unmet.sort_unstable_by_key(|u| u.relation);
             }
         }
+        let required =
+            |u: &Unmet| self.plan.relations[u.relation as usize].level == Level::Required;
+        let conflict = unmet.iter().any(required);
         let status = if conflict { Status::Stopped(Reason::Conflict) } else { Status::Solved };
         Outcome { status, unmet, notes: Vec::new() }
+    }
+
+    /// Returns how far a relation is from holding, if it does not; its sides are computed.
+    fn unmet(&mut self, index: u32, values: &[f64]) -> Option<Unmet> {
+        let relation = &self.plan.relations[index as usize];
+        let mut worst: Option<(f64, f64)> = None;
+        if relation.opaque.is_some() {
+            if !self.host.holds(relation.source, values) {
+                worst = Some((1.0, 0.0));
+            }
+        } else {
+            for r in relation.first_row..relation.first_row + relation.rows {
+                let (error, tolerance) = error_of(self.buffers, r, relation.within);
+                if error > tolerance && worst.is_none_or(|w| error > w.0) {
+                    worst = Some((error, tolerance));
+                }
+            }
+        }
+        worst.map(|(error, tolerance)| Unmet { relation: index, error, tolerance })
     }
 }
