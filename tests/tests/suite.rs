@@ -6,6 +6,7 @@
 //! - `//~ error[code] LINE:COLUMN` (place optional): a diagnostic; without any, there must be none
 //! - `//~ value PATH = TEXT`: what the values view shows, unit included
 //! - `//~ note WORDS`: something that the status says, by its first words
+//! - `//~ redundant NAME`: a required constraint that says nothing new; a file that names one names all
 //! - `//~ unsatisfied NAME`: a required constraint that does not hold; without any, all must hold
 //!
 //! The `check` blocks of every file must pass, and the independent checker must agree with the status.
@@ -88,6 +89,10 @@ fn differences(path: &Path, text: &str) -> String {
     }
     let broken = wanted("unsatisfied ");
     let status = session.status(id);
+    let redundant = wanted("redundant ");
+    if !redundant.is_empty() && redundant != status.redundant {
+        let _ = writeln!(out, "  redundant are {:?}, not {redundant:?}", status.redundant);
+    }
     for unmet in &status.unmet {
         let named = broken.iter().any(|b| unmet.constraint.ends_with(b.as_str()));
         if !named && unmet.strength == "required" {

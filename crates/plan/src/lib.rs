@@ -32,7 +32,7 @@
 //! is answered by slot or rule: words are made elsewhere.
 //!
 //! Reading order: [`rule`] and the lowering (meanings, evaluation, what a rule says), components,
-//! tasks, [`planner`], [`edit`], [`drag`], [`status`], [`explain`].
+//! tasks, [`planner`], [`edit`], [`drag`], [`status`], [`diagnose`], [`explain`].
 pub mod rule;
 
 mod builtin;
@@ -61,9 +61,13 @@ pub mod drag;
 pub mod edit;
 mod run;
 
+pub mod diagnose;
 pub mod explain;
 pub mod status;
 
+pub use diagnose::Analysis;
+pub use diagnose::motion::{Freedom, Motion, MotionKind};
+pub use diagnose::redundancy::{Redundancy, Redundant, RedundantKind};
 pub use drag::Press;
 pub use edit::{Conflict, EditKind, EditReport, RefusalReason, Target};
 pub use explain::{ExplainedKind, ExplainedStep, PlanKind, Root, RootKind, Why};

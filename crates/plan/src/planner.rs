@@ -28,7 +28,7 @@ pub struct Planner {
     pub(crate) rules: Rules,
     pub(crate) net: Net,
     pub(crate) plans: Plans,
-    alike: Alike,
+    pub(crate) alike: Alike,
     /// Every component with nothing edited; found when first asked for.
     whole: Option<Vec<Rc<Component>>>,
     /// The tasks of the latest edit, and what it changed.
@@ -127,6 +127,15 @@ impl Planner {
         let is_fixed = |s: SlotId| structure.slots[s].anchored;
         let whole = &mut self.whole;
         whole.get_or_insert_with(|| self.net.all(&self.rules, &is_fixed)).clone()
+    }
+
+    /// Takes the tasks of all components with nothing edited out, to plan others beside them.
+    pub(crate) fn take_resting(&mut self) -> Vec<Task> {
+        self.resting.take().unwrap_or_default()
+    }
+    /// Gives them back.
+    pub(crate) fn give_resting(&mut self, tasks: Vec<Task>) {
+        self.resting = Some(tasks);
     }
 
     /// Returns the tasks of all components with nothing edited, once they are planned.

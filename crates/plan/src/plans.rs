@@ -42,6 +42,15 @@ impl Plans {
         self.made.insert(system.clone(), plan.clone());
         (system, plan)
     }
+
+    /// Returns where the plans end that are made so far.
+    pub(crate) fn mark(&self) -> usize {
+        self.made.len()
+    }
+    /// Forgets the plans made since a mark.
+    pub(crate) fn forget_since(&mut self, mark: usize) {
+        self.made.truncate(mark);
+    }
 }
 
 /// How much was planned.

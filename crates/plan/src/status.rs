@@ -1,5 +1,6 @@
 //! Status: what holds, what can still move, what says nothing new.
 
+use crate::diagnose::redundancy::Redundant;
 use crate::host::Host;
 use crate::planner::{Model, Planner, Unmet};
 use crate::rule::Source;
@@ -7,7 +8,6 @@ use crate::task::{Holding, Task};
 use base::IdVec;
 use kernel::{SlotId, Values};
 use solve::{Level, Stay};
-use std::collections::{BTreeMap, BTreeSet};
 
 /// The state of a document at rest.
 #[derive(Clone, PartialEq, Debug, Default)]
@@ -19,7 +19,7 @@ pub struct Status {
     /// The constraints of any strength that do not hold, in order of declaration.
     pub unmet: Vec<Unmet>,
     /// Required constraints that hold and say nothing new, in order of declaration.
-    pub redundant: Vec<Source>,
+    pub redundant: Vec<Redundant>,
     /// The state of every slot.
     pub slots: IdVec<SlotId, SlotState>,
 }
@@ -52,14 +52,13 @@ impl Planner {
                 freedom += usize::from(s.primitive.is_number());
             }
         }
-        self.plan_resting(structure);
-        let mut redundant = BTreeSet::new();
+        let redundancy = self.redundancy(model, values, &unmet, host);
+        freedom += redundancy.theorem_rows();
         for task in self.resting() {
             freedom += task.plan.report.freedom;
             for slot in movable(task) {
                 slots[slot] = SlotState::Free;
             }
-            redundant.extend(surplus(self, task).into_iter().filter(|&s| !is_unmet(s)));
         }
         for rule in self.rules.iter() {
             if rule.shape.level == Level::Required && is_unmet(rule.source) {
@@ -70,7 +69,7 @@ impl Planner {
             satisfied: unmet.iter().all(|u| u.level != Level::Required),
             freedom,
             unmet,
-            redundant: redundant.into_iter().collect(),
+            redundant: redundancy.constraints,
             slots,
         }
     }
@@ -97,22 +96,4 @@ fn movable(task: &Task) -> Vec<SlotId> {
     }
     let slots = task.component.slots.iter().zip(moves);
     slots.filter(|(_, moves)| *moves).map(|(&s, _)| s).collect()
-}
-
-/// Returns the required constraints all of whose rows depend on others.
-fn surplus(planner: &Planner, task: &Task) -> Vec<Source> {
-    let mut rejected: BTreeMap<u32, usize> = BTreeMap::new();
-    for r in &task.plan.report.rejected {
-        *rejected.entry(r.relation).or_default() += 1;
-    }
-    let is_surplus = |&(r, n): &(u32, usize)| {
-        let relation = &task.system.relations[r as usize];
-        let rows = match &relation.body {
-            solve::RelationBody::Equations(equations) => equations.len as usize,
-            solve::RelationBody::Opaque { .. } => 1,
-        };
-        relation.level == Level::Required && rows == n
-    };
-    let all = rejected.into_iter().filter(is_surplus);
-    all.map(|(r, _)| task.source(&planner.rules, r)).collect()
 }

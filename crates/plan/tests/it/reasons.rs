@@ -2,7 +2,9 @@
 
 use crate::builder::{Builder, LENGTH, Lab, POINT, REAL, Terms, add, div, equal, n, p, pair};
 use kernel::Value;
-use plan::{ExplainedKind, PlanKind, RootKind, SlotState, Source, Target};
+use plan::{
+    ExplainedKind, PlanKind, Redundant, RedundantKind, RootKind, SlotState, Source, Target,
+};
 
 fn chain() -> Lab {
     let mut b = Builder::new();
@@ -24,7 +26,12 @@ fn an_unmet_document_is_conflicting_and_a_repeated_rule_redundant() {
     let mut lab = b.open(root);
     let status = lab.status();
     assert!(!status.satisfied);
-    assert_eq!(status.redundant, vec![Source::Constraint(3)]);
+    let again = Redundant {
+        source: Source::Constraint(3),
+        kind: RedundantKind::Form,
+        implied_by: vec![Source::Constraint(2)],
+    };
+    assert_eq!(status.redundant, vec![again]);
     assert_eq!(status.slots[lab.slot("x")], SlotState::Conflicting);
     assert_eq!(status.slots[lab.slot("y")], SlotState::Free);
     assert_eq!(status.freedom, 1);

@@ -12,7 +12,7 @@ pub(crate) fn view(open: &Open) -> Status {
     let status = &open.status;
     let unmet: Vec<Unmet> = status.unmet.iter().filter_map(|u| unmet(open, u)).collect();
     let redundant: Vec<String> =
-        status.redundant.iter().filter_map(|&s| words::source_name(state, s)).collect();
+        status.redundant.iter().filter_map(|r| words::source_name(state, r.source)).collect();
     let satisfied = status.unmet.iter().all(|u| u.level != Level::Required);
     let errors = state.diagnostics.iter().filter(|d| d.severity == base::Severity::Error).count();
     let notes: Vec<String> = state

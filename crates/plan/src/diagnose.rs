@@ -1,0 +1,48 @@
+//! Diagnosis: what is free, what says nothing new, what cannot hold together, asked of one state.
+//!
+//! Structure is decided at a generic point; here the present state is looked at as well. Required
+//! rules have a gradient there ([`gradient`]); an echelon form of the gradients ([`echelon`]) tells
+//! the rank, the combination that a dependent row is, and the motions that are left ([`motion`]).
+//! Rank alone decides nothing: a row that only depends on others *here* is redundant if it still holds
+//! where the others are solved without it from elsewhere ([`redundancy`]).
+pub(crate) mod echelon;
+pub(crate) mod gradient;
+pub mod motion;
+pub mod redundancy;
+pub(crate) mod trial;
+
+use crate::host::Host;
+use crate::planner::{Model, Planner, Unmet};
+use kernel::{SlotId, Values};
+use motion::{Freedom, Motion};
+use redundancy::Redundant;
+use solve::Level;
+
+/// What can be said of a state: how much of it is free, what is superfluous, what does not hold.
+#[derive(Clone, PartialEq, Debug, Default)]
+pub struct Analysis {
+    /// In how many independent ways the numbers can move, given numbers and anchors held.
+    pub freedom: usize,
+    /// The slots that move in some of these ways, in order.
+    pub free: Vec<SlotId>,
+    /// The ways, as far as they are listed: those of one place first.
+    pub motions: Vec<Motion>,
+    /// The required constraints that hold and say nothing new, in order of declaration.
+    pub redundant: Vec<Redundant>,
+    /// The required constraints that do not hold, in order of declaration.
+    pub conflicting: Vec<Unmet>,
+}
+
+impl Planner {
+    /// Analyses a state at rest: `values` are those of the document, with nothing edited.
+    ///
+    /// Plans what was not planned yet. Cost: a factorisation of the required rows, and one solve for
+    /// each component in which a row depends on others at this state alone.
+    pub fn analyse(&mut self, model: Model<'_>, values: &Values, host: &mut dyn Host) -> Analysis {
+        let mut conflicting = self.unmet(model, 0..self.rules.len() as u32, values, host);
+        conflicting.retain(|u| u.level == Level::Required);
+        let redundancy = self.redundancy(model, values, &conflicting, host);
+        let Freedom { freedom, free, motions } = self.freedom(model, values, &redundancy, host);
+        Analysis { freedom, free, motions, redundant: redundancy.constraints, conflicting }
+    }
+}

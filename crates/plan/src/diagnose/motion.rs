@@ -1,0 +1,326 @@
+//! Motions: the ways in which a state can move while every required constraint goes on holding.
+//!
+//! They are the null space of the rows at the present state, with anchors and given numbers held. Any
+//! basis would do; a readable one has the motions of one place first, then those of the whole as a
+//! rigid body, then what is left, shortest first. Where two curves only touch, the null space is
+//! larger than the freedom: then a motion counts if a small step along it can be completed.
+
+use crate::diagnose::echelon::{Echelon, Row, Verdict};
+use crate::diagnose::gradient::Gradients;
+use crate::diagnose::redundancy::Redundancy;
+use crate::diagnose::trial::scattered;
+use crate::host::Host;
+use crate::planner::{Model, Planner};
+use crate::rule::{Body, Source};
+use crate::task::{Holding, Task};
+use kernel::{Primitive, SlotId, ThingId, Values};
+use solve::Level;
+use std::collections::{BTreeMap, BTreeSet};
+
+/// At most so many motions of a component are listed.
+const LISTED: usize = 64;
+
+/// One way to move, to first order.
+#[derive(Clone, PartialEq, Debug)]
+pub struct Motion {
+    /// What kind of motion it is.
+    pub kind: MotionKind,
+    /// The slots that move, in order, with their velocities; the largest is 1.
+    pub moves: Vec<(SlotId, f64)>,
+}
+
+/// What a motion looks like.
+#[derive(Clone, Copy, PartialEq, Debug)]
+pub enum MotionKind {
+    /// One place, or one number, alone.
+    Alone,
+    /// All places of a component, in one direction.
+    Translation,
+    /// All places of a component, about this point.
+    Rotation {
+        /// The centre's coordinates.
+        center: [f64; 2],
+    },
+    /// Several that move together.
+    Together,
+}
+
+/// How much of a state is free.
+#[derive(Clone, PartialEq, Debug, Default)]
+pub struct Freedom {
+    /// In how many independent ways the numbers can move, given numbers and anchors held.
+    pub freedom: usize,
+    /// The slots that move in some of these ways, in order.
+    pub free: Vec<SlotId>,
+    /// The ways, at most 64 of each component.
+    pub motions: Vec<Motion>,
+}
+
+impl Planner {
+    /// Finds the ways in which a state at rest can move; `redundancy` is what is superfluous in it.
+    pub fn freedom(
+        &mut self,
+        model: Model<'_>,
+        values: &Values,
+        redundancy: &Redundancy,
+        host: &mut dyn Host,
+    ) -> Freedom {
+        self.plan_resting(model.structure);
+        let tasks = self.take_resting();
+        let superfluous: BTreeSet<Source> =
+            redundancy.constraints.iter().map(|r| r.source).collect();
+        let mut out = Freedom::default();
+        let mut gradients = Gradients::default();
+        let mut lone: BTreeMap<ThingId, Vec<SlotId>> = BTreeMap::new();
+        for (slot, s) in model.structure.slots.iter() {
+            let moves = self.net.rules_of(slot).is_empty() && s.primitive.is_number();
+            if moves && Self::resting_hold(model.structure, slot) == Holding::Kept {
+                lone.entry(s.place.unwrap_or(s.thing)).or_default().push(slot);
+            }
+        }
+        for slot in lone.into_values().flatten() {
+            out.freedom += 1;
+            out.free.push(slot);
+            out.motions.push(Motion { kind: MotionKind::Alone, moves: vec![(slot, 1.0)] });
+        }
+        for (index, task) in tasks.iter().enumerate() {
+            let wanted = task.plan.report.freedom
+                + redundancy.theorems.get(&index).copied().unwrap_or_default();
+            out.freedom += wanted;
+            let space = Space::new(self, model, task, values, &superfluous, &mut gradients);
+            let mut motions = space.motions(model, values);
+            if space.free.len() > wanted {
+                motions.retain(|m| self.goes_on(model, task, values, m, host));
+                out.free.extend(motions.iter().flat_map(|m| m.moves.iter().map(|e| e.0)));
+            } else {
+                out.free.extend(space.movable());
+            }
+            out.motions.extend(motions);
+        }
+        self.give_resting(tasks);
+        out.free.sort_unstable();
+        out.free.dedup();
+        out
+    }
+
+    /// Returns true if a small step along a motion can be completed to one that holds.
+    fn goes_on(
+        &mut self,
+        model: Model<'_>,
+        task: &Task,
+        values: &Values,
+        motion: &Motion,
+        host: &mut dyn Host,
+    ) -> bool {
+        /// How far, as a part of the largest number that moves, and how much of it must remain.
+        const PART: f64 = 1e-3;
+        const REMAINS: f64 = 0.5;
+        let size = motion.moves.iter().map(|m| values.numbers[m.0].abs()).fold(1.0, f64::max);
+        let mut there = values.clone();
+        for &(s, v) in &motion.moves {
+            there.numbers[s] += PART * size * v;
+        }
+        let is_required = |r: &u32| self.rules.get(*r).shape.level == Level::Required;
+        let rules: Vec<u32> = task.component.rules.iter().copied().filter(is_required).collect();
+        let holding = |s| Self::resting_hold(model.structure, s);
+        if !self.try_rules(model, &rules, &mut there, &holding, host) {
+            return false;
+        }
+        let (mut along, mut whole) = (0.0, 0.0);
+        for &(s, v) in &motion.moves {
+            along += (there.numbers[s] - values.numbers[s]) * v;
+            whole += PART * size * v * v;
+        }
+        along >= REMAINS * whole
+    }
+}
+
+/// The null space of the required rows of a component.
+struct Space {
+    /// The slots that may move: the columns.
+    columns: Vec<SlotId>,
+    rows: Vec<Row>,
+    echelon: Echelon,
+    /// The columns without a pivot.
+    free: Vec<u32>,
+    /// Where places of the component stand that cannot move.
+    held: Vec<[f64; 2]>,
+}
+
+impl Space {
+    fn new(
+        planner: &Planner,
+        model: Model<'_>,
+        task: &Task,
+        values: &Values,
+        superfluous: &BTreeSet<Source>,
+        gradients: &mut Gradients,
+    ) -> Self {
+        let structure = model.structure;
+        let moves = |&s: &SlotId| {
+            structure.slots[s].primitive.is_number()
+                && matches!(Planner::resting_hold(structure, s), Holding::Kept | Holding::Alone)
+        };
+        let columns: Vec<SlotId> = task.component.slots.iter().copied().filter(moves).collect();
+        let column = |s: SlotId| columns.binary_search(&s).ok().map(|i| i as u32);
+        let patterns = planner.plans.patterns();
+        let mut rows: Vec<Row> = Vec::new();
+        for &index in &task.component.rules {
+            let rule = planner.rules.get(index);
+            let Body::Equations(equations) = &rule.shape.body else { continue };
+            if rule.shape.level != Level::Required || superfluous.contains(&rule.source) {
+                continue;
+            }
+            for equation in equations {
+                let row = gradients.row(patterns, rule, equation, &values.numbers);
+                rows.push(row.into_iter().filter_map(|(s, v)| Some((column(s)?, v))).collect());
+            }
+        }
+        let mut uses = vec![0u32; columns.len()];
+        rows.iter().flatten().for_each(|e| uses[e.0 as usize] += 1);
+        let mut echelon = Echelon::default();
+        for row in &rows {
+            echelon.add(row, |c| uses[c as usize]);
+        }
+        let free = (0..columns.len() as u32).filter(|&c| !echelon.has_pivot(c)).collect();
+        let mut held: BTreeMap<ThingId, Vec<f64>> = BTreeMap::new();
+        for &s in task.component.slots.iter().filter(|&&s| column(s).is_none()) {
+            if let Some(place) = structure.slots[s].place {
+                held.entry(place).or_default().push(values.numbers[s]);
+            }
+        }
+        let held = held.into_values().filter_map(|c| <[f64; 2]>::try_from(c).ok()).collect();
+        Self { columns, rows, echelon, free, held }
+    }
+
+    /// Returns the slots that some motion moves: those that a motion of no particular kind does.
+    fn movable(&self) -> Vec<SlotId> {
+        let any: Row = self.free.iter().map(|&c| (c, scattered(c))).collect();
+        let moves = self.echelon.complete(&any);
+        moves.iter().map(|&(c, _)| self.columns[c as usize]).collect()
+    }
+
+    /// Returns a readable basis.
+    fn motions(&self, model: Model<'_>, values: &Values) -> Vec<Motion> {
+        let mut chosen = Chosen { space: self, known: Echelon::default(), motions: Vec::new() };
+        if self.free.is_empty() {
+            return chosen.motions;
+        }
+        let mut groups: BTreeMap<ThingId, Vec<u32>> = BTreeMap::new();
+        for (c, &s) in (0..).zip(&self.columns) {
+            let slot = &model.structure.slots[s];
+            groups.entry(slot.place.unwrap_or(slot.thing)).or_default().push(c);
+        }
+        let mut rows_of: Vec<Vec<u32>> = vec![Vec::new(); self.columns.len()];
+        for (r, row) in (0..).zip(&self.rows) {
+            row.iter().for_each(|e| rows_of[e.0 as usize].push(r));
+        }
+        let mut by_first: Vec<&Vec<u32>> = groups.values().collect();
+        by_first.sort();
+        for group in &by_first {
+            self.alone(group, &rows_of, &mut chosen);
+        }
+        let planar = |c: u32| {
+            let s = &model.structure.slots[self.columns[c as usize]];
+            s.place.is_some() && matches!(s.primitive, Primitive::Real(_))
+        };
+        let places: Vec<[u32; 2]> = by_first
+            .iter()
+            .filter_map(|g| <[u32; 2]>::try_from(g.as_slice()).ok())
+            .filter(|g| g.iter().all(|&c| planar(c)))
+            .collect();
+        self.rigid(&places, values, &mut chosen);
+        let mut rest: Vec<Row> = self
+            .free
+            .iter()
+            .take(4 * LISTED)
+            .map(|&c| self.echelon.complete(&[(c, 1.0)]))
+            .collect();
+        rest.sort_by_key(Vec::len);
+        for row in rest {
+            chosen.consider(MotionKind::Together, row);
+        }
+        chosen.motions
+    }
+
+    /// Adds the motions of one place or number alone.
+    fn alone(&self, group: &[u32], rows_of: &[Vec<u32>], chosen: &mut Chosen<'_>) {
+        let touching: BTreeSet<u32> =
+            group.iter().flat_map(|&c| rows_of[c as usize].iter().copied()).collect();
+        let mut echelon = Echelon::default();
+        for r in touching {
+            let row = self.rows[r as usize].iter().filter(|e| group.contains(&e.0));
+            echelon.add(&row.copied().collect(), |c| c);
+        }
+        for &c in group.iter().filter(|&&c| !echelon.has_pivot(c)) {
+            chosen.consider(MotionKind::Alone, echelon.complete(&[(c, 1.0)]));
+        }
+    }
+
+    /// Adds the motions of all places as one rigid body.
+    fn rigid(&self, places: &[[u32; 2]], values: &Values, chosen: &mut Chosen<'_>) {
+        if places.len() < 2 {
+            return;
+        }
+        for along in [0, 1] {
+            chosen.consider(
+                MotionKind::Translation,
+                places.iter().map(|p| (p[along], 1.0)).collect(),
+            );
+        }
+        let at = |c: u32| values.numbers[self.columns[c as usize]];
+        let mean = |i: usize| places.iter().map(|p| at(p[i])).sum::<f64>() / places.len() as f64;
+        let centers = self.held.iter().copied().chain([[mean(0), mean(1)]]);
+        for center in centers {
+            let turn = places
+                .iter()
+                .flat_map(|p| [(p[0], center[1] - at(p[1])), (p[1], at(p[0]) - center[0])])
+                .filter(|e| e.1 != 0.0);
+            let mut turn: Row = turn.collect();
+            turn.sort_unstable_by_key(|e| e.0);
+            chosen.consider(MotionKind::Rotation { center }, turn);
+        }
+    }
+
+    /// Returns true if every row goes on holding along a motion.
+    fn is_null(&self, motion: &Row) -> bool {
+        /// States are solved to about 1e-12.
+        const ROUNDING: f64 = 1e-8;
+        self.rows.iter().all(|row| {
+            let (mut sum, mut size) = (0.0, 0.0f64);
+            for &(c, v) in row {
+                if let Ok(i) = motion.binary_search_by_key(&c, |e| e.0) {
+                    sum += v * motion[i].1;
+                    size = size.max((v * motion[i].1).abs());
+                }
+            }
+            f64::abs(sum) <= ROUNDING * size
+        })
+    }
+}
+
+/// The motions chosen so far.
+struct Chosen<'s> {
+    space: &'s Space,
+    /// The free columns of the chosen ones: a motion is known by these alone.
+    known: Echelon,
+    motions: Vec<Motion>,
+}
+
+impl Chosen<'_> {
+    fn consider(&mut self, kind: MotionKind, mut row: Row) {
+        let space = self.space;
+        let is_full = self.known.rank() == space.free.len() || self.motions.len() == LISTED;
+        row.sort_unstable_by_key(|e| e.0);
+        if is_full || row.is_empty() || !space.is_null(&row) {
+            return;
+        }
+        let shadow = row.iter().filter(|e| !space.echelon.has_pivot(e.0)).copied().collect();
+        if let Verdict::Dependent(_) = self.known.add(&shadow, |c| c) {
+            return;
+        }
+        let largest = row.iter().fold(0.0f64, |m, e| if e.1.abs() > m.abs() { e.1 } else { m });
+        let moves = row.iter().map(|&(c, v)| (space.columns[c as usize], v / largest)).collect();
+        self.motions.push(Motion { kind, moves });
+    }
+}

@@ -1,0 +1,244 @@
+//! Redundancy: required constraints that say nothing new.
+//!
+//! Two tests, one after the other. A row that is a combination of others at a generic point is so
+//! everywhere: where it holds, it is superfluous by its *form*. A row that depends on others only at
+//! the present state is a candidate: all candidates are left out, the rest is solved from a perturbed
+//! start, and those that hold there all the same follow from the rest by a *theorem*. Two curves that
+//! touch by design are dependent here and fail there: they are not superfluous.
+
+use crate::diagnose::echelon::{Echelon, Row, Verdict};
+use crate::diagnose::gradient::Gradients;
+use crate::diagnose::trial::perturbed;
+use crate::host::Host;
+use crate::planner::{Model, Planner, Unmet};
+use crate::rule::{Body, Rule, Source};
+use crate::task::{Holding, Origin, Task};
+use kernel::{SlotId, Values};
+use solve::Level;
+use std::collections::{BTreeMap, BTreeSet};
+
+/// A required constraint that holds and says nothing new.
+#[derive(Clone, PartialEq, Eq, PartialOrd, Ord, Debug)]
+pub struct Redundant {
+    /// The constraint.
+    pub source: Source,
+    /// Why it is superfluous.
+    pub kind: RedundantKind,
+    /// Constraints that imply it, in order of declaration.
+    pub implied_by: Vec<Source>,
+}
+
+/// Why a constraint is superfluous.
+#[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Debug)]
+pub enum RedundantKind {
+    /// It is a combination of others, whatever the values.
+    Form,
+    /// Wherever the others hold, it does.
+    Theorem,
+}
+
+/// What is superfluous in a state.
+#[derive(Clone, PartialEq, Debug, Default)]
+pub struct Redundancy {
+    /// The constraints, in order of declaration.
+    pub constraints: Vec<Redundant>,
+    /// For every component that has any, how many of its rows are so by a theorem.
+    pub(crate) theorems: BTreeMap<usize, usize>,
+}
+
+impl Redundancy {
+    /// Returns how many rows are superfluous that structure counts as saying something.
+    pub(crate) fn theorem_rows(&self) -> usize {
+        self.theorems.values().sum()
+    }
+}
+
+impl Planner {
+    /// Finds the required constraints that say nothing new; `values` are those of the document at rest,
+    /// and `unmet` is what does not hold there.
+    ///
+    /// Plans what was not planned yet. Cost: an elimination of the rows that are not linear, and one
+    /// solve for each component with a candidate.
+    pub fn redundancy(
+        &mut self,
+        model: Model<'_>,
+        values: &Values,
+        unmet: &[Unmet],
+        host: &mut dyn Host,
+    ) -> Redundancy {
+        let required = unmet.iter().filter(|u| u.level == Level::Required);
+        let unmet: BTreeSet<Source> = required.map(|u| u.source).collect();
+        self.plan_resting(model.structure);
+        let tasks = self.take_resting();
+        let mut gradients = Gradients::default();
+        let mut out = Redundancy::default();
+        for (index, task) in tasks.iter().enumerate() {
+            let by_form = surplus(self, task).into_iter().filter(|r| !unmet.contains(&r.source));
+            out.constraints.extend(by_form);
+            let fails = |&r: &u32| unmet.contains(&self.rules.source(r));
+            if !unmet.is_empty() && task.component.rules.iter().any(fails) {
+                continue;
+            }
+            let candidates = candidates(self, model, task, values, &mut gradients);
+            let theorems = self.theorems(model, task, candidates, values, host);
+            if !theorems.is_empty() {
+                out.theorems.insert(index, theorems.iter().map(|t| t.1).sum());
+                out.constraints.extend(theorems.into_iter().map(|t| t.0));
+            }
+        }
+        self.give_resting(tasks);
+        out.constraints.sort();
+        out
+    }
+
+    /// Returns the candidates that hold after the rest is solved without them from elsewhere, each
+    /// with the number of its rows.
+    fn theorems(
+        &mut self,
+        model: Model<'_>,
+        task: &Task,
+        candidates: BTreeMap<u32, Candidate>,
+        values: &Values,
+        host: &mut dyn Host,
+    ) -> Vec<(Redundant, usize)> {
+        if candidates.is_empty() {
+            return Vec::new();
+        }
+        let is_left = |r: &u32| {
+            self.rules.get(*r).shape.level == Level::Required && !candidates.contains_key(r)
+        };
+        let rest: Vec<u32> = task.component.rules.iter().copied().filter(is_left).collect();
+        let mut elsewhere = perturbed(model, &task.component.slots, values);
+        let holding = |s| Self::resting_hold(model.structure, s);
+        if !self.try_rules(model, &rest, &mut elsewhere, &holding, host) {
+            return Vec::new();
+        }
+        let mut found = Vec::new();
+        for (rule, candidate) in candidates {
+            if self.unmet(model, [rule], &elsewhere, host).is_empty() {
+                let implied_by = candidate.circuit.iter().map(|&r| self.rules.source(r));
+                let implied_by: BTreeSet<Source> = implied_by.collect();
+                let source = self.rules.source(rule);
+                let redundant = Redundant {
+                    source,
+                    kind: RedundantKind::Theorem,
+                    implied_by: implied_by.into_iter().filter(|s| *s != source).collect(),
+                };
+                found.push((redundant, candidate.rows));
+            }
+        }
+        found
+    }
+}
+
+/// A rule with rows that depend on others at the present state alone.
+#[derive(Default)]
+struct Candidate {
+    rows: usize,
+    /// The rules that these rows are combinations of.
+    circuit: BTreeSet<u32>,
+}
+
+/// Finds the rules with rows that depend on others here, though not everywhere.
+fn candidates(
+    planner: &Planner,
+    model: Model<'_>,
+    task: &Task,
+    values: &Values,
+    gradients: &mut Gradients,
+) -> BTreeMap<u32, Candidate> {
+    let mut found: BTreeMap<u32, Candidate> = BTreeMap::new();
+    let patterns = planner.plans.patterns();
+    let rules = || task.component.rules.iter().map(|&r| (r, planner.rules.get(r)));
+    if rules().all(|(_, rule)| gradients.is_linear(patterns, rule)) {
+        return found;
+    }
+    let rejected = rejected_rows(task);
+    let column = |s: SlotId| task.component.slots.binary_search(&s).ok().map(|i| i as u32);
+    let mut uses = vec![0u32; task.component.slots.len()];
+    for (_, rule) in rules() {
+        rule.slots.iter().filter_map(|&s| column(s)).for_each(|c| uses[c as usize] += 1);
+    }
+    let mut echelon = Echelon::default();
+    let mut rule_of_row: Vec<u32> = Vec::new();
+    for (index, rule) in rules().filter(|(_, r)| r.shape.level == Level::Required) {
+        let Body::Equations(equations) = &rule.shape.body else { continue };
+        let writable = writable(rule);
+        for (e, equation) in (0..).zip(equations) {
+            if rejected.contains(&(index, e)) {
+                continue;
+            }
+            let moves = |s: SlotId| {
+                Planner::resting_hold(model.structure, s) != Holding::Fixed
+                    && writable.as_ref().is_none_or(|w| w.contains(&s))
+            };
+            let row = gradients.row(patterns, rule, equation, &values.numbers);
+            let row: Row = row
+                .into_iter()
+                .filter(|e| moves(e.0))
+                .filter_map(|(s, v)| Some((column(s)?, v)))
+                .collect();
+            match echelon.add(&row, |c| uses[c as usize]) {
+                Verdict::Independent(_) => rule_of_row.push(index),
+                Verdict::Dependent(rows) => {
+                    let candidate = found.entry(index).or_default();
+                    candidate.rows += 1;
+                    candidate.circuit.extend(rows.iter().map(|&r| rule_of_row[r as usize]));
+                }
+            }
+        }
+    }
+    found
+}
+
+/// Returns the slots that a rule may write; nothing where it may write all that it mentions.
+fn writable(rule: Rule<'_>) -> Option<BTreeSet<SlotId>> {
+    let shape = rule.shape;
+    let as_written = !shape.derived && !shape.methods.is_empty();
+    if shape.reads.is_empty() && !as_written {
+        return None;
+    }
+    let mut slots: BTreeSet<SlotId> = match as_written {
+        true => shape.methods.iter().flat_map(|m| rule.slots_at(&m.targets)).collect(),
+        false => rule.slots.iter().copied().collect(),
+    };
+    for s in rule.slots_at(&shape.reads) {
+        slots.remove(&s);
+    }
+    Some(slots)
+}
+
+/// Returns the rows that depend on others everywhere: rule and equation.
+fn rejected_rows(task: &Task) -> BTreeSet<(u32, u32)> {
+    let source = |relation: u32| task.system.relations[relation as usize].source;
+    let rule = |relation: u32| match task.origin(source(relation)) {
+        Origin::Rule(r) => Some(r),
+        Origin::Wish(_) => None,
+    };
+    let rejected = &task.plan.report.rejected;
+    rejected.iter().filter_map(|r| Some((rule(r.relation)?, r.row))).collect()
+}
+
+/// Returns the required constraints all of whose rows depend on others everywhere.
+fn surplus(planner: &Planner, task: &Task) -> Vec<Redundant> {
+    let mut rejected: BTreeMap<u32, (usize, BTreeSet<Source>)> = BTreeMap::new();
+    for r in &task.plan.report.rejected {
+        let (rows, circuit) = rejected.entry(r.relation).or_default();
+        *rows += 1;
+        circuit.extend(r.circuit.iter().map(|c| task.source(&planner.rules, c.0)));
+    }
+    let one = |(r, (n, circuit)): (u32, (usize, BTreeSet<Source>))| {
+        let relation = &task.system.relations[r as usize];
+        let rows = match &relation.body {
+            solve::RelationBody::Equations(span) => span.len as usize,
+            solve::RelationBody::Opaque { .. } => 1,
+        };
+        let source = task.source(&planner.rules, r);
+        (relation.level == Level::Required && rows == n).then(|| Redundant {
+            source,
+            kind: RedundantKind::Form,
+            implied_by: circuit.into_iter().filter(|s| *s != source).collect(),
+        })
+    };
+    rejected.into_iter().filter_map(one).collect()
+}
