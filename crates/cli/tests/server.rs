@@ -6,7 +6,7 @@
 use std::fs;
 use std::io::{BufRead, BufReader, Read, Write};
 use std::net::TcpStream;
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 use std::process::{Child, Command, Stdio};
 use std::time::{Duration, Instant};
 
@@ -29,6 +29,11 @@ impl Server {
         #[cfg(unix)]
         std::os::unix::fs::symlink(folder.join("secret.thing"), folder.join("root/link.thing"))
             .unwrap();
+        Server::over(folder)
+    }
+
+    /// Starts a server over a folder that is there.
+    fn over(folder: PathBuf) -> Server {
         let mut child = Command::new(env!("CARGO_BIN_EXE_thinglab"))
             .args(["serve", "--no-open", "--root"])
             .arg(folder.join("root"))
@@ -50,24 +55,43 @@ impl Server {
 
     /// Sends bytes as they are, `PORT` and `TOKEN` filled in; gives the whole answer.
     fn raw(&self, request: &str) -> String {
-        let request = request.replace("PORT", &self.port.to_string()).replace("TOKEN", &self.token);
-        let mut stream = self.connect();
-        // The server may have answered and closed before the last byte is sent.
-        let _ = stream.write_all(request.as_bytes());
-        let mut answer = Vec::new();
-        let _ = stream.read_to_end(&mut answer);
-        String::from_utf8_lossy(&answer).into_owned()
+        exchange(self.connect(), &self.filled_in(request))
+    }
+
+    fn filled_in(&self, request: &str) -> String {
+        request.replace("PORT", &self.port.to_string()).replace("TOKEN", &self.token)
+    }
+
+    /// Kills the server where it is and starts another over the same folder.
+    fn killed(&mut self) {
+        self.child.kill().unwrap();
+        self.child.wait().unwrap();
+        let folder = std::mem::take(&mut self.folder);
+        *self = Server::over(folder);
     }
 
     /// The request of an honest page.
     fn ask(&self, method: &str, target: &str, body: &str) -> String {
-        self.raw(&format!(
+        exchange(self.connect(), &self.request(method, target, body))
+    }
+
+    fn request(&self, method: &str, target: &str, body: &str) -> String {
+        self.filled_in(&format!(
             "{method} {target} HTTP/1.1\r\nHost: 127.0.0.1:PORT\r\nOrigin: http://127.0.0.1:PORT\r\n\
              X-ThingLab-Token: TOKEN\r\nContent-Type: application/json\r\nConnection: close\r\n\
              Content-Length: {}\r\n\r\n{body}",
             body.len()
         ))
     }
+}
+
+/// Sends bytes and gives the whole answer.
+fn exchange(mut stream: TcpStream, request: &str) -> String {
+    // The server may have answered and closed before the last byte is sent.
+    let _ = stream.write_all(request.as_bytes());
+    let mut answer = Vec::new();
+    let _ = stream.read_to_end(&mut answer);
+    String::from_utf8_lossy(&answer).into_owned()
 }
 
 impl Drop for Server {
@@ -358,4 +382,73 @@ fn every_answer_says_what_it_may_be_used_for() {
         }
         assert!(!head.contains("access-control"), "{head}");
     }
+}
+
+/// How often a save is killed.
+const KILLS: u32 = 40;
+
+/// A document so long that writing it takes a while, in two versions.
+fn two_texts() -> [String; 2] {
+    ["a", "b"].map(|letter| format!("// {}\nx: Real\n", letter.repeat(2 << 20)))
+}
+
+/// Returns which of the texts a file holds; nothing where it holds neither, whole.
+fn which(path: &Path, texts: &[String; 2]) -> Option<usize> {
+    let found = fs::read(path).unwrap();
+    texts.iter().position(|text| text.as_bytes() == found)
+}
+
+#[test]
+fn a_save_that_is_killed_leaves_the_old_text_or_the_new_one_whole() {
+    let mut server = Server::start("killed");
+    let path = server.folder.join("root/a.thing");
+    let texts = two_texts();
+    let saving = |server: &Server, text: &str| {
+        let opened = body(&server.ask("GET", "/api/document?path=a.thing", ""));
+        let version = &opened["version"];
+        let saving = serde_json::json!({ "path": "a.thing", "text": text, "version": version });
+        server.request("PUT", "/api/document", &saving.to_string())
+    };
+    let first = saving(&server, &texts[0]);
+    let start = Instant::now();
+    assert_eq!(status(&exchange(server.connect(), &first)), 200);
+    let whole_save = start.elapsed();
+    let mut now = 0;
+    for kill in 0..KILLS {
+        let request = saving(&server, &texts[1 - now]);
+        let stream = server.connect();
+        let page = std::thread::spawn(move || exchange(stream, &request));
+        std::thread::sleep(whole_save * kill * 5 / 4 / KILLS);
+        server.killed();
+        page.join().unwrap();
+        now = which(&path, &texts).unwrap_or_else(|| panic!("kill {kill} left neither text"));
+        let opened = body(&server.ask("GET", "/api/document?path=a.thing", ""));
+        assert!(opened["text"] == texts[now], "the next server reads what is there");
+    }
+}
+
+/// The same kills find out a writer that writes over the document itself.
+#[cfg(unix)]
+#[test]
+fn a_naive_writer_is_caught_by_the_same_kills() {
+    let folder = std::env::temp_dir().join(format!("thinglab-naive-{}", std::process::id()));
+    fs::create_dir_all(&folder).unwrap();
+    let texts = two_texts();
+    fs::write(folder.join("one"), &texts[0]).unwrap();
+    fs::write(folder.join("two"), &texts[1]).unwrap();
+    fs::write(folder.join("a.thing"), &texts[0]).unwrap();
+    let mut torn = 0;
+    for kill in 0..KILLS {
+        let mut writer = Command::new("sh")
+            .args(["-c", "while :; do cat two > a.thing; cat one > a.thing; done"])
+            .current_dir(&folder)
+            .spawn()
+            .unwrap();
+        std::thread::sleep(Duration::from_micros(u64::from(kill) * 500));
+        writer.kill().unwrap();
+        writer.wait().unwrap();
+        torn += u32::from(which(&folder.join("a.thing"), &texts).is_none());
+    }
+    fs::remove_dir_all(&folder).unwrap();
+    assert!(torn > 0, "none of {KILLS} kills tore a text");
 }
