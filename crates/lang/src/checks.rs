@@ -7,7 +7,7 @@ use crate::lower::{Lowerer, OWN};
 use crate::paths::loose_path;
 use crate::scope::Scope;
 use base::Span;
-use kernel::{Command, Path, Term};
+use kernel::{Command, Path, Step, Term};
 use std::rc::Rc;
 use syntax::ast::{self, AstNode, Member};
 
@@ -232,6 +232,10 @@ fn targets(
     let mut all = Vec::new();
     for target in targets {
         let e = target.path()?;
+        if let Some(target) = of_prototype(l, scope, &target) {
+            all.push(target);
+            continue;
+        }
         // the path may be virtual: it is lowered as an expression to be checked
         let (_, kind) = l.expr(scope, &e)?;
         let Some(path) = loose_path(&e) else {
@@ -242,6 +246,18 @@ fn targets(
         all.push((path, l.expr_of(scope, &target.value()?, &kind)?));
     }
     Some(all)
+}
+
+/// Lowers a target that begins at a class's prototype: `Strut.p1.x`.
+fn of_prototype(l: &mut Lowerer<'_>, scope: &Scope, target: &ast::Target) -> Option<(Path, Term)> {
+    let path = loose_path(&target.path()?)?;
+    let [Step::Part(first), before @ .., Step::Part(last)] = path.0.as_slice() else { return None };
+    let is_part = scope.classes.iter().any(|&c| l.kind_of_part(c, first).is_some());
+    let class = l.visible.class(scope.file, first).filter(|_| !is_part)?;
+    let owner = l.class_at(class, &Path(before.to_vec()))?;
+    let kind = l.kind_of_part(owner, last)?;
+    let value = l.expr_of(scope, &target.value()?, &kind)?;
+    Some((path.clone(), value))
 }
 
 fn expectation(l: &mut Lowerer<'_>, scope: &Scope, e: &ast::Expect) -> Option<Expectation> {

@@ -313,6 +313,20 @@ impl Lowered {
         let in_class = |s: &Span| s.start <= place.span.start && place.span.end <= s.end;
         place.file == OWN && !self.class_spans.iter().any(in_class)
     }
+    /// Returns true if the document uses a text of this name, itself or by what it uses.
+    pub fn uses(&self, name: &str) -> bool {
+        self.files.iter().skip(1).any(|(_, file)| file.name == name)
+    }
+    /// Returns true if the document's own text declares a class of this name.
+    pub fn declares_class(&self, name: &str) -> bool {
+        self.own_class(name).is_some()
+    }
+    /// Finds the class of this name that the document's own text declares.
+    pub(crate) fn own_class(&self, name: &str) -> Option<ClassId> {
+        let class = self.document.class_named(name)?;
+        let place = self.origins.place(self.document.classes[class].origin);
+        (place.file == OWN && self.class_spans.contains(&place.span)).then_some(class)
+    }
     /// Returns true if a class is that of a single part.
     pub fn is_class_of_one(&self, class: ClassId) -> bool {
         self.classes_of_one.contains(&class)

@@ -5,7 +5,6 @@
 //! lowered: locals first, then the thing whose body it is, then those around it.
 
 use crate::lower::{Lowered, OWN};
-use crate::names::class_at;
 use base::{Diagnostic, Name, Place, Span};
 use kernel::{ClassId, Path, Step};
 use syntax::ast::{self, AstNode, Expr, Member};
@@ -24,15 +23,20 @@ pub(crate) fn refused(code: &'static str, message: String) -> Diagnostic {
 
 impl<'l> Text<'l> {
     pub(crate) fn of(lowered: &'l Lowered) -> Self {
-        Self { lowered, file: syntax::parse(OWN, &lowered.effective).file() }
+        let own = &lowered.files[OWN];
+        let file = if own.text == lowered.effective {
+            own.parse.file()
+        } else {
+            syntax::parse(OWN, &lowered.effective).file()
+        };
+        Self { lowered, file }
     }
 
     /// Returns the class of what a path leads to, if that is known.
     pub(crate) fn class_at(&self, path: &Path) -> Option<ClassId> {
-        let document = &self.lowered.document;
-        class_at(document, document.root, path).or_else(|| {
+        self.lowered.class_at(self.lowered.document.root, path).or_else(|| {
             let (class, rest) = self.prototype(path)?;
-            class_at(document, class, &rest)
+            self.lowered.class_at(class, &rest)
         })
     }
 
@@ -78,7 +82,7 @@ impl<'l> Text<'l> {
         let document = &self.lowered.document;
         let step = Path(vec![Step::Part(name.clone())]);
         let knows = |class: ClassId| {
-            class_at(document, class, &step).is_some()
+            self.lowered.class_at(class, &step).is_some()
                 || document.find_message(class, name, None).is_some()
         };
         let owner = things.into_iter().find(|(_, class)| class.is_some_and(knows));

@@ -29,6 +29,13 @@ pub fn write_values(lowered: &Lowered, writes: &[(Path, Literal)]) -> Vec<TextEd
         Writer { lowered, document: &lowered.document, edits: Vec::new(), added: IndexMap::new() };
     for (path, literal) in writes {
         let root = lowered.document.root;
+        if let Some((class, declared, rest)) = prototype(lowered, &file, path) {
+            let part = Value { literal, class: lowered.class_at(class, &rest) };
+            let end = Spot::EndOf(declared.syntax().clone());
+            let members = declared.body().into_iter().flat_map(|b| b.members());
+            writer.write(&Body { owner: Some(class), end }, &Members::of(members), &rest, part);
+            continue;
+        }
         let class = lowered.class_at(root, path);
         let part = Value { literal, class };
         let body = Body { owner: Some(root), end: Spot::EndOf(file.syntax().clone()) };
@@ -39,6 +46,23 @@ pub fn write_values(lowered: &Lowered, writes: &[(Path, Literal)]) -> Vec<TextEd
         edits.push(edit::insert_member(spot, &joined(texts)));
     }
     in_text(lowered, edits)
+}
+
+/// Finds the class whose prototype a path begins at, where it is declared, and the rest of the path.
+fn prototype(
+    lowered: &Lowered,
+    file: &ast::File,
+    path: &Path,
+) -> Option<(ClassId, ast::Class, Path)> {
+    let (first, rest) = path.0.split_first()?;
+    let Step::Part(name) = first else { return None };
+    let known = lowered.class_at(lowered.document.root, &Path(vec![first.clone()])).is_some();
+    let class = lowered.own_class(name).filter(|_| !known)?;
+    let declared = file.members().find_map(|m| match m {
+        Member::Class(c) if c.name().is_some_and(|w| w.name() == *name) => Some(c),
+        _ => None,
+    })?;
+    Some((class, declared, Path(rest.to_vec())))
 }
 
 /// Carries edits of the effective text over to the text itself.

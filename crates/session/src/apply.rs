@@ -3,13 +3,15 @@
 use crate::difference::difference;
 use crate::document::{Direction, Open};
 use crate::host::Host;
+use crate::placing::place_new_parts;
+use crate::prototype;
 use crate::state::State;
 use crate::texts::Texts;
 use crate::view::{Change, Choice, Question, Refusal};
 use crate::words;
 use crate::write_back::{differing, write_back};
 use kernel::{Command, DOCUMENT, Literal, Path, SlotId, Step, Term, ThingId, Value, Values};
-use plan::{EditKind, Target};
+use plan::{EditKind, Planner, Target};
 use std::sync::Arc;
 
 /// Applies a command to a document.
@@ -21,12 +23,17 @@ pub(crate) fn apply(
     host: &dyn Host,
     command: &Command,
 ) -> Result<Change, Refusal> {
+    if let Command::Set(targets) | Command::Move(targets) = command
+        && let Some(class) = targets.first().and_then(|t| prototype::class_of(&open.state, &t.0))
+    {
+        return prototype::edit(open, host, command, targets, class);
+    }
     match command {
         Command::Set(targets) => edit(open, host, EditKind::Set, targets),
         Command::Move(targets) => edit(open, host, EditKind::Move, targets),
         Command::Text(text) => Ok(take_text(open, host, text)),
-        Command::Undo => travel(open, Direction::Back),
-        Command::Redo => travel(open, Direction::Forth),
+        Command::Undo => travel(open, host, Direction::Back),
+        Command::Redo => travel(open, host, Direction::Forth),
         Command::Merge(_)
         | Command::Unmerge(_)
         | Command::Delete(_)
@@ -181,16 +188,17 @@ fn take_text(open: &mut Open, host: &dyn Host, text: &str) -> Change {
     if before.text == text {
         return Change { label, ..Change::default() };
     }
-    let plans = open.planner.take_plans();
-    let (state, planner) = State::of(text.into(), Some(&before), host, plans);
-    open.step_to(label.clone(), Vec::new(), state, planner);
-    change(label, &before, &open.state)
+    take_state(open, host, text.into(), label)
 }
 
-fn travel(open: &mut Open, direction: Direction) -> Result<Change, Refusal> {
+fn travel(open: &mut Open, host: &dyn Host, direction: Direction) -> Result<Change, Refusal> {
     let before = open.state.clone();
     match open.travel(direction) {
-        Some(label) => Ok(change(label, &before, &open.state)),
+        Some(label) => {
+            // the step was made beside what a used document was then
+            catch_up(open, host);
+            Ok(change(label, &before, &open.state))
+        }
         None => {
             let nothing = match direction {
                 Direction::Back => "there is nothing to undo",
@@ -220,24 +228,47 @@ fn restructure(open: &mut Open, host: &dyn Host, command: &Command) -> Result<Ch
         open.planner.give_plans(planner.into_plans());
         return Err(words::refusal_of_text(&state, &new));
     }
-    let (state, planner) = match carried_over(command, &before, &state) {
-        Some(values) => write_back(&state, &values, &[], host, planner.into_plans()),
-        None => (state, planner),
+    let class = done.class.map(|c| before.lowered.document.classes[c].name.to_string());
+    let (state, planner) = match (carried_over(command, &before, &state), &class) {
+        (Some(values), _) => write_back(&state, &values, &[], host, planner.into_plans()),
+        (None, Some(class)) => place_new_parts(&before, state, planner, class, host),
+        (None, None) => (state, planner),
     };
-    let label = words::command_label(command);
+    let change = step_to(open, words::command_label(command), state, planner);
+    let class_of_one = done.class_of_one.filter(|_| class.is_none()).map(|p| p.to_string());
+    Ok(Change { class_of_one, class, along: done.along, ..change })
+}
+
+/// Makes a text the document's own, as one step.
+pub(crate) fn take_state(open: &mut Open, host: &dyn Host, text: String, label: String) -> Change {
+    let before = open.state.clone();
+    let plans = open.planner.take_plans();
+    let (state, planner) = State::of(text, Some(&before), host, plans);
+    step_to(open, label, state, planner)
+}
+
+/// Reads again what a document uses; its own text stays, and it is no step of its own.
+///
+/// Returns the things that could be satisfied before and cannot be now; nothing if all is as it was.
+pub(crate) fn catch_up(open: &mut Open, host: &dyn Host) -> Option<Vec<String>> {
+    if open.state.is_up_to_date(host) {
+        return None;
+    }
+    let before = words::unmet_things(&open.state, &open.status);
+    open.read_again(host);
+    let mut unsatisfied = words::unmet_things(&open.state, &open.status);
+    unsatisfied.retain(|path| !before.contains(path));
+    Some(unsatisfied)
+}
+
+/// Makes a state the present one, and says which things could be satisfied before and cannot be now.
+fn step_to(open: &mut Open, label: String, state: State, planner: Planner) -> Change {
+    let before = open.state.clone();
     let unmet = words::unmet_things(&before, &open.status);
     open.step_to(label.clone(), Vec::new(), state, planner);
     let mut unsatisfied = words::unmet_things(&open.state, &open.status);
     unsatisfied.retain(|path| !unmet.contains(path));
-    let class = done.class.map(|c| before.lowered.document.classes[c].name.to_string());
-    let class_of_one = done.class_of_one.filter(|_| class.is_none()).map(|p| p.to_string());
-    Ok(Change {
-        class_of_one,
-        class,
-        along: done.along,
-        unsatisfied,
-        ..change(label, &before, &open.state)
-    })
+    Change { unsatisfied, ..change(label, &before, &open.state) }
 }
 
 /// Returns the edits of a command that changes structure.

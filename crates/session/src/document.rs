@@ -85,6 +85,14 @@ impl Open {
         self.take_up(planner);
         Some(step.label)
     }
+    /// Makes the state of the same text anew, from what it uses as that is now.
+    pub(crate) fn read_again(&mut self, host: &dyn Host) {
+        self.drag = None;
+        let plans = self.planner.take_plans();
+        let (state, planner) = State::of(self.state.text.clone(), Some(&self.state), host, plans);
+        self.state = Rc::new(state);
+        self.take_up(planner);
+    }
     fn take_up(&mut self, planner: Planner) {
         self.planner = planner;
         self.status = self.state.status(&mut self.planner);

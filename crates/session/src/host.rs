@@ -1,5 +1,9 @@
 //! The host: everything that reaches in from outside, in one trait.
 
+use crate::document::Open;
+use crate::view::DocumentId;
+use std::collections::BTreeMap;
+
 /// What a session may ask of the program that it lives in. No clock, file or network otherwise.
 pub trait Host {
     /// Returns the text of a library or of a file beside the document, named as `use` names it
@@ -8,5 +12,32 @@ pub trait Host {
     /// Returns the names of the libraries that can be used, for whoever misses one.
     fn libraries(&self) -> Vec<String> {
         Vec::new()
+    }
+}
+
+/// The host as one open document sees it: what another open document is now counts, not what it was
+/// when it was saved.
+pub(crate) struct Beside<'h> {
+    host: &'h dyn Host,
+    /// The other open documents, by name.
+    texts: BTreeMap<String, String>,
+}
+
+impl<'h> Beside<'h> {
+    pub(crate) fn of(host: &'h dyn Host, documents: &[Open], id: DocumentId) -> Self {
+        let others = (0..).zip(documents).filter(|(i, _)| DocumentId(*i) != id);
+        let texts = others.map(|(_, open)| (open.name.clone(), open.state.text.clone()));
+        Self { host, texts: texts.collect() }
+    }
+}
+
+impl Host for Beside<'_> {
+    fn read(&self, name: &str) -> Option<String> {
+        // only what can be used at all: a document that is nowhere saved is nobody's library
+        let saved = self.host.read(name)?;
+        Some(self.texts.get(name).cloned().unwrap_or(saved))
+    }
+    fn libraries(&self) -> Vec<String> {
+        self.host.libraries()
     }
 }

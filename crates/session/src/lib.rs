@@ -20,6 +20,8 @@ mod difference;
 mod document;
 mod drag;
 mod fixes;
+mod placing;
+mod prototype;
 mod recognise;
 mod session;
 mod state;

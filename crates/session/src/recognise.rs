@@ -4,15 +4,14 @@
 //! be, one to one by class, so that all its constraints and merges are true of them. A thing of every
 //! such class is made for the test, filled with the values of the selected parts, and thrown away.
 
+use crate::prototype::Lone;
 use crate::state::State;
 use crate::view::{Recognised, Refusal};
 use crate::words;
-use base::Name;
 use base::number::close;
 use eval::Evaluator;
 use kernel::{
-    Class, ClassId, ClassKind, Document, Part, PartRole, Path, Step, Strength, Structure, ThingId,
-    Value, Values,
+    Class, ClassId, ClassKind, Document, PartRole, Path, Strength, ThingId, Value, Values,
 };
 
 /// How many parts can be asked about: their orders are all tried.
@@ -36,7 +35,6 @@ pub(crate) fn recognise(state: &State, paths: &[Path]) -> Result<Vec<Recognised>
         things.push(thing);
     }
     let document = &state.lowered.document;
-    let empty = without_things(document);
     let classes = document.classes.iter().filter(|&(id, c)| is_candidate(state, id, c));
     let mut found: Vec<Recognised> = Vec::new();
     for (class, _) in classes {
@@ -49,7 +47,7 @@ pub(crate) fn recognise(state: &State, paths: &[Path]) -> Result<Vec<Recognised>
         let fits = |field: usize, thing: ThingId| {
             document.is_a(state.structure.things[thing].class, wanted[field])
         };
-        let Some(trial) = Trial::new(&empty, class) else { continue };
+        let Some(trial) = Trial::new(document, class) else { continue };
         let mut order = Vec::new();
         if trial.first_order(state, &things, &fits, &mut order) {
             let names = fields.iter().map(|&f| document.field_name(f).to_string());
@@ -76,46 +74,20 @@ fn is_candidate(state: &State, id: ClassId, class: &Class) -> bool {
         && !state.lowered.is_class_of_one(id)
 }
 
-/// Returns a document of the same classes that has no things.
-fn without_things(document: &Document) -> Document {
-    let mut empty = document.clone();
-    let root = &mut empty.classes[document.root];
-    root.parts.clear();
-    root.givens.clear();
-    root.messages.clear();
-    root.constraints.clear();
-    root.merges.clear();
-    root.inserts.clear();
-    root.stays.clear();
-    root.switches.clear();
-    empty
-}
-
-/// A thing of a class, alone in a document of its own.
+/// A thing of a class, made to be filled with the values of parts.
 struct Trial {
-    document: Document,
-    structure: Structure,
-    thing: ThingId,
+    lone: Lone,
     /// How many constraints and merges the class says of its parts.
     rules: u32,
 }
 
 impl Trial {
-    fn new(of: &Document, class: ClassId) -> Option<Self> {
-        let mut document = of.clone();
-        let root = &mut document.classes[of.root];
-        let name = Name::new("recognised");
-        let origin = root.origin;
-        let doc = String::new();
-        root.parts =
-            vec![Part { name: name.clone(), doc, class, count: None, range: None, origin }];
-        let (structure, faults) = kernel::instantiate(&document);
-        let thing = structure.follow(kernel::DOCUMENT, &Path(vec![Step::Part(name)])).ok()?;
-        let line = of.primary_line(class);
-        let merges: usize = line.iter().map(|&c| of.classes[c].merges.len()).sum();
-        let own = structure.constraints.iter().filter(|c| c.owner == thing).count();
-        let rules = (merges + own) as u32;
-        faults.is_empty().then_some(Self { document, structure, thing, rules })
+    fn new(document: &Document, class: ClassId) -> Option<Self> {
+        let lone = Lone::of(document, class)?;
+        let line = document.primary_line(class);
+        let merges: usize = line.iter().map(|&c| document.classes[c].merges.len()).sum();
+        let own = lone.structure.constraints.iter().filter(|c| c.owner == lone.thing).count();
+        Some(Self { lone, rules: (merges + own) as u32 })
     }
 
     /// Finds the first order of the things in which they could be the parts, field by field.
@@ -145,18 +117,18 @@ impl Trial {
 
     /// Returns true if all that the class says is true of the things as its parts.
     fn holds(&self, state: &State, things: &[ThingId], order: &[usize]) -> bool {
-        let mut values = Values::new(self.structure.slots.len());
-        let mut filled = vec![false; self.structure.slots.len()];
-        for (field, &i) in self.structure.parts(self.thing).zip(order) {
+        let mut values = Values::new(self.lone.structure.slots.len());
+        let mut filled = vec![false; self.lone.structure.slots.len()];
+        for (field, &i) in self.lone.structure.parts(self.lone.thing).zip(order) {
             if !self.fill(state, field, things[i], &mut values, &mut filled) {
                 return false;
             }
         }
-        let evaluator = Evaluator::new(&self.document, &self.structure, &values);
-        self.structure.constraints.iter().all(|&c| {
-            let written = &self.document.classes[c.class].constraints[c.index as usize];
+        let evaluator = Evaluator::new(&self.lone.document, &self.lone.structure, &values);
+        self.lone.structure.constraints.iter().all(|&c| {
+            let written = &self.lone.document.classes[c.class].constraints[c.index as usize];
             written.strength != Strength::Required
-                || !self.structure.is_on(c)
+                || !self.lone.structure.is_on(c)
                 || evaluator.test(c).is_ok_and(|verdict| verdict.holds)
         })
     }
@@ -172,7 +144,7 @@ impl Trial {
         filled: &mut [bool],
     ) -> bool {
         if let (Some(slot), Some(source)) =
-            (self.structure.slot_of[part], state.structure.slot_of[from])
+            (self.lone.structure.slot_of[part], state.structure.slot_of[from])
         {
             let value = state.values.get(source);
             let agrees = match (&value, values.get(slot)) {
@@ -186,14 +158,16 @@ impl Trial {
             return true;
         }
         let elements = state.structure.parts(from);
-        let mut below = self.structure.parts(part).enumerate();
-        if let ClassKind::List(_) = self.document.classes[self.structure.things[part].class].kind {
+        let mut below = self.lone.structure.parts(part).enumerate();
+        if let ClassKind::List(_) =
+            self.lone.document.classes[self.lone.structure.things[part].class].kind
+        {
             let elements: Vec<ThingId> = elements.collect();
             return elements.len() == below.len()
                 && below.all(|(i, p)| self.fill(state, p, elements[i], values, filled));
         }
         below.all(|(_, p)| {
-            let name = self.structure.field_name(&self.document, p);
+            let name = self.lone.structure.field_name(&self.lone.document, p);
             let source = name.and_then(|n| state.structure.part_named(from, n));
             source.is_some_and(|s| self.fill(state, p, s, values, filled))
         })

@@ -5,12 +5,12 @@ use crate::check;
 use crate::complaints;
 use crate::document::Open;
 use crate::drag;
-use crate::host::Host;
+use crate::host::{Beside, Host};
 use crate::recognise;
 use crate::state::State;
 use crate::view::{
-    Change, CheckReport, DocumentId, DragState, Explanation, FixView, PictureView, Question,
-    Recognised, Refusal, Status, StructureRow, TextView, ValueRow,
+    Affected, Change, CheckReport, DocumentId, DragState, Explanation, FixView, PictureView,
+    Question, Recognised, Refusal, Status, StructureRow, TextView, ValueRow,
 };
 use crate::views;
 use crate::words;
@@ -49,7 +49,9 @@ impl Session {
     /// Opens a document. Never fails: what is wrong with its text, [`Session::text`] says.
     pub fn open(&mut self, name: &str, text: &str) -> DocumentId {
         let id = DocumentId(self.documents.len() as u32);
-        self.documents.push(Open::of(name, text.into(), &*self.host));
+        let beside = Beside::of(&*self.host, &self.documents, id);
+        let open = Open::of(name, text.into(), &beside);
+        self.documents.push(open);
         id
     }
     fn document(&self, id: DocumentId) -> &Open {
@@ -63,12 +65,33 @@ impl Session {
     /// # Errors
     /// Why it was refused; then nothing has changed.
     pub fn apply(&mut self, id: DocumentId, command: &Command) -> Result<Change, Refusal> {
+        let beside = Beside::of(&*self.host, &self.documents, id);
         let open = self
             .documents
             .get_mut(id.0 as usize)
             .expect("a document id comes from this session's open");
         open.drag = None;
-        apply::apply(open, &*self.host, command)
+        let mut change = apply::apply(open, &beside, command)?;
+        if !change.edits.is_empty() {
+            change.documents = self.reach(id);
+        }
+        Ok(change)
+    }
+    /// Brings documents that use another up to date with it, and says what that did to them.
+    fn reach(&mut self, id: DocumentId) -> Vec<Affected> {
+        let name = self.document(id).name.clone();
+        let mut affected = Vec::new();
+        for i in 0..self.documents.len() {
+            let document = DocumentId(i as u32);
+            if document == id || !self.documents[i].state.lowered.uses(&name) {
+                continue;
+            }
+            let beside = Beside::of(&*self.host, &self.documents, document);
+            if let Some(unsatisfied) = apply::catch_up(&mut self.documents[i], &beside) {
+                affected.push(Affected { document, unsatisfied });
+            }
+        }
+        affected
     }
     /// Returns what has to be asked before a command is applied, if anything: whether it is meant of
     /// one thing, which becomes a class of one, or of all things of its class.
@@ -153,14 +176,17 @@ impl Session {
     /// # Errors
     /// Why it could not be kept; then all is as it was before the press.
     pub fn release(&mut self, id: DocumentId) -> Result<Change, Refusal> {
+        let beside = Beside::of(&*self.host, &self.documents, id);
         let open = self
             .documents
             .get_mut(id.0 as usize)
             .expect("a document id comes from this session's open");
-        match open.drag.take() {
-            Some(drag) => drag.release(open, &*self.host),
-            None => Ok(Change::default()),
+        let Some(drag) = open.drag.take() else { return Ok(Change::default()) };
+        let mut change = drag.release(open, &beside)?;
+        if !change.edits.is_empty() {
+            change.documents = self.reach(id);
         }
+        Ok(change)
     }
     /// Gives a drag up: all is as it was before the press.
     pub fn cancel(&mut self, id: DocumentId) {
@@ -227,7 +253,8 @@ impl Session {
     }
     /// Runs the `check` blocks, each on a fresh copy of the document as it is.
     pub fn run_checks(&self, id: DocumentId) -> Vec<CheckReport> {
-        check::run_all(&self.document(id).state, &*self.host)
+        let beside = Beside::of(&*self.host, &self.documents, id);
+        check::run_all(&self.document(id).state, &beside)
     }
 }
 

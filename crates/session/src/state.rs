@@ -61,6 +61,11 @@ impl State {
         debug_assert_eq!(kernel::check::values(&structure, &values), Ok(()));
         (Self { text, lowered, structure, values, diagnostics, unplanned, double_roots }, planner)
     }
+    /// Returns true if what the document uses is still as it was read.
+    pub(crate) fn is_up_to_date(&self, host: &dyn Host) -> bool {
+        let mut used = self.lowered.files.iter().skip(1).map(|(_, file)| file);
+        used.all(|file| host.read(&file.name).is_some_and(|text| *text == *file.text))
+    }
     /// Returns what every question to the planner is about.
     pub(crate) fn model(&self) -> Model<'_> {
         Model { document: &self.lowered.document, structure: &self.structure }

@@ -29,6 +29,17 @@ pub struct Change {
     pub along: Vec<String>,
     /// The paths of the things that have constraints which cannot hold, and could before.
     pub unsatisfied: Vec<String>,
+    /// The other open documents that use this one, and so have changed as well.
+    pub documents: Vec<Affected>,
+}
+
+/// A document that changed because one that it uses did.
+#[derive(Clone, PartialEq, Eq, Debug, Serialize)]
+pub struct Affected {
+    /// Which it is.
+    pub document: DocumentId,
+    /// The paths of its things that have constraints which cannot hold, and could before.
+    pub unsatisfied: Vec<String>,
 }
 
 /// What has to be asked before a command is applied.

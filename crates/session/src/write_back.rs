@@ -75,13 +75,13 @@ pub(crate) fn differing<'a>(
 }
 
 /// Returns the place that a slot is a coordinate of, else its own thing.
-fn unit_of_writing(state: &State, slot: SlotId) -> ThingId {
+pub(crate) fn unit_of_writing(state: &State, slot: SlotId) -> ThingId {
     let s = &state.structure.slots[slot];
     s.place.unwrap_or(s.thing)
 }
 
 /// Returns what a thing is worth, as the language writes it.
-fn literal(state: &State, thing: ThingId, values: &Values) -> Literal {
+pub(crate) fn literal(state: &State, thing: ThingId, values: &Values) -> Literal {
     match state.structure.slot_of[thing] {
         Some(slot) => match (state.structure.slots[slot].primitive, values.get(slot)) {
             (Primitive::Bool, Value::Number(x)) => Literal::Bool(x != 0.0),

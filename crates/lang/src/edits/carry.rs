@@ -1,7 +1,6 @@
 //! Carrying: members that speak of a part, said in the body of a thing around it.
 
 use crate::lower::OWN;
-use crate::names::class_at;
 use crate::uses::{Text, binds};
 use kernel::{ClassId, Path, Step};
 use syntax::ast::{AstNode, Expr, Member};
@@ -34,7 +33,7 @@ impl Text<'_> {
             let Expr::Name(name) = &e else { return None };
             let name = name.name()?.name();
             let step = Path(vec![Step::Part(name.clone())]);
-            let is_of_part = class_at(document, class, &step).is_some()
+            let is_of_part = self.lowered.class_at(class, &step).is_some()
                 || document.find_message(class, &name, None).is_some();
             let is_local = e.syntax().ancestors().any(|above| binds(&above, e.syntax(), &name));
             let span = base::Span::new(e.span().start, e.span().start);

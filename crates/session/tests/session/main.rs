@@ -9,5 +9,6 @@ mod refusing;
 mod restructuring;
 mod saving;
 mod undoing;
+mod updating;
 mod viewing;
 mod wrong_text;

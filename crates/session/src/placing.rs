@@ -1,0 +1,164 @@
+//! Placing: where the new parts of a class are in the things that there are already.
+//!
+//! What constraints or merges determine is where these want it. Any other place is as far from its
+//! neighbour as in the prototype: the neighbour is the prototype's nearest place that is given. A thing
+//! that lies where its prototype does needs nothing; for any other the place is given in its own text.
+
+use crate::host::Host;
+use crate::prototype::Lone;
+use crate::state::State;
+use crate::texts::Texts;
+use crate::write_back::write_back;
+use base::number::{close, hypot};
+use kernel::{Path, SlotId, Structure, ThingId, Value, Values};
+use plan::{EditKind, Planner, SlotState, Target};
+
+/// A place of a new part, and the place that it is put beside.
+struct Place {
+    path: Path,
+    neighbour: Path,
+    /// From the neighbour to the place, in the prototype.
+    offset: Vec<f64>,
+}
+
+/// Puts the parts that a class has got since `before` into their places.
+pub(crate) fn place_new_parts(
+    before: &State,
+    state: State,
+    mut planner: Planner,
+    class: &str,
+    host: &dyn Host,
+) -> (State, Planner) {
+    let places = new_places(before, &state, class).unwrap_or_default();
+    if places.is_empty() {
+        return (state, planner);
+    }
+    let status = state.status(&mut planner);
+    let free = |slot: SlotId| {
+        let given = state.structure.given(slot);
+        status.slots[slot] == SlotState::Free
+            && !given.is_some_and(|g| state.lowered.is_own_given(g.origin))
+    };
+    let document = &state.lowered.document;
+    let Some(class) = document.class_named(class) else { return (state, planner) };
+    let is_of_class = |t: &ThingId| document.is_a(state.structure.things[*t].class, class);
+    let things: Vec<ThingId> = state.structure.things.ids().filter(is_of_class).collect();
+    let mut targets: Targets<'_> = Vec::new();
+    for place in &places {
+        let mut own: Targets<'_> = Vec::new();
+        for &thing in &things {
+            let at = state.structure.follow(thing, &place.path);
+            let neighbour = state.structure.follow(thing, &place.neighbour);
+            let (Ok(at), Ok(neighbour)) = (at, neighbour) else { continue };
+            let slots = state.structure.slots_under(at);
+            let is_alone = state.structure.merged_with(at).len() == 1;
+            let now = coordinates(&state.structure, &state.values, at);
+            let near = coordinates(&state.structure, &state.values, neighbour);
+            let to: Vec<f64> = near.iter().zip(&place.offset).map(|(a, b)| a + b).collect();
+            let is_there = now.iter().zip(&to).all(|(a, b)| close(*a, *b));
+            if is_alone && !is_there && slots.iter().all(|&s| free(s)) {
+                own.push((Target::Thing(at), to.into_iter().map(Value::Number).collect()));
+            }
+        }
+        // where the first drags others along, constraints determine the place
+        let first = own.first().map(std::slice::from_ref);
+        if first.is_some_and(|first| moved_alone(&state, &mut planner, first).is_some()) {
+            targets.extend(own);
+        }
+    }
+    match moved_alone(&state, &mut planner, &targets) {
+        Some(values) if !targets.is_empty() => {
+            let edited = slots_of(&state, &targets);
+            write_back(&state, &values, &edited, host, planner.into_plans())
+        }
+        Some(_) | None => (state, planner),
+    }
+}
+
+/// What is moved, and where to.
+type Targets<'t> = Vec<(Target<'t>, Vec<Value>)>;
+
+/// Moves places; nothing if that is refused or moves anything else.
+fn moved_alone(
+    state: &State,
+    planner: &mut Planner,
+    targets: &[(Target<'_>, Vec<Value>)],
+) -> Option<Values> {
+    let mut values = state.values.clone();
+    let mut texts = Texts::new(&state.lowered.document, &state.structure);
+    let kind = EditKind::Move;
+    let report = planner.edit(state.model(), &mut values, kind, targets, &mut texts);
+    let own = slots_of(state, targets);
+    let is_alone = values.changed(&state.values).all(|slot| own.binary_search(&slot).is_ok());
+    (report.refusal.is_none() && is_alone).then_some(values)
+}
+
+/// Returns the slots of what is moved, in order.
+fn slots_of(state: &State, targets: &[(Target<'_>, Vec<Value>)]) -> Vec<SlotId> {
+    let slots = |(target, _): &(Target<'_>, Vec<Value>)| match target {
+        Target::Thing(thing) => state.structure.slots_under(*thing),
+        Target::Term { .. } => Vec::new(),
+    };
+    let mut all: Vec<SlotId> = targets.iter().flat_map(slots).collect();
+    all.sort_unstable();
+    all
+}
+
+/// Finds the places of a class's new parts, and what they lie beside in the prototype.
+fn new_places(before: &State, state: &State, class: &str) -> Option<Vec<Place>> {
+    let document = &state.lowered.document;
+    let id = document.class_named(class)?;
+    let old = before.lowered.document.class_named(class)?;
+    let had = |name: &base::Name| {
+        before.lowered.document.classes[old].parts.iter().any(|p| p.name == *name)
+    };
+    let new: Vec<&base::Name> =
+        document.classes[id].parts.iter().map(|p| &p.name).filter(|n| !had(n)).collect();
+    if new.is_empty() {
+        return None;
+    }
+    let lone = Lone::of(document, id)?;
+    let (values, _) = eval::given_values(&lone.document, &lone.structure);
+    let all = places_under(&lone);
+    let is_new = |path: &Path| match path.0.first() {
+        Some(kernel::Step::Part(name)) => new.contains(&name),
+        Some(_) | None => false,
+    };
+    let is_given = |thing: ThingId| {
+        let slots = lone.structure.slots_under(thing);
+        slots.iter().all(|&s| lone.structure.slots[s].given.is_some())
+    };
+    let at = |thing: ThingId| coordinates(&lone.structure, &values, thing);
+    let beside = |(path, thing): &(Path, ThingId)| {
+        let here = at(*thing);
+        let distance = |other: ThingId| {
+            let there = at(other);
+            here.iter().zip(&there).fold(0.0, |d, (a, b)| hypot(d, a - b))
+        };
+        let given =
+            all.iter().filter(|(p, t)| !is_new(p) && is_given(*t) && at(*t).len() == here.len());
+        let nearest = given.min_by(|a, b| distance(a.1).total_cmp(&distance(b.1)))?;
+        let offset = here.iter().zip(at(nearest.1)).map(|(a, b)| a - b).collect();
+        Some(Place { path: path.clone(), neighbour: nearest.0.clone(), offset })
+    };
+    Some(all.iter().filter(|(path, _)| is_new(path)).filter_map(beside).collect())
+}
+
+/// Returns every place of a lone thing, by its path from the thing.
+fn places_under(lone: &Lone) -> Vec<(Path, ThingId)> {
+    let mut places = Vec::new();
+    let mut waiting = vec![lone.thing];
+    while let Some(thing) = waiting.pop() {
+        if lone.document.is_place(lone.structure.things[thing].class) {
+            let path = lone.structure.path(&lone.document, thing);
+            places.push((Path(path.0[1..].to_vec()), thing));
+        } else {
+            waiting.extend(lone.structure.parts(thing).rev());
+        }
+    }
+    places
+}
+
+fn coordinates(structure: &Structure, values: &Values, thing: ThingId) -> Vec<f64> {
+    structure.slots_under(thing).into_iter().map(|s| values.numbers[s]).collect()
+}

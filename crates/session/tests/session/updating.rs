@@ -1,0 +1,154 @@
+//! Dynamic updating: an edit of a class reaches every thing of it, here and in documents that use it.
+
+use super::desk::{Desk, at};
+use session::{Command, DocumentId, Host, Literal, Session};
+
+fn edit(target: &str, members: &str) -> Command {
+    Command::Edit { target: at(target), members: members.into() }
+}
+fn set(path: &str, x: f64) -> Command {
+    Command::Set(vec![(at(path), Literal::Number(x))])
+}
+
+const BARS: &str = "use geometry
+class Bar {
+    from: Point = (0, 0)
+    to: Point = (100, 0)
+}
+here: Bar
+there: Bar { from = (500, 40)  to = (600, 40) }
+turned: Bar { from = (7, 0)  to = (7, 100) }
+";
+
+#[test]
+fn a_new_part_lies_beside_its_neighbour_as_in_the_prototype() {
+    let mut desk = Desk::of(BARS);
+    let before = desk.moment();
+    // 20 above the near end of the prototype
+    desk.apply(&edit("Bar", "label: Point = (10, 20)")).expect("the class can be edited");
+    assert_eq!((desk.number("here.label.x"), desk.number("here.label.y")), (10.0, 20.0));
+    assert_eq!((desk.number("there.label.x"), desk.number("there.label.y")), (510.0, 60.0));
+    assert_eq!((desk.number("turned.label.x"), desk.number("turned.label.y")), (17.0, 20.0));
+    // what is where the prototype is has nothing of its own
+    assert!(desk.text().contains("here: Bar\n"), "{}", desk.text());
+    desk.undo();
+    assert_eq!(desk.moment(), before);
+}
+
+#[test]
+fn a_new_part_near_the_far_end_goes_with_that() {
+    let mut desk = Desk::of(BARS);
+    desk.apply(&edit("Bar", "cap: Point = (100, 5)")).expect("the class can be edited");
+    assert_eq!((desk.number("there.cap.x"), desk.number("there.cap.y")), (600.0, 45.0));
+    assert_eq!((desk.number("turned.cap.x"), desk.number("turned.cap.y")), (7.0, 105.0));
+}
+
+#[test]
+fn what_constraints_and_merges_determine_is_where_they_want_it() {
+    let mut desk = Desk::of(BARS);
+    let members =
+        "mid: Point = (1, 1)  constraint mid = Point((from.x + to.x) / 2, (from.y + to.y) / 2)";
+    desk.apply(&edit("Bar", members)).expect("the class can be edited");
+    assert_eq!((desk.number("there.mid.x"), desk.number("there.mid.y")), (550.0, 40.0));
+    desk.undo();
+    desk.apply(&edit("Bar", "end: Point  merge end = to")).expect("the class can be edited");
+    assert!(desk.text().contains("there: Bar { from = (500, 40)  to = (600, 40) }"));
+}
+
+#[test]
+fn each_thing_keeps_its_values() {
+    let mut desk = Desk::of(BARS);
+    desk.apply(&edit("Bar", "weight: Real = 3")).expect("the class can be edited");
+    assert_eq!((desk.number("there.from.x"), desk.number("turned.to.y")), (500.0, 100.0));
+    assert_eq!(desk.number("turned.weight"), 3.0);
+}
+
+#[test]
+fn an_edit_of_the_prototype_changes_the_class() {
+    let mut desk = Desk::of(BARS);
+    let before = desk.moment();
+    let change = desk.apply(&set("Bar.to.x", 120.0)).expect("the prototype can be edited");
+    assert_eq!(change.class.as_deref(), Some("Bar"));
+    assert!(desk.text().contains("to: Point = (120, 0)"), "{}", desk.text());
+    // a thing without a value of its own follows; one with keeps it
+    assert_eq!((desk.number("here.to.x"), desk.number("there.to.x")), (120.0, 600.0));
+    desk.undo();
+    assert_eq!(desk.moment(), before);
+}
+
+#[test]
+fn the_prototype_keeps_its_constraints_and_what_gives_way_is_given() {
+    let text = "use geometry
+class Stick is Line { constraint level: p1.y = p2.y }
+s: Stick
+";
+    let mut desk = Desk::of(text);
+    desk.apply(&set("Stick.p1.y", 30.0)).expect("the prototype can be edited");
+    assert_eq!((desk.number("s.p1.y"), desk.number("s.p2.y")), (30.0, 30.0));
+    let place = Literal::Tuple(vec![Literal::Number(9.0), Literal::Number(8.0)]);
+    desk.apply(&Command::Move(vec![(at("Stick.p2"), place)])).expect("it can be moved");
+    assert_eq!((desk.number("s.p1.y"), desk.number("s.p2.x")), (8.0, 9.0));
+    let refused = desk.apply(&set("Stick.nothing", 1.0)).unwrap_err();
+    assert!(refused.message.contains("nothing"), "{}", refused.message);
+}
+
+#[test]
+fn a_prototype_that_is_a_place_gives_its_coordinates() {
+    let mut desk = Desk::of("class Spot { x: Real = 4  y: Real = 2 }\ns: Spot\n");
+    desk.apply(&set("Spot.y", 6.0)).expect("the prototype can be edited");
+    assert_eq!(desk.text(), "class Spot { x: Real = 4  y: Real = 6 }\ns: Spot\n");
+}
+
+/// A folder with two documents, one of which uses the other.
+struct Folder;
+
+const PARTS: &str = "class Peg { width: Real = 4  height: Real = 2  name: Text }\n";
+
+impl Host for Folder {
+    fn read(&self, name: &str) -> Option<String> {
+        (name == "parts").then(|| PARTS.to_string())
+    }
+}
+
+fn number(session: &Session, id: DocumentId, path: &str) -> Option<f64> {
+    session.values(id).into_iter().find(|r| r.path == path).and_then(|r| r.number)
+}
+
+#[test]
+fn an_edit_of_a_class_reaches_the_documents_that_use_it() {
+    let mut session = Session::new(Box::new(Folder));
+    let text = "use parts\np: Peg { height = 7 }\nconstraint wide: p.width = 4\n";
+    let user = session.open("user", text);
+    let alone = session.open("alone", "n: Real = 1\n");
+    let parts = session.open("parts", PARTS);
+    let change = session.apply(parts, &edit("Peg", "depth: Real = 9")).expect("it can be edited");
+    let reached: Vec<DocumentId> = change.documents.iter().map(|a| a.document).collect();
+    assert_eq!(reached, [user]);
+    assert_eq!(number(&session, user, "p.depth"), Some(9.0));
+    assert_eq!(number(&session, user, "p.height"), Some(7.0));
+    assert_eq!(
+        (session.text(user).source.as_str(), number(&session, alone, "n")),
+        (text, Some(1.0))
+    );
+    // what cannot be satisfied there is told here
+    let rule = edit("Peg", "constraint narrow: width = 3");
+    let change = session.apply(parts, &rule).expect("it can be edited");
+    assert_eq!(change.documents[0].unsatisfied.len(), 1, "{change:?}");
+    assert!(!session.status(user).satisfied);
+    session.apply(parts, &Command::Undo).expect("there is a step");
+    assert!(session.status(user).satisfied);
+}
+
+#[test]
+fn a_step_is_taken_back_beside_what_is_used_now() {
+    let mut session = Session::new(Box::new(Folder));
+    let user = session.open("user", "use parts\np: Peg\n");
+    let parts = session.open("parts", PARTS);
+    session.apply(user, &set("p.height", 5.0)).expect("it is free");
+    session.apply(parts, &set("Peg.width", 6.0)).expect("the prototype can be edited");
+    assert_eq!(number(&session, user, "p.width"), Some(6.0));
+    session.apply(user, &Command::Undo).expect("there is a step");
+    assert_eq!(session.text(user).source, "use parts\np: Peg\n");
+    assert_eq!(number(&session, user, "p.width"), Some(6.0));
+    assert_eq!(number(&session, user, "p.height"), Some(2.0));
+}
