@@ -4,26 +4,20 @@
 //! cannot, and the slots that may move. A given number is a constant unless a row could not be
 //! accepted otherwise; of the rest, a place or lone number stays if the accepted rows can do without
 //! it, asked in order of declaration, all its coordinates at once.
+//!
+//! Rows that share no slot that may move, by way of places either, are decided apart. A piece is first tried by
+//! matching, which is linear as a rule and certain where it says yes; else by elimination.
 
+use crate::exact;
+use crate::lists::Lists;
+use crate::matching::Matcher;
 use crate::rows::Rows;
 use crate::substitute::Classes;
-use crate::system::{Level, SlotIndex, Stay, System};
-use crate::tableau::{Reduced, SparseRow, Tableau};
-use std::collections::BTreeMap;
-
-/// What may move a column.
-#[derive(Clone, Copy, PartialEq, Eq, Debug)]
-enum Column {
-    /// A given number that has not yielded.
-    Given,
-    /// May be a pivot.
-    Open,
-    /// Constant in this plan.
-    Stays,
-}
+use crate::system::{SlotIndex, Stay, System};
+use crate::union::Union;
 
 /// A row that depends on accepted ones.
-#[derive(Clone, Debug)]
+#[derive(Clone, PartialEq, Eq, Debug)]
 pub(crate) struct Dependent {
     /// The row.
     pub(crate) row: usize,
@@ -32,11 +26,11 @@ pub(crate) struct Dependent {
 }
 
 /// Who holds and who yields.
-#[derive(Clone, Debug, Default)]
+#[derive(Clone, PartialEq, Eq, Debug, Default)]
 pub(crate) struct Acceptance {
     /// The accepted rows, in order of acceptance.
     pub(crate) accepted: Vec<usize>,
-    /// The others.
+    /// The others, in the same order.
     pub(crate) dependent: Vec<Dependent>,
     /// For every slot: it is a representative and the plan may write it.
     pub(crate) unknown: Vec<bool>,
@@ -44,141 +38,112 @@ pub(crate) struct Acceptance {
     pub(crate) yielded: Vec<SlotIndex>,
     /// Motions that required relations leave with every given number held.
     pub(crate) freedom: usize,
+    /// How many motions required relations take away.
+    pub(crate) determined: usize,
+}
+
+/// Rows that have to be decided together.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Piece<'a> {
+    /// The rows, in order of acceptance.
+    pub(crate) rows: &'a [u32],
+    /// The places that may be held, in order of declaration.
+    places: &'a [u32],
+    all_places: &'a Lists,
+}
+
+impl<'a> Piece<'a> {
+    /// Returns the places that may be held, each by its slots, in order of declaration.
+    pub(crate) fn places(self) -> impl Iterator<Item = &'a [SlotIndex]> {
+        self.places.iter().map(move |&p| self.all_places.of(p))
+    }
 }
 
 /// Decides which rows are accepted and which slots stay.
 pub(crate) fn accept(system: &System, classes: &Classes, rows: &Rows) -> Acceptance {
-    let mut order: Vec<usize> = (0..rows.len()).collect();
-    order.sort_by_key(|&r| (rows[r].level, r));
-    let mut state = State::new(system, classes);
-    let mut out = Acceptance::default();
-    let mut required_rank = 0;
-    for r in order {
-        let reduced = state.tableau.reduce(rows.columns(r));
-        match state.pivot(&reduced.row) {
-            Some(column) => {
-                if rows[r].level == Level::Required
-                    && classes.stay[column as usize] != Stay::Given
-                    && system.slots[column as usize].is_number
-                {
-                    required_rank += 1;
-                }
-                state.tableau.accept(reduced, column);
-                out.accepted.push(r);
-            }
-            None => {
-                let circuit = circuit(&state, &reduced, &out.accepted);
-                out.dependent.push(Dependent { row: r, circuit });
-            }
+    let mut matcher = Matcher::new(system, classes, rows);
+    decide(system, classes, rows, &mut |piece, out| {
+        if !matcher.accept(piece, out) {
+            exact::accept(system, classes, rows, piece, out);
+        }
+    })
+}
+
+/// Splits the rows into pieces and puts together what is decided for each.
+fn decide(
+    system: &System,
+    classes: &Classes,
+    rows: &Rows,
+    decide_piece: &mut dyn FnMut(Piece<'_>, &mut Acceptance),
+) -> Acceptance {
+    const NONE: u32 = u32::MAX;
+    let n = system.slots.len();
+    let is_open = |s: usize| {
+        classes.representative[s] == s as u32
+            && matches!(classes.stay[s], Stay::Kept { .. } | Stay::Free)
+    };
+    let mut out = Acceptance { unknown: (0..n).map(is_open).collect(), ..Acceptance::default() };
+    let places = places(system, classes);
+    let mut order: Vec<u32> = (0..rows.len() as u32).collect();
+    order.sort_by_key(|&r| rows[r as usize].level);
+    let mut union = Union::new(n + rows.len());
+    for r in 0..rows.len() {
+        rows.columns(r).iter().for_each(|e| union.unite(e.0 as usize, n + r));
+    }
+    for place in 0..places.len() as u32 {
+        let slots = places.of(place);
+        slots.iter().for_each(|&s| union.unite(slots[0] as usize, s as usize));
+    }
+    let mut piece_of_root = vec![NONE; n + rows.len()];
+    let mut pieces = 0;
+    let mut rows_of = Vec::with_capacity(rows.len());
+    for &r in &order {
+        let piece = &mut piece_of_root[union.find(n + r as usize)];
+        if *piece == NONE {
+            *piece = pieces;
+            pieces += 1;
+        }
+        rows_of.push((*piece, r));
+    }
+    let mut places_of = Vec::new();
+    for place in (0..places.len() as u32).filter(|&p| !places.of(p).is_empty()) {
+        match piece_of_root[union.find(places.of(place)[0] as usize)] {
+            NONE => places.of(place).iter().for_each(|&s| out.unknown[s as usize] = false),
+            piece => places_of.push((piece, place)),
         }
     }
-    let movable = (0..system.slots.len()).filter(|&s| {
-        classes.representative[s] == s as u32
-            && system.slots[s].is_number
-            && matches!(classes.stay[s], Stay::Kept { .. } | Stay::Free)
-    });
-    out.freedom = movable.count().saturating_sub(required_rank);
-    hold_places(system, classes, &mut state);
-    out.unknown = state.columns.iter().map(|c| *c == Some(Column::Open)).collect();
-    out.yielded = (0..system.slots.len() as u32)
-        .filter(|&s| classes.stay[s as usize] == Stay::Given && out.unknown[s as usize])
-        .collect();
+    let rows_of = Lists::new(pieces as usize, rows_of.iter().copied());
+    let places_of = Lists::new(pieces as usize, places_of.iter().copied());
+    for piece in 0..pieces {
+        let (rows, own) = (rows_of.of(piece), places_of.of(piece));
+        decide_piece(Piece { rows, places: own, all_places: &places }, &mut out);
+    }
+    out.accepted.sort_by_key(|&r| (rows[r].level, r));
+    out.dependent.sort_by_key(|d| (rows[d.row].level, d.row));
+    let movable = (0..n).filter(|&s| is_open(s) && system.slots[s].is_number).count();
+    out.freedom = movable.saturating_sub(out.determined);
+    let is_given = |s: u32| classes.stay[s as usize] == Stay::Given;
+    out.yielded = (0..n as u32).filter(|&s| is_given(s) && out.unknown[s as usize]).collect();
     out
 }
 
-fn circuit(state: &State, reduced: &Reduced, accepted: &[usize]) -> Vec<usize> {
-    state.tableau.circuit(reduced).into_iter().map(|k| accepted[k as usize]).collect()
+/// Returns the slots of every place that may be held, by its group, over representatives.
+///
+/// A coordinate that equals an earlier or firmer one has yielded, and its place with it.
+fn places(system: &System, classes: &Classes) -> Lists {
+    let grouped = || {
+        (0..).zip(&system.slots).filter_map(|(s, slot)| match slot.stay {
+            Stay::Kept { group } => Some((group, classes.representative[s as usize])),
+            Stay::Fixed | Stay::Given | Stay::Free => None,
+        })
+    };
+    let count = grouped().map(|g: (u32, u32)| g.0 as usize + 1).max().unwrap_or(0);
+    let mut is_own = vec![true; count];
+    for (group, slot) in grouped() {
+        is_own[group as usize] &= classes.stay[slot as usize] == Stay::Kept { group };
+    }
+    Lists::new(count, grouped().filter(|g| is_own[g.0 as usize]))
 }
 
-struct State {
-    tableau: Tableau,
-    /// By slot; none for what is never an unknown.
-    columns: Vec<Option<Column>>,
-    /// How willing a column is to be a pivot: the larger, the sooner it yields.
-    willing: Vec<u64>,
-}
-
-impl State {
-    fn new(system: &System, classes: &Classes) -> Self {
-        let n = system.slots.len();
-        let mut columns = vec![None; n];
-        let mut willing = vec![0; n];
-        for s in 0..n {
-            if classes.representative[s] != s as u32 {
-                continue;
-            }
-            (columns[s], willing[s]) = match classes.stay[s] {
-                Stay::Fixed => (None, 0),
-                Stay::Given => (Some(Column::Given), 0),
-                Stay::Kept { group } => (Some(Column::Open), 1 + u64::from(group)),
-                Stay::Free => (Some(Column::Open), u64::MAX),
-            };
-        }
-        Self { tableau: Tableau::default(), columns, willing }
-    }
-    /// Chooses the pivot of a reduced row, letting given numbers yield where nothing else can.
-    fn pivot(&mut self, row: &SparseRow) -> Option<u32> {
-        if let Some(column) = self.best(row) {
-            return Some(column);
-        }
-        for &(c, _) in row {
-            self.columns[c as usize] = Some(Column::Open);
-        }
-        self.best(row)
-    }
-    /// Returns the most willing open column among those that are not small.
-    fn best(&self, row: &SparseRow) -> Option<u32> {
-        let open = || row.iter().filter(|(c, _)| self.columns[*c as usize] == Some(Column::Open));
-        let largest = open().fold(0.0f64, |m, e| m.max(e.1.abs()));
-        open()
-            .filter(|e| e.1.abs() >= 0.05 * largest)
-            .max_by_key(|e| (self.willing[e.0 as usize], e.0))
-            .map(|e| e.0)
-    }
-}
-
-/// Lets every place stay that the accepted rows can do without, in order of declaration.
-fn hold_places(system: &System, classes: &Classes, state: &mut State) {
-    let mut groups: BTreeMap<u32, Vec<u32>> = BTreeMap::new();
-    for (s, slot) in system.slots.iter().enumerate() {
-        if let Stay::Kept { group } = slot.stay {
-            groups.entry(group).or_default().push(s as u32);
-        }
-    }
-    for c in 0..state.columns.len() {
-        if state.columns[c] == Some(Column::Given) {
-            state.columns[c] = Some(Column::Stays);
-        }
-    }
-    for (group, slots) in groups {
-        let own = |s: &u32| {
-            let r = classes.representative[*s as usize];
-            classes.stay[r as usize] == Stay::Kept { group }
-        };
-        // a coordinate that equals an earlier or firmer one has yielded, and its place with it
-        if slots.iter().all(own) {
-            let columns: Vec<u32> =
-                slots.iter().map(|&s| classes.representative[s as usize]).collect();
-            hold(state, &columns);
-        }
-    }
-}
-
-/// Holds the columns if the rows keep their rank without them; else changes nothing.
-fn hold(state: &mut State, columns: &[u32]) {
-    for &c in columns {
-        state.columns[c as usize] = Some(Column::Stays);
-    }
-    for &c in columns {
-        let Some(row) = state.tableau.row_with_pivot(c) else { continue };
-        match state.best(state.tableau.row(row)) {
-            Some(other) => state.tableau.exchange(row, other),
-            None => {
-                for &c in columns {
-                    state.columns[c as usize] = Some(Column::Open);
-                }
-                return;
-            }
-        }
-    }
-}
+#[cfg(test)]
+mod tests;

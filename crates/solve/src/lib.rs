@@ -53,6 +53,8 @@ mod tableau;
 mod rows;
 
 mod accept;
+mod exact;
+mod matching;
 mod tie;
 
 mod direct;

@@ -1,0 +1,187 @@
+use super::*;
+use crate::pattern::{PatternId, Patterns};
+use crate::stated::Stated;
+use crate::system::{Level, Relation, RelationBody, Slot};
+use crate::{rows, substitute};
+use expr::{Arena, ExprId, Var};
+use proptest::prelude::*;
+use std::collections::BTreeSet;
+use std::rc::Rc;
+
+/// What a row of a random net says, of three slots.
+fn pattern(patterns: &mut Patterns, kind: u8) -> PatternId {
+    let mut arena = Arena::new();
+    let [a, b, c] = [0, 1, 2].map(|i| arena.var(Var(i)));
+    let two = arena.constant(2.0);
+    let sides: [ExprId; 2] = match kind {
+        0 => [arena.add(a, b), c],
+        1 => [arena.mul(a, b), c],
+        2 => {
+            let twice = arena.mul(two, a);
+            [arena.sub(twice, b), c]
+        }
+        3 => {
+            let sum = arena.add(a, b);
+            [arena.add(sum, c), two]
+        }
+        _ => {
+            let (square, other) = (arena.square(a), arena.square(b));
+            [arena.add(square, other), c]
+        }
+    };
+    patterns.intern(&arena, &sides).0
+}
+
+struct Net {
+    stated: Stated,
+    classes: Classes,
+    rows: Rows,
+}
+
+fn net(stays: &[u8], relations: &[(u8, [usize; 3], bool)]) -> Net {
+    let mut patterns = Patterns::default();
+    let mut system = System::default();
+    for (i, stay) in (0..).zip(stays) {
+        let stay = match stay {
+            0 => Stay::Fixed,
+            1 | 2 => Stay::Given,
+            3 => Stay::Free,
+            // two by two they are places
+            _ => Stay::Kept { group: i / 2 },
+        };
+        system.slots.push(Slot { stay, scale: 0, is_number: true, is_discrete: false });
+    }
+    for &(kind, slots, soft) in relations {
+        let mut slots = slots.map(|s| (s % stays.len()) as u32);
+        while slots[1] == slots[0] {
+            slots[1] = (slots[1] + 1) % stays.len() as u32;
+        }
+        while slots[2] == slots[0] || slots[2] == slots[1] {
+            slots[2] = (slots[2] + 1) % stays.len() as u32;
+        }
+        let equations = system.add_equations([(pattern(&mut patterns, kind), slots)]);
+        system.relations.push(Relation {
+            level: if soft { Level::Weak } else { Level::Required },
+            body: RelationBody::Equations(equations),
+            methods: Vec::new(),
+            derived: true,
+            reads: Vec::new(),
+            within: 1e-9f64.to_bits(),
+            source: 0,
+        });
+    }
+    let stated = Stated::new(&Rc::new(system), &patterns);
+    let classes = substitute::substitute(&stated);
+    let rows = rows::rows(&stated, &classes);
+    Net { stated, classes, rows }
+}
+
+/// Eliminates with full pivoting; returns the rank.
+fn rank(mut matrix: Vec<Vec<f64>>) -> usize {
+    let mut rank = 0;
+    while let Some((i, j)) = (rank..matrix.len())
+        .flat_map(|i| (0..matrix[i].len()).map(move |j| (i, j)))
+        .max_by(|&(i, j), &(k, l)| matrix[i][j].abs().total_cmp(&matrix[k][l].abs()))
+        .filter(|&(i, j)| matrix[i][j].abs() > 1e-8)
+    {
+        matrix.swap(rank, i);
+        let by = matrix[rank].clone();
+        for row in &mut matrix[rank + 1..] {
+            let factor = row[j] / by[j];
+            row.iter_mut().zip(&by).for_each(|(x, y)| *x -= factor * y);
+            row[j] = 0.0;
+        }
+        rank += 1;
+    }
+    rank
+}
+
+impl Net {
+    fn slots(&self) -> impl Iterator<Item = u32> + '_ {
+        (0..self.classes.representative.len() as u32)
+            .filter(|&s| self.classes.representative[s as usize] == s)
+    }
+    fn rank(&self, of: &[usize], over: &BTreeSet<u32>) -> usize {
+        let entry = |r: usize, s: u32| {
+            let columns = self.rows.columns(r);
+            columns.iter().find(|e| e.0 == s).map_or(0.0, |e| e.1)
+        };
+        rank(of.iter().map(|&r| over.iter().map(|&s| entry(r, s)).collect()).collect())
+    }
+
+    /// The definition, by trying everything: who is accepted, who contradicts whom, who may move.
+    fn by_search(&self) -> (Vec<usize>, Vec<Dependent>, BTreeSet<u32>) {
+        let stay = |s: u32| self.classes.stay[s as usize];
+        let mut open: BTreeSet<u32> =
+            self.slots().filter(|&s| matches!(stay(s), Stay::Kept { .. } | Stay::Free)).collect();
+        let given: BTreeSet<u32> = self.slots().filter(|&s| stay(s) == Stay::Given).collect();
+        let all: BTreeSet<u32> = open.union(&given).copied().collect();
+        let mut order: Vec<usize> = (0..self.rows.len()).collect();
+        order.sort_by_key(|&r| (self.rows[r].level, r));
+        let (mut accepted, mut dependent) = (Vec::new(), Vec::new());
+        for r in order {
+            let with = |rows: &[usize]| [rows, &[r]].concat();
+            if self.rank(&with(&accepted), &all) == accepted.len() {
+                let needed = |&a: &usize| {
+                    let rest: Vec<usize> = accepted.iter().copied().filter(|&x| x != a).collect();
+                    self.rank(&with(&rest), &all) > rest.len()
+                };
+                let circuit = accepted.iter().copied().filter(needed).collect();
+                dependent.push(Dependent { row: r, circuit });
+                continue;
+            }
+            accepted.push(r);
+            if self.rank(&accepted, &open) < accepted.len() {
+                // every given number that could help yields
+                let helps = |g: &u32| {
+                    let mut wider = open.clone();
+                    wider.insert(*g);
+                    self.rank(&accepted, &wider) == accepted.len()
+                };
+                let yielding: Vec<u32> = given.iter().copied().filter(helps).collect();
+                open.extend(yielding);
+            }
+        }
+        for group in 0..self.classes.representative.len() as u32 {
+            let slots = &self.stated.system.slots;
+            let own: Vec<u32> = (0..slots.len())
+                .filter(|&s| slots[s].stay == Stay::Kept { group })
+                .map(|s| self.classes.representative[s])
+                .collect();
+            if own.iter().any(|&s| stay(s) != Stay::Kept { group }) {
+                continue;
+            }
+            let without: BTreeSet<u32> =
+                open.iter().copied().filter(|s| !own.contains(s)).collect();
+            if self.rank(&accepted, &without) == accepted.len() {
+                open = without;
+            }
+        }
+        (accepted, dependent, open)
+    }
+}
+
+proptest! {
+    #![proptest_config(ProptestConfig::with_cases(400))]
+
+    #[test]
+    fn acceptance_is_what_trying_everything_finds(
+        stays in prop::collection::vec(0u8..9, 4..14),
+        relations in prop::collection::vec(
+            (0u8..5, prop::array::uniform3(0usize..14), prop::bool::weighted(0.2)), 1..12),
+    ) {
+        let net = net(&stays, &relations);
+        let system = &net.stated.system;
+        let found = accept(system, &net.classes, &net.rows);
+        let by_elimination = decide(system, &net.classes, &net.rows, &mut |piece, out| {
+            exact::accept(system, &net.classes, &net.rows, piece, out);
+        });
+        prop_assert_eq!(&found, &by_elimination);
+        let (accepted, dependent, open) = net.by_search();
+        prop_assert_eq!(&found.accepted, &accepted);
+        prop_assert_eq!(&found.dependent, &dependent);
+        let unknown: BTreeSet<u32> =
+            net.slots().filter(|&s| found.unknown[s as usize]).collect();
+        prop_assert_eq!(unknown, open);
+    }
+}

@@ -1,0 +1,134 @@
+//! Acceptance by elimination: the exact answer for any piece, and the circuits of dependent rows.
+//!
+//! In: the rows of a piece in order of acceptance, the places that touch it. Out: the same as by
+//! matching, found by a fully reduced tableau at a generic point. Cost: up to cubic in the piece.
+
+use crate::accept::{Acceptance, Dependent, Piece};
+use crate::rows::Rows;
+use crate::substitute::Classes;
+use crate::system::{Level, SlotIndex, Stay, System};
+use crate::tableau::{Reduced, SparseRow, Tableau};
+use std::collections::BTreeMap;
+
+/// What may move a column.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+enum Column {
+    /// A given number that has not yielded.
+    Given,
+    /// May be a pivot.
+    Open,
+    /// Constant in this plan.
+    Stays,
+}
+
+/// Decides for one piece.
+pub(crate) fn accept(
+    system: &System,
+    classes: &Classes,
+    rows: &Rows,
+    piece: Piece<'_>,
+    out: &mut Acceptance,
+) {
+    let mut state = State::new(classes, rows, piece);
+    let mut accepted = Vec::new();
+    for r in piece.rows.iter().map(|&r| r as usize) {
+        let reduced = state.tableau.reduce(rows.columns(r));
+        match state.pivot(&reduced.row) {
+            Some(column) => {
+                if rows[r].level == Level::Required
+                    && classes.stay[column as usize] != Stay::Given
+                    && system.slots[column as usize].is_number
+                {
+                    out.determined += 1;
+                }
+                state.tableau.accept(reduced, column);
+                accepted.push(r);
+            }
+            None => {
+                let circuit = circuit(&state, &reduced, &accepted);
+                out.dependent.push(Dependent { row: r, circuit });
+            }
+        }
+    }
+    for column in state.columns.values_mut() {
+        if *column == Column::Given {
+            *column = Column::Stays;
+        }
+    }
+    for place in piece.places() {
+        hold(&mut state, place);
+    }
+    for (&slot, &column) in &state.columns {
+        out.unknown[slot as usize] = column == Column::Open;
+    }
+    out.accepted.extend(accepted);
+}
+
+fn circuit(state: &State, reduced: &Reduced, accepted: &[usize]) -> Vec<usize> {
+    state.tableau.circuit(reduced).into_iter().map(|k| accepted[k as usize]).collect()
+}
+
+struct State {
+    tableau: Tableau,
+    /// What is never an unknown is not here.
+    columns: BTreeMap<SlotIndex, Column>,
+    /// How willing a column is to be a pivot: the larger, the sooner it yields.
+    willing: BTreeMap<SlotIndex, u64>,
+}
+
+impl State {
+    fn new(classes: &Classes, rows: &Rows, piece: Piece<'_>) -> Self {
+        let mut columns = BTreeMap::new();
+        let mut willing = BTreeMap::new();
+        let met = piece.rows.iter().flat_map(|&r| rows.columns(r as usize).iter().map(|e| e.0));
+        for s in met.chain(piece.places().flatten().copied()) {
+            let (column, will) = match classes.stay[s as usize] {
+                Stay::Fixed => continue,
+                Stay::Given => (Column::Given, 0),
+                Stay::Kept { group } => (Column::Open, 1 + u64::from(group)),
+                Stay::Free => (Column::Open, u64::MAX),
+            };
+            columns.insert(s, column);
+            willing.insert(s, will);
+        }
+        Self { tableau: Tableau::default(), columns, willing }
+    }
+    /// Chooses the pivot of a reduced row, letting given numbers yield where nothing else can.
+    fn pivot(&mut self, row: &SparseRow) -> Option<u32> {
+        if let Some(column) = self.best(row) {
+            return Some(column);
+        }
+        for &(c, _) in row {
+            self.columns.insert(c, Column::Open);
+        }
+        self.best(row)
+    }
+    /// Returns the most willing open column among those that are not small.
+    fn best(&self, row: &SparseRow) -> Option<u32> {
+        let open = || row.iter().filter(|(c, _)| self.columns.get(c) == Some(&Column::Open));
+        let largest = open().fold(0.0f64, |m, e| m.max(e.1.abs()));
+        open()
+            .filter(|e| e.1.abs() >= 0.05 * largest)
+            .max_by_key(|e| (self.willing.get(&e.0), e.0))
+            .map(|e| e.0)
+    }
+}
+
+/// Holds the columns if the rows keep their rank without them; else changes nothing.
+fn hold(state: &mut State, columns: &[u32]) {
+    for &c in columns {
+        state.columns.insert(c, Column::Stays);
+    }
+    for &c in columns {
+        let Some(row) = state.tableau.row_with_pivot(c) else { continue };
+        match state.best(state.tableau.row(row)) {
+            Some(other) => state.tableau.exchange(row, other),
+            None => {
+                for &c in columns {
+                    state.columns.insert(c, Column::Open);
+                }
+                return;
+            }
+        }
+    }
+}

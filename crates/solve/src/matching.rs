@@ -1,0 +1,255 @@
+//! Acceptance by matching: quick, and certain where it says yes.
+//!
+//! In: a piece. Out: the answer of elimination, or nothing. Every row is given a slot of its own among
+//! those that may move without a given number's yielding; then every place is held that the rows can
+//! do without, by giving its rows other slots. Where no way to another slot is found, none exists: the
+//! numbers can only make the rank less than the structure. Where one is found, the numbers must bear
+//! it out: the rows with their slots fall into strongly connected blocks, and if each of those is
+//! regular at the generic point, the rows are independent without everything that was held.
+//!
+//! **Source:** Dulmage and Mendelsohn, *Coverings of bipartite graphs*, Canadian J. Math. 10 (1958).
+
+use crate::accept::{Acceptance, Piece};
+use crate::dense;
+use crate::lists::Lists;
+use crate::order::strong_components;
+use crate::rows::Rows;
+use crate::sparse::pivot::choose;
+use crate::sparse::{Lu, Pattern, Symbolic};
+use crate::substitute::Classes;
+use crate::system::{Level, SlotIndex, Stay, System};
+
+/// Up to this many unknowns a block is factorised densely.
+const DENSE: usize = 16;
+/// Pivots smaller than this part of the largest leave the verdict to elimination.
+const REGULAR: f64 = 1e-11;
+
+/// No row, no slot.
+const NONE: u32 = u32::MAX;
+
+/// Rows and their slots, for any number of pieces.
+pub(crate) struct Matcher<'a> {
+    system: &'a System,
+    classes: &'a Classes,
+    rows: &'a Rows,
+    /// Where a row stands in its piece.
+    position: Vec<u32>,
+    slot_of_row: Vec<SlotIndex>,
+    row_of_slot: Vec<u32>,
+    /// What a slot may be used for.
+    state: Vec<Use>,
+    /// In which search a slot was met.
+    seen: Vec<u32>,
+    search: u32,
+    /// The slots met in the latest search.
+    met: Vec<SlotIndex>,
+}
+
+/// What a slot may be used for.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+enum Use {
+    /// Nothing: it is known, given, or held.
+    Closed,
+    /// A row may take it.
+    Open,
+    /// It is a row's, and no other way is left for that row.
+    Rigid,
+}
+
+impl<'a> Matcher<'a> {
+    pub(crate) fn new(system: &'a System, classes: &'a Classes, rows: &'a Rows) -> Self {
+        let n = system.slots.len();
+        let state = classes.stay.iter().map(|stay| match stay {
+            Stay::Kept { .. } | Stay::Free => Use::Open,
+            Stay::Fixed | Stay::Given => Use::Closed,
+        });
+        Self {
+            system,
+            classes,
+            rows,
+            position: vec![NONE; rows.len()],
+            slot_of_row: vec![NONE; rows.len()],
+            row_of_slot: vec![NONE; n],
+            state: state.collect(),
+            seen: vec![0; n],
+            search: 0,
+            met: Vec::new(),
+        }
+    }
+
+    /// Decides for a piece; false where only elimination can.
+    pub(crate) fn accept(&mut self, piece: Piece<'_>, out: &mut Acceptance) -> bool {
+        let is_number = |r: &u32| {
+            let columns = self.rows.columns(*r as usize);
+            columns.iter().all(|e| self.system.slots[e.0 as usize].is_number)
+        };
+        if !piece.rows.iter().all(is_number) {
+            return false;
+        }
+        for &row in piece.rows {
+            if !self.take_most_willing(row) && !self.find(row) {
+                return false;
+            }
+        }
+        for place in piece.places() {
+            self.hold(place);
+        }
+        if !self.is_regular(piece.rows) {
+            return false;
+        }
+        let required =
+            piece.rows.iter().filter(|&&r| self.rows[r as usize].level == Level::Required);
+        out.determined += required.count();
+        out.accepted.extend(piece.rows.iter().map(|&r| r as usize));
+        for &slot in piece.places().flatten() {
+            out.unknown[slot as usize] = self.state[slot as usize] != Use::Closed;
+        }
+        true
+    }
+
+    /// Gives a row the most willing of its slots that is free: what is declared last yields first.
+    fn take_most_willing(&mut self, row: u32) -> bool {
+        let willing = |s: SlotIndex| match self.classes.stay[s as usize] {
+            Stay::Fixed | Stay::Given => 0,
+            Stay::Kept { group } => 1 + u64::from(group),
+            Stay::Free => u64::MAX,
+        };
+        let free = self.rows.columns(row as usize).iter().map(|e| e.0).filter(|&s| {
+            self.state[s as usize] == Use::Open && self.row_of_slot[s as usize] == NONE
+        });
+        let Some(slot) = free.max_by_key(|&s| (willing(s), s)) else { return false };
+        self.give(row, slot);
+        true
+    }
+    fn give(&mut self, row: u32, slot: SlotIndex) {
+        self.slot_of_row[row as usize] = slot;
+        self.row_of_slot[slot as usize] = row;
+    }
+
+    /// Finds a slot for a row, moving other rows to other slots where that is needed.
+    fn find(&mut self, row: u32) -> bool {
+        self.search += 1;
+        self.met.clear();
+        // each row on the way, and how many of its slots were looked at
+        let mut way: Vec<(u32, usize)> = vec![(row, 0)];
+        let mut slots: Vec<SlotIndex> = Vec::new();
+        while let Some(&(r, next)) = way.last() {
+            let columns = self.rows.columns(r as usize);
+            if next == 0 {
+                let is_free = |s: SlotIndex| {
+                    self.state[s as usize] == Use::Open && self.row_of_slot[s as usize] == NONE
+                };
+                if let Some(e) = columns.iter().rev().find(|e| is_free(e.0)) {
+                    slots.push(e.0);
+                    for (&(r, _), &s) in way.iter().zip(&slots) {
+                        self.slot_of_row[r as usize] = s;
+                        self.row_of_slot[s as usize] = r;
+                    }
+                    return true;
+                }
+            }
+            let found = (next..columns.len()).find(|&i| {
+                let s = columns[columns.len() - 1 - i].0 as usize;
+                self.state[s] == Use::Open && self.seen[s] != self.search
+            });
+            match found {
+                Some(i) => {
+                    let slot = columns[columns.len() - 1 - i].0;
+                    way.last_mut().expect("the row was just seen").1 = i + 1;
+                    self.seen[slot as usize] = self.search;
+                    self.met.push(slot);
+                    slots.push(slot);
+                    way.push((self.row_of_slot[slot as usize], 0));
+                }
+                None => {
+                    way.pop();
+                    slots.pop();
+                }
+            }
+        }
+        false
+    }
+
+    /// Holds a place if every row finds a slot without it; else changes nothing that matters.
+    fn hold(&mut self, place: &[SlotIndex]) {
+        if place.iter().any(|&s| self.state[s as usize] == Use::Rigid) {
+            return;
+        }
+        for (i, &slot) in place.iter().enumerate() {
+            let was_open = std::mem::replace(&mut self.state[slot as usize], Use::Closed);
+            let row = std::mem::replace(&mut self.row_of_slot[slot as usize], NONE);
+            if was_open == Use::Closed || row == NONE || self.find(row) {
+                continue;
+            }
+            // what was closed before opens again; rows that found other slots may keep them
+            self.give(row, slot);
+            for &s in &place[..=i] {
+                self.state[s as usize] = Use::Open;
+            }
+            if i == 0 {
+                // whatever was met leads to nothing but what was met
+                self.state[slot as usize] = Use::Rigid;
+                for s in std::mem::take(&mut self.met) {
+                    self.state[s as usize] = Use::Rigid;
+                }
+            }
+            return;
+        }
+    }
+
+    /// Returns true if every block of rows and their slots is regular at the generic point.
+    fn is_regular(&mut self, rows: &[u32]) -> bool {
+        if rows.len() < 2 {
+            return true;
+        }
+        for (i, &r) in (0..).zip(rows) {
+            self.position[r as usize] = i;
+        }
+        let mut edges: Vec<(u32, u32)> = Vec::new();
+        for (i, &r) in (0..).zip(rows) {
+            for &(slot, _) in self.rows.columns(r as usize) {
+                if let Some(owner) = self.taken_by(slot).filter(|&owner| owner != r) {
+                    edges.push((i, self.position[owner as usize]));
+                }
+            }
+        }
+        let before = Lists::new(rows.len(), edges.iter().copied());
+        let mut regular = true;
+        strong_components(&before, &mut |block| {
+            if block.len() > 1 && regular {
+                let own: Vec<u32> = block.iter().map(|&i| rows[i as usize]).collect();
+                regular = self.is_regular_block(&own);
+            }
+        });
+        regular
+    }
+    fn taken_by(&self, slot: SlotIndex) -> Option<u32> {
+        let row = self.row_of_slot[slot as usize];
+        (row != NONE && self.state[slot as usize] != Use::Closed).then_some(row)
+    }
+
+    fn is_regular_block(&self, block: &[u32]) -> bool {
+        let mut columns: Vec<SlotIndex> =
+            block.iter().map(|&r| self.slot_of_row[r as usize]).collect();
+        columns.sort_unstable();
+        let n = block.len();
+        let entries = |r: u32| {
+            let own = self.rows.columns(r as usize).iter();
+            own.filter_map(|e| columns.binary_search(&e.0).ok().map(|c| (c, e.1)))
+        };
+        let factors = if n <= DENSE {
+            let mut matrix = vec![0.0; n * n];
+            for (i, &r) in block.iter().enumerate() {
+                entries(r).for_each(|(c, value)| matrix[i * n + c] = value);
+            }
+            Some(dense::factorise(&mut matrix, n, &mut Vec::new()))
+        } else {
+            let places = |&r: &u32| entries(r).map(|(c, _)| c as u32).collect();
+            let pattern = Pattern::of_rows(n, block.iter().map(places));
+            let values: Vec<f64> = block.iter().flat_map(|&r| entries(r).map(|e| e.1)).collect();
+            let symbolic = Symbolic::new(choose(&pattern, &values));
+            symbolic.factorise(&pattern, &values, &mut Lu::default())
+        };
+        factors.is_some_and(|f| f.sign != 0 && f.ratio > REGULAR)
+    }
+}
