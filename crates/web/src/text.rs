@@ -227,6 +227,7 @@ mod tests {
             merged_with: None,
             freedom: None,
             anchored: false,
+            enabled: true,
             descendants: 0,
             span,
         }
