@@ -5,7 +5,9 @@
 
 use crate::evaluator::Evaluator;
 use base::number::shortest;
-use kernel::{ConstraintInstance, Document, Primitive, SlotId, Strength, Structure, Value, Values};
+use kernel::{
+    ConstraintInstance, Document, Primitive, SlotId, Strength, Structure, ThingId, Value, Values,
+};
 use std::collections::BTreeSet;
 
 /// An edit as the checker sees it.
@@ -101,7 +103,13 @@ fn check_values(
 
 /// Tests every required constraint that is switched on.
 fn check_rules(evaluator: &Evaluator<'_>, wrong: &mut Vec<String>) {
+    let structure = evaluator.structure;
+    let on = structure.constraints.iter().filter(|&&c| structure.is_on(c));
+    let idle: BTreeSet<ThingId> = on.flat_map(|&c| evaluator.idle(c).unwrap_or_default()).collect();
     for &constraint in &evaluator.structure.constraints {
+        if !idle.is_empty() && is_inside(structure, constraint.owner, &idle) {
+            continue;
+        }
         let class = &evaluator.document.classes[constraint.class];
         let written = &class.constraints[constraint.index as usize];
         if written.strength != Strength::Required || !evaluator.structure.is_on(constraint) {
@@ -123,6 +131,18 @@ fn check_rules(evaluator: &Evaluator<'_>, wrong: &mut Vec<String>) {
             }
         }
     }
+}
+
+/// Returns true for one of these things and what they are made of.
+fn is_inside(structure: &Structure, thing: ThingId, of: &BTreeSet<ThingId>) -> bool {
+    let mut at = Some(thing);
+    while let Some(thing) = at {
+        if of.contains(&structure.merged[thing]) {
+            return true;
+        }
+        at = structure.things[thing].owner;
+    }
+    false
 }
 
 /// Returns the path of a constraint: of its owner, and its name or number.

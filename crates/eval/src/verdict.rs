@@ -106,9 +106,10 @@ impl<'a> Evaluator<'a> {
                         self.deeper(|| self.judge(&message.answer, &inner, within))
                             .map_err(|f| f.within(message.origin))
                     }
-                    _ => self.truth(rule, frame).map(Verdict::of),
+                    _ => self.truth_or_thing(rule, frame).map(Verdict::of),
                 }
             }
+            Term::Index(..) => self.truth_or_thing(rule, frame).map(Verdict::of),
             Term::Unary(UnaryOperator::Not, inner) => {
                 let verdict = self.deeper(|| self.judge(inner, frame, within))?;
                 Ok(Verdict { holds: !verdict.holds, error: None, ..verdict })
@@ -130,11 +131,56 @@ impl<'a> Evaluator<'a> {
             | Term::Tuple(_)
             | Term::List(_)
             | Term::Range(..)
-            | Term::Index(..)
             | Term::Lambda(..)
             | Term::IsA(..)
             | Term::All(_)
             | Term::Copy(_) => self.truth(rule, frame).map(Verdict::of),
+        }
+    }
+
+    /// Reads a truth value; a thing stands for its own constraints, which are tested by themselves.
+    fn truth_or_thing(&self, rule: &'a Term, frame: &Frame<'a>) -> Result<bool> {
+        match self.term(rule, frame)? {
+            Answer::Thing(_) => Ok(true),
+            other => self.truth_of(&other),
+        }
+    }
+
+    /// Names the things that stand in branches which are not taken: their constraints do not count.
+    pub(crate) fn idle(&self, constraint: ConstraintInstance) -> Result<Vec<ThingId>> {
+        let class = &self.document.classes[constraint.class];
+        let rule = &class.constraints[constraint.index as usize].rule;
+        self.begin();
+        let mut idle = Vec::new();
+        self.collect_idle(rule, &Frame::of(constraint.owner), true, &mut idle)?;
+        Ok(idle)
+    }
+
+    fn collect_idle(
+        &self,
+        rule: &'a Term,
+        frame: &Frame<'a>,
+        counts: bool,
+        idle: &mut Vec<ThingId>,
+    ) -> Result<()> {
+        self.burn()?;
+        match rule {
+            Term::Binary(BinaryOperator::And, a, b) => {
+                self.deeper(|| self.collect_idle(a, frame, counts, idle))?;
+                self.deeper(|| self.collect_idle(b, frame, counts, idle))
+            }
+            Term::If(condition, then, otherwise) => {
+                let truth = self.truth(condition, frame)?;
+                self.deeper(|| self.collect_idle(then, frame, counts && truth, idle))?;
+                self.deeper(|| self.collect_idle(otherwise, frame, counts && !truth, idle))
+            }
+            Term::Send { .. } | Term::Index(..) if !counts => {
+                if let Answer::Thing(thing) = self.term(rule, frame)? {
+                    idle.push(self.structure.merged[thing]);
+                }
+                Ok(())
+            }
+            _ => Ok(()),
         }
     }
 

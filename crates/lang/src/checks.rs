@@ -66,6 +66,8 @@ pub enum Expectation {
     Moved(Vec<Path>),
     /// That there are so many degrees of freedom.
     Free(u64),
+    /// That what is searched has so many solutions.
+    Solutions(u64),
     /// The heaviest kind of the latest plan.
     Plan(PlanKind),
     /// That the latest `try` was refused with this word.
@@ -81,6 +83,8 @@ pub enum PlanKind {
     Block,
     /// Some steps have no certificate of convergence.
     Relaxation,
+    /// Whole numbers are searched.
+    Search,
 }
 
 /// Returns a text without its `check` blocks.
@@ -274,14 +278,15 @@ fn expectation(l: &mut Lowerer<'_>, scope: &Scope, e: &ast::Expect) -> Option<Ex
             let n = l.constant(scope, &n?)?;
             Some(Expectation::Free(u64::try_from(n).ok()?))
         }
-        ast::Expectation::Solutions(_) => {
-            l.not_yet(OWN, e.span(), "`expect solutions` is");
-            None
+        ast::Expectation::Solutions(n) => {
+            let n = l.constant(scope, &n?)?;
+            Some(Expectation::Solutions(u64::try_from(n).ok()?))
         }
         ast::Expectation::Plan(word) => match word?.text() {
             "one_pass" => Some(Expectation::Plan(PlanKind::OnePass)),
             "block" => Some(Expectation::Plan(PlanKind::Block)),
             "relaxation" => Some(Expectation::Plan(PlanKind::Relaxation)),
+            "search" => Some(Expectation::Plan(PlanKind::Search)),
             other => {
                 let message =
                     format!("plans are one_pass, block, relaxation or search, not {other}");

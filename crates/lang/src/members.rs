@@ -4,7 +4,7 @@ use crate::kinds::Kind;
 use crate::lower::{Lowerer, OWN};
 use crate::scope::Scope;
 use base::{Diagnostic, FileId, Name, Place, Span};
-use kernel::{ClassId, Message, OriginId, Parameter, Part, Step, Term};
+use kernel::{ClassId, ClassKind, Message, OriginId, Parameter, Part, Primitive, Step, Term};
 use syntax::ast::{self, AstNode, Expr, Member, span_without_doc};
 
 /// How many members all `for` of a document may come to.
@@ -126,6 +126,41 @@ impl Lowerer<'_> {
         }
     }
 
+    /// Returns the whole numbers that a part may be; a list's are those of its elements.
+    fn domain(&mut self, scope: &Scope, domain: &Expr, class: ClassId) -> Option<(i64, i64)> {
+        let of = match self.document.classes[class].kind {
+            ClassKind::List(element) => element,
+            ClassKind::Primitive(_)
+            | ClassKind::Composite
+            | ClassKind::Set(_)
+            | ClassKind::Reference(_) => class,
+        };
+        let is_whole =
+            matches!(self.document.classes[of].kind, ClassKind::Primitive(Primitive::Integer));
+        let range = self.constant_range(scope, domain);
+        let place = Place { file: scope.file, span: domain.span() };
+        match range {
+            Some((low, high)) if is_whole && low <= high => return range,
+            Some((low, high)) if is_whole => {
+                let message = format!("no whole number lies in {low}..{high}");
+                let d = Diagnostic::error("empty-domain", place, message);
+                self.report(d.hint("write the least number first"));
+            }
+            _ if is_whole => {
+                let message = "a domain is a range of constants".to_string();
+                let d = Diagnostic::error("not-a-domain", place, message);
+                self.report(d.hint("write `in 0..9`; what depends on parts is a constraint"));
+            }
+            _ => {
+                let is = Kind::of_class(&self.document, of).words(&self.document);
+                let message = format!("only whole numbers have a domain, this is {is}");
+                let d = Diagnostic::error("not-a-domain", place, message);
+                self.report(d.hint("write a constraint: `0 <= x <= 9`"));
+            }
+        }
+        None
+    }
+
     fn constant_range(&mut self, scope: &Scope, range: &Expr) -> Option<(i64, i64)> {
         let Expr::Range(range) = range else { return None };
         let from = self.constant(scope, &range.start()?)?;
@@ -145,16 +180,7 @@ impl Lowerer<'_> {
         }
         let Some(class) = self.class_of_type(scope.file, &ty) else { return };
         let count = self.declared_count(scope, &ty);
-        let range = part.domain().and_then(|d| {
-            let range = self.constant_range(scope, &d);
-            if range.is_none() {
-                self.not_yet(scope.file, d.span(), "a domain of anything but whole numbers is");
-            }
-            range
-        });
-        if let Some(domain) = part.domain().filter(|_| range.is_some()) {
-            self.not_yet(scope.file, domain.span(), "the search for whole numbers in a domain is");
-        }
+        let range = part.domain().and_then(|d| self.domain(scope, &d, class));
         self.refuse_block(scope, part.value());
         for word in part.names() {
             if !self.is_new(scope, &word) {

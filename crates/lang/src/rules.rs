@@ -8,10 +8,17 @@ use crate::scope::Scope;
 use crate::terms::code_for;
 use base::{Diagnostic, Name, Place};
 use kernel::{
-    ClassId, ClassKind, Constraint, Given, Insert, Merge, Method, OriginId, Path, Primitive, Stay,
-    Step, Strength, Term,
+    BinaryOperator, ClassId, ClassKind, Constraint, Given, Insert, Merge, Method, OriginId, Path,
+    Primitive, Stay, Step, Strength, Term,
 };
 use syntax::ast::{self, AstNode, Expr, Member, MethodItem, Rule, span_without_doc};
+
+/// Where a rule stands.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+enum Standing {
+    Alone,
+    InBranch,
+}
 
 impl Lowerer<'_> {
     /// Lowers every expression that waits.
@@ -194,25 +201,15 @@ impl Lowerer<'_> {
     }
 
     fn define_constraint(&mut self, scope: &Scope, c: &ast::Constraint, origin: OriginId) {
-        let rule = match c.rule() {
-            Some(Rule::Holds(rule)) => rule,
-            Some(Rule::If(rule)) => {
-                let first = rule.span();
-                return self.not_yet(scope.file, first, "constraints under a condition are");
-            }
-            None => return,
-        };
+        let Some(rule) = c.rule() else { return };
         let Some(name) = self.rule_name(scope, c.name()) else { return };
-        let Some((term, kind)) = self.expr(scope, &rule) else { return };
-        if !kind.fits(&Kind::Bool, &self.document) {
-            let message =
-                format!("a rule is true or false, this is {}", kind.words(&self.document));
-            let place = Place { file: scope.file, span: rule.span() };
-            let d = Diagnostic::error("not-a-rule", place, message);
-            return self.report(d.hint("write an equation, `a = b`"));
-        }
+        let Some(term) = self.rule(scope, &rule, Standing::Alone) else { return };
+        let tolerance = |l: &mut Self, e: &Expr| match &rule {
+            Rule::Holds(rule) => l.tolerance(scope, rule, e),
+            Rule::If(_) => l.expr_of(scope, e, &Kind::Number(None)),
+        };
         let within = match c.tolerance() {
-            Some(e) => match self.tolerance(scope, &rule, &e) {
+            Some(e) => match tolerance(self, &e) {
                 Some(term) => Some(term),
                 None => return,
             },
@@ -249,6 +246,44 @@ impl Lowerer<'_> {
             within,
             origin,
         });
+    }
+
+    /// Lowers a rule; in a branch of a condition a part may stand for its own constraints.
+    fn rule(&mut self, scope: &Scope, rule: &Rule, standing: Standing) -> Option<Term> {
+        match rule {
+            Rule::Holds(rule) => {
+                let (term, kind) = self.expr(scope, rule)?;
+                let is_part = standing == Standing::InBranch
+                    && matches!(kind, Kind::Thing(_))
+                    && stored_path(&term).is_some_and(|p| !p.is_empty());
+                if is_part || kind.fits(&Kind::Bool, &self.document) {
+                    return Some(term);
+                }
+                let message =
+                    format!("a rule is true or false, this is {}", kind.words(&self.document));
+                let place = Place { file: scope.file, span: rule.span() };
+                let d = Diagnostic::error("not-a-rule", place, message);
+                self.report(d.hint("write an equation, `a = b`"));
+                None
+            }
+            Rule::If(rule) => {
+                let condition = self.expr_of(scope, &rule.condition()?, &Kind::Bool);
+                let then: Vec<Rule> =
+                    rule.then_rules().into_iter().flat_map(|b| b.rules()).collect();
+                let then = self.branch(scope, &then);
+                let otherwise = self.branch(scope, &rule.else_rules());
+                Some(Term::If(Box::new(condition?), Box::new(then?), Box::new(otherwise?)))
+            }
+        }
+    }
+
+    /// Lowers the rules of a branch to one that says all of them; no rule is always true.
+    fn branch(&mut self, scope: &Scope, rules: &[Rule]) -> Option<Term> {
+        let terms: Vec<Option<Term>> =
+            rules.iter().map(|r| self.rule(scope, r, Standing::InBranch)).collect();
+        let terms: Option<Vec<Term>> = terms.into_iter().collect();
+        let both = |a, b| Term::Binary(BinaryOperator::And, Box::new(a), Box::new(b));
+        Some(terms?.into_iter().reduce(both).unwrap_or(Term::Bool(true)))
     }
 
     /// Lowers what follows `within`: a number that measures what the sides of the rule do.

@@ -5,6 +5,7 @@ use crate::fault::{FaultKind, Trouble};
 use crate::meaning::Meaning;
 use base::Name;
 use expr::{Binary, ExprId, Unary};
+use kernel::BinaryOperator;
 
 impl<'a> Opening<'a> {
     /// Calls a function of the language: `sqrt(x)`, `max(a, b, c)`.
@@ -26,7 +27,11 @@ impl<'a> Opening<'a> {
             }
             ("min", items) => self.fold(Binary::Min, items),
             ("max", items) => self.fold(Binary::Max, items),
-            ("allDifferent", _) => Err(Trouble::not_yet("allDifferent is not planned yet")),
+            ("allDifferent", [list]) if self.items(list).is_ok() => {
+                let items = self.items(list)?;
+                self.all_different(&items)
+            }
+            ("allDifferent", items) => self.all_different(items),
             _ => Err(Trouble::new(
                 FaultKind::UnknownName,
                 format!("a rule cannot use `{name}` of {} arguments", arguments.len()),
@@ -138,6 +143,18 @@ impl<'a> Opening<'a> {
                 Err(Trouble::new(FaultKind::UnknownName, message))
             }
         }
+    }
+
+    /// Says by an expression that no two of some values are equal.
+    pub(crate) fn all_different(&mut self, items: &[Meaning<'a>]) -> Answer<'a> {
+        let mut truth = self.number(1.0);
+        for (i, a) in items.iter().enumerate() {
+            for b in &items[i + 1..] {
+                let differ = self.binary(BinaryOperator::NotEqual, a, b)?;
+                truth = self.binary(BinaryOperator::And, &truth, &differ)?;
+            }
+        }
+        Ok(truth)
     }
 
     /// Applies a function to every element.

@@ -4,10 +4,12 @@ use crate::aim::{Aim, with_present_values};
 use crate::component::Component;
 use crate::edit::{EditKind, EditReport, RefusalReason, Target, note};
 use crate::host::Host;
+use crate::modal::ModalDrag;
 use crate::planner::{Latest, Model, Planner};
-use crate::run::{Adapter, ran};
-use crate::task::Task;
+use crate::run::{Adapter, ran, scatter, searched};
+use crate::task::{Course, Task};
 use kernel::{SlotId, Values};
+use solve::{Puzzle, Verdict};
 use std::collections::BTreeSet;
 use std::rc::Rc;
 use std::sync::Arc;
@@ -26,13 +28,22 @@ pub struct Press {
 #[derive(Debug)]
 struct Pull {
     task: Task,
-    drag: solve::Drag,
+    way: Way,
     /// The wish and coordinate of every input.
     inputs: Vec<(u32, u32)>,
     targets: Vec<f64>,
     /// The slots that the plan writes: of the system, and of the document.
     written: Vec<(u32, SlotId)>,
     texts: Vec<SlotId>,
+}
+
+/// How a component follows a drag.
+#[derive(Debug)]
+enum Way {
+    Plan(Box<solve::Drag>),
+    Modes(ModalDrag),
+    /// Searched anew from where it was at the press.
+    Search(Rc<Puzzle>, Vec<f64>, Vec<u32>),
 }
 
 impl Planner {
@@ -104,6 +115,7 @@ impl Planner {
         host: &mut dyn Host,
     ) -> EditReport {
         let reached = self.reached(&press.aim, values);
+        self.latest.tasks = press.pulls.iter().map(|p| p.task.clone()).collect();
         let mut report = EditReport { reached, ..EditReport::default() };
         let components: Vec<Rc<Component>> =
             press.pulls.iter().map(|p| p.task.component.clone()).collect();
@@ -134,8 +146,15 @@ impl Planner {
         }
         let known: Vec<u32> = task.targets().iter().map(|t| t.0).collect();
         let inputs: Vec<(u32, u32)> = task.targets().iter().map(|t| (t.1, t.2)).collect();
-        let mut adapter = Adapter { planner: self, model, task: &task, values: start, host };
-        let drag = solve::Drag::begin(&task.plan, &x0, &known, &mut adapter);
+        let way = match &task.course {
+            Course::Plan => {
+                let mut adapter =
+                    Adapter { planner: self, model, task: &task, values: start, host };
+                Way::Plan(Box::new(solve::Drag::begin(&task.plan, &x0, &known, &mut adapter)))
+            }
+            Course::Modes(modes, _) => Way::Modes(ModalDrag::begin(modes, x0, known)),
+            Course::Search(puzzle) => Way::Search(puzzle.clone(), x0, known),
+        };
         let slots = &task.component.slots;
         let written: BTreeSet<u32> =
             task.plan.steps.iter().flat_map(|s| s.targets.iter().copied()).collect();
@@ -144,7 +163,7 @@ impl Planner {
         let is_text = |s: &&SlotId| !model.structure.slots[**s].primitive.is_number();
         let texts = slots.iter().filter(is_text).copied().collect();
         let targets = vec![0.0; inputs.len()];
-        Pull { drag, inputs, targets, written, texts, task }
+        Pull { way, inputs, targets, written, texts, task }
     }
 }
 
@@ -161,10 +180,27 @@ impl Pull {
         for (target, &(wish, coordinate)) in self.targets.iter_mut().zip(&self.inputs) {
             *target = aim.wanted[wish as usize][coordinate as usize];
         }
+        let targets = &self.targets;
+        let drag = match &mut self.way {
+            Way::Plan(drag) => drag,
+            Way::Modes(drag) => {
+                let ran = drag.follow(planner, model, &mut self.task, targets, values, host);
+                return note(report, &mut self.task, ran);
+            }
+            Way::Search(puzzle, x0, known) => {
+                let mut wanted = x0.clone();
+                known.iter().zip(targets).for_each(|(&k, &t)| wanted[k as usize] = t);
+                let verdict = puzzle.nearest(x0, &wanted);
+                if let Verdict::Found(found) = &verdict {
+                    scatter(&self.task, found, values);
+                }
+                return note(report, &mut self.task, searched(&verdict));
+            }
+        };
         let texts: Vec<Option<Arc<str>>> =
             self.texts.iter().map(|s| values.texts.get(s).cloned()).collect();
         let mut adapter = Adapter { planner, model, task: &self.task, values, host };
-        let outcome = self.drag.follow(&self.task.plan, &self.targets, &mut adapter);
+        let outcome = drag.follow(&self.task.plan, targets, &mut adapter);
         if !outcome.is_solved() {
             for (&slot, text) in self.texts.iter().zip(texts) {
                 match text {
@@ -173,8 +209,8 @@ impl Pull {
                 };
             }
         }
-        let now = self.drag.values();
-        match self.drag.moved() {
+        let now = drag.values();
+        match drag.moved() {
             Some(moved) => {
                 for &local in moved {
                     if let Some(&slot) = self.task.component.slots.get(local as usize) {
@@ -189,7 +225,8 @@ impl Pull {
             }
         }
         if !outcome.is_solved() || !outcome.unmet.is_empty() {
-            note(report, ran(planner, &self.task, &outcome));
+            let ran = ran(planner, &self.task, &outcome);
+            note(report, &mut self.task, ran);
         }
     }
 }

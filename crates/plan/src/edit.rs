@@ -52,6 +52,17 @@ pub struct EditReport {
     pub reached: bool,
     /// Slots where two solutions coincide: their values are known to half the digits only.
     pub double_roots: Vec<SlotId>,
+    /// Where a solution was looked for in vain and not to the end.
+    pub not_decided: Option<NotDecided>,
+}
+
+/// A search that was given up: there may be a solution, and there may be none.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub enum NotDecided {
+    /// After so many states of whole numbers.
+    Search(u64),
+    /// After so many modes.
+    Modes(u64),
 }
 
 /// Why an edit changed nothing.
@@ -59,6 +70,8 @@ pub struct EditReport {
 pub enum RefusalReason {
     /// Required constraints would not hold.
     Unmet,
+    /// Whether they can hold was not decided.
+    NotDecided(NotDecided),
     /// An anchor holds this slot.
     Anchored(SlotId),
     /// A written method failed.
@@ -114,12 +127,12 @@ impl Planner {
         } else {
             self.net.all(&self.rules, &|s| holding(s) == Holding::Fixed)
         };
-        let tasks = self.tasks(model.structure, components, &holding, &[]);
+        let mut tasks = self.tasks(model.structure, components, &holding, &[]);
         let mut report = EditReport { reached: true, ..EditReport::default() };
         let before = values.clone();
-        for task in &tasks {
+        for task in &mut tasks {
             let ran = run(self, model, task, &Aim::default(), &before, values, host);
-            note(&mut report, ran);
+            note(&mut report, task, ran);
         }
         report.unmet = self.unmet(model, 0..self.rules.len() as u32, values, host);
         report.changed = values.changed(&before).collect();
@@ -137,7 +150,7 @@ impl Planner {
         let aim = Aim::default();
         let mut is_solved = true;
         for task in self.resting() {
-            is_solved &= run(self, model, task, &aim, &start, values, host).is_solved;
+            is_solved &= run_or_stay(self, model, task, &aim, &start, values, host).is_solved;
         }
         is_solved
     }
@@ -172,14 +185,14 @@ impl Planner {
         host: &mut dyn Host,
     ) -> EditReport {
         let mut scratch = values.clone();
-        let tasks = self.plan_edit(model, aim);
+        let mut tasks = self.plan_edit(model, aim);
         for (&slot, value) in &aim.fixed {
             scratch.put(slot, value.clone());
         }
         let mut report = EditReport::default();
-        for task in &tasks {
+        for task in &mut tasks {
             let ran = run(self, model, task, aim, values, &mut scratch, host);
-            note(&mut report, ran);
+            note(&mut report, task, ran);
         }
         let rules: BTreeSet<u32> =
             tasks.iter().flat_map(|t| t.component.rules.iter().copied()).collect();
@@ -191,7 +204,8 @@ impl Planner {
         };
         report.reached = self.reached(aim, &scratch);
         if report.refusal.is_none() && (report.unmet.iter().any(is_new) || !report.reached) {
-            report.refusal = Some(RefusalReason::Unmet);
+            report.refusal =
+                Some(report.not_decided.map_or(RefusalReason::Unmet, RefusalReason::NotDecided));
         }
         if report.refusal.is_none() {
             report.changed = scratch.changed(values).collect();
@@ -244,12 +258,37 @@ impl Planner {
         let tasks = self.tasks(model.structure, components, &holding, &[]);
         let start = values.clone();
         let aim = Aim::default();
-        tasks.iter().find_map(|task| run(self, model, task, &aim, &start, values, host).failure)
+        tasks
+            .iter()
+            .find_map(|task| run_or_stay(self, model, task, &aim, &start, values, host).failure)
     }
 }
 
-/// Adds what came of one component.
-pub(crate) fn note(report: &mut EditReport, ran: Ran) {
+/// Runs a task; where not everything required can hold, nothing of it changes.
+fn run_or_stay(
+    planner: &Planner,
+    model: Model<'_>,
+    task: &Task,
+    aim: &Aim,
+    start: &Values,
+    values: &mut Values,
+    host: &mut dyn Host,
+) -> Ran {
+    let ran = run(planner, model, task, aim, start, values, host);
+    if !ran.is_solved {
+        for &slot in &task.component.slots {
+            values.put(slot, start.get(slot));
+        }
+    }
+    ran
+}
+
+/// Adds what came of one component, and puts it into the mode that stands.
+pub(crate) fn note(report: &mut EditReport, task: &mut Task, ran: Ran) {
+    if let Some(stands) = ran.stands {
+        task.stand(stands);
+    }
+    report.not_decided = report.not_decided.or(ran.not_decided);
     report.conflicts.extend(ran.conflicts);
     report.double_roots.extend(ran.double_roots);
     if report.refusal.is_none() {

@@ -1,11 +1,12 @@
 //! Explanations: the latest plan and the reasons for a value, as data.
 
 use crate::edit::Conflict;
+use crate::modal::Acting;
 use crate::planner::{Model, Planner};
 use crate::rule::Source;
-use crate::task::{Holding, Task};
-use kernel::SlotId;
-use solve::{Step, StepKind, System};
+use crate::task::{Course, Holding, Task};
+use kernel::{SlotId, Values};
+use solve::{Count, Step, StepKind, System};
 use std::collections::BTreeSet;
 
 /// One step of a plan, in the document's terms.
@@ -58,6 +59,11 @@ pub enum ExplainedKind {
         /// How many unknowns.
         unknowns: u32,
     },
+    /// Whole numbers, searched.
+    Search {
+        /// How many unknowns.
+        unknowns: u32,
+    },
 }
 
 /// The heaviest kind of step in a plan.
@@ -69,6 +75,8 @@ pub enum PlanKind {
     Block,
     /// The answer is approached: least change or compromise.
     Relaxation,
+    /// Whole numbers are searched.
+    Search,
 }
 
 /// Why a slot has its value.
@@ -108,8 +116,33 @@ impl Planner {
         let mut explained = Vec::new();
         for task in &self.latest.tasks {
             explained.extend(self.ran(task).map(|step| self.in_words(task, step)));
+            explained.extend(self.search_in_words(task));
         }
         explained
+    }
+
+    /// Returns what acts in the modes of the latest edit: inequalities at their bounds, conditions,
+    /// alternatives.
+    pub fn acting(&self) -> Vec<Acting> {
+        self.latest.tasks.iter().flat_map(|t| t.acting(self)).collect()
+    }
+
+    /// Counts the solutions of what is searched, with nothing edited and given numbers held; nothing
+    /// where nothing is searched.
+    pub fn solutions(&mut self, model: Model<'_>, values: &Values) -> Option<Count> {
+        self.plan_resting(model.structure);
+        let mut all = None;
+        for task in self.resting() {
+            let Course::Search(puzzle) = &task.course else { continue };
+            let one = puzzle.count(&task.gather(&values.numbers));
+            let Count { solutions, is_complete } =
+                all.unwrap_or(Count { solutions: 1, is_complete: true });
+            all = Some(Count {
+                solutions: solutions.saturating_mul(one.solutions),
+                is_complete: is_complete && one.is_complete,
+            });
+        }
+        all
     }
 
     /// Returns the heaviest kind of step of the latest edit; nothing to do is one pass.
@@ -123,7 +156,10 @@ impl Planner {
     /// The plan of the latest edit is asked where it computed the slot, else that of the document at
     /// rest, which [`Planner::status`] makes.
     pub fn why(&self, model: Model<'_>, slot: SlotId) -> Why {
-        let computes = |t: &&Task| local(t, slot).is_some_and(|s| producer(t, s).is_some());
+        let computes = |t: &&Task| {
+            let is_searched = matches!(t.course, Course::Search(_));
+            local(t, slot).is_some_and(|s| is_searched || producer(t, s).is_some())
+        };
         let task = self
             .latest
             .tasks
@@ -133,6 +169,10 @@ impl Planner {
         let Some(task) = task else {
             return Why { steps: Vec::new(), roots: vec![self.root(model, slot)] };
         };
+        if let Some(search) = self.search_in_words(task) {
+            let roots = search.reads.iter().map(|&slot| self.root(model, slot)).collect();
+            return Why { steps: vec![search], roots };
+        }
         let mut wanted: BTreeSet<u32> = local(task, slot).into_iter().collect();
         let mut roots = Vec::new();
         let mut steps = Vec::new();
@@ -212,6 +252,21 @@ impl Planner {
         })
     }
 
+    /// Returns the one step of a task that is searched.
+    fn search_in_words(&self, task: &Task) -> Option<ExplainedStep> {
+        let Course::Search(_) = task.course else { return None };
+        let is_known = |i: usize| task.system.slots[i].stay == solve::Stay::Fixed;
+        let slots = task.component.slots.iter().enumerate();
+        let (reads, targets): (Vec<_>, Vec<_>) = slots.partition(|(i, _)| is_known(*i));
+        let of = |all: Vec<(usize, &SlotId)>| all.into_iter().map(|(_, &s)| s).collect();
+        let relations = 0..task.system.relations.len() as u32;
+        let mut sources: Vec<Source> = relations.map(|r| task.source(&self.rules, r)).collect();
+        sources.dedup();
+        let unknowns = targets.len() as u32;
+        let kind = ExplainedKind::Search { unknowns };
+        Some(ExplainedStep { kind, targets: of(targets), reads: of(reads), sources })
+    }
+
     fn in_words(&self, task: &Task, step: &Step) -> ExplainedStep {
         let known = |slots: &[u32]| -> Vec<SlotId> {
             slots.iter().filter_map(|&i| task.component.slots.get(i as usize).copied()).collect()
@@ -245,6 +300,7 @@ impl ExplainedKind {
                 }
             }
             Self::LeastChange { .. } | Self::Compromise { .. } => PlanKind::Relaxation,
+            Self::Search { .. } => PlanKind::Search,
         }
     }
 }

@@ -1,9 +1,24 @@
 //! Whether rules hold: both sides of every equation, computed from the values alone.
 
 use crate::host::Host;
-use crate::rule::{Body, How, Rule, Source};
+use crate::rule::{Body, How, Rule, Source, When};
 use kernel::{Structure, Values};
+use solve::modes::is_true_within;
 use solve::{Patterns, Scratch};
+
+/// Returns true if the conditions of the rule are as they have to be for it to say anything.
+pub(crate) fn counts(
+    patterns: &Patterns,
+    rule: Rule<'_>,
+    values: &Values,
+    scratch: &mut Scratch,
+) -> bool {
+    let is_on = |when: &When| {
+        let truth = rule.evaluate(&when.condition, patterns, &values.numbers, scratch)[0] != 0.0;
+        truth == when.truth
+    };
+    rule.shape.when.iter().all(is_on)
+}
 
 /// Returns nothing if the rule holds, else its error, where it has one.
 ///
@@ -16,6 +31,9 @@ pub(crate) fn fails(
     host: &mut dyn Host,
     scratch: &mut Scratch,
 ) -> Option<Option<f64>> {
+    if !counts(patterns, rule, values, scratch) {
+        return None;
+    }
     match &rule.shape.body {
         Body::Equations(equations) => {
             let mut worst = None;
@@ -27,6 +45,18 @@ pub(crate) fn fails(
                 }
             }
             worst.map(Some)
+        }
+        Body::True(formula) => {
+            let arguments: Vec<f64> =
+                rule.slots_at(&formula.slots).map(|s| values.numbers[s]).collect();
+            let pattern = patterns.get(formula.pattern);
+            let (arena, root) = (pattern.arena(), pattern.roots()[0]);
+            (!is_true_within(arena, root, &arguments, rule.shape.within)).then_some(None)
+        }
+        Body::Different(formula) => {
+            let mut all = rule.evaluate(formula, patterns, &values.numbers, scratch).to_vec();
+            all.sort_by(f64::total_cmp);
+            all.windows(2).any(|w| agree(w[0], w[1], rule.shape.within)).then_some(None)
         }
         Body::Opaque(_) => {
             let holds = match (rule.shape.methods.as_slice(), rule.source) {

@@ -61,6 +61,8 @@ pub mod drag;
 pub mod edit;
 mod run;
 
+pub mod modal;
+
 pub mod diagnose;
 pub mod explain;
 pub mod status;
@@ -69,10 +71,11 @@ pub use diagnose::Analysis;
 pub use diagnose::motion::{Freedom, Motion, MotionKind};
 pub use diagnose::redundancy::{Redundancy, Redundant, RedundantKind};
 pub use drag::Press;
-pub use edit::{Conflict, EditKind, EditReport, RefusalReason, Target};
+pub use edit::{Conflict, EditKind, EditReport, NotDecided, RefusalReason, Target};
 pub use explain::{ExplainedKind, ExplainedStep, PlanKind, Root, RootKind, Why};
 pub use fault::{Fault, FaultKind};
 pub use host::{Failure, Host};
+pub use modal::{Acting, ActingKind};
 pub use planner::{Latest, Model, Planner, Unmet};
 pub use plans::{PlanCounts, Plans};
 pub use rule::{Source, Way};

@@ -6,8 +6,9 @@
 use crate::evaluate::Opening;
 use crate::fault::{Fault, Trouble};
 use crate::meaning::{Frame, Meaning, collect_slots};
-use crate::rule::{Body, Formula, How, RuleMethod, Shape, Way};
+use crate::rule::{Body, Formula, How, RuleMethod, Rules, Shape, Source, Way, When};
 use crate::say::{Said, Standing, say};
+use expr::ExprId;
 use kernel::{
     Constraint, ConstraintInstance, Method, Path, SlotId, StayInstance, Step, Strength, Structure,
     ThingId,
@@ -30,6 +31,7 @@ pub(crate) fn hold(strength: Strength, count: u32) -> Shape {
         derived: true,
         reads: Vec::new(),
         within: base::number::RULE_TOLERANCE,
+        when: Vec::new(),
     }
 }
 
@@ -51,7 +53,7 @@ pub(crate) fn lower_constraint(
     opening: &mut Opening<'_>,
     patterns: &mut Patterns,
     instance: ConstraintInstance,
-) -> Result<Vec<Shape<SlotId>>, Fault> {
+) -> Result<Lowered, Fault> {
     let constraint = &opening.document.classes[instance.class].constraints[instance.index as usize];
     opening.begin(instance.owner);
     let me = Frame::of(instance.owner);
@@ -69,6 +71,7 @@ pub(crate) fn lower_constraint(
         derived: constraint.derived || constraint.methods.is_empty(),
         reads: parts.reads,
         within: parts.within,
+        when: Vec::new(),
     };
     Ok(assemble(opening, patterns, shape, parts.said))
 }
@@ -79,29 +82,90 @@ fn assemble(
     patterns: &mut Patterns,
     shape: Shape<SlotId>,
     said: Said,
-) -> Vec<Shape<SlotId>> {
-    let equations: Vec<Formula<SlotId>> =
-        said.equations.iter().map(|e| Formula::of(patterns, &opening.arena, e)).collect();
-    if said.opaque.is_empty() {
-        return vec![Shape { body: Body::Equations(equations), ..shape }];
-    }
-    if !shape.methods.is_empty() {
+) -> Lowered {
+    let mut lowered = Lowered::default();
+    let is_plain = said.branches.is_empty()
+        && said.truths.is_empty()
+        && said.different.is_empty()
+        && said.opaque.is_empty();
+    if !shape.methods.is_empty() && !is_plain {
         // Written methods make the whole rule hold, so it is one.
         let mut slots: BTreeSet<SlotId> = BTreeSet::new();
-        said.opaque.iter().for_each(|o| slots.extend(&o.slots));
-        equations.iter().for_each(|e| slots.extend(&e.slots));
-        return vec![Shape { body: Body::Opaque(slots.into_iter().collect()), ..shape }];
+        said.collect_slots(opening, &mut slots);
+        lowered.shapes.push(Shape { body: Body::Opaque(slots.into_iter().collect()), ..shape });
+    } else if is_plain {
+        let equations =
+            said.equations.iter().map(|e| Formula::of(patterns, &opening.arena, e)).collect();
+        lowered.shapes.push(Shape { body: Body::Equations(equations), ..shape });
+    } else {
+        add_rules(opening, patterns, &shape, said, &mut lowered);
     }
-    let mut shapes = Vec::new();
-    if !equations.is_empty() {
-        shapes.push(Shape { body: Body::Equations(equations), ..shape.clone() });
+    lowered
+}
+
+/// Adds a rule for everything that is said, each under the conditions of `like`.
+fn add_rules(
+    opening: &Opening<'_>,
+    patterns: &mut Patterns,
+    like: &Shape<SlotId>,
+    said: Said,
+    lowered: &mut Lowered,
+) {
+    let mut formula = |roots: &[ExprId]| Formula::of(patterns, &opening.arena, roots);
+    let mut add = |body| lowered.shapes.push(Shape { body, ..like.clone() });
+    if !said.equations.is_empty() {
+        add(Body::Equations(said.equations.iter().map(|e| formula(e)).collect()));
     }
-    shapes.extend(said.opaque.into_iter().map(|o| Shape {
+    said.truths.iter().for_each(|&truth| add(Body::True(formula(&[truth]))));
+    said.different.iter().for_each(|all| add(Body::Different(formula(all))));
+    lowered.shapes.extend(said.opaque.into_iter().map(|o| Shape {
         body: Body::Opaque(o.slots.into_iter().collect()),
         methods: o.methods,
-        ..shape.clone()
+        ..like.clone()
     }));
-    shapes
+    if !like.when.is_empty() {
+        lowered.things.extend(said.things.into_iter().map(|t| (t, like.when.clone())));
+    }
+    for (condition, cases) in said.branches {
+        let condition = Formula::of(patterns, &opening.arena, &[condition]);
+        for (case, truth) in cases.into_iter().zip([true, false]) {
+            let mut like = like.clone();
+            like.when.push(When { condition: condition.clone(), truth });
+            add_rules(opening, patterns, &like, case, lowered);
+        }
+    }
+}
+
+/// What came of a constraint.
+#[derive(Default)]
+pub(crate) struct Lowered {
+    /// Its rules.
+    pub(crate) shapes: Vec<Shape<SlotId>>,
+    /// Things whose own rules hold only under these conditions.
+    pub(crate) things: Vec<(ThingId, Vec<When<SlotId>>)>,
+}
+
+/// Makes the rules of things that a branch names hold under its conditions alone.
+pub(crate) fn guard(
+    structure: &Structure,
+    rules: &mut Rules,
+    guarded: &[(ThingId, Vec<When<SlotId>>)],
+) {
+    if guarded.is_empty() {
+        return;
+    }
+    for rule in 0..rules.len() as u32 {
+        let Source::Constraint(index) = rules.source(rule) else { continue };
+        let mut at = Some(structure.constraints[index as usize].owner);
+        while let Some(thing) = at {
+            for (named, when) in guarded {
+                if structure.merged[*named] == structure.merged[thing] {
+                    rules.guard(rule, when);
+                }
+            }
+            at = structure.things[thing].owner;
+        }
+    }
 }
 
 struct Parts {

@@ -2,7 +2,8 @@
 
 use base::Mixer;
 use indexmap::IndexMap;
-use solve::{Patterns, Plan, System};
+use solve::{Conditional, Mode, Modes, Patterns, Plan, Puzzle, System};
+use std::cell::RefCell;
 use std::hash::BuildHasherDefault;
 use std::rc::Rc;
 
@@ -11,6 +12,10 @@ use std::rc::Rc;
 pub struct Plans {
     patterns: Patterns,
     made: IndexMap<Rc<System>, Rc<Plan>, BuildHasherDefault<Mixer>>,
+    modes: IndexMap<Conditional, Rc<Modes>, BuildHasherDefault<Mixer>>,
+    puzzles: IndexMap<Conditional, (Rc<System>, Rc<Puzzle>), BuildHasherDefault<Mixer>>,
+    /// Plans of systems in a mode: which mode is seen only when an edit runs.
+    in_modes: RefCell<IndexMap<Rc<System>, Rc<Plan>, BuildHasherDefault<Mixer>>>,
     reused: usize,
 }
 
@@ -50,6 +55,36 @@ impl Plans {
     /// Forgets the plans made since a mark.
     pub(crate) fn forget_since(&mut self, mark: usize) {
         self.made.truncate(mark);
+    }
+    /// Returns a system with conditions, taken apart.
+    pub(crate) fn modes(&mut self, stated: Conditional) -> Rc<Modes> {
+        if let Some(modes) = self.modes.get(&stated) {
+            return modes.clone();
+        }
+        let modes = Rc::new(Modes::new(stated.clone(), &mut self.patterns));
+        self.modes.insert(stated, modes.clone());
+        modes
+    }
+    /// Returns the plain system of a mode, and its plan.
+    pub(crate) fn in_mode(&self, modes: &Modes, mode: &Mode) -> (Rc<System>, Rc<Plan>) {
+        let system = modes.system(mode);
+        if let Some((system, plan)) = self.in_modes.borrow().get_key_value(&system) {
+            return (system.clone(), plan.clone());
+        }
+        let system = Rc::new(system);
+        let plan = Rc::new(solve::plan(&system, &self.patterns));
+        self.in_modes.borrow_mut().insert(system.clone(), plan.clone());
+        (system, plan)
+    }
+    /// Returns what is searched for a system of whole numbers, and that system.
+    pub(crate) fn puzzle(&mut self, stated: Conditional) -> (Rc<System>, Rc<Puzzle>) {
+        if let Some(known) = self.puzzles.get(&stated) {
+            return known.clone();
+        }
+        let puzzle = Rc::new(Puzzle::new(&stated, &self.patterns));
+        let made = (Rc::new(stated.system.clone()), puzzle);
+        self.puzzles.insert(stated, made.clone());
+        made
     }
 }
 

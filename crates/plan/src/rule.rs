@@ -46,6 +46,15 @@ pub(crate) struct Shape<S = Position> {
     pub(crate) derived: bool,
     pub(crate) reads: Vec<S>,
     pub(crate) within: f64,
+    /// The conditions under which it holds; always, where there are none.
+    pub(crate) when: Vec<When<S>>,
+}
+
+/// That a condition is true, or that it is false.
+#[derive(Clone, Debug)]
+pub(crate) struct When<S = Position> {
+    pub(crate) condition: Formula<S>,
+    pub(crate) truth: bool,
 }
 
 /// What holds where a rule holds.
@@ -53,6 +62,10 @@ pub(crate) struct Shape<S = Position> {
 pub(crate) enum Body<S = Position> {
     /// Equations that hold together.
     Equations(Vec<Formula<S>>),
+    /// The one expression is true: an inequality, alternatives, anything but an equation.
+    True(Formula<S>),
+    /// No two of the expressions are equal.
+    Different(Formula<S>),
     /// Something that only the host can test.
     Opaque(Vec<S>),
     /// The slots keep the values that they had when the edit began.
@@ -120,6 +133,9 @@ impl Numbering {
     fn formula(&mut self, formula: &Formula<SlotId>) -> Formula {
         Formula { pattern: formula.pattern, slots: self.all(&formula.slots).into() }
     }
+    fn when(&mut self, when: &When<SlotId>) -> When {
+        When { condition: self.formula(&when.condition), truth: when.truth }
+    }
 }
 
 impl Shape<SlotId> {
@@ -131,6 +147,8 @@ impl Shape<SlotId> {
             Body::Equations(equations) => {
                 Body::Equations(equations.iter().map(|e| n.formula(e)).collect())
             }
+            Body::True(formula) => Body::True(n.formula(formula)),
+            Body::Different(formula) => Body::Different(n.formula(formula)),
             Body::Opaque(slots) => Body::Opaque(n.all(slots)),
             Body::Hold(slots) => Body::Hold(n.all(slots)),
         };
@@ -145,8 +163,9 @@ impl Shape<SlotId> {
         };
         let methods = self.methods.iter().map(method).collect();
         let reads = n.all(&self.reads);
+        let when = self.when.iter().map(|w| n.when(w)).collect();
         let Self { level, derived, within, .. } = *self;
-        (Shape { level, body, methods, derived, reads, within }, numbering.slots)
+        (Shape { level, body, methods, derived, reads, within, when }, numbering.slots)
     }
 }
 
@@ -199,6 +218,17 @@ impl Rules {
         self.slots.extend(slots);
         let len = self.slots.len() as u32 - start;
         self.rules.push((source, shape, Span { start, len }));
+    }
+    /// Makes a rule hold under more conditions.
+    pub(crate) fn guard(&mut self, index: u32, when: &[When<SlotId>]) {
+        let rule = self.get(index);
+        let (source, mut shape) = (rule.source, rule.shape.clone());
+        let position = rule.slots.iter().copied().zip(0..).collect();
+        let mut numbering = Numbering { slots: rule.slots.to_vec(), position };
+        shape.when.extend(when.iter().map(|w| numbering.when(w)));
+        let shape = self.add_shape(shape);
+        self.add(source, shape, numbering.slots);
+        self.rules.swap_remove(index as usize);
     }
     pub(crate) fn len(&self) -> usize {
         self.rules.len()

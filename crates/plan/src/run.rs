@@ -1,14 +1,15 @@
 //! Running a task: numbers out of the document, through the plan, and back.
 
 use crate::aim::Aim;
-use crate::edit::Conflict;
+use crate::edit::{Conflict, NotDecided};
 use crate::holds::fails;
 use crate::host::{Failure, Host};
+use crate::modal::{self, Stands};
 use crate::planner::{Model, Planner};
 use crate::rule::{How, Source};
-use crate::task::{Origin, Task};
+use crate::task::{Course, Origin, Task};
 use kernel::{SlotId, Value, Values};
-use solve::{Outcome, Reason, Runner, Scratch, SlotIndex, Status};
+use solve::{Outcome, Reason, Runner, Scratch, SlotIndex, Status, Verdict};
 use std::collections::BTreeSet;
 
 /// What came of a task.
@@ -20,6 +21,19 @@ pub(crate) struct Ran {
     pub(crate) failure: Option<Failure>,
     /// Slots where two solutions coincide.
     pub(crate) double_roots: Vec<SlotId>,
+    /// The mode that stands, with its system and plan, where there are modes.
+    pub(crate) stands: Option<Stands>,
+    /// Where it was given up.
+    pub(crate) not_decided: Option<NotDecided>,
+}
+
+/// Where a task starts from, in the slots of its system.
+pub(crate) struct Ground {
+    /// The state when the edit began.
+    pub(crate) x0: Vec<f64>,
+    /// The same, with what the edit sets.
+    pub(crate) local: Vec<f64>,
+    pub(crate) changed: Vec<SlotIndex>,
 }
 
 /// Runs a task of an edit.
@@ -34,6 +48,28 @@ pub(crate) fn run(
     values: &mut Values,
     host: &mut dyn Host,
 ) -> Ran {
+    let ground = ground(planner, task, aim, start, values);
+    match &task.course {
+        Course::Plan => {
+            let Ground { x0, mut local, changed } = ground;
+            let mut adapter = Adapter { planner, model, task, values, host };
+            let runner = &mut Runner::new();
+            let outcome = solve::run(&task.plan, runner, &x0, &mut local, &changed, &mut adapter);
+            scatter(task, &local, values);
+            ran(planner, task, &outcome)
+        }
+        Course::Modes(modes, _) => modal::run(planner, model, task, modes, &ground, values, host),
+        Course::Search(puzzle) => {
+            let verdict = puzzle.nearest(&ground.x0, &ground.local);
+            if let Verdict::Found(found) = &verdict {
+                scatter(task, found, values);
+            }
+            searched(&verdict)
+        }
+    }
+}
+
+fn ground(planner: &Planner, task: &Task, aim: &Aim, start: &Values, values: &Values) -> Ground {
     let mut x0 = task.gather(&start.numbers);
     let mut local = task.gather(&values.numbers);
     for (known, slot) in task.holds() {
@@ -51,11 +87,18 @@ pub(crate) fn run(
             changed.push(i);
         }
     }
-    let mut adapter = Adapter { planner, model, task, values, host };
-    let outcome =
-        solve::run(&task.plan, &mut Runner::new(), &x0, &mut local, &changed, &mut adapter);
-    scatter(task, &local, values);
-    ran(planner, task, &outcome)
+    Ground { x0, local, changed }
+}
+
+/// Says what came of a search.
+pub(crate) fn searched(verdict: &Verdict) -> Ran {
+    match verdict {
+        Verdict::Found(_) => Ran { is_solved: true, ..Ran::default() },
+        Verdict::Impossible => Ran::default(),
+        Verdict::NotDecided { visited } => {
+            Ran { not_decided: Some(NotDecided::Search(*visited)), ..Ran::default() }
+        }
+    }
 }
 
 /// Puts the numbers of a task's slots into the document's.
@@ -92,7 +135,7 @@ pub(crate) fn ran(planner: &Planner, task: &Task, outcome: &Outcome) -> Ran {
         solve::Note::DoubleRoot { slot } => task.component.slots.get(*slot as usize).copied(),
     });
     let is_solved = outcome.is_solved();
-    Ran { is_solved, conflicts, failure, double_roots: double_roots.collect() }
+    Ran { is_solved, conflicts, failure, double_roots: double_roots.collect(), ..Ran::default() }
 }
 
 /// The host as the solver sees it: relations by number, texts kept aside.

@@ -1,14 +1,15 @@
-//! What a rule says: a Bool expression in, equations and opaque rows out.
+//! What a rule says: a Bool expression in, equations, truths and opaque rows out.
 //!
-//! Conjunctions are split, Bool messages opened, equalities of things taken part by part. What is
-//! neither an equality nor decided by the text alone is a plain fault: it is not planned yet.
+//! Conjunctions are split, Bool messages opened, equalities of things taken part by part. What is no
+//! equality (an inequality, alternatives) stays a truth; what stands under a condition is said for
+//! either case.
 
 use crate::evaluate::{Opening, bind_arguments};
 use crate::fault::{FaultKind, Trouble};
 use crate::meaning::{Frame, Meaning, Opaque, collect_slots};
 use crate::rule::{How, RuleMethod, Way};
-use expr::{ExprId, Node};
-use kernel::{BinaryOperator, SlotId, Term, UnaryOperator};
+use expr::{ExprId, Node, Unary};
+use kernel::{BinaryOperator, SlotId, Term, ThingId, UnaryOperator};
 use std::collections::BTreeSet;
 
 /// What a constraint says.
@@ -17,6 +18,14 @@ pub(crate) struct Said {
     /// Left and right sides that are equal.
     pub(crate) equations: Vec<[ExprId; 2]>,
     pub(crate) opaque: Vec<OpaqueRow>,
+    /// Expressions that are true.
+    pub(crate) truths: Vec<ExprId>,
+    /// Expressions of which no two are equal.
+    pub(crate) different: Vec<Vec<ExprId>>,
+    /// What is said where a condition is true, and where it is false.
+    pub(crate) branches: Vec<(ExprId, [Said; 2])>,
+    /// Things whose own rules hold.
+    pub(crate) things: Vec<ThingId>,
 }
 
 /// Something in a rule that only the host can test.
@@ -59,8 +68,19 @@ pub(crate) fn say<'a>(
             match opening.decided(&condition) {
                 Some(true) => say(opening, then, frame, Standing::Part, said),
                 Some(false) => say(opening, otherwise, frame, Standing::Part, said),
-                None => Err(Trouble::not_yet("a rule under a condition is not planned yet")),
+                None => branch(opening, &condition, [then, otherwise], frame, said),
             }
+        }
+        Term::Call { name, arguments } if *name == "allDifferent" => {
+            let mut items = Vec::new();
+            for a in arguments {
+                let meaning = opening.meaning(&a.value, frame)?;
+                match opening.items(&meaning) {
+                    Ok(list) => items.extend(list.iter().cloned()),
+                    Err(_) => items.push(meaning),
+                }
+            }
+            say_different(opening, &items, said)
         }
         Term::Unary(UnaryOperator::Not, operand) => {
             let operand = opening.meaning(operand, frame)?;
@@ -138,6 +158,71 @@ fn say_all<'a>(
     Ok(())
 }
 
+/// Says what holds in either case of a condition that depends on values.
+fn branch<'a>(
+    opening: &mut Opening<'a>,
+    condition: &Meaning<'a>,
+    ways: [&'a Term; 2],
+    frame: &Frame<'a>,
+    said: &mut Said,
+) -> Result<(), Trouble> {
+    let mut cases = [Said::default(), Said::default()];
+    for (way, case) in ways.into_iter().zip(&mut cases) {
+        say(opening, way, frame, Standing::Part, case)?;
+    }
+    match condition {
+        Meaning::Number(id) => said.branches.push((*id, cases)),
+        Meaning::Opaque(_) => {
+            // a condition on texts: the host tests all of it
+            let mut slots = BTreeSet::new();
+            collect_slots(&opening.arena, condition, &mut slots);
+            cases.iter().for_each(|case| case.collect_slots(opening, &mut slots));
+            said.opaque.push(OpaqueRow { slots, methods: Vec::new() });
+        }
+        Meaning::Thing(_) | Meaning::Made(_) | Meaning::List(_) | Meaning::Lambda(_) => {
+            let message = "a condition is true or false; this is neither";
+            return Err(Trouble::new(FaultKind::WrongKind, message));
+        }
+    }
+    Ok(())
+}
+
+/// Says that no two of some values are equal.
+fn say_different<'a>(
+    opening: &mut Opening<'a>,
+    items: &[Meaning<'a>],
+    said: &mut Said,
+) -> Result<(), Trouble> {
+    let number = |m: &Meaning<'a>| match m {
+        Meaning::Number(id) => Some(*id),
+        Meaning::Thing(_)
+        | Meaning::Made(_)
+        | Meaning::List(_)
+        | Meaning::Opaque(_)
+        | Meaning::Lambda(_) => None,
+    };
+    if let Some(numbers) = items.iter().map(number).collect::<Option<Vec<ExprId>>>() {
+        said.different.push(numbers);
+        return Ok(());
+    }
+    let truth = opening.all_different(items)?;
+    want(opening, &truth, 1.0, said)
+}
+
+impl Said {
+    /// Adds every slot that it speaks of.
+    pub(crate) fn collect_slots(&self, opening: &Opening<'_>, slots: &mut BTreeSet<SlotId>) {
+        let conditions = self.branches.iter().map(|b| b.0);
+        let sides = self.equations.iter().flatten().copied();
+        let others = self.truths.iter().chain(self.different.iter().flatten()).copied();
+        for id in sides.chain(others).chain(conditions) {
+            slots.extend(opening.arena.variables(id).into_iter().map(|v| SlotId(v.0)));
+        }
+        self.opaque.iter().for_each(|o| slots.extend(&o.slots));
+        self.branches.iter().flat_map(|b| &b.1).for_each(|s| s.collect_slots(opening, slots));
+    }
+}
+
 /// Wants a truth value to be 1 or 0.
 fn want<'a>(
     opening: &mut Opening<'a>,
@@ -158,13 +243,17 @@ fn want<'a>(
                 Ok(())
             }
             Node::Unary(..) | Node::Binary(..) | Node::Select { .. } => {
-                Err(Trouble::not_yet("a rule that is not an equality is not planned yet"))
+                let truth = if wanted == 0.0 { opening.arena.unary(Unary::Not, *id) } else { *id };
+                said.truths.push(truth);
+                Ok(())
             }
         },
-        Meaning::Thing(_) | Meaning::Made(_) => {
-            Err(Trouble::not_yet("a rule that names a part is not planned yet"))
+        Meaning::Thing(thing) if wanted != 0.0 => {
+            opening.reach.looks_around();
+            said.things.push(*thing);
+            Ok(())
         }
-        Meaning::List(_) | Meaning::Lambda(_) => {
+        Meaning::Thing(_) | Meaning::Made(_) | Meaning::List(_) | Meaning::Lambda(_) => {
             Err(Trouble::new(FaultKind::WrongKind, "a rule is true or false; this is neither"))
         }
     }

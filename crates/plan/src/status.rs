@@ -4,7 +4,7 @@ use crate::diagnose::redundancy::Redundant;
 use crate::host::Host;
 use crate::planner::{Model, Planner, Unmet};
 use crate::rule::Source;
-use crate::task::{Holding, Task};
+use crate::task::{Course, Holding, Task};
 use base::IdVec;
 use kernel::{SlotId, Values};
 use solve::{Level, Stay};
@@ -55,7 +55,11 @@ impl Planner {
         let redundancy = self.redundancy(model, values, &unmet, host);
         freedom += redundancy.theorem_rows();
         for task in self.resting() {
-            freedom += task.plan.report.freedom;
+            let in_mode = task.by_values(self, values);
+            let task = in_mode.as_ref().unwrap_or(task);
+            if !matches!(task.course, Course::Search(_)) {
+                freedom += task.plan.report.freedom;
+            }
             for slot in movable(task) {
                 slots[slot] = SlotState::Free;
             }

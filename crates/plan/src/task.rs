@@ -5,13 +5,14 @@
 
 use crate::component::{Component, Net};
 use crate::plans::Plans;
-use crate::rule::{Body, Formula, How, Position, Rule, Rules, Source};
+use crate::rule::{Body, Formula, How, Position, Rule, Rules, Source, When};
 use base::{IdVec, Mixer};
 use expr::Dimension;
 use indexmap::IndexMap;
 use kernel::{Primitive, SlotId, Structure};
 use solve::{
-    Level, Method, MethodBody, PatternId, Patterns, Plan, Relation, RelationBody, SlotIndex, Stay,
+    Condition, Conditional, Demand, DemandKind, Guard, Level, Method, MethodBody, Mode, Modes,
+    PatternId, Patterns, Plan, Puzzle, Relation, RelationBody, SlotIndex, SlotRange, Span, Stay,
     System,
 };
 use std::collections::BTreeSet;
@@ -52,12 +53,25 @@ impl Wish {
 /// One component in one edit.
 #[derive(Clone, Debug)]
 pub(crate) struct Task {
+    /// What is solved; where modes are, in the mode that stands.
     pub(crate) system: Rc<System>,
     pub(crate) plan: Rc<Plan>,
+    pub(crate) course: Course,
     /// The rules and slots of the document that it is about. Its slots are the system's first.
     pub(crate) component: Rc<Component>,
     /// What the system's slots and relations are in a component, whichever it is.
     stated: Rc<Stated>,
+}
+
+/// How a component is solved.
+#[derive(Clone, Debug)]
+pub(crate) enum Course {
+    /// By its plan.
+    Plan,
+    /// By the plan of one of its modes.
+    Modes(Rc<Modes>, Mode),
+    /// By search.
+    Search(Rc<Puzzle>),
 }
 
 /// How a system speaks of a component: the same for all components that are alike.
@@ -79,7 +93,7 @@ pub(crate) struct Alike {
 }
 
 /// A system, its plan, and how it speaks of a component.
-type Known = (Rc<System>, Rc<Plan>, Rc<Stated>);
+type Known = (Rc<System>, Rc<Plan>, Course, Rc<Stated>);
 
 /// What a relation of a system comes from.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
@@ -114,19 +128,19 @@ pub(crate) fn task(
     let remembered = setting.wishes.is_empty();
     if remembered {
         alike.sign(setting, locals, &component);
-        if let Some((system, plan, stated)) = alike.known.get(alike.signature.as_slice()) {
-            let (system, plan, stated) = (system.clone(), plan.clone(), stated.clone());
+        if let Some(known) = alike.known.get(alike.signature.as_slice()) {
+            let (system, plan, course, stated) = known.clone();
             plans.reuse();
-            return Task { system, plan, component, stated };
+            return Task { system, plan, course, component, stated };
         }
     }
-    let (system, plan, stated) = state(plans, setting, locals, &component);
+    let (system, plan, course, stated) = state(plans, setting, locals, &component);
     let stated = Rc::new(stated);
     if remembered {
-        let known = (system.clone(), plan.clone(), stated.clone());
+        let known = (system.clone(), plan.clone(), course.clone(), stated.clone());
         alike.known.insert(alike.signature.as_slice().into(), known);
     }
-    Task { system, plan, component, stated }
+    Task { system, plan, course, component, stated }
 }
 
 fn state(
@@ -134,7 +148,7 @@ fn state(
     setting: &Setting<'_>,
     locals: &mut Locals,
     component: &Component,
-) -> (Rc<System>, Rc<Plan>, Stated) {
+) -> (Rc<System>, Rc<Plan>, Course, Stated) {
     let same = plans.patterns_mut().same();
     let mut making = Making::new(setting, same, locals, component);
     for (position, &rule) in (0..).zip(&component.rules) {
@@ -143,9 +157,28 @@ fn state(
     for (index, wish) in (0..).zip(setting.wishes) {
         making.wish(plans.patterns_mut(), index, wish);
     }
-    let Making { system, holds, targets, relations, .. } = making;
-    let (system, plan) = plans.plan(system);
-    (system, plan, Stated { holds, targets, relations })
+    making.ranges();
+    let Making { conditional, holds, targets, relations, .. } = making;
+    let (system, plan, course) = course(plans, conditional);
+    (system, plan, course, Stated { holds, targets, relations })
+}
+
+/// Plans a system, or what it is in its modes, or takes it for a matter of search.
+fn course(plans: &mut Plans, conditional: Conditional) -> (Rc<System>, Rc<Plan>, Course) {
+    if conditional.is_plain() {
+        let (system, plan) = plans.plan(conditional.system);
+        (system, plan, Course::Plan)
+    } else if conditional.is_searched() {
+        let (system, puzzle) = plans.puzzle(conditional);
+        let slots = system.slots.clone();
+        let (_, plan) = plans.plan(System { slots, ..System::default() });
+        (system, plan, Course::Search(puzzle))
+    } else {
+        let modes = plans.modes(conditional);
+        let mode = modes.blank();
+        let (system, plan) = plans.in_mode(&modes, &mode);
+        (system, plan, Course::Modes(modes, mode))
+    }
 }
 
 impl Alike {
@@ -211,7 +244,7 @@ struct Making<'s> {
     locals: &'s mut Locals,
     /// What says that two slots are equal.
     same: PatternId,
-    system: System,
+    conditional: Conditional,
     holds: Vec<(SlotIndex, SlotIndex)>,
     targets: Vec<(SlotIndex, u32, u32)>,
     relations: Vec<Origin>,
@@ -274,7 +307,7 @@ impl<'s> Making<'s> {
             component,
             locals,
             same,
-            system,
+            conditional: Conditional { system, ..Conditional::default() },
             holds: Vec::new(),
             targets: Vec::new(),
             relations: Vec::new(),
@@ -291,9 +324,9 @@ impl<'s> Making<'s> {
 
     /// Adds a known slot of the same kind as another.
     fn known_like(&mut self, slot: SlotIndex) -> SlotIndex {
-        let like = self.system.slots[slot as usize].clone();
-        self.system.slots.push(solve::Slot { stay: Stay::Fixed, ..like });
-        self.system.slots.len() as SlotIndex - 1
+        let like = self.conditional.system.slots[slot as usize].clone();
+        self.conditional.system.slots.push(solve::Slot { stay: Stay::Fixed, ..like });
+        self.conditional.system.slots.len() as SlotIndex - 1
     }
 
     fn rule(&mut self, position: u32, index: u32) {
@@ -303,13 +336,15 @@ impl<'s> Making<'s> {
             Body::Equations(equations) => {
                 let locals = &self.locals.0;
                 RelationBody::Equations(
-                    self.system.add_equations(
+                    self.conditional.system.add_equations(
                         equations
                             .iter()
                             .map(|e| (e.pattern, rule.slots_at(&e.slots).map(|s| locals[s]))),
                     ),
                 )
             }
+            Body::True(formula) => self.demand(rule, formula, DemandKind::True),
+            Body::Different(formula) => self.demand(rule, formula, DemandKind::Different),
             Body::Opaque(slots) => RelationBody::Opaque { slots: self.locals(rule, slots) },
             Body::Hold(slots) => {
                 // What has no value yet cannot be held.
@@ -327,7 +362,7 @@ impl<'s> Making<'s> {
                     self.holds.push((known, local));
                     equations.push((self.same, [local, known]));
                 }
-                RelationBody::Equations(self.system.add_equations(equations))
+                RelationBody::Equations(self.conditional.system.add_equations(equations))
             }
         };
         let mut methods = Vec::with_capacity(shape.methods.len());
@@ -336,7 +371,7 @@ impl<'s> Making<'s> {
                 How::Formulas(f) => {
                     let locals = &self.locals.0;
                     let slots = rule.slots_at(&f.slots).map(|s| locals[s]);
-                    let arguments = self.system.add_arguments(slots);
+                    let arguments = self.conditional.system.add_arguments(slots);
                     MethodBody::Formulas { pattern: f.pattern, arguments }
                 }
                 How::Host(_) | How::Copy => {
@@ -345,9 +380,12 @@ impl<'s> Making<'s> {
             };
             methods.push(Method { targets: self.locals(rule, &m.targets), body });
         }
+        for when in &shape.when {
+            self.guard(rule, when);
+        }
         let source = self.relations.len() as u32;
         self.relations.push(Origin::Rule(position));
-        self.system.relations.push(Relation {
+        self.conditional.system.relations.push(Relation {
             level: shape.level,
             body,
             methods,
@@ -356,6 +394,52 @@ impl<'s> Making<'s> {
             within: shape.within.to_bits(),
             source,
         });
+    }
+
+    /// Demands what no equation says, of the relation that is added next.
+    fn demand(&mut self, rule: Rule<'_>, formula: &Formula, kind: DemandKind) -> RelationBody {
+        let relation = self.conditional.system.relations.len() as u32;
+        let slots = self.locals(rule, &formula.slots);
+        let arguments = self.conditional.system.add_arguments(slots);
+        self.conditional.demands.push(Demand {
+            relation,
+            kind,
+            pattern: formula.pattern,
+            arguments,
+        });
+        RelationBody::Equations(Span::default())
+    }
+
+    /// Makes the relation that is added next hold under a condition alone.
+    fn guard(&mut self, rule: Rule<'_>, when: &When) {
+        let relation = self.conditional.system.relations.len() as u32;
+        let pattern = when.condition.pattern;
+        let slots = self.locals(rule, &when.condition.slots);
+        let same = |c: &Condition| {
+            c.pattern == pattern && self.conditional.system.arguments(c.arguments) == slots
+        };
+        let condition = match self.conditional.conditions.iter().position(same) {
+            Some(known) => known,
+            None => {
+                let arguments = self.conditional.system.add_arguments(slots);
+                self.conditional.conditions.push(Condition { pattern, arguments });
+                self.conditional.conditions.len() - 1
+            }
+        } as u32;
+        self.conditional.guards.push(Guard { relation, condition, truth: when.truth });
+    }
+
+    /// States what the component's whole numbers may be.
+    fn ranges(&mut self) {
+        let all = &self.setting.structure.ranges;
+        if all.is_empty() {
+            return;
+        }
+        for (&slot, local) in self.component.slots.iter().zip(0..) {
+            if let Some(&(low, high)) = all.get(&slot) {
+                self.conditional.ranges.push(SlotRange { slot: local, low, high });
+            }
+        }
     }
 
     /// Returns where a slot stands in the component, if it does.
@@ -370,7 +454,8 @@ impl<'s> Making<'s> {
         for (coordinate, formula) in (0..).zip(&wish.formulas) {
             let locals: Option<Vec<SlotIndex>> =
                 formula.slots.iter().map(|&s| self.find(s)).collect();
-            let moves = |&&i: &&SlotIndex| self.system.slots[i as usize].stay != Stay::Fixed;
+            let moves =
+                |&&i: &&SlotIndex| self.conditional.system.slots[i as usize].stay != Stay::Fixed;
             let Some(locals) = locals else { continue };
             let Some(&first) = locals.iter().find(moves) else { continue };
             let known = self.known_like(first);
@@ -382,10 +467,10 @@ impl<'s> Making<'s> {
         if equations.is_empty() {
             return;
         }
-        let equations = self.system.add_equations(equations);
+        let equations = self.conditional.system.add_equations(equations);
         let source = self.relations.len() as u32;
         self.relations.push(Origin::Wish(index));
-        self.system.relations.push(Relation {
+        self.conditional.system.relations.push(Relation {
             level: wish.level,
             body: RelationBody::Equations(equations),
             methods: Vec::new(),

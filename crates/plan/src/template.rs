@@ -6,7 +6,7 @@
 
 use crate::evaluate::Opening;
 use crate::fault::Fault;
-use crate::lower::{held, hold, lower_constraint};
+use crate::lower::{guard, held, hold, lower_constraint};
 use crate::planner::Model;
 use crate::reach::Route;
 use crate::rule::{Position, Rules, ShapeId, Source};
@@ -29,6 +29,7 @@ pub(crate) fn lower_all(model: Model<'_>, patterns: &mut Patterns) -> (Rules, Ve
     let structure = model.structure;
     let mut rules = Rules::default();
     let mut faults = Vec::new();
+    let mut guarded = Vec::new();
     let mut opening = Opening::new(model.document, structure);
     let mut templates: BTreeMap<(ClassId, u32), Vec<Template>> = BTreeMap::new();
     let (mut things, mut slots) = (Vec::new(), Vec::new());
@@ -48,7 +49,10 @@ pub(crate) fn lower_all(model: Model<'_>, patterns: &mut Patterns) -> (Rules, Ve
             continue;
         }
         let shapes = match lower_constraint(&mut opening, patterns, instance) {
-            Ok(shapes) => shapes,
+            Ok(lowered) => {
+                guarded.extend(lowered.things);
+                lowered.shapes
+            }
             Err(fault) => {
                 faults.push(fault);
                 continue;
@@ -73,6 +77,7 @@ pub(crate) fn lower_all(model: Model<'_>, patterns: &mut Patterns) -> (Rules, Ve
             known.push(Template { route, rules });
         }
     }
+    guard(structure, &mut rules, &guarded);
     lower_stays(model, &mut rules);
     (rules, faults)
 }

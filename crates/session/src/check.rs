@@ -198,11 +198,24 @@ impl Run<'_> {
                 let message = || format!("{found} degrees of freedom, not {n}");
                 if found as u64 == *n { Ok(()) } else { Err(message()) }
             }
+            Expectation::Solutions(n) => {
+                let found = self.open.planner.solutions(state.model(), &state.values);
+                let found = found.ok_or("no whole numbers are searched here")?;
+                match (found.solutions == *n, found.is_complete) {
+                    (true, true) => Ok(()),
+                    (false, true) => Err(format!("{} solutions, not {n}", found.solutions)),
+                    (_, false) => Err(format!(
+                        "not decided: {} solutions were found before the count was given up",
+                        found.solutions
+                    )),
+                }
+            }
             Expectation::Plan(kind) => {
                 let found = match self.open.planner.latest_kind() {
                     plan::PlanKind::OnePass => PlanKind::OnePass,
                     plan::PlanKind::Block => PlanKind::Block,
                     plan::PlanKind::Relaxation => PlanKind::Relaxation,
+                    plan::PlanKind::Search => PlanKind::Search,
                 };
                 let message = || format!("the latest plan is {found:?}, not {kind:?}");
                 if found == *kind { Ok(()) } else { Err(message()) }

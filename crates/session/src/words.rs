@@ -9,7 +9,7 @@ use kernel::{
     ClassKind, Command, ConstraintInstance, Document, Literal, Path, Primitive, SlotId, Step,
     Strength, Structure, Term, ThingId, Value, Values,
 };
-use plan::{EditReport, RefusalReason, Source};
+use plan::{EditReport, NotDecided, RefusalReason, Source};
 
 /// Makes a refusal of one sentence.
 pub(crate) fn refuse(message: String) -> Refusal {
@@ -49,6 +49,9 @@ pub(crate) fn refusal_for(state: &State, reason: &RefusalReason, report: &EditRe
             "refused: what stands fixed does not leave room for this".to_string()
         }
         RefusalReason::Unmet => format!("refused: {} would not hold", listed(&unmet)),
+        RefusalReason::NotDecided(bound) => {
+            format!("not decided: no solution was found in {}", given_up(*bound))
+        }
         RefusalReason::Anchored(slot) => {
             format!("refused: {} is anchored", state.slot_path(*slot))
         }
@@ -61,6 +64,14 @@ pub(crate) fn refusal_for(state: &State, reason: &RefusalReason, report: &EditRe
         RefusalReason::Target(message) => message.clone(),
     };
     Refusal { message, constraints, ..Refusal::default() }
+}
+
+/// Names the bound at which a search was given up.
+fn given_up(bound: NotDecided) -> String {
+    match bound {
+        NotDecided::Search(n) => format!("{n} states of the search, and not all were looked at"),
+        NotDecided::Modes(n) => format!("{n} modes, and not all were tried"),
+    }
 }
 
 /// Says which required constraints do not hold, as the reason why an edit was refused; nothing if all

@@ -83,12 +83,24 @@ mod attempt;
 
 pub mod run;
 
+pub mod conditional;
+
+mod truth;
+
+pub mod modes;
+
+pub mod search;
+
+pub use conditional::{Condition, Conditional, Demand, DemandKind, Guard, SlotRange};
 pub use few::Few;
+pub use modes::{Decision, Ended, Mode, Modes, Standing, Tried, decide};
 pub use outcome::{Host, NoHost, Note, Outcome, Reason, Status, Unmet};
 pub use pattern::{Pattern, PatternId, Patterns, Scratch};
 pub use plan::{Plan, Rejected, Report, Step, StepKind, plan};
 pub use run::{Drag, Runner, run};
+pub use search::{Count, Puzzle, Verdict};
 pub use system::{
     Equation, Level, Method, MethodBody, Relation, RelationBody, Slot, SlotIndex, Span, Stay,
     System,
 };
+pub use truth::Comparing;

@@ -6,6 +6,7 @@
 //! Whatever can be known of a row without its slots is worked out once, for the pattern.
 
 use crate::kernel::Kernel;
+use crate::system::SlotIndex;
 use base::{Id, Mixer, define_id};
 use expr::{Arena, Excerpt, ExprId, Node, Tape, Var};
 use indexmap::IndexSet;
@@ -66,6 +67,24 @@ impl Pattern {
     /// Returns the number of arguments; each occurs in it.
     pub fn arity(&self) -> usize {
         self.arity
+    }
+    /// Writes its expressions out over slots.
+    pub(crate) fn write_out(&self, arena: &mut Arena, arguments: &[SlotIndex]) -> Vec<ExprId> {
+        let mut made: Vec<ExprId> = Vec::with_capacity(self.excerpt.nodes.len());
+        for &node in &self.excerpt.nodes {
+            let at = |id: ExprId| made[id.index()];
+            let id = match node {
+                Node::Constant(bits) => arena.constant(f64::from_bits(bits)),
+                Node::Var(v) => arena.var(Var(arguments[v.index()])),
+                Node::Unary(op, a) => arena.unary(op, at(a)),
+                Node::Binary(op, a, b) => arena.binary(op, at(a), at(b)),
+                Node::Select { condition, then, otherwise } => {
+                    arena.select(at(condition), at(then), at(otherwise))
+                }
+            };
+            made.push(id);
+        }
+        self.roots().iter().map(|r| made[r.index()]).collect()
     }
     /// Computes its expressions; the arguments are gathered by `argument`.
     pub fn evaluate<'s>(

@@ -135,6 +135,16 @@ impl Drag {
         }
     }
 
+    /// Goes on from another state, which another plan's drag came to.
+    ///
+    /// # Panics
+    /// If it has not as many slots.
+    pub fn stand_at(&mut self, state: &[f64]) {
+        self.branch.copy_from_slice(state);
+        self.now.copy_from_slice(state);
+        self.has_branch = false;
+    }
+
     /// Returns the present state.
     pub fn values(&self) -> &[f64] {
         &self.now

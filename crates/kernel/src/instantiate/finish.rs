@@ -102,7 +102,8 @@ fn give_slots(maker: &Maker<'_>, body: &Body, order: &[ThingId], structure: &mut
         let s = &mut structure.slots[slot];
         s.given = s.given.or(body.givens[thing]);
         if let Some(range) = declared_range(maker, structure, body, thing) {
-            structure.ranges.entry(slot).or_insert(range);
+            let known = structure.ranges.entry(slot).or_insert(range);
+            *known = (known.0.max(range.0), known.1.min(range.1));
         }
     }
 }
@@ -114,6 +115,10 @@ fn declared_range(
     thing: ThingId,
 ) -> Option<(i64, i64)> {
     let t = &body.things[thing];
-    let layout = structure.layouts[body.things[t.owner?].class].as_ref()?;
+    let owner = body.things[t.owner?].class;
+    if matches!(maker.document.classes[owner].kind, ClassKind::List(_)) {
+        return declared_range(maker, structure, body, t.owner?);
+    }
+    let layout = structure.layouts[owner].as_ref()?;
     maker.document.declared(*layout.fields.get(t.field as usize)?)?.range
 }

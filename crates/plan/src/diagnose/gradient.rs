@@ -45,7 +45,7 @@ impl Gradients {
             Body::Equations(equations) => {
                 equations.iter().all(|e| self.derived(patterns, e.pattern).is_linear)
             }
-            Body::Opaque(_) | Body::Hold(_) => true,
+            Body::True(_) | Body::Different(_) | Body::Opaque(_) | Body::Hold(_) => true,
         }
     }
 

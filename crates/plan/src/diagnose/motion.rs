@@ -9,12 +9,13 @@ use crate::diagnose::echelon::{Echelon, Row, Verdict};
 use crate::diagnose::gradient::Gradients;
 use crate::diagnose::redundancy::Redundancy;
 use crate::diagnose::trial::scattered;
+use crate::holds::counts;
 use crate::host::Host;
 use crate::planner::{Model, Planner};
 use crate::rule::{Body, Source};
-use crate::task::{Holding, Task};
+use crate::task::{Course, Holding, Task};
 use kernel::{Primitive, SlotId, ThingId, Values};
-use solve::Level;
+use solve::{Level, Scratch};
 use std::collections::{BTreeMap, BTreeSet};
 
 /// At most so many motions of a component are listed.
@@ -84,6 +85,12 @@ impl Planner {
             out.motions.push(Motion { kind: MotionKind::Alone, moves: vec![(slot, 1.0)] });
         }
         for (index, task) in tasks.iter().enumerate() {
+            if matches!(task.course, Course::Search(_)) {
+                // whole numbers do not move by degrees
+                continue;
+            }
+            let in_mode = task.by_values(self, values);
+            let task = in_mode.as_ref().unwrap_or(task);
             let wanted = task.plan.report.freedom
                 + redundancy.theorems.get(&index).copied().unwrap_or_default();
             out.freedom += wanted;
@@ -168,7 +175,11 @@ impl Space {
         for &index in &task.component.rules {
             let rule = planner.rules.get(index);
             let Body::Equations(equations) = &rule.shape.body else { continue };
-            if rule.shape.level != Level::Required || superfluous.contains(&rule.source) {
+            let scratch = &mut Scratch::default();
+            if rule.shape.level != Level::Required
+                || superfluous.contains(&rule.source)
+                || !counts(patterns, rule, values, scratch)
+            {
                 continue;
             }
             for equation in equations {

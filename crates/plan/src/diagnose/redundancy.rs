@@ -9,12 +9,13 @@
 use crate::diagnose::echelon::{Echelon, Row, Verdict};
 use crate::diagnose::gradient::Gradients;
 use crate::diagnose::trial::perturbed;
+use crate::holds::counts;
 use crate::host::Host;
 use crate::planner::{Model, Planner, Unmet};
 use crate::rule::{Body, Rule, Source};
 use crate::task::{Holding, Origin, Task};
 use kernel::{SlotId, Values};
-use solve::Level;
+use solve::{Level, Scratch};
 use std::collections::{BTreeMap, BTreeSet};
 
 /// A required constraint that holds and says nothing new.
@@ -73,6 +74,8 @@ impl Planner {
         let mut gradients = Gradients::default();
         let mut out = Redundancy::default();
         for (index, task) in tasks.iter().enumerate() {
+            let in_mode = task.by_values(self, values);
+            let task = in_mode.as_ref().unwrap_or(task);
             let by_form = surplus(self, task).into_iter().filter(|r| !unmet.contains(&r.source));
             out.constraints.extend(by_form);
             let fails = |&r: &u32| unmet.contains(&self.rules.source(r));
@@ -149,7 +152,10 @@ fn candidates(
 ) -> BTreeMap<u32, Candidate> {
     let mut found: BTreeMap<u32, Candidate> = BTreeMap::new();
     let patterns = planner.plans.patterns();
-    let rules = || task.component.rules.iter().map(|&r| (r, planner.rules.get(r)));
+    let rules = || {
+        let all = task.component.rules.iter().map(|&r| (r, planner.rules.get(r)));
+        all.filter(|(_, rule)| counts(patterns, *rule, values, &mut Scratch::default()))
+    };
     if rules().all(|(_, rule)| gradients.is_linear(patterns, rule)) {
         return found;
     }

@@ -40,15 +40,25 @@ fn messages_without_end_are_a_fault_at_their_constraint() {
 }
 
 #[test]
-fn what_is_not_planned_yet_says_so() {
-    for operator in [BinaryOperator::Less, BinaryOperator::NotEqual, BinaryOperator::Or] {
-        let mut b = Builder::new();
-        let root = b.class("document", &[("x", REAL), ("y", REAL)]);
-        b.constraint(root, binary(operator, p("x"), p("y")));
-        let lab = b.open(root);
-        assert_eq!(lab.faults.len(), 1);
-        assert_eq!(lab.faults[0].kind.code(), "not-yet");
-    }
+fn an_inequality_moves_no_further_than_its_bound() {
+    let mut b = Builder::new();
+    let root = b.class("document", &[("x", REAL), ("y", REAL)]);
+    b.constraint(root, binary(BinaryOperator::LessEqual, n(5.0), p("x")));
+    b.constraint(root, binary(BinaryOperator::LessEqual, p("y"), n(5.0)));
+    let lab = b.open(root);
+    assert!(lab.faults.is_empty());
+    assert_eq!((lab.number("x"), lab.number("y")), (5.0, 0.0), "the nearest to zero");
+    assert!(lab.opened.unmet.is_empty());
+}
+
+#[test]
+fn a_difference_of_real_numbers_is_only_tested() {
+    let mut b = Builder::new();
+    let root = b.class("document", &[("x", REAL), ("y", REAL)]);
+    b.constraint(root, binary(BinaryOperator::NotEqual, p("x"), p("y")));
+    let lab = b.open(root);
+    assert!(lab.faults.is_empty());
+    assert_eq!(lab.opened.unmet.len(), 1);
 }
 
 #[test]

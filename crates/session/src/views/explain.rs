@@ -4,7 +4,7 @@ use crate::document::Open;
 use crate::view::{ExplainedStep, Explanation};
 use crate::words;
 use kernel::{Path, SlotId};
-use plan::{ExplainedKind, Root, RootKind, Source};
+use plan::{Acting, ActingKind, ExplainedKind, Root, RootKind, Source};
 
 /// Explains the latest plan, or why the value at a path is what it is.
 pub(crate) fn view(open: &Open, about: Option<&Path>) -> Explanation {
@@ -20,6 +20,7 @@ fn plan_in_words(open: &Open) -> Explanation {
         plan::PlanKind::OnePass => ", one after the other",
         plan::PlanKind::Block => "; in some, several equations are solved together",
         plan::PlanKind::Relaxation => "; in some, the least change is sought",
+        plan::PlanKind::Search => "; in some, whole numbers are searched",
     };
     let about = match open.done.last() {
         Some(step) => step.label.clone(),
@@ -30,8 +31,25 @@ fn plan_in_words(open: &Open) -> Explanation {
         1 => format!("{about}: one step."),
         n => format!("{about}: {n} steps{kind}."),
     };
+    let acting: Vec<String> =
+        open.planner.acting().into_iter().filter_map(|a| acting(open, a)).collect();
+    let summary = match acting.as_slice() {
+        [] => summary,
+        _ => format!("{summary} Here {}.", enumerated(&acting)),
+    };
     let steps = steps.iter().map(|s| step(open, s)).collect();
     Explanation { about, summary, steps }
+}
+
+/// Says how a constraint acts in the mode that stands.
+fn acting(open: &Open, acting: Acting) -> Option<String> {
+    let name = words::source_name(&open.state, acting.source)?;
+    Some(match acting.kind {
+        ActingKind::AtBound => format!("{name} is at its bound"),
+        ActingKind::Assumed(true) => format!("the condition of {name} is true"),
+        ActingKind::Assumed(false) => format!("the condition of {name} is false"),
+        ActingKind::Taken { way, of } => format!("{name} holds by alternative {} of {of}", way + 1),
+    })
 }
 
 fn why(open: &Open, path: &Path) -> Explanation {
@@ -167,5 +185,7 @@ fn method(kind: ExplainedKind) -> String {
         ExplainedKind::LeastChange { unknowns } => format!("least change of {unknowns} numbers"),
         ExplainedKind::Compromise { unknowns: 1 } => "compromise".into(),
         ExplainedKind::Compromise { unknowns } => format!("compromise of {unknowns} numbers"),
+        ExplainedKind::Search { unknowns: 1 } => "search for a whole number".into(),
+        ExplainedKind::Search { unknowns } => format!("search for {unknowns} whole numbers"),
     }
 }

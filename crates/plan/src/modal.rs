@@ -1,0 +1,236 @@
+//! Modes: a component with conditions is solved in the mode in which everything holds.
+//!
+//! In: a task whose course are modes. Each mode is tried by its own plan, in an edit from where the
+//! edit began, in a drag from where the drag was; `solve` decides which one stands.
+
+use crate::edit::{Conflict, NotDecided};
+use crate::host::Host;
+use crate::planner::{Model, Planner};
+use crate::rule::Source;
+use crate::run::{Adapter, Ground, Ran, ran, scatter};
+use crate::task::{Course, Task};
+use kernel::Values;
+use solve::{
+    Decision, Ended, Mode, Modes, Plan, Runner, SlotIndex, Standing, System, Tried, decide,
+};
+use std::collections::BTreeMap;
+use std::rc::Rc;
+
+/// A mode with its plain system and plan.
+#[derive(Clone, Debug)]
+pub(crate) struct Stands {
+    system: Rc<System>,
+    plan: Rc<Plan>,
+    mode: Mode,
+}
+
+/// What acts in the mode of a component: what a reader may want to know of it.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub struct Acting {
+    /// The constraint.
+    pub source: Source,
+    /// How it acts.
+    pub kind: ActingKind,
+}
+
+/// How a constraint acts in a mode.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub enum ActingKind {
+    /// An inequality holds at its bound.
+    AtBound,
+    /// Its condition is taken to be true, or false.
+    Assumed(bool),
+    /// This alternative is taken.
+    Taken {
+        /// Which one, counted from 0.
+        way: u32,
+        /// How many there are.
+        of: u32,
+    },
+}
+
+impl Task {
+    /// Puts a task into another mode.
+    pub(crate) fn stand(&mut self, stands: Stands) {
+        if let Course::Modes(_, mode) = &mut self.course {
+            *mode = stands.mode;
+            self.system = stands.system;
+            self.plan = stands.plan;
+        }
+    }
+    /// Returns a task in the mode that values choose, no inequality acting; none without modes.
+    pub(crate) fn by_values(&self, planner: &Planner, values: &Values) -> Option<Self> {
+        let Course::Modes(modes, _) = &self.course else { return None };
+        let local = self.gather(&values.numbers);
+        let mut task = self.clone();
+        task.stand(stands(planner, modes, modes.first(&local, &local)));
+        Some(task)
+    }
+    /// Returns what acts in the mode that stands, in order of declaration.
+    pub(crate) fn acting(&self, planner: &Planner) -> Vec<Acting> {
+        let Course::Modes(modes, mode) = &self.course else { return Vec::new() };
+        let source = |relation: u32| self.source(&planner.rules, relation);
+        let acting = |standing: Standing| match standing {
+            Standing::AtBound { relation } => {
+                Acting { source: source(relation), kind: ActingKind::AtBound }
+            }
+            Standing::Assumed { relation, truth } => {
+                Acting { source: source(relation), kind: ActingKind::Assumed(truth) }
+            }
+            Standing::Taken { relation, way, of } => {
+                Acting { source: source(relation), kind: ActingKind::Taken { way, of } }
+            }
+        };
+        modes.standings(mode).into_iter().map(acting).collect()
+    }
+}
+
+fn stands(planner: &Planner, modes: &Modes, mode: Mode) -> Stands {
+    let (system, plan) = planner.plans.in_mode(modes, &mode);
+    Stands { system, plan, mode }
+}
+
+/// Runs a task with modes; where none is found the values are those of the last attempt.
+pub(crate) fn run(
+    planner: &Planner,
+    model: Model<'_>,
+    task: &Task,
+    modes: &Modes,
+    ground: &Ground,
+    values: &mut Values,
+    host: &mut dyn Host,
+) -> Ran {
+    let texts = values.texts.clone();
+    let mut attempt = |mode: &Mode| {
+        let (_, plan) = planner.plans.in_mode(modes, mode);
+        let mut local = ground.local.clone();
+        values.texts.clone_from(&texts);
+        let mut adapter = Adapter { planner, model, task, values, host };
+        let Ground { x0, changed, .. } = ground;
+        let runner = &mut Runner::new();
+        let outcome = solve::run(&plan, runner, x0, &mut local, changed, &mut adapter);
+        Tried { plan, outcome, values: local }
+    };
+    let first = modes.first(&ground.x0, &ground.local);
+    let decision = decide(modes, &first, &mut attempt);
+    if has_texts(task) {
+        // the host's texts are those of the mode that stands
+        attempt(&decision.mode);
+    }
+    scatter(task, &decision.tried.values, values);
+    tell(planner, modes, task, decision)
+}
+
+fn has_texts(task: &Task) -> bool {
+    task.system.slots.iter().any(|s| !s.is_number)
+}
+
+/// Says in the document's terms what a decision came to.
+fn tell(planner: &Planner, modes: &Modes, task: &Task, decision: Decision) -> Ran {
+    let stands = stands(planner, modes, decision.mode);
+    let mut task = task.clone();
+    task.stand(stands.clone());
+    let mut told = ran(planner, &task, &decision.tried.outcome);
+    told.stands = Some(stands);
+    match &decision.ended {
+        Ended::Settled => {}
+        Ended::Contradiction(relations) => {
+            told.is_solved = false;
+            let mut sources: Vec<Source> =
+                relations.iter().map(|&r| task.source(&planner.rules, r)).collect();
+            sources.dedup();
+            if let (Some(source), true) = (sources.pop(), told.conflicts.is_empty()) {
+                told.conflicts.push(Conflict { source, circuit: sources });
+            }
+        }
+        Ended::NotDecided(tried) => {
+            told.is_solved = false;
+            told.not_decided = Some(NotDecided::Modes(*tried as u64));
+        }
+    }
+    told
+}
+
+/// A drag through modes.
+///
+/// Each mode is dragged on its own; one that was not followed at the last wish goes on from where
+/// the drag stood then.
+#[derive(Debug)]
+pub(crate) struct ModalDrag {
+    modes: Rc<Modes>,
+    x0: Vec<f64>,
+    inputs: Vec<SlotIndex>,
+    followed: BTreeMap<Mode, Followed>,
+    mode: Mode,
+    now: Vec<f64>,
+    wishes: u64,
+}
+
+#[derive(Debug)]
+struct Followed {
+    drag: solve::Drag,
+    /// The wish that it followed last.
+    wish: u64,
+}
+
+impl ModalDrag {
+    pub(crate) fn begin(modes: &Rc<Modes>, x0: Vec<f64>, inputs: Vec<SlotIndex>) -> Self {
+        Self {
+            modes: modes.clone(),
+            inputs,
+            followed: BTreeMap::new(),
+            mode: modes.first(&x0, &x0),
+            now: x0.clone(),
+            x0,
+            wishes: 0,
+        }
+    }
+
+    /// Follows a wish; the numbers are put into `values`, and the task into the mode that stands.
+    pub(crate) fn follow(
+        &mut self,
+        planner: &Planner,
+        model: Model<'_>,
+        task: &mut Task,
+        targets: &[f64],
+        values: &mut Values,
+        host: &mut dyn Host,
+    ) -> Ran {
+        self.wishes += 1;
+        let Self { modes, x0, inputs, followed, mode, now, wishes } = self;
+        let texts = values.texts.clone();
+        let first = Mode { active: Default::default(), ..mode.clone() };
+        let mut attempt = |mode: &Mode| {
+            let (_, plan) = planner.plans.in_mode(modes, mode);
+            values.texts.clone_from(&texts);
+            let mut adapter = Adapter { planner, model, task, values, host };
+            let follow = followed.entry(mode.clone()).or_insert_with(|| Followed {
+                drag: solve::Drag::begin(&plan, x0, inputs, &mut adapter),
+                wish: 0,
+            });
+            if follow.wish + 1 < *wishes {
+                follow.drag.stand_at(now);
+            }
+            follow.wish = *wishes;
+            let outcome = follow.drag.follow(&plan, targets, &mut adapter);
+            Tried { plan, outcome, values: follow.drag.values().to_vec() }
+        };
+        let decision = decide(modes, &first, &mut attempt);
+        if decision.ended == Ended::Settled {
+            if has_texts(task) {
+                attempt(&decision.mode);
+            }
+            now.clone_from(&decision.tried.values);
+            mode.clone_from(&decision.mode);
+            scatter(task, now, values);
+        } else {
+            values.texts = texts;
+        }
+        let mut told = tell(planner, modes, task, decision);
+        match told.stands.take() {
+            Some(stands) if told.is_solved => task.stand(stands),
+            Some(_) | None => {}
+        }
+        told
+    }
+}

@@ -1,0 +1,94 @@
+//! A conditional system: a system that asks for more than equations.
+//!
+//! Some of its relations ask for truths (an inequality, alternatives) or for differences instead of
+//! equations, and some hold only while conditions are assumed true or false. It has no plan of its
+//! own: in every *mode* it is a plain system that has one, or its whole numbers are searched.
+
+use crate::pattern::PatternId;
+use crate::system::{RelationBody, SlotIndex, Span, System};
+
+/// What a relation asks for besides its equations.
+#[derive(Clone, Copy, PartialEq, Eq, Hash, Debug)]
+pub struct Demand {
+    /// The relation's index in the system.
+    pub relation: u32,
+    /// What kind of demand it is.
+    pub kind: DemandKind,
+    /// Its expressions.
+    pub pattern: PatternId,
+    /// Of which slots, in [`System::arguments`].
+    pub arguments: Span,
+}
+
+/// The kinds of demands.
+#[derive(Clone, Copy, PartialEq, Eq, Hash, Debug)]
+pub enum DemandKind {
+    /// The one expression is true.
+    True,
+    /// No two of the expressions are equal.
+    Different,
+}
+
+/// An expression that is assumed true or false before anything is solved, and tested afterwards.
+#[derive(Clone, Copy, PartialEq, Eq, Hash, Debug)]
+pub struct Condition {
+    /// The one expression.
+    pub pattern: PatternId,
+    /// Of which slots, in [`System::arguments`].
+    pub arguments: Span,
+}
+
+/// That a relation holds only while a condition is assumed so.
+#[derive(Clone, Copy, PartialEq, Eq, Hash, Debug)]
+pub struct Guard {
+    /// The relation's index in the system.
+    pub relation: u32,
+    /// The condition's index.
+    pub condition: u32,
+    /// Whether it has to be true or false.
+    pub truth: bool,
+}
+
+/// The whole numbers that a slot may hold, both included.
+#[derive(Clone, Copy, PartialEq, Eq, Hash, Debug)]
+pub struct SlotRange {
+    /// The slot.
+    pub slot: SlotIndex,
+    /// The least.
+    pub low: i64,
+    /// The greatest.
+    pub high: i64,
+}
+
+/// A system with demands, conditions and ranges.
+#[derive(Clone, PartialEq, Eq, Hash, Debug, Default)]
+pub struct Conditional {
+    /// The slots and relations; one that has a demand has no equations.
+    pub system: System,
+    /// The demands, in the order of their relations.
+    pub demands: Vec<Demand>,
+    /// The conditions, in order of declaration.
+    pub conditions: Vec<Condition>,
+    /// The guards, in the order of their relations; one relation may have several.
+    pub guards: Vec<Guard>,
+    /// Ranges of whole numbers.
+    pub ranges: Vec<SlotRange>,
+}
+
+impl Conditional {
+    /// Returns true if nothing in it asks for more than equations.
+    pub fn is_plain(&self) -> bool {
+        self.demands.is_empty() && self.guards.is_empty() && self.ranges.is_empty()
+    }
+    /// Returns true if it is a matter of whole numbers alone, and not of equations alone.
+    pub fn is_searched(&self) -> bool {
+        let mut slots = self.system.slots.iter();
+        !self.is_plain()
+            && slots.all(|s| s.is_number && s.is_discrete)
+            && self
+                .system
+                .relations
+                .iter()
+                .all(|r| r.methods.is_empty() && matches!(r.body, RelationBody::Equations(_)))
+    }
+}

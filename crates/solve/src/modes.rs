@@ -1,0 +1,423 @@
+//! Modes: which inequalities act, which conditions are assumed, which alternatives are taken.
+//!
+//! In: a [`Conditional`] system. In every [`Mode`] it is a plain system, whose plan is a pure function
+//! of it: values only choose the mode. An inequality says nothing while it holds; where the answer
+//! would break it, it becomes an equation at its bound. A condition is assumed as the values have it,
+//! tested after solving, and switched where it was wrong. Of alternatives the one that held when the
+//! edit began is taken first.
+//!
+//! A strict inequality stops twice the tolerance of its relation short of the bound; `!=` is tested, never made to
+//! hold.
+
+mod decide;
+
+pub use decide::{Decision, Ended, MOST_MODES, Tried, decide};
+
+use crate::conditional::{Conditional, DemandKind};
+use crate::pattern::{Pattern, PatternId, Patterns, Scratch};
+use crate::system::{Equation, Level, RelationBody, SlotIndex, Span, System};
+use crate::truth::{Comparing, Comparison, Truth, truth};
+use expr::{Arena, Binary, ExprId, Unary};
+use std::cell::RefCell;
+use std::collections::BTreeSet;
+use std::rc::Rc;
+
+/// What is assumed of a conditional system: in it the system is plain.
+#[derive(Clone, PartialEq, Eq, PartialOrd, Ord, Hash, Debug, Default)]
+pub struct Mode {
+    /// For every condition, whether it is taken to be true.
+    pub assumed: Vec<bool>,
+    /// For every choice, the index of the alternative.
+    pub taken: Vec<u32>,
+    /// The comparisons that act as equations, by index.
+    pub active: BTreeSet<u32>,
+}
+
+/// A conditional system, taken apart.
+#[derive(Debug)]
+pub struct Modes {
+    conditional: Conditional,
+    wants: Vec<Want>,
+    comparisons: Vec<Sides>,
+    conditions: Vec<Formula>,
+    /// For every choice, the relation that it is of and the number of its alternatives.
+    choices: Vec<(u32, u32)>,
+    scratch: RefCell<Scratch>,
+}
+
+/// What a relation wants, besides equations.
+#[derive(Debug)]
+struct Want {
+    relation: u32,
+    tree: Tree,
+}
+
+#[derive(Debug)]
+enum Tree {
+    Holds(u32),
+    All(Vec<Tree>),
+    Any { choice: u32, ways: Vec<Tree> },
+}
+
+/// A comparison over slots of the system.
+#[derive(Debug)]
+struct Sides {
+    relation: u32,
+    comparing: Comparing,
+    within: f64,
+    sides: Formula,
+    /// What holds where it acts as an equation.
+    bound: PatternId,
+    /// Of which slots.
+    arguments: Vec<SlotIndex>,
+}
+
+#[derive(Debug)]
+struct Formula {
+    pattern: Rc<Pattern>,
+    arguments: Vec<SlotIndex>,
+}
+
+/// Something of a mode that a reader may want to know.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub enum Standing {
+    /// An inequality of this relation holds at its bound.
+    AtBound {
+        /// The relation's index.
+        relation: u32,
+    },
+    /// Rules that are guarded by this condition hold, or those that are guarded by its opposite.
+    Assumed {
+        /// The first relation that it guards.
+        relation: u32,
+        /// Whether it is true.
+        truth: bool,
+    },
+    /// An alternative is taken.
+    Taken {
+        /// The relation's index.
+        relation: u32,
+        /// Which one, counted from 0.
+        way: u32,
+        /// How many there are.
+        of: u32,
+    },
+}
+
+impl Modes {
+    /// Takes a conditional system apart. Values play no part in it.
+    pub fn new(conditional: Conditional, patterns: &mut Patterns) -> Self {
+        let mut making = Making { patterns, comparisons: Vec::new(), choices: Vec::new() };
+        let mut wants = Vec::new();
+        let system = &conditional.system;
+        for demand in &conditional.demands {
+            let mut arena = Arena::new();
+            let slots = system.arguments(demand.arguments);
+            let roots = making.patterns.get(demand.pattern).write_out(&mut arena, slots);
+            let truth = match demand.kind {
+                DemandKind::True => truth(&mut arena, roots[0], true),
+                DemandKind::Different => all_differ(&roots),
+            };
+            let relation = demand.relation;
+            let within = f64::from_bits(system.relations[relation as usize].within);
+            let tree = making.tree(&mut arena, relation, within, truth);
+            wants.push(Want { relation, tree });
+        }
+        let conditions = conditional.conditions.iter().map(|c| Formula {
+            pattern: making.patterns.get(c.pattern).clone(),
+            arguments: system.arguments(c.arguments).to_vec(),
+        });
+        let conditions = conditions.collect();
+        let Making { comparisons, choices, .. } = making;
+        let scratch = RefCell::default();
+        Self { conditional, wants, comparisons, conditions, choices, scratch }
+    }
+
+    /// Returns the mode before any value is known.
+    pub fn blank(&self) -> Mode {
+        Mode {
+            assumed: vec![false; self.conditions.len()],
+            taken: vec![0; self.choices.len()],
+            active: BTreeSet::new(),
+        }
+    }
+
+    /// Returns the mode to begin with: conditions as they are in `values`, alternatives as they were
+    /// in `start`, no inequality acting.
+    pub fn first(&self, start: &[f64], values: &[f64]) -> Mode {
+        let assumed = (0..self.conditions.len()).map(|c| self.is_true(c, values)).collect();
+        let mut taken = vec![0; self.choices.len()];
+        for want in &self.wants {
+            self.take(&want.tree, start, &mut taken);
+        }
+        Mode { assumed, taken, active: BTreeSet::new() }
+    }
+
+    /// Returns the plain system that the system is in a mode. Relations keep their index.
+    pub fn system(&self, mode: &Mode) -> System {
+        let whole = &self.conditional.system;
+        let mut system = System {
+            slots: whole.slots.clone(),
+            relations: whole.relations.clone(),
+            equations: Vec::with_capacity(whole.equations.len()),
+            arguments: whole.arguments.clone(),
+        };
+        for (index, relation) in (0..).zip(&whole.relations) {
+            let plain = &mut system.relations[index as usize];
+            if !self.counts(index, mode) {
+                plain.body = RelationBody::Equations(Span::default());
+                plain.methods.clear();
+                continue;
+            }
+            if let RelationBody::Opaque { .. } = relation.body {
+                continue;
+            }
+            let start = system.equations.len() as u32;
+            system.equations.extend(whole.equations_of(relation));
+            let mut acting = Vec::new();
+            for want in self.wants.iter().filter(|w| w.relation == index) {
+                self.acting(&want.tree, mode, &mut acting);
+            }
+            for &c in &acting {
+                let sides = &self.comparisons[c as usize];
+                let arguments = system.add_arguments(sides.arguments.iter().copied());
+                system.equations.push(Equation { pattern: sides.bound, arguments });
+            }
+            let len = system.equations.len() as u32 - start;
+            system.relations[index as usize].body = RelationBody::Equations(Span { start, len });
+        }
+        system
+    }
+
+    /// Says what is assumed in a mode, in order of declaration.
+    pub fn standings(&self, mode: &Mode) -> Vec<Standing> {
+        let mut all = Vec::new();
+        for (condition, &truth) in (0..).zip(&mode.assumed) {
+            let mut guards = self.conditional.guards.iter();
+            if let Some(guard) = guards.find(|g| g.condition == condition) {
+                all.push(Standing::Assumed { relation: guard.relation, truth });
+            }
+        }
+        for want in self.wants_in(mode) {
+            let mut acting = Vec::new();
+            self.acting(&want.tree, mode, &mut acting);
+            let mut choices = BTreeSet::new();
+            choices_of(&want.tree, &mut choices);
+            for &choice in choices.iter().filter(|_| !acting.is_empty()) {
+                let (relation, of) = self.choices[choice as usize];
+                all.push(Standing::Taken { relation, way: mode.taken[choice as usize], of });
+            }
+            if acting.iter().any(|c| mode.active.contains(c)) {
+                all.push(Standing::AtBound { relation: want.relation });
+            }
+        }
+        all
+    }
+
+    /// Returns the index of every relation that a demand is of, with whether it holds.
+    pub fn broken(&self, mode: &Mode, values: &[f64]) -> Vec<u32> {
+        let broken = self.wants_in(mode).filter(|w| !self.tree_holds(&w.tree, values));
+        broken.map(|w| w.relation).collect()
+    }
+
+    /// The demands of relations whose guards are as assumed.
+    fn wants_in<'m>(&'m self, mode: &'m Mode) -> impl Iterator<Item = &'m Want> {
+        self.wants.iter().filter(|w| self.counts(w.relation, mode))
+    }
+
+    /// Returns true for a relation whose guards are as assumed.
+    fn counts(&self, relation: u32, mode: &Mode) -> bool {
+        let mut guards = self.conditional.guards.iter().filter(|g| g.relation == relation);
+        guards.all(|g| mode.assumed[g.condition as usize] == g.truth)
+    }
+
+    /// Collects the comparisons that are equations in a mode.
+    fn acting(&self, tree: &Tree, mode: &Mode, acting: &mut Vec<u32>) {
+        match tree {
+            Tree::Holds(c) => {
+                let acts = match self.comparisons[*c as usize].comparing {
+                    Comparing::Equal => true,
+                    Comparing::AtMost | Comparing::Less => mode.active.contains(c),
+                    Comparing::Differ => false,
+                };
+                if acts {
+                    acting.push(*c);
+                }
+            }
+            Tree::All(parts) => parts.iter().for_each(|p| self.acting(p, mode, acting)),
+            Tree::Any { choice, ways } => {
+                if let Some(way) = ways.get(mode.taken[*choice as usize] as usize) {
+                    self.acting(way, mode, acting);
+                }
+            }
+        }
+    }
+
+    /// Takes the first alternative of every choice that holds.
+    fn take(&self, tree: &Tree, values: &[f64], taken: &mut [u32]) {
+        match tree {
+            Tree::Holds(_) => {}
+            Tree::All(parts) => parts.iter().for_each(|p| self.take(p, values, taken)),
+            Tree::Any { choice, ways } => {
+                let holds = ways.iter().position(|w| self.tree_holds(w, values));
+                taken[*choice as usize] = holds.unwrap_or(0) as u32;
+                ways.iter().for_each(|w| self.take(w, values, taken));
+            }
+        }
+    }
+
+    fn tree_holds(&self, tree: &Tree, values: &[f64]) -> bool {
+        match tree {
+            Tree::Holds(c) => self.comparison_holds(*c, values),
+            Tree::All(parts) => parts.iter().all(|p| self.tree_holds(p, values)),
+            Tree::Any { ways, .. } => ways.iter().any(|w| self.tree_holds(w, values)),
+        }
+    }
+
+    fn comparison_holds(&self, index: u32, values: &[f64]) -> bool {
+        let sides = &self.comparisons[index as usize];
+        let mut scratch = self.scratch.borrow_mut();
+        let both = sides.sides.evaluate(values, &mut scratch);
+        holds_within(sides.comparing, both[0], both[1], sides.within)
+    }
+
+    fn is_true(&self, condition: usize, values: &[f64]) -> bool {
+        let mut scratch = self.scratch.borrow_mut();
+        self.conditions[condition].evaluate(values, &mut scratch)[0] != 0.0
+    }
+
+    /// Returns true if a condition could be called true as well as false: it is at its bound.
+    fn is_on_edge(&self, condition: usize, values: &[f64]) -> bool {
+        let formula = &self.conditions[condition];
+        let arguments: Vec<f64> = formula.arguments.iter().map(|&s| values[s as usize]).collect();
+        let mut arena = formula.pattern.arena().clone();
+        let root = formula.pattern.roots()[0];
+        let mut nearly = |wanted| {
+            let truth = truth(&mut arena, root, wanted);
+            holds_nearly(&arena, &truth, &arguments)
+        };
+        nearly(true) && nearly(false)
+    }
+
+    fn is_required(&self, relation: u32) -> bool {
+        self.conditional.system.relations[relation as usize].level == Level::Required
+    }
+}
+
+impl Formula {
+    fn evaluate<'s>(&self, values: &[f64], scratch: &'s mut Scratch) -> &'s [f64] {
+        self.pattern.evaluate(self.arguments.iter().map(|&s| values[s as usize]), scratch)
+    }
+}
+
+/// Compares two sides of a rule: equal, at most and different to a tolerance, less exactly.
+///
+/// `within` is relative to the larger side, at least of the unit.
+pub fn holds_within(comparing: Comparing, left: f64, right: f64, within: f64) -> bool {
+    let agree =
+        left == right || (left - right).abs() <= within * left.abs().max(right.abs()).max(1.0);
+    match comparing {
+        Comparing::Equal => agree,
+        Comparing::AtMost => left <= right || agree,
+        Comparing::Less => left < right,
+        Comparing::Differ => !agree && !left.is_nan() && !right.is_nan(),
+    }
+}
+
+/// Tests the truth that an expression is, comparison by comparison, each to a tolerance.
+pub fn is_true_within(arena: &Arena, id: ExprId, values: &[f64], within: f64) -> bool {
+    let mut arena = arena.clone();
+    let truth = truth(&mut arena, id, true);
+    all_hold(&truth, &|c| {
+        let (l, r) = (arena.evaluate(c.left, values), arena.evaluate(c.right, values));
+        holds_within(c.comparing, l, r, within)
+    })
+}
+
+fn holds_nearly(arena: &Arena, truth: &Truth, values: &[f64]) -> bool {
+    all_hold(truth, &|c| {
+        let (l, r) = (arena.evaluate(c.left, values), arena.evaluate(c.right, values));
+        let agree = |comparing| holds_within(comparing, l, r, base::number::RULE_TOLERANCE);
+        c.comparing.holds(l, r) || agree(Comparing::Equal)
+    })
+}
+
+fn all_hold(truth: &Truth, holds: &dyn Fn(&Comparison) -> bool) -> bool {
+    match truth {
+        Truth::Holds(c) => holds(c),
+        Truth::All(parts) => parts.iter().all(|p| all_hold(p, holds)),
+        Truth::Any(parts) => parts.iter().any(|p| all_hold(p, holds)),
+    }
+}
+
+fn all_differ(expressions: &[ExprId]) -> Truth {
+    let mut pairs = Vec::new();
+    for (i, &left) in expressions.iter().enumerate() {
+        for &right in &expressions[i + 1..] {
+            pairs.push(Truth::Holds(Comparison { comparing: Comparing::Differ, left, right }));
+        }
+    }
+    Truth::All(pairs)
+}
+
+fn choices_of(tree: &Tree, choices: &mut BTreeSet<u32>) {
+    match tree {
+        Tree::Holds(_) => {}
+        Tree::All(parts) => parts.iter().for_each(|p| choices_of(p, choices)),
+        Tree::Any { choice, ways } => {
+            choices.insert(*choice);
+            ways.iter().for_each(|w| choices_of(w, choices));
+        }
+    }
+}
+
+struct Making<'p> {
+    patterns: &'p mut Patterns,
+    comparisons: Vec<Sides>,
+    choices: Vec<(u32, u32)>,
+}
+
+impl Making<'_> {
+    fn tree(&mut self, arena: &mut Arena, relation: u32, within: f64, truth: Truth) -> Tree {
+        match truth {
+            Truth::Holds(c) => Tree::Holds(self.comparison(arena, relation, within, c)),
+            Truth::All(parts) => {
+                let parts = parts.into_iter().map(|p| self.tree(arena, relation, within, p));
+                Tree::All(parts.collect())
+            }
+            Truth::Any(parts) => {
+                let choice = self.choices.len() as u32;
+                self.choices.push((relation, parts.len() as u32));
+                let ways = parts.into_iter().map(|p| self.tree(arena, relation, within, p));
+                Tree::Any { choice, ways: ways.collect() }
+            }
+        }
+    }
+
+    fn comparison(&mut self, arena: &mut Arena, relation: u32, within: f64, c: Comparison) -> u32 {
+        let (pattern, variables) = self.patterns.intern(arena, &[c.left, c.right]);
+        let sides = Formula {
+            pattern: self.patterns.get(pattern).clone(),
+            arguments: variables.into_iter().map(|v| v.0).collect(),
+        };
+        let right = match c.comparing {
+            Comparing::Less => short_of(arena, c.right, 2.0 * within),
+            Comparing::Equal | Comparing::AtMost | Comparing::Differ => c.right,
+        };
+        let (bound, variables) = self.patterns.intern(arena, &[c.left, right]);
+        let arguments = variables.into_iter().map(|v| v.0).collect();
+        let comparing = c.comparing;
+        let made = Sides { relation, comparing, within, sides, bound, arguments };
+        self.comparisons.push(made);
+        self.comparisons.len() as u32 - 1
+    }
+}
+
+/// Returns what is just less than a bound: by a part of it, and of the unit at least.
+fn short_of(arena: &mut Arena, bound: ExprId, part: f64) -> ExprId {
+    let (one, part) = (arena.constant(1.0), arena.constant(part));
+    let size = arena.unary(Unary::Abs, bound);
+    let size = arena.binary(Binary::Max, size, one);
+    let margin = arena.mul(part, size);
+    arena.sub(bound, margin)
+}

@@ -1,0 +1,356 @@
+//! Deciding: from the first mode to one in which everything holds.
+//!
+//! In: modes and a way to try one. Out: the mode whose answer breaks nothing. Inequalities: one that
+//! the answer breaks acts from then on, the first by declaration; one that would hold without acting
+//! is let go. Conditions: the first that was assumed wrongly is switched. Where that comes back to
+//! where it was, or where a mode contradicts itself, assumptions are gone through depth first, and a
+//! set of assumptions that was seen to fail is never tried again.
+//!
+//! **Source:** Goldfarb and Idnani (1983), for what acts; Murty, *Linear Complementarity* (1988), §4.1,
+//! for the first wrong condition; Stallman and Sussman (1977), for assumptions and what is learnt from
+//! their failure.
+
+use super::{Mode, Modes, Tree};
+use crate::outcome::Outcome;
+use crate::plan::Plan;
+use crate::truth::Comparing;
+use std::collections::{BTreeMap, BTreeSet};
+use std::rc::Rc;
+
+/// How many modes are tried before the matter is left undecided.
+pub const MOST_MODES: usize = 2_000;
+
+/// What came of trying a mode.
+#[derive(Clone, Debug)]
+pub struct Tried {
+    /// The plan of the mode's system.
+    pub plan: Rc<Plan>,
+    /// How it ended.
+    pub outcome: Outcome,
+    /// The state that it came to.
+    pub values: Vec<f64>,
+}
+
+/// A mode, and how sure it is.
+#[derive(Clone, Debug)]
+pub struct Decision {
+    /// The mode; where none was found, the first.
+    pub mode: Mode,
+    /// What came of trying it.
+    pub tried: Rc<Tried>,
+    /// How the decision ended.
+    pub ended: Ended,
+}
+
+/// How a decision ended.
+#[derive(Clone, PartialEq, Eq, Debug)]
+pub enum Ended {
+    /// Nothing is broken in the mode.
+    Settled,
+    /// There is no such mode: these relations stand against each other.
+    Contradiction(Vec<u32>),
+    /// None was found among so many modes, and there may be one.
+    NotDecided(usize),
+}
+
+/// Finds the mode in which everything holds.
+pub fn decide(modes: &Modes, first: &Mode, attempt: &mut dyn FnMut(&Mode) -> Tried) -> Decision {
+    let mut deciding =
+        Deciding { modes, attempt, tried: BTreeMap::new(), blamed: BTreeSet::new(), edge: None };
+    let mut seen = BTreeSet::new();
+    let mut mode = first.clone();
+    while seen.insert((mode.assumed.clone(), mode.taken.clone())) {
+        let Inner::Holds(found) = deciding.act(mode.clone()) else { break };
+        let wrong = deciding.wrong(&found);
+        let Some(&first) = wrong.first() else {
+            return deciding.decision(found, Ended::Settled);
+        };
+        mode = Mode { active: BTreeSet::new(), ..found };
+        mode.assumed[first] = !mode.assumed[first];
+    }
+    deciding.go_through(first)
+}
+
+struct Deciding<'a> {
+    modes: &'a Modes,
+    attempt: &'a mut dyn FnMut(&Mode) -> Tried,
+    tried: BTreeMap<Mode, Rc<Tried>>,
+    /// Relations that took part in failures.
+    blamed: BTreeSet<u32>,
+    /// A mode in which every condition that is assumed wrongly is at its bound.
+    edge: Option<Mode>,
+}
+
+/// What came of one set of assumptions.
+enum Inner {
+    Holds(Mode),
+    /// These relations cannot all hold; nothing where that is not known.
+    Fails(Option<BTreeSet<u32>>),
+}
+
+/// A choice of a mode: a condition or an alternative.
+type Assumption = (usize, u32);
+
+impl Deciding<'_> {
+    fn try_mode(&mut self, mode: &Mode) -> Rc<Tried> {
+        if let Some(tried) = self.tried.get(mode) {
+            return tried.clone();
+        }
+        let tried = Rc::new((self.attempt)(mode));
+        self.tried.insert(mode.clone(), tried.clone());
+        tried
+    }
+
+    /// Finds the inequalities that act, for the conditions and alternatives of a mode.
+    fn act(&mut self, mut mode: Mode) -> Inner {
+        let mut seen = BTreeSet::new();
+        let mut blamed = BTreeSet::new();
+        while seen.insert(mode.active.clone()) && self.tried.len() < MOST_MODES {
+            let tried = self.try_mode(&mode);
+            if !tried.outcome.is_solved() {
+                let relations = blame(&tried);
+                blamed.extend(relations.iter().flatten());
+                match self.let_go(&mode, &seen) {
+                    Some(looser) => mode = looser,
+                    None => return Inner::Fails(relations.map(|_| blamed)),
+                }
+                continue;
+            }
+            match self.breaks(&mode, &tried.values) {
+                Broken::Nothing => match self.let_go(&mode, &seen) {
+                    Some(looser) => mode = looser,
+                    None => return Inner::Holds(mode),
+                },
+                Broken::Comparison(c) => {
+                    blamed.insert(self.modes.comparisons[c as usize].relation);
+                    mode.active.insert(c);
+                }
+                Broken::Relation(relation) => {
+                    blamed.insert(relation);
+                    blamed.extend(self.behind(&tried.plan, &self.slots_of(relation)));
+                    return Inner::Fails(Some(blamed));
+                }
+            }
+        }
+        Inner::Fails(None)
+    }
+
+    /// Lets go of the first acting inequality that would hold if it did not act.
+    fn let_go(&mut self, mode: &Mode, seen: &BTreeSet<BTreeSet<u32>>) -> Option<Mode> {
+        for &c in &mode.active {
+            let mut looser = mode.clone();
+            looser.active.remove(&c);
+            if seen.contains(&looser.active) {
+                continue;
+            }
+            let tried = self.try_mode(&looser);
+            if tried.outcome.is_solved() && self.modes.comparison_holds(c, &tried.values) {
+                return Some(looser);
+            }
+        }
+        None
+    }
+
+    /// Returns the first thing that a state breaks.
+    fn breaks(&self, mode: &Mode, values: &[f64]) -> Broken {
+        for want in self.modes.wants_in(mode) {
+            if self.modes.tree_holds(&want.tree, values) {
+                continue;
+            }
+            match self.breaks_in(&want.tree, mode, values) {
+                Some(c) => return Broken::Comparison(c),
+                None if self.modes.is_required(want.relation) => {
+                    return Broken::Relation(want.relation);
+                }
+                None => {}
+            }
+        }
+        Broken::Nothing
+    }
+
+    /// Returns the first inequality that does not act and does not hold, among those taken.
+    fn breaks_in(&self, tree: &Tree, mode: &Mode, values: &[f64]) -> Option<u32> {
+        match tree {
+            Tree::Holds(c) => {
+                let can_act = match self.modes.comparisons[*c as usize].comparing {
+                    Comparing::AtMost | Comparing::Less => !mode.active.contains(c),
+                    Comparing::Equal | Comparing::Differ => false,
+                };
+                (can_act && !self.modes.comparison_holds(*c, values)).then_some(*c)
+            }
+            Tree::All(parts) => parts.iter().find_map(|p| self.breaks_in(p, mode, values)),
+            Tree::Any { choice, ways } => {
+                let way = ways.get(mode.taken[*choice as usize] as usize)?;
+                self.breaks_in(way, mode, values)
+            }
+        }
+    }
+
+    /// Returns the conditions that are not as assumed.
+    fn wrong(&mut self, mode: &Mode) -> Vec<usize> {
+        let tried = self.try_mode(mode);
+        let is_wrong = |&c: &usize| self.modes.is_true(c, &tried.values) != mode.assumed[c];
+        let wrong: Vec<usize> = (0..mode.assumed.len()).filter(is_wrong).collect();
+        let on_edge = |&c: &usize| self.modes.is_on_edge(c, &tried.values);
+        if self.edge.is_none() && wrong.iter().all(on_edge) {
+            self.edge = Some(mode.clone());
+        }
+        wrong
+    }
+
+    /// Goes through the assumptions depth first, learning from every failure.
+    fn go_through(&mut self, first: &Mode) -> Decision {
+        let mut learnt: Vec<Vec<Assumption>> = Vec::new();
+        while self.tried.len() < MOST_MODES {
+            let Some(mode) = self.next(first, &learnt) else { break };
+            let relevant = match self.act(mode.clone()) {
+                Inner::Holds(found) => {
+                    let wrong = self.wrong(&found);
+                    let Some(&first) = wrong.first() else {
+                        return self.decision(found, Ended::Settled);
+                    };
+                    let tried = self.try_mode(&found);
+                    let behind = self.behind(&tried.plan, &self.modes.conditions[first].arguments);
+                    let mut relevant = self.assumptions(&mode, Some(&behind));
+                    relevant.push((first, u32::from(mode.assumed[first])));
+                    self.blamed.extend(behind);
+                    relevant
+                }
+                Inner::Fails(relations) => {
+                    self.blamed.extend(relations.iter().flatten());
+                    self.assumptions(&mode, relations.as_ref())
+                }
+            };
+            learnt.push(relevant);
+        }
+        if let Some(mode) = self.edge.take() {
+            return self.decision(mode, Ended::Settled);
+        }
+        let ended = if self.tried.len() < MOST_MODES {
+            Ended::Contradiction(self.blamed.iter().copied().collect())
+        } else {
+            Ended::NotDecided(MOST_MODES)
+        };
+        self.decision(first.clone(), ended)
+    }
+
+    fn decision(&mut self, mode: Mode, ended: Ended) -> Decision {
+        let tried = self.try_mode(&mode);
+        Decision { mode, tried, ended }
+    }
+
+    /// Returns the first assumptions, in order, that contain nothing that is known to fail.
+    fn next(&self, first: &Mode, learnt: &[Vec<Assumption>]) -> Option<Mode> {
+        let conditions = first.assumed.len();
+        let count = conditions + first.taken.len();
+        // the alternatives of every assumption, the first mode's own first
+        let ways = |i: usize, turn: u32| -> Option<u32> {
+            let (own, of) = if i < conditions {
+                (u32::from(first.assumed[i]), 2)
+            } else {
+                (first.taken[i - conditions], self.modes.choices[i - conditions].1)
+            };
+            match turn {
+                0 => Some(own),
+                t if t >= of => None,
+                t => Some(if t <= own { t - 1 } else { t }),
+            }
+        };
+        let fails = |values: &[u32]| {
+            learnt.iter().any(|set| set.iter().all(|&(i, v)| values.get(i) == Some(&v)))
+        };
+        let (mut turns, mut values): (Vec<u32>, Vec<u32>) = (Vec::new(), Vec::new());
+        if fails(&values) {
+            return None;
+        }
+        let mut turn = 0;
+        loop {
+            if values.len() == count {
+                let mut mode = first.clone();
+                mode.active.clear();
+                for (i, &v) in values.iter().enumerate() {
+                    if i < conditions {
+                        mode.assumed[i] = v != 0;
+                    } else {
+                        mode.taken[i - conditions] = v;
+                    }
+                }
+                return Some(mode);
+            }
+            match ways(values.len(), turn) {
+                Some(value) => {
+                    values.push(value);
+                    turns.push(turn);
+                    if fails(&values) {
+                        values.pop();
+                        turns.pop();
+                        turn += 1;
+                    } else {
+                        turn = 0;
+                    }
+                }
+                None => {
+                    values.pop()?;
+                    turn = turns.pop()? + 1;
+                }
+            }
+        }
+    }
+
+    /// Returns the assumptions of a mode on which relations depend; all where they are not known.
+    fn assumptions(&self, mode: &Mode, relations: Option<&BTreeSet<u32>>) -> Vec<Assumption> {
+        let concerns = |r: u32| relations.is_none_or(|all| all.contains(&r));
+        let guards = &self.modes.conditional.guards;
+        let conditions = (0..mode.assumed.len())
+            .filter(|&c| guards.iter().any(|g| g.condition as usize == c && concerns(g.relation)))
+            .map(|c| (c, u32::from(mode.assumed[c])));
+        let choices = self.modes.choices.iter().enumerate();
+        let taken = choices
+            .filter(|(_, (relation, _))| concerns(*relation))
+            .map(|(i, _)| (mode.assumed.len() + i, mode.taken[i]));
+        conditions.chain(taken).collect()
+    }
+
+    /// Returns the relations that a plan computes slots from.
+    fn behind(&self, plan: &Plan, slots: &[u32]) -> BTreeSet<u32> {
+        let mut wanted: BTreeSet<u32> = slots.iter().copied().collect();
+        let mut relations = BTreeSet::new();
+        for step in plan.steps.iter().rev() {
+            if step.targets.iter().any(|t| wanted.contains(t)) {
+                wanted.extend(&step.reads);
+                relations.extend(&step.relations);
+            }
+        }
+        relations
+    }
+
+    fn slots_of(&self, relation: u32) -> Vec<u32> {
+        let own = self.modes.comparisons.iter().filter(|c| c.relation == relation);
+        own.flat_map(|c| c.arguments.iter().copied()).collect()
+    }
+}
+
+enum Broken {
+    Nothing,
+    /// An inequality that can act.
+    Comparison(u32),
+    /// A relation that nothing in this mode can mend.
+    Relation(u32),
+}
+
+/// Returns the relations that stand against each other in a failed attempt, where that is known.
+fn blame(tried: &Tried) -> Option<BTreeSet<u32>> {
+    let unmet: BTreeSet<u32> = tried.outcome.unmet.iter().map(|u| u.relation).collect();
+    if unmet.is_empty() {
+        return None;
+    }
+    let mut blamed = unmet.clone();
+    for rejected in &tried.plan.report.rejected {
+        if unmet.contains(&rejected.relation) {
+            blamed.extend(rejected.circuit.iter().map(|c| c.0));
+        }
+    }
+    // what is unmet without a circuit failed for reasons that the plan does not know
+    let is_known = |r: &u32| tried.plan.report.rejected.iter().any(|x| x.relation == *r);
+    unmet.iter().all(is_known).then_some(blamed)
+}

@@ -1,0 +1,385 @@
+//! Search: whole numbers that rules leave a finite choice of.
+//!
+//! In: a [`Conditional`] system whose slots are all whole numbers, compiled once to a [`Puzzle`]. Out,
+//! for any values: the nearest solution, or how many there are. Domains shrink by propagation; what
+//! stays open is explored depth first, the same way in every run.
+//!
+//! Of several solutions the nearest is taken. Near is, one after the other: how far `strong` relations
+//! are from holding, then the wish of a drag, then `medium` and `weak` ones, all in sums of squares; then
+//! the sum of the squared changes of given numbers, then that of the others. Given numbers are tried as
+//! constants first, and yield only where nothing else can. Of solutions that are equally near the
+//! first found counts: cells are taken by the number of their values, then by declaration. Once there
+//! is a solution nearer ones are looked for in [`IMPROVING`] more states and no further.
+
+mod domain;
+mod explore;
+mod propagate;
+mod row;
+
+use crate::conditional::{Conditional, DemandKind};
+use crate::pattern::Patterns;
+use crate::system::{Level, RelationBody, SlotIndex, Stay};
+use crate::truth::{Comparing, Comparison, Truth, truth};
+use domain::{Domain, MOST};
+use explore::{End, Net, Visitor, explore};
+use expr::{Arena, ExprId};
+use propagate::{Field, Prospect};
+use row::{Row, different, row, whole};
+
+/// How many states are visited in search of a solution.
+pub const PATIENCE: u64 = 200_000;
+/// How many more are visited in search of a nearer one.
+pub const IMPROVING: u64 = 5_000;
+/// How many states are visited to count solutions.
+pub const COUNTING: u64 = 2_000_000;
+
+/// What is searched, for any values of what is known.
+#[derive(Debug)]
+pub struct Puzzle {
+    arena: Arena,
+    stays: Vec<Stay>,
+    ranges: Vec<Domain>,
+    required: Vec<Row>,
+    soft: Vec<Soft>,
+}
+
+/// A relation that is wished.
+#[derive(Debug)]
+struct Soft {
+    rank: usize,
+    wish: Wish,
+}
+
+/// What is wished: sides that are equal, or a row that holds.
+#[derive(Debug)]
+enum Wish {
+    Equal(ExprId, ExprId),
+    Row(Row),
+}
+
+/// How far a state is from what is wished: by rank, the first counts most.
+type Distance = [f64; 6];
+const GIVEN: usize = 4;
+const KEPT: usize = 5;
+
+/// What came of a search.
+#[derive(Clone, PartialEq, Debug)]
+pub enum Verdict {
+    /// A solution: a value for every slot.
+    Found(Vec<f64>),
+    /// There is none.
+    Impossible,
+    /// None was found in so many states, and there may be one.
+    NotDecided {
+        /// How many states were visited.
+        visited: u64,
+    },
+}
+
+/// How many solutions there are.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub struct Count {
+    /// How many were found.
+    pub solutions: u64,
+    /// True if there are no others.
+    pub is_complete: bool,
+}
+
+impl Puzzle {
+    /// Compiles a system of whole numbers. Values play no part in it.
+    pub fn new(conditional: &Conditional, patterns: &Patterns) -> Self {
+        let system = &conditional.system;
+        let mut arena = Arena::new();
+        let mut ranges = vec![Domain::between(-MOST, MOST); system.slots.len()];
+        for r in &conditional.ranges {
+            let range = &mut ranges[r.slot as usize];
+            *range = range.clip(r.low, r.high);
+        }
+        let mut conditions = Vec::new();
+        for c in &conditional.conditions {
+            let slots = system.arguments(c.arguments);
+            conditions.push(patterns.get(c.pattern).write_out(&mut arena, slots)[0]);
+        }
+        let (mut required, mut soft) = (Vec::new(), Vec::new());
+        for (index, relation) in (0..).zip(&system.relations) {
+            let mut rows = Vec::new();
+            let mut equal = Vec::new();
+            match &relation.body {
+                RelationBody::Equations(_) => {}
+                RelationBody::Opaque { .. } => continue,
+            }
+            for e in system.equations_of(relation) {
+                let slots = system.arguments(e.arguments);
+                let sides = patterns.get(e.pattern).write_out(&mut arena, slots);
+                equal.push((sides[0], sides[1]));
+            }
+            for demand in conditional.demands.iter().filter(|d| d.relation == index) {
+                let slots = system.arguments(demand.arguments);
+                let roots = patterns.get(demand.pattern).write_out(&mut arena, slots);
+                rows.push(match demand.kind {
+                    DemandKind::True => {
+                        let truth = truth(&mut arena, roots[0], true);
+                        row(&arena, truth)
+                    }
+                    DemandKind::Different => different(&arena, &roots),
+                });
+            }
+            let unless: Vec<Row> = conditional
+                .guards
+                .iter()
+                .filter(|g| g.relation == index)
+                .map(|g| {
+                    let not = truth(&mut arena, conditions[g.condition as usize], !g.truth);
+                    row(&arena, not)
+                })
+                .collect();
+            let rank = rank(relation.level);
+            if let (Some(rank), true) = (rank, unless.is_empty()) {
+                let wishes = equal.iter().map(|&(l, r)| Wish::Equal(l, r));
+                soft.extend(
+                    wishes.chain(rows.into_iter().map(Wish::Row)).map(|wish| Soft { rank, wish }),
+                );
+                continue;
+            }
+            rows.extend(equal.into_iter().map(|(left, right)| {
+                let comparing = Comparing::Equal;
+                row(&arena, Truth::Holds(Comparison { comparing, left, right }))
+            }));
+            if !unless.is_empty() {
+                let mut ways = unless;
+                ways.push(Row::All(std::mem::take(&mut rows)));
+                rows.push(Row::Any(ways));
+            }
+            match rank {
+                Some(rank) => {
+                    soft.extend(rows.into_iter().map(|r| Soft { rank, wish: Wish::Row(r) }));
+                }
+                None => required.extend(rows.into_iter().flat_map(split)),
+            }
+        }
+        let stays = system.slots.iter().map(|s| s.stay).collect();
+        Self { arena, stays, ranges, required, soft }
+    }
+
+    /// Finds the solution nearest to where the slots were.
+    ///
+    /// `start` is the state when the edit began; `values` is the same with what the edit set. A slot
+    /// without a stay is looked for near zero.
+    pub fn nearest(&self, start: &[f64], values: &[f64]) -> Verdict {
+        let held = self.nearest_with(start, values, Given::Held);
+        if let Ended::Found(values, distance) = &held
+            && distance[..GIVEN].iter().all(|&d| d == 0.0)
+        {
+            return Verdict::Found(values.clone());
+        }
+        if !self.stays.contains(&Stay::Given) {
+            return held.verdict();
+        }
+        let released = self.nearest_with(start, values, Given::Released);
+        match (held, released) {
+            (Ended::Found(a, x), Ended::Found(b, y)) => {
+                Verdict::Found(if is_less(&y, &x) { b } else { a })
+            }
+            (found @ Ended::Found(..), Ended::None | Ended::Bound(_)) => found.verdict(),
+            (Ended::None | Ended::Bound(_), released) => released.verdict(),
+        }
+    }
+
+    /// Counts the solutions with given numbers held, as far as [`COUNTING`] states reach.
+    pub fn count(&self, values: &[f64]) -> Count {
+        let none = Count { solutions: 0, is_complete: true };
+        let Some(ground) = self.ground(values, values, Given::Held) else { return none };
+        let mut field = Field::new(&self.arena, ground.domains, &ground.known);
+        let net = Net::new(self.required.iter().collect(), &mut field);
+        if net.settle_all(&mut field).is_err() {
+            return none;
+        }
+        let mut counting = Counting { solutions: 0 };
+        let end = explore(&net, &mut field, &ground.near, &mut counting);
+        Count { solutions: counting.solutions, is_complete: end == End::Exhausted }
+    }
+
+    fn nearest_with(&self, start: &[f64], values: &[f64], given: Given) -> Ended {
+        let Some(ground) = self.ground(start, values, given) else { return Ended::None };
+        let mut field = Field::new(&self.arena, ground.domains, &ground.known);
+        let net = Net::new(self.required.iter().collect(), &mut field);
+        if net.settle_all(&mut field).is_err() {
+            return Ended::None;
+        }
+        let mut improving =
+            Improving { puzzle: self, near: &ground.near, best: None, at: 0, visited: 0 };
+        let end = explore(&net, &mut field, &ground.near, &mut improving);
+        match (improving.best, end) {
+            (Some((found, distance)), _) => {
+                let exact = |(d, known): (&Domain, &Option<f64>)| known.unwrap_or(d.low() as f64);
+                Ended::Found(found.iter().zip(&ground.known).map(exact).collect(), distance)
+            }
+            (None, End::Exhausted | End::Content) => Ended::None,
+            (None, End::Bound(visited)) => Ended::Bound(visited),
+        }
+    }
+
+    /// States the domains of a run; nothing where a required row speaks of a number that is not whole.
+    fn ground(&self, start: &[f64], values: &[f64], given: Given) -> Option<Ground> {
+        let n = self.stays.len();
+        let (mut domains, mut known) = (Vec::with_capacity(n), vec![None; n]);
+        let mut near = Vec::with_capacity(n);
+        for (i, stay) in self.stays.iter().enumerate() {
+            let is_known = match stay {
+                Stay::Fixed => true,
+                Stay::Given => given == Given::Held,
+                Stay::Kept { .. } | Stay::Free => false,
+            };
+            near.push(match stay {
+                Stay::Free => 0.0,
+                Stay::Fixed | Stay::Given | Stay::Kept { .. } => start[i],
+            });
+            if !is_known {
+                domains.push(self.ranges[i]);
+                continue;
+            }
+            known[i] = Some(values[i]);
+            domains.push(match whole(values[i]) {
+                Some(v) => self.ranges[i].clip(v, v),
+                None => Domain::one(0),
+            });
+        }
+        let is_odd = |c: &SlotIndex| known[*c as usize].is_some_and(|x: f64| whole(x).is_none());
+        let impossible = domains.iter().any(|d| d.is_empty())
+            || self.required.iter().any(|r| r.cells().iter().any(is_odd));
+        (!impossible).then_some(Ground { domains, known, near })
+    }
+
+    /// Returns a distance that no solution within the domains comes below.
+    fn distance(&self, field: &Field<'_>, near: &[f64]) -> Distance {
+        let mut distance = [0.0; 6];
+        for (i, stay) in self.stays.iter().enumerate() {
+            let rank = match stay {
+                Stay::Fixed => continue,
+                Stay::Given => GIVEN,
+                Stay::Kept { .. } | Stay::Free => KEPT,
+            };
+            let away = field.domains[i].nearest(near[i]) as f64 - near[i];
+            distance[rank] += away * away;
+        }
+        for soft in &self.soft {
+            distance[soft.rank] += match &soft.wish {
+                Wish::Equal(left, right) => {
+                    let (l, r) = (field.enclose(*left), field.enclose(*right));
+                    let gap = (l.low - r.high).max(r.low - l.high).max(0.0);
+                    if gap.is_finite() { gap * gap } else { 0.0 }
+                }
+                Wish::Row(row) => {
+                    let mut trial = field.again();
+                    f64::from(u8::from(trial.prospect(row) == Prospect::Never))
+                }
+            };
+        }
+        distance
+    }
+}
+
+/// What a run starts from.
+struct Ground {
+    domains: Vec<Domain>,
+    known: Vec<Option<f64>>,
+    near: Vec<f64>,
+}
+
+/// Whether given numbers are constants.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+enum Given {
+    Held,
+    Released,
+}
+
+enum Ended {
+    Found(Vec<f64>, Distance),
+    None,
+    Bound(u64),
+}
+
+impl Ended {
+    fn verdict(self) -> Verdict {
+        match self {
+            Self::Found(values, _) => Verdict::Found(values),
+            Self::None => Verdict::Impossible,
+            Self::Bound(visited) => Verdict::NotDecided { visited },
+        }
+    }
+}
+
+/// Looks for the nearest solution.
+struct Improving<'a> {
+    puzzle: &'a Puzzle,
+    near: &'a [f64],
+    best: Option<(Vec<Domain>, Distance)>,
+    /// How many states had been visited when the first solution was found.
+    at: u64,
+    visited: u64,
+}
+
+impl Visitor for Improving<'_> {
+    fn enter(&mut self, field: &Field<'_>) -> bool {
+        self.visited += 1;
+        let Some((_, best)) = &self.best else { return true };
+        is_less(&self.puzzle.distance(field, self.near), best)
+    }
+    fn found(&mut self, field: &Field<'_>) -> bool {
+        let distance = self.puzzle.distance(field, self.near);
+        if self.best.is_none() {
+            self.at = self.visited;
+        }
+        if self.best.as_ref().is_none_or(|(_, best)| is_less(&distance, best)) {
+            self.best = Some((field.domains.clone(), distance));
+        }
+        distance.iter().any(|&d| d > 0.0)
+    }
+    fn patience(&self, visited: u64) -> u64 {
+        let bound = if self.best.is_some() { self.at + IMPROVING } else { PATIENCE };
+        bound.saturating_sub(visited)
+    }
+}
+
+/// Counts solutions.
+struct Counting {
+    solutions: u64,
+}
+
+impl Visitor for Counting {
+    fn enter(&mut self, _: &Field<'_>) -> bool {
+        true
+    }
+    fn found(&mut self, _: &Field<'_>) -> bool {
+        self.solutions += 1;
+        true
+    }
+    fn patience(&self, visited: u64) -> u64 {
+        COUNTING.saturating_sub(visited)
+    }
+}
+
+/// Returns true if the first is nearer.
+fn is_less(a: &Distance, b: &Distance) -> bool {
+    let differs = a.iter().zip(b).find(|(x, y)| x != y);
+    differs.is_some_and(|(x, y)| x < y)
+}
+
+/// Returns which wishes come first; required relations are no wishes.
+fn rank(level: Level) -> Option<usize> {
+    match level {
+        Level::Required => None,
+        Level::Strong => Some(0),
+        Level::Move => Some(1),
+        Level::Medium => Some(2),
+        Level::Weak => Some(3),
+    }
+}
+
+/// Takes a conjunction apart.
+fn split(row: Row) -> Vec<Row> {
+    match row {
+        Row::All(rows) => rows.into_iter().flat_map(split).collect(),
+        other @ (Row::Linear(_) | Row::Different(_) | Row::General(_) | Row::Any(_)) => vec![other],
+    }
+}

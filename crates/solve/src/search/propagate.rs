@@ -1,0 +1,490 @@
+//! Propagation: what a row says of the domains of its cells.
+//!
+//! In: a row and domains. Out: smaller domains that lose no solution, or that there is none. Sums by
+//! their bounds; different numbers by taking known ones from the others, by sets of cells that use
+//! all their values up, and by values that only one cell can take; other rows by enclosing their
+//! sides, and value by value once a single cell is open.
+//!
+//! **Source:** Schulte and Stuckey, "Efficient constraint propagation engines" (2008), §2;
+//! van Hoeve, "The alldifferent constraint: a survey" (2001), §4.
+
+use super::domain::{Domain, MOST};
+use super::row::{General, Linear, Row, Shifted, Sum};
+use crate::truth::Comparing;
+use expr::{Arena, Interval};
+
+/// There is no solution.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub(crate) struct Dead;
+
+/// What can be said of a row for the present domains.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub(crate) enum Prospect {
+    Never,
+    Open,
+    Always,
+}
+
+/// The domains while they shrink.
+#[derive(Debug)]
+pub(crate) struct Field<'a> {
+    pub(crate) arena: &'a Arena,
+    pub(crate) domains: Vec<Domain>,
+    /// Cells that are known and need not be whole: what a wish wants.
+    known: &'a [Option<f64>],
+    /// Cells that shrank since they were last taken.
+    pub(crate) shrunk: Vec<u32>,
+    numbers: Vec<f64>,
+    registers: Vec<f64>,
+}
+
+impl<'a> Field<'a> {
+    pub(crate) fn new(arena: &'a Arena, domains: Vec<Domain>, known: &'a [Option<f64>]) -> Self {
+        let numbers = vec![0.0; domains.len()];
+        Self { arena, domains, known, shrunk: Vec::new(), numbers, registers: Vec::new() }
+    }
+
+    /// Returns another field with the same domains.
+    pub(crate) fn again(&self) -> Self {
+        Self::new(self.arena, self.domains.clone(), self.known)
+    }
+
+    /// Gives a cell a smaller domain.
+    pub(crate) fn put(&mut self, cell: u32, domain: Domain) -> Result<(), Dead> {
+        let old = &mut self.domains[cell as usize];
+        if *old != domain {
+            *old = domain;
+            self.shrunk.push(cell);
+        }
+        if domain.is_empty() { Err(Dead) } else { Ok(()) }
+    }
+
+    fn of(&self, cell: u32) -> Domain {
+        self.domains[cell as usize]
+    }
+
+    /// Makes a row's cells lose values that it does not allow.
+    pub(crate) fn propagate(&mut self, row: &Row) -> Result<(), Dead> {
+        match row {
+            Row::Linear(linear) => self.sum(linear),
+            Row::Different(cells) => self.different(cells),
+            Row::General(general) => self.general(general),
+            Row::All(rows) => rows.iter().try_for_each(|r| self.propagate(r)),
+            Row::Any(rows) => {
+                let mut only = None;
+                for row in rows {
+                    match (self.prospect(row), only) {
+                        (Prospect::Never, _) => {}
+                        (Prospect::Always, _) | (Prospect::Open, Some(_)) => return Ok(()),
+                        (Prospect::Open, None) => only = Some(row),
+                    }
+                }
+                only.map_or(Err(Dead), |row| self.propagate(row))
+            }
+        }
+    }
+
+    /// Says whether a row can hold, for domains that are not empty.
+    pub(crate) fn prospect(&mut self, row: &Row) -> Prospect {
+        match row {
+            Row::Linear(linear) => {
+                let (low, high) = self.extent(linear);
+                let constant = i128::from(linear.constant);
+                match linear.comparing {
+                    Sum::AtMost if high <= constant => Prospect::Always,
+                    Sum::AtMost if low > constant => Prospect::Never,
+                    Sum::AtMost => Prospect::Open,
+                    Sum::Equal | Sum::Differ => {
+                        let equal = match (low, high) {
+                            _ if constant < low || high < constant => Prospect::Never,
+                            (low, high) if low == high => Prospect::Always,
+                            _ => Prospect::Open,
+                        };
+                        match (linear.comparing, equal) {
+                            (Sum::Differ, Prospect::Never) => Prospect::Always,
+                            (Sum::Differ, Prospect::Always) => Prospect::Never,
+                            (Sum::Equal | Sum::AtMost | Sum::Differ, same) => same,
+                        }
+                    }
+                }
+            }
+            Row::Different(cells) => {
+                let mut known: Vec<i64> = Vec::new();
+                for c in cells {
+                    known.extend(self.of(c.cell).known().map(|v| v + c.by));
+                }
+                let count = known.len();
+                known.sort_unstable();
+                known.dedup();
+                match (known.len() == count, count == cells.len()) {
+                    (false, _) => Prospect::Never,
+                    (true, true) => Prospect::Always,
+                    (true, false) => Prospect::Open,
+                }
+            }
+            Row::General(general) => self.prospect_of_sides(general),
+            Row::All(rows) => {
+                let all: Vec<Prospect> = rows.iter().map(|r| self.prospect(r)).collect();
+                if all.contains(&Prospect::Never) {
+                    Prospect::Never
+                } else if all.contains(&Prospect::Open) {
+                    Prospect::Open
+                } else {
+                    Prospect::Always
+                }
+            }
+            Row::Any(rows) => {
+                let all: Vec<Prospect> = rows.iter().map(|r| self.prospect(r)).collect();
+                if all.contains(&Prospect::Always) {
+                    Prospect::Always
+                } else if all.contains(&Prospect::Open) {
+                    Prospect::Open
+                } else {
+                    Prospect::Never
+                }
+            }
+        }
+    }
+
+    fn extent(&self, linear: &Linear) -> (i128, i128) {
+        let mut extent = (0i128, 0i128);
+        for &(cell, c) in &linear.terms {
+            let (low, high) = self.term(cell, c);
+            extent = (extent.0 + low, extent.1 + high);
+        }
+        extent
+    }
+
+    /// Returns the least and the greatest value of a term.
+    fn term(&self, cell: u32, coefficient: i64) -> (i128, i128) {
+        let (d, c) = (self.of(cell), i128::from(coefficient));
+        let (a, b) = (c * i128::from(d.low()), c * i128::from(d.high()));
+        (a.min(b), a.max(b))
+    }
+
+    fn sum(&mut self, linear: &Linear) -> Result<(), Dead> {
+        let constant = i128::from(linear.constant);
+        if linear.comparing == Sum::Differ {
+            let mut open = linear.terms.iter().filter(|t| self.of(t.0).known().is_none());
+            return match (open.next(), open.next()) {
+                (None, _) if self.extent(linear).0 == constant => Err(Dead),
+                (Some(&(cell, c)), None) => {
+                    let (low, _) = self.extent(linear);
+                    let rest = constant - (low - self.term(cell, c).0);
+                    let c = i128::from(c);
+                    if rest % c == 0 && (rest / c).unsigned_abs() <= MOST as u128 {
+                        let domain = self.of(cell).without((rest / c) as i64);
+                        return self.put(cell, domain);
+                    }
+                    Ok(())
+                }
+                (None, _) | (Some(_), Some(_)) => Ok(()),
+            };
+        }
+        loop {
+            let before = self.shrunk.len();
+            let (low, high) = self.extent(linear);
+            if low > constant || linear.comparing == Sum::Equal && high < constant {
+                return Err(Dead);
+            }
+            let (mut low, mut high) = (low, high);
+            for &(cell, c) in &linear.terms {
+                let (l, h) = self.term(cell, c);
+                let most = constant - (low - l);
+                let least = match linear.comparing {
+                    Sum::Equal => constant - (high - h),
+                    Sum::AtMost | Sum::Differ => i128::MIN / 4,
+                };
+                // least <= c * x <= most
+                let wide = |x: i128| x.clamp(-2 * i128::from(MOST), 2 * i128::from(MOST)) as i64;
+                let c = i128::from(c);
+                let (from, to) = if c > 0 {
+                    (ceiling(least, c), floor(most, c))
+                } else {
+                    (ceiling(-most, -c), floor(-least, -c))
+                };
+                let domain = self.of(cell).clip(wide(from), wide(to));
+                self.put(cell, domain)?;
+                let (newer_l, newer_h) = self.term(cell, c as i64);
+                low += newer_l - l;
+                high += newer_h - h;
+            }
+            if self.shrunk.len() == before {
+                return Ok(());
+            }
+        }
+    }
+
+    fn different(&mut self, cells: &[Shifted]) -> Result<(), Dead> {
+        loop {
+            let before = self.shrunk.len();
+            for (i, c) in cells.iter().enumerate() {
+                let Some(value) = self.of(c.cell).known() else { continue };
+                for (j, other) in cells.iter().enumerate() {
+                    if i != j {
+                        let domain = self.of(other.cell).without(value + c.by - other.by);
+                        self.put(other.cell, domain)?;
+                    }
+                }
+            }
+            if self.shrunk.len() == before {
+                self.used_up(cells)?;
+                self.single_takers(cells)?;
+            }
+            if self.shrunk.len() == before {
+                return Ok(());
+            }
+        }
+    }
+
+    /// As many cells as the values that they can have: nothing else has any of these.
+    fn used_up(&mut self, cells: &[Shifted]) -> Result<(), Dead> {
+        let Some(Sets { base, sets }) = self.sets(cells) else { return self.too_few(cells) };
+        for &set in &sets {
+            let size = set.count_ones() as usize;
+            if size == 1 || size >= cells.len() {
+                continue;
+            }
+            let inside = sets.iter().filter(|&&s| s & !set == 0).count();
+            if inside > size {
+                return Err(Dead);
+            }
+            if inside == size {
+                for (c, &other) in cells.iter().zip(&sets) {
+                    if other & !set != 0 && other & set != 0 {
+                        self.keep(*c, base, !set)?;
+                    }
+                }
+            }
+        }
+        Ok(())
+    }
+
+    /// As many values as cells, all told: a value that one cell alone can take is that cell's.
+    fn single_takers(&mut self, cells: &[Shifted]) -> Result<(), Dead> {
+        let Some(Sets { base, sets }) = self.sets(cells) else { return Ok(()) };
+        let union = sets.iter().fold(0u128, |u, s| u | s);
+        let count = union.count_ones() as usize;
+        if count != cells.len() {
+            return if count < cells.len() { Err(Dead) } else { Ok(()) };
+        }
+        let (mut once, mut twice) = (0u128, 0u128);
+        for s in &sets {
+            twice |= once & s;
+            once |= s;
+        }
+        for (c, &set) in cells.iter().zip(&sets) {
+            let own = set & once & !twice;
+            if own != 0 && own != set {
+                if own.count_ones() > 1 {
+                    return Err(Dead);
+                }
+                self.keep(*c, base, own)?;
+            }
+        }
+        Ok(())
+    }
+
+    /// Returns the values of cells as bits; nothing where they lie too far apart.
+    fn sets(&self, cells: &[Shifted]) -> Option<Sets> {
+        let base = self.base(cells);
+        let set = |c: &Shifted| {
+            let mut set = 0u128;
+            for v in self.of(c.cell).values()? {
+                set |= 1u128.checked_shl(u32::try_from(v + c.by - base).ok()?)?;
+            }
+            Some(set)
+        };
+        let sets: Option<Vec<u128>> = cells.iter().map(set).collect();
+        Some(Sets { base, sets: sets? })
+    }
+
+    fn base(&self, cells: &[Shifted]) -> i64 {
+        cells.iter().map(|c| self.of(c.cell).low() + c.by).min().unwrap_or(0)
+    }
+
+    /// Leaves a cell the values of a set.
+    fn keep(&mut self, c: Shifted, base: i64, set: u128) -> Result<(), Dead> {
+        let mut domain = self.of(c.cell);
+        for v in self.of(c.cell).values().into_iter().flatten() {
+            if set >> (v + c.by - base) & 1 == 0 {
+                domain = domain.without(v);
+            }
+        }
+        self.put(c.cell, domain)
+    }
+
+    /// Fewer values than cells, where only bounds are known.
+    fn too_few(&self, cells: &[Shifted]) -> Result<(), Dead> {
+        let high = cells.iter().map(|c| self.of(c.cell).high() + c.by).max().unwrap_or(0);
+        let width = i128::from(high) - i128::from(self.base(cells)) + 1;
+        if width < cells.len() as i128 { Err(Dead) } else { Ok(()) }
+    }
+
+    fn general(&mut self, general: &General) -> Result<(), Dead> {
+        let mut open = general.cells.iter().filter(|&&c| self.of(c).known().is_none());
+        match (open.next(), open.next()) {
+            (None, _) => {
+                if self.tests_true(general) {
+                    Ok(())
+                } else {
+                    Err(Dead)
+                }
+            }
+            (Some(&cell), None) if self.of(cell).values().is_some() => {
+                let mut domain = self.of(cell);
+                self.note_known(general);
+                for v in self.of(cell).values().into_iter().flatten() {
+                    self.numbers[cell as usize] = v as f64;
+                    if !self.sides_hold(general) {
+                        domain = domain.without(v);
+                    }
+                }
+                self.put(cell, domain)
+            }
+            (Some(_), _) => {
+                for &(cell, other) in &general.defined {
+                    let interval = self.enclose(other);
+                    if interval.is_none() {
+                        return Err(Dead);
+                    }
+                    let domain = self.of(cell).clip(
+                        interval.low.ceil().max(-2.0 * MOST as f64) as i64,
+                        interval.high.floor().min(2.0 * MOST as f64) as i64,
+                    );
+                    self.put(cell, domain)?;
+                }
+                match self.prospect_of_sides(general) {
+                    Prospect::Never => Err(Dead),
+                    Prospect::Open | Prospect::Always => Ok(()),
+                }
+            }
+        }
+    }
+
+    fn prospect_of_sides(&mut self, general: &General) -> Prospect {
+        if general.cells.iter().all(|&c| self.of(c).known().is_some()) {
+            let holds = self.tests_true(general);
+            return if holds { Prospect::Always } else { Prospect::Never };
+        }
+        let (l, r) = (self.enclose(general.left), self.enclose(general.right));
+        if l.is_none() || r.is_none() {
+            return Prospect::Never;
+        }
+        let apart = l.high < r.low || r.high < l.low;
+        match general.comparing {
+            Comparing::Equal if apart => Prospect::Never,
+            Comparing::Differ if apart => Prospect::Always,
+            Comparing::AtMost if l.high <= r.low => Prospect::Always,
+            Comparing::AtMost if l.low > r.high => Prospect::Never,
+            Comparing::Less if l.high < r.low => Prospect::Always,
+            Comparing::Less if l.low >= r.high => Prospect::Never,
+            Comparing::Equal | Comparing::Differ | Comparing::AtMost | Comparing::Less => {
+                Prospect::Open
+            }
+        }
+    }
+
+    /// Returns an interval that holds whatever an expression can be.
+    pub(crate) fn enclose(&self, id: expr::ExprId) -> Interval {
+        let interval = |(d, known): (&Domain, &Option<f64>)| match known {
+            Some(x) => Interval::point(*x),
+            None => Interval { low: d.low() as f64, high: d.high() as f64 },
+        };
+        let boxes: Vec<Interval> = self.domains.iter().zip(self.known).map(interval).collect();
+        self.arena.enclose(id, &boxes)
+    }
+
+    fn tests_true(&mut self, general: &General) -> bool {
+        self.note_known(general);
+        self.sides_hold(general)
+    }
+
+    fn note_known(&mut self, general: &General) {
+        for &cell in &general.cells {
+            if let Some(value) = self.of(cell).known() {
+                self.numbers[cell as usize] = value as f64;
+            }
+        }
+    }
+
+    fn sides_hold(&mut self, general: &General) -> bool {
+        let mut out = [0.0; 2];
+        general.sides.run(&self.numbers, &mut self.registers, &mut out);
+        general.comparing.holds(out[0], out[1])
+    }
+
+    /// Returns the values of `second` that go with each of `first`, where both are few.
+    pub(crate) fn partners(&mut self, general: &General) -> Option<Partners> {
+        let &[first, second] = general.cells.as_slice() else { return None };
+        let (firsts, seconds) = (self.of(first).values()?, self.of(second).values()?);
+        let (first_base, second_base) = (self.of(first).low(), self.of(second).low());
+        let seconds: Vec<i64> = seconds.collect();
+        let mut partners = Partners {
+            first,
+            second,
+            first_base,
+            second_base,
+            of_first: [0; 64],
+            of_second: [0; 64],
+        };
+        for a in firsts {
+            self.numbers[first as usize] = a as f64;
+            for &b in &seconds {
+                self.numbers[second as usize] = b as f64;
+                if self.sides_hold(general) {
+                    partners.of_first[(a - first_base) as usize] |= 1 << (b - second_base);
+                    partners.of_second[(b - second_base) as usize] |= 1 << (a - first_base);
+                }
+            }
+        }
+        Some(partners)
+    }
+
+    /// Makes two cells lose the values without a partner.
+    pub(crate) fn pair_up(&mut self, partners: &Partners) -> Result<(), Dead> {
+        let Partners { first, second, first_base, second_base, of_first, of_second } = partners;
+        for (cell, base, other, other_base, of) in [
+            (*second, *second_base, *first, *first_base, of_first),
+            (*first, *first_base, *second, *second_base, of_second),
+        ] {
+            let mut allowed = 0u64;
+            for v in self.of(other).values().into_iter().flatten() {
+                allowed |= of[(v - other_base) as usize];
+            }
+            let mut domain = self.of(cell);
+            for v in self.of(cell).values().into_iter().flatten() {
+                if allowed >> (v - base) & 1 == 0 {
+                    domain = domain.without(v);
+                }
+            }
+            self.put(cell, domain)?;
+        }
+        Ok(())
+    }
+}
+
+/// The values of several cells: bit `i` is `base + i`.
+struct Sets {
+    base: i64,
+    sets: Vec<u128>,
+}
+
+/// Which values of two cells go together in a row.
+#[derive(Debug)]
+pub(crate) struct Partners {
+    first: u32,
+    second: u32,
+    first_base: i64,
+    second_base: i64,
+    of_first: [u64; 64],
+    of_second: [u64; 64],
+}
+
+fn floor(a: i128, b: i128) -> i128 {
+    a.div_euclid(b)
+}
+
+fn ceiling(a: i128, b: i128) -> i128 {
+    -((-a).div_euclid(b))
+}
