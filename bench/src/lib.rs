@@ -6,9 +6,10 @@
 //! alone. Nothing here is a second solver.
 //!
 //! Reading order: [`case`], [`document`], [`opened`], [`sketch`], [`residual`], [`measure`], [`report`],
-//! [`families`].
+//! [`families`], [`documents`].
 pub mod case;
 pub mod document;
+pub mod documents;
 pub mod families;
 pub mod measure;
 pub mod opened;

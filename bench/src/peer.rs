@@ -94,7 +94,7 @@ fn requests(case: &Case, constraints: &[Constraint]) -> Vec<ConstraintRequest> {
     };
     let mut all: Vec<ezpz::Constraint> = Vec::new();
     for constraint in constraints {
-        all.push(match *constraint {
+        let one = match *constraint {
             Constraint::Fix { p, x, y } => {
                 all.push(ezpz::Constraint::Fixed(point(p).id_x(), x));
                 ezpz::Constraint::Fixed(point(p).id_y(), y)
@@ -122,7 +122,8 @@ fn requests(case: &Case, constraints: &[Constraint]) -> Vec<ConstraintRequest> {
                 let kind = AngleKind::Other(Angle::from_radians(v));
                 ezpz::Constraint::LinesAtAngle(line(l), line(m), kind)
             }
-        });
+        };
+        all.push(one);
     }
     // the radius of an arc holds at both of its ends; an arc without one has its own rule
     let has_radius =
