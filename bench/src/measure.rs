@@ -99,7 +99,7 @@ pub fn measure(text: &str, repeat: Repeat) -> Result<Figures, String> {
     // a planner that has solved, and analysed nothing yet
     let (mut fresh, solved) = sketch.solve();
     let begin = Instant::now();
-    let status = black_box(sketch.status(&mut fresh, &solved));
+    let found = black_box(sketch.analyse(&mut fresh, &solved));
     let analysis = begin.elapsed().as_secs_f64();
     let drag = match &case.drag {
         Some(drag) => Some(follow(&case, &sketch, &mut planner, values, drag)?),
@@ -111,9 +111,9 @@ pub fn measure(text: &str, repeat: Repeat) -> Result<Figures, String> {
         numbers,
         points,
         residual,
-        freedom: status.freedom,
-        redundant: status.redundant.len(),
-        conflicting: status.unmet.len(),
+        freedom: found.freedom,
+        redundant: found.redundant.len(),
+        conflicting: found.conflicting.len(),
         analysis,
         drag,
     })

@@ -74,8 +74,8 @@ impl Sketch {
     }
 
     /// Says how a solved sketch stands: what is free, what says nothing new, what does not hold.
-    pub fn status(&self, planner: &mut Planner, values: &Values) -> plan::Status {
-        planner.status(self.opened.model(), values, &mut self.opened.host())
+    pub fn analyse(&self, planner: &mut Planner, values: &Values) -> plan::Analysis {
+        planner.analyse(self.opened.model(), values, &mut self.opened.host())
     }
 
     /// Returns where the points are.
