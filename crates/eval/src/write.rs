@@ -5,11 +5,12 @@ use crate::evaluator::{Evaluator, Result};
 use crate::fault::{Fault, FaultKind};
 use crate::lookup::Tables;
 use crate::measure;
+use base::IdVec;
 use kernel::{
     BinaryOperator, ClassKind, ConstraintInstance, Document, GivenIn, Primitive, SlotId, Structure,
     Term, ThingId, Value, Values,
 };
-use std::collections::BTreeSet;
+use std::collections::{BTreeMap, VecDeque};
 use std::rc::Rc;
 
 /// A side of an equation.
@@ -208,7 +209,7 @@ impl<'a> Evaluator<'a> {
 /// What is not given is zero, false or empty; so are values that have a fault, and those given in
 /// terms of each other in a ring.
 ///
-/// Cost: linear where values speak of earlier ones, a pass more for each step backwards.
+/// Cost: linear; a value that speaks of many later ones is looked at once more for some of them.
 pub fn given_values(document: &Document, structure: &Structure) -> (Values, Vec<Fault>) {
     let mut values = Values::new(structure.slots.len());
     for (id, slot) in structure.slots.iter() {
@@ -217,35 +218,31 @@ pub fn given_values(document: &Document, structure: &Structure) -> (Values, Vec<
         }
     }
     let tables = Rc::new(Tables::new(document));
-    let is_given = structure.slots.iter().filter(|(_, s)| s.given.is_some()).map(|(id, _)| id);
-    let mut waiting: BTreeSet<SlotId> = is_given.collect();
+    let mut is_open: IdVec<SlotId, bool> =
+        structure.slots.iter().map(|(_, s)| s.given.is_some()).collect();
+    let mut next: VecDeque<SlotId> = is_open.ids().filter(|&slot| is_open[slot]).collect();
+    // values that wait for another, by that other
+    let mut waiting: BTreeMap<SlotId, Vec<SlotId>> = BTreeMap::new();
     let mut faults = Vec::new();
-    loop {
-        let before = waiting.len();
-        for slot in waiting.clone() {
-            let evaluator = Evaluator::with_tables(document, structure, &values, tables.clone());
-            let (found, reads) = evaluator.listening(|| evaluator.given(slot));
-            if reads.iter().any(|r| waiting.contains(r)) {
-                continue;
-            }
-            waiting.remove(&slot);
-            match found {
-                Ok(Some(value)) => values.put(slot, value),
-                Ok(None) => {}
-                Err(fault) => faults.push(fault),
-            }
+    while let Some(slot) = next.pop_front() {
+        let evaluator = Evaluator::with_tables(document, structure, &values, tables.clone());
+        let (found, reads) = evaluator.listening(|| evaluator.given(slot));
+        // by the time the last of them is known, so are the others, as a rule
+        if let Some(&other) = reads.iter().rev().find(|&&read| is_open[read]) {
+            waiting.entry(other).or_default().push(slot);
+            continue;
         }
-        if waiting.is_empty() {
-            return (values, faults);
-        }
-        if waiting.len() == before {
-            for slot in waiting {
-                let message = "a given value that depends on itself";
-                let fault = Fault::new(FaultKind::Endless, message);
-                let origin = structure.given(slot).map(|g| g.origin);
-                faults.push(Fault { origin, ..fault });
-            }
-            return (values, faults);
+        is_open[slot] = false;
+        next.extend(waiting.remove(&slot).into_iter().flatten());
+        match found {
+            Ok(Some(value)) => values.put(slot, value),
+            Ok(None) => {}
+            Err(fault) => faults.push(fault),
         }
     }
+    for slot in is_open.ids().filter(|&slot| is_open[slot]) {
+        let fault = Fault::new(FaultKind::Endless, "a given value that depends on itself");
+        faults.push(Fault { origin: structure.given(slot).map(|g| g.origin), ..fault });
+    }
+    (values, faults)
 }

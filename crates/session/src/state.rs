@@ -52,11 +52,13 @@ impl State {
                 Diagnostic::error(f.kind.code(), lowered.place(f.origin), f.message.clone())
             }),
         );
+        let (given, faults) = eval::given_values(&lowered.document, &structure);
+        diagnostics.extend(given_diagnostics(&lowered, &faults));
         crate::fixes::add_uses(&text, &mut diagnostics, host);
         let unplanned = unplanned.iter().map(|f| f.origin).collect();
         diagnostics.sort_by_key(|d| (d.place.file, d.place.span.start));
         let mut values = Values::new(structure.slots.len());
-        let mut texts = Texts::new(&lowered.document, &structure);
+        let mut texts = Texts::knowing(&lowered.document, &structure, given);
         let double_roots = planner.open(model, &mut values, &mut texts).double_roots;
         debug_assert_eq!(kernel::check::values(&structure, &values), Ok(()));
         (Self { text, lowered, structure, values, diagnostics, unplanned, double_roots }, planner)
@@ -105,4 +107,15 @@ impl State {
     pub(crate) fn slot_path(&self, slot: SlotId) -> kernel::Path {
         self.structure.path(&self.lowered.document, self.structure.slots[slot].thing)
     }
+}
+
+/// Says where given values have none; a class's, once for all its things.
+fn given_diagnostics(lowered: &Lowered, faults: &[eval::Fault]) -> Vec<Diagnostic> {
+    let mut said = BTreeSet::new();
+    let diagnostic = |fault: &eval::Fault| {
+        let place = lowered.place(fault.origin?);
+        let is_new = said.insert((place, fault.message.clone()));
+        is_new.then(|| Diagnostic::error(fault.kind.code(), place, fault.message.clone()))
+    };
+    faults.iter().filter_map(diagnostic).collect()
 }

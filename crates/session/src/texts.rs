@@ -17,6 +17,10 @@ impl<'a> Texts<'a> {
     pub(crate) fn new(document: &'a Document, structure: &'a Structure) -> Self {
         Self { document, structure, given: None }
     }
+    /// Makes an answerer that knows the given values.
+    pub(crate) fn knowing(document: &'a Document, structure: &'a Structure, given: Values) -> Self {
+        Self { document, structure, given: Some(given) }
+    }
 }
 
 impl Host for Texts<'_> {

@@ -12,3 +12,4 @@ mod undoing;
 mod updating;
 mod viewing;
 mod wrong_text;
+mod wrong_values;

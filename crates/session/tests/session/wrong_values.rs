@@ -1,0 +1,53 @@
+//! Wrong documents whose wrongness only shows when their values are computed: what is said, where.
+
+use crate::desk::Desk;
+
+/// A document, the code of its one diagnostic, what is underlined, and a word of the message.
+const WRONG: &[(&str, &str, &str, &str)] = &[
+    ("a: Real = b\nb: Real = 1 + 1 / a", "endless-messages", "b", "depends on itself"),
+    ("a: Real = 1 / 0", "no-answer", "1 / 0", "divided by zero"),
+    ("a: Real = sqrt(0 - 1)", "no-answer", "sqrt(0 - 1)", "square root of -1"),
+    ("a: Integer = 5 / 2", "wrong-kind", "5 / 2", "whole number"),
+    ("a: Real = \"x\".number", "no-answer", "\"x\".number", "number"),
+    (
+        "class A { f(n: Real) => f(n + 1) }\na: A\nx: Real = a.f(0)",
+        "endless-messages",
+        "f(n: Real) => f(n + 1)",
+        "deep",
+    ),
+    ("l: List of Real = [1, 2]\nx: Real = l[l.count]", "no-answer", "l[l.count]", "element"),
+];
+
+#[test]
+fn a_given_value_that_is_none_says_why() {
+    let mut failures = String::new();
+    for (text, code, at, word) in WRONG {
+        let desk = Desk::of(text);
+        let found = desk.session.text(desk.id).diagnostics;
+        let of = |d: &session::view::DiagnosticView| {
+            (d.code.clone(), text[d.start as usize..d.end as usize].to_string(), d.message.clone())
+        };
+        let found: Vec<_> = found.iter().map(of).collect();
+        let is_right =
+            matches!(found.as_slice(), [(c, a, m), ..] if c == code && a == at && m.contains(word));
+        if !is_right {
+            failures +=
+                &format!("\n{text}\n    wanted {code} at {at:?}, {word}\n    found {found:?}\n");
+        }
+    }
+    assert!(failures.is_empty(), "{failures}");
+}
+
+#[test]
+fn a_value_of_a_class_is_complained_of_once_for_all_its_things() {
+    let desk = Desk::of("class A { x: Real = 1 / 0 }\nmany: List of 50 A\n");
+    assert_eq!(desk.session.text(desk.id).diagnostics.len(), 1);
+}
+
+#[test]
+fn values_given_by_later_ones_are_computed_in_a_moment() {
+    let chain: String = (0..5_000).map(|i| format!("x{i}: Real = x{} + 1\n", i + 1)).collect();
+    let desk = Desk::of(&format!("{chain}x5000: Real = 1\n"));
+    assert_eq!(desk.session.text(desk.id).diagnostics, []);
+    assert_eq!(desk.number("x0"), 5001.0);
+}
