@@ -75,7 +75,8 @@ pub fn edits_for(
         }
     };
     let carry = |e: TextEdit| Some(TextEdit { span: lowered.in_text(e.span)?, insert: e.insert });
-    let carried: Option<Vec<TextEdit>> = done.edits.into_iter().map(carry).collect();
+    let edits = text.joined(done.edits);
+    let carried: Option<Vec<TextEdit>> = edits.into_iter().map(carry).collect();
     done.edits = carried.ok_or_else(|| {
         let message = "a line that has an error would have to be changed".to_string();
         refused("wrong-line", message).hint("mend the line first")
@@ -122,6 +123,31 @@ fn must_lead(text: &Text<'_>, structure: &Structure, path: &Path) -> Result<(), 
 }
 
 impl Text<'_> {
+    /// Joins edits that overlap, as deletions of neighbours on one line do.
+    fn joined(&self, mut edits: Vec<TextEdit>) -> Vec<TextEdit> {
+        edits.sort_by_key(|e| (e.span.start, std::cmp::Reverse(e.span.end)));
+        let mut joined: Vec<TextEdit> = Vec::new();
+        for edit in edits {
+            let overlaps = |last: &&mut TextEdit| edit.span.start < last.span.end;
+            let Some(last) = joined.last_mut().filter(overlaps) else {
+                joined.push(edit);
+                continue;
+            };
+            let says = |e: &TextEdit| !e.insert.trim().is_empty();
+            match (says(last), says(&edit)) {
+                (_, true) => last.insert.push_str(&edit.insert),
+                (false, false) if edit.span.end > last.span.end => {
+                    let before = self.lowered.effective.get(..last.span.start as usize);
+                    let divided = before.is_some_and(|b| b.ends_with(char::is_whitespace));
+                    last.insert = if divided { String::new() } else { edit.insert };
+                }
+                (_, false) => {}
+            }
+            last.span = last.span.join(edit.span);
+        }
+        joined
+    }
+
     /// Adds members to the document, to a class, or to the body of a thing.
     fn insert(&self, target: &Path, members: &str) -> Result<Restructuring, Diagnostic> {
         let home = self.home(target)?;

@@ -75,8 +75,7 @@ impl Text<'_> {
             deletion.edits.extend(edits);
         }
         let class = self.implied_by(home).class;
-        let edits = self.joined(deletion.edits);
-        Restructuring { edits, along: deletion.along, class, class_of_one: None }
+        Restructuring { edits: deletion.edits, along: deletion.along, class, class_of_one: None }
     }
 
     /// Deletes what stands around a word, as little as can be.
@@ -231,25 +230,6 @@ impl Text<'_> {
             return Err(refused("class-in-use", message).hint("delete that first"));
         }
         Ok(vec![edit::delete_member(class.syntax())].into())
-    }
-
-    /// Joins deletions that overlap, as those of neighbours on one line do.
-    fn joined(&self, mut edits: Vec<TextEdit>) -> Vec<TextEdit> {
-        edits.sort_by_key(|e| (e.span.start, std::cmp::Reverse(e.span.end)));
-        let mut joined: Vec<TextEdit> = Vec::new();
-        for edit in edits {
-            match joined.last_mut().filter(|last| edit.span.start < last.span.end) {
-                Some(last) if edit.span.end <= last.span.end => {}
-                Some(last) => {
-                    last.span = last.span.join(edit.span);
-                    let before = self.lowered.effective.get(..last.span.start as usize);
-                    let divided = before.is_some_and(|b| b.ends_with(char::is_whitespace));
-                    last.insert = if divided { String::new() } else { edit.insert };
-                }
-                None => joined.push(edit),
-            }
-        }
-        joined
     }
 }
 
