@@ -123,6 +123,10 @@ pub(crate) struct Lowered {
     pub(crate) regions: Vec<Region>,
 }
 
+/// How many equalities a step names that copies one of many equal slots: in a class of thousands
+/// each member would otherwise name them all.
+const MOST_TOLD: usize = 64;
+
 /// Lowers every block, then the slots that equal others.
 pub(crate) fn lower(analysis: &Analysis<'_>, blocks: &[Block]) -> Lowered {
     let classes = &analysis.classes;
@@ -157,7 +161,7 @@ fn alias(
     reads: Few,
 ) -> Step {
     let first = equalities.partition_point(|e| e.0 < root);
-    let own = equalities[first..].iter().take_while(|e| e.0 == root);
+    let own = equalities[first..].iter().take_while(|e| e.0 == root).take(MOST_TOLD);
     Step {
         kind: StepKind::Alias,
         targets: [target].into_iter().collect(),

@@ -51,3 +51,12 @@ fn values_given_by_later_ones_are_computed_in_a_moment() {
     assert_eq!(desk.session.text(desk.id).diagnostics, []);
     assert_eq!(desk.number("x0"), 5001.0);
 }
+
+#[test]
+fn thousands_of_equal_numbers_are_one_in_a_moment() {
+    let numbers: String = (0..5_000).map(|i| format!("x{i}: Real\n")).collect();
+    let equal: String = (1..5_000).map(|i| format!("constraint x{} = x{i}\n", i - 1)).collect();
+    let desk = Desk::of(&format!("{numbers}{equal}x4999 = 7\n"));
+    assert_eq!(desk.session.text(desk.id).diagnostics, []);
+    assert_eq!(desk.number("x0"), 7.0);
+}
