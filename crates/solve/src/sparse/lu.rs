@@ -7,7 +7,7 @@ use super::pattern::Pattern;
 use super::pivot::Pivots;
 use crate::dense::{self, Factors};
 
-/// Multipliers beyond this mean that the pivots do not suit the numbers.
+/// An entry this many times its row's pivot means that the pivots do not suit the numbers.
 const WILD: f64 = 1e6;
 
 /// The factors' structure: every index is a place in the order of elimination.
@@ -101,9 +101,6 @@ impl Symbolic {
                 work[j] = 0.0;
                 lu.lower[i] = factor;
                 let row = self.upper(j);
-                if factor.abs() > WILD && !row.is_empty() {
-                    return None;
-                }
                 if factor != 0.0 {
                     for (&c, u) in self.upper[row.clone()].iter().zip(&lu.upper[row]) {
                         work[c as usize] -= factor * u;
@@ -122,7 +119,11 @@ impl Symbolic {
                     sign = -sign;
                 }
                 for i in self.upper(k) {
-                    lu.upper[i] = std::mem::take(&mut work[self.upper[i] as usize]);
+                    let value = std::mem::take(&mut work[self.upper[i] as usize]);
+                    if value.abs() > WILD * pivot.abs() {
+                        return None;
+                    }
+                    lu.upper[i] = value;
                 }
             } else {
                 let row = &mut lu.tail[(k - self.sparse) * tail..][..tail];

@@ -2,17 +2,17 @@
 //!
 //! In: a square pattern and numbers to judge by. Out: rows and columns in the order of elimination, and
 //! what the factors will look like. Of the entries that are not much smaller than the largest in
-//! their column, the one whose row and column have the fewest others is next; a few candidates are
-//! looked at. What is left when it has become dense is one dense tail.
+//! their row, the one whose row and column have the fewest others is next; a few rows are looked
+//! at. What is left when it has become dense is one dense tail.
 //!
 //! **Source:** Markowitz, *The elimination form of the inverse*, Management Science 3 (1957);
 //! Duff, Erisman and Reid, *Direct Methods for Sparse Matrices*, 2nd ed., §10.2.
 
 use super::pattern::Pattern;
 
-/// An entry this much smaller than the largest in its column is no pivot.
+/// An entry this much smaller than the largest in its row is no pivot.
 const THRESHOLD: f64 = 0.1;
-/// How many rows and columns are looked at for one pivot.
+/// How many rows are looked at for one pivot.
 const CANDIDATES: usize = 4;
 /// A remainder with this part of its entries present is dense.
 const DENSE: f64 = 0.4;
@@ -147,40 +147,34 @@ impl Remainder {
         Self { rows, columns, by_row, by_column, entries: pattern.len(), left: n }
     }
 
-    fn value(&self, row: u32, column: u32) -> f64 {
-        self.rows[row as usize].iter().find(|e| e.0 == column).map_or(0.0, |e| e.1)
-    }
-    fn largest_in(&self, column: u32) -> f64 {
-        self.columns[column as usize]
-            .iter()
-            .fold(0.0f64, |most, &r| most.max(self.value(r, column).abs()))
-    }
-
     /// The pivot that makes the fewest new entries, among a few candidates.
     fn best(&self) -> Option<(u32, u32)> {
+        // what stands alone in its column changes no other row
+        let alone = self.by_column.of(1).take(CANDIDATES).find_map(|column| {
+            let &row = self.columns[column as usize].first()?;
+            self.suits(row, column).then_some((row, column))
+        });
+        if alone.is_some() {
+            return alone;
+        }
         let mut best: Option<(usize, f64, u32, u32)> = None;
         let mut looked = 0;
         for count in 1..=self.left {
-            for column in self.by_column.of(count) {
-                let largest = self.largest_in(column);
-                for &row in &self.columns[column as usize] {
-                    let cost = (count - 1) * (self.rows[row as usize].len() - 1);
-                    self.offer(row, column, cost, largest, &mut best);
-                }
-                looked += 1;
-                if done(best, count - 1, looked) {
-                    return best.map(|b| (b.2, b.3));
-                }
-            }
             for row in self.by_row.of(count) {
-                for &(column, value) in &self.rows[row as usize] {
+                let entries = &self.rows[row as usize];
+                let largest = entries.iter().fold(0.0f64, |most, e| most.max(e.1.abs()));
+                for &(column, value) in entries {
                     let cost = (count - 1) * (self.columns[column as usize].len() - 1);
-                    // what stands alone in its row changes no other entry
-                    let largest = if count == 1 { value.abs() } else { self.largest_in(column) };
-                    self.offer(row, column, cost, largest, &mut best);
+                    let size = value.abs();
+                    let suits = size > 0.0 && size.is_finite() && size >= THRESHOLD * largest;
+                    let is_better =
+                        |b: (usize, f64, u32, u32)| cost < b.0 || cost == b.0 && size > b.1;
+                    if suits && best.is_none_or(is_better) {
+                        best = Some((cost, size, row, column));
+                    }
                 }
                 looked += 1;
-                if done(best, count, looked) {
+                if best.is_some_and(|b| b.0 <= (count - 1) * (count - 1) || looked >= CANDIDATES) {
                     return best.map(|b| (b.2, b.3));
                 }
             }
@@ -188,24 +182,15 @@ impl Remainder {
         best.map(|b| (b.2, b.3))
     }
 
-    fn offer(
-        &self,
-        row: u32,
-        column: u32,
-        cost: usize,
-        largest: f64,
-        best: &mut Option<(usize, f64, u32, u32)>,
-    ) {
-        if best.is_some_and(|b| b.0 < cost) {
-            return;
-        }
-        let size = self.value(row, column).abs();
-        if size > 0.0 && size.is_finite() && size >= THRESHOLD * largest {
-            let better = best.is_none_or(|b| cost < b.0 || size > b.1);
-            if better {
-                *best = Some((cost, size, row, column));
-            }
-        }
+    /// Returns true if an entry is not much smaller than the largest in its row.
+    fn suits(&self, row: u32, column: u32) -> bool {
+        let entries = &self.rows[row as usize];
+        let largest = entries.iter().fold(0.0f64, |most, e| most.max(e.1.abs()));
+        let own = |e: &&(u32, f64)| e.0 == column;
+        entries
+            .iter()
+            .find(own)
+            .is_some_and(|e| e.1 != 0.0 && e.1.is_finite() && e.1.abs() >= THRESHOLD * largest)
     }
 
     fn eliminate(&mut self, row: u32, column: u32, out: &mut Pivots, at: &mut [u32]) {
@@ -262,9 +247,4 @@ impl Remainder {
         out.columns.push(column);
         out.upper.push(pivot_row.into_iter().map(|e| e.0).filter(|&c| c != column).collect());
     }
-}
-
-/// Whether nothing noticeably better will be found.
-fn done(best: Option<(usize, f64, u32, u32)>, bound: usize, looked: usize) -> bool {
-    best.is_some_and(|b| b.0 <= bound * bound || looked >= CANDIDATES)
 }
