@@ -19,6 +19,9 @@ use crate::system::{SlotIndex, Stay};
 /// Up to this many unknowns least change is tried by the measure too, whose cost is cubic.
 const DENSE: usize = 60;
 
+/// The largest region that is approached: the cost is cubic.
+const LARGEST_APPROACH: usize = 150;
+
 /// How a slot stands to x0.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub(crate) enum Motion {
@@ -51,6 +54,8 @@ pub(crate) struct Buffers {
 pub(crate) struct Frame {
     /// The state when the edit began.
     pub(crate) x0: Vec<f64>,
+    /// What least change is measured from: x0, or where the branch of least change from x0 ended.
+    pub(crate) anchor: Vec<f64>,
     /// The measure of every slot.
     pub(crate) scales: Vec<f64>,
     /// For every row, whether it holds in x0.
@@ -222,6 +227,10 @@ fn approach_region(
     }
     buffers.approached.push(step.region);
     let region = &plan.regions[step.region as usize];
+    if region.problem.unknowns.len() > LARGEST_APPROACH {
+        let reason = Reason::NoSolution { step: index as u32 };
+        return Err(Failure { reason, region: step.region });
+    }
     let measure = region.approach.get_or_init(|| {
         let kind = |s: SlotIndex| {
             let slot = &plan.slots[s as usize];
@@ -409,11 +418,15 @@ impl Run<'_> {
 
     fn least(&mut self, step: &Step, least: &Least, measure: &Measure) -> Result<(), Failure> {
         self.start_from_last(&step.targets);
-        let Frame { x0, scales, .. } = self.frame;
+        let Frame { anchor, scales, .. } = self.frame;
         let Buffers { work, least: scratch, .. } = &mut *self.buffers;
-        match least.solve(x0, self.values, scales, self.trust, work, scratch) {
+        let result = least.solve(anchor, self.values, scales, self.trust, work, scratch);
+        let may_compromise = self.trust != Trust::Branch || least.has_soft_rows();
+        match result {
             Measured::Least => Ok(()),
-            Measured::Failed if step.targets.len() <= DENSE => self.measure(step, measure),
+            Measured::Failed if may_compromise && step.targets.len() <= DENSE => {
+                self.measure(step, measure)
+            }
             Measured::Failed => self.fail(step),
         }
     }

@@ -15,6 +15,7 @@ use crate::lower::{Definers, Problem};
 use crate::measure::Measured;
 use crate::sparse::{Ldl, Symmetric};
 use crate::square::Trust;
+use crate::system::Level;
 use std::sync::OnceLock;
 
 /// A block of fewer rows than unknowns.
@@ -40,6 +41,15 @@ pub(crate) struct LeastScratch {
     start: Vec<f64>,
 }
 
+/// What is known of the rows' curvature.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+enum Curvature {
+    /// Nothing yet: there are no multipliers.
+    None,
+    /// Second derivatives, with the present multipliers.
+    Exact,
+}
+
 const STEPS: usize = 100;
 /// The regularisation of the rows.
 const DELTA: f64 = 1e-6;
@@ -52,6 +62,10 @@ impl Least {
         Self { block: Block::new(problem, Definers::None), structure: OnceLock::new() }
     }
 
+    /// Returns true if a row may give way.
+    pub(crate) fn has_soft_rows(&self) -> bool {
+        self.block.levels.iter().any(|&level| level != Level::Required)
+    }
     /// Returns true if every row holds for these values.
     pub(crate) fn holds_at(&self, values: &[f64], w: &mut Workspace, s: &mut LeastScratch) -> bool {
         self.block.sides(values, w, &mut s.local);
@@ -91,24 +105,32 @@ impl Least {
         block.slopes(values, w, &mut s.local);
         self.weigh(s);
         let mut norm = self.norm(s);
+        let follows = trust == Trust::Branch && !block.is_linear;
+        // on a branch the multipliers are those of the last state, and the first step is Newton's too
+        if follows && self.step(x0, values, Curvature::None, w, s).is_none() {
+            return Measured::Failed;
+        }
         let mut size = f64::INFINITY;
         let mut smallest = (f64::INFINITY, 0);
         for iteration in 0..STEPS {
-            if !norm.is_finite() || !self.step(x0, values, iteration > 0, w, s) {
+            let curvature =
+                if follows || iteration > 0 { Curvature::Exact } else { Curvature::None };
+            let Some(shift) = self.step(x0, values, curvature, w, s).filter(|_| norm.is_finite())
+            else {
                 return Measured::Failed;
-            }
+            };
             let before = size;
             size = s.right[..block.unknowns.len()].iter().fold(0.0, |m: f64, d| m.max(d.abs()));
             if !size.is_finite() {
                 return Measured::Failed;
             }
-            if trust == Trust::Branch && !block.is_linear {
-                let leaps = match iteration {
-                    0 => size > 0.5,
-                    1 => size > 1e-3f64.max(0.5 * before),
-                    _ => false,
+            if follows {
+                // a branch of least change ends where it has no minimum any more
+                let leaves = match iteration {
+                    0 => size > 0.5 || shift > 1.0,
+                    _ => size > 0.5 * before && size > 1e-7,
                 };
-                if leaps {
+                if leaves {
                     return Measured::Failed;
                 }
             }
@@ -154,15 +176,16 @@ impl Least {
         base::number::sqrt(sum)
     }
 
-    /// Finds step and multipliers; false where the matrix cannot be factorised.
+    /// Finds step and multipliers; returns the diagonal that it took, or nothing where the matrix cannot
+    /// be factorised.
     fn step(
         &self,
         x0: &[f64],
         values: &[f64],
-        curved: bool,
+        curvature: Curvature,
         w: &mut Workspace,
         s: &mut LeastScratch,
-    ) -> bool {
+    ) -> Option<f64> {
         let block = &self.block;
         let (n, m) = (block.unknowns.len(), block.height());
         let structure = self.structure();
@@ -175,7 +198,8 @@ impl Least {
                 s.entries.push(s.local.jacobian[e] * s.weight[r] * scale);
             }
         }
-        let curvature = s.entries.len();
+        let first_curved = s.entries.len();
+        let curved = curvature == Curvature::Exact;
         block.each_second(values, w, &mut |row, i, j, second| {
             let factor = s.multipliers[row] * s.weight[row];
             let value = if factor == 0.0 { 0.0 } else { factor * second * s.scale[i] * s.scale[j] };
@@ -185,10 +209,10 @@ impl Least {
         loop {
             match structure.factorise(&s.entries, &mut s.ldl) {
                 Some(negative) if negative == m => break,
-                Some(_) | None if shift > 1e8 => return false,
+                Some(_) | None if shift > 1e8 => return None,
                 Some(_) | None => {
-                    if s.entries[curvature..].iter().all(|&h| h == 0.0) {
-                        return false;
+                    if s.entries[first_curved..].iter().all(|&h| h == 0.0) {
+                        return None;
                     }
                     shift *= 4.0;
                     s.entries[..n].fill(shift);
@@ -204,7 +228,7 @@ impl Least {
         }));
         structure.solve(&mut s.ldl, &mut s.right);
         s.multipliers.copy_from_slice(&s.right[n..]);
-        true
+        Some(shift)
     }
 
     /// Goes along the step, shortened until the rows are not torn apart; returns the norm there.

@@ -55,6 +55,8 @@ struct Scaled {
 const STEPS: usize = 200;
 /// Curvature below this, where one is ordinary, leaves a direction to the next level.
 const FLAT: f64 = 1e-9;
+/// A slope above this is one, even where there is no curvature.
+const SLOPING: f64 = 1e-6;
 /// Steps below this, in parts of the extent, are no steps.
 const SETTLED: f64 = 1e-12;
 
@@ -296,8 +298,9 @@ impl Measure {
             for &r in &own {
                 factor[r] += local.residual[r];
             }
+            let flat = hessian.clone();
             self.add_curvature(local, &factor, weights, values, w, &mut hessian);
-            free = descend(&mut step, &free, &gradient, &hessian, n);
+            free = descend(&mut step, &free, &gradient, [&hessian, &flat], n);
             above.extend(own);
         }
         for given in [true, false] {
@@ -311,8 +314,9 @@ impl Measure {
                 hessian[i * n + i] = 1.0;
             }
             let factor = self.multipliers(local, &above, &gradient);
+            let flat = hessian.clone();
             self.add_curvature(local, &factor, weights, values, w, &mut hessian);
-            free = descend(&mut step, &free, &gradient, &hessian, n);
+            free = descend(&mut step, &free, &gradient, [&hessian, &flat], n);
         }
         step
     }
@@ -439,12 +443,14 @@ fn least_norm(rows: &[usize], local: &Scaled, range: &[Vec<f64>], n: usize) -> V
     step
 }
 
-/// Adds the step that is best for one level in the free directions; returns those it leaves free.
+/// Adds the step that is best for one level in the free directions; returns those it leaves free. The
+/// Hessian comes with and without the curvature of the rows: where both slopes and curvatures balance to
+/// nothing but a slope (a crank a quarter turn from its wish), the level's own curvature decides.
 fn descend(
     step: &mut [f64],
     free: &[Vec<f64>],
     gradient: &[f64],
-    hessian: &[f64],
+    [hessian, own]: [&[f64]; 2],
     n: usize,
 ) -> Vec<Vec<f64>> {
     let k = free.len();
@@ -466,9 +472,17 @@ fn descend(
         for (z, part) in free.iter().zip(v) {
             dense::add(&mut along, *part, z);
         }
+        let down = -dense::dot(&along, &slope);
         if value.abs() > FLAT {
-            let by = -dense::dot(&along, &slope) / value.abs();
-            dense::add(step, by, &along);
+            dense::add(step, down / value.abs(), &along);
+            continue;
+        }
+        let mut bend = 0.0;
+        for (i, a) in along.iter().enumerate() {
+            bend += a * dense::dot(&own[i * n..][..n], &along);
+        }
+        if bend > FLAT && down.abs() > SLOPING {
+            dense::add(step, down / bend, &along);
         } else {
             left.push(along);
         }

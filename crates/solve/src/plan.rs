@@ -113,6 +113,8 @@ pub struct Plan {
     pub(crate) scale_classes: usize,
     /// True if a step depends on the branch that the state is on.
     pub(crate) has_branches: bool,
+    /// True if a step changes as little as it can.
+    pub(crate) has_least: bool,
     stated: Stated,
     relaxed: OnceCell<Option<Box<Plan>>>,
 }
@@ -195,7 +197,9 @@ fn plan_stated(stated: Stated) -> Plan {
             false
         }
     });
+    let has_least = lowered.steps.iter().any(|s| matches!(s.program, Program::Least(_)));
     Plan {
+        has_least,
         steps: lowered.steps,
         report,
         slots: planned_slots(system),

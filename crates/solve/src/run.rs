@@ -177,6 +177,7 @@ impl Drag {
         self.moved_slice = self.has_run;
         let mut way = Way { plan, frame, buffers, host, trial, part };
         let mut outcome;
+        let mut anchored = None;
         match way.direct(branch, goal, trust) {
             Ok(()) => {
                 outcome = way.test_trial(&self.upstream);
@@ -194,7 +195,17 @@ impl Drag {
             }
             Err(failure) => {
                 let mut limit = branch.clone();
-                let fraction = way.walk(&mut limit, goal, trust);
+                let mut fraction = way.walk(&mut limit, goal, trust);
+                if fraction < 1.0 && trust == Trust::Branch && plan.has_least {
+                    // least change from x0 goes no further on its branch: from here on, then
+                    let mut anew = frame.clone();
+                    anew.anchor.copy_from_slice(&limit);
+                    let Way { buffers, host, trial, .. } = &mut way;
+                    let mut on = Way { plan, frame: &anew, buffers, host: *host, trial, part };
+                    let rest = on.walk(&mut limit, goal, trust);
+                    fraction = if rest == 1.0 { 1.0 } else { fraction + (1.0 - fraction) * rest };
+                    anchored = (rest > 0.0).then_some(anew.anchor);
+                }
                 if fraction < 1.0 && way.approach(&limit, goal, &failure).is_ok() {
                     outcome = way.test_trial(&self.upstream);
                     if outcome.is_solved() {
@@ -219,6 +230,9 @@ impl Drag {
             let _ = way.direct(now, now, trust);
         }
         outcome.notes.append(&mut buffers.notes);
+        if let Some(anchor) = anchored {
+            frame.anchor = anchor;
+        }
         outcome
     }
 }
@@ -235,6 +249,7 @@ fn start(plan: &Plan, runner: &mut Runner, x0: &[f64], changed: &[SlotIndex]) ->
     let Runner { frame, buffers, .. } = runner;
     frame.x0.clear();
     frame.x0.extend(x0.iter().map(|&v| if v.is_finite() { v } else { 0.0 }));
+    frame.anchor.clone_from(&frame.x0);
     measure_scales(plan, frame);
     frame.changed_texts.clear();
     frame

@@ -116,3 +116,22 @@ fn what_structure_lets_yield_may_not_reach_and_then_all_yields() {
     assert!(outcome.is_solved(), "{outcome:?}");
     assert!(values[joints[1][0] as usize] > 4.0);
 }
+
+#[test]
+fn a_crank_follows_a_wish_that_is_a_quarter_turn_away() {
+    for wish in [[0.0, 40.0], [0.0, 41.0], [-0.01, 40.0], [0.0, -40.0]] {
+        let mut s = Sheet::default();
+        let hub = s.anchor(0.0, 0.0);
+        let tip = [s.kept(40.0), s.kept(0.0)];
+        let (length, forty) = (s.distance(hub, tip), s.c(40.0));
+        s.require(length, forty);
+        let w = s.wish(&tip);
+        let plan = s.plan();
+        let mut drag = s.drag(&plan, &w);
+        let outcome = drag.follow(&plan, &wish, &mut NoHost);
+        assert!(outcome.is_solved(), "{outcome:?}");
+        let size = base::number::sqrt(wish[0] * wish[0] + wish[1] * wish[1]);
+        close(drag.values()[tip[0] as usize], 40.0 * wish[0] / size, 1e-6);
+        close(drag.values()[tip[1] as usize], 40.0 * wish[1] / size, 1e-6);
+    }
+}
