@@ -245,6 +245,32 @@ pub(crate) fn recognise(path: &Path, parts: &[String], form: Form) -> Result<Rep
     Ok(report(form, !found.is_empty(), words, &json!({ "path": path, "classes": found })))
 }
 
+/// Says what is free in a document, what is superfluous and what cannot hold together.
+///
+/// # Errors
+/// If the file cannot be read.
+pub(crate) fn analyse(path: &Path, form: Form) -> Result<Report, OpenError> {
+    let mut opened = open(path)?;
+    let analysis = opened.session.analysis(opened.id);
+    let mut words = format!("degrees of freedom: {}\n", analysis.freedom);
+    for motion in &analysis.motions {
+        let _ = writeln!(words, "  {}", motion.summary);
+    }
+    if !analysis.redundant.is_empty() {
+        let _ = writeln!(words, "constraints that say nothing new: {}", analysis.redundant.len());
+    }
+    for redundant in &analysis.redundant {
+        let _ = writeln!(words, "  {}: {}", redundant.constraint, redundant.because);
+    }
+    for contradiction in &analysis.contradictions {
+        let _ = writeln!(words, "{}", contradiction.message);
+        for repair in &contradiction.repairs {
+            let _ = writeln!(words, "  this would help: {repair}");
+        }
+    }
+    Ok(report(form, analysis.contradictions.is_empty(), words, &json!(analysis)))
+}
+
 /// Draws a document as SVG, into a file or onto standard output.
 ///
 /// # Errors

@@ -59,6 +59,11 @@ enum Command {
         #[arg(required = true)]
         parts: Vec<String>,
     },
+    /// Says what is free in a document, what says nothing new, and what cannot hold together.
+    Analyse {
+        /// The document.
+        file: PathBuf,
+    },
     /// Draws a document as SVG.
     Draw {
         /// The document.
@@ -90,6 +95,7 @@ fn main() -> ExitCode {
         Command::Run { file } => commands::run(file, form),
         Command::Explain { file, path } => commands::explain(file, path.as_deref(), form),
         Command::Recognise { file, parts } => commands::recognise(file, parts, form),
+        Command::Analyse { file } => commands::analyse(file, form),
         Command::Draw { file, output } => commands::draw(file, output.as_deref(), form),
         Command::Fmt { files, check } => {
             let mode = if *check { FormatMode::Check } else { FormatMode::Write };

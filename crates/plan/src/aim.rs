@@ -8,9 +8,9 @@ use crate::meaning::{Frame, Meaning};
 use crate::planner::{Model, Planner};
 use crate::rule::Formula;
 use crate::say::lone_slot;
-use crate::task::Wish;
+use crate::task::{Holding, Wish};
 use expr::{Arena, Var};
-use kernel::{Primitive, SlotId, Value, Values};
+use kernel::{Primitive, SlotId, Structure, Value, Values};
 use solve::{Level, Patterns};
 use std::collections::{BTreeMap, BTreeSet};
 
@@ -141,6 +141,17 @@ impl Planner {
 }
 
 impl Aim {
+    /// Returns what holds a slot in the edit.
+    pub(crate) fn holding(&self, structure: &Structure, slot: SlotId) -> Holding {
+        if self.fixed.contains_key(&slot) {
+            return Holding::Fixed;
+        }
+        match Planner::resting_hold(structure, slot) {
+            Holding::Fixed => Holding::Fixed,
+            _ if self.alone.contains(&slot) => Holding::Alone,
+            held => held,
+        }
+    }
     /// Returns the slots that an edit speaks of, by themselves or in an expression's name.
     pub(crate) fn slots(&self) -> BTreeSet<SlotId> {
         self.fixed.keys().copied().chain(self.alone.iter().copied()).collect()

@@ -4,11 +4,14 @@
 //! rules have a gradient there ([`gradient`]); an echelon form of the gradients ([`echelon`]) tells
 //! the rank, the combination that a dependent row is, and the motions that are left ([`motion`]).
 //! Rank alone decides nothing: a row that only depends on others *here* is redundant if it still holds
-//! where the others are solved without it from elsewhere ([`redundancy`]).
+//! where the others are solved without it from elsewhere ([`redundancy`]). What cannot hold together
+//! is found by solving parts of it ([`conflict`]), and so is what would help ([`repair`]).
+pub mod conflict;
 pub(crate) mod echelon;
 pub(crate) mod gradient;
 pub mod motion;
 pub mod redundancy;
+pub mod repair;
 pub(crate) mod trial;
 
 use crate::host::Host;
@@ -36,8 +39,9 @@ pub struct Analysis {
 impl Planner {
     /// Analyses a state at rest: `values` are those of the document, with nothing edited.
     ///
-    /// Plans what was not planned yet. Cost: a factorisation of the required rows, and one solve for
-    /// each component in which a row depends on others at this state alone.
+    /// Plans what was not planned yet. Cost: an elimination of the required rows, and one solve for each
+    /// component in which a row depends on others at this state alone. Which constraints stand against
+    /// each other is asked by [`Planner::contradictions`].
     pub fn analyse(&mut self, model: Model<'_>, values: &Values, host: &mut dyn Host) -> Analysis {
         let mut conflicting = self.unmet(model, 0..self.rules.len() as u32, values, host);
         conflicting.retain(|u| u.level == Level::Required);

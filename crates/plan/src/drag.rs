@@ -126,7 +126,13 @@ impl Planner {
         }
         let rules: BTreeSet<u32> =
             components.iter().flat_map(|c| c.rules.iter().copied()).collect();
-        report.unmet = self.unmet(model, rules, values, host);
+        report.unmet = self.unmet(model, rules.iter().copied(), values, host);
+        let was_unmet = self.unmet(model, rules, &press.start, host);
+        if report.unmet.iter().any(|u| u.is_new(&was_unmet)) {
+            *values = press.start;
+            report.refusal = Some(RefusalReason::Unmet);
+            return report;
+        }
         report.changed = values.changed(&press.start).collect();
         report
     }

@@ -2,6 +2,7 @@
 
 use crate::aim::Aim;
 use crate::component::Component;
+use crate::diagnose::trial::Setup;
 use crate::drag::move_at_once;
 use crate::host::{Failure, Host};
 use crate::planner::{Latest, Model, Planner, Unmet};
@@ -184,11 +185,12 @@ impl Planner {
         aim: &Aim,
         host: &mut dyn Host,
     ) -> EditReport {
-        let mut scratch = values.clone();
-        let mut tasks = self.plan_edit(model, aim);
+        let mut wanted = values.clone();
         for (&slot, value) in &aim.fixed {
-            scratch.put(slot, value.clone());
+            wanted.put(slot, value.clone());
         }
+        let mut scratch = wanted.clone();
+        let mut tasks = self.plan_edit(model, aim);
         let mut report = EditReport::default();
         for task in &mut tasks {
             let ran = run(self, model, task, aim, values, &mut scratch, host);
@@ -198,14 +200,17 @@ impl Planner {
             tasks.iter().flat_map(|t| t.component.rules.iter().copied()).collect();
         self.latest = Latest { tasks, edited: Some(aim.slots()) };
         report.unmet = self.unmet(model, rules.iter().copied(), &scratch, host);
+        let all_rules = rules.clone();
         let was_unmet = self.unmet(model, rules, values, host);
-        let is_new = |u: &Unmet| {
-            u.level == Level::Required && was_unmet.iter().all(|w| w.source != u.source)
-        };
         report.reached = self.reached(aim, &scratch);
-        if report.refusal.is_none() && (report.unmet.iter().any(is_new) || !report.reached) {
+        let broken = report.unmet.iter().any(|u| u.is_new(&was_unmet)) || !report.reached;
+        if report.refusal.is_none() && broken {
             report.refusal =
                 Some(report.not_decided.map_or(RefusalReason::Unmet, RefusalReason::NotDecided));
+            let holding = |s| aim.holding(model.structure, s);
+            let setup = Setup { model, holding: &holding, aim };
+            let conflict = self.against(&setup, &all_rules, &wanted, host);
+            report.conflicts = conflict.map_or(report.conflicts, |c| vec![c]);
         }
         if report.refusal.is_none() {
             report.changed = scratch.changed(values).collect();
@@ -217,16 +222,7 @@ impl Planner {
     /// Plans what an edit starts.
     pub(crate) fn plan_edit(&mut self, model: Model<'_>, aim: &Aim) -> Vec<Task> {
         let structure = model.structure;
-        let holding = |slot: SlotId| {
-            if aim.fixed.contains_key(&slot) {
-                return Holding::Fixed;
-            }
-            match Self::resting_hold(structure, slot) {
-                Holding::Fixed => Holding::Fixed,
-                _ if aim.alone.contains(&slot) => Holding::Alone,
-                held => held,
-            }
-        };
+        let holding = |slot: SlotId| aim.holding(structure, slot);
         let tied: Vec<Vec<SlotId>> = aim.wishes.iter().map(Wish::slots).collect();
         let start: BTreeSet<SlotId> =
             aim.slots().into_iter().chain(tied.iter().flatten().copied()).collect();

@@ -68,8 +68,10 @@ pub mod explain;
 pub mod status;
 
 pub use diagnose::Analysis;
+pub use diagnose::conflict::{Certainty, Contradiction};
 pub use diagnose::motion::{Freedom, Motion, MotionKind};
 pub use diagnose::redundancy::{Redundancy, Redundant, RedundantKind};
+pub use diagnose::repair::Repair;
 pub use drag::Press;
 pub use edit::{Conflict, EditKind, EditReport, NotDecided, RefusalReason, Target};
 pub use explain::{ExplainedKind, ExplainedStep, PlanKind, Root, RootKind, Why};

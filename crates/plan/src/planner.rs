@@ -181,3 +181,10 @@ pub struct Unmet {
     /// The greatest difference of its sides, in base units; nothing where it has none.
     pub error: Option<f64>,
 }
+
+impl Unmet {
+    /// Returns true if it is required and held before, when these did not.
+    pub(crate) fn is_new(&self, before: &[Self]) -> bool {
+        self.level == Level::Required && before.iter().all(|b| b.source != self.source)
+    }
+}

@@ -17,6 +17,8 @@ use std::collections::BTreeSet;
 pub(crate) struct Ran {
     /// True if every required relation holds.
     pub(crate) is_solved: bool,
+    /// True if everything could be computed, and something required does not hold all the same.
+    pub(crate) is_conflict: bool,
     pub(crate) conflicts: Vec<Conflict>,
     pub(crate) failure: Option<Failure>,
     /// Slots where two solutions coincide.
@@ -135,7 +137,9 @@ pub(crate) fn ran(planner: &Planner, task: &Task, outcome: &Outcome) -> Ran {
         solve::Note::DoubleRoot { slot } => task.component.slots.get(*slot as usize).copied(),
     });
     let is_solved = outcome.is_solved();
-    Ran { is_solved, conflicts, failure, double_roots: double_roots.collect(), ..Ran::default() }
+    let is_conflict = outcome.status == Status::Stopped(Reason::Conflict);
+    let double_roots = double_roots.collect();
+    Ran { is_solved, is_conflict, conflicts, failure, double_roots, ..Ran::default() }
 }
 
 /// The host as the solver sees it: relations by number, texts kept aside.

@@ -9,8 +9,8 @@ use crate::host::{Beside, Host};
 use crate::recognise;
 use crate::state::State;
 use crate::view::{
-    Affected, Change, CheckReport, DocumentId, DragState, Explanation, FixView, PictureView,
-    Question, Recognised, Refusal, Status, StructureRow, TextView, ValueRow,
+    Affected, Analysis, Change, CheckReport, DocumentId, DragState, Explanation, FixView,
+    PictureView, Question, Recognised, Refusal, Status, StructureRow, TextView, ValueRow,
 };
 use crate::views;
 use crate::words;
@@ -239,6 +239,12 @@ impl Session {
     /// Explains the latest plan, or why one value is what it is.
     pub fn explain(&self, id: DocumentId, about: Option<&Path>) -> Explanation {
         views::explain::view(self.document(id), about)
+    }
+    /// Says what is free, what is superfluous and what cannot hold together, with what would help.
+    ///
+    /// Where something does not hold this may take a few hundred solves.
+    pub fn analysis(&mut self, id: DocumentId) -> Analysis {
+        views::analysis::view(self.document_mut(id))
     }
     /// Returns what the document calls itself: the first words of its first `///`, else its name.
     pub fn title(&self, id: DocumentId) -> String {

@@ -334,6 +334,65 @@ pub struct ExplainedStep {
     pub values: Vec<String>,
 }
 
+/// What is free, what says nothing new, what cannot hold together.
+#[derive(Clone, PartialEq, Debug, Default, Serialize)]
+pub struct Analysis {
+    /// The degrees of freedom.
+    pub freedom: u32,
+    /// The paths of the places and numbers that can move.
+    pub free: Vec<String>,
+    /// The ways to move, those of one place first; at most 64 of each connected part.
+    pub motions: Vec<MotionView>,
+    /// The required constraints that say nothing new.
+    pub redundant: Vec<RedundantView>,
+    /// The required constraints that cannot hold together.
+    pub contradictions: Vec<ContradictionView>,
+}
+
+/// A way to move while every required constraint goes on holding.
+#[derive(Clone, PartialEq, Debug, Serialize)]
+pub struct MotionView {
+    /// One sentence.
+    pub summary: String,
+    /// What moves, in order.
+    pub moves: Vec<Velocity>,
+}
+
+/// How a place or a number moves in a motion.
+#[derive(Clone, PartialEq, Debug, Serialize)]
+pub struct Velocity {
+    /// Its path.
+    pub path: String,
+    /// Its velocity by coordinate; the largest number in a motion is 1.
+    pub direction: Vec<f64>,
+}
+
+/// A required constraint that says nothing new.
+#[derive(Clone, PartialEq, Eq, Debug, Serialize)]
+pub struct RedundantView {
+    /// Its path and name.
+    pub constraint: String,
+    /// The constraints that imply it.
+    pub implied_by: Vec<String>,
+    /// Why it is superfluous, in words.
+    pub because: String,
+}
+
+/// Required constraints that cannot hold together, none of which can be spared.
+#[derive(Clone, PartialEq, Eq, Debug, Serialize)]
+pub struct ContradictionView {
+    /// Their paths and names.
+    pub constraints: Vec<String>,
+    /// The anchored places that take part.
+    pub anchors: Vec<String>,
+    /// False if the search ended before it was known which can be spared.
+    pub decided: bool,
+    /// One sentence.
+    pub message: String,
+    /// What would work, each tried.
+    pub repairs: Vec<String>,
+}
+
 /// How a `check` block came out.
 #[derive(Clone, PartialEq, Debug, Serialize)]
 pub struct CheckReport {

@@ -1,4 +1,5 @@
 //! Views made of a state: one file each.
+pub(crate) mod analysis;
 pub(crate) mod explain;
 pub(crate) mod picture;
 pub(crate) mod status;

@@ -34,17 +34,25 @@ pub(crate) fn refusal_for(state: &State, reason: &RefusalReason, report: &EditRe
         .filter(|u| u.level == solve::Level::Required)
         .filter_map(|u| source_name(state, u.source))
         .collect();
-    let mut constraints = unmet.clone();
+    let mut conflicting: Vec<String> = Vec::new();
     for conflict in &report.conflicts {
         for source in std::iter::once(&conflict.source).chain(&conflict.circuit) {
             if let Some(name) = source_name(state, *source)
-                && !constraints.contains(&name)
+                && !conflicting.contains(&name)
             {
-                constraints.push(name);
+                conflicting.push(name);
             }
         }
     }
+    // What is only downstream of the conflict has no part in it.
+    let mut constraints = if conflicting.is_empty() { unmet.clone() } else { conflicting.clone() };
     let message = match reason {
+        RefusalReason::Unmet if conflicting.len() > 1 => {
+            format!("refused: {} would not all hold", listed(&conflicting))
+        }
+        RefusalReason::Unmet if conflicting.len() == 1 => {
+            format!("refused: {} would not hold", listed(&conflicting))
+        }
         RefusalReason::Unmet if unmet.is_empty() => {
             "refused: what stands fixed does not leave room for this".to_string()
         }
@@ -101,7 +109,7 @@ pub(crate) fn unmet_things(state: &State, status: &plan::Status) -> Vec<String> 
 }
 
 /// Lists names for a sentence: the first few, and how many more there are.
-fn listed(names: &[String]) -> String {
+pub(crate) fn listed(names: &[String]) -> String {
     const SHOWN: usize = 4;
     let first = names[..names.len().min(SHOWN)].join(", ");
     match names.len().saturating_sub(SHOWN) {

@@ -5,10 +5,11 @@
 //! rigid body, then what is left, shortest first. Where two curves only touch, the null space is
 //! larger than the freedom: then a motion counts if a small step along it can be completed.
 
+use crate::aim::Aim;
 use crate::diagnose::echelon::{Echelon, Row, Verdict};
 use crate::diagnose::gradient::Gradients;
 use crate::diagnose::redundancy::Redundancy;
-use crate::diagnose::trial::scattered;
+use crate::diagnose::trial::{Setup, Trial, scattered};
 use crate::holds::counts;
 use crate::host::Host;
 use crate::planner::{Model, Planner};
@@ -130,7 +131,8 @@ impl Planner {
         let is_required = |r: &u32| self.rules.get(*r).shape.level == Level::Required;
         let rules: Vec<u32> = task.component.rules.iter().copied().filter(is_required).collect();
         let holding = |s| Self::resting_hold(model.structure, s);
-        if !self.try_rules(model, &rules, &mut there, &holding, host) {
+        let setup = Setup { model, holding: &holding, aim: &Aim::default() };
+        if self.try_rules(&setup, &rules, &mut there, host) != Trial::Holds {
             return false;
         }
         let (mut along, mut whole) = (0.0, 0.0);

@@ -6,9 +6,10 @@
 //! start, and those that hold there all the same follow from the rest by a *theorem*. Two curves that
 //! touch by design are dependent here and fail there: they are not superfluous.
 
+use crate::aim::Aim;
 use crate::diagnose::echelon::{Echelon, Row, Verdict};
 use crate::diagnose::gradient::Gradients;
-use crate::diagnose::trial::perturbed;
+use crate::diagnose::trial::{Setup, Trial, perturbed};
 use crate::holds::counts;
 use crate::host::Host;
 use crate::planner::{Model, Planner, Unmet};
@@ -113,7 +114,8 @@ impl Planner {
         let rest: Vec<u32> = task.component.rules.iter().copied().filter(is_left).collect();
         let mut elsewhere = perturbed(model, &task.component.slots, values);
         let holding = |s| Self::resting_hold(model.structure, s);
-        if !self.try_rules(model, &rest, &mut elsewhere, &holding, host) {
+        let setup = Setup { model, holding: &holding, aim: &Aim::default() };
+        if self.try_rules(&setup, &rest, &mut elsewhere, host) != Trial::Holds {
             return Vec::new();
         }
         let mut found = Vec::new();

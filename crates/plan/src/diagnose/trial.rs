@@ -4,39 +4,65 @@ use crate::aim::Aim;
 use crate::component::Component;
 use crate::host::Host;
 use crate::planner::{Model, Planner};
-use crate::run::run;
+use crate::run::{Ran, run};
 use crate::task::Holding;
 use kernel::{SlotId, Values};
 use std::collections::BTreeSet;
 use std::rc::Rc;
 
+/// What a trial is about, besides its rules.
+pub(crate) struct Setup<'t> {
+    pub(crate) model: Model<'t>,
+    /// What holds a slot.
+    pub(crate) holding: &'t dyn Fn(SlotId) -> Holding,
+    /// What is wanted of expressions; what it sets is in the values already.
+    pub(crate) aim: &'t Aim,
+}
+
+/// How a trial came out.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub(crate) enum Trial {
+    /// Everything required holds.
+    Holds,
+    /// What depends on the others does not hold where they do.
+    Contradicts,
+    /// No state was found in which everything required holds.
+    NotFound,
+}
+
 impl Planner {
-    /// Solves these rules from these values with nothing edited, every other rule left out.
-    ///
-    /// Returns true if every required one of them then holds. The plans are not kept.
+    /// Solves these rules from these values, every other rule left out. The plans are not kept.
     pub(crate) fn try_rules(
         &mut self,
-        model: Model<'_>,
+        setup: &Setup<'_>,
         rules: &[u32],
         values: &mut Values,
-        holding: &dyn Fn(SlotId) -> Holding,
         host: &mut dyn Host,
-    ) -> bool {
+    ) -> Trial {
+        let wished = setup.aim.wishes.iter().flat_map(|w| w.slots());
         let slots: BTreeSet<SlotId> =
-            rules.iter().flat_map(|&r| self.rules.get(r).slots.iter().copied()).collect();
+            rules.iter().flat_map(|&r| self.rules.get(r).slots.to_vec()).chain(wished).collect();
         let mut rules = rules.to_vec();
         rules.sort_unstable();
         let component = Component { rules, slots: slots.into_iter().collect() };
         let mark = self.plans.mark();
         let alike = std::mem::take(&mut self.alike);
-        let tasks = self.tasks(model.structure, vec![Rc::new(component)], holding, &[]);
+        let structure = setup.model.structure;
+        let components = vec![Rc::new(component)];
+        let tasks = self.tasks(structure, components, setup.holding, &setup.aim.wishes);
         self.alike = alike;
         let start = values.clone();
-        let aim = Aim::default();
-        let solved =
-            tasks.iter().all(|t| run(self, model, t, &aim, &start, values, host).is_solved);
+        let mut trial = Trial::Holds;
+        for task in &tasks {
+            let ran = run(self, setup.model, task, setup.aim, &start, values, host);
+            trial = match ran {
+                Ran { is_solved: true, .. } => trial,
+                Ran { is_conflict: true, .. } => Trial::Contradicts,
+                Ran { .. } => Trial::NotFound,
+            };
+        }
         self.plans.forget_since(mark);
-        solved
+        trial
     }
 }
 

@@ -172,6 +172,17 @@ impl Lab {
         let mut host = Terms { document: &self.document, structure: &self.structure };
         self.planner.status(model, &self.values, &mut host)
     }
+    pub(crate) fn contradictions(&mut self) -> Vec<plan::Contradiction> {
+        let unmet = self.status().unmet;
+        let model = Model { document: &self.document, structure: &self.structure };
+        let mut host = Terms { document: &self.document, structure: &self.structure };
+        self.planner.contradictions(model, &self.values, &unmet, &mut host)
+    }
+    pub(crate) fn analyse(&mut self) -> plan::Analysis {
+        let model = Model { document: &self.document, structure: &self.structure };
+        let mut host = Terms { document: &self.document, structure: &self.structure };
+        self.planner.analyse(model, &self.values, &mut host)
+    }
     pub(crate) fn why(&mut self, slot: SlotId) -> plan::Why {
         let model = Model { document: &self.document, structure: &self.structure };
         self.planner.why(model, slot)

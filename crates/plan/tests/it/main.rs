@@ -2,6 +2,7 @@
 mod bridge;
 mod builder;
 mod circuits;
+mod diagnosing;
 mod moving;
 mod opening_rules;
 mod reasons;

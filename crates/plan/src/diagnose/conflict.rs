@@ -1,0 +1,278 @@
+//! Contradictions: which required constraints cannot hold together, and what would help.
+//!
+//! A set is tried by solving it alone, from the present values and from a perturbed start. QuickXplain
+//! halves the suspects until no constraint of the set can be spared: without any one of them the others
+//! hold. A repair is told only if it was tried and everything else then holds.
+//!
+//! **Source:** Junker, *QuickXplain: preferred explanations and relaxations for over-constrained
+//! problems*, AAAI 2004.
+
+use crate::aim::Aim;
+use crate::diagnose::gradient::Gradients;
+use crate::diagnose::repair::{Repair, Suspects};
+use crate::diagnose::trial::{Setup, Trial, perturbed};
+use crate::edit::Conflict;
+use crate::host::Host;
+use crate::planner::{Model, Planner, Unmet};
+use crate::rule::Source;
+use crate::task::Holding;
+use kernel::{Primitive, SlotId, Values};
+use solve::Level;
+use std::collections::{BTreeMap, BTreeSet};
+
+/// How many sets are tried before the search is given up, and how many constraints in all of them.
+const TRIALS: usize = 300;
+const TRIED: usize = 60_000;
+/// How many contradictions of one component are told apart.
+const APART: usize = 4;
+/// From how many starts a set is tried.
+const STARTS: usize = 2;
+
+/// Required constraints that cannot all hold.
+#[derive(Clone, PartialEq, Debug)]
+pub struct Contradiction {
+    /// The constraints, in order of declaration.
+    pub constraints: Vec<Source>,
+    /// Anchored slots that take part: if their place could move, the constraints would hold.
+    pub anchors: Vec<SlotId>,
+    /// How sure this is.
+    pub certainty: Certainty,
+    /// What would work, each tried.
+    pub repairs: Vec<Repair>,
+}
+
+/// How sure a contradiction is.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub enum Certainty {
+    /// One is a combination of the others that says otherwise; none can be spared.
+    Contradiction,
+    /// No solution was found; none can be spared.
+    NoSolution {
+        /// From how many starts.
+        starts: usize,
+    },
+    /// Not decided: the search ended before it was known which can be spared.
+    NotDecided {
+        /// How many sets were tried.
+        trials: usize,
+    },
+}
+
+/// A constraint with its rules.
+#[derive(Clone, PartialEq, Eq, Debug)]
+pub(crate) struct Unit {
+    pub(crate) source: Source,
+    pub(crate) rules: Vec<u32>,
+}
+
+/// Joins the rules of units.
+pub(crate) fn rules_of(units: &[Unit]) -> Vec<u32> {
+    units.iter().flat_map(|u| u.rules.iter().copied()).collect()
+}
+
+impl Planner {
+    /// Finds minimal sets of required constraints that cannot hold together, and repairs.
+    ///
+    /// `unmet` are the constraints that do not hold. Cost: a few hundred solves of parts of the
+    /// components in which something does not hold, at most.
+    pub fn contradictions(
+        &mut self,
+        model: Model<'_>,
+        values: &Values,
+        unmet: &[Unmet],
+        host: &mut dyn Host,
+    ) -> Vec<Contradiction> {
+        let required = unmet.iter().filter(|u| u.level == Level::Required);
+        let unmet: BTreeSet<Source> = required.map(|u| u.source).collect();
+        if unmet.is_empty() {
+            return Vec::new();
+        }
+        let holding = |s| Self::resting_hold(model.structure, s);
+        let setup = Setup { model, holding: &holding, aim: &Aim::default() };
+        let mut found = Vec::new();
+        for component in self.whole(model.structure) {
+            let units = self.units(&component.rules);
+            if !units.iter().any(|u| unmet.contains(&u.source)) {
+                continue;
+            }
+            let most = (TRIED / units.len()).clamp(20, TRIALS);
+            let mut search = Search { planner: self, setup: &setup, values, host, trials: 0, most };
+            let sets = search.all(units.clone());
+            // a repair of one is tried with the others' last constraints left out
+            let spared: Vec<Source> =
+                sets.iter().filter_map(|(set, _)| set.last().map(|u| u.source)).collect();
+            for (i, (set, certainty)) in sets.into_iter().enumerate() {
+                let is_spared =
+                    |u: &Unit| (0..).zip(&spared).any(|(j, s)| j != i && *s == u.source);
+                let whole: Vec<Unit> = units.iter().filter(|u| !is_spared(u)).cloned().collect();
+                let mut suspects =
+                    Suspects { planner: self, setup: &setup, values, set: &set, whole: &whole };
+                let anchors = suspects.anchors(host);
+                let repairs = suspects.repairs(&anchors, host);
+                let constraints = set.iter().map(|u| u.source).collect();
+                found.push(Contradiction { constraints, anchors, certainty, repairs });
+            }
+        }
+        found
+    }
+
+    /// Finds what stands against an edit: the constraints of these rules that cannot hold together
+    /// with it. Nothing where they can, or where it would take too long.
+    pub(crate) fn against(
+        &mut self,
+        setup: &Setup<'_>,
+        rules: &BTreeSet<u32>,
+        values: &Values,
+        host: &mut dyn Host,
+    ) -> Option<Conflict> {
+        /// A refusal is wanted at once.
+        const MOST: usize = 400;
+        let rules: Vec<u32> = rules.iter().copied().collect();
+        let units = self.units(&rules);
+        let is_whole = |s: &SlotId| match setup.model.structure.slots[*s].primitive {
+            Primitive::Integer | Primitive::Bool => true,
+            Primitive::Real(_) | Primitive::Text | Primitive::Color => false,
+        };
+        // whole numbers are searched: that takes its time
+        if units.len() > MOST || rules.iter().any(|&r| self.rules.get(r).slots.iter().any(is_whole))
+        {
+            return None;
+        }
+        let most = TRIED / MOST;
+        let mut search = Search { planner: self, setup, values, host, trials: 0, most };
+        let set = search.minimal(&units)?;
+        if search.trials >= most {
+            return None;
+        }
+        let mut sources = set.iter().map(|u| u.source);
+        let source = sources.next()?;
+        Some(Conflict { source, circuit: sources.collect() })
+    }
+
+    /// Groups the required ones of these rules by constraint.
+    fn units(&self, rules: &[u32]) -> Vec<Unit> {
+        let mut units: BTreeMap<Source, Vec<u32>> = BTreeMap::new();
+        for &r in rules {
+            let rule = self.rules.get(r);
+            if rule.shape.level == Level::Required {
+                units.entry(rule.source).or_default().push(r);
+            }
+        }
+        units.into_iter().map(|(source, rules)| Unit { source, rules }).collect()
+    }
+}
+
+/// A search for what cannot hold together.
+struct Search<'s> {
+    planner: &'s mut Planner,
+    setup: &'s Setup<'s>,
+    values: &'s Values,
+    host: &'s mut dyn Host,
+    trials: usize,
+    most: usize,
+}
+
+impl Search<'_> {
+    /// Finds contradictions one after the other, the last constraint of each left out for the next,
+    /// until leaving out one constraint would do.
+    fn all(&mut self, mut units: Vec<Unit>) -> Vec<(Vec<Unit>, Certainty)> {
+        let mut found = Vec::new();
+        while found.len() < APART {
+            let Some(set) = self.minimal(&units) else { break };
+            let certainty = self.certainty(&set);
+            let is_all = set.iter().any(|u| self.can_hold(&without(&units, Some(u)), &[]));
+            units = without(&units, set.last());
+            found.push((set, certainty));
+            if is_all {
+                break;
+            }
+        }
+        found
+    }
+
+    /// Finds a minimal set of units that cannot hold together; nothing if all of them can.
+    fn minimal(&mut self, units: &[Unit]) -> Option<Vec<Unit>> {
+        if self.can_hold(&[], units) {
+            return None;
+        }
+        let mut set = self.explain(&mut Vec::new(), Vec::new(), units);
+        set.sort_by_key(|u| u.source);
+        Some(set)
+    }
+
+    /// QuickXplain: the units among `suspects` without which those of `known` could hold.
+    ///
+    /// `added` are those that came to the known ones last.
+    fn explain(&mut self, known: &mut Vec<Unit>, added: Vec<Unit>, suspects: &[Unit]) -> Vec<Unit> {
+        if !added.is_empty() && !self.can_hold(known, &[]) {
+            return Vec::new();
+        }
+        if suspects.len() <= 1 {
+            return suspects.to_vec();
+        }
+        let (first, second) = suspects.split_at(suspects.len() / 2);
+        let size = known.len();
+        known.extend_from_slice(first);
+        let from_second = self.explain(known, first.to_vec(), second);
+        known.truncate(size);
+        known.extend_from_slice(&from_second);
+        let mut set = self.explain(known, from_second.clone(), first);
+        known.truncate(size);
+        set.extend(from_second);
+        set
+    }
+
+    /// Returns true if these can hold together. Where the search has ended they are said not to.
+    fn can_hold(&mut self, known: &[Unit], more: &[Unit]) -> bool {
+        if self.trials >= self.most {
+            return false;
+        }
+        self.trials += 1;
+        let rules: Vec<u32> = known.iter().chain(more).flat_map(|u| u.rules.clone()).collect();
+        self.planner.can_hold(self.setup, &rules, self.values, self.host) == Trial::Holds
+    }
+
+    fn certainty(&mut self, set: &[Unit]) -> Certainty {
+        if self.trials >= self.most {
+            return Certainty::NotDecided { trials: self.trials };
+        }
+        match self.planner.can_hold(self.setup, &rules_of(set), self.values, self.host) {
+            Trial::Contradicts => Certainty::Contradiction,
+            Trial::NotFound | Trial::Holds => Certainty::NoSolution { starts: STARTS },
+        }
+    }
+}
+
+/// Returns the other units.
+fn without(units: &[Unit], unit: Option<&Unit>) -> Vec<Unit> {
+    units.iter().filter(|u| Some(*u) != unit).cloned().collect()
+}
+
+impl Planner {
+    /// Tries rules from the present values and, where a row has several solutions, from elsewhere.
+    pub(crate) fn can_hold(
+        &mut self,
+        setup: &Setup<'_>,
+        rules: &[u32],
+        values: &Values,
+        host: &mut dyn Host,
+    ) -> Trial {
+        let first = self.try_rules(setup, rules, &mut values.clone(), host);
+        let mut gradients = Gradients::default();
+        let patterns = self.plans.patterns();
+        let is_linear = rules.iter().all(|&r| gradients.is_linear(patterns, self.rules.get(r)));
+        if first == Trial::Holds || (is_linear && first == Trial::Contradicts) {
+            return first;
+        }
+        let moves = |s: &SlotId| (setup.holding)(*s) != Holding::Fixed;
+        let slots: BTreeSet<SlotId> =
+            rules.iter().flat_map(|&r| self.rules.get(r).slots.to_vec()).filter(moves).collect();
+        let slots: Vec<SlotId> = slots.into_iter().collect();
+        let mut elsewhere = perturbed(setup.model, &slots, values);
+        match self.try_rules(setup, rules, &mut elsewhere, host) {
+            Trial::Holds => Trial::Holds,
+            Trial::Contradicts => first,
+            Trial::NotFound => Trial::NotFound,
+        }
+    }
+}

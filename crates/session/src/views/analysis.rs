@@ -1,0 +1,135 @@
+//! The analysis in words: what is free, what says nothing new, what cannot hold together.
+
+use crate::document::Open;
+use crate::texts::Texts;
+use crate::view::{Analysis, ContradictionView, MotionView, RedundantView, Velocity};
+use crate::words;
+use kernel::{SlotId, ThingId};
+use plan::{Certainty, Contradiction, Motion, MotionKind, Redundant, RedundantKind, Repair};
+use std::collections::BTreeMap;
+
+/// Analyses the document as it is; a drag is not looked at.
+pub(crate) fn view(open: &mut Open) -> Analysis {
+    let state = open.state.clone();
+    let mut texts = Texts::new(&state.lowered.document, &state.structure);
+    let found = open.planner.analyse(state.model(), &state.values, &mut texts);
+    let unmet = &open.status.unmet;
+    let against = open.planner.contradictions(state.model(), &state.values, unmet, &mut texts);
+    let mut free: Vec<String> = Vec::new();
+    for &slot in &found.free {
+        let s = &state.structure.slots[slot];
+        let thing = s.place.unwrap_or(s.thing);
+        let path = state.structure.path(&state.lowered.document, thing).to_string();
+        if !free.contains(&path) {
+            free.push(path);
+        }
+    }
+    let motions = found.motions.iter().map(|m| motion(open, m)).collect();
+    let redundant = found.redundant.iter().filter_map(|r| redundant(open, r)).collect();
+    let contradictions = against.iter().map(|c| contradiction(open, c)).collect();
+    Analysis { freedom: found.freedom as u32, free, motions, redundant, contradictions }
+}
+
+fn names(open: &Open, sources: &[plan::Source]) -> Vec<String> {
+    sources.iter().filter_map(|&s| words::source_name(&open.state, s)).collect()
+}
+
+fn redundant(open: &Open, r: &Redundant) -> Option<RedundantView> {
+    let constraint = words::source_name(&open.state, r.source)?;
+    let implied_by = names(open, &r.implied_by);
+    let because = match (r.kind, implied_by.is_empty()) {
+        (RedundantKind::Form, true) => "it speaks of numbers that are fixed anyway".to_string(),
+        (RedundantKind::Form, false) => format!("{} say it already", words::listed(&implied_by)),
+        (RedundantKind::Theorem, true) => "it holds wherever the others do".to_string(),
+        (RedundantKind::Theorem, false) => {
+            format!("it holds wherever {} do", words::listed(&implied_by))
+        }
+    };
+    Some(RedundantView { constraint, implied_by, because })
+}
+
+fn motion(open: &Open, motion: &Motion) -> MotionView {
+    let (state, structure) = (&open.state, &open.state.structure);
+    let mut things: BTreeMap<ThingId, Vec<(SlotId, f64)>> = BTreeMap::new();
+    for &(slot, speed) in &motion.moves {
+        let s = &structure.slots[slot];
+        things.entry(s.place.unwrap_or(s.thing)).or_default().push((slot, speed));
+    }
+    let velocity = |(&thing, moves): (&ThingId, &Vec<(SlotId, f64)>)| {
+        let speed = |s: &SlotId| moves.iter().find(|m| m.0 == *s).map_or(0.0, |m| m.1);
+        let direction = structure.slots_under(thing).iter().map(speed).collect();
+        let path = structure.path(&state.lowered.document, thing).to_string();
+        Velocity { path, direction }
+    };
+    let moves: Vec<Velocity> = things.iter().map(velocity).collect();
+    let short = |x: &f64| base::number::rounded(*x, 3);
+    let along = |v: &Velocity| match v.direction.as_slice() {
+        [_] => "alone".to_string(),
+        many => format!("along ({})", many.iter().map(short).collect::<Vec<_>>().join(", ")),
+    };
+    let summary = match (motion.kind, moves.as_slice()) {
+        (MotionKind::Alone, [only]) => format!("{} moves {}", only.path, along(only)),
+        (MotionKind::Translation, [first, ..]) => {
+            format!("everything around {} moves {} as one", first.path, along(first))
+        }
+        (MotionKind::Rotation { center }, [first, ..]) => {
+            let [x, y] = center.map(|c| short(&c));
+            format!("everything around {} turns about ({x}, {y}) as one", first.path)
+        }
+        (_, moves) => {
+            let each: Vec<String> =
+                moves.iter().map(|v| format!("{} {}", v.path, along(v))).collect();
+            format!("together: {}", words::listed(&each))
+        }
+    };
+    MotionView { summary, moves }
+}
+
+fn contradiction(open: &Open, c: &Contradiction) -> ContradictionView {
+    let state = &open.state;
+    let constraints = names(open, &c.constraints);
+    let anchors: Vec<String> = c.anchors.iter().map(|&a| place(open, a)).collect();
+    let mut all = constraints.clone();
+    all.extend(anchors.iter().map(|a| format!("the anchor of {a}")));
+    let list = words::listed(&all);
+    let (decided, message) = match (c.certainty, all.len()) {
+        (Certainty::Contradiction, 1) => (true, format!("{list} cannot hold")),
+        (Certainty::Contradiction, _) => (true, format!("{list} contradict each other")),
+        (Certainty::NoSolution { starts }, 1) => {
+            (true, format!("no solution of {list} was found, from {starts} starts"))
+        }
+        (Certainty::NoSolution { starts }, _) => {
+            (true, format!("no solution of {list} together was found, from {starts} starts"))
+        }
+        (Certainty::NotDecided { trials }, _) => {
+            let end = format!("the search ended after {trials} trials");
+            (false, format!("not decided which of {list} contradict: {end}"))
+        }
+    };
+    let shown = |x: f64| base::number::rounded(x, 6);
+    let repair = |r: &Repair| match *r {
+        Repair::LeaveOut { source, sides } => {
+            let name = words::source_name(state, source)?;
+            let sides = sides.map_or(String::new(), |(left, right)| {
+                format!("; its sides are then {} and {}", shown(left), shown(right))
+            });
+            Some(format!("delete {name} or switch it off{sides}"))
+        }
+        Repair::LetGo { slot } => Some(format!("let go of {}", place(open, slot))),
+        Repair::Change { slot, to } => {
+            let mut values = state.values.clone();
+            values.numbers[slot] = to;
+            let (text, unit) = words::show_slot(state, slot, &values);
+            Some(format!("set {} to {}", state.slot_path(slot), format!("{text} {unit}").trim()))
+        }
+    };
+    let repairs = c.repairs.iter().filter_map(repair).collect();
+    ContradictionView { constraints, anchors, decided, message, repairs }
+}
+
+/// Returns the path of the place that a slot is a coordinate of, else its own.
+fn place(open: &Open, slot: SlotId) -> String {
+    let s = &open.state.structure.slots[slot];
+    let thing = s.place.unwrap_or(s.thing);
+    open.state.structure.path(&open.state.lowered.document, thing).to_string()
+}
