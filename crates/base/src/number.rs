@@ -13,6 +13,41 @@ pub fn close(a: f64, b: f64) -> bool {
     a == b || (a - b).abs() <= RULE_TOLERANCE * a.abs().max(b.abs()).max(1.0)
 }
 
+/// How far the two sides of a rule may differ.
+///
+/// ```
+/// use base::number::Tolerance;
+/// assert!(Tolerance::Relative.is_met(1e6, 1e6 + 1e-4));
+/// assert!(!Tolerance::within(1e-6).is_met(1e6, 1e6 + 1e-4));
+/// assert!(Tolerance::within(0.5).is_met(2.0, 2.25));
+/// ```
+#[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, Debug, Default)]
+pub enum Tolerance {
+    /// [`RULE_TOLERANCE`] of the larger side, at least of the unit.
+    #[default]
+    Relative,
+    /// As was written: so much, in base units, by the bits of the number.
+    Within(u64),
+}
+
+impl Tolerance {
+    /// Returns what `within e` asks for.
+    pub fn within(e: f64) -> Self {
+        Self::Within(e.abs().to_bits())
+    }
+    /// Returns the difference that two sides may have. The written measure itself is met up to rounding.
+    pub fn allowed(self, left: f64, right: f64) -> f64 {
+        match self {
+            Self::Relative => RULE_TOLERANCE * left.abs().max(right.abs()).max(1.0),
+            Self::Within(bits) => f64::from_bits(bits) * (1.0 + RULE_TOLERANCE),
+        }
+    }
+    /// Returns true if two sides agree.
+    pub fn is_met(self, left: f64, right: f64) -> bool {
+        left == right || (left - right).abs() <= self.allowed(left, right)
+    }
+}
+
 /// Returns the shortest decimal that reads back as `x`, without `.0`; exponents where they are shorter.
 ///
 /// Infinities and NaN, which no document stores, are written `inf`, `-inf` and `nan`.

@@ -8,7 +8,7 @@ use crate::answer::{Answer, Frame};
 use crate::builtin::{number_text, read_number};
 use crate::evaluator::{Evaluator, Result};
 use crate::measure;
-use base::number::{RULE_TOLERANCE, close, shortest};
+use base::number::{Tolerance, close, shortest};
 use kernel::{BinaryOperator, ConstraintInstance, Term, ThingId, UnaryOperator};
 
 /// What a test found.
@@ -290,11 +290,7 @@ impl<'a> Evaluator<'a> {
 }
 
 fn near(x: f64, y: f64, within: Option<f64>) -> bool {
-    match within {
-        // The written measure itself is met up to rounding.
-        Some(within) => (x - y).abs() <= within * (1.0 + RULE_TOLERANCE),
-        None => close(x, y),
-    }
+    within.map_or(Tolerance::Relative, Tolerance::within).is_met(x, y)
 }
 
 fn both(a: &Verdict, b: &Verdict) -> Verdict {

@@ -3,7 +3,6 @@
 use crate::edit::{EditKind, RefusalReason, Target};
 use crate::evaluate::Opening;
 use crate::fault::Trouble;
-use crate::holds::agree;
 use crate::meaning::{Frame, Meaning};
 use crate::planner::{Model, Planner};
 use crate::rule::Formula;
@@ -32,7 +31,7 @@ impl Planner {
         let met = |(wish, wanted): (&Wish, &Vec<f64>)| {
             wish.formulas.iter().zip(wanted).all(|(f, &w)| {
                 let is = f.value(self.plans.patterns(), &values.numbers);
-                agree(is, w, base::number::RULE_TOLERANCE)
+                base::number::close(is, w)
             })
         };
         aim.wishes.iter().zip(&aim.wanted).all(met)

@@ -40,7 +40,7 @@ pub(crate) fn fails(
             for e in equations {
                 let sides = rule.evaluate(e, patterns, &values.numbers, scratch);
                 let (left, right) = (sides[0], sides[1]);
-                if !agree(left, right, rule.shape.within) {
+                if !rule.shape.within.is_met(left, right) {
                     worst = larger(worst, Some((left - right).abs()));
                 }
             }
@@ -56,7 +56,7 @@ pub(crate) fn fails(
         Body::Different(formula) => {
             let mut all = rule.evaluate(formula, patterns, &values.numbers, scratch).to_vec();
             all.sort_by(f64::total_cmp);
-            all.windows(2).any(|w| agree(w[0], w[1], rule.shape.within)).then_some(None)
+            all.windows(2).any(|w| rule.shape.within.is_met(w[0], w[1])).then_some(None)
         }
         Body::Opaque(_) => {
             let holds = match (rule.shape.methods.as_slice(), rule.source) {
@@ -71,11 +71,6 @@ pub(crate) fn fails(
         }
         Body::Hold(_) => None,
     }
-}
-
-/// Returns true if two sides agree to `within` of the larger, at least of the unit.
-pub(crate) fn agree(left: f64, right: f64, within: f64) -> bool {
-    left == right || (left - right).abs() <= within * left.abs().max(right.abs()).max(1.0)
 }
 
 /// Returns the larger of two errors; one without a number is the smallest.

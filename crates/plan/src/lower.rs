@@ -8,6 +8,7 @@ use crate::fault::{Fault, Trouble};
 use crate::meaning::{Frame, Meaning, collect_slots};
 use crate::rule::{Body, Formula, How, RuleMethod, Rules, Shape, Source, Way, When};
 use crate::say::{Said, Standing, say};
+use base::number::Tolerance;
 use expr::ExprId;
 use kernel::{
     Constraint, ConstraintInstance, Method, Path, SlotId, StayInstance, Step, Strength, Structure,
@@ -30,7 +31,7 @@ pub(crate) fn hold(strength: Strength, count: u32) -> Shape {
         methods: Vec::new(),
         derived: true,
         reads: Vec::new(),
-        within: base::number::RULE_TOLERANCE,
+        within: Tolerance::Relative,
         when: Vec::new(),
     }
 }
@@ -171,7 +172,7 @@ pub(crate) fn guard(
 struct Parts {
     said: Said,
     reads: Vec<SlotId>,
-    within: f64,
+    within: Tolerance,
 }
 
 fn lower_parts<'a>(
@@ -190,12 +191,13 @@ fn lower_parts<'a>(
         }
     }
     let within = match &constraint.within {
-        None => base::number::RULE_TOLERANCE,
+        None => Tolerance::Relative,
         Some(term) => {
             let meaning = opening.meaning(term, me)?;
-            opening.constant(&meaning).ok_or_else(|| {
+            let within = opening.constant(&meaning).ok_or_else(|| {
                 Trouble::not_yet("a tolerance that depends on values is not planned yet")
-            })?
+            })?;
+            Tolerance::within(within)
         }
     };
     Ok(Parts { said, reads: reads.into_iter().collect(), within })

@@ -4,6 +4,7 @@
 //! instances of the class that are built alike: it says of positions what each instance says of its
 //! slots.
 
+use base::number::Tolerance;
 use base::{IdVec, define_id};
 use expr::{Arena, ExprId};
 use kernel::SlotId;
@@ -45,7 +46,7 @@ pub(crate) struct Shape<S = Position> {
     pub(crate) methods: Vec<RuleMethod<S>>,
     pub(crate) derived: bool,
     pub(crate) reads: Vec<S>,
-    pub(crate) within: f64,
+    pub(crate) within: Tolerance,
     /// The conditions under which it holds; always, where there are none.
     pub(crate) when: Vec<When<S>>,
 }

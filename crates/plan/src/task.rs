@@ -6,6 +6,7 @@
 use crate::component::{Component, Net};
 use crate::plans::Plans;
 use crate::rule::{Body, Formula, How, Position, Rule, Rules, Source, When};
+use base::number::Tolerance;
 use base::{IdVec, Mixer};
 use expr::Dimension;
 use indexmap::IndexMap;
@@ -391,7 +392,7 @@ impl<'s> Making<'s> {
             methods,
             derived: shape.derived,
             reads: self.locals(rule, &shape.reads),
-            within: shape.within.to_bits(),
+            within: shape.within,
             source,
         });
     }
@@ -476,7 +477,7 @@ impl<'s> Making<'s> {
             methods: Vec::new(),
             derived: true,
             reads: Vec::new(),
-            within: base::number::RULE_TOLERANCE.to_bits(),
+            within: Tolerance::Relative,
             source,
         });
     }

@@ -346,8 +346,7 @@ impl Run<'_> {
                 let row = &inverse.row;
                 let sides =
                     self.buffers.work.run(&row.kernel.sides, &row.arguments, self.values, 2);
-                let larger = sides[0].abs().max(sides[1].abs()).max(1.0);
-                return (sides[0] - sides[1]).abs() <= row.within * larger;
+                return row.within.is_met(sides[0], sides[1]);
             }
             Program::Host { source, .. } => return self.host.holds(*source, self.values),
             Program::Formulas(pattern, arguments) => {

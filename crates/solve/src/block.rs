@@ -9,6 +9,7 @@ use crate::kernel::{Kernel, Side};
 use crate::lower::{Definers, Problem};
 use crate::sparse::Pattern;
 use crate::system::{Level, SlotIndex};
+use base::number::Tolerance;
 use expr::{Arena, ExprId, LANES, Lanes, Var};
 use std::rc::Rc;
 
@@ -18,7 +19,7 @@ pub(crate) struct Block {
     /// The unknowns, in order of slots.
     pub(crate) unknowns: Vec<SlotIndex>,
     /// For every row, the tolerance of its sides.
-    pub(crate) within: Vec<f64>,
+    pub(crate) within: Vec<Tolerance>,
     /// For every row, how strongly it wants to hold.
     pub(crate) levels: Vec<Level>,
     /// Where rows depend on unknowns, both by position.
@@ -461,7 +462,7 @@ impl Block {
     /// Returns true if a row holds.
     pub(crate) fn row_holds(&self, local: &Local, row: usize) -> bool {
         let (left, right) = (local.left[row], local.right[row]);
-        (left - right).abs() <= self.within[row] * left.abs().max(right.abs()).max(1.0)
+        self.within[row].is_met(left, right)
     }
 }
 
@@ -518,7 +519,7 @@ mod tests {
     fn row(arena: &Arena, level: Level, left: ExprId, right: ExprId) -> ProblemRow {
         let (kernel, arguments) = Kernel::of_slots(arena, left, right);
         let (kernel, arguments) = (Rc::new(kernel), arguments.into());
-        ProblemRow { kernel, arguments, level, within: 1e-9 }
+        ProblemRow { kernel, arguments, level, within: Tolerance::Relative }
     }
 
     /// z = x², w = z + x, p = w, in x, z and w.

@@ -25,7 +25,7 @@
 //!     methods: Vec::new(),
 //!     derived: true,
 //!     reads: Vec::new(),
-//!     within: 1e-9f64.to_bits(),
+//!     within: Default::default(),
 //!     source: 0,
 //! }];
 //! let plan = solve::plan(&system.into(), &patterns);

@@ -15,6 +15,7 @@ use crate::rows::Row;
 use crate::square::Square;
 use crate::system::{Level, MethodBody, RelationBody, SlotIndex, Stay};
 use crate::union::Union;
+use base::number::Tolerance;
 use std::cell::OnceCell;
 use std::collections::BTreeSet;
 use std::rc::Rc;
@@ -103,7 +104,7 @@ pub(crate) struct ProblemRow {
     pub(crate) kernel: Rc<Kernel>,
     pub(crate) arguments: Few,
     pub(crate) level: Level,
-    pub(crate) within: f64,
+    pub(crate) within: Tolerance,
 }
 
 /// Which rows may define an unknown.

@@ -17,6 +17,7 @@ use crate::conditional::{Conditional, DemandKind};
 use crate::pattern::{Pattern, PatternId, Patterns, Scratch};
 use crate::system::{Equation, Level, RelationBody, SlotIndex, Span, System};
 use crate::truth::{Comparing, Comparison, Truth, truth};
+use base::number::{RULE_TOLERANCE, Tolerance};
 use expr::{Arena, Binary, ExprId, Unary};
 use std::cell::RefCell;
 use std::collections::BTreeSet;
@@ -64,7 +65,7 @@ enum Tree {
 struct Sides {
     relation: u32,
     comparing: Comparing,
-    within: f64,
+    within: Tolerance,
     sides: Formula,
     /// What holds where it acts as an equation.
     bound: PatternId,
@@ -119,7 +120,7 @@ impl Modes {
                 DemandKind::Different => all_differ(&roots),
             };
             let relation = demand.relation;
-            let within = f64::from_bits(system.relations[relation as usize].within);
+            let within = system.relations[relation as usize].within;
             let tree = making.tree(&mut arena, relation, within, truth);
             wants.push(Want { relation, tree });
         }
@@ -311,11 +312,8 @@ impl Formula {
 }
 
 /// Compares two sides of a rule: equal, at most and different to a tolerance, less exactly.
-///
-/// `within` is relative to the larger side, at least of the unit.
-pub fn holds_within(comparing: Comparing, left: f64, right: f64, within: f64) -> bool {
-    let agree =
-        left == right || (left - right).abs() <= within * left.abs().max(right.abs()).max(1.0);
+pub fn holds_within(comparing: Comparing, left: f64, right: f64, within: Tolerance) -> bool {
+    let agree = within.is_met(left, right);
     match comparing {
         Comparing::Equal => agree,
         Comparing::AtMost => left <= right || agree,
@@ -325,7 +323,7 @@ pub fn holds_within(comparing: Comparing, left: f64, right: f64, within: f64) ->
 }
 
 /// Tests the truth that an expression is, comparison by comparison, each to a tolerance.
-pub fn is_true_within(arena: &Arena, id: ExprId, values: &[f64], within: f64) -> bool {
+pub fn is_true_within(arena: &Arena, id: ExprId, values: &[f64], within: Tolerance) -> bool {
     let mut arena = arena.clone();
     let truth = truth(&mut arena, id, true);
     all_hold(&truth, &|c| {
@@ -337,7 +335,7 @@ pub fn is_true_within(arena: &Arena, id: ExprId, values: &[f64], within: f64) ->
 fn holds_nearly(arena: &Arena, truth: &Truth, values: &[f64]) -> bool {
     all_hold(truth, &|c| {
         let (l, r) = (arena.evaluate(c.left, values), arena.evaluate(c.right, values));
-        let agree = |comparing| holds_within(comparing, l, r, base::number::RULE_TOLERANCE);
+        let agree = |comparing| holds_within(comparing, l, r, Tolerance::Relative);
         c.comparing.holds(l, r) || agree(Comparing::Equal)
     })
 }
@@ -378,7 +376,7 @@ struct Making<'p> {
 }
 
 impl Making<'_> {
-    fn tree(&mut self, arena: &mut Arena, relation: u32, within: f64, truth: Truth) -> Tree {
+    fn tree(&mut self, arena: &mut Arena, relation: u32, within: Tolerance, truth: Truth) -> Tree {
         match truth {
             Truth::Holds(c) => Tree::Holds(self.comparison(arena, relation, within, c)),
             Truth::All(parts) => {
@@ -394,14 +392,20 @@ impl Making<'_> {
         }
     }
 
-    fn comparison(&mut self, arena: &mut Arena, relation: u32, within: f64, c: Comparison) -> u32 {
+    fn comparison(
+        &mut self,
+        arena: &mut Arena,
+        relation: u32,
+        within: Tolerance,
+        c: Comparison,
+    ) -> u32 {
         let (pattern, variables) = self.patterns.intern(arena, &[c.left, c.right]);
         let sides = Formula {
             pattern: self.patterns.get(pattern).clone(),
             arguments: variables.into_iter().map(|v| v.0).collect(),
         };
         let right = match c.comparing {
-            Comparing::Less => short_of(arena, c.right, 2.0 * within),
+            Comparing::Less => short_of(arena, c.right, 2.0 * RULE_TOLERANCE),
             Comparing::Equal | Comparing::AtMost | Comparing::Differ => c.right,
         };
         let (bound, variables) = self.patterns.intern(arena, &[c.left, right]);

@@ -14,6 +14,7 @@ use crate::stated::Stated;
 use crate::substitute::{self, Classes};
 use crate::system::{Level, RelationBody, Slot, SlotIndex, Span, Stay, System};
 use crate::tie;
+use base::number::Tolerance;
 use std::cell::OnceCell;
 use std::collections::BTreeMap;
 use std::rc::Rc;
@@ -133,7 +134,7 @@ pub(crate) struct PlannedSlot {
 #[derive(Clone, Debug)]
 pub(crate) struct PlannedRelation {
     pub(crate) level: Level,
-    pub(crate) within: f64,
+    pub(crate) within: Tolerance,
     pub(crate) source: u32,
     /// Its first equation in the system; an opaque relation has none.
     pub(crate) first_row: u32,
@@ -232,7 +233,7 @@ fn tests_of_relations(system: &System) -> Vec<PlannedRelation> {
         };
         relations.push(PlannedRelation {
             level: relation.level,
-            within: f64::from_bits(relation.within),
+            within: relation.within,
             source: relation.source,
             first_row: rows.start,
             rows: rows.len,

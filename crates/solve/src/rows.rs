@@ -8,6 +8,7 @@ use crate::kernel::Kernel;
 use crate::stated::Stated;
 use crate::substitute::Classes;
 use crate::system::{Level, MethodBody, Relation, RelationBody, SlotIndex, Span, Stay, System};
+use base::number::Tolerance;
 use expr::{LANES, Lanes};
 use std::collections::BTreeSet;
 use std::rc::Rc;
@@ -22,7 +23,7 @@ pub(crate) struct Row {
     /// The relation's level.
     pub(crate) level: Level,
     /// The tolerance of its sides.
-    pub(crate) within: f64,
+    pub(crate) within: Tolerance,
     /// True if a derivative by a slot that it may write depends on one.
     pub(crate) curved: bool,
     kernel: u32,
@@ -90,7 +91,7 @@ fn stated_rows(stated: &Stated, classes: &Classes) -> Rows {
             relation: r,
             equation: 0,
             level: relation.level,
-            within: f64::from_bits(relation.within),
+            within: relation.within,
             curved: false,
             kernel: OPAQUE,
             mentions: Span::default(),

@@ -11,6 +11,7 @@ use crate::outcome::{Host, Outcome, Reason, Status, Unmet};
 use crate::plan::Plan;
 use crate::square::Trust;
 use crate::system::{Level, SlotIndex, Stay};
+use base::number::Tolerance;
 
 /// The shortest stride, as a part of the whole way.
 const SHORTEST: f64 = 1e-7;
@@ -289,11 +290,11 @@ fn test_sides(plan: &Plan, values: &[f64], buffers: &mut Buffers) {
     plan.sides(values, &mut buffers.scratch, &mut buffers.sides);
 }
 
-fn error_of(buffers: &Buffers, row: u32, within: f64) -> (f64, f64) {
+fn error_of(buffers: &Buffers, row: u32, within: Tolerance) -> (f64, f64) {
     let [left, right] = buffers.sides[row as usize];
     let error = if left == right { 0.0 } else { (left - right).abs() };
     let error = if error.is_nan() { f64::INFINITY } else { error };
-    (error, within * left.abs().max(right.abs()).max(1.0))
+    (error, within.allowed(left, right))
 }
 
 /// Where a way stopped.

@@ -4,6 +4,7 @@
 //! values: a plan made of it serves all. Two systems that are equal have the same plan.
 
 use crate::pattern::PatternId;
+use base::number::Tolerance;
 
 /// A slot of the system: an unknown or a known. It is also the `expr::Var` of the same number.
 pub type SlotIndex = u32;
@@ -131,8 +132,8 @@ pub struct Relation {
     pub derived: bool,
     /// Slots that it never writes.
     pub reads: Vec<SlotIndex>,
-    /// The tolerance of its sides, relative to the larger and at least of the unit, in bits.
-    pub within: u64,
+    /// How far its sides may differ.
+    pub within: Tolerance,
     /// What the caller calls it: the index of a constraint, a wish or a stay in the caller's table.
     pub source: u32,
 }

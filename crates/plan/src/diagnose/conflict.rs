@@ -195,16 +195,16 @@ impl Search<'_> {
         if self.can_hold(&[], units) {
             return None;
         }
-        let mut set = self.explain(&mut Vec::new(), Vec::new(), units);
+        let mut set = self.explain(&mut Vec::new(), 0, units);
         set.sort_by_key(|u| u.source);
         Some(set)
     }
 
     /// QuickXplain: the units among `suspects` without which those of `known` could hold.
     ///
-    /// `added` are those that came to the known ones last.
-    fn explain(&mut self, known: &mut Vec<Unit>, added: Vec<Unit>, suspects: &[Unit]) -> Vec<Unit> {
-        if !added.is_empty() && !self.can_hold(known, &[]) {
+    /// `added` is how many came to the known ones last.
+    fn explain(&mut self, known: &mut Vec<Unit>, added: usize, suspects: &[Unit]) -> Vec<Unit> {
+        if added > 0 && !self.can_hold(known, &[]) {
             return Vec::new();
         }
         if suspects.len() <= 1 {
@@ -213,10 +213,10 @@ impl Search<'_> {
         let (first, second) = suspects.split_at(suspects.len() / 2);
         let size = known.len();
         known.extend_from_slice(first);
-        let from_second = self.explain(known, first.to_vec(), second);
+        let from_second = self.explain(known, first.len(), second);
         known.truncate(size);
         known.extend_from_slice(&from_second);
-        let mut set = self.explain(known, from_second.clone(), first);
+        let mut set = self.explain(known, from_second.len(), first);
         known.truncate(size);
         set.extend(from_second);
         set

@@ -5,7 +5,7 @@ use crate::component::Component;
 use crate::host::Host;
 use crate::planner::{Model, Planner};
 use crate::run::{Ran, run};
-use crate::task::Holding;
+use crate::task::{Holding, Wish};
 use kernel::{SlotId, Values};
 use std::collections::BTreeSet;
 use std::rc::Rc;
@@ -39,7 +39,7 @@ impl Planner {
         values: &mut Values,
         host: &mut dyn Host,
     ) -> Trial {
-        let wished = setup.aim.wishes.iter().flat_map(|w| w.slots());
+        let wished = setup.aim.wishes.iter().flat_map(Wish::slots);
         let slots: BTreeSet<SlotId> =
             rules.iter().flat_map(|&r| self.rules.get(r).slots.to_vec()).chain(wished).collect();
         let mut rules = rules.to_vec();

@@ -66,7 +66,7 @@ fn net(stays: &[u8], relations: &[(u8, [usize; 3], bool)]) -> Net {
             methods: Vec::new(),
             derived: true,
             reads: Vec::new(),
-            within: 1e-9f64.to_bits(),
+            within: base::number::Tolerance::Relative,
             source: 0,
         });
     }

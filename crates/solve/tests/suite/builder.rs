@@ -95,7 +95,7 @@ impl Sheet {
             methods: Vec::new(),
             derived: true,
             reads: Vec::new(),
-            within: 1e-9f64.to_bits(),
+            within: base::number::Tolerance::Relative,
             source: index,
         });
         index

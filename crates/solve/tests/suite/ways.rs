@@ -173,7 +173,7 @@ fn a_caption_and_a_height_follow_each_other() {
         ],
         derived: false,
         reads: Vec::new(),
-        within: 0,
+        within: base::number::Tolerance::within(0.0),
         source: 0,
     });
     let mut host = Caption { text: String::new(), height, caption };
