@@ -6,5 +6,6 @@ mod drags;
 mod idle;
 mod measure;
 mod random;
+mod reach;
 mod ways;
 mod who;
