@@ -59,6 +59,9 @@ impl Planner {
             for (leaf, value) in leaves.into_iter().zip(wanted) {
                 match (leaf, value) {
                     (Leaf::Slot(slot), value) if !storable(model, slot, value) => {
+                        if model.structure.ranges.contains_key(&slot) && kind == EditKind::Set {
+                            return Err(RefusalReason::OutOfRange(slot));
+                        }
                         let primitive = model.structure.slots[slot].primitive;
                         let message = format!("{value:?} is no value for {primitive:?}");
                         return Err(RefusalReason::Target(message));
@@ -238,7 +241,11 @@ pub(crate) fn storable(model: Model<'_>, slot: SlotId, value: &Value) -> bool {
         Value::Text(_) => !s.primitive.is_number(),
         Value::Number(x) => match s.primitive {
             Primitive::Real(_) => x.is_finite(),
-            Primitive::Integer => x.is_finite() && *x == x.trunc(),
+            Primitive::Integer => {
+                let range = model.structure.ranges.get(&slot);
+                let is_in = |&(low, high): &(i64, i64)| (low as f64..=high as f64).contains(x);
+                x.is_finite() && *x == x.trunc() && range.is_none_or(is_in)
+            }
             Primitive::Bool => *x == 0.0 || *x == 1.0,
             Primitive::Text | Primitive::Color => false,
         },

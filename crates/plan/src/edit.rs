@@ -73,6 +73,8 @@ pub enum RefusalReason {
     Unmet,
     /// Whether they can hold was not decided.
     NotDecided(NotDecided),
+    /// A whole number would leave its domain.
+    OutOfRange(SlotId),
     /// An anchor holds this slot.
     Anchored(SlotId),
     /// A written method failed.
@@ -108,6 +110,9 @@ impl Planner {
                 continue;
             }
             values.put(slot, Value::Text("".into()));
+        }
+        for (&slot, &(low, high)) in &model.structure.ranges {
+            values.put(slot, Value::Number(0.0_f64.clamp(low as f64, high as f64)));
         }
         for slot in model.structure.slots.ids() {
             let given = host.given(slot, values).filter(|v| crate::aim::storable(model, slot, v));
@@ -213,6 +218,9 @@ impl Planner {
             report.conflicts = conflict.map_or(report.conflicts, |c| vec![c]);
         }
         if report.refusal.is_none() {
+            report.refusal = leaves_domain(model, values, &scratch).map(RefusalReason::OutOfRange);
+        }
+        if report.refusal.is_none() {
             report.changed = scratch.changed(values).collect();
             *values = scratch;
         }
@@ -258,6 +266,15 @@ impl Planner {
             .iter()
             .find_map(|task| run_or_stay(self, model, task, &aim, &start, values, host).failure)
     }
+}
+
+/// Returns the first whole number that would leave its domain.
+fn leaves_domain(model: Model<'_>, before: &Values, after: &Values) -> Option<SlotId> {
+    let leaves = |&(&slot, &(low, high)): &(&SlotId, &(i64, i64))| {
+        let x = after.numbers[slot];
+        x != before.numbers[slot] && !(low as f64..=high as f64).contains(&x)
+    };
+    model.structure.ranges.iter().find(leaves).map(|(&slot, _)| slot)
 }
 
 /// Runs a task; where not everything required can hold, nothing of it changes.

@@ -60,6 +60,13 @@ pub(crate) fn refusal_for(state: &State, reason: &RefusalReason, report: &EditRe
         RefusalReason::NotDecided(bound) => {
             format!("not decided: no solution was found in {}", given_up(*bound))
         }
+        RefusalReason::OutOfRange(slot) => {
+            let path = state.slot_path(*slot);
+            match state.structure.ranges.get(slot) {
+                Some((low, high)) => format!("refused: {path} has to be one of {low}..{high}"),
+                None => format!("refused: {path} cannot have this value"),
+            }
+        }
         RefusalReason::Anchored(slot) => {
             format!("refused: {} is anchored", state.slot_path(*slot))
         }

@@ -5,7 +5,7 @@
 //! own: in every *mode* it is a plain system that has one, or its whole numbers are searched.
 
 use crate::pattern::PatternId;
-use crate::system::{RelationBody, SlotIndex, Span, System};
+use crate::system::{RelationBody, Slot, SlotIndex, Span, Stay, System};
 
 /// What a relation asks for besides its equations.
 #[derive(Clone, Copy, PartialEq, Eq, Hash, Debug)]
@@ -80,11 +80,14 @@ impl Conditional {
     pub fn is_plain(&self) -> bool {
         self.demands.is_empty() && self.guards.is_empty() && self.ranges.is_empty()
     }
-    /// Returns true if it is a matter of whole numbers alone, and not of equations alone.
+    /// Returns true if nothing but whole numbers is unknown, and not equations alone decide them.
     pub fn is_searched(&self) -> bool {
-        let mut slots = self.system.slots.iter();
+        let is_unknown = |s: &&Slot| s.stay != Stay::Fixed;
+        let mut unknown = self.system.slots.iter().filter(is_unknown).peekable();
         !self.is_plain()
-            && slots.all(|s| s.is_number && s.is_discrete)
+            && unknown.peek().is_some()
+            && unknown.all(|s| s.is_number && s.is_discrete)
+            && self.system.slots.iter().all(|s| s.is_number)
             && self
                 .system
                 .relations

@@ -24,7 +24,7 @@ use domain::{Domain, MOST};
 use explore::{End, Net, Visitor, explore};
 use expr::{Arena, ExprId};
 use propagate::{Field, Prospect};
-use row::{Row, different, row, whole};
+use row::{Row, different, row, whole_number};
 
 /// How many states are visited in search of a solution.
 pub const PATIENCE: u64 = 200_000;
@@ -38,6 +38,7 @@ pub const COUNTING: u64 = 2_000_000;
 pub struct Puzzle {
     arena: Arena,
     stays: Vec<Stay>,
+    whole: Vec<bool>,
     ranges: Vec<Domain>,
     required: Vec<Row>,
     soft: Vec<Soft>,
@@ -95,6 +96,7 @@ impl Puzzle {
             let range = &mut ranges[r.slot as usize];
             *range = range.clip(r.low, r.high);
         }
+        let whole: Vec<bool> = system.slots.iter().map(|s| s.is_discrete).collect();
         let mut conditions = Vec::new();
         for c in &conditional.conditions {
             let slots = system.arguments(c.arguments);
@@ -119,9 +121,9 @@ impl Puzzle {
                 rows.push(match demand.kind {
                     DemandKind::True => {
                         let truth = truth(&mut arena, roots[0], true);
-                        row(&arena, truth)
+                        row(&arena, &whole, truth)
                     }
-                    DemandKind::Different => different(&arena, &roots),
+                    DemandKind::Different => different(&arena, &whole, &roots),
                 });
             }
             let unless: Vec<Row> = conditional
@@ -130,7 +132,7 @@ impl Puzzle {
                 .filter(|g| g.relation == index)
                 .map(|g| {
                     let not = truth(&mut arena, conditions[g.condition as usize], !g.truth);
-                    row(&arena, not)
+                    row(&arena, &whole, not)
                 })
                 .collect();
             let rank = rank(relation.level);
@@ -143,7 +145,7 @@ impl Puzzle {
             }
             rows.extend(equal.into_iter().map(|(left, right)| {
                 let comparing = Comparing::Equal;
-                row(&arena, Truth::Holds(Comparison { comparing, left, right }))
+                row(&arena, &whole, Truth::Holds(Comparison { comparing, left, right }))
             }));
             if !unless.is_empty() {
                 let mut ways = unless;
@@ -158,7 +160,7 @@ impl Puzzle {
             }
         }
         let stays = system.slots.iter().map(|s| s.stay).collect();
-        Self { arena, stays, ranges, required, soft }
+        Self { arena, stays, whole, ranges, required, soft }
     }
 
     /// Finds the solution nearest to where the slots were.
@@ -239,12 +241,15 @@ impl Puzzle {
                 continue;
             }
             known[i] = Some(values[i]);
-            domains.push(match whole(values[i]) {
-                Some(v) => self.ranges[i].clip(v, v),
-                None => Domain::one(0),
+            domains.push(match whole_number(values[i]) {
+                Some(v) if self.whole[i] => self.ranges[i].clip(v, v),
+                Some(_) | None => Domain::one(0),
             });
         }
-        let is_odd = |c: &SlotIndex| known[*c as usize].is_some_and(|x: f64| whole(x).is_none());
+        let is_odd = |&c: &SlotIndex| {
+            let known: Option<f64> = known[c as usize];
+            self.whole[c as usize] && known.is_some_and(|x| whole_number(x).is_none())
+        };
         let impossible = domains.iter().any(|d| d.is_empty())
             || self.required.iter().any(|r| r.cells().iter().any(is_odd));
         (!impossible).then_some(Ground { domains, known, near })

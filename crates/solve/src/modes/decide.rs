@@ -55,22 +55,24 @@ pub enum Ended {
 
 /// Finds the mode in which everything holds.
 pub fn decide(modes: &Modes, first: &Mode, attempt: &mut dyn FnMut(&Mode) -> Tried) -> Decision {
-    let mut deciding =
-        Deciding { modes, attempt, tried: BTreeMap::new(), blamed: BTreeSet::new(), edge: None };
-    let mut seen = BTreeSet::new();
-    let mut mode = first.clone();
-    while seen.insert((mode.assumed.clone(), mode.taken.clone())) {
-        let Inner::Holds(found) = deciding.act(mode.clone()) else { break };
-        let wrong = deciding.wrong(&found);
-        let Some(&first) = wrong.first() else {
-            return deciding.decision(found, Ended::Settled);
-        };
-        mode = Mode { active: BTreeSet::new(), ..found };
-        mode.assumed[first] = !mode.assumed[first];
+    let mut deciding = Deciding {
+        modes,
+        attempt,
+        tried: BTreeMap::new(),
+        blamed: BTreeSet::new(),
+        edge: None,
+        spared: None,
+    };
+    let yielded = deciding.try_mode(first).plan.report.yielded.iter().copied().collect();
+    deciding.spared = Some(yielded);
+    let sparing = deciding.look(first);
+    if sparing.ended == Ended::Settled {
+        return sparing;
     }
-    deciding.go_through(first)
+    // more given numbers have to yield
+    deciding.spared = None;
+    deciding.look(first)
 }
-
 struct Deciding<'a> {
     modes: &'a Modes,
     attempt: &'a mut dyn FnMut(&Mode) -> Tried,
@@ -79,6 +81,8 @@ struct Deciding<'a> {
     blamed: BTreeSet<u32>,
     /// A mode in which every condition that is assumed wrongly is at its bound.
     edge: Option<Mode>,
+    /// While no other given numbers may yield: those that do in the first mode.
+    spared: Option<BTreeSet<u32>>,
 }
 
 /// What came of one set of assumptions.
@@ -92,6 +96,22 @@ enum Inner {
 type Assumption = (usize, u32);
 
 impl Deciding<'_> {
+    /// Finds the mode in which everything holds, the first wrong condition switched first.
+    fn look(&mut self, first: &Mode) -> Decision {
+        let mut seen = BTreeSet::new();
+        let mut mode = first.clone();
+        while seen.insert((mode.assumed.clone(), mode.taken.clone())) {
+            let Inner::Holds(found) = self.act(mode.clone()) else { break };
+            let wrong = self.wrong(&found);
+            let Some(&first) = wrong.first() else {
+                return self.decision(found, Ended::Settled);
+            };
+            mode = Mode { active: BTreeSet::new(), ..found };
+            mode.assumed[first] = !mode.assumed[first];
+        }
+        self.go_through(first)
+    }
+
     fn try_mode(&mut self, mode: &Mode) -> Rc<Tried> {
         if let Some(tried) = self.tried.get(mode) {
             return tried.clone();
@@ -116,6 +136,10 @@ impl Deciding<'_> {
                 }
                 continue;
             }
+            if let Some(behind) = self.behind_yielding(&tried.plan) {
+                blamed.extend(behind);
+                return Inner::Fails(Some(blamed));
+            }
             match self.breaks(&mode, &tried.values) {
                 Broken::Nothing => match self.let_go(&mode, &seen) {
                     Some(looser) => mode = looser,
@@ -133,6 +157,14 @@ impl Deciding<'_> {
             }
         }
         Inner::Fails(None)
+    }
+
+    /// Returns the relations for which given numbers yield that should not.
+    fn behind_yielding(&self, plan: &Plan) -> Option<BTreeSet<u32>> {
+        let spared = self.spared.as_ref()?;
+        let yielding = plan.report.yielded.iter().copied().filter(|s| !spared.contains(s));
+        let yielding: Vec<u32> = yielding.collect();
+        (!yielding.is_empty()).then(|| self.behind(plan, &yielding))
     }
 
     /// Lets go of the first acting inequality that would hold if it did not act.

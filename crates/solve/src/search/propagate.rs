@@ -402,7 +402,9 @@ impl<'a> Field<'a> {
 
     fn note_known(&mut self, general: &General) {
         for &cell in &general.cells {
-            if let Some(value) = self.of(cell).known() {
+            if let Some(value) = self.known[cell as usize] {
+                self.numbers[cell as usize] = value;
+            } else if let Some(value) = self.of(cell).known() {
                 self.numbers[cell as usize] = value as f64;
             }
         }
@@ -417,6 +419,9 @@ impl<'a> Field<'a> {
     /// Returns the values of `second` that go with each of `first`, where both are few.
     pub(crate) fn partners(&mut self, general: &General) -> Option<Partners> {
         let &[first, second] = general.cells.as_slice() else { return None };
+        if self.known[first as usize].is_some() || self.known[second as usize].is_some() {
+            return None;
+        }
         let (firsts, seconds) = (self.of(first).values()?, self.of(second).values()?);
         let (first_base, second_base) = (self.of(first).low(), self.of(second).low());
         let seconds: Vec<i64> = seconds.collect();

@@ -53,22 +53,24 @@ pub(crate) struct General {
     pub(crate) defined: Vec<(u32, ExprId)>,
 }
 
-/// Makes the row of a truth.
-pub(crate) fn row(arena: &Arena, truth: Truth) -> Row {
+/// Makes the row of a truth; `whole` says which cells are whole numbers, known or not.
+pub(crate) fn row(arena: &Arena, whole: &[bool], truth: Truth) -> Row {
     match truth {
-        Truth::Holds(comparison) => compare(arena, comparison),
-        Truth::All(parts) => Row::All(parts.into_iter().map(|p| row(arena, p)).collect()),
-        Truth::Any(parts) => Row::Any(parts.into_iter().map(|p| row(arena, p)).collect()),
+        Truth::Holds(comparison) => compare(arena, whole, comparison),
+        Truth::All(parts) => Row::All(parts.into_iter().map(|p| row(arena, whole, p)).collect()),
+        Truth::Any(parts) => Row::Any(parts.into_iter().map(|p| row(arena, whole, p)).collect()),
     }
 }
 
 /// Makes the rows that say that no two expressions are equal.
-pub(crate) fn different(arena: &Arena, expressions: &[ExprId]) -> Row {
+pub(crate) fn different(arena: &Arena, whole: &[bool], expressions: &[ExprId]) -> Row {
     let shifted = |&e: &ExprId| {
         let sum = linear(arena, e)?;
         let mut terms = sum.terms.iter();
         match (terms.next(), terms.next()) {
-            (Some((&cell, 1)), None) => Some(Shifted { cell, by: sum.constant }),
+            (Some((&cell, 1)), None) if whole[cell as usize] => {
+                Some(Shifted { cell, by: sum.constant })
+            }
             _ => None,
         }
     };
@@ -79,16 +81,17 @@ pub(crate) fn different(arena: &Arena, expressions: &[ExprId]) -> Row {
     for (i, &left) in expressions.iter().enumerate() {
         for &right in &expressions[i + 1..] {
             let comparison = Comparison { comparing: Comparing::Differ, left, right };
-            pairs.push(compare(arena, comparison));
+            pairs.push(compare(arena, whole, comparison));
         }
     }
     Row::All(pairs)
 }
 
-fn compare(arena: &Arena, comparison: Comparison) -> Row {
+fn compare(arena: &Arena, whole: &[bool], comparison: Comparison) -> Row {
     let Comparison { comparing, left, right } = comparison;
     if let (Some(l), Some(r)) = (linear(arena, left), linear(arena, right))
         && let Some(difference) = l.plus(&r, -1)
+        && difference.terms.keys().all(|&cell| whole[cell as usize])
     {
         let terms = difference.terms.into_iter().filter(|t| t.1 != 0).collect();
         let below = difference.constant.checked_neg();
@@ -144,7 +147,7 @@ impl Affine {
 /// Returns the sum that an expression is, where its coefficients are whole.
 fn linear(arena: &Arena, id: ExprId) -> Option<Affine> {
     match arena.node(id) {
-        Node::Constant(bits) => Some(Affine::constant(whole(f64::from_bits(bits))?)),
+        Node::Constant(bits) => Some(Affine::constant(whole_number(f64::from_bits(bits))?)),
         Node::Var(v) => Some(Affine { terms: BTreeMap::from([(v.0, 1)]), constant: 0 }),
         Node::Unary(Unary::Neg, a) => Affine::constant(0).plus(&linear(arena, a)?, -1),
         Node::Binary(Binary::Add, a, b) => linear(arena, a)?.plus(&linear(arena, b)?, 1),
@@ -162,7 +165,7 @@ fn linear(arena: &Arena, id: ExprId) -> Option<Affine> {
 }
 
 /// Returns the whole number that a number is.
-pub(crate) fn whole(x: f64) -> Option<i64> {
+pub(crate) fn whole_number(x: f64) -> Option<i64> {
     (x == x.trunc() && x.abs() <= super::domain::MOST as f64).then_some(x as i64)
 }
 
