@@ -1,7 +1,8 @@
 //! The subcommands that work on documents: each returns what to print and whether all is well.
 //!
 //! With `--json` each prints one JSON object: `check` {files: [{path, diagnostics}]}, `test` {files:
-//! [{path, checks}], passed, failed}, `run` {path, values, status}, `explain` the explanation, `recognise`
+//! [{path, checks}], passed, failed}, `run` {path, values, status}, `explain` the explanation and what
+//! holds the thing in `held`, `recognise`
 //! {path, classes}, `draw`
 //! {path, svg}, `fmt` {files: [{path, changed}]}. The shapes of their parts are those of
 //! `session::view`.
@@ -190,7 +191,7 @@ pub(crate) fn run(path: &Path, form: Form) -> Result<Report, OpenError> {
 /// # Errors
 /// If the file cannot be read.
 pub(crate) fn explain(path: &Path, about: Option<&str>, form: Form) -> Result<Report, OpenError> {
-    let opened = open(path)?;
+    let mut opened = open(path)?;
     let about = match about.map(session::parse_path) {
         Some(None) => {
             let words =
@@ -201,7 +202,11 @@ pub(crate) fn explain(path: &Path, about: Option<&str>, form: Form) -> Result<Re
         None => None,
     };
     let explanation: Explanation = opened.session.explain(opened.id, about.as_ref());
+    let held = about.as_ref().and_then(|path| opened.session.held(opened.id, path));
     let mut words = format!("{}\n", explanation.summary);
+    if let Some(held) = &held {
+        let _ = writeln!(words, "{}.", held.message);
+    }
     for (i, step) in explanation.steps.iter().enumerate() {
         let _ = writeln!(words, "\n{:3}. {}: {}", i + 1, step.targets.join(", "), step.method);
         if !step.formula.is_empty() {
@@ -214,7 +219,9 @@ pub(crate) fn explain(path: &Path, about: Option<&str>, form: Form) -> Result<Re
             let _ = writeln!(words, "     now {}", step.values.join(", "));
         }
     }
-    Ok(report(form, true, words, &json!(explanation)))
+    let mut json = json!(explanation);
+    json["held"] = json!(held);
+    Ok(report(form, true, words, &json))
 }
 
 /// Says which classes some parts of a document could be the parts of.

@@ -9,6 +9,7 @@
 pub mod conflict;
 pub(crate) mod echelon;
 pub(crate) mod gradient;
+pub mod held;
 pub mod motion;
 pub mod redundancy;
 pub mod repair;

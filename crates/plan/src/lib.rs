@@ -69,6 +69,7 @@ pub mod status;
 
 pub use diagnose::Analysis;
 pub use diagnose::conflict::{Certainty, Contradiction};
+pub use diagnose::held::Held;
 pub use diagnose::motion::{Freedom, Motion, MotionKind};
 pub use diagnose::redundancy::{Redundancy, Redundant, RedundantKind};
 pub use diagnose::repair::Repair;

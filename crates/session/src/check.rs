@@ -130,6 +130,10 @@ impl Run<'_> {
             for violation in complaints::violations(&self.open) {
                 self.fall_short(statement, violation);
             }
+            for path in complaints::restless(&mut self.open) {
+                let message = format!("solving what is solved changes {path}");
+                self.fall_short(statement, message);
+            }
         }
     }
 

@@ -3,6 +3,7 @@
 //! In: an open document. Out: sentences, from the rules alone; none is praise.
 
 use crate::document::{Open, Step};
+use crate::texts::Texts;
 use eval::checker::{self, Edit};
 
 /// Returns what is wrong with the values, and with what the latest edit of values changed.
@@ -38,6 +39,17 @@ pub(crate) fn violations(open: &Open) -> Vec<String> {
         violations.push(format!("the status says that {status}; the checker: {unmet:?}"));
     }
     violations
+}
+
+/// Returns the paths of the values that change where a solved document is solved again.
+pub(crate) fn restless(open: &mut Open) -> Vec<String> {
+    let state = open.state.clone();
+    let mut texts = Texts::new(&state.lowered.document, &state.structure);
+    let mut again = state.values.clone();
+    if !open.status.satisfied || !open.planner.satisfy(state.model(), &mut again, &mut texts) {
+        return Vec::new();
+    }
+    again.changed(&state.values).map(|slot| state.slot_path(slot).to_string()).collect()
 }
 
 /// Returns the step that led here, if it was an edit of values and nothing is being dragged.

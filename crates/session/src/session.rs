@@ -9,7 +9,7 @@ use crate::host::{Beside, Host};
 use crate::recognise;
 use crate::state::State;
 use crate::view::{
-    Affected, Analysis, Change, CheckReport, DocumentId, DragState, Explanation, FixView,
+    Affected, Analysis, Change, CheckReport, DocumentId, DragState, Explanation, FixView, HeldView,
     PictureView, Question, Recognised, Refusal, Status, StructureRow, TextView, ValueRow,
 };
 use crate::views;
@@ -239,6 +239,10 @@ impl Session {
     /// Explains the latest plan, or why one value is what it is.
     pub fn explain(&self, id: DocumentId, about: Option<&Path>) -> Explanation {
         views::explain::view(self.document(id), about)
+    }
+    /// Says why a thing does not move; nothing where it can.
+    pub fn held(&mut self, id: DocumentId, about: &Path) -> Option<HeldView> {
+        views::held::view(self.document_mut(id), about)
     }
     /// Says what is free, what is superfluous and what cannot hold together, with what would help.
     ///

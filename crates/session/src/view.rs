@@ -334,6 +334,17 @@ pub struct ExplainedStep {
     pub values: Vec<String>,
 }
 
+/// Why a thing does not move.
+#[derive(Clone, PartialEq, Eq, Debug, Serialize)]
+pub struct HeldView {
+    /// One sentence.
+    pub message: String,
+    /// The constraints that would have to give way, by path and name.
+    pub constraints: Vec<String>,
+    /// The anchored places that take part.
+    pub anchors: Vec<String>,
+}
+
 /// What is free, what says nothing new, what cannot hold together.
 #[derive(Clone, PartialEq, Debug, Default, Serialize)]
 pub struct Analysis {

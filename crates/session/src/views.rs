@@ -1,6 +1,7 @@
 //! Views made of a state: one file each.
 pub(crate) mod analysis;
 pub(crate) mod explain;
+pub(crate) mod held;
 pub(crate) mod picture;
 pub(crate) mod status;
 pub(crate) mod structure;

@@ -17,6 +17,9 @@ impl Dice {
     }
 }
 
+/// Places, coordinates and factors whose products are summed.
+type Row = Vec<(usize, usize, f64)>;
+
 /// A satisfiable system and one rule that contradicts it.
 struct Planted {
     parts: Vec<(String, f64, f64)>,
@@ -49,7 +52,7 @@ fn linear(seed: u64) -> Planted {
     let mut dice = Dice(seed);
     let hidden: Vec<[f64; 2]> = (0..5).map(|_| [dice.number(), dice.number()]).collect();
     let parts = (0..5).map(|i| (format!("p{i}"), 0.0, 0.0)).collect();
-    let mut rows: Vec<(Vec<(usize, usize, f64)>, f64)> = Vec::new();
+    let mut rows: Vec<(Row, f64)> = Vec::new();
     for _ in 0..7 {
         let mut row = Vec::new();
         for _ in 0..2 + dice.below(2) {
@@ -67,7 +70,7 @@ fn linear(seed: u64) -> Planted {
     let wrong = rows[i].1 + rows[j].1 + 1.0 + dice.below(5) as f64;
     let culprit = dice.below(rows.len() + 1);
     rows.insert(culprit, (both, wrong));
-    let term = |(row, sum): &(Vec<(usize, usize, f64)>, f64)| {
+    let term = |(row, sum): &(Row, f64)| {
         let one =
             |&(i, c, k): &(usize, usize, f64)| mul(n(k), p(&format!("p{i}.{}", ["x", "y"][c])));
         let left = row.iter().map(one).reduce(add).expect("a row has terms");

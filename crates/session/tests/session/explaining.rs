@@ -78,3 +78,15 @@ fn equations_that_are_solved_together() {
     assert_eq!(block.formula, "constraint sum: x + y = 5\nconstraint product: x * y = 6");
     assert_eq!(block.reason, "sum and product must hold");
 }
+
+#[test]
+fn what_does_not_move_names_what_holds_it() {
+    let mut desk = Desk::of(
+        "a: Real = 3\nb, c: Real\nanchor a\nconstraint next: b = a + 1\nconstraint free: c = c\n",
+    );
+    let mut held = |path: &str| desk.session.held(desk.id, &at(path)).map(|h| h.message);
+    assert_eq!(held("a").as_deref(), Some("a does not move: it is anchored"));
+    let next = "b does not move: held by next, and by the anchor of a";
+    assert_eq!(held("b").as_deref(), Some(next));
+    assert_eq!(held("c"), None);
+}
