@@ -7,5 +7,6 @@ mod idle;
 mod measure;
 mod random;
 mod reach;
+mod searching;
 mod ways;
 mod who;
