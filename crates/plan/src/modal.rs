@@ -53,7 +53,7 @@ impl Task {
     /// Puts a task into another mode.
     pub(crate) fn stand(&mut self, stands: Stands) {
         if let Course::Modes(_, mode) = &mut self.course {
-            *mode = stands.mode;
+            **mode = stands.mode;
             self.system = stands.system;
             self.plan = stands.plan;
         }

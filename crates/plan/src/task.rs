@@ -70,7 +70,7 @@ pub(crate) enum Course {
     /// By its plan.
     Plan,
     /// By the plan of one of its modes.
-    Modes(Rc<Modes>, Mode),
+    Modes(Rc<Modes>, Box<Mode>),
     /// By search.
     Search(Rc<Puzzle>),
 }
@@ -178,7 +178,7 @@ fn course(plans: &mut Plans, conditional: Conditional) -> (Rc<System>, Rc<Plan>,
         let modes = plans.modes(conditional);
         let mode = modes.blank();
         let (system, plan) = plans.in_mode(&modes, &mode);
-        (system, plan, Course::Modes(modes, mode))
+        (system, plan, Course::Modes(modes, Box::new(mode)))
     }
 }
 
