@@ -48,17 +48,19 @@ pub(crate) fn lower_all(model: Model<'_>, patterns: &mut Patterns) -> (Rules, Ve
             }
             continue;
         }
-        let shapes = match lower_constraint(&mut opening, patterns, instance) {
+        let (shapes, guards) = match lower_constraint(&mut opening, patterns, instance) {
             Ok(lowered) => {
+                let guards = !lowered.things.is_empty();
                 guarded.extend(lowered.things);
-                lowered.shapes
+                (lowered.shapes, guards)
             }
             Err(fault) => {
                 faults.push(fault);
                 continue;
             }
         };
-        let route = opening.reach.route().filter(|_| known.len() < REMEMBERED);
+        // what guards the rules of things is opened for each
+        let route = opening.reach.route().filter(|_| known.len() < REMEMBERED && !guards);
         let place: BTreeMap<SlotId, Position> =
             route.iter().flat_map(|(_, slots)| slots.iter().copied().zip(0..)).collect();
         let mut made = Some(Vec::new());

@@ -43,6 +43,8 @@ struct Matching<'a> {
     row_of_slot: Vec<Option<usize>>,
     seen: Vec<u32>,
     round: u32,
+    /// Rows that were given other slots since a method was tried, with those that they had.
+    changed: Vec<(usize, Option<SlotIndex>)>,
 }
 
 /// Matches rows and slots and chooses methods.
@@ -61,6 +63,7 @@ pub(crate) fn direct(
         row_of_slot: vec![None; n],
         seen: vec![0; n],
         round: 0,
+        changed: Vec::new(),
     };
     for &r in &acceptance.accepted {
         m.match_row(r);
@@ -105,8 +108,7 @@ impl Matching<'_> {
             if let Some(c) = free {
                 path.push(c);
                 for (&(r, _), &c) in stack.iter().zip(&path) {
-                    self.slot_of_row[r] = Some(c);
-                    self.row_of_slot[c as usize] = Some(r);
+                    self.give(r, Some(c));
                 }
                 return true;
             }
@@ -134,6 +136,29 @@ impl Matching<'_> {
         }
         false
     }
+    /// Gives a row another slot, or none, and notes which it had.
+    fn give(&mut self, row: usize, slot: Option<SlotIndex>) {
+        let before = std::mem::replace(&mut self.slot_of_row[row], slot);
+        self.changed.push((row, before));
+        if let Some(before) = before.filter(|&s| self.row_of_slot[s as usize] == Some(row)) {
+            self.row_of_slot[before as usize] = None;
+        }
+        if let Some(slot) = slot {
+            self.row_of_slot[slot as usize] = Some(row);
+        }
+    }
+    /// Takes back what was noted, last first.
+    fn take_back(&mut self) {
+        while let Some((row, slot)) = self.changed.pop() {
+            let now = std::mem::replace(&mut self.slot_of_row[row], slot);
+            if let Some(now) = now.filter(|&s| self.row_of_slot[s as usize] == Some(row)) {
+                self.row_of_slot[now as usize] = None;
+            }
+            if let Some(slot) = slot {
+                self.row_of_slot[slot as usize] = Some(row);
+            }
+        }
+    }
     fn is_free(&self, slot: SlotIndex) -> bool {
         self.open[slot as usize] && self.row_of_slot[slot as usize].is_none()
     }
@@ -147,29 +172,26 @@ impl Matching<'_> {
         if !distinct || !available || targets.len() < own.len() {
             return false;
         }
-        let before = (self.slot_of_row.clone(), self.row_of_slot.clone());
-        let mut displaced = Vec::new();
+        self.changed.clear();
         for &row in own {
-            if let Some(slot) = self.slot_of_row[row].take() {
-                self.row_of_slot[slot as usize] = None;
-            }
+            self.give(row, None);
         }
+        let mut displaced = Vec::new();
         for &t in targets {
-            if let Some(owner) = self.row_of_slot[t as usize].take() {
-                self.slot_of_row[owner] = None;
+            if let Some(owner) = self.row_of_slot[t as usize] {
+                self.give(owner, None);
                 displaced.push(owner);
             }
             self.open[t as usize] = false;
         }
         if displaced.into_iter().all(|row| self.match_row(row)) {
             for (&row, &t) in own.iter().zip(targets) {
-                self.slot_of_row[row] = Some(t);
-                self.row_of_slot[t as usize] = Some(row);
+                self.give(row, Some(t));
                 self.fixed_row[row] = true;
             }
             return true;
         }
-        (self.slot_of_row, self.row_of_slot) = before;
+        self.take_back();
         for &t in targets {
             self.open[t as usize] = true;
         }

@@ -1,7 +1,7 @@
 //! What rules open into: messages, virtual parts, whole things, lists; and plain faults.
 
 use crate::builder::{
-    Builder, POINT, REAL, add, binary, call, div, equal, mul, n, p, pair, send, sub,
+    Builder, POINT, REAL, SET_OF_REAL, add, binary, call, div, equal, mul, n, p, pair, send, sub,
 };
 use base::Name;
 use kernel::{Argument, BinaryOperator, ClassId, Term, Value};
@@ -137,4 +137,41 @@ fn a_virtual_part_is_set_and_moved() {
     assert!(report.reached, "{report:?}");
     assert!((lab.number("l.p1.x") + lab.number("l.p2.x") - 100.0).abs() < 1e-6);
     assert!((lab.number("l.p1.y") + lab.number("l.p2.y") - 120.0).abs() < 1e-6);
+}
+
+/// The second pair is built as the first, the third not: its parts are one, and so is its slot.
+#[test]
+fn a_rule_opened_in_one_thing_serves_those_that_are_built_alike_alone() {
+    let mut b = Builder::new();
+    let pair_of = b.class("Pair", &[("a", REAL), ("b", REAL)]);
+    b.constraint(pair_of, equal(add(p("a"), mul(n(2.0), p("b"))), n(12.0)));
+    let root = b.class("document", &[("first", pair_of), ("second", pair_of), ("third", pair_of)]);
+    b.merge(root, &["third.a", "third.b"]);
+    b.given(root, "first.a", n(2.0));
+    b.given(root, "second.a", n(4.0));
+    let lab = b.open(root);
+    assert!(lab.opened.unmet.is_empty());
+    let numbers = ["first.b", "second.b", "third.a", "third.b"].map(|path| lab.number(path));
+    assert_eq!(numbers, [5.0, 4.0, 4.0, 4.0]);
+}
+
+/// Sums of two, of two again and of three: the third is opened for itself.
+#[test]
+fn a_rule_over_a_set_counts_its_members() {
+    let mut b = Builder::new();
+    let sum = b.class("Sum", &[("terms", SET_OF_REAL), ("total", REAL)]);
+    b.constraint(sum, equal(send(p("terms"), "sum", vec![]), p("total")));
+    let term = b.class("Addend", &[("of", sum), ("value", REAL)]);
+    b.insert(term, "value", "of.terms");
+    let parts = [("x", sum), ("y", sum), ("z", sum)];
+    let terms = ["t0", "t1", "t2", "t3", "t4", "t5", "t6"].map(|name| (name, term));
+    let root = b.class("document", &[&parts[..], &terms[..]].concat());
+    for (i, of) in ["x", "x", "y", "y", "z", "z", "z"].into_iter().enumerate() {
+        b.merge(root, &[&format!("t{i}.of"), of]);
+        b.given(root, &format!("t{i}.value"), n(f64::from(1 << i)));
+    }
+    let lab = b.open(root);
+    assert!(lab.opened.unmet.is_empty());
+    let totals = ["x.total", "y.total", "z.total"].map(|path| lab.number(path));
+    assert_eq!(totals, [3.0, 12.0, 112.0]);
 }
