@@ -257,6 +257,15 @@ impl<'a> Evaluator<'a> {
             ListMessage::Neighbours => {
                 Ok(Answer::List(pairs(&items, items.get(1..).unwrap_or_default())))
             }
+            ListMessage::Union => {
+                let mut all = items.to_vec();
+                for item in self.items(&arguments[0])?.iter() {
+                    if !self.contains(&Answer::List(all.clone().into()), item)? {
+                        all.push(item.clone());
+                    }
+                }
+                Ok(Answer::List(all.into()))
+            }
             ListMessage::Reversed => Ok(Answer::List(items.iter().rev().cloned().collect())),
         }
     }

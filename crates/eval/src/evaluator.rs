@@ -213,7 +213,7 @@ impl<'a> Evaluator<'a> {
                 let thing = self.term(thing, frame)?;
                 Ok(Answer::Bool(self.is_a(&thing, *class)))
             }
-            Term::All(class) => Ok(Answer::List(self.all(*class))),
+            Term::All(class) => Ok(Answer::List(self.all(*class)?)),
             Term::Copy(term) => self.term(term, frame),
         }
     }
@@ -324,7 +324,10 @@ impl<'a> Evaluator<'a> {
         match self.structure.slot_of[thing] {
             Some(slot) => Ok(self.stored(slot)),
             None => match self.class_kind(thing) {
-                ClassKind::Reference(_) => self.referent(thing),
+                ClassKind::Reference(_) => match self.structure.referent(thing) {
+                    same if same == thing => Err(self.names_nothing(thing)),
+                    target => self.part(target),
+                },
                 ClassKind::Primitive(_)
                 | ClassKind::Composite
                 | ClassKind::List(_)

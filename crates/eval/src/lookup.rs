@@ -1,6 +1,6 @@
 //! Looking up: what a name means for things of a class, found once for each.
 
-use crate::answer::{Answer, Frame};
+use crate::answer::Answer;
 use crate::evaluator::{Evaluator, Result};
 use crate::fault::Fault;
 use base::{IdVec, Name};
@@ -17,7 +17,7 @@ type Found = Option<(ClassId, usize)>;
 pub(crate) struct Tables {
     layouts: RefCell<IdVec<ClassId, Option<Rc<Layout>>>>,
     messages: RefCell<IdVec<ClassId, BTreeMap<Name, Found>>>,
-    order: RefCell<Option<Rc<[ThingId]>>>,
+    all: RefCell<BTreeMap<ClassId, Rc<[ThingId]>>>,
     /// Names that the evaluator itself asks for.
     pub(crate) x: Name,
     pub(crate) y: Name,
@@ -30,7 +30,7 @@ impl Tables {
         Self {
             layouts: RefCell::new(IdVec::filled(None, n)),
             messages: RefCell::new(IdVec::filled(BTreeMap::new(), n)),
-            order: RefCell::new(None),
+            all: RefCell::new(BTreeMap::new()),
             x: Name::new("x"),
             y: Name::new("y"),
             picture: Name::new("picture"),
@@ -85,49 +85,19 @@ impl<'a> Evaluator<'a> {
     }
 
     /// Returns the things of a class in order of declaration, merged ones once.
-    pub(crate) fn all(&self, class: ClassId) -> Rc<[Answer<'a>]> {
-        let is: BTreeMap<ClassId, bool> =
-            self.structure.classes().map(|c| (c, self.document.is_a(c, class))).collect();
-        let of_class = |t: &ThingId| {
-            let c = self.structure.things[*t].class;
-            self.structure.merged[*t] == *t
-                && is.get(&c).copied().unwrap_or_else(|| self.document.is_a(c, class))
-        };
-        let things = self.in_order();
-        things.iter().filter(|t| of_class(t)).filter_map(|&t| self.part(t).ok()).collect()
+    pub(crate) fn all(&self, class: ClassId) -> Result<Rc<[Answer<'a>]>> {
+        let known = self.tables.all.borrow().get(&class).cloned();
+        let things = known.unwrap_or_else(|| {
+            let all: Rc<[ThingId]> = self.structure.all(self.document, class).into();
+            self.tables.all.borrow_mut().insert(class, all.clone());
+            all
+        });
+        things.iter().map(|&t| self.part(t)).collect()
     }
 
-    /// Returns every thing in order of declaration.
-    pub(crate) fn in_order(&self) -> Rc<[ThingId]> {
-        if let Some(order) = &*self.tables.order.borrow() {
-            return order.clone();
-        }
-        let mut order = Vec::with_capacity(self.structure.things.len());
-        let mut stack: Vec<ThingId> = self.structure.things.ids().take(1).collect();
-        while let Some(thing) = stack.pop() {
-            order.push(thing);
-            stack.extend(self.structure.parts(thing).rev());
-        }
-        let order: Rc<[ThingId]> = order.into();
-        *self.tables.order.borrow_mut() = Some(order.clone());
-        order
-    }
-
-    /// Follows a reference to the thing that it names.
-    pub(crate) fn referent(&self, reference: ThingId) -> Result<Answer<'a>> {
-        let document = self.document;
-        let t = &self.structure.things[reference];
-        let name = self.structure.field_name(document, reference);
-        let (Some(owner), Some(name)) = (t.owner, name) else {
-            return Err(Fault::wrong("a reference that is no part of a class"));
-        };
-        let path = kernel::Path::of(&[name]);
-        let line = document.primary_line(self.structure.things[owner].class);
-        let given = line
-            .into_iter()
-            .find_map(|c| document.classes[c].givens.iter().rev().find(|g| g.path == path));
-        let given = given.ok_or_else(|| Fault::no_answer(format!("`{name}` names nothing yet")))?;
-        self.deeper(|| self.term(&given.value, &Frame::of(owner)))
-            .map_err(|f| f.within(given.origin))
+    /// Says that a reference names nothing.
+    pub(crate) fn names_nothing(&self, reference: ThingId) -> Fault {
+        let path = self.structure.path(self.document, reference);
+        Fault::no_answer(format!("`{path}` names nothing"))
     }
 }

@@ -132,7 +132,7 @@ impl<'a> Evaluator<'a> {
     }
 
     /// Returns true if a list or set has an element: a thing by identity, a value by equality.
-    fn contains(&self, list: &Answer<'a>, wanted: &Answer<'a>) -> Result<bool> {
+    pub(crate) fn contains(&self, list: &Answer<'a>, wanted: &Answer<'a>) -> Result<bool> {
         for item in self.items(list)?.iter() {
             self.burn()?;
             let found = match (item, wanted) {

@@ -189,6 +189,7 @@ table! {
     Max "max" List [] Element "The largest of its numbers.";
     Zip "zip" List [one("other", Kind::List)] List "Pairs of its elements and those of another list, as long as both last.";
     Neighbours "neighbours" List [] List "Every pair of an element and the next.";
+    Union "union" List [one("other", Kind::List)] List "Its elements and then those of another list that it has not, each once.";
     Reversed "reversed" List [] List "Its elements from the last to the first.";
 }
 

@@ -18,6 +18,7 @@ mod fill;
 mod finish;
 mod givens;
 mod merge;
+mod refer;
 mod rules;
 mod switches;
 
@@ -51,6 +52,8 @@ pub enum FaultKind {
     UnlikeMerge,
     /// A class that cannot have things of its own.
     AbstractPart,
+    /// A reference that names nothing, or something of another class.
+    Reference,
 }
 
 impl FaultKind {
@@ -64,6 +67,7 @@ impl FaultKind {
             Self::VacuousMerge => "vacuous-merge",
             Self::UnlikeMerge => "unlike-merge",
             Self::AbstractPart => "abstract-part",
+            Self::Reference => "unknown-reference",
         }
     }
 }

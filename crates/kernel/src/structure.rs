@@ -108,6 +108,8 @@ pub struct Structure {
     pub stays: Vec<StayInstance>,
     /// The members of every set, by the set's first thing, in order of declaration, merged ones once.
     pub sets: BTreeMap<ThingId, Vec<ThingId>>,
+    /// What references name, for those that name something. No target is a reference.
+    pub references: BTreeMap<ThingId, ThingId>,
     /// The layout of every class that has things.
     pub(crate) layouts: Layouts,
 }
@@ -166,6 +168,7 @@ pub(crate) struct Paths<'s> {
     pub(crate) merged: &'s IdVec<ThingId, ThingId>,
     pub(crate) unlike: &'s BTreeMap<ThingId, Vec<ThingId>>,
     pub(crate) layouts: &'s Layouts,
+    pub(crate) references: &'s BTreeMap<ThingId, ThingId>,
 }
 
 impl Paths<'_> {
@@ -175,6 +178,12 @@ impl Paths<'_> {
             at = self.merged[at];
         }
         at
+    }
+    fn referent(&self, thing: ThingId) -> ThingId {
+        if self.references.is_empty() {
+            return thing;
+        }
+        self.references.get(&thing).copied().unwrap_or(thing)
     }
     pub(crate) fn part_named(&self, thing: ThingId, name: &str) -> Option<ThingId> {
         let own = self.own_part_named(thing, name);
@@ -209,7 +218,7 @@ impl Paths<'_> {
                 Step::Last => t.parts.checked_sub(1).map(|n| ThingId(t.first_part.0 + n)),
                 Step::Owner => t.owner,
             };
-            at = next.ok_or(Astray { step: i, at })?;
+            at = self.referent(next.ok_or(Astray { step: i, at })?);
         }
         Ok(at)
     }
@@ -273,16 +282,21 @@ impl Structure {
         layout.fields.get(self.things[thing].field as usize).map(|&f| document.field_name(f))
     }
     fn paths(&self) -> Paths<'_> {
-        let Self { things, merged, unlike, layouts, .. } = self;
-        Paths { things, merged, unlike, layouts }
+        let Self { things, merged, unlike, layouts, references, .. } = self;
+        Paths { things, merged, unlike, layouts, references }
     }
     /// Returns the part of `thing` named `name`, looking at what it is merged with as well.
     ///
     /// A bare name means the primary line's part, else the only other superclass's that has it.
+    /// A reference is a part like any other: [`Structure::referent`] goes on to what it names.
     pub fn part_named(&self, thing: ThingId, name: &str) -> Option<ThingId> {
         self.paths().part_named(thing, name)
     }
-    /// Follows a path from a thing.
+    /// Returns what a reference names; of any other thing, the thing itself.
+    pub fn referent(&self, thing: ThingId) -> ThingId {
+        self.paths().referent(thing)
+    }
+    /// Follows a path from a thing, through references to what they name.
     ///
     /// # Errors
     /// The first step that leads nowhere, and the thing where it was taken.
@@ -302,6 +316,24 @@ impl Structure {
         }
         steps.reverse();
         Path(steps)
+    }
+    /// Returns the things of a class in order of declaration, merged ones once.
+    pub fn all(&self, document: &Document, class: ClassId) -> Vec<ThingId> {
+        let mut is: BTreeMap<ClassId, bool> = BTreeMap::new();
+        let mut of_class = |t: ThingId| {
+            let c = self.things[t].class;
+            *is.entry(c).or_insert_with(|| document.is_a(c, class))
+        };
+        let mut found = Vec::new();
+        let mut stack: Vec<ThingId> = self.things.ids().take(1).collect();
+        while let Some(thing) = stack.pop() {
+            let is_first = self.merged[thing] == thing;
+            if is_first && self.merged_with(thing).into_iter().any(&mut of_class) {
+                found.push(thing);
+            }
+            stack.extend(self.parts(thing).rev());
+        }
+        found
     }
     /// Returns the slots of a thing and of all its parts, in order of declaration.
     pub fn slots_under(&self, thing: ThingId) -> Vec<SlotId> {

@@ -198,15 +198,20 @@ impl Lowerer<'_> {
                 let element = self.class_of_type(file, &element?)?;
                 Some(self.class_made_of("Set of", ClassKind::Set(element), element))
             }
-            TypeShape::Path(_) => {
-                self.not_yet(file, ty.span(), "parts that name another part are");
-                None
+            TypeShape::Path(to) => {
+                let to = self.class_of_type(file, &to?)?;
+                Some(self.reference_to(to))
             }
             TypeShape::Placed(_) => {
                 self.not_yet(file, ty.span(), "placed instances are");
                 None
             }
         }
+    }
+
+    /// Returns the class of parts that name a thing of a class.
+    pub(crate) fn reference_to(&mut self, to: ClassId) -> ClassId {
+        self.class_made_of("Path to", ClassKind::Reference(to), to)
     }
 
     fn class_made_of(&mut self, word: &'static str, kind: ClassKind, element: ClassId) -> ClassId {

@@ -4,7 +4,9 @@ use crate::kinds::Kind;
 use crate::lower::{Lowerer, OWN};
 use crate::scope::Scope;
 use base::{Diagnostic, FileId, Name, Place, Span};
-use kernel::{ClassId, ClassKind, Message, OriginId, Parameter, Part, Primitive, Step, Term};
+use kernel::{
+    ClassId, ClassKind, Message, OriginId, Parameter, Part, Path, Primitive, Step, Term,
+};
 use syntax::ast::{self, AstNode, Expr, Member, span_without_doc};
 
 /// How many members all `for` of a document may come to.
@@ -24,6 +26,10 @@ pub(crate) enum Pending {
         target: Option<Expr>,
         value: Expr,
     },
+    /// Members that `for` repeats for the elements of a list.
+    Each { scope: Scope, each: ast::For },
+    /// What a reference names, by a path from the document.
+    Absolute { scope: Scope, path: Path, target: Expr },
     /// The answer of a message.
     Answer { scope: Scope, index: usize, answer: Expr },
 }
@@ -35,6 +41,7 @@ impl Lowerer<'_> {
             let span = span_without_doc(member.syntax());
             match &member {
                 Member::Part(part) => self.declare_part(scope, part),
+                Member::Ref(reference) => self.declare_reference(scope, reference),
                 Member::Message(message) => self.declare_message(scope, message),
                 Member::For(each) => self.unroll(scope, each),
                 Member::Assign(assign) => {
@@ -65,7 +72,9 @@ impl Lowerer<'_> {
 
     /// Returns true at the top level of the document's own text, outside of any `for`.
     fn is_top_level(&self, scope: &Scope) -> bool {
-        scope.class() == self.document.root && scope.constants.is_empty()
+        scope.class() == self.document.root
+            && scope.constants.is_empty()
+            && scope.elements.is_empty()
     }
 
     /// Reports a value that is a block of steps, as only programs have.
@@ -81,7 +90,6 @@ impl Lowerer<'_> {
             Member::Replace(_) => "`replace` is",
             Member::If(_) => "members under a condition are",
             Member::When(_) => "events are",
-            Member::Ref(_) => "references are",
             Member::View(_) => "views of one's own are",
             Member::Side(_) => "written orientations are",
             Member::Toolbox(_) => "toolboxes are",
@@ -103,24 +111,22 @@ impl Lowerer<'_> {
     fn unroll(&mut self, scope: &Scope, each: &ast::For) {
         let names: Vec<_> = each.names().collect();
         let Some(range) = each.range() else { return };
+        if !matches!(range, Expr::Range(_)) {
+            // how long a list is, is known once all parts are declared
+            return self.pending.push(Pending::Each { scope: scope.clone(), each: each.clone() });
+        }
         let bounds = self.constant_range(scope, &range);
         let ([name], Some((from, to))) = (names.as_slice(), bounds) else {
             return self.not_yet(
                 scope.file,
                 range.span(),
-                "`for` over anything but a range of constants is",
+                "`for` over a range that is not of constants is",
             );
         };
         let members: Vec<Member> = each.body().into_iter().flat_map(|b| b.members()).collect();
         for i in from..=to {
-            let was = self.unrolled;
-            self.unrolled += members.len().max(1);
-            if was > MOST_MEMBERS {
+            if !self.may_unroll(scope, &range, members.len()) {
                 return;
-            }
-            if self.unrolled > MOST_MEMBERS {
-                let message = format!("`for` makes more than {MOST_MEMBERS} members here");
-                return self.error("too-many-members", scope.file, range.span(), message);
             }
             self.declare_body(&scope.with_constant(name.name(), i), members.clone());
         }
@@ -161,6 +167,70 @@ impl Lowerer<'_> {
         None
     }
 
+    /// Counts members that `for` makes; reports once that there are too many.
+    fn may_unroll(&mut self, scope: &Scope, range: &Expr, members: usize) -> bool {
+        let was = self.unrolled;
+        self.unrolled += members.max(1);
+        if was <= MOST_MEMBERS && self.unrolled > MOST_MEMBERS {
+            let message = format!("`for` makes more than {MOST_MEMBERS} members here");
+            self.error("too-many-members", scope.file, range.span(), message);
+        }
+        self.unrolled <= MOST_MEMBERS
+    }
+
+    /// Repeats members for every element of a list, or for every pair of neighbours.
+    pub(crate) fn unroll_list(&mut self, scope: &Scope, each: &ast::For) {
+        let Some(range) = each.range() else { return };
+        let names: Vec<Name> = each.names().map(|w| w.name()).collect();
+        let (list, together) = match &range {
+            Expr::Field(field)
+                if field.args().is_none()
+                    && field.name().is_some_and(|w| w.text() == "neighbours") =>
+            {
+                let Some(list) = field.receiver() else { return };
+                (list, 2)
+            }
+            other => (other.clone(), 1),
+        };
+        if names.len() != together {
+            let message = format!("{} names for {together} elements at a time", names.len());
+            let place = Place { file: scope.file, span: each.span() };
+            let d = Diagnostic::error("wrong-arity", place, message);
+            return self.report(d.hint("`for a in list`, `for a, b in list.neighbours`"));
+        }
+        if !matches!(list, Expr::Name(_) | Expr::Field(_) | Expr::Index(_) | Expr::Paren(_)) {
+            let what = "`for` over anything but a range or a list that is a part is";
+            return self.not_yet(scope.file, list.span(), what);
+        }
+        let Some((path, class)) = self.path(scope, &list) else { return };
+        let Some(element) = class.and_then(|c| self.element(c)) else {
+            let message = format!("{path} is not a list");
+            return self.error("value-of-wrong-class", scope.file, list.span(), message);
+        };
+        let Some(count) = self.count_of(scope, &list) else {
+            let what = "`for` over a list without a count, `List of 3 C`, is";
+            return self.not_yet(scope.file, list.span(), what);
+        };
+        let members: Vec<Member> = each.body().into_iter().flat_map(|b| b.members()).collect();
+        let declares =
+            |m: &&Member| matches!(m, Member::Part(_) | Member::Message(_) | Member::Ref(_));
+        if let Some(member) = members.iter().find(declares) {
+            let span = span_without_doc(member.syntax());
+            return self.not_yet(scope.file, span, "declarations in `for` over a list are");
+        }
+        for first in 0..(count + 1).saturating_sub(together as u32) {
+            if !self.may_unroll(scope, &range, members.len()) {
+                return;
+            }
+            let bind = |scope: Scope, (i, name): (u32, &Name)| {
+                let path = path.then(Step::Index(first + i));
+                scope.with_element(name.clone(), path, Some(element))
+            };
+            let inner = (0..).zip(&names).fold(scope.clone(), bind);
+            self.declare_body(&inner, members.clone());
+        }
+    }
+
     fn constant_range(&mut self, scope: &Scope, range: &Expr) -> Option<(i64, i64)> {
         let Expr::Range(range) = range else { return None };
         let from = self.constant(scope, &range.start()?)?;
@@ -199,6 +269,31 @@ impl Lowerer<'_> {
                 let pending = Pending::Value { scope: scope.clone(), prefix, target: None, value };
                 self.pending.push(pending);
             }
+        }
+    }
+
+    /// Declares a part that names another thing.
+    fn declare_reference(&mut self, scope: &Scope, reference: &ast::Ref) {
+        let (Some(word), Some(ty)) = (reference.name(), reference.class()) else { return };
+        let Some(to) = self.class_of_type(scope.file, &ty) else { return };
+        if !self.is_new(scope, &word) {
+            return;
+        }
+        let class = self.reference_to(to);
+        let name = word.name();
+        let doc = reference.doc().unwrap_or_default();
+        let origin = self.origin(scope.file, span_without_doc(reference.syntax()));
+        let declared = Part { name: name.clone(), doc, class, count: None, range: None, origin };
+        let place = Place { file: scope.file, span: word.span() };
+        self.add_part(place, scope.class(), declared);
+        if let Some(value) = reference.target() {
+            let prefix = vec![Step::Part(name)];
+            let scope = scope.clone();
+            self.pending.push(if reference.is_absolute() {
+                Pending::Absolute { scope, path: Path(prefix), target: value }
+            } else {
+                Pending::Value { scope, prefix, target: None, value }
+            });
         }
     }
 

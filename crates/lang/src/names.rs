@@ -28,6 +28,10 @@ impl Lowerer<'_> {
         if let Some(kind) = scope.local(&name) {
             return Some((Term::Local(name), kind.clone()));
         }
+        if let Some((path, class)) = scope.element(&name) {
+            let kind = class.map_or(Kind::Unknown, |c| Kind::of_class(&self.document, c));
+            return Some((term_of(&path), kind));
+        }
         if let Some(&i) = scope.constants.get(&name) {
             return Some((Term::number(i as f64), Kind::Number(None)));
         }
@@ -61,7 +65,8 @@ impl Lowerer<'_> {
             d = d.hint(made);
         } else if self.may_guess() {
             let locals = scope.locals.iter().map(|(n, _)| n.to_string());
-            let constants = scope.constants.keys().map(ToString::to_string);
+            let elements = scope.elements.iter().map(|e| e.name.to_string());
+            let constants = scope.constants.keys().map(ToString::to_string).chain(elements);
             let parts = scope.classes.iter().flat_map(|&class| self.names_of(class));
             let functions = builtin::FUNCTIONS.iter().map(|b| b.name.to_string());
             let classes = self.visible.names(scope.file).map(ToString::to_string);
@@ -191,6 +196,17 @@ pub(crate) fn owners(scope: &Scope) -> Vec<(ClassId, Term)> {
     owners
 }
 
+/// Returns the term that reads what a path leads to.
+fn term_of(path: &Path) -> Term {
+    path.0.iter().fold(Term::Me, |to, step| match step {
+        Step::Part(name) => Term::send(to, name),
+        Step::Index(i) => Term::Index(Box::new(to), Box::new(Term::number(f64::from(*i)))),
+        Step::Last => Term::send(to, "last"),
+        Step::Owner if to == Term::Me => Term::Owner,
+        Step::Owner => Term::send(to, "owner"),
+    })
+}
+
 /// Returns the class of the part of this name, seen from a class.
 pub(crate) fn class_of_part(document: &Document, class: ClassId, name: &str) -> Option<ClassId> {
     let own = |c: ClassId| {
@@ -225,7 +241,7 @@ fn find_part(
     own: &dyn Fn(ClassId) -> Option<ClassId>,
 ) -> Option<ClassId> {
     let mut seen = BTreeSet::new();
-    let mut waiting = vec![class];
+    let mut waiting = vec![referred(document, class)];
     while let Some(class) = waiting.pop() {
         let mut others = Vec::new();
         let mut next = Some(class);
@@ -233,7 +249,7 @@ fn find_part(
             let supers = &document.classes[c].supers;
             let named = supers.iter().filter(|_| supers.len() > 1).find(|s| *s.name == *name);
             if let Some(found) = own(c).or(named.map(|s| s.class)) {
-                return Some(found);
+                return Some(referred(document, found));
             }
             others.extend(supers.iter().skip(1).map(|s| s.class));
             next = supers.first().map(|s| s.class);
@@ -243,12 +259,22 @@ fn find_part(
     None
 }
 
+/// Returns the class of what a thing of a class names, if it does; else the class itself.
+pub(crate) fn referred(document: &Document, class: ClassId) -> ClassId {
+    match document.classes[class].kind {
+        ClassKind::Reference(to) => referred(document, to),
+        ClassKind::Primitive(_) | ClassKind::Composite | ClassKind::List(_) | ClassKind::Set(_) => {
+            class
+        }
+    }
+}
+
 /// Returns the class of what a path leads to, if that is known.
 pub(crate) fn class_at(document: &Document, class: ClassId, path: &Path) -> Option<ClassId> {
     path.0.iter().try_fold(class, |class, step| match step {
         Step::Part(name) => class_of_part(document, class, name),
         Step::Index(_) | Step::Last => match document.classes[class].kind {
-            ClassKind::List(element) => Some(element),
+            ClassKind::List(element) => Some(referred(document, element)),
             ClassKind::Primitive(_)
             | ClassKind::Composite
             | ClassKind::Set(_)

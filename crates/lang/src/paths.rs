@@ -2,6 +2,7 @@
 
 use crate::kinds::Kind;
 use crate::lower::Lowerer;
+use crate::names::referred;
 use crate::scope::Scope;
 use base::{Diagnostic, Name, Place};
 use kernel::{ClassId, ClassKind, Count, Path, Step};
@@ -55,6 +56,9 @@ impl Lowerer<'_> {
     }
 
     fn first_step(&mut self, scope: &Scope, word: &ast::Word) -> Option<(Path, Option<ClassId>)> {
+        if let Some(element) = scope.element(&word.name()) {
+            return Some(element);
+        }
         let mut path = Path::default();
         for &class in &scope.classes {
             if let Some(part) = self.class_of_part(class, &word.name()) {
@@ -115,9 +119,9 @@ impl Lowerer<'_> {
         None
     }
 
-    fn element(&self, list: ClassId) -> Option<ClassId> {
+    pub(crate) fn element(&self, list: ClassId) -> Option<ClassId> {
         match self.document.classes[list].kind {
-            ClassKind::List(element) => Some(element),
+            ClassKind::List(element) => Some(referred(&self.document, element)),
             ClassKind::Primitive(_)
             | ClassKind::Composite
             | ClassKind::Set(_)

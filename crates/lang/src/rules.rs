@@ -24,11 +24,25 @@ impl Lowerer<'_> {
     /// Lowers every expression that waits.
     pub(crate) fn define_members(&mut self) {
         let mut wrong = Vec::new();
+        self.define_pending(&mut wrong);
+        for (class, name) in wrong {
+            self.document.classes[class].messages.retain(|m| m.name != name);
+        }
+    }
+
+    fn define_pending(&mut self, wrong: &mut Vec<(ClassId, Name)>) {
         for pending in std::mem::take(&mut self.pending) {
             match pending {
+                Pending::Each { scope, each } => {
+                    self.unroll_list(&scope, &each);
+                    self.define_pending(wrong);
+                }
                 Pending::Member(scope, member) => self.define(&scope, &member),
                 Pending::Value { scope, prefix, target, value } => {
                     self.define_value(&scope, prefix, target.as_ref(), &value);
+                }
+                Pending::Absolute { scope, path, target } => {
+                    self.define_absolute(&scope, path, &target);
                 }
                 Pending::Answer { scope, index, answer } => {
                     let class = scope.class();
@@ -40,9 +54,6 @@ impl Lowerer<'_> {
                     }
                 }
             }
-        }
-        for (class, name) in wrong {
-            self.document.classes[class].messages.retain(|m| m.name != name);
         }
     }
 
@@ -82,6 +93,20 @@ impl Lowerer<'_> {
         }
         let origin = self.origin(scope.file, value.span());
         self.document.classes[scope.class()].givens.push(Given { path, value: term, origin });
+    }
+
+    /// Gives a reference the path that it follows from the document.
+    fn define_absolute(&mut self, scope: &Scope, path: Path, target: &Expr) {
+        let root = Scope::of(scope.file, self.document.root);
+        let Some((term, kind)) = self.expr(&root, target) else { return };
+        let class = self.class_at(scope.class(), &path);
+        let wanted = class.map_or(Kind::Unknown, |c| Kind::of_class(&self.document, c));
+        if !kind.fits(&wanted, &self.document) {
+            return self.wrong_kind(scope, target.span(), &kind, &wanted);
+        }
+        let origin = self.origin(scope.file, target.span());
+        let value = from_document(term);
+        self.document.classes[scope.class()].givens.push(Given { path, value, origin });
     }
 
     /// Reports a fraction where a whole number is wanted, and a list of another length.
@@ -162,7 +187,7 @@ impl Lowerer<'_> {
     fn rule_name(&mut self, scope: &Scope, word: Option<ast::Word>) -> Option<Option<Name>> {
         let Some(word) = word else { return Some(None) };
         let is_new = self.rule_names.insert((scope.class(), word.name()));
-        if is_new || !scope.constants.is_empty() {
+        if is_new || !scope.constants.is_empty() || !scope.elements.is_empty() {
             return Some(Some(word.name()));
         }
         let message = format!("there is a constraint or merge {} already", word.text());
@@ -349,6 +374,18 @@ impl Lowerer<'_> {
         let lineage = self.document.lineage(class);
         let mut merges = lineage.iter().flat_map(|&c| &self.document.classes[c].merges);
         merges.any(|m| m.paths.iter().any(|p| p.overlaps(path)))
+    }
+}
+
+/// Lets a path begin at the document instead of at `Me`.
+fn from_document(term: Term) -> Term {
+    match term {
+        Term::Me => Term::Document,
+        Term::Send { to, name, arguments, above } => {
+            Term::Send { to: Box::new(from_document(*to)), name, arguments, above }
+        }
+        Term::Index(list, at) => Term::Index(Box::new(from_document(*list)), at),
+        other => other,
     }
 }
 

@@ -2,7 +2,7 @@
 
 use crate::kinds::Kind;
 use base::{FileId, Name};
-use kernel::ClassId;
+use kernel::{ClassId, Path, Step};
 use std::collections::BTreeMap;
 
 /// Where an expression stands.
@@ -16,11 +16,30 @@ pub(crate) struct Scope {
     pub(crate) locals: Vec<(Name, Kind)>,
     /// Names that stand for whole numbers: the variables of `for`.
     pub(crate) constants: BTreeMap<Name, i64>,
+    /// Names that stand for elements of lists, the innermost last.
+    pub(crate) elements: Vec<Element>,
+}
+
+/// An element of a list that `for` goes through.
+#[derive(Clone, Debug)]
+pub(crate) struct Element {
+    pub(crate) name: Name,
+    /// From the thing in whose body `for` stands.
+    pub(crate) path: Path,
+    pub(crate) class: Option<ClassId>,
+    /// How many classes there are around that body, its own included.
+    pub(crate) depth: usize,
 }
 
 impl Scope {
     pub(crate) fn of(file: FileId, class: ClassId) -> Self {
-        Self { file, classes: vec![class], locals: Vec::new(), constants: BTreeMap::new() }
+        Self {
+            file,
+            classes: vec![class],
+            locals: Vec::new(),
+            constants: BTreeMap::new(),
+            elements: Vec::new(),
+        }
     }
     /// Returns the class whose things are `Me`.
     pub(crate) fn class(&self) -> ClassId {
@@ -41,6 +60,18 @@ impl Scope {
         let mut inner = self.clone();
         inner.constants.insert(name, value);
         inner
+    }
+    pub(crate) fn with_element(&self, name: Name, path: Path, class: Option<ClassId>) -> Self {
+        let mut inner = self.clone();
+        inner.elements.push(Element { name, path, class, depth: self.classes.len() });
+        inner
+    }
+    /// Returns the path to the element that a variable of `for` stands for, and its class.
+    pub(crate) fn element(&self, name: &str) -> Option<(Path, Option<ClassId>)> {
+        let element = self.elements.iter().rev().find(|e| e.name == *name)?;
+        let outwards = self.classes.len().saturating_sub(element.depth);
+        let out = Path(vec![Step::Owner; outwards]);
+        Some((out.join(&element.path), element.class))
     }
     /// Returns the number that a variable of `for` stands for.
     pub(crate) fn constant(&self, name: &str) -> Option<f64> {

@@ -7,7 +7,7 @@ use crate::scope::Scope;
 use base::diagnostic::nearest;
 use base::{Diagnostic, Name, Place, Span};
 use expr::dimension::Dimension;
-use kernel::{BinaryOperator, Term, UnaryOperator};
+use kernel::{Argument, BinaryOperator, Term, UnaryOperator};
 use syntax::ast::{self, AstNode, BinaryOp, Expr, UnaryOp};
 
 type Lowered = Option<(Term, Kind)>;
@@ -70,12 +70,13 @@ impl Lowerer<'_> {
                 Some((Term::IsA(Box::new(of), class), Kind::Bool))
             }
             Expr::Copy(copy) => {
-                self.not_yet(scope.file, copy.span(), "`copy of` is");
-                None
+                let (of, kind) = self.expr(scope, &copy.operand()?)?;
+                Some((Term::Copy(Box::new(of)), kind))
             }
             Expr::All(all) => {
-                self.not_yet(scope.file, all.span(), "`all` of a class is");
-                None
+                let class = self.class_of_type(scope.file, &all.class()?)?;
+                let element = Kind::of_class(&self.document, class);
+                Some((Term::All(class), Kind::List(Box::new(element))))
             }
         }
     }
@@ -311,8 +312,7 @@ impl Lowerer<'_> {
             BinaryOp::Divide => BinaryOperator::Divide,
             BinaryOp::Power => BinaryOperator::Power,
             BinaryOp::Subset | BinaryOp::Union => {
-                self.not_yet(scope.file, span, "`subset` and `union` are");
-                return None;
+                return self.combine_sets(scope, op, span, (a, ka), (b, kb));
             }
         };
         let Some(kind) = self.combined_kind(operator, &ka, &kb, &b) else {
@@ -325,6 +325,36 @@ impl Lowerer<'_> {
             _ => (measured(&self.document, a, &ka, &kb), measured(&self.document, b, &kb, &ka)),
         };
         Some((Term::Binary(operator, Box::new(a), Box::new(b)), kind))
+    }
+
+    /// Joins two lists or sets: every member of `a` is one of `b`, or the members of both.
+    fn combine_sets(
+        &mut self,
+        scope: &Scope,
+        op: BinaryOp,
+        span: Span,
+        (a, ka): (Term, Kind),
+        (b, kb): (Term, Kind),
+    ) -> Lowered {
+        let set = |k: &Kind| matches!(k, Kind::List(_) | Kind::Unknown);
+        if !(set(&ka) && set(&kb) && ka.fits(&kb, &self.document)) {
+            self.mismatch(scope, span, &ka, &kb);
+            return None;
+        }
+        let send = |name: &str, value: Term| Term::Send {
+            to: Box::new(a.clone()),
+            name: Name::new(name),
+            arguments: vec![Argument { label: None, value }],
+            above: None,
+        };
+        if op == BinaryOp::Union {
+            return Some((send("union", b), ka.joined(kb)));
+        }
+        // a name that no text can use
+        let member = Name::new("(member)");
+        let local = Box::new(Term::Local(member.clone()));
+        let is_in = Term::Binary(BinaryOperator::In, local, Box::new(b));
+        Some((send("all", Term::Lambda(vec![member], Box::new(is_in))), Kind::Bool))
     }
 
     fn refuse_operands(

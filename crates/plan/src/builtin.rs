@@ -138,6 +138,31 @@ impl<'a> Opening<'a> {
                     self.fold(Binary::Or, &truths)
                 }
             }
+            ("zip", [other]) => {
+                let others = self.items(other)?;
+                Ok(pairs(&items, &others))
+            }
+            ("neighbours", []) => Ok(pairs(&items, items.get(1..).unwrap_or_default())),
+            ("reversed", []) => Ok(Meaning::List(items.iter().rev().cloned().collect())),
+            ("union", [other]) => {
+                let others = self.items(other)?;
+                let mut all: Vec<Meaning<'a>> = Vec::new();
+                for item in items.iter().chain(others.iter()) {
+                    self.count_term()?;
+                    let known = Meaning::List(all.clone().into());
+                    let known = self.binary(BinaryOperator::In, item, &known)?;
+                    match self.decided(&known) {
+                        Some(true) => {}
+                        Some(false) => all.push(item.clone()),
+                        None => {
+                            let message = "a union of numbers depends on what they are: \
+                                           it is not planned yet";
+                            return Err(Trouble::not_yet(message));
+                        }
+                    }
+                }
+                Ok(Meaning::List(all.into()))
+            }
             _ => {
                 let message = format!("a list has no message `{name}`");
                 Err(Trouble::new(FaultKind::UnknownName, message))
@@ -175,6 +200,11 @@ impl<'a> Opening<'a> {
         let joined = ids?.into_iter().reduce(|a, b| self.arena.binary(operator, a, b));
         joined.map(Meaning::Number).ok_or_else(|| Trouble::wrong("the least of nothing"))
     }
+}
+
+fn pairs<'a>(a: &[Meaning<'a>], b: &[Meaning<'a>]) -> Meaning<'a> {
+    let pair = |(a, b): (&Meaning<'a>, &Meaning<'a>)| Meaning::List([a.clone(), b.clone()].into());
+    Meaning::List(a.iter().zip(b).map(pair).collect())
 }
 
 fn empty(name: &str) -> Trouble {

@@ -140,7 +140,7 @@ impl<'a> Opening<'a> {
                 let is = self.is_a(&thing, *class);
                 Ok(self.number(f64::from(u8::from(is))))
             }
-            Term::All(class) => Ok(self.all(*class)),
+            Term::All(class) => self.all(*class),
             Term::Copy(term) => self.meaning(term, frame),
         }
     }
@@ -225,9 +225,13 @@ impl<'a> Opening<'a> {
             });
         }
         match self.document.classes[self.structure.things[thing].class].kind {
-            ClassKind::Reference(_) => {
-                Err(Trouble::not_yet("a rule that runs through a reference is not planned yet"))
-            }
+            ClassKind::Reference(_) => match self.reach.referent(thing) {
+                Some(target) => self.part(target),
+                None => {
+                    let path = self.structure.path(self.document, thing);
+                    Err(Trouble::wrong(format!("`{path}` names nothing")))
+                }
+            },
             ClassKind::Primitive(_)
             | ClassKind::Composite
             | ClassKind::List(_)
@@ -388,13 +392,10 @@ impl<'a> Opening<'a> {
         }
     }
 
-    fn all(&mut self, class: ClassId) -> Meaning<'a> {
+    fn all(&mut self, class: ClassId) -> Answer<'a> {
         self.reach.looks_around();
-        let mut seen = BTreeSet::new();
-        let things = self.structure.things.iter().filter(|(id, t)| {
-            self.document.is_a(t.class, class) && seen.insert(self.structure.merged[*id])
-        });
-        Meaning::List(things.map(|(id, _)| Meaning::Thing(id)).collect())
+        let things = self.structure.all(self.document, class);
+        Ok(Meaning::List(things.into_iter().map(|t| self.part(t)).collect::<Result<_, _>>()?))
     }
 
     /// Makes the meaning of something that only the host can compute from these.

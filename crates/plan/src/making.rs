@@ -49,7 +49,7 @@ impl<'a> Opening<'a> {
             ClassKind::Primitive(_) => Ok(Meaning::Opaque(Opaque::default())),
             ClassKind::Composite => self.deeper(|opening| opening.make(field_class, &[])),
             ClassKind::List(_) | ClassKind::Set(_) => Ok(Meaning::List(Rc::from([]))),
-            ClassKind::Reference(_) => Err(Trouble::not_yet("a made reference is not planned yet")),
+            ClassKind::Reference(_) => Err(Trouble::wrong("a reference that names nothing")),
         }
     }
 }

@@ -23,6 +23,8 @@ pub(crate) enum Step {
     Parts(Reached, u32),
     /// All members of a set, and there are so many.
     Members(Reached, u32),
+    /// What a reference names.
+    Referent(Reached),
     /// Two things are one, or not.
     Same(Reached, Reached, bool),
 }
@@ -138,6 +140,13 @@ impl<'a> Reach<'a> {
         let from = self.number_of(owner);
         self.step(Step::Part(from, place), [part]);
     }
+    /// Returns what a reference names.
+    pub(crate) fn referent(&mut self, reference: ThingId) -> Option<ThingId> {
+        let target = self.structure.references.get(&reference).copied()?;
+        let from = self.number_of(reference);
+        self.step(Step::Referent(from), [target]);
+        Some(target)
+    }
     /// Returns the parts of a thing, in order.
     pub(crate) fn parts(&mut self, thing: ThingId) -> Vec<ThingId> {
         let parts: Vec<ThingId> = self.structure.parts(thing).collect();
@@ -188,6 +197,7 @@ impl<'a> Reach<'a> {
                 PathStep::Last => *self.parts(at).last()?,
                 PathStep::Owner => self.owner(at)?,
             };
+            at = self.referent(at).unwrap_or(at);
         }
         Some(at)
     }
@@ -263,6 +273,9 @@ impl Route {
                 Step::Members(n, count) => {
                     let members = members(structure, of(n));
                     members.len() == *count as usize && members.iter().all(|&t| found(t, things))
+                }
+                Step::Referent(n) => {
+                    structure.references.get(&of(n)).is_some_and(|&target| found(target, things))
                 }
                 Step::Same(a, b, same) => {
                     (structure.merged[of(a)] == structure.merged[of(b)]) == *same

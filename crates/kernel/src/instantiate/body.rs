@@ -8,6 +8,9 @@ use std::collections::BTreeMap;
 /// The thing that a body is of.
 pub(super) const ROOT: ThingId = ThingId(0);
 
+/// No reference names anything before the things are all made.
+static NO_REFERENCES: BTreeMap<ThingId, ThingId> = BTreeMap::new();
+
 /// A thing with all that is below it. Ids are those of the body; its own thing is the first.
 #[derive(Default)]
 pub(super) struct Body {
@@ -68,7 +71,7 @@ impl Body {
 
     pub(super) fn paths<'s>(&'s self, layouts: &'s Layouts) -> Paths<'s> {
         let Self { things, merged, unlike, .. } = self;
-        Paths { things, merged, unlike, layouts }
+        Paths { things, merged, unlike, layouts, references: &NO_REFERENCES }
     }
 
     /// Gives a thing its parts, one of each class, still without parts of their own.

@@ -2,9 +2,11 @@
 
 use super::Maker;
 use super::body::Body;
+use super::refer::refer;
 use crate::class::{ClassId, ClassKind};
-use crate::structure::{Slot, Structure, ThingId};
+use crate::structure::{GivenIn, Slot, Structure, ThingId};
 use base::IdVec;
+use std::collections::BTreeMap;
 
 /// Gives slots to the primitive things, and members to the sets.
 pub(super) fn finish(maker: &mut Maker<'_>, body: Body) -> Structure {
@@ -17,6 +19,7 @@ pub(super) fn finish(maker: &mut Maker<'_>, body: Body) -> Structure {
         ..Structure::default()
     };
     give_slots(maker, &body, &order, &mut structure);
+    let references = given_references(maker, &body);
     let first = |t: ThingId| body.merged[t];
     let mut members: Vec<(ThingId, ThingId)> =
         body.members.iter().map(|&(set, part)| (first(set), first(part))).collect();
@@ -38,7 +41,17 @@ pub(super) fn finish(maker: &mut Maker<'_>, body: Body) -> Structure {
             }
         }
     }
+    refer(maker, &mut structure, &references);
     structure
+}
+
+/// Returns what is given to references.
+fn given_references(maker: &Maker<'_>, body: &Body) -> BTreeMap<ThingId, GivenIn> {
+    let given = |(thing, given): (ThingId, &Option<GivenIn>)| {
+        let kind = &maker.document.classes[body.things[thing].class].kind;
+        given.filter(|_| matches!(kind, ClassKind::Reference(_))).map(|g| (thing, g))
+    };
+    body.givens.iter().filter_map(given).collect()
 }
 
 /// Returns every thing in order of declaration.

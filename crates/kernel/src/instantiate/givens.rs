@@ -63,6 +63,11 @@ pub(super) fn put<'d>(maker: &mut Maker<'d>, body: &mut Body, thing: ThingId, b:
         ClassKind::Primitive(_) | ClassKind::Reference(_) | ClassKind::Set(_) => {
             if b.path.is_empty() {
                 body.givens[thing] = Some(b.given);
+            } else {
+                let path = Path(b.path.to_vec());
+                let message = format!("{path} belongs to another thing, which is only named here");
+                let origin = maker.givens[b.given.value].origin;
+                maker.fault(origin, FaultKind::UnknownPart, message);
             }
         }
         ClassKind::List(_) | ClassKind::Composite => {
@@ -91,6 +96,10 @@ fn each_share<'d>(
         for part in 0..t.parts {
             let name =
                 layout.as_ref().map(|l| maker.document.field_name(l.fields[part as usize]).clone());
+            let class = body.things[body.part(thing, part as usize)].class;
+            if is_copied_reference(maker, class, b.given.value) {
+                continue;
+            }
             let value = share_of_whole(maker, b.given.value, part, name.as_ref());
             if let Some(value) = value {
                 let given = GivenIn { value, ..b.given };
@@ -121,6 +130,12 @@ fn each_share<'d>(
             maker.fault(origin, FaultKind::UnknownPart, message);
         }
     }
+}
+
+/// Returns true for a reference in a copy: it is read again where the copy is.
+fn is_copied_reference(maker: &Maker<'_>, class: ClassId, whole: GivenId) -> bool {
+    matches!(maker.document.classes[class].kind, ClassKind::Reference(_))
+        && !matches!(maker.givens[whole].term, Term::List(_) | Term::Tuple(_) | Term::Make { .. })
 }
 
 /// Where a bare name leads from a thing.

@@ -121,14 +121,26 @@ const WRONG: &[(&str, &str, &str)] = &[
     ("l: List of 2.5 Real", "not-a-count", "2.5"),
     ("a: Real\nconstraint a[0] = 1", "value-of-wrong-class", "a"),
     ("for i in 0..999 { for j in 0..999 { constraint i = j } }", "too-many-members", "0..999"),
+    ("a: Real\nfor x in a { stay x }", "value-of-wrong-class", "a"),
+    (
+        "l: List of 3 Real\nfor a in l.neighbours { stay a }",
+        "wrong-arity",
+        "for a in l.neighbours { stay a }",
+    ),
+    ("l: List of 3 Real\nfor a in l { b: Real }", "not-yet", "b: Real"),
+    ("l: List of 3 Real\nfor a in l { stay b }", "unknown-name", "b"),
+    // references
+    ("use shapes\np: Path to Lin", "unknown-class", "Lin"),
+    ("use shapes\na: Point\np: Path to Line = a", "value-of-wrong-class", "a"),
+    ("class A { ref r: A -> document a.b }\na: A", "unknown-part", "b"),
+    ("a, b: Real\nconstraint a subset b", "value-of-wrong-class", "a subset b"),
+    ("constraint (all Lin).count = 3", "unknown-class", "Lin"),
     // files
     ("use nowhere", "missing-file", "nowhere"),
     ("use ring", "use-cycle", "ring"),
     // what is not there yet
     ("program P() { a = 3 }", "not-yet", "program P() { a = 3 }"),
-    ("use shapes\np: Path to Line", "not-yet", "Path to Line"),
     ("use shapes\np: Placed of Line", "not-yet", "Placed of Line"),
-    ("use shapes\nconstraint (all Line).count = 3", "not-yet", "all Line"),
     ("repeat 5 times { }", "not-yet", "repeat 5 times { }"),
     ("a: Real\na = repeat 5 times { b = 3 }", "not-yet", "repeat 5 times { b = 3 }"),
     ("for i in 0..0 { class D { } }", "not-yet", "class D { }"),

@@ -253,6 +253,10 @@ impl Ref {
     pub fn target(&self) -> Option<Expr> {
         child(&self.syntax)
     }
+    /// Returns the doc comment.
+    pub fn doc(&self) -> Option<String> {
+        doc_comment(&self.syntax)
+    }
 }
 impl Attachers {
     /// Returns the parts that stick, in the order in which they are placed.
