@@ -215,6 +215,10 @@ impl<'a> Evaluator<'a> {
             }
             Term::All(class) => Ok(Answer::List(self.all(*class)?)),
             Term::Copy(term) => self.term(term, frame),
+            Term::OfConstraint { of, name, aspect } => {
+                let of = self.term(of, frame)?;
+                self.of_constraint(&of, name, *aspect)
+            }
         }
     }
 

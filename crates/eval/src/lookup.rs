@@ -4,7 +4,7 @@ use crate::answer::Answer;
 use crate::evaluator::{Evaluator, Result};
 use crate::fault::Fault;
 use base::{IdVec, Name};
-use kernel::{ClassId, ClassKind, Document, Layout, Message, ThingId};
+use kernel::{ClassId, ClassKind, ConstraintInstance, Document, Layout, Message, ThingId};
 use std::cell::RefCell;
 use std::collections::BTreeMap;
 use std::rc::Rc;
@@ -17,6 +17,7 @@ type Found = Option<(ClassId, usize)>;
 pub(crate) struct Tables {
     layouts: RefCell<IdVec<ClassId, Option<Rc<Layout>>>>,
     messages: RefCell<IdVec<ClassId, BTreeMap<Name, Found>>>,
+    constraints: RefCell<BTreeMap<(ThingId, Name), Option<ConstraintInstance>>>,
     all: RefCell<BTreeMap<ClassId, Rc<[ThingId]>>>,
     /// Names that the evaluator itself asks for.
     pub(crate) x: Name,
@@ -30,6 +31,7 @@ impl Tables {
         Self {
             layouts: RefCell::new(IdVec::filled(None, n)),
             messages: RefCell::new(IdVec::filled(BTreeMap::new(), n)),
+            constraints: RefCell::new(BTreeMap::new()),
             all: RefCell::new(BTreeMap::new()),
             x: Name::new("x"),
             y: Name::new("y"),
@@ -93,6 +95,21 @@ impl<'a> Evaluator<'a> {
             all
         });
         things.iter().map(|&t| self.part(t)).collect()
+    }
+
+    /// Returns the constraint of a thing that has this name, looked for once.
+    pub(crate) fn constraint_named(
+        &self,
+        thing: ThingId,
+        name: &Name,
+    ) -> Option<ConstraintInstance> {
+        let key = (thing, name.clone());
+        if let Some(&known) = self.tables.constraints.borrow().get(&key) {
+            return known;
+        }
+        let found = self.structure.constraint_named(self.document, thing, name);
+        self.tables.constraints.borrow_mut().insert(key, found);
+        found
     }
 
     /// Says that a reference names nothing.

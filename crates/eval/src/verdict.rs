@@ -7,9 +7,12 @@
 use crate::answer::{Answer, Frame};
 use crate::builtin::{number_text, read_number};
 use crate::evaluator::{Evaluator, Result};
+use crate::fault::Fault;
 use crate::measure;
+use base::Name;
 use base::number::{Tolerance, close, shortest};
-use kernel::{BinaryOperator, ConstraintInstance, Term, ThingId, UnaryOperator};
+use expr::dimension::Dimension;
+use kernel::{Aspect, BinaryOperator, ConstraintInstance, Term, ThingId, UnaryOperator};
 
 /// What a test found.
 #[derive(Clone, PartialEq, Debug, Default)]
@@ -55,11 +58,55 @@ impl<'a> Evaluator<'a> {
     ) -> Result<Verdict> {
         self.begin();
         let frame = Frame::of(me);
+        self.judge_within(rule, within, &frame)
+    }
+
+    fn judge_within(
+        &self,
+        rule: &'a Term,
+        within: Option<&'a Term>,
+        frame: &Frame<'a>,
+    ) -> Result<Verdict> {
         let within = match within {
-            Some(term) => Some(self.number(&self.term(term, &frame)?)?.0.abs()),
+            Some(term) => Some(self.number(&self.term(term, frame)?)?.0.abs()),
             None => None,
         };
-        self.judge(rule, &frame, within)
+        self.judge(rule, frame, within)
+    }
+
+    /// Answers what is asked of a constraint of a thing.
+    #[inline(never)]
+    pub(crate) fn of_constraint(
+        &self,
+        of: &Answer<'a>,
+        name: &Name,
+        aspect: Aspect,
+    ) -> Result<Answer<'a>> {
+        let missing = || Fault::wrong(format!("there is no constraint `{name}` here"));
+        let Answer::Thing(thing) = of else { return Err(missing()) };
+        let instance = self.constraint_named(*thing, name).ok_or_else(missing)?;
+        let constraint =
+            &self.document.classes[instance.class].constraints[instance.index as usize];
+        let frame = Frame::of(instance.owner);
+        let (rule, within) = (&constraint.rule, constraint.within.as_ref());
+        let verdict = || self.deeper(|| self.judge_within(rule, within, &frame));
+        match aspect {
+            Aspect::Error => {
+                let dimension = match &constraint.rule {
+                    Term::Binary(_, side, _) => match self.term(side.as_ref(), &frame)? {
+                        Answer::Number(_, dimension) => dimension,
+                        _ => Dimension::NONE,
+                    },
+                    _ => Dimension::NONE,
+                };
+                let Verdict { error, holds, .. } = verdict()?;
+                let error = error.unwrap_or(f64::from(u8::from(!holds)));
+                Ok(Answer::Number(error, dimension))
+            }
+            Aspect::Satisfied => Ok(Answer::Bool(verdict()?.holds)),
+            Aspect::Strength => Ok(Answer::text(constraint.strength.word())),
+            Aspect::Enabled => Ok(Answer::Bool(self.structure.is_on(instance))),
+        }
     }
 
     fn judge(&self, rule: &'a Term, frame: &Frame<'a>, within: Option<f64>) -> Result<Verdict> {
@@ -134,7 +181,8 @@ impl<'a> Evaluator<'a> {
             | Term::Lambda(..)
             | Term::IsA(..)
             | Term::All(_)
-            | Term::Copy(_) => self.truth(rule, frame).map(Verdict::of),
+            | Term::Copy(_)
+            | Term::OfConstraint { .. } => self.truth(rule, frame).map(Verdict::of),
         }
     }
 

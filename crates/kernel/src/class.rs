@@ -60,6 +60,18 @@ pub enum Strength {
     Weak,
 }
 
+impl Strength {
+    /// Returns the word that is written for it.
+    pub fn word(self) -> &'static str {
+        match self {
+            Self::Required => "required",
+            Self::Strong => "strong",
+            Self::Medium => "medium",
+            Self::Weak => "weak",
+        }
+    }
+}
+
 /// A class: part descriptions, constraints, merges, messages.
 #[derive(Clone, PartialEq, Debug)]
 pub struct Class {

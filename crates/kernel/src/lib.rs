@@ -34,5 +34,5 @@ pub use structure::{
     Astray, ConstraintInstance, DOCUMENT, GivenId, GivenIn, GivenTerm, Layout, Slot, SlotId,
     StayInstance, Structure, Thing, ThingId,
 };
-pub use term::{Argument, BinaryOperator, OriginId, Term, UnaryOperator};
+pub use term::{Argument, Aspect, BinaryOperator, OriginId, Term, UnaryOperator};
 pub use values::{Value, Values};

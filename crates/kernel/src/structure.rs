@@ -317,6 +317,24 @@ impl Structure {
         steps.reverse();
         Path(steps)
     }
+    /// Returns the constraint of a thing that has this name; where it has none, that of what it is by
+    /// its other superclasses.
+    pub fn constraint_named(
+        &self,
+        document: &Document,
+        thing: ThingId,
+        name: &str,
+    ) -> Option<ConstraintInstance> {
+        let is_named = |i: &&ConstraintInstance| {
+            let named = &document.classes[i.class].constraints[i.index as usize].name;
+            self.merged[i.owner] == self.merged[thing]
+                && named.as_ref().is_some_and(|n| *n == *name)
+        };
+        self.constraints.iter().find(is_named).copied().or_else(|| {
+            let others = self.superclass_parts(thing).into_iter();
+            others.into_iter().find_map(|part| self.constraint_named(document, part, name))
+        })
+    }
     /// Returns the things of a class in order of declaration, merged ones once.
     pub fn all(&self, document: &Document, class: ClassId) -> Vec<ThingId> {
         let mut is: BTreeMap<ClassId, bool> = BTreeMap::new();

@@ -86,6 +86,41 @@ pub enum Term {
     All(ClassId),
     /// `copy of x`.
     Copy(Box<Term>),
+    /// `level.error`: what is asked of a constraint of a thing.
+    OfConstraint {
+        /// The thing that has the constraint.
+        of: Box<Term>,
+        /// The constraint's name.
+        name: Name,
+        /// What is asked.
+        aspect: Aspect,
+    },
+}
+
+/// What can be asked of a constraint.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub enum Aspect {
+    /// The left side less the right one.
+    Error,
+    /// Whether its rule holds.
+    Satisfied,
+    /// How strongly it wants to hold, in a word.
+    Strength,
+    /// Whether it is switched on.
+    Enabled,
+}
+
+impl Aspect {
+    /// Returns what is asked by this word.
+    pub fn of_word(word: &str) -> Option<Self> {
+        Some(match word {
+            "error" => Self::Error,
+            "satisfied" => Self::Satisfied,
+            "strength" => Self::Strength,
+            "enabled" => Self::Enabled,
+            _ => return None,
+        })
+    }
 }
 
 /// An argument of a message, function or constructor.

@@ -34,6 +34,9 @@ impl Lowerer<'_> {
         if let Expr::Super(_) = receiver {
             return self.super_message(scope, field, &word);
         }
+        if let Some(of) = self.of_constraint(scope, field, &receiver) {
+            return Some(of);
+        }
         let (to, kind) = self.expr(scope, &receiver)?;
         let element = if let Kind::List(element) = &kind { element } else { &Kind::Unknown };
         let args = self.arguments(scope, field.args(), element)?;

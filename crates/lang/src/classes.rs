@@ -202,9 +202,9 @@ impl Lowerer<'_> {
                 let to = self.class_of_type(file, &to?)?;
                 Some(self.reference_to(to))
             }
-            TypeShape::Placed(_) => {
-                self.not_yet(file, ty.span(), "placed instances are");
-                None
+            TypeShape::Placed(master) => {
+                let master = self.class_of_type(file, &master?)?;
+                self.placed_class(file, ty.span(), master)
             }
         }
     }
@@ -214,7 +214,12 @@ impl Lowerer<'_> {
         self.class_made_of("Path to", ClassKind::Reference(to), to)
     }
 
-    fn class_made_of(&mut self, word: &'static str, kind: ClassKind, element: ClassId) -> ClassId {
+    pub(crate) fn class_made_of(
+        &mut self,
+        word: &'static str,
+        kind: ClassKind,
+        element: ClassId,
+    ) -> ClassId {
         if let Some(&known) = self.made.get(&(word, element)) {
             return known;
         }

@@ -23,6 +23,7 @@
 mod calls;
 mod checks;
 mod classes;
+mod constraints;
 mod edits;
 mod files;
 mod kinds;
@@ -32,6 +33,7 @@ mod names;
 mod numbers;
 mod origins;
 mod paths;
+mod placed;
 mod references;
 mod restore;
 mod rules;

@@ -9,6 +9,7 @@ use crate::files::File;
 use crate::kinds::Kind;
 use crate::members::Pending;
 use crate::origins::Origins;
+use crate::placed::PlacedClasses;
 use crate::references::References;
 use crate::restore::{Grain, Patch};
 use crate::scope::Scope;
@@ -154,6 +155,9 @@ pub(crate) struct Lowerer<'l> {
     pub(crate) unrolled: usize,
     /// Classes of lists and sets, by `List of` or `Set of` and what they hold.
     pub(crate) made: BTreeMap<(&'static str, ClassId), ClassId>,
+    pub(crate) placed: PlacedClasses,
+    /// Every constraint with a name, by the class that declares it.
+    pub(crate) constraints: BTreeSet<(ClassId, Name)>,
     /// How many expressions are being lowered inside one another.
     pub(crate) depth: u32,
     /// While positive, nothing is reported.
@@ -182,6 +186,8 @@ impl<'l> Lowerer<'l> {
             diagnostics: Vec::new(),
             said: BTreeSet::new(),
             made: BTreeMap::new(),
+            placed: PlacedClasses::default(),
+            constraints: BTreeSet::new(),
             depth: 0,
             object: ClassId(0),
             classes_of_one: BTreeSet::new(),

@@ -4,9 +4,7 @@ use crate::kinds::Kind;
 use crate::lower::{Lowerer, OWN};
 use crate::scope::Scope;
 use base::{Diagnostic, FileId, Name, Place, Span};
-use kernel::{
-    ClassId, ClassKind, Message, OriginId, Parameter, Part, Path, Primitive, Step, Term,
-};
+use kernel::{ClassId, ClassKind, Message, OriginId, Parameter, Part, Path, Primitive, Step, Term};
 use syntax::ast::{self, AstNode, Expr, Member, span_without_doc};
 
 /// How many members all `for` of a document may come to.
@@ -52,8 +50,13 @@ impl Lowerer<'_> {
                         self.pending.push(Pending::Value { scope, prefix, target, value });
                     }
                 }
-                Member::Constraint(_)
-                | Member::Merge(_)
+                Member::Constraint(constraint) => {
+                    if let Some(name) = constraint.name() {
+                        self.constraints.insert((scope.class(), name.name()));
+                    }
+                    self.pending.push(Pending::Member(scope.clone(), member.clone()));
+                }
+                Member::Merge(_)
                 | Member::Stay(_)
                 | Member::Anchor(_)
                 | Member::Insert(_)
@@ -192,15 +195,15 @@ impl Lowerer<'_> {
             }
             other => (other.clone(), 1),
         };
+        if !matches!(list, Expr::Name(_) | Expr::Field(_) | Expr::Index(_) | Expr::Paren(_)) {
+            let what = "`for` over anything but a range or a list that is a part is";
+            return self.not_yet(scope.file, list.span(), what);
+        }
         if names.len() != together {
             let message = format!("{} names for {together} elements at a time", names.len());
             let place = Place { file: scope.file, span: each.span() };
             let d = Diagnostic::error("wrong-arity", place, message);
             return self.report(d.hint("`for a in list`, `for a, b in list.neighbours`"));
-        }
-        if !matches!(list, Expr::Name(_) | Expr::Field(_) | Expr::Index(_) | Expr::Paren(_)) {
-            let what = "`for` over anything but a range or a list that is a part is";
-            return self.not_yet(scope.file, list.span(), what);
         }
         let Some((path, class)) = self.path(scope, &list) else { return };
         let Some(element) = class.and_then(|c| self.element(c)) else {

@@ -23,6 +23,7 @@ enum Standing {
 impl Lowerer<'_> {
     /// Lowers every expression that waits.
     pub(crate) fn define_members(&mut self) {
+        self.complete_placed();
         let mut wrong = Vec::new();
         self.define_pending(&mut wrong);
         for (class, name) in wrong {
@@ -407,7 +408,11 @@ fn mentions(term: &Term, found: &mut Vec<Path>) {
             mentions(a, found);
             mentions(b, found);
         }
-        Term::Unary(_, a) | Term::Lambda(_, a) | Term::IsA(a, _) | Term::Copy(a) => {
+        Term::Unary(_, a)
+        | Term::Lambda(_, a)
+        | Term::IsA(a, _)
+        | Term::Copy(a)
+        | Term::OfConstraint { of: a, .. } => {
             mentions(a, found);
         }
         Term::If(a, b, c) => {

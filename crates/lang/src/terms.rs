@@ -337,7 +337,12 @@ impl Lowerer<'_> {
         (b, kb): (Term, Kind),
     ) -> Lowered {
         let set = |k: &Kind| matches!(k, Kind::List(_) | Kind::Unknown);
-        if !(set(&ka) && set(&kb) && ka.fits(&kb, &self.document)) {
+        if let Some(other) = [&ka, &kb].into_iter().find(|k| !set(k)) {
+            let wanted = Kind::List(Box::new(Kind::Unknown));
+            self.wrong_kind(scope, span, other, &wanted);
+            return None;
+        }
+        if !ka.fits(&kb, &self.document) {
             self.mismatch(scope, span, &ka, &kb);
             return None;
         }

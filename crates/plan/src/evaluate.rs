@@ -9,8 +9,8 @@ use crate::reach::Reach;
 use base::Name;
 use expr::{Arena, ExprId, Node, Unary, Var};
 use kernel::{
-    Argument, ClassId, ClassKind, Document, Message, SlotId, Structure, Term, ThingId,
-    UnaryOperator,
+    Argument, Aspect, BinaryOperator, ClassId, ClassKind, Document, Message, SlotId, Structure,
+    Term, ThingId, UnaryOperator,
 };
 use std::collections::BTreeSet;
 use std::rc::Rc;
@@ -142,6 +142,38 @@ impl<'a> Opening<'a> {
             }
             Term::All(class) => self.all(*class),
             Term::Copy(term) => self.meaning(term, frame),
+            Term::OfConstraint { of, name, aspect } => {
+                let of = self.meaning(of, frame)?;
+                self.of_constraint(&of, name, *aspect)
+            }
+        }
+    }
+
+    /// Answers what is asked of a constraint of a thing.
+    fn of_constraint(&mut self, of: &Meaning<'a>, name: &Name, aspect: Aspect) -> Answer<'a> {
+        let missing = || Trouble::wrong(format!("there is no constraint `{name}` here"));
+        let Meaning::Thing(thing) = of else { return Err(missing()) };
+        self.reach.looks_around();
+        let document = self.document;
+        let named = self.structure.constraint_named(document, *thing, name);
+        let instance = named.ok_or_else(missing)?;
+        let constraint = &document.classes[instance.class].constraints[instance.index as usize];
+        let frame = Frame::of(instance.owner);
+        match (aspect, &constraint.rule) {
+            (Aspect::Error, Term::Binary(BinaryOperator::Equal, a, b)) => self.deeper(|o| {
+                let (a, b) = (o.meaning(a, &frame)?, o.meaning(b, &frame)?);
+                o.binary(BinaryOperator::Subtract, &a, &b)
+            }),
+            (Aspect::Error, _) => {
+                let message = "the error of a rule that is no equality is not planned yet";
+                Err(Trouble::not_yet(message))
+            }
+            (Aspect::Satisfied, rule) => self.deeper(|o| o.meaning(rule, &frame)),
+            (Aspect::Strength, _) => Ok(Meaning::Opaque(Opaque::default())),
+            (Aspect::Enabled, _) => {
+                let is_on = self.structure.is_on(instance);
+                Ok(self.number(f64::from(u8::from(is_on))))
+            }
         }
     }
 

@@ -124,7 +124,8 @@ pub(crate) fn say<'a>(
         | Term::Lambda(..)
         | Term::IsA(..)
         | Term::All(_)
-        | Term::Copy(_) => {
+        | Term::Copy(_)
+        | Term::OfConstraint { .. } => {
             let truth = opening.meaning(term, frame)?;
             want(opening, &truth, 1.0, said)
         }

@@ -118,7 +118,7 @@ impl Search<'_> {
         }
         let name = |class: ClassId| &self.document.classes[class].name;
         let (found, wanted) = (name(s.things[thing].class), name(wanted));
-        Err(format!("{} is a {found}, wanted a {wanted}", s.path(self.document, thing)))
+        Err(format!("{} is of {found}, wanted one of {wanted}", s.path(self.document, thing)))
     }
 
     fn lost(&self, from: ThingId, step: &Step) -> String {

@@ -135,12 +135,14 @@ const WRONG: &[(&str, &str, &str)] = &[
     ("class A { ref r: A -> document a.b }\na: A", "unknown-part", "b"),
     ("a, b: Real\nconstraint a subset b", "value-of-wrong-class", "a subset b"),
     ("constraint (all Lin).count = 3", "unknown-class", "Lin"),
+    ("p: Placed of Real", "value-of-wrong-class", "Placed of Real"),
+    ("use shapes\np: Placed of Line { p3 = (0, 0) }", "unknown-name", "p3"),
+    ("use shapes\np: Placed of Line { p1 = (0, 0) }", "virtual-part", "p1"),
     // files
     ("use nowhere", "missing-file", "nowhere"),
     ("use ring", "use-cycle", "ring"),
     // what is not there yet
     ("program P() { a = 3 }", "not-yet", "program P() { a = 3 }"),
-    ("use shapes\np: Placed of Line", "not-yet", "Placed of Line"),
     ("repeat 5 times { }", "not-yet", "repeat 5 times { }"),
     ("a: Real\na = repeat 5 times { b = 3 }", "not-yet", "repeat 5 times { b = 3 }"),
     ("for i in 0..0 { class D { } }", "not-yet", "class D { }"),

@@ -1,0 +1,303 @@
+//! Placed things: `wheel: Placed of Gear { at = (10, 20)  turn = 30 deg  scale = 2 }`.
+//!
+//! All placed things of a class show one thing of it, their *master*, which the document keeps among
+//! its `masters`. A placed thing has a position, a turn and a scale of its own; whatever else is asked
+//! of it, is asked of the master with its lengths scaled and its places turned and moved. That is an
+//! expression like any other, so that it is read, constrained and dragged, and solved through.
+//!
+//! A stay keeps the master as it is while instances are dragged: it changes with its class.
+//!
+//! **Source:** Sutherland 1963, "Sketchpad", chapter VI, instances and their attachers.
+
+use crate::kinds::Kind;
+use crate::lower::{Lowerer, OWN};
+use base::{Diagnostic, FileId, Name, Place, Span};
+use expr::dimension::Dimension;
+use kernel::{
+    Argument, BinaryOperator, ClassId, ClassKind, Document, Given, Message, OriginId, Part, Path,
+    Primitive, Stay, Step, Strength, Term,
+};
+use std::collections::{BTreeMap, BTreeSet};
+
+/// How many parts of a master are placed, those of its parts included.
+const MOST_FIELDS: u32 = 10_000;
+
+/// Placed classes, and the masters that they show.
+#[derive(Default)]
+pub(crate) struct PlacedClasses {
+    /// Every placed class with the class of its master.
+    of: BTreeMap<ClassId, ClassId>,
+    /// Those that have no parts yet, with the file that spoke of them first.
+    waiting: Vec<(ClassId, FileId)>,
+    /// The class of the document's masters.
+    masters: Option<(Name, ClassId)>,
+}
+
+impl Lowerer<'_> {
+    /// Returns the class of placed things of a class.
+    pub(crate) fn placed_class(
+        &mut self,
+        file: FileId,
+        span: Span,
+        master: ClassId,
+    ) -> Option<ClassId> {
+        if self.document.classes[master].kind != ClassKind::Composite {
+            let name = &self.document.classes[master].name;
+            let message = format!("{name} has no parts that could be placed");
+            self.error("value-of-wrong-class", file, span, message);
+            return None;
+        }
+        let class = self.class_made_of("Placed of", ClassKind::Composite, master);
+        if self.placed.of.insert(class, master).is_none() {
+            self.placed.waiting.push((class, file));
+        }
+        Some(class)
+    }
+
+    /// Gives placed classes their parts and messages, once those of their masters are declared.
+    pub(crate) fn complete_placed(&mut self) {
+        let waiting = std::mem::take(&mut self.placed.waiting);
+        for &(class, file) in &waiting {
+            let master = self.placed.of[&class];
+            let origin = self.document.classes[class].origin;
+            let at = self.place_class(file, origin);
+            let own = |name: &str| self.visible.class(OWN, name);
+            let (Some(turn), Some(scale)) = (own("Angle"), own("Real")) else { return };
+            let reference = self.reference_to(master);
+            // what is declared last yields first: a placed thing that is dragged is moved
+            for (name, part) in
+                [("master", reference), ("scale", scale), ("turn", turn), ("at", at)]
+            {
+                self.add_hidden_part(class, Name::new(name), part, origin);
+            }
+            let masters = self.masters(master, origin);
+            let master_path =
+                Term::send(Term::send(Term::Document, &masters), &self.master_name(master));
+            for (name, value) in [("scale", Term::number(1.0)), ("master", master_path)] {
+                let path = Path::of(&[name]);
+                self.document.classes[class].givens.push(Given { path, value, origin });
+            }
+        }
+        for (class, _) in waiting {
+            self.forward(class, self.placed.of[&class]);
+        }
+    }
+
+    /// Returns the class of positions: the text's `Point` where it is one, else one without a name.
+    fn place_class(&mut self, file: FileId, origin: OriginId) -> ClassId {
+        let point = self.visible.class(file, "Point");
+        if let Some(point) = point.filter(|&c| planar(&self.document, c)) {
+            return point;
+        }
+        let object = self.object;
+        if let Some(&known) = self.made.get(&("Place in", object)) {
+            return known;
+        }
+        let class = self.class_made_of("Place in", ClassKind::Composite, object);
+        if let Some(length) = self.visible.class(OWN, "Length") {
+            for name in ["x", "y"] {
+                self.add_hidden_part(class, Name::new(name), length, origin);
+            }
+        }
+        class
+    }
+
+    fn add_hidden_part(&mut self, owner: ClassId, name: Name, class: ClassId, origin: OriginId) {
+        let place = Place { file: OWN, span: Span::default() };
+        let part = Part { name, doc: String::new(), class, count: None, range: None, origin };
+        self.add_part(place, owner, part);
+    }
+
+    fn master_name(&self, master: ClassId) -> Name {
+        self.document.classes[master].name.clone()
+    }
+
+    /// Adds a master to those of the document, and returns the name by which they are reached.
+    fn masters(&mut self, master: ClassId, origin: OriginId) -> Name {
+        let root = self.document.root;
+        let (name, class) = match self.placed.masters.clone() {
+            Some(known) => known,
+            None => {
+                let mut name = Name::new("masters");
+                while self.named_at.contains_key(&(root, name.clone())) {
+                    name = Name::new(&format!("{name}'"));
+                }
+                let object = self.object;
+                let class = self.add_unnamed_class("masters", object, origin);
+                // they are seen where they are placed
+                let nothing = Term::Call { name: Name::new("picture"), arguments: Vec::new() };
+                self.add_hidden_message(class, "picture", nothing, Kind::Picture, origin);
+                self.add_hidden_part(root, name.clone(), class, origin);
+                let path = Path(vec![Step::Part(name.clone())]);
+                let strength = Some(Strength::Strong);
+                self.document.classes[root].stays.push(Stay { path, strength, origin });
+                self.placed.masters = Some((name.clone(), class));
+                (name, class)
+            }
+        };
+        let of = self.master_name(master);
+        self.add_hidden_part(class, of, master, origin);
+        name
+    }
+
+    /// Lets a placed class answer to whatever its master does.
+    fn forward(&mut self, class: ClassId, master: ClassId) {
+        let origin = self.document.classes[class].origin;
+        let mut placing = Placing {
+            document: &self.document,
+            placed: &self.placed.of,
+            way: Vec::new(),
+            fields: 0,
+        };
+        let answer = placing.term(Term::send(Term::Me, "master"), master, 0);
+        if placing.fields > MOST_FIELDS {
+            let name = self.master_name(master);
+            let message = format!("{name} has more than {MOST_FIELDS} parts to be placed");
+            self.report(Diagnostic::error("too-many-members", self.origins.place(origin), message));
+        }
+        let kind = Kind::of_class(&self.document, master);
+        self.add_hidden_message(class, "placed", answer, kind, origin);
+        let own: BTreeSet<&str> =
+            ["master", "scale", "turn", "at", "placed", "picture"].into_iter().collect();
+        let names: BTreeSet<String> = self.names_of(master).into_iter().collect();
+        let placed = Term::send(Term::Me, "placed");
+        let picture = Term::send(placed.clone(), "picture");
+        self.add_hidden_message(class, "picture", picture, Kind::Picture, origin);
+        for name in names.iter().filter(|n| !own.contains(n.as_str())) {
+            let name = Name::new(name);
+            let kind = self.kind_of_part(master, &name).unwrap_or(Kind::Unknown);
+            let parameters = match self.class_of_part(master, &name) {
+                Some(_) => Vec::new(),
+                None => self
+                    .find_message(master, &name, None)
+                    .map_or_else(Vec::new, |(_, m)| m.parameters.clone()),
+            };
+            let pass = |p: &kernel::Parameter| Argument {
+                label: Some(p.label.clone()),
+                value: Term::Local(p.name.clone()),
+            };
+            let arguments = parameters.iter().map(pass).collect();
+            let to = Box::new(placed.clone());
+            let answer = Term::Send { to, name: name.clone(), arguments, above: None };
+            let index = self.add_hidden_message(class, &name, answer, kind, origin);
+            self.document.classes[class].messages[index].parameters = parameters;
+        }
+    }
+
+    fn add_hidden_message(
+        &mut self,
+        class: ClassId,
+        name: &str,
+        answer: Term,
+        kind: Kind,
+        origin: OriginId,
+    ) -> usize {
+        let name = Name::new(name);
+        self.message_kinds.insert((class, name.clone()), Some(kind));
+        let index = self.document.classes[class].messages.len();
+        self.messages.insert((class, name.clone()), index);
+        self.document.classes[class].messages.push(Message {
+            name,
+            doc: String::new(),
+            parameters: Vec::new(),
+            answer,
+            is_default: false,
+            is_combining: false,
+            origin,
+        });
+        index
+    }
+}
+
+/// Returns true if things of a class have coordinates `x` and `y`.
+fn planar(document: &Document, class: ClassId) -> bool {
+    ["x", "y"].iter().all(|name| {
+        let part = crate::names::class_of_part(document, class, name);
+        part.is_some_and(|c| is_length(document, c))
+    })
+}
+
+fn is_length(document: &Document, class: ClassId) -> bool {
+    document.classes[class].kind == ClassKind::Primitive(Primitive::Real(Dimension::LENGTH))
+}
+
+/// Makes the terms of what is placed.
+struct Placing<'d> {
+    document: &'d Document,
+    placed: &'d BTreeMap<ClassId, ClassId>,
+    /// The classes whose things are being placed, each inside the one before it.
+    way: Vec<ClassId>,
+    fields: u32,
+}
+
+impl Placing<'_> {
+    /// Returns the term for a part of the master as the placed thing shows it. `depth` counts the
+    /// lists around it.
+    fn term(&mut self, of: Term, class: ClassId, depth: u32) -> Term {
+        match self.document.classes[class].kind {
+            ClassKind::Primitive(_) if is_length(self.document, class) => times(own("scale"), of),
+            ClassKind::Primitive(_) | ClassKind::Reference(_) | ClassKind::Set(_) => of,
+            ClassKind::List(element) => {
+                let name = Name::new(&format!("(element {depth})"));
+                let each = self.term(Term::Local(name.clone()), element, depth + 1);
+                let value = Term::Lambda(vec![name], Box::new(each));
+                let arguments = vec![Argument { label: None, value }];
+                let map = Name::new("map");
+                Term::Send { to: Box::new(of), name: map, arguments, above: None }
+            }
+            ClassKind::Composite => self.thing(&of, class, depth),
+        }
+    }
+
+    fn thing(&mut self, of: &Term, class: ClassId, depth: u32) -> Term {
+        // a thing that would be a part of itself is reported where things are made
+        if self.way.contains(&class) || self.fields > MOST_FIELDS {
+            return of.clone();
+        }
+        self.way.push(class);
+        let is_planar = planar(self.document, class);
+        let is_placed = self.placed.contains_key(&class);
+        let turned = |along: &str, x: Term, y: Term| {
+            let (cos, sin) = (call("cos", own("turn")), call("sin", own("turn")));
+            let (a, b, sign) = match along {
+                "x" => (times(cos, x), times(sin, y), BinaryOperator::Subtract),
+                _ => (times(sin, x), times(cos, y), BinaryOperator::Add),
+            };
+            let sum = Term::Binary(sign, Box::new(a), Box::new(b));
+            plus(Term::send(own("at"), along), times(own("scale"), sum))
+        };
+        let mut arguments = Vec::new();
+        for field in self.document.layout(class) {
+            let name = self.document.field_name(field).clone();
+            let part = Term::send(of.clone(), &name);
+            let value = match name.as_str() {
+                "x" | "y" if is_planar => {
+                    turned(&name, Term::send(of.clone(), "x"), Term::send(of.clone(), "y"))
+                }
+                "turn" if is_placed => plus(own("turn"), part),
+                "scale" if is_placed => times(own("scale"), part),
+                _ => self.term(part, self.document.field_class(field), depth),
+            };
+            self.fields += 1;
+            arguments.push(Argument { label: Some(name), value });
+        }
+        self.way.pop();
+        Term::Make { class, arguments }
+    }
+}
+
+fn own(name: &str) -> Term {
+    Term::send(Term::Me, name)
+}
+
+fn times(a: Term, b: Term) -> Term {
+    Term::Binary(BinaryOperator::Multiply, Box::new(a), Box::new(b))
+}
+
+fn plus(a: Term, b: Term) -> Term {
+    Term::Binary(BinaryOperator::Add, Box::new(a), Box::new(b))
+}
+
+fn call(name: &str, value: Term) -> Term {
+    Term::Call { name: Name::new(name), arguments: vec![Argument { label: None, value }] }
+}
