@@ -188,8 +188,11 @@ fn path(names: &Names) -> Path {
     parse_path(&names.join(".")).expect("the model's paths are well formed")
 }
 
+/// A command, and the model after it; no model where it has to be refused.
+type Picked = Option<(Command, Option<Model>)>;
+
 /// Picks a command, and returns what the model is after it; nothing where it has to be refused.
-fn pick(dice: &mut Dice, model: &Model) -> Option<(Command, Option<Model>)> {
+fn pick(dice: &mut Dice, model: &Model) -> Picked {
     let mut next = model.clone();
     next.made += 1;
     let fresh = format!("n{}", model.made);
@@ -222,36 +225,8 @@ fn pick(dice: &mut Dice, model: &Model) -> Option<(Command, Option<Model>)> {
             next.settle();
             Some((merge, Some(next)))
         }
-        6 | 7 => {
-            let in_class = |p: &Names| {
-                model.class_merges.iter().any(|(_, paths)| paths.iter().any(|m| p.ends_with(m)))
-            };
-            let listed: Vec<Names> = model.merges.concat();
-            let any = model.things("Spot");
-            let p = if dice.below(4) > 0 { dice.one(&listed)? } else { dice.one(&any)? };
-            if in_class(&p) {
-                return None;
-            }
-            if !listed.contains(&p) {
-                return Some((Command::Unmerge(path(&p)), None));
-            }
-            for merge in &mut next.merges {
-                merge.retain(|q| *q != p);
-            }
-            next.merges.retain(|m| m.len() > 1);
-            Some((Command::Unmerge(path(&p)), Some(next)))
-        }
-        8 => {
-            let (name, _) = dice.one(&model.parts)?;
-            next.parts.retain(|(n, _)| *n != name);
-            for merge in &mut next.merges {
-                merge.retain(|p| p[0] != name);
-            }
-            next.merges.retain(|m| m.len() > 1);
-            let leaves = next.leaves();
-            next.values.retain(|p, _| leaves.contains(p));
-            Some((Command::Delete(path(&vec![name])), Some(next)))
-        }
+        6 | 7 => unmerge(dice, model, next),
+        8 => delete(dice, model, next),
         9 => {
             let x = dice.below(40) as f64;
             let members = format!("{fresh}: Real = {x}");
@@ -260,48 +235,88 @@ fn pick(dice: &mut Dice, model: &Model) -> Option<(Command, Option<Model>)> {
             next.settle();
             Some((Command::Edit { target: path(&names("Node")), members }, Some(next)))
         }
-        10 => {
-            if dice.below(2) == 0 {
-                let fields = model.classes["Node"].clone();
-                let (name, _) = dice.one(&fields[4..])?;
-                next.classes.get_mut("Node")?.retain(|(n, _)| *n != name);
-                let leaves = next.leaves();
-                next.values.retain(|p, _| leaves.contains(p));
-                return Some((Command::Delete(path(&names(&format!("Node.{name}")))), Some(next)));
-            }
-            if !model.class_merges.is_empty() {
-                return None;
-            }
-            let paths = vec![names("left.q"), names("right.p")];
-            next.class_merges.push(("Frame", paths));
-            next.settle();
-            let merge = vec![path(&names("Frame.left.q")), path(&names("Frame.right.p"))];
-            Some((Command::Merge(merge), Some(next)))
-        }
-        _ => {
-            let (name, _) = dice.one(&model.parts)?;
-            let other = if dice.below(5) == 0 { dice.one(&model.parts)?.0 } else { fresh };
-            let rename = Command::Rename { from: path(&vec![name.clone()]), to: other.clone() };
-            if model.parts.iter().any(|(n, _)| *n == other) {
-                return Some((rename, None));
-            }
-            let renamed = |p: &mut Names| {
-                if p[0] == name {
-                    p[0] = other.clone();
-                }
-            };
-            next.parts.iter_mut().filter(|(n, _)| *n == name).for_each(|p| p.0 = other.clone());
-            next.merges.iter_mut().flatten().for_each(renamed);
-            next.values = std::mem::take(&mut next.values)
-                .into_iter()
-                .map(|(mut p, x)| {
-                    renamed(&mut p);
-                    (p, x)
-                })
-                .collect();
-            Some((rename, Some(next)))
-        }
+        10 => change_class(dice, model, next),
+        _ => rename(dice, model, next, fresh),
     }
+}
+
+/// Takes a path out of the merges that name it.
+fn unmerge(dice: &mut Dice, model: &Model, mut next: Model) -> Picked {
+    let in_class = |p: &Names| {
+        model.class_merges.iter().any(|(_, paths)| paths.iter().any(|m| p.ends_with(m)))
+    };
+    let listed: Vec<Names> = model.merges.concat();
+    let any = model.things("Spot");
+    let p = if dice.below(4) > 0 { dice.one(&listed)? } else { dice.one(&any)? };
+    if in_class(&p) {
+        return None;
+    }
+    if !listed.contains(&p) {
+        return Some((Command::Unmerge(path(&p)), None));
+    }
+    for merge in &mut next.merges {
+        merge.retain(|q| *q != p);
+    }
+    next.merges.retain(|m| m.len() > 1);
+    Some((Command::Unmerge(path(&p)), Some(next)))
+}
+
+/// Deletes a part of the document.
+fn delete(dice: &mut Dice, model: &Model, mut next: Model) -> Picked {
+    let (name, _) = dice.one(&model.parts)?;
+    next.parts.retain(|(n, _)| *n != name);
+    for merge in &mut next.merges {
+        merge.retain(|p| p[0] != name);
+    }
+    next.merges.retain(|m| m.len() > 1);
+    let leaves = next.leaves();
+    next.values.retain(|p, _| leaves.contains(p));
+    Some((Command::Delete(path(&vec![name])), Some(next)))
+}
+
+/// Deletes a field of a class, or merges two in it.
+fn change_class(dice: &mut Dice, model: &Model, mut next: Model) -> Picked {
+    if dice.below(2) == 0 {
+        let fields = model.classes["Node"].clone();
+        let (name, _) = dice.one(&fields[4..])?;
+        next.classes.get_mut("Node")?.retain(|(n, _)| *n != name);
+        let leaves = next.leaves();
+        next.values.retain(|p, _| leaves.contains(p));
+        return Some((Command::Delete(path(&names(&format!("Node.{name}")))), Some(next)));
+    }
+    if !model.class_merges.is_empty() {
+        return None;
+    }
+    let paths = vec![names("left.q"), names("right.p")];
+    next.class_merges.push(("Frame", paths));
+    next.settle();
+    let merge = vec![path(&names("Frame.left.q")), path(&names("Frame.right.p"))];
+    Some((Command::Merge(merge), Some(next)))
+}
+
+/// Renames a part, sometimes to a name that is taken.
+fn rename(dice: &mut Dice, model: &Model, mut next: Model, fresh: String) -> Picked {
+    let (name, _) = dice.one(&model.parts)?;
+    let other = if dice.below(5) == 0 { dice.one(&model.parts)?.0 } else { fresh };
+    let rename = Command::Rename { from: path(&vec![name.clone()]), to: other.clone() };
+    if model.parts.iter().any(|(n, _)| *n == other) {
+        return Some((rename, None));
+    }
+    let renamed = |p: &mut Names| {
+        if p[0] == name {
+            p[0] = other.clone();
+        }
+    };
+    next.parts.iter_mut().filter(|(n, _)| *n == name).for_each(|p| p.0 = other.clone());
+    next.merges.iter_mut().flatten().for_each(renamed);
+    next.values = std::mem::take(&mut next.values)
+        .into_iter()
+        .map(|(mut p, x)| {
+            renamed(&mut p);
+            (p, x)
+        })
+        .collect();
+    Some((rename, Some(next)))
 }
 
 type Moment = (String, BTreeMap<String, u64>);
