@@ -289,6 +289,19 @@ fn restructuring(state: &State, command: &Command) -> Result<lang::Restructuring
 /// # Errors
 /// Why the command would be refused.
 pub(crate) fn preview(state: &State, command: &Command) -> Result<Option<Question>, Refusal> {
+    match command {
+        Command::Set(_) | Command::Move(_) | Command::Text(_) | Command::Undo | Command::Redo => {
+            return Ok(None);
+        }
+        Command::Merge(_)
+        | Command::Unmerge(_)
+        | Command::Delete(_)
+        | Command::Edit { .. }
+        | Command::Rename { .. }
+        | Command::Promote { .. }
+        | Command::Anchor { .. }
+        | Command::Enable { .. } => {}
+    }
     let every = || lang::for_every(&state.lowered, command);
     let all = |command: Command| {
         let label = words::command_label(&command);

@@ -100,14 +100,14 @@ pub const ACTIONS: &[Action] = &[
         id: "enable",
         label: words::ENABLE,
         keys: &[],
-        enabled: constraint,
+        enabled: |lab| constraint(lab, false),
         run: |lab| on_selection(lab, |path| Command::Enable { path, on: true }),
     },
     Action {
         id: "disable",
         label: words::DISABLE,
         keys: &[],
-        enabled: constraint,
+        enabled: |lab| constraint(lab, true),
         run: |lab| on_selection(lab, |path| Command::Enable { path, on: false }),
     },
     Action {
@@ -244,10 +244,13 @@ fn selected(lab: Lab) -> Result<StructureRow, &'static str> {
         .ok_or(words::NOTHING_SELECTED)
 }
 
-/// Whether a constraint is selected.
-fn constraint(lab: Lab) -> Result<(), &'static str> {
-    match selected(lab)?.kind {
-        RowKind::Constraint => Ok(()),
+/// Whether a constraint is selected that is on, or off, as is wanted.
+fn constraint(lab: Lab, on: bool) -> Result<(), &'static str> {
+    let row = selected(lab)?;
+    match row.kind {
+        RowKind::Constraint if row.enabled == on => Ok(()),
+        RowKind::Constraint if on => Err(words::IS_OFF),
+        RowKind::Constraint => Err(words::IS_ON),
         RowKind::Part | RowKind::Virtual | RowKind::Merge => Err(words::NOT_A_CONSTRAINT),
     }
 }

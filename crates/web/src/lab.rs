@@ -9,8 +9,8 @@ use crate::sheet::View;
 use crate::{js, theme, words};
 use leptos::prelude::*;
 use session::view::{
-    Change, DocumentId, DragState, Explanation, PictureView, Refusal, Status, StructureRow,
-    TextView, ValueRow,
+    Change, DocumentId, DragState, Explanation, FixView, PictureView, Question, Refusal, Status,
+    StructureRow, TextView, ValueRow,
 };
 use session::{Command, Path, Session};
 use std::collections::BTreeMap;
@@ -41,6 +41,8 @@ pub enum Notice {
     Said(String),
     /// A command changed nothing, and why.
     Refused(Refusal),
+    /// What has to be decided before a command is applied.
+    Asked(Question),
 }
 
 /// Everything that the panels share; a handle that is copied about.
@@ -273,9 +275,32 @@ impl Lab {
         Some(self.order(|session| order(session, id)))
     }
 
-    /// Applies a command to the shown document; what comes of it stands in the signals.
+    /// Applies a command to the shown document, or asks first what it is meant of; what comes of it
+    /// stands in the signals.
     pub fn apply(self, command: &Command) -> bool {
         self.flush_text();
+        let asked = self.id().and_then(|id| self.ask(|session| session.preview(id, command).ok()));
+        match asked.flatten() {
+            Some(question) => {
+                self.notice.set(Some(Notice::Asked(question)));
+                false
+            }
+            None => self.apply_as_meant(command),
+        }
+    }
+
+    /// Mends the text by a fix of one of its diagnostics, if it is still the text that is shown.
+    pub fn fix(self, fix: &FixView) {
+        self.flush_text();
+        let shown = self.text.with_untracked(|text| text.source.clone());
+        let present = self.id().map(|id| self.ask(|session| session.text(id).source));
+        if present == Some(shown) {
+            self.settle(self.tell(|session, id| session.fix(id, fix)));
+        }
+    }
+
+    /// Applies a command without asking.
+    pub fn apply_as_meant(self, command: &Command) -> bool {
         self.settle(self.tell(|session, id| session.apply(id, command)))
     }
 
@@ -371,9 +396,9 @@ impl Lab {
     /// Shows what came of a command.
     fn settle(self, outcome: Option<Result<Change, Refusal>>) -> bool {
         match outcome {
-            Some(Ok(_)) => {
-                self.notice.set(None);
+            Some(Ok(change)) => {
                 self.refresh();
+                self.notice.set(words::done(&change).map(Notice::Said));
                 true
             }
             Some(Err(refusal)) => {

@@ -6,7 +6,7 @@ use crate::lab::Lab;
 use crate::palette::Palette;
 use crate::picture::Picture;
 use crate::splitter::{Splitter, Way};
-use crate::status::{Refused, StatusLine, Why};
+use crate::status::{Asked, Refused, StatusLine, Why};
 use crate::structure::Structure;
 use crate::text::Text;
 use crate::values::Values;
@@ -162,6 +162,7 @@ fn Document(lab: Lab) -> impl IntoView {
             }>{words::SKIP}</a>
             <div class="notices">
                 <Refused lab=lab />
+                <Asked lab=lab />
                 <Draft lab=lab />
                 <Conflict lab=lab />
             </div>

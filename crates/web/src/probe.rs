@@ -60,6 +60,7 @@ fn state(lab: Lab) -> String {
     let notice = match lab.notice.get_untracked() {
         Some(Notice::Said(words)) => words,
         Some(Notice::Refused(refusal)) => refusal.message,
+        Some(Notice::Asked(question)) => question.message,
         None => String::new(),
     };
     let diagnostics: Array = lab.text.with_untracked(|view| {

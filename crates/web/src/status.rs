@@ -3,7 +3,7 @@
 use crate::lab::{Lab, Notice};
 use crate::{icons, words};
 use leptos::prelude::*;
-use session::view::{ExplainedStep, Refusal, Unmet};
+use session::view::{Choice, ExplainedStep, Question, Refusal, Unmet};
 
 /// The line at the bottom: whether all holds, how free things are, and what was just said.
 #[component]
@@ -23,7 +23,7 @@ pub fn StatusLine(
     let said = Memo::new(move |_| {
         lab.notice.with(|notice| match notice {
             Some(Notice::Said(words)) => Some(words.clone()),
-            Some(Notice::Refused(_)) | None => None,
+            Some(Notice::Refused(_) | Notice::Asked(_)) | None => None,
         })
     });
     let heard = Memo::new(move |_| drag.get().or_else(|| said.get()));
@@ -49,7 +49,7 @@ pub fn Refused(
     let refusal = Memo::new(move |_| {
         lab.notice.with(|notice| match notice {
             Some(Notice::Refused(refusal)) => Some(refusal.clone()),
-            Some(Notice::Said(_)) | None => None,
+            Some(Notice::Said(_) | Notice::Asked(_)) | None => None,
         })
     });
     let shown = move |refusal: Refusal| {
@@ -77,6 +77,50 @@ pub fn Refused(
         }
     };
     move || refusal.get().map(shown)
+}
+
+/// What has to be decided before a command is applied: of one thing, or of all of its class.
+#[component]
+pub fn Asked(
+    /// The lab.
+    lab: Lab,
+) -> impl IntoView {
+    let question = Memo::new(move |_| {
+        lab.notice.with(|notice| match notice {
+            Some(Notice::Asked(question)) => Some(question.clone()),
+            Some(Notice::Said(_) | Notice::Refused(_)) | None => None,
+        })
+    });
+    let choice = move |at: usize, choice: Choice| {
+        let button = NodeRef::<leptos::html::Button>::new();
+        Effect::new(move |_| {
+            if let (0, Some(button)) = (at, button.get()) {
+                // The keyboard decides where the question is asked.
+                let _ = button.focus();
+            }
+        });
+        let go = move |_| {
+            lab.notice.set(None);
+            lab.apply_as_meant(&choice.command);
+        };
+        view! { <button node_ref=button on:click=go>{choice.label}</button> }
+    };
+    let shown = move |question: Question| {
+        let choices = question.choices.into_iter().enumerate();
+        let label = question.message.clone();
+        view! {
+            <div class="notice asked" role="alertdialog" aria-label=label>
+                <div class="words">
+                    <p class="lead">{question.message}</p>
+                    <p class="choices">
+                        {choices.map(|(at, c)| choice(at, c)).collect_view()}
+                        <button class="bare" on:click=move |_| lab.notice.set(None)>{words::CANCEL}</button>
+                    </p>
+                </div>
+            </div>
+        }
+    };
+    move || question.get().map(shown)
 }
 
 /// Paths as buttons that select them, after a word; nothing if there are none.

@@ -235,6 +235,7 @@ fn Row(tree: Tree, at: usize) -> impl IntoView {
         row.with(|r| r.as_ref().is_some_and(|r| r.kind == RowKind::Part && r.value.is_some()))
     });
     let anchored = Memo::new(move |_| row.with(|row| row.as_ref().is_some_and(|r| r.anchored)));
+    let enabled = Memo::new(move |_| row.with(|row| row.as_ref().is_none_or(|r| r.enabled)));
     let toggle = move |e: leptos::ev::MouseEvent| {
         e.stop_propagation();
         if let Some(row) = tree.row(at) {
@@ -247,6 +248,7 @@ fn Row(tree: Tree, at: usize) -> impl IntoView {
             class=move || format!("row {}", kind.get())
             class:selected=selected
             class:hovered=hovered
+            class:off=move || !enabled.get()
             style:--depth=move || depth.get().to_string()
             role="treeitem"
             attr:aria-level=move || (depth.get() + 1).to_string()
@@ -290,6 +292,16 @@ fn Row(tree: Tree, at: usize) -> impl IntoView {
             <span class=move || format!("state {}", state.get()) title=state>
                 <span class="unseen">{state}</span>
             </span>
+            {move || kind.with(|kind| kind == "constraint").then(|| view! {
+                <button class="switch" role="switch" tabindex="-1"
+                    aria-checked=move || enabled.get().to_string()
+                    aria-label=move || format!("{} {}", path.get(), words::ENABLED)
+                    title=move || if enabled.get() { words::DISABLE } else { words::ENABLE }
+                    on:click=move |e: leptos::ev::MouseEvent| {
+                        e.stop_propagation();
+                        toggle_switch(lab, &path.get_untracked(), !enabled.get_untracked());
+                    }></button>
+            })}
             {move || lockable.get().then(|| view! { <field::Lock lab=lab path=path anchored=anchored /> })}
         </div>
     }
@@ -310,6 +322,13 @@ fn kind_sign(kind: &str) -> &'static str {
         "merge" => "⋈",
         "virtual" => "ƒ",
         _ => "",
+    }
+}
+
+/// Switches a constraint on or off.
+fn toggle_switch(lab: Lab, path: &str, on: bool) {
+    if let Some(path) = session::parse_path(path) {
+        lab.apply(&Command::Enable { path, on });
     }
 }
 

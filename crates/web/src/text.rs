@@ -65,7 +65,7 @@ pub fn Text(
             <Show when=move || diagnostics.with(|list| !list.is_empty())>
                 <ul class="problems" aria-label=words::PROBLEMS>
                     <For each=move || diagnostics.get().into_iter().enumerate() key=|(at, d)| (*at, d.message.clone()) let((_, d))>
-                        <Problem editor=editor d=d />
+                        <Problem lab=lab editor=editor d=d />
                     </For>
                 </ul>
             </Show>
@@ -74,7 +74,11 @@ pub fn Text(
 }
 
 #[component]
-fn Problem(editor: StoredValue<Option<Editor>, LocalStorage>, d: DiagnosticView) -> impl IntoView {
+fn Problem(
+    lab: Lab,
+    editor: StoredValue<Option<Editor>, LocalStorage>,
+    d: DiagnosticView,
+) -> impl IntoView {
     let start = d.start;
     let own = d.file.is_empty();
     let place = if own {
@@ -100,6 +104,10 @@ fn Problem(editor: StoredValue<Option<Editor>, LocalStorage>, d: DiagnosticView)
                     {d.hint.clone().map(|hint| view! { <span class="hint">{hint}</span> })}</span>
                 <span class="place"><code>{d.code.clone()}</code>" "{place}</span>
             </button>
+            {d.fixes.into_iter().map(|fix| {
+                let title = fix.title.clone();
+                view! { <button class="fix" on:click=move |_| lab.fix(&fix)>{title}</button> }
+            }).collect_view()}
         </li>
     }
 }

@@ -97,6 +97,27 @@ pub const CRASH: &str = "The lab has stopped";
 pub const CRASH_ADVICE: &str = "This is a fault of ours. What you changed is kept in this browser and offered after reloading.";
 pub const RELOAD: &str = "Reload";
 
+pub const IS_OFF: &str = "it is off already";
+pub const IS_ON: &str = "it is on already";
+pub const ENABLED: &str = "switched on";
+pub const CANCEL: &str = "Cancel";
+
+/// What a change did besides what it was meant to do; nothing if that is all.
+pub fn done(change: &session::view::Change) -> Option<String> {
+    const SHOWN: usize = 3;
+    let listed = |items: &[String]| {
+        let first = items[..items.len().min(SHOWN)].join(", ");
+        match items.len().saturating_sub(SHOWN) {
+            0 => first,
+            more => format!("{first} and {more} more"),
+        }
+    };
+    if !change.unsatisfied.is_empty() {
+        return Some(format!("Cannot be satisfied now: {}", listed(&change.unsatisfied)));
+    }
+    (!change.along.is_empty()).then(|| format!("Gone along: {}", listed(&change.along)))
+}
+
 /// The freedom of a thing as a word.
 pub fn freedom(freedom: session::view::Freedom) -> &'static str {
     match freedom {
