@@ -144,6 +144,9 @@ impl Drag {
         self.branch.copy_from_slice(state);
         self.now.copy_from_slice(state);
         self.has_branch = false;
+        // what the drag does not move has to be computed again from here
+        self.has_run = false;
+        self.upstream.clear();
     }
 
     /// Returns the present state.

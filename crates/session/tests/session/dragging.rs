@@ -75,3 +75,27 @@ fn rows_of_values_are_renewed_while_dragging() {
     assert_eq!(rows[1..], live[1..]);
     assert_ne!(rows[0], live[0], "a row that was not asked for stays as it was");
 }
+
+#[test]
+fn a_point_stops_at_a_wall_slides_along_it_and_comes_free_again() {
+    let mut desk = Desk::of(
+        "class Point { x, y: Length   picture => dot(x, y) }\n\
+         p: Point = (50, 20)\nconstraint wall: p.x <= 100\n",
+    );
+    desk.session.press(desk.id, &at("p")).expect("it has a place");
+    let mut way = Vec::new();
+    for to in [(90.0, 20.0), (130.0, 30.0), (160.0, 60.0), (80.0, 70.0)] {
+        let reached = desk.session.drag(desk.id, to).reached;
+        way.push((reached, place(&desk, "p")));
+    }
+    let wanted = [
+        (true, [90.0, 20.0]),
+        (false, [100.0, 30.0]),
+        (false, [100.0, 60.0]),
+        (true, [80.0, 70.0]),
+    ];
+    assert_eq!(way, wanted);
+    desk.session.drag(desk.id, (130.0, 40.0));
+    desk.session.release(desk.id).expect("nothing forbids it");
+    assert_eq!(place(&desk, "p"), [100.0, 40.0]);
+}
