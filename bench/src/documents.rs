@@ -1,7 +1,5 @@
 //! Texts of documents of any size, for the table.
 
-use std::fmt::Write as _;
-
 /// A grid of `k` times `k` nodes, one ohm between neighbours, one ampere from corner to corner.
 pub fn resistor_grid(k: usize) -> String {
     let (nodes, links) = (k * k, k * (k - 1));
@@ -75,25 +73,26 @@ c: Real = 0.5
 
 /// `n` rows `b = k*a + c` with one `k` and one `c`, each of its own `a`.
 pub fn projection(n: usize) -> String {
-    let mut text = SCALED.to_owned();
     let last = n - 1;
-    let _ = writeln!(text, "rows: List of {n} Scaled");
-    let _ = writeln!(
-        text,
-        "for i in 0..{last} {{ rows[i].a = 0.25 * i  merge rows[i].k = k  merge rows[i].c = c }}"
-    );
-    text
+    scaled(n) + &format!("for i in 0..{last} {{ rows[i].a = 0.25 * i }}\n")
 }
 
 /// `n` rows `b = k*a + c` with one `k` and one `c`, each `a` the `b` of the row before.
 pub fn chain(n: usize) -> String {
-    let mut text = SCALED.to_owned();
     let last = n - 1;
-    let _ = writeln!(text, "rows: List of {n} Scaled");
-    let _ = writeln!(text, "rows[0].a = 1");
-    let _ = writeln!(text, "for i in 0..{last} {{ merge rows[i].k = k  merge rows[i].c = c }}");
-    let _ = writeln!(text, "for i in 1..{last} {{ merge rows[i].a = rows[i - 1].b }}");
-    text
+    let joined = format!("for i in 1..{last} {{ merge rows[i].a = rows[i - 1].b }}\n");
+    scaled(n) + "rows[0].a = 1\n" + &joined
+}
+
+/// A `for` makes a hundred thousand members at most, so that each merge has its own.
+fn scaled(n: usize) -> String {
+    let last = n - 1;
+    format!(
+        "{SCALED}rows: List of {n} Scaled
+for i in 0..{last} {{ merge rows[i].k = k }}
+for i in 0..{last} {{ merge rows[i].c = c }}
+"
+    )
 }
 
 /// `n` four-bar linkages, each with its own crank angle.

@@ -8,7 +8,7 @@ use kernel::{ClassId, ClassKind, Message, OriginId, Parameter, Part, Path, Primi
 use syntax::ast::{self, AstNode, Expr, Member, span_without_doc};
 
 /// How many members all `for` of a document may come to.
-const MOST_MEMBERS: usize = 100_000;
+const MOST_MEMBERS: usize = 1_000_000;
 
 /// A member whose expressions are still to be lowered.
 #[derive(Clone, Debug)]
