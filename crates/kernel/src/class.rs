@@ -1,5 +1,6 @@
 //! Classes: what the things of a kind have in common.
 
+use crate::document::PartRef;
 use crate::path::Path;
 use crate::term::{OriginId, Term};
 use base::Name;
@@ -101,10 +102,13 @@ pub struct Class {
     pub stays: Vec<Stay>,
     /// Parts that stick to others when a thing of this class is placed, in order.
     pub attachers: Vec<Path>,
-    /// Names of inherited constraints and merges that do not apply here.
-    pub without: Vec<Path>,
     /// Constraints of its things and their parts that it switches off or on, in order.
     pub switches: Vec<Switch>,
+    /// Names of constraints and merges of the primary superclasses that do not apply here.
+    pub without: Vec<Name>,
+    /// Fields whose things are of a narrower class here than where they were declared: by a
+    /// `modify` of this class or of one above it, or by a mask on a part's constraints.
+    pub refined: Vec<(PartRef, ClassId)>,
     /// Where it was written.
     pub origin: OriginId,
 }

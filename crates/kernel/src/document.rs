@@ -76,7 +76,16 @@ impl Document {
             PartRole::Superclass => &self.classes[field.class].supers[field.index].name,
         }
     }
-    /// Returns the class of a field.
+    /// Returns the class that a field has in things of a class: where it is refined, the narrower one.
+    pub fn refined_class(&self, class: ClassId, field: PartRef) -> ClassId {
+        let refined = |c: &ClassId| {
+            let own = &self.classes[*c].refined;
+            own.iter().find(|(f, _)| *f == field).map(|(_, narrower)| *narrower)
+        };
+        let line = self.primary_line(class);
+        line.iter().find_map(refined).unwrap_or_else(|| self.field_class(field))
+    }
+    /// Returns the class of a field, as it was declared.
     pub fn field_class(&self, field: PartRef) -> ClassId {
         match field.role {
             PartRole::Part => self.classes[field.class].parts[field.index].class,

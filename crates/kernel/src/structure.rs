@@ -122,6 +122,8 @@ pub(crate) type Layouts = IdVec<ClassId, Option<Rc<Layout>>>;
 pub struct Layout {
     /// The fields, in order.
     pub fields: Vec<PartRef>,
+    /// For every field, the class of its things.
+    pub classes: Vec<ClassId>,
     /// The index of the first field of each name.
     pub index: BTreeMap<Name, u32>,
     /// The indices of fields that stand for superclasses other than the primary one.
@@ -144,7 +146,8 @@ impl Layout {
         }
         let line = document.primary_line(class).into_iter().map(|c| &document.classes[c].supers);
         let own_names = line.filter(|s| s.len() > 1).map(|s| s[0].name.clone()).collect();
-        Self { fields, index, superclasses, own_names }
+        let classes = fields.iter().map(|&f| document.refined_class(class, f)).collect();
+        Self { fields, classes, index, superclasses, own_names }
     }
 }
 

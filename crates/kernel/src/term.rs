@@ -123,6 +123,56 @@ impl Aspect {
     }
 }
 
+impl Term {
+    /// Returns the term with `super` searching above one class instead of another.
+    #[must_use]
+    pub fn with_above(&self, from: ClassId, to: ClassId) -> Self {
+        let one = |t: &Self| t.with_above(from, to);
+        let boxed = |t: &Self| Box::new(one(t));
+        let all = |terms: &[Self]| terms.iter().map(one).collect();
+        let arguments = |arguments: &[Argument]| {
+            let argument = |a: &Argument| Argument { label: a.label.clone(), value: one(&a.value) };
+            arguments.iter().map(argument).collect()
+        };
+        match self {
+            Self::Number { .. }
+            | Self::Text(_)
+            | Self::Bool(_)
+            | Self::Me
+            | Self::Owner
+            | Self::Document
+            | Self::Local(_)
+            | Self::All(_) => self.clone(),
+            Self::Send { to: receiver, name, arguments: a, above } => Self::Send {
+                to: boxed(receiver),
+                name: name.clone(),
+                arguments: arguments(a),
+                above: above.map(|c| if c == from { to } else { c }),
+            },
+            Self::Call { name, arguments: a } => {
+                Self::Call { name: name.clone(), arguments: arguments(a) }
+            }
+            Self::Make { class, arguments: a } => {
+                Self::Make { class: *class, arguments: arguments(a) }
+            }
+            Self::Tuple(terms) => Self::Tuple(all(terms)),
+            Self::List(terms) => Self::List(all(terms)),
+            Self::Range(a, b) => Self::Range(boxed(a), boxed(b)),
+            Self::Index(a, b) => Self::Index(boxed(a), boxed(b)),
+            Self::Unary(op, a) => Self::Unary(*op, boxed(a)),
+            Self::Binary(op, a, b) => Self::Binary(*op, boxed(a), boxed(b)),
+            Self::If(a, b, c) => Self::If(boxed(a), boxed(b), boxed(c)),
+            Self::Let(name, a, b) => Self::Let(name.clone(), boxed(a), boxed(b)),
+            Self::Lambda(names, a) => Self::Lambda(names.clone(), boxed(a)),
+            Self::IsA(a, class) => Self::IsA(boxed(a), *class),
+            Self::Copy(a) => Self::Copy(boxed(a)),
+            Self::OfConstraint { of, name, aspect } => {
+                Self::OfConstraint { of: boxed(of), name: name.clone(), aspect: *aspect }
+            }
+        }
+    }
+}
+
 /// An argument of a message, function or constructor.
 #[derive(Clone, PartialEq, Debug)]
 pub struct Argument {

@@ -60,6 +60,7 @@ impl Lowerer<'_> {
             attachers: Vec::new(),
             without: Vec::new(),
             switches: Vec::new(),
+            refined: Vec::new(),
             origin,
         };
         self.document.classes.push(class)

@@ -17,8 +17,9 @@
 //! **Invariants**: lowering never fails; a member with an error is left out, or what it said before
 //! stays in force; reading a number that was written gives its bits.
 //!
-//! Reading order: `origins`, `lower`, `files`, `visible`, `classes`, `scope`, `members`, `rules`, `switches`, `names`,
-//! `paths`, `terms`, `calls`, `kinds`, `settle`, `restore`, `checks`, `numbers`, `write`, `uses`,
+//! Reading order: `origins`, `lower`, `files`, `visible`, `classes`, `scope`, `members`, `rules`,
+//! `switches`, `names`, `paths`, `refine`, `terms`, `calls`, `kinds`, `settle`, `restore`, `checks`,
+//! `numbers`, `write`, `uses`,
 //! `edits`.
 mod calls;
 mod checks;
@@ -35,6 +36,7 @@ mod origins;
 mod paths;
 mod placed;
 mod references;
+mod refine;
 mod restore;
 mod rules;
 mod scope;

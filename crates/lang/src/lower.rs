@@ -12,11 +12,12 @@ use crate::origins::Origins;
 use crate::placed::PlacedClasses;
 use crate::references::References;
 use crate::restore::{Grain, Patch};
+use crate::rules::Mask;
 use crate::scope::Scope;
 use crate::switches::PendingSwitch;
 use crate::visible::Visible;
 use base::{Diagnostic, FileId, IdVec, Name, Place, Severity, Span};
-use kernel::{ClassId, Document, Fault, OriginId, Path, Vertical};
+use kernel::{ClassId, Document, Fault, OriginId, Vertical};
 use std::collections::{BTreeMap, BTreeSet};
 use std::rc::Rc;
 use syntax::ast::{self, AstNode, Member};
@@ -148,9 +149,13 @@ pub(crate) struct Lowerer<'l> {
     /// Names of constraints and merges.
     pub(crate) rule_names: BTreeSet<(ClassId, Name)>,
     /// What `without` names.
-    pub(crate) masks: Vec<(ClassId, Path, Place)>,
+    pub(crate) masks: Vec<Mask>,
     /// What switches name.
     pub(crate) switches: Vec<PendingSwitch>,
+    /// What `replace` says.
+    pub(crate) replacements: Vec<(Scope, ast::Replace, OriginId)>,
+    /// For every class with `modify`, the classes of the bodies, each below the one it modifies.
+    pub(crate) modifications: BTreeMap<ClassId, Vec<ClassId>>,
     /// How many members `for` has made.
     pub(crate) unrolled: usize,
     /// Classes of lists and sets, by `List of` or `Set of` and what they hold.
@@ -200,6 +205,8 @@ impl<'l> Lowerer<'l> {
             rule_names: BTreeSet::new(),
             masks: Vec::new(),
             switches: Vec::new(),
+            replacements: Vec::new(),
+            modifications: BTreeMap::new(),
             unrolled: 0,
             silent: 0,
             declared: Vec::new(),
@@ -217,6 +224,7 @@ impl<'l> Lowerer<'l> {
         self.declare_members();
         self.define_members();
         let checks = checks::lower(self);
+        self.refine_parts();
         self.settle();
         checks
     }

@@ -42,6 +42,7 @@ impl Lowerer<'_> {
                 Member::Ref(reference) => self.declare_reference(scope, reference),
                 Member::Message(message) => self.declare_message(scope, message),
                 Member::For(each) => self.unroll(scope, each),
+                Member::Modify(modify) => self.declare_modify(scope, modify),
                 Member::Assign(assign) => {
                     self.refuse_block(scope, assign.value());
                     let value = assign.value().and_then(ast::Value::expr);
@@ -61,6 +62,7 @@ impl Lowerer<'_> {
                 | Member::Anchor(_)
                 | Member::Insert(_)
                 | Member::Without(_)
+                | Member::Replace(_)
                 | Member::Attachers(_) => {
                     self.pending.push(Pending::Member(scope.clone(), member.clone()));
                 }
@@ -89,8 +91,6 @@ impl Lowerer<'_> {
 
     fn refuse(&mut self, file: FileId, member: &Member, span: Span) {
         let what = match member {
-            Member::Modify(_) => "`modify` is",
-            Member::Replace(_) => "`replace` is",
             Member::If(_) => "members under a condition are",
             Member::When(_) => "events are",
             Member::View(_) => "views of one's own are",

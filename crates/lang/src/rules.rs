@@ -20,6 +20,29 @@ enum Standing {
     InBranch,
 }
 
+/// What `without` names, and where.
+#[derive(Clone, Debug)]
+pub(crate) struct Mask {
+    pub(crate) class: ClassId,
+    pub(crate) path: Path,
+    pub(crate) place: Place,
+}
+
+/// What a constraint says, as it was written.
+pub(crate) struct Written {
+    pub(crate) rule: Rule,
+    pub(crate) tolerance: Option<Expr>,
+    pub(crate) methods: Option<ast::MethodList>,
+}
+
+/// What stands before a constraint's rule.
+pub(crate) struct Heading {
+    pub(crate) name: Option<Name>,
+    pub(crate) doc: String,
+    pub(crate) strength: Strength,
+    pub(crate) origin: OriginId,
+}
+
 impl Lowerer<'_> {
     /// Lowers every expression that waits.
     pub(crate) fn define_members(&mut self) {
@@ -172,9 +195,11 @@ impl Lowerer<'_> {
                 for e in without.paths() {
                     let Some(path) = loose_path(&e) else { continue };
                     let place = Place { file: scope.file, span: e.span() };
-                    self.masks.push((class, path.clone(), place));
-                    self.document.classes[class].without.push(path);
+                    self.masks.push(Mask { class, path, place });
                 }
+            }
+            Member::Replace(replace) => {
+                self.replacements.push((scope.clone(), replace.clone(), origin));
             }
             Member::Attachers(attachers) => {
                 let paths = self.paths(scope, attachers.paths());
@@ -229,12 +254,21 @@ impl Lowerer<'_> {
     fn define_constraint(&mut self, scope: &Scope, c: &ast::Constraint, origin: OriginId) {
         let Some(rule) = c.rule() else { return };
         let Some(name) = self.rule_name(scope, c.name()) else { return };
+        let written = Written { rule, tolerance: c.tolerance(), methods: c.methods() };
+        let strength = c.strength().map_or(Strength::Required, strength);
+        let doc = c.doc().unwrap_or_default();
+        self.add_constraint(scope, written, Heading { name, doc, strength, origin });
+    }
+
+    /// Lowers a rule with its tolerance and methods, and adds it to the class of the scope.
+    pub(crate) fn add_constraint(&mut self, scope: &Scope, written: Written, heading: Heading) {
+        let Written { rule, tolerance: within, methods: written } = written;
         let Some(term) = self.rule(scope, &rule, Standing::Alone) else { return };
         let tolerance = |l: &mut Self, e: &Expr| match &rule {
             Rule::Holds(rule) => l.tolerance(scope, rule, e),
             Rule::If(_) => l.expr_of(scope, e, &Kind::Number(None)),
         };
-        let within = match c.tolerance() {
+        let within = match within {
             Some(e) => match tolerance(self, &e) {
                 Some(term) => Some(term),
                 None => return,
@@ -242,7 +276,7 @@ impl Lowerer<'_> {
             None => None,
         };
         let (mut methods, mut reads, mut derived, mut whole) = (Vec::new(), Vec::new(), true, true);
-        for item in c.methods().into_iter().flat_map(|m| m.items()) {
+        for item in written.into_iter().flat_map(|m| m.items()) {
             match item {
                 MethodItem::Method(m) => {
                     if methods.is_empty() {
@@ -260,10 +294,10 @@ impl Lowerer<'_> {
         if !whole {
             return;
         }
-        let strength = c.strength().map_or(Strength::Required, strength);
+        let Heading { name, doc, strength, origin } = heading;
         self.document.classes[scope.class()].constraints.push(Constraint {
             name,
-            doc: c.doc().unwrap_or_default(),
+            doc,
             rule: term,
             strength,
             methods,

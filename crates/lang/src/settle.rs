@@ -2,9 +2,8 @@
 
 use crate::classes::small_first;
 use crate::lower::Lowerer;
-use base::diagnostic::nearest;
 use base::{Diagnostic, Name, Place};
-use kernel::{ClassId, Path, Step};
+use kernel::{ClassId, Step};
 use std::collections::BTreeMap;
 use syntax::ast::AstNode;
 use syntax::edit::{Spot, insert_member};
@@ -13,7 +12,6 @@ impl Lowerer<'_> {
     /// Reports what can be told only once every class has its members.
     pub(crate) fn settle(&mut self) {
         self.report_overrides();
-        self.report_masks();
         self.report_switches();
         self.report_conflicts();
         self.note_correspondences();
@@ -91,44 +89,6 @@ impl Lowerer<'_> {
                 let d = Diagnostic::error("override-signature", place, said);
                 self.report(d.hint("give it the same parameters, or another name"));
             }
-        }
-    }
-
-    /// What `without` names has to be an inherited constraint or merge.
-    fn report_masks(&mut self) {
-        for (class, path, place) in std::mem::take(&mut self.masks) {
-            let Some((Step::Part(name), before)) = path.0.split_last() else { continue };
-            let from = self.class_at(class, &Path(before.to_vec()));
-            if let Some(from) = from {
-                let start = place.span.end.saturating_sub(name.len() as u32);
-                let word = Place { file: place.file, span: base::Span::new(start, place.span.end) };
-                self.refer(word, name, from);
-            }
-            let lineage = from.map(|c| self.document.lineage(c)).unwrap_or_default();
-            let names: Vec<&Name> = lineage
-                .iter()
-                .map(|&c| &self.document.classes[c])
-                .flat_map(|c| {
-                    let constraints = c.constraints.iter().filter_map(|c| c.name.as_ref());
-                    constraints.chain(c.merges.iter().filter_map(|m| m.name.as_ref()))
-                })
-                .collect();
-            if names.contains(&name) {
-                continue;
-            }
-            let message = format!("no constraint or merge called {path} is inherited here");
-            let mut d = Diagnostic::error("unknown-name", place, message);
-            if let Some(near) = nearest(name, names.iter().map(|n| n.as_str())) {
-                let start = place.span.end.saturating_sub(name.len() as u32);
-                let word = Place { span: base::Span::new(start, place.span.end), ..place };
-                d = d
-                    .hint(format!("did you mean `{near}`?"))
-                    .fix(format!("write {near}"), [(word, near.to_string())]);
-            } else if !names.is_empty() {
-                let names: Vec<&str> = names.iter().map(|n| n.as_str()).collect();
-                d = d.hint(format!("there are {}", names.join(", ")));
-            }
-            self.report(d);
         }
     }
 

@@ -39,6 +39,7 @@ fn blank(name: &str, kind: ClassKind, supers: Vec<Superclass>) -> Class {
         attachers: Vec::new(),
         without: Vec::new(),
         switches: Vec::new(),
+        refined: Vec::new(),
         origin: OriginId(0),
     }
 }

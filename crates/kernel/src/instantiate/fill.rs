@@ -135,7 +135,7 @@ fn fill_fields<'d>(
     if !has_room(maker, body, layout.fields.len(), origin) {
         return;
     }
-    body.add_parts(thing, layout.fields.iter().map(|&f| document.field_class(f)));
+    body.add_parts(thing, layout.classes.iter().copied());
     let mut all = own_bindings(maker, thing, class);
     all.extend(bindings);
     let waiting = body.waiting.len();

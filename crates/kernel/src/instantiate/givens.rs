@@ -158,8 +158,7 @@ fn towards(maker: &mut Maker<'_>, class: ClassId, name: &Name) -> Option<Towards
         return Some(Towards::Itself);
     }
     let document = maker.document;
-    let has =
-        |&&i: &&u32| has_part(document, document.field_class(layout.fields[i as usize]), name);
+    let has = |&&i: &&u32| has_part(document, layout.classes[i as usize], name);
     layout.superclasses.iter().find(has).map(|&i| Towards::Within(i))
 }
 

@@ -4,7 +4,7 @@ use super::body::{Body, Member, Waiting};
 use super::merge::merge_pair;
 use super::{FaultKind, Maker};
 use crate::class::{ClassId, Merge};
-use crate::path::{Path, Step};
+use crate::path::Path;
 use crate::structure::{ConstraintInstance, StayInstance, ThingId};
 use crate::term::OriginId;
 use base::{IdVec, Name};
@@ -16,9 +16,14 @@ use std::collections::BTreeSet;
 pub(super) fn apply(maker: &mut Maker<'_>, body: &mut Body, thing: ThingId, waiting: usize) {
     let document = maker.document;
     let line = document.primary_line(body.things[thing].class);
-    let masks: Vec<&Name> = line.iter().flat_map(|&c| masks(maker, c)).collect();
-    let masked = |name: &Option<Name>| name.as_ref().is_some_and(|n| masks.contains(&n));
-    for &class in line.iter().rev() {
+    for (above, &class) in line.iter().enumerate().rev() {
+        // a class masks what is said above it
+        let masked = |name: &Option<Name>| {
+            let masks = |&c: &ClassId| {
+                name.as_ref().is_some_and(|n| document.classes[c].without.contains(n))
+            };
+            line[..above].iter().any(masks)
+        };
         let c = &document.classes[class];
         let mut wait = |member| body.waiting.push(Waiting { thing, class, member });
         for (index, merge) in (0..).zip(&c.merges) {
@@ -36,14 +41,6 @@ pub(super) fn apply(maker: &mut Maker<'_>, body: &mut Body, thing: ThingId, wait
     }
     merge_waiting(maker, body, waiting);
     follow_waiting(maker, body, waiting);
-}
-
-fn masks<'d>(maker: &Maker<'d>, class: ClassId) -> impl Iterator<Item = &'d Name> + use<'d> {
-    let document = maker.document;
-    document.classes[class].without.iter().filter_map(|path| match path.0.last() {
-        Some(Step::Part(name)) => Some(name),
-        Some(Step::Index(_) | Step::Last | Step::Owner) | None => None,
-    })
 }
 
 /// Makes the merges whose paths can be followed, until no merge opens up another.

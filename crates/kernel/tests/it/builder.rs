@@ -42,6 +42,7 @@ impl Builder {
             attachers: Vec::new(),
             without: Vec::new(),
             switches: Vec::new(),
+            refined: Vec::new(),
             origin: ORIGIN,
         })
     }

@@ -1,0 +1,336 @@
+//! Refinement: masks, replaced constraints, and parts that are narrower in a class than where they
+//! were declared.
+//!
+//! In: what `without`, `replace` and `modify` say. Out: masks on the classes themselves; and where a
+//! mask or a modification concerns a part, a class of one for that part, in that class alone.
+
+use crate::lower::Lowerer;
+use crate::paths::loose_path;
+use crate::rules::{Heading, Mask, Written};
+use crate::scope::Scope;
+use base::diagnostic::nearest;
+use base::{Diagnostic, Name, Place, Span};
+use kernel::{ClassId, ClassKind, Constraint, Message, Method, PartRef, Path, Step, Term};
+use std::collections::{BTreeMap, BTreeSet};
+use syntax::ast::{self, AstNode};
+
+/// What is said of a part: bodies that it gets, and names below it that are masked.
+#[derive(Clone, PartialEq, Eq, PartialOrd, Ord, Default)]
+struct Refinement {
+    /// The classes of the bodies of `modify`.
+    bodies: Vec<ClassId>,
+    /// The parts on the way, and the name of the constraint or merge.
+    masks: Vec<(Vec<Name>, Name)>,
+}
+
+/// The classes of one made so far.
+type Made = BTreeMap<(ClassId, Refinement), ClassId>;
+
+impl Lowerer<'_> {
+    /// Declares the body that every part of a kind gets in the things of a class.
+    pub(crate) fn declare_modify(&mut self, scope: &Scope, modify: &ast::Modify) {
+        let Some(ty) = modify.class() else { return };
+        let Some(class) = self.class_of_type(scope.file, &ty) else { return };
+        if self.document.classes[class].kind != ClassKind::Composite {
+            let what = &self.document.classes[class].name;
+            let message = format!("{what} has no parts or messages to modify");
+            return self.error("not-modifiable", scope.file, ty.span(), message);
+        }
+        let origin = self.origin(scope.file, modify.span());
+        let name = self.document.classes[class].name.to_string();
+        let body = self.add_unnamed_class(&name, class, origin);
+        self.classes_of_one.insert(body);
+        self.modifications.entry(scope.class()).or_default().push(body);
+        let members = modify.body().into_iter().flat_map(|b| b.members()).collect();
+        self.declare_body(&Scope::of(scope.file, body), members);
+    }
+
+    /// Carries out masks, replacements and modifications, once everything is defined.
+    pub(crate) fn refine_parts(&mut self) {
+        let mut masks: BTreeMap<ClassId, Vec<(Vec<Name>, Name)>> = BTreeMap::new();
+        for (scope, replace, origin) in std::mem::take(&mut self.replacements) {
+            self.replace(&scope, &replace, origin);
+        }
+        for mask in std::mem::take(&mut self.masks) {
+            let Some((way, name)) = self.masked(&mask) else { continue };
+            match way.is_empty() {
+                true => self.document.classes[mask.class].without.push(name),
+                false => masks.entry(mask.class).or_default().push((way, name)),
+            }
+        }
+        if masks.is_empty() && self.modifications.is_empty() {
+            return;
+        }
+        let mut made = Made::new();
+        for class in self.document.classes.ids().collect::<Vec<_>>() {
+            let line = self.document.primary_line(class);
+            let lineage = self.document.lineage(class);
+            let refinement = Refinement {
+                bodies: collect(&self.modifications, &lineage),
+                masks: collect(&masks, &line),
+            };
+            if refinement != Refinement::default() {
+                let refined = self.refined_fields(class, &refinement, &mut made);
+                self.document.classes[class].refined = refined;
+            }
+        }
+    }
+
+    /// Returns the fields of a class that a refinement makes narrower.
+    fn refined_fields(
+        &mut self,
+        class: ClassId,
+        refinement: &Refinement,
+        made: &mut Made,
+    ) -> Vec<(PartRef, ClassId)> {
+        let mut refined = Vec::new();
+        for field in self.document.layout(class) {
+            let name = self.document.field_name(field);
+            let below = |(way, mask): &(Vec<Name>, Name)| {
+                let (first, rest) = way.split_first()?;
+                (first == name).then(|| (rest.to_vec(), mask.clone()))
+            };
+            let of_field = Refinement {
+                bodies: refinement.bodies.clone(),
+                masks: refinement.masks.iter().filter_map(below).collect(),
+            };
+            let declared = self.document.field_class(field);
+            if let Some(narrower) = self.narrower(declared, &of_field, made) {
+                refined.push((field, narrower));
+            }
+        }
+        refined
+    }
+
+    /// Returns the class of one that a part of a class gets; none where nothing concerns it.
+    fn narrower(
+        &mut self,
+        class: ClassId,
+        refinement: &Refinement,
+        made: &mut Made,
+    ) -> Option<ClassId> {
+        match self.document.classes[class].kind {
+            ClassKind::Primitive(_) | ClassKind::Set(_) | ClassKind::Reference(_) => return None,
+            ClassKind::List(element) => {
+                let element = self.narrower(element, refinement, made)?;
+                return Some(self.class_made_of("List of", ClassKind::List(element), element));
+            }
+            ClassKind::Composite => {}
+        }
+        let concerns = !refinement.masks.is_empty()
+            || refinement.bodies.iter().any(|&b| self.reaches(class, self.modified(b)));
+        if !concerns {
+            return None;
+        }
+        let key = (class, refinement.clone());
+        if let Some(&known) = made.get(&key) {
+            return Some(known);
+        }
+        let (name, origin) = {
+            let c = &self.document.classes[class];
+            (c.name.to_string(), c.origin)
+        };
+        let one = self.add_unnamed_class(&name, class, origin);
+        self.classes_of_one.insert(one);
+        made.insert(key, one);
+        for &body in &refinement.bodies {
+            if self.document.is_a(class, self.modified(body)) {
+                self.add_members(body, one);
+            }
+        }
+        let own = refinement.masks.iter().filter(|(way, _)| way.is_empty());
+        self.document.classes[one].without.extend(own.map(|(_, name)| name.clone()));
+        self.document.classes[one].refined = self.refined_fields(class, refinement, made);
+        Some(one)
+    }
+
+    /// Returns the class that a body of `modify` is for.
+    fn modified(&self, body: ClassId) -> ClassId {
+        self.document.classes[body].supers[0].class
+    }
+
+    /// Returns true if things of a class are things of another, or have such parts at any depth.
+    fn reaches(&self, class: ClassId, wanted: ClassId) -> bool {
+        let document = &self.document;
+        let mut seen = BTreeSet::from([class]);
+        let mut waiting = vec![class];
+        while let Some(class) = waiting.pop() {
+            if document.is_a(class, wanted) {
+                return true;
+            }
+            let next = match document.classes[class].kind {
+                ClassKind::Primitive(_) | ClassKind::Set(_) | ClassKind::Reference(_) => Vec::new(),
+                ClassKind::List(element) => vec![element],
+                ClassKind::Composite => {
+                    document.layout(class).into_iter().map(|f| document.field_class(f)).collect()
+                }
+            };
+            waiting.extend(next.into_iter().filter(|&c| seen.insert(c)));
+        }
+        false
+    }
+
+    /// Adds what a body of `modify` says to a class; its `super` begins above that class.
+    fn add_members(&mut self, body: ClassId, to: ClassId) {
+        let from = self.document.classes[body].clone();
+        let term = |t: &Term| t.with_above(body, to);
+        let message = |m: Message| Message { answer: term(&m.answer), ..m };
+        let method =
+            |m: &Method| Method { values: m.values.iter().map(term).collect(), ..m.clone() };
+        let constraint = |c: Constraint| Constraint {
+            rule: term(&c.rule),
+            within: c.within.as_ref().map(term),
+            methods: c.methods.iter().map(method).collect(),
+            ..c
+        };
+        let class = &mut self.document.classes[to];
+        class.parts.extend(from.parts);
+        class.givens.extend(from.givens);
+        class.messages.extend(from.messages.into_iter().map(message));
+        class.constraints.extend(from.constraints.into_iter().map(constraint));
+        class.merges.extend(from.merges);
+        class.inserts.extend(from.inserts);
+        class.stays.extend(from.stays);
+        class.switches.extend(from.switches);
+        class.without.extend(from.without);
+        class.attachers.extend(from.attachers);
+    }
+
+    /// Puts another rule in the place of an inherited one: its name and strength stay.
+    fn replace(&mut self, scope: &Scope, replace: &ast::Replace, origin: kernel::OriginId) {
+        let (Some(target), Some(rule)) = (replace.target(), replace.rule()) else { return };
+        let Some(path) = loose_path(&target) else { return };
+        let place = Place { file: scope.file, span: target.span() };
+        let mask = Mask { class: scope.class(), path, place };
+        let Some((way, name)) = self.masked(&mask) else { return };
+        let path = Path(way.into_iter().map(Step::Part).collect());
+        let Some(class) = self.class_at(mask.class, &path) else { return };
+        let above = self.document.primary_line(class);
+        let replaced = above.iter().flat_map(|&c| &self.document.classes[c].constraints);
+        let replaced = replaced.into_iter().find(|c| c.name.as_ref() == Some(&name));
+        let Some((strength, doc)) = replaced.map(|c| (c.strength, c.doc.clone())) else {
+            let message = format!("{name} is a merge, which has no rule to replace");
+            let d = Diagnostic::error("not-a-rule", place, message);
+            return self.report(d.hint(format!("mask it, `without {name}`, and say the rule")));
+        };
+        self.masks.push(mask);
+        let written = Written { rule, tolerance: replace.tolerance(), methods: replace.methods() };
+        self.add_constraint(scope, written, Heading { name: Some(name), doc, strength, origin });
+    }
+
+    /// Finds the constraint or merge that a mask names: the parts on the way to it, and its name.
+    ///
+    /// A bare name means what the primary line says or, where that says nothing of the name, the one
+    /// other superclass that does.
+    fn masked(&mut self, mask: &Mask) -> Option<(Vec<Name>, Name)> {
+        let Mask { class, path, place } = mask;
+        let (Step::Part(name), before) = path.0.split_last()? else { return None };
+        let mut way = Vec::new();
+        let mut at = *class;
+        for step in before {
+            let Step::Part(part) = step else {
+                let message = format!("{path} is no constraint of a part");
+                self.report(Diagnostic::error("unknown-name", *place, message));
+                return None;
+            };
+            if self.is_primary_name(at, part) {
+                continue;
+            }
+            let Some(next) = self.class_of_part(at, part) else {
+                let message = format!("no constraint or merge called {path} is inherited here");
+                self.report(Diagnostic::error("unknown-name", *place, message));
+                return None;
+            };
+            way.push(part.clone());
+            at = next;
+        }
+        let start = place.span.end.saturating_sub(name.len() as u32);
+        let word = Place { file: place.file, span: Span::new(start, place.span.end) };
+        self.refer(word, name, at);
+        let mut ways = self.ways_to_rule(at, name, *class);
+        if ways.len() == 1 || ways.first().is_some_and(Vec::is_empty) {
+            way.append(&mut ways[0]);
+            return Some((way, name.clone()));
+        }
+        if let [first, second, ..] = &ways[..] {
+            let shown = |way: &Vec<Name>| {
+                let names: Vec<&str> = way.iter().map(Name::as_str).collect();
+                format!("{}.{name}", names.join("."))
+            };
+            let message = format!("{path} may be {} or {}", shown(first), shown(second));
+            let d = Diagnostic::error("ambiguous-name", *place, message);
+            self.report(d.hint("say which"));
+            return None;
+        }
+        let names = self.rule_names_above(at, *class);
+        let message = format!("no constraint or merge called {path} is inherited here");
+        let mut d = Diagnostic::error("unknown-name", *place, message);
+        if let Some(near) = nearest(name, names.iter().map(Name::as_str)) {
+            let fix = (word, near.to_string());
+            d = d.hint(format!("did you mean `{near}`?")).fix(format!("write {near}"), [fix]);
+        } else if !names.is_empty() {
+            let names: Vec<&str> = names.iter().map(Name::as_str).collect();
+            d = d.hint(format!("there are {}", names.join(", ")));
+        }
+        self.report(d);
+        None
+    }
+
+    /// Returns true if a name is that of a primary superclass, by which a thing reaches itself.
+    fn is_primary_name(&self, class: ClassId, name: &Name) -> bool {
+        let document = &self.document;
+        document.primary_line(class).iter().any(|&c| {
+            let supers = &document.classes[c].supers;
+            supers.len() > 1 && supers[0].name == *name
+        })
+    }
+
+    /// Returns the superclass parts on the way to every rule of this name; none for the thing itself.
+    fn ways_to_rule(&self, class: ClassId, name: &Name, masking: ClassId) -> Vec<Vec<Name>> {
+        let document = &self.document;
+        let line = document.primary_line(class);
+        let says = |&&c: &&ClassId| c != masking && self.says(c, name);
+        if line.iter().any(|c| says(&c)) {
+            return vec![Vec::new()];
+        }
+        let others = line.iter().flat_map(|&c| document.classes[c].supers.iter().skip(1));
+        let below = others.flat_map(|s| {
+            let mut ways = self.ways_to_rule(s.class, name, masking);
+            ways.iter_mut().for_each(|way| way.insert(0, s.name.clone()));
+            ways
+        });
+        below.collect()
+    }
+
+    /// Returns true if a class itself has a constraint or merge of this name.
+    fn says(&self, class: ClassId, name: &Name) -> bool {
+        let c = &self.document.classes[class];
+        let mut names =
+            c.constraints.iter().map(|c| &c.name).chain(c.merges.iter().map(|m| &m.name));
+        names.any(|n| n.as_ref() == Some(name))
+    }
+
+    fn rule_names_above(&self, class: ClassId, masking: ClassId) -> Vec<Name> {
+        let lineage = self.document.lineage(class);
+        let classes = lineage.into_iter().filter(|&c| c != masking);
+        let names = classes.map(|c| &self.document.classes[c]).flat_map(|c| {
+            let constraints = c.constraints.iter().filter_map(|c| c.name.clone());
+            constraints.chain(c.merges.iter().filter_map(|m| m.name.clone())).collect::<Vec<_>>()
+        });
+        names.collect()
+    }
+}
+
+/// Returns what is listed for some classes, in their order, each once.
+fn collect<T: Clone + PartialEq>(
+    by_class: &BTreeMap<ClassId, Vec<T>>,
+    classes: &[ClassId],
+) -> Vec<T> {
+    let mut all: Vec<T> = Vec::new();
+    for item in classes.iter().rev().filter_map(|c| by_class.get(c)).flatten() {
+        if !all.contains(item) {
+            all.push(item.clone());
+        }
+    }
+    all
+}
