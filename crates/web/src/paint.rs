@@ -10,7 +10,7 @@
 //! | 2, x1, y1, x2, y2 | a segment |
 //! | 3, closed, n, x, y, … | a polyline of n corners |
 //! | 4, x, y, radius, start, sweep | an arc |
-//! | 5, sign, x, y, pixels | a point's [`Sign`] |
+//! | 5, sign, x, y, pixels | a point's `Sign` |
 //! | 6, word, x, y, anchoring, height, on sheet | words, by number |
 
 use crate::sheet::View;
