@@ -105,10 +105,6 @@ impl<I: Id, T> IdVec<I, T> {
     pub fn as_slice(&self) -> &[T] {
         &self.items
     }
-    /// Returns the elements as a slice to be changed in place.
-    pub fn as_mut_slice(&mut self) -> &mut [T] {
-        &mut self.items
-    }
 }
 
 impl<I: Id, T> Default for IdVec<I, T> {

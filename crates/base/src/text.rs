@@ -80,10 +80,6 @@ impl Span {
     pub fn join(self, other: Self) -> Self {
         Self { start: self.start.min(other.start), end: self.end.max(other.end) }
     }
-    /// Returns true if `offset` lies in the span or at its end.
-    pub fn touches(self, offset: u32) -> bool {
-        self.start <= offset && offset <= self.end
-    }
 }
 impl fmt::Debug for Span {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
@@ -120,11 +116,5 @@ impl LineIndex {
         let end = (offset as usize).clamp(start, text.len());
         let column = text.get(start..end).map_or(end - start, |s| s.chars().count());
         (line as u32 + 1, column as u32 + 1)
-    }
-    /// Returns the bytes of a line counted from 1, without its line end.
-    pub fn line_text<'t>(&self, text: &'t str, line: u32) -> &'t str {
-        let start = self.starts.get(line as usize - 1).map_or(text.len(), |&s| s as usize);
-        let end = self.starts.get(line as usize).map_or(text.len(), |&s| s as usize);
-        text[start..end].trim_end_matches(['\n', '\r'])
     }
 }

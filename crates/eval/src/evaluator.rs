@@ -94,23 +94,6 @@ impl<'a> Evaluator<'a> {
         self.term(term, &Frame::of(me))
     }
 
-    /// Computes the value of a term in which some names stand for values already known.
-    ///
-    /// # Errors
-    /// Why it has none.
-    pub fn evaluate_with(
-        &self,
-        term: &'a Term,
-        me: ThingId,
-        locals: &[(&'a Name, Answer<'a>)],
-    ) -> Result<Answer<'a>> {
-        self.begin();
-        let bind = |frame: Frame<'a>, (name, answer): &(&'a Name, Answer<'a>)| {
-            frame.bind(name, answer.clone())
-        };
-        self.term(term, &locals.iter().fold(Frame::of(me), bind))
-    }
-
     /// Sends a message without arguments to a thing, or reads a part of it.
     ///
     /// # Errors

@@ -6,7 +6,7 @@ use crate::fault::Fault;
 use base::IdVec;
 use drawing::{Color, Drawing, Element, Point, Shape, Tag, Vertical};
 use expr::dimension::Dimension;
-use kernel::{ClassId, ClassKind, DOCUMENT, Primitive, SlotId, ThingId};
+use kernel::{ClassId, ClassKind, Primitive, SlotId, ThingId};
 use std::collections::BTreeMap;
 
 /// A drawing, what its tags stand for, and what can be gripped in it.
@@ -34,11 +34,6 @@ pub struct Grip {
 }
 
 impl Evaluator<'_> {
-    /// Draws the document.
-    pub fn document_picture(&self) -> Picture {
-        self.picture(DOCUMENT)
-    }
-
     /// Draws a thing by its message `picture`. What is drawn twice alike is drawn once.
     pub fn picture(&self, thing: ThingId) -> Picture {
         self.begin();

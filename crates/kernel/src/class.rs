@@ -113,6 +113,31 @@ pub struct Class {
     pub origin: OriginId,
 }
 
+impl Class {
+    /// Makes a class that says nothing yet.
+    pub fn new(name: Name, kind: ClassKind, supers: Vec<Superclass>, origin: OriginId) -> Self {
+        Self {
+            name,
+            doc: String::new(),
+            kind,
+            supers,
+            is_abstract: false,
+            parts: Vec::new(),
+            givens: Vec::new(),
+            messages: Vec::new(),
+            constraints: Vec::new(),
+            merges: Vec::new(),
+            inserts: Vec::new(),
+            stays: Vec::new(),
+            attachers: Vec::new(),
+            switches: Vec::new(),
+            without: Vec::new(),
+            refined: Vec::new(),
+            origin,
+        }
+    }
+}
+
 /// A superclass; all but the first are parts of the thing, reached by their name.
 #[derive(Clone, PartialEq, Debug)]
 pub struct Superclass {

@@ -44,25 +44,7 @@ impl Lowerer<'_> {
             let name = small_first(&self.document.classes[class].name);
             Superclass { class, name }
         });
-        let class = Class {
-            name: name.into(),
-            doc: String::new(),
-            kind,
-            supers: supers.collect(),
-            is_abstract: false,
-            parts: Vec::new(),
-            givens: Vec::new(),
-            messages: Vec::new(),
-            constraints: Vec::new(),
-            merges: Vec::new(),
-            inserts: Vec::new(),
-            stays: Vec::new(),
-            attachers: Vec::new(),
-            without: Vec::new(),
-            switches: Vec::new(),
-            refined: Vec::new(),
-            origin,
-        };
+        let class = Class::new(name.into(), kind, supers.collect(), origin);
         self.document.classes.push(class)
     }
 

@@ -1,13 +1,12 @@
 //! Diagnosis: what is free, what says nothing new, what cannot hold together, asked of one state.
 //!
 //! Structure is decided at a generic point; here the present state is looked at as well. Required
-//! rules have a gradient there (`gradient`); an echelon form of the gradients (`echelon`) tells
+//! rules have a gradient there (`gradient`); an echelon form of them (`solve::echelon`) tells
 //! the rank, the combination that a dependent row is, and the motions that are left ([`motion`]).
 //! Rank alone decides nothing: a row that only depends on others *here* is redundant if it still holds
 //! where the others are solved without it from elsewhere ([`redundancy`]). What cannot hold together
 //! is found by solving parts of it ([`conflict`]), and so is what would help ([`repair`]).
 pub mod conflict;
-pub(crate) mod echelon;
 pub(crate) mod gradient;
 pub mod held;
 pub mod motion;

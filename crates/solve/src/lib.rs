@@ -50,6 +50,8 @@ mod union;
 
 mod tableau;
 
+pub mod echelon;
+
 mod rows;
 
 mod accept;

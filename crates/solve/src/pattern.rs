@@ -99,6 +99,33 @@ impl Pattern {
         self.values().run(&scratch.arguments, &mut scratch.registers, &mut scratch.out);
         &scratch.out
     }
+    /// Returns true if the derivatives of an equation are the same everywhere.
+    ///
+    /// # Panics
+    /// If it has not two expressions.
+    pub fn is_linear(&self) -> bool {
+        self.kernel().entries.iter().all(|entry| entry.depends.is_empty())
+    }
+    /// Computes the derivatives of an equation's `left - right`, each with its argument; those that
+    /// are zero everywhere are left out.
+    ///
+    /// # Panics
+    /// If it has not two expressions.
+    pub fn slopes<'s>(
+        &'s self,
+        arguments: impl IntoIterator<Item = f64>,
+        scratch: &'s mut Scratch,
+    ) -> impl Iterator<Item = (usize, f64)> + 's {
+        let kernel = self.kernel();
+        scratch.arguments.clear();
+        scratch.arguments.extend(arguments);
+        scratch.out.clear();
+        // both sides come first
+        scratch.out.resize(2 + kernel.entries.len(), 0.0);
+        kernel.slopes.run(&scratch.arguments, &mut scratch.registers, &mut scratch.out);
+        let arguments = kernel.entries.iter().map(|entry| entry.argument as usize);
+        arguments.zip(scratch.out[2..].iter().copied())
+    }
     /// Returns what it says if that is next to nothing.
     pub(crate) fn plain(&self) -> Option<Plain> {
         self.plain

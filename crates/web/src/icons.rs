@@ -56,10 +56,6 @@ pub fn theme() -> AnyView {
         "M8 2.200a5.800 5.800 0 100 11.600a5.800 5.800 0 000-11.600zM8 2.200v11.600M8 5h4.800M8 8h5.700M8 11h4.800",
     )
 }
-/// Three lines.
-pub fn menu() -> AnyView {
-    icon("M2.500 4.500h11M2.500 8h11M2.500 11.500h11")
-}
 /// A cross.
 pub fn close() -> AnyView {
     icon("M4 4l8 8M12 4l-8 8")

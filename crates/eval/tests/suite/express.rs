@@ -4,8 +4,8 @@ use crate::build::{
     Build, add, call, equal, labelled, lambda, list, local, make, num, op, part, send, sub, text,
     tuple,
 };
-use eval::{Answer, Evaluator, FaultKind, given_values};
-use kernel::{BinaryOperator, ClassKind, Count, DOCUMENT, Insert, Term, UnaryOperator, Values};
+use eval::{Evaluator, FaultKind, given_values};
+use kernel::{BinaryOperator, ClassKind, Count, DOCUMENT, Insert, Term, UnaryOperator};
 
 /// Evaluates a term in the document's thing and writes its answer as text.
 fn value(b: &Build, term: &Term) -> String {
@@ -359,15 +359,4 @@ fn a_given_value_must_fit_its_slot() {
     let expected = ["1.5 where a whole number is wanted", "a number where a text is wanted"];
     assert_eq!(says, expected);
     assert_eq!(values.numbers.as_slice(), [0.0, 0.0, 1.0]);
-}
-
-#[test]
-fn locals_are_bound_from_outside() {
-    let b = with_line();
-    let structure = b.structure();
-    let values = Values::new(structure.slots.len());
-    let (name, term) = ("k".into(), add(local("k"), local("k")));
-    let evaluator = Evaluator::new(&b.document, &structure, &values);
-    let answer = evaluator.evaluate_with(&term, DOCUMENT, &[(&name, Answer::plain(4.0))]).unwrap();
-    assert_eq!(evaluator.text_of(&answer), "8");
 }

@@ -3,13 +3,13 @@
 use crate::build::{Build, call, num, op, part, send, text, tuple};
 use drawing::{Color, Line, Point, Shape};
 use eval::{Evaluator, Picture, given_values};
-use kernel::{BinaryOperator, ClassKind, Count, Stay};
+use kernel::{BinaryOperator, ClassKind, Count, DOCUMENT, Stay};
 
 fn picture(b: &Build) -> (Picture, Vec<String>) {
     let structure = b.structure();
     let (values, faults) = given_values(&b.document, &structure);
     assert_eq!(faults, []);
-    let picture = Evaluator::new(&b.document, &structure, &values).document_picture();
+    let picture = Evaluator::new(&b.document, &structure, &values).picture(DOCUMENT);
     let path = |t: &kernel::ThingId| structure.path(&b.document, *t).to_string();
     let paths = picture.things.iter().map(path).collect();
     (picture, paths)
@@ -128,7 +128,7 @@ fn five_thousand_lines_are_drawn_within_the_budget_of_steps() {
         values.put(slot, kernel::Value::Number(i as f64));
     }
     let evaluator = Evaluator::new(&b.document, &structure, &values);
-    let picture = evaluator.document_picture();
+    let picture = evaluator.picture(DOCUMENT);
     assert_eq!(picture.drawing.elements.len(), 5000);
     assert_eq!(picture.grips.len(), 10_000);
     assert_eq!(picture.faults, []);

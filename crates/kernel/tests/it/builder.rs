@@ -25,26 +25,7 @@ impl Builder {
             class,
             name: Name::new(&self.0[class].name.to_lowercase()),
         });
-        let supers = supers.collect();
-        self.0.push(Class {
-            name: name.into(),
-            doc: String::new(),
-            kind,
-            supers,
-            is_abstract: false,
-            parts: Vec::new(),
-            givens: Vec::new(),
-            messages: Vec::new(),
-            constraints: Vec::new(),
-            merges: Vec::new(),
-            inserts: Vec::new(),
-            stays: Vec::new(),
-            attachers: Vec::new(),
-            without: Vec::new(),
-            switches: Vec::new(),
-            refined: Vec::new(),
-            origin: ORIGIN,
-        })
+        self.0.push(Class::new(name.into(), kind, supers.collect(), ORIGIN))
     }
     pub(crate) fn composite(
         &mut self,

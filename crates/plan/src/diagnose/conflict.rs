@@ -8,7 +8,7 @@
 //! problems*, AAAI 2004.
 
 use crate::aim::Aim;
-use crate::diagnose::gradient::Gradients;
+use crate::diagnose::gradient::is_linear;
 use crate::diagnose::repair::{Repair, Suspects};
 use crate::diagnose::trial::{Setup, Trial, perturbed};
 use crate::edit::Conflict;
@@ -258,10 +258,9 @@ impl Planner {
         host: &mut dyn Host,
     ) -> Trial {
         let first = self.try_rules(setup, rules, &mut values.clone(), host);
-        let mut gradients = Gradients::default();
         let patterns = self.plans.patterns();
-        let is_linear = rules.iter().all(|&r| gradients.is_linear(patterns, self.rules.get(r)));
-        if first == Trial::Holds || (is_linear && first == Trial::Contradicts) {
+        let all_linear = rules.iter().all(|&r| is_linear(patterns, self.rules.get(r)));
+        if first == Trial::Holds || (all_linear && first == Trial::Contradicts) {
             return first;
         }
         let moves = |s: &SlotId| (setup.holding)(*s) != Holding::Fixed;

@@ -6,8 +6,7 @@
 //! larger than the freedom: then a motion counts if a small step along it can be completed.
 
 use crate::aim::Aim;
-use crate::diagnose::echelon::{Echelon, Row, Verdict};
-use crate::diagnose::gradient::Gradients;
+use crate::diagnose::gradient::gradient;
 use crate::diagnose::redundancy::Redundancy;
 use crate::diagnose::trial::{Setup, Trial, scattered};
 use crate::holds::counts;
@@ -16,6 +15,7 @@ use crate::planner::{Model, Planner};
 use crate::rule::{Body, Source};
 use crate::task::{Course, Holding, Task};
 use kernel::{Primitive, SlotId, ThingId, Values};
+use solve::echelon::{Echelon, Row, Verdict};
 use solve::{Level, Scratch};
 use std::collections::{BTreeMap, BTreeSet};
 
@@ -72,7 +72,7 @@ impl Planner {
         let superfluous: BTreeSet<Source> =
             redundancy.constraints.iter().map(|r| r.source).collect();
         let mut out = Freedom::default();
-        let mut gradients = Gradients::default();
+        let mut scratch = Scratch::default();
         let mut lone: BTreeMap<ThingId, Vec<SlotId>> = BTreeMap::new();
         for (slot, s) in model.structure.slots.iter() {
             let moves = self.net.rules_of(slot).is_empty() && s.primitive.is_number();
@@ -95,7 +95,7 @@ impl Planner {
             let wanted = task.plan.report.freedom
                 + redundancy.theorems.get(&index).copied().unwrap_or_default();
             out.freedom += wanted;
-            let space = Space::new(self, model, task, values, &superfluous, &mut gradients);
+            let space = Space::new(self, model, task, values, &superfluous, &mut scratch);
             let mut motions = space.motions(model, values);
             if space.free.len() > wanted {
                 motions.retain(|m| self.goes_on(model, task, values, m, host));
@@ -163,7 +163,7 @@ impl Space {
         task: &Task,
         values: &Values,
         superfluous: &BTreeSet<Source>,
-        gradients: &mut Gradients,
+        scratch: &mut Scratch,
     ) -> Self {
         let structure = model.structure;
         let moves = |&s: &SlotId| {
@@ -177,7 +177,6 @@ impl Space {
         for &index in &task.component.rules {
             let rule = planner.rules.get(index);
             let Body::Equations(equations) = &rule.shape.body else { continue };
-            let scratch = &mut Scratch::default();
             if rule.shape.level != Level::Required
                 || superfluous.contains(&rule.source)
                 || !counts(patterns, rule, values, scratch)
@@ -185,7 +184,7 @@ impl Space {
                 continue;
             }
             for equation in equations {
-                let row = gradients.row(patterns, rule, equation, &values.numbers);
+                let row = gradient(patterns, rule, equation, &values.numbers, scratch);
                 rows.push(row.into_iter().filter_map(|(s, v)| Some((column(s)?, v))).collect());
             }
         }

@@ -7,8 +7,7 @@
 //! touch by design are dependent here and fail there: they are not superfluous.
 
 use crate::aim::Aim;
-use crate::diagnose::echelon::{Echelon, Row, Verdict};
-use crate::diagnose::gradient::Gradients;
+use crate::diagnose::gradient::{gradient, is_linear};
 use crate::diagnose::trial::{Setup, Trial, perturbed};
 use crate::holds::counts;
 use crate::host::Host;
@@ -16,6 +15,7 @@ use crate::planner::{Model, Planner, Unmet};
 use crate::rule::{Body, Rule, Source};
 use crate::task::{Holding, Origin, Task};
 use kernel::{SlotId, Values};
+use solve::echelon::{Echelon, Row, Verdict};
 use solve::{Level, Scratch};
 use std::collections::{BTreeMap, BTreeSet};
 
@@ -72,7 +72,7 @@ impl Planner {
         let unmet: BTreeSet<Source> = required.map(|u| u.source).collect();
         self.plan_resting(model.structure);
         let tasks = self.take_resting();
-        let mut gradients = Gradients::default();
+        let mut scratch = Scratch::default();
         let mut out = Redundancy::default();
         for (index, task) in tasks.iter().enumerate() {
             let in_mode = task.by_values(self, values);
@@ -83,7 +83,7 @@ impl Planner {
             if !unmet.is_empty() && task.component.rules.iter().any(fails) {
                 continue;
             }
-            let candidates = candidates(self, model, task, values, &mut gradients);
+            let candidates = candidates(self, model, task, values, &mut scratch);
             let theorems = self.theorems(model, task, candidates, values, host);
             if !theorems.is_empty() {
                 out.theorems.insert(index, theorems.iter().map(|t| t.1).sum());
@@ -150,7 +150,7 @@ fn candidates(
     model: Model<'_>,
     task: &Task,
     values: &Values,
-    gradients: &mut Gradients,
+    scratch: &mut Scratch,
 ) -> BTreeMap<u32, Candidate> {
     let mut found: BTreeMap<u32, Candidate> = BTreeMap::new();
     let patterns = planner.plans.patterns();
@@ -158,7 +158,7 @@ fn candidates(
         let all = task.component.rules.iter().map(|&r| (r, planner.rules.get(r)));
         all.filter(|(_, rule)| counts(patterns, *rule, values, &mut Scratch::default()))
     };
-    if rules().all(|(_, rule)| gradients.is_linear(patterns, rule)) {
+    if rules().all(|(_, rule)| is_linear(patterns, rule)) {
         return found;
     }
     let rejected = rejected_rows(task);
@@ -180,7 +180,7 @@ fn candidates(
                 Planner::resting_hold(model.structure, s) != Holding::Fixed
                     && writable.as_ref().is_none_or(|w| w.contains(&s))
             };
-            let row = gradients.row(patterns, rule, equation, &values.numbers);
+            let row = gradient(patterns, rule, equation, &values.numbers, scratch);
             let row: Row = row
                 .into_iter()
                 .filter(|e| moves(e.0))

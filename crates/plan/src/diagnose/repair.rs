@@ -1,7 +1,7 @@
 //! Repairs: what would make a contradictory set hold, each tried on everything that belongs to it.
 
 use crate::diagnose::conflict::{Unit, rules_of};
-use crate::diagnose::gradient::Gradients;
+use crate::diagnose::gradient::gradient;
 use crate::diagnose::trial::{Setup, Trial};
 use crate::host::Host;
 use crate::planner::Planner;
@@ -160,7 +160,6 @@ impl Suspects<'_> {
         let Body::Equations(equations) = &rule.shape.body else { return None };
         let [equation] = equations.as_slice() else { return None };
         let patterns = self.planner.plans.patterns();
-        let mut gradients = Gradients::default();
         let mut scratch = solve::Scratch::default();
         let mut numbers = values.numbers.clone();
         for _ in 0..STEPS {
@@ -170,7 +169,7 @@ impl Suspects<'_> {
                 let x = numbers[slot];
                 return (x.is_finite() && x != self.values.numbers[slot]).then_some(x);
             }
-            let row = gradients.row(patterns, rule, equation, &numbers);
+            let row = gradient(patterns, rule, equation, &numbers, &mut scratch);
             let slope = row.iter().find(|e| e.0 == slot)?.1;
             numbers[slot] -= residual / slope;
         }

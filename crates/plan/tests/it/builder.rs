@@ -23,25 +23,7 @@ pub(crate) struct Builder {
 }
 
 fn blank(name: &str, kind: ClassKind, supers: Vec<Superclass>) -> Class {
-    Class {
-        name: Name::new(name),
-        doc: String::new(),
-        kind,
-        supers,
-        is_abstract: false,
-        parts: Vec::new(),
-        givens: Vec::new(),
-        messages: Vec::new(),
-        constraints: Vec::new(),
-        merges: Vec::new(),
-        inserts: Vec::new(),
-        stays: Vec::new(),
-        attachers: Vec::new(),
-        without: Vec::new(),
-        switches: Vec::new(),
-        refined: Vec::new(),
-        origin: OriginId(0),
-    }
+    Class::new(Name::new(name), kind, supers, OriginId(0))
 }
 
 impl Builder {

@@ -12,11 +12,11 @@ const CANCELLED: f64 = 1e-8;
 const PIVOT: f64 = 0.1;
 
 /// A sparse row: columns in order, with their coefficients.
-pub(crate) type Row = Vec<(u32, f64)>;
+pub type Row = Vec<(u32, f64)>;
 
 /// Rows in echelon form.
 #[derive(Debug, Default)]
-pub(crate) struct Echelon {
+pub struct Echelon {
     rows: Vec<Reduced>,
     row_of_pivot: BTreeMap<u32, u32>,
 }
@@ -34,7 +34,7 @@ struct Reduced {
 
 /// What became of a row.
 #[derive(Clone, PartialEq, Debug)]
-pub(crate) enum Verdict {
+pub enum Verdict {
     /// It is independent of the rows before it: it has this number among the independent ones.
     Independent(u32),
     /// It is a combination of these independent rows.
@@ -43,7 +43,7 @@ pub(crate) enum Verdict {
 
 impl Echelon {
     /// Adds a row. Of the columns that may be its pivot, `cost` tells which would rather be.
-    pub(crate) fn add(&mut self, row: &Row, cost: impl Fn(u32) -> u32) -> Verdict {
+    pub fn add(&mut self, row: &Row, cost: impl Fn(u32) -> u32) -> Verdict {
         let mut work: BTreeMap<u32, (f64, f64)> =
             row.iter().map(|&(c, v)| (c, (v, v.abs()))).collect();
         let mut waiting: BTreeSet<u32> =
@@ -82,12 +82,12 @@ impl Echelon {
     }
 
     /// Returns how many rows are independent.
-    pub(crate) fn rank(&self) -> usize {
+    pub fn rank(&self) -> usize {
         self.rows.len()
     }
 
     /// Returns true if the column is the pivot of a row.
-    pub(crate) fn has_pivot(&self, column: u32) -> bool {
+    pub fn has_pivot(&self, column: u32) -> bool {
         self.row_of_pivot.contains_key(&column)
     }
 
@@ -114,7 +114,7 @@ impl Echelon {
     }
 
     /// Computes the pivots that go with a choice of the free columns.
-    pub(crate) fn complete(&self, free: &[(u32, f64)]) -> Row {
+    pub fn complete(&self, free: &[(u32, f64)]) -> Row {
         let mut made: BTreeMap<u32, f64> = free.iter().copied().collect();
         for reduced in self.rows.iter().rev() {
             let (mut sum, mut size) = (0.0, 0.0f64);
