@@ -110,6 +110,7 @@ impl Slice {
         for &slot in inputs {
             is_reached[slot as usize] = true;
         }
+        let mut is_region_reached = vec![false; plan.regions.len()];
         let mut made = Self { inputs: inputs.to_vec(), ..Self::default() };
         for (index, step) in (0..).zip(&plan.steps) {
             if step.reads.iter().any(|&r| is_reached[r as usize]) {
@@ -120,6 +121,7 @@ impl Slice {
                 }
                 if let Some(region) = plan.regions.get(step.region as usize)
                     && region.can_approach
+                    && !std::mem::replace(&mut is_region_reached[step.region as usize], true)
                 {
                     for &u in &region.problem.unknowns {
                         is_reached[u as usize] = true;
