@@ -8,6 +8,7 @@
 //!
 //! `THINGLAB_LONG` makes it 10 000 steps. A seed that once failed is kept.
 
+use session::view::Status;
 use session::{Command, DocumentId, Host, Literal, Path, Session, parse_path};
 use std::collections::BTreeMap;
 use std::fmt::Write as _;
@@ -397,6 +398,12 @@ fn run(seed: u64, steps: usize) -> Result<usize, String> {
         let again = anew.open("again", &after.0);
         if moment(&anew, again) != after {
             return Err(fail("opened from its text it differs".into()));
+        }
+        let status =
+            |session: &Session, id| Status { undo: None, redo: None, ..session.status(id) };
+        let (is, was) = (status(&anew, again), status(&session, id));
+        if is != was {
+            return Err(fail(format!("opened from its text its status is {is:?}, not {was:?}")));
         }
         accepted += 1;
     }

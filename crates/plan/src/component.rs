@@ -104,17 +104,105 @@ impl Net {
     }
 
     /// Returns every component of the document, in order of their first slot.
+    ///
+    /// Cost: linear in what the rules mention.
     pub(crate) fn all(
         &self,
         rules: &Rules,
         is_fixed: &dyn Fn(SlotId) -> bool,
     ) -> Vec<Rc<Component>> {
-        let slots = (0..self.places.of.len() as u32).map(SlotId);
-        let slots = slots.filter(|&s| !self.rules_of(s).is_empty());
-        let slot_seen = Seen::Dense(vec![false; self.places.of.len()]);
-        let rule_seen = Seen::Dense(vec![false; rules.len()]);
-        let walk = Walk { net: self, rules, is_fixed, rule_seen, slot_seen, tied: &[] };
-        walk.around(slots)
+        let fixed: IdVec<SlotId, bool> = self.places.of.ids().map(is_fixed).collect();
+        let mut groups = Groups::new(fixed.len());
+        for rule in rules.iter() {
+            let mut moving = rule.slots.iter().copied().filter(|&s| !fixed[s]);
+            let Some(first) = moving.next() else { continue };
+            moving.for_each(|s| groups.unite(first, s));
+        }
+        let has_rules = |s: SlotId| !self.rules_of(s).is_empty();
+        for slot in fixed.ids().filter(|&s| !fixed[s] && has_rules(s)) {
+            let place = self.place_of(slot).iter().copied().take_while(|&s| s < slot);
+            place.filter(|&s| !fixed[s] && has_rules(s)).for_each(|s| groups.unite(s, slot));
+        }
+        let numbers = self.numbered(rules, &fixed, &mut groups);
+        self.gathered(rules, &fixed, &numbers)
+    }
+
+    /// Numbers the components in order of their first slot.
+    fn numbered(&self, rules: &Rules, fixed: &IdVec<SlotId, bool>, groups: &mut Groups) -> Numbers {
+        let mut numbers = Numbers {
+            of_slot: IdVec::filled(NONE, fixed.len()),
+            of_rule: vec![NONE; rules.len()],
+            count: 0,
+        };
+        let mut number = |known: &mut u32| {
+            if *known == NONE {
+                *known = numbers.count;
+                numbers.count += 1;
+            }
+        };
+        for (slot, &is_fixed) in fixed.iter().filter(|(s, _)| !self.rules_of(*s).is_empty()) {
+            if !is_fixed {
+                number(&mut numbers.of_slot[groups.first(slot)]);
+                continue;
+            }
+            for &rule in self.rules_of(slot) {
+                let moving = rules.get(rule).slots.iter().find(|s| !fixed[**s]);
+                number(match moving {
+                    Some(&s) => &mut numbers.of_slot[groups.first(s)],
+                    None => &mut numbers.of_rule[rule as usize],
+                });
+            }
+        }
+        for slot in fixed.ids().filter(|&s| !fixed[s]) {
+            numbers.of_slot[slot] = numbers.of_slot[groups.first(slot)];
+        }
+        for (index, rule) in rules.iter().enumerate() {
+            if let Some(&s) = rule.slots.iter().find(|s| !fixed[**s]) {
+                numbers.of_rule[index] = numbers.of_slot[s];
+            }
+        }
+        numbers
+    }
+
+    /// Makes the components from the numbers of their slots and rules.
+    fn gathered(
+        &self,
+        rules: &Rules,
+        fixed: &IdVec<SlotId, bool>,
+        numbers: &Numbers,
+    ) -> Vec<Rc<Component>> {
+        let mut sizes = vec![(0, 0); numbers.count as usize];
+        let component = |number: u32| (number != NONE).then_some(number as usize);
+        numbers.of_rule.iter().filter_map(|&n| component(n)).for_each(|n| sizes[n].0 += 1);
+        numbers.of_slot.iter().filter_map(|(_, &n)| component(n)).for_each(|n| sizes[n].1 += 1);
+        let sized = |(rules, slots): (usize, usize)| Component {
+            rules: Vec::with_capacity(rules),
+            slots: Vec::with_capacity(slots),
+        };
+        let mut made: Vec<Component> = sizes.into_iter().map(sized).collect();
+        // slots that are fixed may be in several
+        let mut known: Vec<(usize, SlotId)> = Vec::new();
+        for (slot, &n) in numbers.of_slot.iter() {
+            let Some(n) = component(n) else { continue };
+            made[n].slots.push(slot);
+            let place = self.place_of(slot).iter().copied();
+            known.extend(
+                place.filter(|&s| fixed[s] && !self.rules_of(s).is_empty()).map(|s| (n, s)),
+            );
+        }
+        for ((index, rule), &n) in (0..).zip(rules.iter()).zip(&numbers.of_rule) {
+            let Some(n) = component(n) else { continue };
+            made[n].rules.push(index);
+            known.extend(rule.slots.iter().filter(|s| fixed[**s]).map(|&s| (n, s)));
+        }
+        known.sort_unstable();
+        known.dedup();
+        for fixed_of_one in known.chunk_by(|a, b| a.0 == b.0) {
+            let slots = &mut made[fixed_of_one[0].0].slots;
+            slots.extend(fixed_of_one.iter().map(|k| k.1));
+            slots.sort_unstable();
+        }
+        made.into_iter().map(Rc::new).collect()
     }
 
     /// Returns the components of these slots; those of a fixed slot are the components of its rules.
@@ -128,28 +216,45 @@ impl Net {
         is_fixed: &dyn Fn(SlotId) -> bool,
         tied: &[Vec<SlotId>],
     ) -> Vec<Rc<Component>> {
-        let [rule_seen, slot_seen] = [(); 2].map(|()| Seen::Sparse(IndexSet::default()));
+        let [rule_seen, slot_seen] = [(); 2].map(|()| Seen::default());
         Walk { net: self, rules, is_fixed, rule_seen, slot_seen, tied }.around(slots)
     }
 }
 
-/// Which numbers were met.
-enum Seen {
-    /// For a walk through everything.
-    Dense(Vec<bool>),
-    /// For a walk through a little.
-    Sparse(IndexSet<u32, BuildHasherDefault<Mixer>>),
+/// No component.
+const NONE: u32 = u32::MAX;
+
+/// The components of slots that are not fixed, and of rules.
+struct Numbers {
+    of_slot: IdVec<SlotId, u32>,
+    of_rule: Vec<u32>,
+    count: u32,
 }
 
-impl Seen {
-    /// Returns true the first time.
-    fn add(&mut self, i: u32) -> bool {
-        match self {
-            Self::Dense(seen) => !std::mem::replace(&mut seen[i as usize], true),
-            Self::Sparse(seen) => seen.insert(i),
+/// Slots in disjoint groups, each known by its first.
+struct Groups(IdVec<SlotId, SlotId>);
+
+impl Groups {
+    fn new(slots: usize) -> Self {
+        Self((0..slots as u32).map(SlotId).collect())
+    }
+    fn first(&mut self, slot: SlotId) -> SlotId {
+        let mut at = slot;
+        while self.0[at] != at {
+            let next = self.0[self.0[at]];
+            self.0[at] = next;
+            at = next;
         }
+        at
+    }
+    fn unite(&mut self, a: SlotId, b: SlotId) {
+        let (a, b) = (self.first(a), self.first(b));
+        self.0[a.max(b)] = a.min(b);
     }
 }
+
+/// The numbers that were met.
+type Seen = IndexSet<u32, BuildHasherDefault<Mixer>>;
 
 struct Walk<'w> {
     net: &'w Net,
@@ -180,7 +285,7 @@ impl Walk<'_> {
                 continue;
             }
             for &rule in self.net.rules_of(slot) {
-                if self.rule_seen.add(rule) {
+                if self.rule_seen.insert(rule) {
                     let found = Found { rules: vec![rule], ..Found::default() };
                     components.extend(self.complete(found));
                 }
@@ -192,7 +297,7 @@ impl Walk<'_> {
     fn reach(&mut self, slot: SlotId, found: &mut Found) {
         if (self.is_fixed)(slot) {
             found.fixed.push(slot);
-        } else if self.slot_seen.add(slot.0) {
+        } else if self.slot_seen.insert(slot.0) {
             found.slots.push(slot);
         }
     }
@@ -209,7 +314,7 @@ impl Walk<'_> {
             let Some(slot) = found.slots.pop() else { break };
             found.component.slots.push(slot);
             for &rule in net.rules_of(slot) {
-                if self.rule_seen.add(rule) {
+                if self.rule_seen.insert(rule) {
                     found.rules.push(rule);
                 }
             }
@@ -235,5 +340,68 @@ impl Walk<'_> {
         component.slots.shrink_to_fit();
         component.rules.shrink_to_fit();
         Some(Rc::new(component))
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::lower::hold;
+    use crate::rule::Source;
+    use kernel::{Primitive, Slot, Strength};
+
+    /// Numbers that depend on nothing but the seed.
+    struct Dice(u64);
+
+    impl Dice {
+        fn below(&mut self, n: u32) -> u32 {
+            self.0 = self.0.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1);
+            (self.0 >> 33) as u32 % n
+        }
+    }
+
+    fn structure(dice: &mut Dice, slots: u32) -> Structure {
+        let mut structure = Structure::default();
+        for i in 0..slots {
+            // some slots are the coordinates of one place, not always side by side
+            let place = (dice.below(3) == 0).then(|| ThingId(dice.below(slots)));
+            let thing = ThingId(i);
+            structure.things.push(kernel::Thing {
+                class: kernel::ClassId(0),
+                owner: None,
+                field: 0,
+                first_part: thing,
+                parts: 0,
+            });
+            let (primitive, given, anchored) = (Primitive::Integer, None, dice.below(5) == 0);
+            structure.slots.push(Slot { thing, primitive, given, anchored, place });
+        }
+        structure
+    }
+
+    #[test]
+    fn all_components_are_those_around_every_slot() {
+        let mut dice = Dice(1);
+        let mut several = 0;
+        for _ in 0..300 {
+            let slots = 2 + dice.below(12);
+            let structure = structure(&mut dice, slots);
+            let mut rules = Rules::default();
+            for i in 0..dice.below(8) {
+                let mut mentioned: Vec<SlotId> =
+                    (0..1 + dice.below(3)).map(|_| SlotId(dice.below(slots))).collect();
+                mentioned.sort_unstable();
+                mentioned.dedup();
+                let shape = rules.add_shape(hold(Strength::Weak, mentioned.len() as u32));
+                rules.add(Source::Stay(i), shape, mentioned);
+            }
+            let net = Net::new(&structure, &rules);
+            let is_fixed = |s: SlotId| structure.slots[s].anchored;
+            let every = structure.slots.ids().filter(|&s| !net.rules_of(s).is_empty());
+            let around = net.around(every, &rules, &is_fixed, &[]);
+            several += usize::from(around.len() > 1);
+            assert_eq!(net.all(&rules, &is_fixed), around, "{rules:?} {structure:?}");
+        }
+        assert!(several > 100, "{several} documents of several components");
     }
 }

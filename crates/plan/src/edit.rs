@@ -5,9 +5,10 @@ use crate::component::Component;
 use crate::diagnose::trial::Setup;
 use crate::drag::move_at_once;
 use crate::host::{Failure, Host};
+use crate::past::CameId;
 use crate::planner::{Latest, Model, Planner, Unmet};
 use crate::rule::Source;
-use crate::run::{Ran, run};
+use crate::run::{Ran, run, scatter};
 use crate::task::{Holding, Task, Wish};
 use base::IdVec;
 use kernel::{SlotId, Term, ThingId, Value, Values};
@@ -136,14 +137,55 @@ impl Planner {
         let mut tasks = self.tasks(model.structure, components, &holding, &[]);
         let mut report = EditReport { reached: true, ..EditReport::default() };
         let before = values.clone();
+        self.plans.past.begin();
+        let mut is_known = vec![false; self.rules.len()];
+        let mut came = Vec::with_capacity(tasks.len());
         for task in &mut tasks {
-            let ran = run(self, model, task, &Aim::default(), &before, values, host);
-            note(&mut report, task, ran);
+            let known = self.came_before(model, task, &before, values, &mut report, host);
+            if known.is_some() {
+                task.component.rules.iter().for_each(|&r| is_known[r as usize] = true);
+            }
+            came.push(known);
         }
-        report.unmet = self.unmet(model, 0..self.rules.len() as u32, values, host);
+        let others = (0..self.rules.len() as u32).filter(|&r| !is_known[r as usize]);
+        report.unmet = self.unmet(model, others, values, host);
         report.changed = values.changed(&before).collect();
         self.latest = Latest { tasks, edited: None };
+        self.came = if are_anchors_given { came } else { Vec::new() };
         report
+    }
+
+    /// Runs a task of an opening, unless it is known what comes of it. Returns where that is kept, if
+    /// nothing is to be told of it but its values: all its rules hold.
+    fn came_before(
+        &mut self,
+        model: Model<'_>,
+        task: &mut Task,
+        before: &Values,
+        values: &mut Values,
+        report: &mut EditReport,
+        host: &mut dyn Host,
+    ) -> Option<CameId> {
+        let slots = &task.system.clone().slots;
+        let began = task.number().map(|plan| (plan, task.gather(&before.numbers)));
+        if let Some((plan, began)) = &began {
+            let mut local = began.clone();
+            if let Some(id) = self.plans.past.recall(*plan, slots, &mut local) {
+                scatter(task, &local, values);
+                return Some(id);
+            }
+        }
+        let ran = run(self, model, task, &Aim::default(), before, values, host);
+        let is_plain = ran.is_solved && ran.double_roots.is_empty();
+        note(report, task, ran);
+        let (plan, began) = began.filter(|_| is_plain)?;
+        let rules = task.component.rules.iter().copied();
+        if !self.unmet(model, rules, values, host).is_empty() {
+            return None;
+        }
+        let mut local = began.clone();
+        local.iter_mut().zip(task.numbers(&values.numbers)).for_each(|(x, now)| *x = now);
+        Some(self.plans.past.keep(plan, slots, &began, &local))
     }
 
     /// Makes the constraints hold from these values, with nothing edited: given numbers hold, places

@@ -51,6 +51,7 @@ pub mod host;
 
 mod component;
 mod holds;
+mod past;
 pub mod plans;
 mod task;
 

@@ -4,6 +4,7 @@ use crate::component::{Component, Net};
 use crate::fault::Fault;
 use crate::holds;
 use crate::host::Host;
+use crate::past::CameId;
 use crate::plans::{PlanCounts, Plans};
 use crate::rule::{Rules, Source};
 use crate::task::{Alike, Holding, Locals, Setting, Task, Wish, task};
@@ -35,6 +36,8 @@ pub struct Planner {
     pub(crate) latest: Latest,
     /// One task for each component, with nothing edited; made when first asked for.
     resting: Option<Vec<Task>>,
+    /// For every component, what opening the document came to, if that is remembered.
+    pub(crate) came: Vec<Option<CameId>>,
 }
 
 /// What the latest edit planned: what an explanation is about.
@@ -53,11 +56,17 @@ impl Planner {
     pub fn new(model: Model<'_>, mut plans: Plans) -> (Self, Vec<Fault>) {
         let (rules, faults) = lower_all(model, plans.patterns_mut());
         let net = Net::new(model.structure, &rules);
-        let latest = Latest::default();
-        (
-            Self { rules, net, plans, alike: Alike::default(), whole: None, latest, resting: None },
-            faults,
-        )
+        let planner = Self {
+            rules,
+            net,
+            plans,
+            alike: Alike::default(),
+            whole: None,
+            latest: Latest::default(),
+            resting: None,
+            came: Vec::new(),
+        };
+        (planner, faults)
     }
 
     /// Returns the plans made so far, to be handed to the next planner.

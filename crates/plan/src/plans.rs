@@ -1,5 +1,6 @@
 //! Plans by shape: what is planned once serves every component of the same shape.
 
+use crate::past::Past;
 use base::Mixer;
 use indexmap::IndexMap;
 use solve::{Conditional, Mode, Modes, Patterns, Plan, Puzzle, System};
@@ -17,6 +18,8 @@ pub struct Plans {
     /// Plans of systems in a mode: which mode is seen only when an edit runs.
     in_modes: RefCell<IndexMap<Rc<System>, Rc<Plan>, BuildHasherDefault<Mixer>>>,
     reused: usize,
+    /// What plans came to.
+    pub(crate) past: Past,
 }
 
 impl Plans {
@@ -36,16 +39,16 @@ impl Plans {
     pub(crate) fn reuse(&mut self) {
         self.reused += 1;
     }
-    /// Returns the plan of a system, and a system that it is the plan of.
-    pub(crate) fn plan(&mut self, system: System) -> (Rc<System>, Rc<Plan>) {
-        if let Some((system, plan)) = self.made.get_key_value(&system) {
+    /// Returns the plan of a system, a system that it is the plan of, and its number among those made.
+    pub(crate) fn plan(&mut self, system: System) -> (Rc<System>, Rc<Plan>, u32) {
+        if let Some((number, system, plan)) = self.made.get_full(&system) {
             self.reused += 1;
-            return (system.clone(), plan.clone());
+            return (system.clone(), plan.clone(), number as u32);
         }
         let system = Rc::new(system);
         let plan = Rc::new(solve::plan(&system, &self.patterns));
-        self.made.insert(system.clone(), plan.clone());
-        (system, plan)
+        let (number, _) = self.made.insert_full(system.clone(), plan.clone());
+        (system, plan, number as u32)
     }
 
     /// Returns where the plans end that are made so far.

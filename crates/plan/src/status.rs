@@ -1,13 +1,14 @@
 //! Status: what holds, what can still move, what says nothing new.
 
-use crate::diagnose::redundancy::Redundant;
+use crate::diagnose::redundancy::{Redundancy, Redundant};
 use crate::host::Host;
 use crate::planner::{Model, Planner, Unmet};
 use crate::rule::Source;
 use crate::task::{Course, Holding, Task};
 use base::IdVec;
 use kernel::{SlotId, Values};
-use solve::{Level, Stay};
+use solve::Level;
+use std::collections::BTreeSet;
 
 /// The state of a document at rest.
 #[derive(Clone, PartialEq, Debug, Default)]
@@ -38,13 +39,34 @@ pub enum SlotState {
 impl Planner {
     /// Says how the document stands while nothing is edited.
     ///
-    /// Plans what was not planned yet; after that, linear in the rules.
+    /// Plans what was not planned yet; after that, linear in the rules. Of a component in the state
+    /// that opening it came to, of which there was nothing to tell before, that is known.
     pub fn status(&mut self, model: Model<'_>, values: &Values, host: &mut dyn Host) -> Status {
         let structure = model.structure;
-        let unmet = self.unmet(model, 0..self.rules.len() as u32, values, host);
-        let is_unmet = |s: Source| unmet.iter().any(|u| u.source == s);
+        self.plan_resting(structure);
+        let tasks = self.take_resting();
+        let is_quiet: Vec<bool> =
+            (0..).zip(&tasks).map(|(i, task)| self.is_quiet(i, task, values)).collect();
+        let mut tells = vec![true; self.rules.len()];
+        for (task, _) in tasks.iter().zip(&is_quiet).filter(|(_, is_quiet)| **is_quiet) {
+            task.component.rules.iter().for_each(|&r| tells[r as usize] = false);
+        }
+        let rules = (0..self.rules.len() as u32).filter(|&r| tells[r as usize]);
+        let unmet = self.unmet(model, rules, values, host);
+        let required = unmet.iter().filter(|u| u.level == Level::Required);
+        let is_unmet: BTreeSet<Source> = required.map(|u| u.source).collect();
+        let mut redundancy = Redundancy::default();
+        for (i, task) in tasks.iter().enumerate().filter(|(i, _)| !is_quiet[*i]) {
+            let found = self.redundant(model, task, values, &is_unmet, host);
+            if found.is_empty()
+                && let (Some(Some(came)), Some(plan)) = (self.came.get(i), task.number())
+            {
+                self.plans.past.note_quiet(*came, plan, task.numbers(&values.numbers));
+            }
+            redundancy.add(i, found);
+        }
         let mut slots = IdVec::filled(SlotState::Fixed, structure.slots.len());
-        let mut freedom = 0;
+        let mut freedom = redundancy.theorem_rows();
         for (slot, s) in structure.slots.iter() {
             let lone = self.net.rules_of(slot).is_empty();
             if lone && Self::resting_hold(structure, slot) == Holding::Kept {
@@ -52,20 +74,19 @@ impl Planner {
                 freedom += usize::from(s.primitive.is_number());
             }
         }
-        let redundancy = self.redundancy(model, values, &unmet, host);
-        freedom += redundancy.theorem_rows();
-        for task in self.resting() {
+        for task in &tasks {
             let in_mode = task.by_values(self, values);
             let task = in_mode.as_ref().unwrap_or(task);
             if !matches!(task.course, Course::Search(_)) {
                 freedom += task.plan.report.freedom;
             }
-            for slot in movable(task) {
+            for slot in task.movable() {
                 slots[slot] = SlotState::Free;
             }
         }
+        self.give_resting(tasks);
         for rule in self.rules.iter() {
-            if rule.shape.level == Level::Required && is_unmet(rule.source) {
+            if rule.shape.level == Level::Required && is_unmet.contains(&rule.source) {
                 rule.slots.iter().for_each(|&s| slots[s] = SlotState::Conflicting);
             }
         }
@@ -73,31 +94,16 @@ impl Planner {
             satisfied: unmet.iter().all(|u| u.level != Level::Required),
             freedom,
             unmet,
-            redundant: redundancy.constraints,
+            redundant: redundancy.sorted().constraints,
             slots,
         }
     }
-}
 
-/// Returns the slots of a task at rest that can move: those that keep their own value, and those
-/// that follow them.
-fn movable(task: &Task) -> Vec<SlotId> {
-    let mut moves: Vec<bool> =
-        task.system.slots.iter().map(|s| matches!(s.stay, Stay::Kept { .. })).collect();
-    for step in &task.plan.steps {
-        let rows: usize = step
-            .relations
-            .iter()
-            .map(|&r| match &task.system.relations[r as usize].body {
-                solve::RelationBody::Equations(equations) => equations.len as usize,
-                solve::RelationBody::Opaque { .. } => step.targets.len(),
-            })
-            .sum();
-        let follows = step.reads.iter().any(|&r| moves[r as usize]) || step.targets.len() > rows;
-        for &t in &step.targets {
-            moves[t as usize] = follows;
-        }
+    /// Returns true if nothing was to be told of a component before, in this state.
+    fn is_quiet(&self, index: usize, task: &Task, values: &Values) -> bool {
+        let (Some(Some(came)), Some(plan)) = (self.came.get(index), task.number()) else {
+            return false;
+        };
+        self.plans.past.is_quiet(*came, plan, task.numbers(&values.numbers))
     }
-    let slots = task.component.slots.iter().zip(moves);
-    slots.filter(|(_, moves)| *moves).map(|(&s, _)| s).collect()
 }

@@ -16,6 +16,8 @@ use solve::{
     PatternId, Patterns, Plan, Puzzle, Relation, RelationBody, SlotIndex, SlotRange, Span, Stay,
     System,
 };
+use std::borrow::Cow;
+use std::cell::OnceCell;
 use std::collections::BTreeSet;
 use std::hash::BuildHasherDefault;
 use std::rc::Rc;
@@ -84,6 +86,12 @@ struct Stated {
     targets: Vec<(SlotIndex, u32, u32)>,
     /// For every source in the system, the rule of the component or the wish that it is.
     relations: Vec<Origin>,
+    /// The number of its plan, where what that comes to depends on numbers alone.
+    number: Option<u32>,
+    /// The component's slots that can move while nothing is edited; found when first asked for.
+    movable: OnceCell<Vec<SlotIndex>>,
+    /// The rows that may depend on others at some state; found when first asked for.
+    core: OnceCell<Vec<(u32, u32)>>,
 }
 
 /// What components without wishes were stated as, by what there is to see of them.
@@ -160,26 +168,67 @@ fn state(
     }
     making.ranges();
     let Making { conditional, holds, targets, relations, .. } = making;
-    let (system, plan, course) = course(plans, conditional);
-    (system, plan, course, Stated { holds, targets, relations })
+    let (system, plan, course, number) = course(plans, conditional);
+    let number = number.filter(|_| !has_host(&system));
+    let (movable, core) = Default::default();
+    (system, plan, course, Stated { holds, targets, relations, number, movable, core })
 }
 
-/// Plans a system, or what it is in its modes, or takes it for a matter of search.
-fn course(plans: &mut Plans, conditional: Conditional) -> (Rc<System>, Rc<Plan>, Course) {
+/// Returns true if the host takes part: in texts, in relations or in methods.
+fn has_host(system: &System) -> bool {
+    let by_host = |m: &Method| match m.body {
+        MethodBody::Opaque { .. } => true,
+        MethodBody::Formulas { .. } => false,
+    };
+    let is_opaque = |r: &Relation| match r.body {
+        RelationBody::Opaque { .. } => true,
+        RelationBody::Equations(_) => r.methods.iter().any(by_host),
+    };
+    system.slots.iter().any(|s| !s.is_number) || system.relations.iter().any(is_opaque)
+}
+
+/// Plans a system, or what it is in its modes, or takes it for a matter of search. A plain plan has
+/// a number.
+fn course(
+    plans: &mut Plans,
+    conditional: Conditional,
+) -> (Rc<System>, Rc<Plan>, Course, Option<u32>) {
     if conditional.is_plain() {
-        let (system, plan) = plans.plan(conditional.system);
-        (system, plan, Course::Plan)
+        let (system, plan, number) = plans.plan(conditional.system);
+        (system, plan, Course::Plan, Some(number))
     } else if conditional.is_searched() {
         let (system, puzzle) = plans.puzzle(conditional);
         let slots = system.slots.clone();
-        let (_, plan) = plans.plan(System { slots, ..System::default() });
-        (system, plan, Course::Search(puzzle))
+        let (_, plan, _) = plans.plan(System { slots, ..System::default() });
+        (system, plan, Course::Search(puzzle), None)
     } else {
         let modes = plans.modes(conditional);
         let mode = modes.blank();
         let (system, plan) = plans.in_mode(&modes, &mode);
-        (system, plan, Course::Modes(modes, Box::new(mode)))
+        (system, plan, Course::Modes(modes, Box::new(mode)), None)
     }
+}
+
+/// Returns the first slots of a system at rest that can move: those that keep their own value, and
+/// those that follow them.
+fn movable(system: &System, plan: &Plan, slots: usize) -> Vec<SlotIndex> {
+    let mut moves: Vec<bool> =
+        system.slots.iter().map(|s| matches!(s.stay, Stay::Kept { .. })).collect();
+    for step in &plan.steps {
+        let rows: usize = step
+            .relations
+            .iter()
+            .map(|&r| match &system.relations[r as usize].body {
+                RelationBody::Equations(equations) => equations.len as usize,
+                RelationBody::Opaque { .. } => step.targets.len(),
+            })
+            .sum();
+        let follows = step.reads.iter().any(|&r| moves[r as usize]) || step.targets.len() > rows;
+        for &t in &step.targets {
+            moves[t as usize] = follows;
+        }
+    }
+    (0..).zip(&moves[..slots]).filter(|(_, moves)| **moves).map(|(i, _)| i).collect()
 }
 
 impl Alike {
@@ -506,6 +555,34 @@ impl Task {
             Origin::Rule(r) => rules.source(r),
             Origin::Wish(w) => Source::Wish(w),
         }
+    }
+    /// Returns the number of its plan, where what that comes to depends on numbers alone.
+    pub(crate) fn number(&self) -> Option<u32> {
+        self.stated.number
+    }
+    /// Returns the slots that can move, of a task at rest: those that keep their own value, and those
+    /// that follow them.
+    pub(crate) fn movable(&self) -> impl Iterator<Item = SlotId> {
+        let find = || movable(&self.system, &self.plan, self.component.slots.len());
+        let found = match self.course {
+            Course::Plan => Cow::Borrowed(self.stated.movable.get_or_init(find).as_slice()),
+            // the mode at hand, which need not be the one that was stated
+            Course::Modes(..) | Course::Search(_) => Cow::Owned(find()),
+        };
+        (0..found.len()).map(move |i| self.component.slots[found[i] as usize])
+    }
+    /// Returns the rows that may depend on others at some state, of a task at rest: rule of the
+    /// component and equation. `find` finds them.
+    pub(crate) fn core(&self, find: impl FnOnce() -> Vec<(u32, u32)>) -> Cow<'_, [(u32, u32)]> {
+        match self.course {
+            Course::Plan => Cow::Borrowed(self.stated.core.get_or_init(find)),
+            // the mode at hand, which need not be the one that was stated
+            Course::Modes(..) | Course::Search(_) => Cow::Owned(find()),
+        }
+    }
+    /// Reads the numbers of the component's slots.
+    pub(crate) fn numbers(&self, numbers: &IdVec<SlotId, f64>) -> impl Iterator<Item = f64> {
+        self.component.slots.iter().map(|&s| numbers[s])
     }
     /// Reads the numbers of the document into the system's slots; targets are left at zero.
     pub(crate) fn gather(&self, numbers: &IdVec<SlotId, f64>) -> Vec<f64> {

@@ -159,6 +159,7 @@ pub(crate) fn keep(
     let latest = open.planner.take_latest();
     let plans = open.planner.take_plans();
     let (state, mut planner) = write_back(&before, values, &edited, host, plans);
+    let status = state.status(&mut planner);
     let unsaid = differing(&state, values).next().filter(|_| !state.diagnostics.is_empty());
     let refusal = match unsaid {
         Some(slot) => {
@@ -166,9 +167,7 @@ pub(crate) fn keep(
             let message = format!("refused: where {path} would be written, the text has an error");
             Some(words::refuse(message))
         }
-        None if open.status.satisfied => {
-            words::refusal_of_status(&state, &state.status(&mut planner))
-        }
+        None if open.status.satisfied => words::refusal_of_status(&state, &status),
         None => None,
     };
     if let Some(refusal) = refusal {
@@ -177,7 +176,7 @@ pub(crate) fn keep(
         return Err(refusal);
     }
     planner.restore_latest(latest);
-    open.step_to(label.clone(), edited, state, planner);
+    open.step_with(label.clone(), edited, (state, planner, status));
     Ok(change(label, &before, &open.state))
 }
 

@@ -12,6 +12,8 @@ pub(crate) struct Step {
     pub(crate) label: String,
     /// The document on the other side of the step.
     pub(crate) state: Rc<State>,
+    /// What holds and what is free there.
+    pub(crate) status: plan::Status,
     /// The slots that an edit of values was about; none for a step of any other kind.
     pub(crate) edited: Vec<SlotId>,
 }
@@ -64,12 +66,23 @@ impl Open {
         label: String,
         edited: Vec<SlotId>,
         state: State,
-        planner: Planner,
+        mut planner: Planner,
     ) {
-        let before = std::mem::replace(&mut self.state, Rc::new(state));
-        self.done.push(Step { label, state: before, edited });
+        let status = state.status(&mut planner);
+        self.step_with(label, edited, (state, planner, status));
+    }
+    /// The same, where it is known what holds and what is free.
+    pub(crate) fn step_with(
+        &mut self,
+        label: String,
+        edited: Vec<SlotId>,
+        (state, planner, status): (State, Planner, plan::Status),
+    ) {
+        let state = std::mem::replace(&mut self.state, Rc::new(state));
+        let status = std::mem::replace(&mut self.status, status);
+        self.done.push(Step { label, state, status, edited });
         self.undone.clear();
-        self.take_up(planner);
+        self.planner = planner;
     }
     /// Takes a step back or does it again; returns its label, or nothing if there is none.
     pub(crate) fn travel(&mut self, direction: Direction) -> Option<String> {
@@ -78,11 +91,11 @@ impl Open {
             Direction::Forth => (&mut self.undone, &mut self.done),
         };
         let step = from.pop()?;
-        let now = std::mem::replace(&mut self.state, step.state);
-        to.push(Step { label: step.label.clone(), state: now, edited: step.edited });
+        let state = std::mem::replace(&mut self.state, step.state);
+        let status = std::mem::replace(&mut self.status, step.status);
+        to.push(Step { label: step.label.clone(), state, status, edited: step.edited });
         let plans = self.planner.take_plans();
-        let (planner, _) = Planner::new(self.state.model(), plans);
-        self.take_up(planner);
+        (self.planner, _) = Planner::new(self.state.model(), plans);
         Some(step.label)
     }
     /// Makes the state of the same text anew, from what it uses as that is now.
@@ -91,9 +104,6 @@ impl Open {
         let plans = self.planner.take_plans();
         let (state, planner) = State::of(self.state.text.clone(), Some(&self.state), host, plans);
         self.state = Rc::new(state);
-        self.take_up(planner);
-    }
-    fn take_up(&mut self, planner: Planner) {
         self.planner = planner;
         self.status = self.state.status(&mut self.planner);
     }

@@ -106,6 +106,15 @@ impl Pattern {
     pub fn is_linear(&self) -> bool {
         self.kernel().entries.iter().all(|entry| entry.depends.is_empty())
     }
+    /// Returns the arguments that an equation depends on, each with whether its derivative by it is the
+    /// same everywhere, and so never zero.
+    ///
+    /// # Panics
+    /// If it has not two expressions.
+    pub fn dependence(&self) -> impl Iterator<Item = (usize, bool)> + '_ {
+        let entries = self.kernel().entries.iter();
+        entries.map(|entry| (entry.argument as usize, entry.depends.is_empty()))
+    }
     /// Computes the derivatives of an equation's `left - right`, each with its argument; those that
     /// are zero everywhere are left out.
     ///

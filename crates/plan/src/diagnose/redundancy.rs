@@ -49,6 +49,19 @@ pub struct Redundancy {
 }
 
 impl Redundancy {
+    /// Adds what is superfluous in one component.
+    pub(crate) fn add(&mut self, component: usize, found: Vec<(Redundant, usize)>) {
+        let rows = found.iter().map(|r| r.1).sum();
+        if rows > 0 {
+            self.theorems.insert(component, rows);
+        }
+        self.constraints.extend(found.into_iter().map(|r| r.0));
+    }
+    /// Puts the constraints in order of declaration.
+    pub(crate) fn sorted(mut self) -> Self {
+        self.constraints.sort();
+        self
+    }
     /// Returns how many rows are superfluous that structure counts as saying something.
     pub(crate) fn theorem_rows(&self) -> usize {
         self.theorems.values().sum()
@@ -72,27 +85,34 @@ impl Planner {
         let unmet: BTreeSet<Source> = required.map(|u| u.source).collect();
         self.plan_resting(model.structure);
         let tasks = self.take_resting();
-        let mut scratch = Scratch::default();
         let mut out = Redundancy::default();
         for (index, task) in tasks.iter().enumerate() {
-            let in_mode = task.by_values(self, values);
-            let task = in_mode.as_ref().unwrap_or(task);
-            let by_form = surplus(self, task).into_iter().filter(|r| !unmet.contains(&r.source));
-            out.constraints.extend(by_form);
-            let fails = |&r: &u32| unmet.contains(&self.rules.source(r));
-            if !unmet.is_empty() && task.component.rules.iter().any(fails) {
-                continue;
-            }
-            let candidates = candidates(self, model, task, values, &mut scratch);
-            let theorems = self.theorems(model, task, candidates, values, host);
-            if !theorems.is_empty() {
-                out.theorems.insert(index, theorems.iter().map(|t| t.1).sum());
-                out.constraints.extend(theorems.into_iter().map(|t| t.0));
-            }
+            out.add(index, self.redundant(model, task, values, &unmet, host));
         }
         self.give_resting(tasks);
-        out.constraints.sort();
-        out
+        out.sorted()
+    }
+
+    /// Finds the required constraints of one component at rest that say nothing new, each with the
+    /// number of its rows that are so by a theorem; those that do not hold are `unmet`.
+    pub(crate) fn redundant(
+        &mut self,
+        model: Model<'_>,
+        task: &Task,
+        values: &Values,
+        unmet: &BTreeSet<Source>,
+        host: &mut dyn Host,
+    ) -> Vec<(Redundant, usize)> {
+        let in_mode = task.by_values(self, values);
+        let task = in_mode.as_ref().unwrap_or(task);
+        let by_form = surplus(self, task).into_iter().filter(|r| !unmet.contains(&r.source));
+        let mut found: Vec<(Redundant, usize)> = by_form.map(|r| (r, 0)).collect();
+        let fails = |&r: &u32| unmet.contains(&self.rules.source(r));
+        if unmet.is_empty() || !task.component.rules.iter().any(fails) {
+            let candidates = candidates(self, model, task, values, &mut Scratch::default());
+            found.extend(self.theorems(model, task, candidates, values, host));
+        }
+        found
     }
 
     /// Returns the candidates that hold after the rest is solved without them from elsewhere, each
@@ -153,50 +173,104 @@ fn candidates(
     scratch: &mut Scratch,
 ) -> BTreeMap<u32, Candidate> {
     let mut found: BTreeMap<u32, Candidate> = BTreeMap::new();
-    let patterns = planner.plans.patterns();
-    let rules = || {
-        let all = task.component.rules.iter().map(|&r| (r, planner.rules.get(r)));
-        all.filter(|(_, rule)| counts(patterns, *rule, values, &mut Scratch::default()))
-    };
-    if rules().all(|(_, rule)| is_linear(patterns, rule)) {
+    let core = task.core(|| core(planner, model, task));
+    if core.is_empty() {
         return found;
     }
-    let rejected = rejected_rows(task);
+    let patterns = planner.plans.patterns();
     let column = |s: SlotId| task.component.slots.binary_search(&s).ok().map(|i| i as u32);
     let mut uses = vec![0u32; task.component.slots.len()];
-    for (_, rule) in rules() {
-        rule.slots.iter().filter_map(|&s| column(s)).for_each(|c| uses[c as usize] += 1);
-    }
     let mut echelon = Echelon::default();
     let mut rule_of_row: Vec<u32> = Vec::new();
-    for (index, rule) in rules().filter(|(_, r)| r.shape.level == Level::Required) {
+    let rows = core.iter().map(|&(position, e)| (task.component.rules[position as usize], e));
+    let counts = |r: u32| counts(patterns, planner.rules.get(r), values, &mut Scratch::default());
+    let rows: Vec<(u32, u32)> = rows.filter(|&(index, _)| counts(index)).collect();
+    for (index, _) in &rows {
+        let rule = planner.rules.get(*index);
+        rule.slots.iter().filter_map(|&s| column(s)).for_each(|c| uses[c as usize] += 1);
+    }
+    for (index, e) in rows {
+        let rule = planner.rules.get(index);
         let Body::Equations(equations) = &rule.shape.body else { continue };
         let writable = writable(rule);
-        for (e, equation) in (0..).zip(equations) {
-            if rejected.contains(&(index, e)) {
-                continue;
-            }
-            let moves = |s: SlotId| {
-                Planner::resting_hold(model.structure, s) != Holding::Fixed
-                    && writable.as_ref().is_none_or(|w| w.contains(&s))
-            };
-            let row = gradient(patterns, rule, equation, &values.numbers, scratch);
-            let row: Row = row
-                .into_iter()
-                .filter(|e| moves(e.0))
-                .filter_map(|(s, v)| Some((column(s)?, v)))
-                .collect();
-            match echelon.add(&row, |c| uses[c as usize]) {
-                Verdict::Independent(_) => rule_of_row.push(index),
-                Verdict::Dependent(rows) => {
-                    let candidate = found.entry(index).or_default();
-                    candidate.rows += 1;
-                    candidate.circuit.extend(rows.iter().map(|&r| rule_of_row[r as usize]));
-                }
+        let moves = |s: SlotId| {
+            Planner::resting_hold(model.structure, s) != Holding::Fixed
+                && writable.as_ref().is_none_or(|w| w.contains(&s))
+        };
+        let row = gradient(patterns, rule, &equations[e as usize], &values.numbers, scratch);
+        let row: Row = row
+            .into_iter()
+            .filter(|e| moves(e.0))
+            .filter_map(|(s, v)| Some((column(s)?, v)))
+            .collect();
+        match echelon.add(&row, |c| uses[c as usize]) {
+            Verdict::Independent(_) => rule_of_row.push(index),
+            Verdict::Dependent(rows) => {
+                let candidate = found.entry(index).or_default();
+                candidate.rows += 1;
+                candidate.circuit.extend(rows.iter().map(|&r| rule_of_row[r as usize]));
             }
         }
     }
     found
+}
+
+/// Finds the rows that may depend on others at some state: rule of the component and equation.
+///
+/// A row that alone of those left mentions a slot, with a derivative that is never zero, depends on
+/// none of them, nor they on it: it is left out, and so on. Where every rule is linear what depends
+/// does so everywhere.
+fn core(planner: &Planner, model: Model<'_>, task: &Task) -> Vec<(u32, u32)> {
+    let patterns = planner.plans.patterns();
+    let rules = || (0..).zip(&task.component.rules).map(|(i, &r)| (i, r, planner.rules.get(r)));
+    if rules().all(|(_, _, rule)| is_linear(patterns, rule)) {
+        return Vec::new();
+    }
+    let rejected = rejected_rows(task);
+    let mut rows: Vec<(u32, u32)> = Vec::new();
+    // every slot of every row, and whether its derivative is the same everywhere
+    let mut mentions: Vec<(SlotId, u32, bool)> = Vec::new();
+    for (position, index, rule) in rules().filter(|(_, _, r)| r.shape.level == Level::Required) {
+        let Body::Equations(equations) = &rule.shape.body else { continue };
+        let writable = writable(rule);
+        let moves = |s: SlotId| {
+            Planner::resting_hold(model.structure, s) != Holding::Fixed
+                && writable.as_ref().is_none_or(|w| w.contains(&s))
+        };
+        for (e, equation) in (0..).zip(equations).filter(|(e, _)| !rejected.contains(&(index, *e)))
+        {
+            let number = rows.len() as u32;
+            rows.push((position, e));
+            let slots: Vec<SlotId> = rule.slots_at(&equation.slots).collect();
+            let slopes = patterns.get(equation.pattern).dependence();
+            let slopes =
+                slopes.map(|(argument, is_constant)| (slots[argument], number, is_constant));
+            mentions.extend(slopes.filter(|m| moves(m.0)));
+        }
+    }
+    mentions.sort_unstable();
+    let of_slot: Vec<&[(SlotId, u32, bool)]> = mentions.chunk_by(|a, b| a.0 == b.0).collect();
+    let mut of_row: Vec<Vec<u32>> = vec![Vec::new(); rows.len()];
+    for (i, all) in (0..).zip(&of_slot) {
+        all.iter().for_each(|m| of_row[m.1 as usize].push(i));
+    }
+    let mut left: Vec<usize> = of_slot.iter().map(|all| all.len()).collect();
+    let mut is_out = vec![false; rows.len()];
+    let mut alone: Vec<u32> =
+        (0..of_slot.len() as u32).filter(|&i| left[i as usize] == 1).collect();
+    while let Some(slot) = alone.pop() {
+        let last = of_slot[slot as usize].iter().find(|m| !is_out[m.1 as usize]);
+        let Some(&(_, row, true)) = last else { continue };
+        is_out[row as usize] = true;
+        for &other in &of_row[row as usize] {
+            left[other as usize] -= 1;
+            if left[other as usize] == 1 {
+                alone.push(other);
+            }
+        }
+    }
+    let kept = rows.into_iter().zip(is_out).filter(|(_, is_out)| !is_out);
+    kept.map(|(row, _)| row).collect()
 }
 
 /// Returns the slots that a rule may write; nothing where it may write all that it mentions.
