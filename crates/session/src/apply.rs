@@ -317,9 +317,19 @@ pub(crate) fn preview(state: &State, command: &Command) -> Result<Option<Questio
     let Some(path) = done.class_of_one.filter(|_| done.class.is_none()) else { return Ok(None) };
     let thing = words::find(state, &path)?;
     let class = words::class_name(state, thing);
-    let message = format!("this changes {path} alone, which becomes a class of one");
     let this = Choice { label: format!("only {path}"), command: command.clone() };
     let every = every().map(|command| Choice { label: format!("every {class}"), command });
+    let label = words::command_label(command);
+    let message = match &every {
+        None => format!("{label}: then {path} is no longer like every {class}"),
+        Some(_) => {
+            let its = state.structure.things[thing].class;
+            let things = state.structure.things.iter();
+            let alike = things.filter(|(_, t)| state.lowered.document.is_a(t.class, its));
+            let number = alike.count();
+            format!("{label}: for {path} alone, or for every {class} ({number} here)?")
+        }
+    };
     Ok(Some(Question { message, choices: std::iter::once(this).chain(every).collect() }))
 }
 

@@ -8,10 +8,11 @@ use crate::prototype::Lone;
 use crate::state::State;
 use crate::view::{Recognised, Refusal};
 use crate::words;
+use base::Name;
 use base::number::close;
 use eval::Evaluator;
 use kernel::{
-    Class, ClassId, ClassKind, Document, PartRole, Path, Strength, ThingId, Value, Values,
+    Class, ClassId, ClassKind, Document, PartRole, Path, Step, Strength, ThingId, Value, Values,
 };
 
 /// How many parts can be asked about: their orders are all tried.
@@ -51,17 +52,38 @@ pub(crate) fn recognise(state: &State, paths: &[Path]) -> Result<Vec<Recognised>
         let mut order = Vec::new();
         if trial.first_order(state, &things, &fits, &mut order) {
             let names = fields.iter().map(|&f| document.field_name(f).to_string());
-            let parts = order.iter().map(|&i| paths[i].to_string());
+            let parts = names.zip(order.iter().map(|&i| paths[i].to_string()));
+            let parts: Vec<(String, String)> = parts.collect();
+            let class = &document.classes[class];
             found.push(Recognised {
-                class: document.classes[class].name.to_string(),
-                doc: document.classes[class].doc.clone(),
+                class: class.name.to_string(),
+                doc: class.doc.clone(),
                 constraints: trial.rules,
-                parts: names.zip(parts).collect(),
+                members: members(state, &class.name, &parts),
+                parts,
             });
         }
     }
     found.sort_by(|a, b| b.constraints.cmp(&a.constraints).then(a.class.cmp(&b.class)));
     Ok(found)
+}
+
+/// Writes a thing of a class whose parts are those selected; they stand first, so that they keep their
+/// values.
+fn members(state: &State, class: &Name, parts: &[(String, String)]) -> String {
+    let word: String = class.chars().enumerate().map(small_first).collect();
+    let names = std::iter::once(word.clone()).chain((2..).map(|i| format!("{word}{i}")));
+    let is_free = |name: &String| {
+        let path = Path(vec![Step::Part(Name::new(name))]);
+        Name::new(name) != *class && words::find(state, &path).is_err()
+    };
+    let name = { names }.find(is_free).unwrap_or_default();
+    let merges = parts.iter().map(|(field, part)| format!("merge {part} = {name}.{field}\n"));
+    std::iter::once(format!("{name}: {class}\n")).chain(merges).collect()
+}
+
+fn small_first((at, letter): (usize, char)) -> char {
+    if at == 0 { letter.to_ascii_lowercase() } else { letter }
 }
 
 fn is_candidate(state: &State, id: ClassId, class: &Class) -> bool {

@@ -71,6 +71,8 @@ pub struct Recognised {
     pub constraints: u32,
     /// For every part of the class, which of the selected parts it would be.
     pub parts: Vec<(String, String)>,
+    /// The members of the document that would make a thing of the class whose parts they are.
+    pub members: String,
 }
 
 /// A replaced stretch of the text.

@@ -78,7 +78,13 @@ impl Maker<'_> {
         let class = structure.things[thing].class;
         match document.classes[class].kind {
             ClassKind::Composite | ClassKind::List(_) if first == thing => {
-                for part in structure.parts(thing).take(MOST_ELEMENTS) {
+                let parts = structure.parts(thing);
+                let all = parts.len();
+                if all > MOST_ELEMENTS {
+                    let shown = format!("the first {MOST_ELEMENTS} of {all}");
+                    self.rows[at].detail = format!("{}, {shown}", self.rows[at].detail);
+                }
+                for part in parts.take(MOST_ELEMENTS) {
                     self.thing(part, depth + 1);
                 }
                 self.own(thing, depth + 1);

@@ -31,6 +31,8 @@ fn a_class_is_recognised_by_what_is_true_of_its_parts() {
     let found = desk.session.recognise(desk.id, &[at("b"), at("a")]).unwrap();
     let elbow = found.iter().find(|r| r.class == "Elbow").expect("it is one");
     assert_eq!(elbow.parts, [("one".into(), "a".into()), ("two".into(), "b".into())]);
+    let members = "elbow: Elbow\nmerge a = elbow.one\nmerge b = elbow.two\n";
+    assert_eq!(elbow.members, members);
     assert_eq!(classes(&desk, &["a", "far"]), []);
     assert_eq!(classes(&desk, &["far", "level"]), [("Couple".to_string(), 0)]);
     assert_eq!(classes(&desk, &["n", "far"]), []);

@@ -34,7 +34,7 @@ fn an_edit_of_one_thing_asks_first_and_leaves_the_others() {
     let mut desk = Desk::of(STRUTS);
     let command = edit("a", "constraint low: p1.y = 5");
     let question = desk.session.preview(desk.id, &command).unwrap().expect("there is a question");
-    assert_eq!(question.message, "this changes a alone, which becomes a class of one");
+    assert_eq!(question.message, "edit a: for a alone, or for every Strut (2 here)?");
     let labels: Vec<&str> = question.choices.iter().map(|c| c.label.as_str()).collect();
     assert_eq!(labels, ["only a", "every Strut"]);
     assert_eq!(question.choices[1].command, edit("Strut", "constraint low: p1.y = 5"));
