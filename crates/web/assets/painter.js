@@ -74,6 +74,20 @@ export function createPainter(canvas, onSize) {
     }
   }
 
+  function arrow(x, y, dx, dy) {
+    const c = context
+    const length = Math.hypot(dx, dy)
+    if (length < 1) return
+    const [ux, uy] = [dx / length, dy / length]
+    const [tx, ty] = [x + dx, y + dy]
+    const head = Math.min(8, length)
+    c.moveTo(x, y)
+    c.lineTo(tx, ty)
+    c.moveTo(tx - head * (ux + 0.5 * uy), ty - head * (uy - 0.5 * ux))
+    c.lineTo(tx, ty)
+    c.lineTo(tx - head * (ux - 0.5 * uy), ty - head * (uy + 0.5 * ux))
+  }
+
   const own = {
     // Reads the page's colours again, after light has become dark.
     look() {
@@ -179,6 +193,12 @@ export function createPainter(canvas, onSize) {
             })
             onSheet()
             i += 6
+            break
+          }
+          case 7: {
+            const [px, py, dx, dy, pixels] = list.subarray(i, i + 5)
+            arrow(x + kx * px, y + ky * py, Math.sign(kx) * pixels * dx, Math.sign(ky) * pixels * dy)
+            i += 5
             break
           }
         }

@@ -83,6 +83,26 @@ pub const ACTIONS: &[Action] = &[
         },
     },
     Action {
+        id: "merge",
+        label: words::MERGE,
+        keys: &["M"],
+        enabled: |lab| match several(lab)?.len() {
+            0 | 1 => Err(words::ONE_SELECTED),
+            _ => Ok(()),
+        },
+        run: |lab| {
+            let paths = lab.selection().iter().filter_map(|p| session::parse_path(p)).collect();
+            lab.apply(&Command::Merge(paths));
+        },
+    },
+    Action {
+        id: "recognise",
+        label: words::RECOGNISE,
+        keys: &["R"],
+        enabled: |lab| several(lab).map(drop),
+        run: Lab::recognise,
+    },
+    Action {
         id: "unmerge",
         label: words::UNMERGE,
         keys: &[],
@@ -242,6 +262,13 @@ fn selected(lab: Lab) -> Result<StructureRow, &'static str> {
     lab.structure
         .with(|rows| rows.iter().find(|r| r.path == path && r.kind != RowKind::Merge).cloned())
         .ok_or(words::NOTHING_SELECTED)
+}
+
+/// The paths of what is selected, where there is something.
+fn several(lab: Lab) -> Result<Vec<String>, &'static str> {
+    document(lab)?;
+    let selection = lab.selection();
+    if selection.is_empty() { Err(words::NOTHING_SELECTED) } else { Ok(selection) }
 }
 
 /// Whether a constraint is selected that is on, or off, as is wanted.

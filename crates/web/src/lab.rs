@@ -9,8 +9,8 @@ use crate::sheet::View;
 use crate::{js, theme, words};
 use leptos::prelude::*;
 use session::view::{
-    Change, DocumentId, DragState, Explanation, FixView, PictureView, Question, Refusal, Status,
-    StructureRow, TextView, ValueRow,
+    Analysis, Change, DocumentId, DragState, Explanation, FixView, HeldView, PictureView, Question,
+    Recognised, Refusal, Status, StructureRow, TextView, ValueRow, Velocity,
 };
 use session::{Command, Path, Session};
 use std::collections::BTreeMap;
@@ -43,6 +43,8 @@ pub enum Notice {
     Refused(Refusal),
     /// What has to be decided before a command is applied.
     Asked(Question),
+    /// What the selection could be the parts of.
+    Recognised(Vec<Recognised>),
 }
 
 /// Everything that the panels share; a handle that is copied about.
@@ -71,10 +73,14 @@ pub struct Lab {
     pub picture: RwSignal<PictureView>,
     /// The path of the selected thing.
     pub selected: RwSignal<Option<String>>,
+    /// The paths of what is selected besides, in the order of choosing.
+    pub also: RwSignal<Vec<String>>,
     /// The path of the thing under the pointer, in whatever view.
     pub hovered: RwSignal<Option<String>>,
-    /// The selected and the hovered path, each as the first path of its thing.
-    pub marked: Memo<(Option<String>, Option<String>)>,
+    /// What is selected and hovered, each as the first path of its thing.
+    pub marked: Memo<Marked>,
+    /// The motion that the picture shows by arrows.
+    pub motion: RwSignal<Vec<Velocity>>,
     /// What there is to say.
     pub notice: RwSignal<Option<Notice>>,
     /// Where the present drag has got to, if there is one.
@@ -107,6 +113,15 @@ impl fmt::Debug for Lab {
     }
 }
 
+/// What is marked in all views, each as the first path of its thing.
+#[derive(Clone, PartialEq, Debug, Default)]
+pub struct Marked {
+    /// What is selected, in the order of choosing.
+    pub selected: Vec<String>,
+    /// What is under the pointer.
+    pub hovered: Option<String>,
+}
+
 /// A change of the picture's view that comes from elsewhere than the picture.
 #[derive(Clone, Copy, PartialEq, Debug)]
 pub enum Zoom {
@@ -120,11 +135,16 @@ impl Lab {
     /// Makes a lab without documents.
     pub fn new() -> Self {
         let (selected, hovered) = (RwSignal::new(None), RwSignal::new(None));
-        let structure = RwSignal::new(Vec::new());
+        let (also, structure) = (RwSignal::new(Vec::new()), RwSignal::new(Vec::new()));
         let marked = Memo::new(move |_| {
-            let first =
-                |path: Option<String>| path.map(|p| structure.with(|rows| first_path(rows, p)));
-            (first(selected.get()), first(hovered.get()))
+            structure.with(|rows| {
+                let first = |path: String| first_path(rows, path);
+                let selected = selected.get().into_iter().chain(also.get());
+                Marked {
+                    selected: selected.map(first).collect(),
+                    hovered: hovered.get().map(first),
+                }
+            })
         });
         let files = StoredValue::new(FileSet::default());
         Self {
@@ -142,8 +162,10 @@ impl Lab {
             status: RwSignal::new(Status::default()),
             picture: RwSignal::new(PictureView::default()),
             selected,
+            also,
             hovered,
             marked,
+            motion: RwSignal::new(Vec::new()),
             notice: RwSignal::new(None),
             dragging: RwSignal::new(None),
             listed: RwSignal::new(Vec::new()),
@@ -235,8 +257,9 @@ impl Lab {
     pub fn show(self, path: &str) {
         self.flush_text();
         let Some(opened) = self.opened.with_value(|all| all.get(path).cloned()) else { return };
-        self.selected.set(None);
+        self.select(None);
         self.hovered.set(None);
+        self.motion.set(Vec::new());
         self.notice.set(None);
         self.conflict.set(None);
         let draft = theme::keep(&draft_key(path)).filter(|draft| *draft != opened.saved);
@@ -362,6 +385,29 @@ impl Lab {
     pub fn explain(self, about: Option<&Path>) -> Option<Explanation> {
         let id = self.id()?;
         Some(self.ask(|session| session.explain(id, about)))
+    }
+
+    /// What is free, superfluous and contradictory in the shown document.
+    pub fn analysis(self) -> Analysis {
+        self.tell(Session::analysis).unwrap_or_default()
+    }
+
+    /// Why a thing does not move; nothing where it can.
+    pub fn held(self, about: &Path) -> Option<HeldView> {
+        self.tell(|session, id| session.held(id, about)).flatten()
+    }
+
+    /// Says which classes the selected things could be the parts of.
+    pub fn recognise(self) {
+        self.flush_text();
+        let Some(id) = self.id() else { return };
+        let paths: Vec<Path> =
+            self.selection().iter().filter_map(|p| session::parse_path(p)).collect();
+        self.notice.set(Some(match self.ask(|session| session.recognise(id, &paths)) {
+            Ok(found) if found.is_empty() => Notice::Said(String::from(words::NOT_RECOGNISED)),
+            Ok(found) => Notice::Recognised(found),
+            Err(refusal) => Notice::Refused(refusal),
+        }));
     }
 
     /// Takes note of what the editor holds; it becomes a command a little later, or before the next
@@ -561,11 +607,35 @@ impl Lab {
         self.view.update(|view| *view = change(*view));
     }
 
-    /// Selects a thing, or nothing.
+    /// Selects a thing alone, or nothing.
     pub fn select(self, path: Option<String>) {
+        if !self.also.with_untracked(Vec::is_empty) {
+            self.also.set(Vec::new());
+        }
         if self.selected.with_untracked(|old| *old != path) {
             self.selected.set(path);
         }
+    }
+
+    /// Selects a thing besides what is selected, or lets it go again.
+    pub fn select_also(self, path: &str) {
+        let mut selection = self.selection_untracked();
+        match selection.iter().position(|p| p == path) {
+            Some(at) => drop(selection.remove(at)),
+            None => selection.push(String::from(path)),
+        }
+        let mut selection = selection.into_iter();
+        self.selected.set(selection.next());
+        self.also.set(selection.collect());
+    }
+
+    /// The paths of all that is selected, in the order of choosing.
+    pub fn selection(self) -> Vec<String> {
+        self.selected.get().into_iter().chain(self.also.get()).collect()
+    }
+
+    fn selection_untracked(self) -> Vec<String> {
+        untrack(|| self.selection())
     }
 
     /// Marks what the pointer is over, in whatever view.

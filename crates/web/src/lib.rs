@@ -34,6 +34,7 @@ pub mod structure;
 pub mod text;
 pub mod theme;
 pub mod values;
+pub mod why;
 pub mod words;
 
 /// Puts the page into the document's body; called once, when the bundle has loaded.

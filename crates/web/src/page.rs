@@ -6,10 +6,11 @@ use crate::lab::Lab;
 use crate::palette::Palette;
 use crate::picture::Picture;
 use crate::splitter::{Splitter, Way};
-use crate::status::{Asked, Refused, StatusLine, Why};
+use crate::status::{Asked, Recognition, Refused, StatusLine};
 use crate::structure::Structure;
 use crate::text::Text;
 use crate::values::Values;
+use crate::why::Why;
 use crate::{bench, icons, probe, route, words};
 use leptos::ev;
 use leptos::prelude::*;
@@ -163,6 +164,7 @@ fn Document(lab: Lab) -> impl IntoView {
             <div class="notices">
                 <Refused lab=lab />
                 <Asked lab=lab />
+                <Recognition lab=lab />
                 <Draft lab=lab />
                 <Conflict lab=lab />
             </div>

@@ -12,10 +12,11 @@
 //! | 4, x, y, radius, start, sweep | an arc |
 //! | 5, sign, x, y, pixels | a point's `Sign` |
 //! | 6, word, x, y, anchoring, height, on sheet | words, by number |
+//! | 7, x, y, dx, dy, pixels | an arrow from a point, so many pixels for each unit of its direction |
 
 use crate::sheet::View;
 use drawing::{Anchoring, Color, Element, Layer, Line, Placement, Point, Shape, Style};
-use session::view::{Freedom, PictureView};
+use session::view::{Freedom, PictureView, Velocity};
 use std::collections::BTreeSet;
 
 /// What is painted: numbers, and the words and colours that they speak of.
@@ -70,6 +71,8 @@ pub enum Mark {
 
 /// The width of a line where the document does not say, in pixels.
 const USUAL_WIDTH: f64 = 1.75;
+/// The length of the longest arrow of a motion, in pixels.
+const ARROW: f64 = 44.0;
 /// The radius of a point, in pixels.
 const POINT: f64 = 4.75;
 
@@ -100,6 +103,20 @@ pub fn display_list(
     }
     paint_elements(&mut list, picture, words);
     list
+}
+
+/// Adds an arrow for every place that a motion moves.
+pub fn arrows(list: &mut DisplayList, picture: &PictureView, motion: &[Velocity]) {
+    if motion.is_empty() {
+        return;
+    }
+    begin(list, Hue::Accent as i32, -1, Line::Solid, 2.0, Space::Screen);
+    for velocity in motion {
+        let grip = picture.grips.iter().find(|grip| grip.path == velocity.path);
+        if let (Some(grip), &[dx, dy]) = (grip, velocity.direction.as_slice()) {
+            list.numbers.extend([7.0, grip.x, grip.y, dx, dy, ARROW]);
+        }
+    }
 }
 
 /// The numbers of the grips where the picture has no point.

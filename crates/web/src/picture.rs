@@ -4,8 +4,8 @@
 //! is lost.
 
 use crate::js::{self, Painter};
-use crate::lab::{Lab, Zoom, first_path};
-use crate::paint::{DisplayList, Mark, display_list, grid};
+use crate::lab::{Lab, Marked, Zoom, first_path};
+use crate::paint::{DisplayList, Mark, arrows, display_list, grid};
 use crate::sheet::{View, fit};
 use crate::words;
 use drawing::{Point, Vertical};
@@ -39,11 +39,11 @@ pub fn Picture(
     let states = Memo::new(move |_| lab.structure.with(|rows| states(rows)));
     let list = Memo::new(move |_| {
         lab.picture.with(|picture| {
-            marked.with(|(selected, hovered)| {
-                let freedom = states.with(|states| grip_freedom(picture, states));
-                let marks = marks(picture, selected.as_deref(), hovered.as_deref());
-                display_list(picture, &freedom, &marks)
-            })
+            let freedom = states.with(|states| grip_freedom(picture, states));
+            let marks = marked.with(|marked| marks(picture, marked));
+            let mut list = display_list(picture, &freedom, &marks);
+            lab.motion.with(|motion| arrows(&mut list, picture, motion));
+            list
         })
     });
     Effect::new(move |_| {
@@ -78,7 +78,8 @@ pub fn Picture(
         let title = lab.document.with(|d| d.as_ref().map_or_else(String::new, |d| d.title.clone()));
         words::picture_of(&title, lab.picture.with(|picture| picture.grips.len()))
     });
-    let live = Memo::new(move |_| described(lab, marked.with(|(selected, _)| selected.clone())));
+    let live =
+        Memo::new(move |_| described(lab, marked.with(|marked| marked.selected.last().cloned())));
     view! {
         <section class="panel picture" aria-label=words::PICTURE>
             <canvas
@@ -174,22 +175,21 @@ fn wheel(lab: Lab, canvas: NodeRef<Canvas>, e: &WheelEvent) {
 }
 
 /// Returns true if a path leads to a thing or to a part of it, at any depth.
-fn covers(whole: &str, path: &str) -> bool {
+pub(crate) fn covers(whole: &str, path: &str) -> bool {
     path.strip_prefix(whole)
         .is_some_and(|rest| rest.is_empty() || rest.starts_with('.') || rest.starts_with('['))
 }
 
 /// Returns how each of a picture's tags and then each of its grips is marked.
-fn marks(picture: &PictureView, selected: Option<&str>, hovered: Option<&str>) -> Vec<Mark> {
-    let is =
-        |whole: Option<&str>, path: &str| whole.is_some_and(|w| !w.is_empty() && covers(w, path));
-    if selected.is_none() && hovered.is_none() {
+fn marks(picture: &PictureView, marked: &Marked) -> Vec<Mark> {
+    let is = |whole: &String, path: &str| !whole.is_empty() && covers(whole, path);
+    if marked.selected.is_empty() && marked.hovered.is_none() {
         return Vec::new();
     }
     let mark = |path: &String| {
-        if is(selected, path) {
+        if marked.selected.iter().any(|whole| is(whole, path)) {
             Mark::Selected
-        } else if is(hovered, path) {
+        } else if marked.hovered.as_ref().is_some_and(|whole| is(whole, path)) {
             Mark::Hovered
         } else {
             Mark::None
@@ -290,7 +290,7 @@ fn sheet_point(lab: Lab, at: (f64, f64)) -> Point {
 
 #[cfg(test)]
 mod tests {
-    use super::{Mark, covers, marks};
+    use super::{Mark, Marked, covers, marks};
     use session::view::PictureView;
 
     #[test]
@@ -306,11 +306,13 @@ mod tests {
     fn selection_wins_over_hovering_and_the_document_marks_nothing() {
         let paths = ["a", "a.b", "c"].map(String::from).to_vec();
         let picture = PictureView { paths, ..PictureView::default() };
-        assert_eq!(
-            marks(&picture, Some("a.b"), Some("a")),
-            [Mark::Hovered, Mark::Selected, Mark::None]
-        );
-        assert_eq!(marks(&picture, Some(""), None), [Mark::None; 3]);
-        assert!(marks(&picture, None, None).is_empty());
+        let marks = |selected: &[&str], hovered: Option<&str>| {
+            let selected = selected.iter().map(|path| String::from(*path)).collect();
+            marks(&picture, &Marked { selected, hovered: hovered.map(String::from) })
+        };
+        assert_eq!(marks(&["a.b"], Some("a")), [Mark::Hovered, Mark::Selected, Mark::None]);
+        assert_eq!(marks(&["a.b", "c"], None), [Mark::None, Mark::Selected, Mark::Selected]);
+        assert_eq!(marks(&[""], None), [Mark::None; 3]);
+        assert!(marks(&[], None).is_empty());
     }
 }

@@ -2,6 +2,7 @@
 
 use crate::js::{self, set_option};
 use crate::lab::{Lab, Notice};
+use crate::words;
 use drawing::Point;
 use js_sys::{Array, JSON, Object};
 use leptos::prelude::*;
@@ -61,6 +62,7 @@ fn state(lab: Lab) -> String {
         Some(Notice::Said(words)) => words,
         Some(Notice::Refused(refusal)) => refusal.message,
         Some(Notice::Asked(question)) => question.message,
+        Some(Notice::Recognised(found)) => words::recognised(&found),
         None => String::new(),
     };
     let diagnostics: Array = lab.text.with_untracked(|view| {
@@ -89,6 +91,7 @@ fn state(lab: Lab) -> String {
         ("diagnostics", diagnostics.into()),
         ("notice", text(&notice)),
         ("selected", lab.selected.get_untracked().into()),
+        ("also", lab.also.get_untracked().into_iter().map(JsValue::from).collect::<Array>().into()),
         ("dragging", lab.dragging.with_untracked(Option::is_some).into()),
     ]);
     JSON::stringify(&state).map(String::from).unwrap_or_default()

@@ -1,9 +1,11 @@
-//! The status line, what the lab has to say, and the panel that explains why.
+//! The status line, and what the lab has to say.
 
 use crate::lab::{Lab, Notice};
+use crate::why::listed;
 use crate::{icons, words};
 use leptos::prelude::*;
-use session::view::{Choice, ExplainedStep, Question, Refusal, Unmet};
+use session::view::{Choice, Question, Recognised, Refusal};
+use session::{Command, Path};
 
 /// The line at the bottom: whether all holds, how free things are, and what was just said.
 #[component]
@@ -23,7 +25,7 @@ pub fn StatusLine(
     let said = Memo::new(move |_| {
         lab.notice.with(|notice| match notice {
             Some(Notice::Said(words)) => Some(words.clone()),
-            Some(Notice::Refused(_) | Notice::Asked(_)) | None => None,
+            Some(Notice::Refused(_) | Notice::Asked(_) | Notice::Recognised(_)) | None => None,
         })
     });
     let heard = Memo::new(move |_| drag.get().or_else(|| said.get()));
@@ -49,7 +51,7 @@ pub fn Refused(
     let refusal = Memo::new(move |_| {
         lab.notice.with(|notice| match notice {
             Some(Notice::Refused(refusal)) => Some(refusal.clone()),
-            Some(Notice::Said(_) | Notice::Asked(_)) | None => None,
+            Some(Notice::Said(_) | Notice::Asked(_) | Notice::Recognised(_)) | None => None,
         })
     });
     let shown = move |refusal: Refusal| {
@@ -88,7 +90,7 @@ pub fn Asked(
     let question = Memo::new(move |_| {
         lab.notice.with(|notice| match notice {
             Some(Notice::Asked(question)) => Some(question.clone()),
-            Some(Notice::Said(_) | Notice::Refused(_)) | None => None,
+            Some(Notice::Said(_) | Notice::Refused(_) | Notice::Recognised(_)) | None => None,
         })
     });
     let choice = move |at: usize, choice: Choice| {
@@ -123,91 +125,45 @@ pub fn Asked(
     move || question.get().map(shown)
 }
 
-/// Paths as buttons that select them, after a word; nothing if there are none.
-fn listed(lab: Lab, word: &'static str, paths: Vec<String>) -> Option<impl IntoView> {
-    (!paths.is_empty()).then(|| {
-        let buttons = paths.into_iter().map(|path| view! { <PathButton lab=lab path=path /> });
-        view! { <p class="paths">{word}" "{buttons.collect_view()}</p> }
-    })
-}
-
-/// A path that is selected when it is pressed.
+/// The classes that the selection could be the parts of, each with what would make it one.
 #[component]
-fn PathButton(lab: Lab, path: String) -> impl IntoView {
-    let (select, hover) = (path.clone(), path.clone());
-    view! {
-        <button class="path"
-            on:click=move |_| lab.select(Some(select.clone()))
-            on:pointerenter=move |_| lab.hover(Some(hover.clone()))
-            on:pointerleave=move |_| lab.hover(None)>{path}</button>
-    }
-}
-
-/// The panel that says what does not hold, what is redundant and how the values come about.
-#[component]
-pub fn Why(
+pub fn Recognition(
     /// The lab.
     lab: Lab,
 ) -> impl IntoView {
-    let explanation = Memo::new(move |_| {
-        lab.status.track();
-        let about = lab.selected.get().and_then(|path| session::parse_path(&path));
-        lab.explain(about.as_ref()).unwrap_or_default()
+    let found = Memo::new(move |_| {
+        lab.notice.with(|notice| match notice {
+            Some(Notice::Recognised(found)) => Some(found.clone()),
+            Some(Notice::Said(_) | Notice::Refused(_) | Notice::Asked(_)) | None => None,
+        })
     });
-    let unmet = Memo::new(move |_| lab.status.with(|status| status.unmet.clone()));
-    let redundant = Memo::new(move |_| lab.status.with(|status| status.redundant.clone()));
-    let steps = Memo::new(move |_| explanation.with(|e| e.steps.clone()));
-    view! {
-        <section id="why" class="panel why" aria-label=words::WHY>
-            <header class="head">
-                <h2>{words::WHY}</h2>
-                <span class="quiet">{move || explanation.with(|e| {
-                    if e.about.is_empty() { String::from(words::WHOLE_DOCUMENT) } else { e.about.clone() }
-                })}</span>
+    let one = move |r: Recognised| {
+        let members = r.members;
+        let make = move |_| {
+            let (target, members) = (Path::default(), members.clone());
+            lab.apply(&Command::Edit { target, members });
+        };
+        let parts: Vec<String> =
+            r.parts.iter().map(|(field, part)| format!("{field} = {part}")).collect();
+        view! {
+            <li>
+                <b>{r.class}</b>" "<code>{parts.join(", ")}</code>" "
+                <span class="quiet">{words::rules_hold(r.constraints)}</span>
+                <button on:click=make>{words::MAKE_ONE}</button>
+            </li>
+        }
+    };
+    let shown = move |found: Vec<Recognised>| {
+        view! {
+            <div class="notice recognised" role="status">
+                <div class="words">
+                    <p class="lead">{words::RECOGNISED}</p>
+                    <ul>{found.into_iter().map(one).collect_view()}</ul>
+                </div>
                 <button class="bare" aria-label=words::CLOSE title=words::CLOSE
-                    on:click=move |_| lab.why.set(false)>{icons::close()}</button>
-            </header>
-            <div class="scroll reasons">
-                {move || (!unmet.with(Vec::is_empty)).then(|| view! {
-                    <h3 class="conflicting">{words::UNMET}</h3>
-                    <ul>{unmet.get().into_iter().map(|u| view! { <UnmetRow lab=lab unmet=u /> }).collect_view()}</ul>
-                })}
-                {move || (!redundant.with(Vec::is_empty)).then(|| view! {
-                    <h3 class="redundant">{words::REDUNDANT}</h3>
-                    {listed(lab, "", redundant.get())}
-                })}
-                <p>{move || explanation.with(|e| e.summary.clone())}</p>
-                {move || (!steps.with(Vec::is_empty)).then(|| view! {
-                    <h3>{words::STEPS}</h3>
-                    <ol class="steps">{steps.get().into_iter().map(|s| view! { <Step lab=lab step=s /> }).collect_view()}</ol>
-                })}
+                    on:click=move |_| lab.notice.set(None)>{icons::close()}</button>
             </div>
-        </section>
-    }
-}
-
-#[component]
-fn UnmetRow(lab: Lab, unmet: Unmet) -> impl IntoView {
-    view! {
-        <li>
-            <PathButton lab=lab path=unmet.constraint />
-            <code>{unmet.rule}</code>
-            <span class="quiet">{unmet.strength}
-                {unmet.error.map(|error| format!(", {} {}", words::OFF_BY, words::short(error)))}</span>
-        </li>
-    }
-}
-
-#[component]
-fn Step(lab: Lab, step: ExplainedStep) -> impl IntoView {
-    let targets = step.targets.into_iter().map(|path| view! { <PathButton lab=lab path=path /> });
-    view! {
-        <li>
-            <span class="targets">{targets.collect_view()}</span>
-            <span class="method">{step.method}</span>
-            <code>{step.formula}</code>
-            <span class="quiet">{step.reason}</span>
-            <span class="results">{step.values.join(", ")}</span>
-        </li>
-    }
+        }
+    };
+    move || found.get().map(shown)
 }

@@ -1,9 +1,12 @@
 //! The structure view: the tree of parts, constraints and merges, the picture's accessible twin.
+//!
+//! All rows are equally high; only those in sight, and the one that has the keyboard, are in the page.
 
 use crate::lab::Lab;
 use crate::values::rounded_all;
 use crate::{field, icons, words};
 use leptos::ev::KeyboardEvent;
+use leptos::html::Div;
 use leptos::prelude::*;
 use session::Command;
 use session::view::{RowKind, StructureRow};
@@ -11,6 +14,9 @@ use std::collections::BTreeSet;
 
 /// At first so many levels are open as show no more rows than this.
 const FIRST_ROWS: usize = 30;
+
+/// So many rows above and below those in sight are in the page as well.
+const SPARE_ROWS: usize = 10;
 
 /// Which rows are open or shut against the rule, and which one has the keyboard.
 #[derive(Clone, Copy, Debug)]
@@ -21,26 +27,75 @@ struct Tree {
     toggled: RwSignal<BTreeSet<String>>,
     current: RwSignal<usize>,
     editing: RwSignal<Option<usize>>,
+    /// The rows that no shut row hides.
+    visible: Memo<Vec<Shown>>,
+    /// What scrolls, and what is as high as all rows are.
+    frame: NodeRef<Div>,
+    sheet: NodeRef<Div>,
 }
 
 impl Tree {
-    fn is_open(self, row: &StructureRow) -> bool {
-        let toggled = self.toggled.with(|toggled| toggled.contains(&row.path));
-        (row.depth < self.open_depth) != toggled
+    fn new(lab: Lab) -> Self {
+        let open_depth = lab.structure.with_untracked(|rows| first_depth(rows));
+        let toggled = RwSignal::new(BTreeSet::new());
+        let visible = Memo::new(move |_| {
+            let is_open =
+                |row: &StructureRow| toggled.with(|toggled| is_open(row, open_depth, toggled));
+            lab.structure.with(|rows| shown(rows, is_open))
+        });
+        Self {
+            lab,
+            open_depth,
+            toggled,
+            current: RwSignal::new(0),
+            editing: RwSignal::new(None),
+            visible,
+            frame: NodeRef::new(),
+            sheet: NodeRef::new(),
+        }
     }
 
-    /// The numbers of the rows that no shut row hides.
-    fn visible(self) -> Vec<usize> {
-        self.lab.structure.with(|rows| {
-            let mut visible = Vec::new();
-            let mut at = 0;
-            while let Some(row) = rows.get(at) {
-                visible.push(at);
-                let shut = row.descendants > 0 && !self.is_open(row);
-                at += 1 + if shut { row.descendants as usize } else { 0 };
+    fn is_open(self, row: &StructureRow) -> bool {
+        self.toggled.with(|toggled| is_open(row, self.open_depth, toggled))
+    }
+
+    /// The height of a row, in pixels; nothing before there are any.
+    fn row_height(self) -> Option<f64> {
+        let sheet = self.sheet.get_untracked()?;
+        let rows = self.visible.with_untracked(Vec::len);
+        let height = f64::from(sheet.offset_height()) / rows as f64;
+        (height > 0.0).then_some(height)
+    }
+
+    /// The places of the rows in sight, among the visible ones.
+    fn in_sight(self) -> std::ops::Range<usize> {
+        let most = self.visible.with_untracked(Vec::len);
+        match (self.frame.get_untracked(), self.row_height()) {
+            (Some(frame), Some(height)) => {
+                let top = f64::from(frame.scroll_top()) / height;
+                let rows = f64::from(frame.client_height()) / height;
+                let from = (top as usize).saturating_sub(SPARE_ROWS).min(most);
+                from..(from + rows as usize + 2 * SPARE_ROWS).min(most)
             }
-            visible
-        })
+            _ => 0..most.min(FIRST_ROWS + SPARE_ROWS),
+        }
+    }
+
+    /// Brings a row into sight.
+    fn scroll_to(self, at: usize) {
+        let place = self.visible.with_untracked(|visible| visible.iter().position(|v| v.at == at));
+        let (Some(place), Some(frame), Some(height)) =
+            (place, self.frame.get_untracked(), self.row_height())
+        else {
+            return;
+        };
+        let (top, sight) = (f64::from(frame.scroll_top()), f64::from(frame.client_height()));
+        let above = place as f64 * height;
+        if above < top + height {
+            frame.set_scroll_top((above - height).max(0.0) as i32);
+        } else if above + 2.0 * height > top + sight {
+            frame.set_scroll_top((above + 2.0 * height - sight) as i32);
+        }
     }
 
     fn row(self, at: usize) -> Option<StructureRow> {
@@ -57,22 +112,48 @@ impl Tree {
 
     /// Gives a row the keyboard and selects its thing.
     fn go_to(self, at: usize) {
-        self.current.set(at);
         let path = self.row(at).map(|row| row.path).filter(|path| !path.is_empty());
         self.lab.select(path);
-        focus_row(at);
+        self.take_keyboard(at);
+    }
+
+    /// Gives a row the keyboard and leaves the selection as it is.
+    fn take_keyboard(self, at: usize) {
+        self.current.set(at);
+        self.focus(at);
+    }
+
+    /// Adds a row's thing to the selection, or takes it out.
+    fn choose_also(self, at: usize) {
+        let row = self.row(at).filter(|row| !row.path.is_empty() && row.kind != RowKind::Merge);
+        if let Some(row) = row {
+            self.lab.select_also(&row.path);
+        }
+        self.take_keyboard(at);
+    }
+
+    fn focus(self, at: usize) {
+        request_animation_frame(move || {
+            self.scroll_to(at);
+            if let Some(row) = document().get_element_by_id(&format!("row-{at}")) {
+                let row: web_sys::HtmlElement = wasm_bindgen::JsCast::unchecked_into(row);
+                // A row that has gone meanwhile needs no focus.
+                let _ = row.focus();
+            }
+        });
     }
 
     fn key(self, at: usize, e: &KeyboardEvent) {
-        if e.ctrl_key() || e.meta_key() || e.alt_key() || self.editing.get_untracked().is_some() {
+        if e.alt_key() || self.editing.get_untracked().is_some() {
             return;
         }
-        let visible = untrack(|| self.visible());
-        let Some(place) = visible.iter().position(|v| *v == at) else { return };
+        let visible = self.visible.get_untracked();
+        let Some(place) = visible.iter().position(|v| v.at == at) else { return };
         let Some(row) = self.row(at) else { return };
+        let apart = e.ctrl_key() || e.meta_key();
         let go = |place: Option<usize>| {
             if let Some(next) = place.and_then(|p| visible.get(p)) {
-                self.go_to(*next);
+                if apart { self.take_keyboard(next.at) } else { self.go_to(next.at) }
             }
         };
         let parent = || {
@@ -84,6 +165,8 @@ impl Tree {
         match e.key().as_str() {
             "ArrowDown" => go(Some(place + 1)),
             "ArrowUp" => go(place.checked_sub(1)),
+            " " if apart => self.choose_also(at),
+            _ if apart => return,
             "Home" => go(Some(0)),
             "End" => go(visible.len().checked_sub(1)),
             "ArrowRight" if row.descendants > 0 && !open => self.toggle(&row),
@@ -101,6 +184,42 @@ impl Tree {
         e.prevent_default();
         e.stop_propagation();
     }
+}
+
+/// Whether a row is open: by its depth, unless it was toggled.
+fn is_open(row: &StructureRow, open_depth: u32, toggled: &BTreeSet<String>) -> bool {
+    (row.depth < open_depth) != toggled.contains(&row.path)
+}
+
+/// A row that no shut row hides.
+#[derive(Clone, Copy, PartialEq, Eq, Hash, Debug)]
+struct Shown {
+    /// Its number among all rows.
+    at: usize,
+    /// The how-manieth it is of its owner's rows, from 1, and how many those are.
+    position: (u32, u32),
+}
+
+/// The rows that no shut row hides, in order.
+fn shown(rows: &[StructureRow], is_open: impl Fn(&StructureRow) -> bool) -> Vec<Shown> {
+    let mut shown: Vec<Shown> = Vec::new();
+    // for every depth on the way to the present row, the places of its owner's rows so far
+    let mut siblings: Vec<Vec<usize>> = Vec::new();
+    let close = |siblings: Vec<usize>, shown: &mut Vec<Shown>| {
+        siblings.iter().for_each(|&place| shown[place].position.1 = siblings.len() as u32);
+    };
+    let mut at = 0;
+    while let Some(row) = rows.get(at) {
+        let depth = row.depth as usize;
+        siblings.drain((depth + 1).min(siblings.len())..).for_each(|s| close(s, &mut shown));
+        siblings.resize_with(depth + 1, Vec::new);
+        siblings[depth].push(shown.len());
+        shown.push(Shown { at, position: (siblings[depth].len() as u32, 0) });
+        let shut = row.descendants > 0 && !is_open(row);
+        at += 1 + if shut { row.descendants as usize } else { 0 };
+    }
+    siblings.into_iter().for_each(|s| close(s, &mut shown));
+    shown
 }
 
 /// Returns how many levels to open at first: at least the document's own.
@@ -132,30 +251,34 @@ fn is_editable(row: &StructureRow) -> bool {
     }
 }
 
-fn focus_row(at: usize) {
-    request_animation_frame(move || {
-        if let Some(row) = document().get_element_by_id(&format!("row-{at}")) {
-            let row: web_sys::HtmlElement = wasm_bindgen::JsCast::unchecked_into(row);
-            // A row that has gone meanwhile needs no focus.
-            let _ = row.focus();
-        }
-    });
-}
-
 /// The tree of the open document.
 #[component]
 pub fn Structure(
     /// The lab.
     lab: Lab,
 ) -> impl IntoView {
-    let tree = Tree {
-        lab,
-        open_depth: lab.structure.with_untracked(|rows| first_depth(rows)),
-        toggled: RwSignal::new(BTreeSet::new()),
-        current: RwSignal::new(0),
-        editing: RwSignal::new(None),
+    let tree = Tree::new(lab);
+    let window = RwSignal::new(tree.in_sight());
+    let look = move || {
+        let now = tree.in_sight();
+        if window.with_untracked(|window| *window != now) {
+            window.set(now);
+        }
     };
-    let visible = Memo::new(move |_| tree.visible());
+    Effect::new(move |_| {
+        tree.visible.track();
+        request_animation_frame(look);
+    });
+    let listener = window_event_listener(leptos::ev::resize, move |_| look());
+    on_cleanup(move || listener.remove());
+    let rows = Memo::new(move |_| {
+        let (window, current) = (window.get(), tree.current.get());
+        tree.visible.with(|visible| {
+            let rows = visible.iter().copied().enumerate();
+            rows.filter(|(place, row)| window.contains(place) || row.at == current)
+                .collect::<Vec<_>>()
+        })
+    });
     Effect::new(move |_| {
         if let Some(path) = lab.selected.get() {
             reveal(tree, &path);
@@ -164,11 +287,15 @@ pub fn Structure(
     view! {
         <section class="panel structure" aria-label=words::STRUCTURE>
             <h2>{words::STRUCTURE}</h2>
-            <div class="scroll" role="tree" aria-label=words::STRUCTURE
-                on:pointerleave=move |_| lab.hover(None)>
-                <For each=move || visible.get() key=|at| *at let(at)>
-                    <Row tree=tree at=at />
-                </For>
+            <div class="scroll" node_ref=tree.frame on:scroll=move |_| look()>
+                <div class="rows" role="tree" aria-label=words::STRUCTURE aria-multiselectable="true"
+                    node_ref=tree.sheet
+                    style:--rows=move || tree.visible.with(Vec::len).to_string()
+                    on:pointerleave=move |_| lab.hover(None)>
+                    <For each=move || rows.get() key=|row| *row let(row)>
+                        <Row tree=tree place=row.0 shown=row.1 />
+                    </For>
+                </div>
             </div>
         </section>
     }
@@ -195,12 +322,13 @@ fn reveal(tree: Tree, path: &str) {
         if tree.current.get_untracked() != at {
             tree.current.set(at);
         }
-        request_animation_frame(move || field::scroll_to(&format!("row-{at}")));
+        request_animation_frame(move || tree.scroll_to(at));
     }
 }
 
 #[component]
-fn Row(tree: Tree, at: usize) -> impl IntoView {
+fn Row(tree: Tree, place: usize, shown: Shown) -> impl IntoView {
+    let at = shown.at;
     let lab = tree.lab;
     let row = Memo::new(move |_| lab.structure.with(|rows| rows.get(at).cloned()));
     let of = move |read: fn(&StructureRow) -> String| {
@@ -222,14 +350,17 @@ fn Row(tree: Tree, at: usize) -> impl IntoView {
         row.with(|row| row.as_ref().filter(|r| r.descendants > 0).map(|r| tree.is_open(r)))
     });
     let selected = Memo::new(move |_| {
-        lab.selected.with(|selected| path.with(|path| selected.as_deref() == Some(path)))
-            && kind.with(|kind| kind != "merge")
+        kind.with(|kind| kind != "merge")
+            && path.with(|path| {
+                lab.selected.with(|selected| selected.as_ref() == Some(path))
+                    || lab.also.with(|also| also.contains(path))
+            })
     });
     let hovered = Memo::new(move |_| {
         let first = merged.get().unwrap_or_else(|| path.get());
         !first.is_empty()
             && kind.with(|kind| kind != "merge")
-            && lab.marked.with(|(_, hovered)| *hovered == Some(first))
+            && lab.marked.with(|marked| marked.hovered.as_ref() == Some(&first))
     });
     let lockable = Memo::new(move |_| {
         row.with(|r| r.as_ref().is_some_and(|r| r.kind == RowKind::Part && r.value.is_some()))
@@ -250,13 +381,22 @@ fn Row(tree: Tree, at: usize) -> impl IntoView {
             class:hovered=hovered
             class:off=move || !enabled.get()
             style:--depth=move || depth.get().to_string()
+            style:--place=place.to_string()
             role="treeitem"
+            aria-posinset=shown.position.0.to_string()
+            aria-setsize=shown.position.1.to_string()
             attr:aria-level=move || (depth.get() + 1).to_string()
             aria-expanded=move || open.get().map(|open| open.to_string())
             aria-selected=move || selected.get().to_string()
             tabindex=move || if tree.current.get() == at { "0" } else { "-1" }
             title=doc
-            on:click=move |_| tree.go_to(at)
+            on:click=move |e: leptos::ev::MouseEvent| {
+                if e.ctrl_key() || e.meta_key() || e.shift_key() {
+                    tree.choose_also(at);
+                } else {
+                    tree.go_to(at);
+                }
+            }
             on:dblclick=move |_| {
                 if tree.row(at).is_some_and(|row| is_editable(&row)) {
                     tree.editing.set(Some(at));
@@ -284,7 +424,7 @@ fn Row(tree: Tree, at: usize) -> impl IntoView {
             {move || if tree.editing.get() == Some(at) {
                 view! {
                     <field::Edit lab=lab path=path value=value.get_untracked().unwrap_or_default()
-                        done=move || { tree.editing.set(None); focus_row(at); } />
+                        done=move || { tree.editing.set(None); tree.focus(at); } />
                 }.into_any()
             } else {
                 view! { <span class="value">{move || value.get().map(|value| rounded_all(&value))}</span> }.into_any()
@@ -340,5 +480,44 @@ pub(crate) fn toggle_lock(lab: Lab, path: &str) {
         }) || lab.values.with_untracked(|rows| rows.iter().any(|r| r.path == path && r.anchored));
     if let Some(path) = session::parse_path(path) {
         lab.apply(&Command::Anchor { path, held: !held });
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::{Shown, shown};
+    use session::view::{RowKind, StructureRow};
+
+    fn row(path: &str, depth: u32, descendants: u32) -> StructureRow {
+        StructureRow {
+            path: String::from(path),
+            depth,
+            kind: RowKind::Part,
+            name: String::from(path),
+            detail: String::new(),
+            doc: String::new(),
+            value: None,
+            merged_with: None,
+            freedom: None,
+            anchored: false,
+            enabled: true,
+            descendants,
+            span: None,
+        }
+    }
+
+    #[test]
+    fn shut_rows_hide_theirs_and_siblings_are_counted() {
+        let rows =
+            [row("", 0, 4), row("a", 1, 1), row("a.x", 2, 0), row("b", 1, 1), row("b.x", 2, 0)];
+        let found = |shut: &str| {
+            let rows = shown(&rows, |row| row.path != shut);
+            rows.iter().map(|Shown { at, position }| (*at, *position)).collect::<Vec<_>>()
+        };
+        let all = [(0, (1, 1)), (1, (1, 2)), (2, (1, 1)), (3, (2, 2)), (4, (1, 1))];
+        assert_eq!(found("none"), all);
+        assert_eq!(found("a"), [(0, (1, 1)), (1, (1, 2)), (3, (2, 2)), (4, (1, 1))]);
+        assert_eq!(found(""), [(0, (1, 1))]);
+        assert_eq!(shown(&[], |_| true), []);
     }
 }

@@ -95,13 +95,15 @@ fn Row(lab: Lab, at: usize) -> impl IntoView {
     let lockable = is(|row| !row.is_virtual);
     let hint = Memo::new(move |_| row.with(|row| row.as_ref().map(described).unwrap_or_default()));
     let selected = Memo::new(move |_| {
-        lab.marked.with(|(selected, _)| {
-            selected.as_ref().is_some_and(|selected| path.with(|path| is_or_owns(selected, path)))
+        lab.marked.with(|marked| {
+            path.with(|path| marked.selected.iter().any(|selected| is_or_owns(selected, path)))
         })
     });
     let hovered = Memo::new(move |_| {
-        lab.marked.with(|(_, hovered)| {
-            hovered.as_ref().is_some_and(|hovered| path.with(|path| is_or_owns(hovered, path)))
+        lab.marked.with(|marked| {
+            path.with(|path| {
+                marked.hovered.as_ref().is_some_and(|hovered| is_or_owns(hovered, path))
+            })
         })
     });
     Effect::new(move |_| {

@@ -37,6 +37,8 @@ pub const LOCK: &str = "Lock or unlock the selection";
 pub const ENABLE: &str = "Switch the constraint on";
 pub const DISABLE: &str = "Switch the constraint off";
 pub const DELETE: &str = "Delete the selection";
+pub const MERGE: &str = "Make the selected things one";
+pub const RECOGNISE: &str = "What could the selection be parts of?";
 pub const UNMERGE: &str = "Take the selection out of its merges";
 pub const EXPLAIN: &str = "Why is it so?";
 pub const DESELECT: &str = "Select nothing";
@@ -57,6 +59,7 @@ pub const NO_DOCUMENT: &str = "no document is open";
 pub const NOTHING_SELECTED: &str = "nothing is selected";
 pub const NOT_A_CONSTRAINT: &str = "the selection is not a constraint";
 pub const IS_A_CONSTRAINT: &str = "a constraint has no value to lock";
+pub const ONE_SELECTED: &str = "only one thing is selected; hold Ctrl to choose another";
 pub const NOT_MERGED: &str = "the selection is not merged with anything";
 pub const NO_SUCH_ACTION: &str = "No action has this name.";
 
@@ -87,6 +90,13 @@ pub const NOT_DRAGGED: &str = "cannot be dragged";
 pub const REPAIRS: &str = "What would work:";
 pub const IN_THE_WAY: &str = "In the way:";
 
+pub const NOT_RECOGNISED: &str =
+    "No class of this document has such parts with all its rules true.";
+pub const RECOGNISED: &str = "These could be the parts of";
+pub const MAKE_ONE: &str = "Make it one";
+pub const HELD: &str = "Does not move";
+pub const CONTRADICTION: &str = "Cannot hold together";
+pub const FREE: &str = "Can still move";
 pub const UNMET: &str = "Do not hold";
 pub const REDUNDANT: &str = "Say nothing new";
 pub const STEPS: &str = "How the values come about";
@@ -116,6 +126,29 @@ pub fn done(change: &session::view::Change) -> Option<String> {
         return Some(format!("Cannot be satisfied now: {}", listed(&change.unsatisfied)));
     }
     (!change.along.is_empty()).then(|| format!("Gone along: {}", listed(&change.along)))
+}
+
+/// What the selection could be the parts of, in one sentence.
+pub fn recognised(found: &[session::view::Recognised]) -> String {
+    let classes: Vec<&str> = found.iter().map(|r| r.class.as_str()).collect();
+    format!("{RECOGNISED}: {}", classes.join(", "))
+}
+
+/// How many rules of a class are true of the selection.
+pub fn rules_hold(rules: u32) -> String {
+    match rules {
+        0 => String::from("it has no rules"),
+        1 => String::from("its one rule holds"),
+        n => format!("its {n} rules hold"),
+    }
+}
+
+/// In how many ways things can move.
+pub fn ways(freedom: u32) -> String {
+    match freedom {
+        1 => String::from("in one way"),
+        n => format!("in {n} ways"),
+    }
 }
 
 /// The freedom of a thing as a word.

@@ -125,6 +125,14 @@ impl Visit {
         panic!("never true: {expression}; the page shows\n{}", shown.as_str().unwrap_or_default());
     }
 
+    /// Puts a document into the gallery's copy.
+    ///
+    /// # Panics
+    /// Where it cannot be written.
+    pub fn put(&self, document: &str, text: &str) {
+        fs::write(self.folder.0.join("gallery").join(document), text).expect("a new document");
+    }
+
     /// The text of a document on disk.
     ///
     /// # Panics

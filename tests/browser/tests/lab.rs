@@ -74,6 +74,9 @@ async fn chord(visit: &Visit, held: &[char], key: char) {
 }
 
 const CONTROL: char = '\u{e009}';
+const DELETE: char = '\u{e017}';
+const ENTER: char = '\u{e007}';
+const TAB: char = '\u{e004}';
 const END: char = '\u{e010}';
 const RIGHT: char = '\u{e014}';
 
@@ -89,7 +92,7 @@ async fn a_corner_is_dragged_and_taken_back() {
     drag(&visit, grip(&before, "q.outer.side2.p2"), (40.0, -30.0)).await;
     visit
         .until(
-            "window.__thinglab.state().status.undo !== null && !window.__thinglab.state().dragging",
+            "window.__thinglab.state().status.undo != null && !window.__thinglab.state().dragging",
         )
         .await;
     let after = state(&visit).await;
@@ -105,7 +108,7 @@ async fn a_corner_is_dragged_and_taken_back() {
     assert!(text.contains("outer.side2.p2 = ("), "the corner is written: {text}");
 
     chord(&visit, &[CONTROL], 'z').await;
-    visit.until("window.__thinglab.state().status.redo !== null").await;
+    visit.until("window.__thinglab.state().status.redo != null").await;
     let undone = state(&visit).await;
     assert_eq!(undone["text"], before["text"]);
     assert_eq!(undone["values"], before["values"]);
@@ -177,6 +180,99 @@ async fn a_save_changes_only_what_was_changed() {
     assert_eq!(before.lines().count(), after.lines().count());
     assert_eq!(lines.len(), 1, "one line differs: {lines:?}");
     assert!(lines[0].0.contains("result.at = (382, 159)"), "{lines:?}");
+}
+
+const FRAME: &str = "use geometry
+class Elbow {
+    one, two: Line
+    merge one.p2 = two.p1
+    constraint level: one.p1.y = one.p2.y
+}
+first: Elbow { one.p1 = (0, 0)  one.p2 = (40, 0)  two.p2 = (40, 30) }
+second: Elbow { one.p1 = (0, 50)  one.p2 = (40, 50)  two.p2 = (40, 80) }
+k: Line { p1 = (60, 0)  p2 = (90, 0) }
+l: Line { p1 = (90, 0)  p2 = (90, 30) }
+";
+
+/// Clicks the first row of the structure whose name that is, with Ctrl where it is chosen besides.
+async fn choose(visit: &Visit, name: &str, besides: bool) {
+    let row = format!(
+        "[...document.querySelectorAll('[role=treeitem]')]
+             .find(row => row.querySelector('.name').textContent === '{name}')"
+    );
+    visit.until(&row).await;
+    let click = format!("new MouseEvent('click', {{ bubbles: true, ctrlKey: {besides} }})");
+    visit.script(&format!("{row}.dispatchEvent({click})")).await;
+    visit.until("document.activeElement.getAttribute('role') === 'treeitem'").await;
+}
+
+#[tokio::test]
+async fn an_edit_of_one_thing_asks_whether_all_of_its_class_are_meant() {
+    let visit = Visit::open(None).await;
+    visit.until("document.querySelector('main')").await;
+    visit.put("frame.thing", FRAME);
+    let before = show(&visit, "frame.thing").await;
+    assert_eq!(before["status"]["freedom"], 18);
+    choose(&visit, "level", false).await;
+    chord(&visit, &[], DELETE).await;
+    visit.until("document.activeElement.closest('.asked')").await;
+    let asked = state(&visit).await;
+    let question = "delete first.level: for first alone, or for every Elbow (2 here)?";
+    assert_eq!(asked["notice"], question);
+    assert_eq!(asked["text"], before["text"], "nothing is done before it is decided");
+
+    chord(&visit, &[], ENTER).await;
+    visit.until("window.__thinglab.state().status.undo != null").await;
+    let only = state(&visit).await;
+    assert_eq!(only["status"]["freedom"], 19);
+    assert!(only["text"].as_str().is_some_and(|t| t.contains("constraint level")));
+    chord(&visit, &[CONTROL], 'z').await;
+    visit.until("window.__thinglab.state().status.undo == null").await;
+
+    choose(&visit, "level", false).await;
+    chord(&visit, &[], DELETE).await;
+    visit.until("document.activeElement.closest('.asked')").await;
+    chord(&visit, &[], TAB).await;
+    chord(&visit, &[], ENTER).await;
+    visit.until("window.__thinglab.state().status.undo != null").await;
+    let every = state(&visit).await;
+    assert_eq!(every["status"]["freedom"], 20);
+    assert!(every["text"].as_str().is_some_and(|t| !t.contains("constraint level")));
+}
+
+#[tokio::test]
+async fn things_that_are_selected_together_are_recognised_and_made_one() {
+    let visit = Visit::open(None).await;
+    visit.until("document.querySelector('main')").await;
+    visit.put("frame.thing", FRAME);
+    show(&visit, "frame.thing").await;
+    choose(&visit, "l", false).await;
+    choose(&visit, "k", true).await;
+    let chosen = state(&visit).await;
+    assert_eq!((&chosen["selected"], &chosen["also"]), (&"l".into(), &serde_json::json!(["k"])));
+    chord(&visit, &[], 'r').await;
+    visit.until("document.querySelector('.recognised')").await;
+    let found = state(&visit).await;
+    assert!(found["notice"].as_str().is_some_and(|n| n.contains("Elbow")), "{}", found["notice"]);
+    let elbow = "[...document.querySelectorAll('.recognised li')]
+        .find(row => row.textContent.startsWith('Elbow')).querySelector('button').click()";
+    visit.script(elbow).await;
+    visit.until("window.__thinglab.state().status.undo != null").await;
+    let made = state(&visit).await;
+    // two lines that meet and one of which is level: 8 coordinates less 3
+    assert_eq!(made["status"]["freedom"], 15);
+    let text = made["text"].as_str().expect("a text");
+    assert!(text.contains("elbow: Elbow"), "{text}");
+    assert!(text.contains("merge k = elbow.one") && text.contains("merge l = elbow.two"), "{text}");
+
+    chord(&visit, &[], 'w').await;
+    visit.until("document.querySelector('.motion')").await;
+    visit.script("window.before = document.getElementById('picture').toDataURL()").await;
+    visit.script("document.querySelector('.motion').focus()").await;
+    // the way to move is painted
+    visit.until("document.getElementById('picture').toDataURL() !== window.before").await;
+    visit.script("document.querySelector('.motion').blur()").await;
+    visit.until("document.getElementById('picture').toDataURL() === window.before").await;
 }
 
 struct Library(PathBuf);

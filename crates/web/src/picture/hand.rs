@@ -123,7 +123,13 @@ impl Hand {
             self.set_mode(Mode::Pan { last: at });
         } else if e.button() == 0 {
             let picked = self.pick(at);
-            self.lab.select(picked.clone());
+            if e.ctrl_key() || e.meta_key() || e.shift_key() {
+                if let Some(path) = &picked {
+                    self.lab.select_also(path);
+                }
+            } else {
+                self.lab.select(picked.clone());
+            }
             self.set_mode(match picked {
                 Some(path) => Mode::Pressed { path, start: at },
                 None => Mode::Pan { last: at },

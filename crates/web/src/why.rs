@@ -1,0 +1,185 @@
+//! The panel that says why: what does not hold, what is free, superfluous or contradictory, and how the
+//! values come about.
+
+use crate::lab::Lab;
+use crate::picture::covers;
+use crate::{icons, words};
+use leptos::prelude::*;
+use session::view::{
+    Analysis, ContradictionView, ExplainedStep, HeldView, MotionView, RedundantView, Unmet,
+    Velocity,
+};
+
+/// Paths as buttons that select them, after a word; nothing if there are none.
+pub(crate) fn listed(lab: Lab, word: &'static str, paths: Vec<String>) -> Option<impl IntoView> {
+    (!paths.is_empty()).then(|| {
+        let buttons = paths.into_iter().map(|path| view! { <PathButton lab=lab path=path /> });
+        view! { <p class="paths">{word}" "{buttons.collect_view()}</p> }
+    })
+}
+
+/// A path that is selected when it is pressed.
+#[component]
+fn PathButton(lab: Lab, path: String) -> impl IntoView {
+    let (select, hover) = (path.clone(), path.clone());
+    view! {
+        <button class="path"
+            on:click=move |_| lab.select(Some(select.clone()))
+            on:pointerenter=move |_| lab.hover(Some(hover.clone()))
+            on:pointerleave=move |_| lab.hover(None)>{path}</button>
+    }
+}
+
+/// The panel that says what does not hold, what is free or superfluous and how the values come about.
+#[component]
+pub fn Why(
+    /// The lab.
+    lab: Lab,
+) -> impl IntoView {
+    let about = Memo::new(move |_| lab.selected.get().and_then(|path| session::parse_path(&path)));
+    let explanation = Memo::new(move |_| {
+        lab.status.track();
+        about.with(|about| lab.explain(about.as_ref())).unwrap_or_default()
+    });
+    let held = Memo::new(move |_| {
+        lab.status.track();
+        about.with(|about| about.as_ref().and_then(|path| lab.held(path)))
+    });
+    let analysis = Memo::new(move |_| {
+        lab.status.track();
+        lab.analysis()
+    });
+    let unmet = Memo::new(move |_| lab.status.with(|status| status.unmet.clone()));
+    let steps = Memo::new(move |_| explanation.with(|e| e.steps.clone()));
+    on_cleanup(move || lab.motion.set(Vec::new()));
+    view! {
+        <section id="why" class="panel why" aria-label=words::WHY>
+            <header class="head">
+                <h2>{words::WHY}</h2>
+                <span class="quiet">{move || explanation.with(|e| {
+                    if e.about.is_empty() { String::from(words::WHOLE_DOCUMENT) } else { e.about.clone() }
+                })}</span>
+                <button class="bare" aria-label=words::CLOSE title=words::CLOSE
+                    on:click=move |_| lab.why.set(false)>{icons::close()}</button>
+            </header>
+            <div class="scroll reasons">
+                {move || (!unmet.with(Vec::is_empty)).then(|| view! {
+                    <h3 class="conflicting">{words::UNMET}</h3>
+                    <ul>{unmet.get().into_iter().map(|u| view! { <UnmetRow lab=lab unmet=u /> }).collect_view()}</ul>
+                })}
+                <p>{move || explanation.with(|e| e.summary.clone())}</p>
+                {move || held.get().map(|held| view! { <Held lab=lab held=held /> })}
+                {move || view! { <Analysed lab=lab analysis=analysis.get() about=lab.selected.get() /> }}
+                {move || (!steps.with(Vec::is_empty)).then(|| view! {
+                    <h3>{words::STEPS}</h3>
+                    <ol class="steps">{steps.get().into_iter().map(|s| view! { <Step lab=lab step=s /> }).collect_view()}</ol>
+                })}
+            </div>
+        </section>
+    }
+}
+
+/// Why the selection does not move.
+#[component]
+fn Held(lab: Lab, held: HeldView) -> impl IntoView {
+    view! {
+        <h3>{words::HELD}</h3>
+        <p>{held.message}</p>
+        {listed(lab, words::IN_THE_WAY, held.constraints.into_iter().chain(held.anchors).collect())}
+    }
+}
+
+/// What cannot hold together, what says nothing new, and what can still move.
+///
+/// Of the motions those of one thing, if one is meant.
+#[component]
+fn Analysed(lab: Lab, analysis: Analysis, about: Option<String>) -> impl IntoView {
+    let Analysis { freedom, free: _, mut motions, redundant, contradictions } = analysis;
+    let title = match &about {
+        None => format!("{}, {}", words::FREE, words::ways(freedom)),
+        Some(about) => {
+            let is_its = |v: &Velocity| covers(about, &v.path) || covers(&v.path, about);
+            motions.retain(|motion| motion.moves.iter().any(is_its));
+            String::from(words::FREE)
+        }
+    };
+    view! {
+        {(!contradictions.is_empty()).then(|| view! {
+            <h3 class="conflicting">{words::CONTRADICTION}</h3>
+            <ul>{contradictions.into_iter().map(|c| view! { <Contradiction lab=lab contradiction=c /> }).collect_view()}</ul>
+        })}
+        {(!redundant.is_empty()).then(|| view! {
+            <h3 class="redundant">{words::REDUNDANT}</h3>
+            <ul>{redundant.into_iter().map(|r| view! { <Redundant lab=lab redundant=r /> }).collect_view()}</ul>
+        })}
+        {(!motions.is_empty()).then(|| view! {
+            <h3>{title}</h3>
+            <ul class="motions" on:pointerleave=move |_| lab.motion.set(Vec::new())>
+                {motions.into_iter().map(|m| view! { <Motion lab=lab motion=m /> }).collect_view()}
+            </ul>
+        })}
+    }
+}
+
+#[component]
+fn Contradiction(lab: Lab, contradiction: ContradictionView) -> impl IntoView {
+    let ContradictionView { constraints, anchors, decided: _, message, repairs } = contradiction;
+    let paths = constraints.into_iter().chain(anchors).collect();
+    view! {
+        <li>
+            <p>{message}</p>
+            {listed(lab, words::IN_THE_WAY, paths)}
+            {(!repairs.is_empty()).then(|| view! {
+                <p>{words::REPAIRS}</p>
+                <ul>{repairs.into_iter().map(|r| view! { <li>{r}</li> }).collect_view()}</ul>
+            })}
+        </li>
+    }
+}
+
+#[component]
+fn Redundant(lab: Lab, redundant: RedundantView) -> impl IntoView {
+    view! { <li><PathButton lab=lab path=redundant.constraint />{redundant.because}</li> }
+}
+
+/// A way to move, which the picture shows by arrows while the pointer or the keyboard is on it.
+#[component]
+fn Motion(lab: Lab, motion: MotionView) -> impl IntoView {
+    let moves = StoredValue::new(motion.moves);
+    let show = move || lab.motion.set(moves.get_value());
+    view! {
+        <li>
+            <button class="bare motion" on:pointerenter=move |_| show() on:focus=move |_| show()
+                on:blur=move |_| lab.motion.set(Vec::new())
+                on:click=move |_| lab.select(moves.with_value(|m| m.first().map(|v| v.path.clone())))>
+                {motion.summary}
+            </button>
+        </li>
+    }
+}
+
+#[component]
+fn UnmetRow(lab: Lab, unmet: Unmet) -> impl IntoView {
+    view! {
+        <li>
+            <PathButton lab=lab path=unmet.constraint />
+            <code>{unmet.rule}</code>
+            <span class="quiet">{unmet.strength}
+                {unmet.error.map(|error| format!(", {} {}", words::OFF_BY, words::short(error)))}</span>
+        </li>
+    }
+}
+
+#[component]
+fn Step(lab: Lab, step: ExplainedStep) -> impl IntoView {
+    let targets = step.targets.into_iter().map(|path| view! { <PathButton lab=lab path=path /> });
+    view! {
+        <li>
+            <span class="targets">{targets.collect_view()}</span>
+            <span class="method">{step.method}</span>
+            <code>{step.formula}</code>
+            <span class="quiet">{step.reason}</span>
+            <span class="results">{step.values.join(", ")}</span>
+        </li>
+    }
+}
