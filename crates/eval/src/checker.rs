@@ -110,9 +110,8 @@ fn check_rules(evaluator: &Evaluator<'_>, wrong: &mut Vec<String>) {
         if !idle.is_empty() && is_inside(structure, constraint.owner, &idle) {
             continue;
         }
-        let class = &evaluator.document.classes[constraint.class];
-        let written = &class.constraints[constraint.index as usize];
-        if written.strength != Strength::Required || !evaluator.structure.is_on(constraint) {
+        let strength = structure.strength(evaluator.document, constraint);
+        if strength != Strength::Required || !structure.is_on(constraint) {
             continue;
         }
         match evaluator.test(constraint) {

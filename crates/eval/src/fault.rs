@@ -24,6 +24,8 @@ pub enum FaultKind {
     WrongDimension,
     /// An operation that has no answer for these values: a division by zero, `"hot".number`.
     NoAnswer,
+    /// A reference that names nothing.
+    Reference,
     /// Messages that call each other without end.
     Endless,
 }
@@ -36,6 +38,7 @@ impl FaultKind {
             Self::WrongKind => "wrong-kind",
             Self::WrongDimension => "wrong-dimension",
             Self::NoAnswer => "no-answer",
+            Self::Reference => "unknown-reference",
             Self::Endless => "endless-messages",
         }
     }

@@ -2,7 +2,7 @@
 
 use crate::answer::Answer;
 use crate::evaluator::{Evaluator, Result};
-use crate::fault::Fault;
+use crate::fault::{Fault, FaultKind};
 use base::{IdVec, Name};
 use kernel::{ClassId, ClassKind, ConstraintInstance, Document, Layout, Message, ThingId};
 use std::cell::RefCell;
@@ -115,6 +115,6 @@ impl<'a> Evaluator<'a> {
     /// Says that a reference names nothing.
     pub(crate) fn names_nothing(&self, reference: ThingId) -> Fault {
         let path = self.structure.path(self.document, reference);
-        Fault::no_answer(format!("`{path}` names nothing"))
+        Fault::new(FaultKind::Reference, format!("`{path}` names nothing"))
     }
 }

@@ -2,7 +2,7 @@
 
 use crate::answer::{Answer, Frame, Made};
 use crate::evaluator::{Evaluator, Given, Result};
-use crate::fault::Fault;
+use crate::fault::{Fault, FaultKind};
 use base::Name;
 use expr::dimension::Dimension;
 use kernel::{ClassId, ClassKind, Count, PartRef, Primitive, Step, ThingId};
@@ -117,7 +117,9 @@ impl<'a> Evaluator<'a> {
                     .map(Answer::List)
             }
             ClassKind::Set(_) => Ok(Answer::List(Rc::from([]))),
-            ClassKind::Reference(_) => Err(Fault::no_answer("a reference that names nothing")),
+            ClassKind::Reference(_) => {
+                Err(Fault::new(FaultKind::Reference, "a reference that names nothing"))
+            }
         }
     }
 

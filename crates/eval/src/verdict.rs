@@ -12,7 +12,7 @@ use crate::measure;
 use base::Name;
 use base::number::{Tolerance, close, shortest};
 use expr::dimension::Dimension;
-use kernel::{Aspect, BinaryOperator, ConstraintInstance, Term, ThingId, UnaryOperator};
+use kernel::{Aspect, BinaryOperator, ConstraintInstance, Setting, Term, ThingId, UnaryOperator};
 
 /// What a test found.
 #[derive(Clone, PartialEq, Debug, Default)]
@@ -42,8 +42,30 @@ impl<'a> Evaluator<'a> {
     pub fn test(&self, constraint: ConstraintInstance) -> Result<Verdict> {
         let class = &self.document.classes[constraint.class];
         let written = &class.constraints[constraint.index as usize];
+        self.begin();
+        if !self.is_on(constraint)? {
+            return Ok(Verdict::of(true));
+        }
         self.test_rule(&written.rule, written.within.as_ref(), constraint.owner)
             .map_err(|f| f.within(written.origin))
+    }
+
+    /// Returns true for a constraint that is switched on, or whose condition is true.
+    ///
+    /// # Errors
+    /// Why the condition has no value.
+    pub fn is_on(&self, constraint: ConstraintInstance) -> Result<bool> {
+        let Some(&condition) = self.structure.conditions.get(&constraint) else {
+            return Ok(self.structure.is_on(constraint));
+        };
+        let switch = condition.switch(self.document);
+        match &switch.setting {
+            Setting::Enabled(term) => {
+                let truth = self.deeper(|| self.truth(term, &Frame::of(condition.me)));
+                truth.map_err(|f| f.within(switch.origin))
+            }
+            Setting::Strength(_) => Ok(true),
+        }
     }
 
     /// Tests any rule in which `Me` is the thing `me`, to `within` where that is written.
@@ -104,8 +126,10 @@ impl<'a> Evaluator<'a> {
                 Ok(Answer::Number(error, dimension))
             }
             Aspect::Satisfied => Ok(Answer::Bool(verdict()?.holds)),
-            Aspect::Strength => Ok(Answer::text(constraint.strength.word())),
-            Aspect::Enabled => Ok(Answer::Bool(self.structure.is_on(instance))),
+            Aspect::Strength => {
+                Ok(Answer::text(self.structure.strength(self.document, instance).word()))
+            }
+            Aspect::Enabled => Ok(Answer::Bool(self.is_on(instance)?)),
         }
     }
 

@@ -62,6 +62,8 @@ pub enum Strength {
 }
 
 impl Strength {
+    /// Every strength, the strongest first.
+    pub const ALL: [Self; 4] = [Self::Required, Self::Strong, Self::Medium, Self::Weak];
     /// Returns the word that is written for it.
     pub fn word(self) -> &'static str {
         match self {
@@ -102,7 +104,7 @@ pub struct Class {
     pub stays: Vec<Stay>,
     /// Parts that stick to others when a thing of this class is placed, in order.
     pub attachers: Vec<Path>,
-    /// Constraints of its things and their parts that it switches off or on, in order.
+    /// What it sets of constraints of its things and their parts, in order.
     pub switches: Vec<Switch>,
     /// Names of constraints and merges of the primary superclasses that do not apply here.
     pub without: Vec<Name>,
@@ -270,17 +272,26 @@ pub struct Insert {
     pub origin: OriginId,
 }
 
-/// A constraint switched off or on: `level.enabled = false`.
+/// What is set of a constraint: `level.enabled = false`, `level.strength = "weak"`.
 #[derive(Clone, PartialEq, Debug)]
 pub struct Switch {
     /// The thing that has the constraint.
     pub path: Path,
     /// The constraint's name.
     pub name: Name,
-    /// Whether it shall hold.
-    pub on: bool,
+    /// What is set.
+    pub setting: Setting,
     /// Where it was written.
     pub origin: OriginId,
+}
+
+/// What can be set of a constraint.
+#[derive(Clone, PartialEq, Debug)]
+pub enum Setting {
+    /// Whether it shall hold: always, never, or while an expression of the thing that says so is true.
+    Enabled(Term),
+    /// How strongly.
+    Strength(Strength),
 }
 
 /// A declared stay, or an anchor.

@@ -24,15 +24,15 @@ pub mod values;
 
 pub use class::{
     Class, ClassId, ClassKind, Constraint, Count, Given, Insert, Merge, Message, Method, Parameter,
-    Part, Primitive, Stay, Strength, Superclass, Switch,
+    Part, Primitive, Setting, Stay, Strength, Superclass, Switch,
 };
 pub use command::{Command, Literal};
 pub use document::{Document, PartRef, PartRole, Vertical};
 pub use instantiate::{Fault, FaultKind, instantiate};
 pub use path::{Path, Step};
 pub use structure::{
-    Astray, ConstraintInstance, DOCUMENT, GivenId, GivenIn, GivenTerm, Layout, Slot, SlotId,
-    StayInstance, Structure, Thing, ThingId,
+    Astray, Condition, ConstraintInstance, DOCUMENT, GivenId, GivenIn, GivenTerm, Layout, Slot,
+    SlotId, StayInstance, Structure, Thing, ThingId,
 };
 pub use term::{Argument, Aspect, BinaryOperator, OriginId, Term, UnaryOperator};
 pub use values::{Value, Values};

@@ -1,6 +1,6 @@
 //! The structure: every thing of a document, what it is part of, what it is merged with.
 
-use crate::class::{ClassId, Primitive};
+use crate::class::{ClassId, Primitive, Strength, Switch};
 use crate::document::{Document, PartRef, PartRole};
 use crate::path::{Path, Step};
 use crate::term::{OriginId, Term};
@@ -77,7 +77,7 @@ pub struct StayInstance {
     /// The thing that stays.
     pub thing: ThingId,
     /// How strongly; `None` for an anchor.
-    pub strength: Option<crate::class::Strength>,
+    pub strength: Option<Strength>,
 }
 
 /// All things of a document.
@@ -104,6 +104,10 @@ pub struct Structure {
     pub constraints: Vec<ConstraintInstance>,
     /// The constraints that are switched off.
     pub off: BTreeSet<ConstraintInstance>,
+    /// The constraints that hold only while something else is true.
+    pub conditions: BTreeMap<ConstraintInstance, Condition>,
+    /// How strong constraints are that were declared stronger or weaker.
+    pub strengths: BTreeMap<ConstraintInstance, Strength>,
     /// Declared stays and anchors.
     pub stays: Vec<StayInstance>,
     /// The members of every set, by the set's first thing, in order of declaration, merged ones once.
@@ -227,7 +231,31 @@ impl Paths<'_> {
     }
 }
 
+/// What has to be true for a constraint to hold: a switch of a class, read in a thing of it.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub struct Condition {
+    /// The thing.
+    pub me: ThingId,
+    /// The class.
+    pub class: ClassId,
+    /// The index of the switch there.
+    pub switch: u32,
+}
+
+impl Condition {
+    /// Returns the switch.
+    pub fn switch(self, document: &Document) -> &Switch {
+        &document.classes[self.class].switches[self.switch as usize]
+    }
+}
+
 impl Structure {
+    /// Returns how strong a constraint is.
+    pub fn strength(&self, document: &Document, constraint: ConstraintInstance) -> Strength {
+        let declared =
+            || document.classes[constraint.class].constraints[constraint.index as usize].strength;
+        self.strengths.get(&constraint).copied().unwrap_or_else(declared)
+    }
     /// Returns true for a constraint that is not switched off.
     pub fn is_on(&self, constraint: ConstraintInstance) -> bool {
         self.off.is_empty() || !self.off.contains(&constraint)

@@ -17,7 +17,7 @@ struct Arg {
     label: Option<ast::Word>,
     value: Term,
     kind: Kind,
-    span: Span,
+    expr: Expr,
 }
 
 /// Something that is wanted of a call: its label, its name inside, what it may be.
@@ -187,15 +187,16 @@ impl Lowerer<'_> {
             let Wanted { labels, kind } = wanted.get(place)?;
             if std::mem::replace(&mut taken[place], true) {
                 let message = format!("{} is given twice", labels[0]);
-                self.error("wrong-arity", scope.file, arg.span, message);
+                self.error("wrong-arity", scope.file, arg.expr.span(), message);
                 return None;
             }
             if !arg.kind.fits(kind, &self.document) {
                 let (found, wanted) = (arg.kind.words(&self.document), kind.words(&self.document));
                 let message = format!("{} is {found}, wanted {wanted}", labels[0]);
-                self.error(code_for(&arg.kind, kind), scope.file, arg.span, message);
+                self.error(code_for(&arg.kind, kind), scope.file, arg.expr.span(), message);
                 return None;
             }
+            self.refer_by_position(scope.file, &arg.expr, kind);
             let value = measured(&self.document, arg.value, &arg.kind, kind);
             bound.push(Argument { label: arg.label.map(|w| w.name()), value });
         }
@@ -264,7 +265,7 @@ impl Lowerer<'_> {
                 let found = arg.kind.words(&self.document);
                 let message = format!("{} wants {wanted}, here is {found}", b.name);
                 let code = code_for(&arg.kind, &wanted_number(parameter.kind));
-                self.error(code, scope.file, arg.span, message);
+                self.error(code, scope.file, arg.expr.span(), message);
                 return None;
             }
             let value = match parameter.kind {
@@ -322,7 +323,7 @@ impl Lowerer<'_> {
                 Expr::Lambda(lambda) => self.lambda(scope, lambda, element)?,
                 other => self.expr(scope, other)?,
             };
-            arguments.push(Arg { label: arg.label(), value, kind, span: e.span() });
+            arguments.push(Arg { label: arg.label(), value, kind, expr: e });
         }
         Some(arguments)
     }
@@ -391,8 +392,12 @@ impl Lowerer<'_> {
             self.error("wrong-arity", scope.file, word.span(), message);
             return None;
         }
-        for label in args.iter().filter_map(|a| a.label.as_ref()) {
-            self.refer(Place { file: scope.file, span: label.span() }, &label.name(), class);
+        for (arg, field) in args.iter().zip(&fields) {
+            let name = arg.label.as_ref().map_or(field.labels[0].clone(), ast::Word::name);
+            self.refer_position(scope.file, arg.expr.span(), &name, class);
+            if let Some(label) = &arg.label {
+                self.refer(Place { file: scope.file, span: label.span() }, &name, class);
+            }
         }
         let what = with_article(word.text());
         let arguments = self.bound(scope, &what, &fields, args)?;

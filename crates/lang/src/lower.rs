@@ -85,10 +85,10 @@ fn errors(lowered: &Lowered) -> usize {
     lowered.diagnostics.iter().filter(|d| d.severity == Severity::Error).count()
 }
 
-/// Finds every word of a text that speaks of a member of a class.
+/// Finds what of a text speaks of a member of a class.
 pub(crate) fn references(text: &str, load: &dyn Fn(&str) -> Option<String>) -> References {
     let mut l = Lowerer::new(load);
-    l.references = Some(References::new());
+    l.references = Some(References::default());
     l.run(text);
     l.references.unwrap_or_default()
 }

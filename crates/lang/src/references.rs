@@ -4,10 +4,12 @@
 //! command has to know, by lowering the text once more. So what is renamed or deleted is found
 //! wherever it is spoken of: in bodies, classes, messages, methods and checks.
 
+use crate::kinds::Kind;
 use crate::lower::{Lowered, Lowerer, OWN};
-use base::{Name, Place, Span};
+use base::{FileId, Name, Place, Span};
 use kernel::ClassId;
 use std::collections::BTreeSet;
+use syntax::ast::{AstNode, Expr};
 
 /// A member of a class by its name: a part, a message, a constraint or a merge.
 #[derive(Clone, PartialEq, Eq, PartialOrd, Ord, Debug)]
@@ -18,8 +20,14 @@ pub(crate) struct Symbol {
     pub(crate) name: Name,
 }
 
-/// Every word of the document's own text that speaks of a member, by place.
-pub(crate) type References = BTreeSet<(Span, Symbol)>;
+/// What of the document's own text speaks of a member.
+#[derive(Clone, Debug, Default)]
+pub(crate) struct References {
+    /// Every word that names one, by place.
+    pub(crate) words: BTreeSet<(Span, Symbol)>,
+    /// Every value that stands for one by its position in `(a, b)` or `C(a, b)`.
+    pub(crate) positions: BTreeSet<(Span, Symbol)>,
+}
 
 impl Lowerer<'_> {
     /// Notes that a word speaks of a member of a class, or of one above it.
@@ -27,19 +35,50 @@ impl Lowerer<'_> {
         if self.references.is_none() || place.file != OWN {
             return;
         }
+        let symbol = self.symbol_of(name, class);
+        if let (Some(symbol), Some(references)) = (symbol, &mut self.references) {
+            references.words.insert((place.span, symbol));
+        }
+    }
+
+    /// Notes which parts of a class's thing the values of an expression stand for by position.
+    pub(crate) fn refer_by_position(&mut self, file: FileId, e: &Expr, wanted: &Kind) {
+        let (Expr::Tuple(tuple), Kind::Thing(class)) = (e, wanted) else { return };
+        if self.references.is_none() || file != OWN {
+            return;
+        }
+        let fields = self.document.layout(*class);
+        for (value, field) in tuple.elements().zip(fields) {
+            let name = self.document.field_name(field).clone();
+            let kind = Kind::of_class(&self.document, self.document.field_class(field));
+            self.refer_position(file, value.span(), &name, *class);
+            self.refer_by_position(file, &value, &kind);
+        }
+    }
+
+    /// Notes that a value stands for a part by its position.
+    pub(crate) fn refer_position(&mut self, file: FileId, span: Span, name: &Name, class: ClassId) {
+        if self.references.is_none() || file != OWN {
+            return;
+        }
+        let symbol = self.symbol_of(name, class);
+        if let (Some(symbol), Some(references)) = (symbol, &mut self.references) {
+            references.positions.insert((span, symbol));
+        }
+    }
+
+    fn symbol_of(&self, name: &Name, class: ClassId) -> Option<Symbol> {
         let declares = |c: ClassId| {
             let key = (c, name.clone());
             self.named_at.contains_key(&key) || self.rule_names.contains(&key)
         };
-        let definer = self.document.lineage(class).into_iter().find(|&c| declares(c));
-        if let (Some(class), Some(references)) = (definer, &mut self.references) {
-            references.insert((place.span, Symbol { class, name: name.clone() }));
-        }
+        let class = self.document.lineage(class).into_iter().find(|&c| declares(c))?;
+        Some(Symbol { class, name: name.clone() })
     }
 }
 
 impl Lowered {
-    /// Finds every word that speaks of a member, in the text as it is in force.
+    /// Finds what speaks of members, in the text as it is in force.
     pub(crate) fn references(&self) -> References {
         let load = |name: &str| {
             let file = self.files.iter().find(|(id, f)| *id != OWN && f.name == name);

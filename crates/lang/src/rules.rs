@@ -105,12 +105,18 @@ impl Lowerer<'_> {
             class = kind;
         }
         let wanted = class.map_or(Kind::Unknown, |c| Kind::of_class(&self.document, c));
-        let Some((term, kind)) = self.expr(scope, value) else { return };
+        let before = self.diagnostics.len();
+        let found = self.expr(scope, value);
+        if self.is_reference(scope.class(), &path) {
+            self.leads_nowhere(before);
+        }
+        let Some((term, kind)) = found else { return };
         if !kind.fits(&wanted, &self.document) {
             let (is, given) = (wanted.words(&self.document), kind.words(&self.document));
             let message = format!("{path} is {is}, and is given {given}");
             return self.error(code_for(&kind, &wanted), scope.file, value.span(), message);
         }
+        self.refer_by_position(scope.file, value, &wanted);
         let term = measured(&self.document, term, &kind, &wanted);
         if self.misfits(scope, &path, class, &term, value) {
             return;
@@ -122,7 +128,10 @@ impl Lowerer<'_> {
     /// Gives a reference the path that it follows from the document.
     fn define_absolute(&mut self, scope: &Scope, path: Path, target: &Expr) {
         let root = Scope::of(scope.file, self.document.root);
-        let Some((term, kind)) = self.expr(&root, target) else { return };
+        let before = self.diagnostics.len();
+        let found = self.expr(&root, target);
+        self.leads_nowhere(before);
+        let Some((term, kind)) = found else { return };
         let class = self.class_at(scope.class(), &path);
         let wanted = class.map_or(Kind::Unknown, |c| Kind::of_class(&self.document, c));
         if !kind.fits(&wanted, &self.document) {
@@ -131,6 +140,25 @@ impl Lowerer<'_> {
         let origin = self.origin(scope.file, target.span());
         let value = from_document(term);
         self.document.classes[scope.class()].givens.push(Given { path, value, origin });
+    }
+
+    fn is_reference(&self, class: ClassId, path: &Path) -> bool {
+        let [Step::Part(name)] = path.0.as_slice() else { return false };
+        let line = self.document.primary_line(class);
+        let own = line.into_iter().find_map(|c| {
+            let index = *self.parts.get(&(c, name.clone()))?;
+            Some(self.document.classes[c].parts[index].class)
+        });
+        own.is_some_and(|c| matches!(self.document.classes[c].kind, ClassKind::Reference(_)))
+    }
+
+    /// Says of names that were found to be unknown, that a reference names nothing by them.
+    fn leads_nowhere(&mut self, before: usize) {
+        for d in self.diagnostics.iter_mut().skip(before) {
+            if matches!(d.code, "unknown-name" | "unknown-part") {
+                d.code = "unknown-reference";
+            }
+        }
     }
 
     /// Reports a fraction where a whole number is wanted, and a list of another length.
@@ -253,6 +281,9 @@ impl Lowerer<'_> {
 
     fn define_constraint(&mut self, scope: &Scope, c: &ast::Constraint, origin: OriginId) {
         let Some(rule) = c.rule() else { return };
+        if self.rule_sets(scope, &rule) {
+            return;
+        }
         let Some(name) = self.rule_name(scope, c.name()) else { return };
         let written = Written { rule, tolerance: c.tolerance(), methods: c.methods() };
         let strength = c.strength().map_or(Strength::Required, strength);

@@ -46,7 +46,10 @@ impl Lowerer<'_> {
                 let op = binary.op()?;
                 let (left, right) = (binary.left()?, binary.right()?);
                 let (a, b) = (self.expr(scope, &left), self.expr(scope, &right));
-                self.combine(scope, op, e.span(), a?, b?)
+                let (a, b) = (a?, b?);
+                self.refer_by_position(scope.file, &left, &b.1);
+                self.refer_by_position(scope.file, &right, &a.1);
+                self.combine(scope, op, e.span(), a, b)
             }
             Expr::Chain(chain) => self.chain(scope, chain),
             Expr::Range(range) => {
@@ -85,6 +88,7 @@ impl Lowerer<'_> {
     pub(crate) fn expr_of(&mut self, scope: &Scope, e: &Expr, wanted: &Kind) -> Option<Term> {
         let (term, kind) = self.expr(scope, e)?;
         if kind.fits(wanted, &self.document) {
+            self.refer_by_position(scope.file, e, wanted);
             return Some(measured(&self.document, term, &kind, wanted));
         }
         self.wrong_kind(scope, e.span(), &kind, wanted);

@@ -9,8 +9,8 @@ use crate::reach::Reach;
 use base::Name;
 use expr::{Arena, ExprId, Node, Unary, Var};
 use kernel::{
-    Argument, Aspect, BinaryOperator, ClassId, ClassKind, Document, Message, SlotId, Structure,
-    Term, ThingId, UnaryOperator,
+    Argument, Aspect, BinaryOperator, ClassId, ClassKind, Document, Message, Setting, SlotId,
+    Structure, Term, ThingId, UnaryOperator,
 };
 use std::collections::BTreeSet;
 use std::rc::Rc;
@@ -164,12 +164,30 @@ impl<'a> Opening<'a> {
                 let (a, b) = (o.meaning(a, &frame)?, o.meaning(b, &frame)?);
                 o.binary(BinaryOperator::Subtract, &a, &b)
             }),
+            (Aspect::Error, Term::Binary(operator, a, b)) if is_order(*operator) => {
+                self.deeper(|o| {
+                    let (a, b) = (o.meaning(a, &frame)?, o.meaning(b, &frame)?);
+                    let holds = o.binary(*operator, &a, &b)?;
+                    let apart = o.binary(BinaryOperator::Subtract, &a, &b)?;
+                    let nothing = o.number(0.0);
+                    o.select(&holds, &nothing, &apart)
+                })
+            }
             (Aspect::Error, _) => {
                 let message = "the error of a rule that is no equality is not planned yet";
                 Err(Trouble::not_yet(message))
             }
             (Aspect::Satisfied, rule) => self.deeper(|o| o.meaning(rule, &frame)),
             (Aspect::Strength, _) => Ok(Meaning::Opaque(Opaque::default())),
+            (Aspect::Enabled, _) if self.structure.conditions.contains_key(&instance) => {
+                let condition = self.structure.conditions[&instance];
+                match &condition.switch(document).setting {
+                    Setting::Enabled(term) => {
+                        self.deeper(|o| o.meaning(term, &Frame::of(condition.me)))
+                    }
+                    Setting::Strength(_) => Ok(self.number(1.0)),
+                }
+            }
             (Aspect::Enabled, _) => {
                 let is_on = self.structure.is_on(instance);
                 Ok(self.number(f64::from(u8::from(is_on))))
@@ -261,7 +279,7 @@ impl<'a> Opening<'a> {
                 Some(target) => self.part(target),
                 None => {
                     let path = self.structure.path(self.document, thing);
-                    Err(Trouble::wrong(format!("`{path}` names nothing")))
+                    Err(Trouble::new(FaultKind::Reference, format!("`{path}` names nothing")))
                 }
             },
             ClassKind::Primitive(_)
@@ -485,4 +503,10 @@ pub(crate) fn kind(meaning: &Meaning<'_>) -> &'static str {
         Meaning::Opaque(_) => "a text",
         Meaning::Lambda(_) => "a function",
     }
+}
+
+/// Returns true for `<` and its like.
+fn is_order(operator: BinaryOperator) -> bool {
+    use BinaryOperator as B;
+    matches!(operator, B::Less | B::LessEqual | B::Greater | B::GreaterEqual)
 }

@@ -22,6 +22,8 @@ pub enum FaultKind {
     UnknownName,
     /// A value of one kind where another was wanted.
     WrongKind,
+    /// A reference that names nothing.
+    Reference,
     /// Messages that call each other without end, or an expression of more than a million steps.
     Endless,
 }
@@ -33,6 +35,7 @@ impl FaultKind {
             Self::NotYet => "not-yet",
             Self::UnknownName => "unknown-name",
             Self::WrongKind => "wrong-kind",
+            Self::Reference => "unknown-reference",
             Self::Endless => "endless-messages",
         }
     }

@@ -11,8 +11,8 @@ use crate::say::{Said, Standing, say};
 use base::number::Tolerance;
 use expr::ExprId;
 use kernel::{
-    Constraint, ConstraintInstance, Method, Path, SlotId, StayInstance, Step, Strength, Structure,
-    ThingId,
+    Constraint, ConstraintInstance, Method, Path, Setting, SlotId, StayInstance, Step, Strength,
+    Structure, ThingId,
 };
 use solve::{Level, Patterns};
 use std::collections::BTreeSet;
@@ -59,6 +59,9 @@ pub(crate) fn lower_constraint(
     opening.begin(instance.owner);
     let me = Frame::of(instance.owner);
     let parts = lower_parts(opening, constraint, &me).map_err(|t| t.at(constraint.origin))?;
+    let Some(when) = lower_condition(opening, patterns, instance)? else {
+        return Ok(Lowered::default());
+    };
     let methods: Result<Vec<RuleMethod<SlotId>>, Fault> = (0..)
         .zip(&constraint.methods)
         .map(|(i, m)| {
@@ -66,15 +69,50 @@ pub(crate) fn lower_constraint(
         })
         .collect();
     let shape = Shape {
-        level: level(constraint.strength),
+        level: level(opening.structure.strength(opening.document, instance)),
         body: Body::Equations(Vec::new()),
         methods: methods?,
         derived: constraint.derived || constraint.methods.is_empty(),
         reads: parts.reads,
         within: parts.within,
-        when: Vec::new(),
+        when,
     };
     Ok(assemble(opening, patterns, shape, parts.said))
+}
+
+/// Lowers the condition under which a constraint is switched on: nothing where that is never, no
+/// condition where it is always.
+fn lower_condition(
+    opening: &mut Opening<'_>,
+    patterns: &mut Patterns,
+    instance: ConstraintInstance,
+) -> Result<Option<Vec<When<SlotId>>>, Fault> {
+    let Some(&condition) = opening.structure.conditions.get(&instance) else {
+        return Ok(Some(Vec::new()));
+    };
+    let switch = condition.switch(opening.document);
+    let Setting::Enabled(term) = &switch.setting else { return Ok(Some(Vec::new())) };
+    let meaning =
+        opening.meaning(term, &Frame::of(condition.me)).map_err(|t| t.at(switch.origin))?;
+    match (opening.decided(&meaning), meaning) {
+        (Some(true), _) => Ok(Some(Vec::new())),
+        (Some(false), _) => Ok(None),
+        (None, Meaning::Number(id)) => {
+            let condition = Formula::of(patterns, &opening.arena, &[id]);
+            Ok(Some(vec![When { condition, truth: true }]))
+        }
+        (
+            None,
+            Meaning::Thing(_)
+            | Meaning::Made(_)
+            | Meaning::List(_)
+            | Meaning::Opaque(_)
+            | Meaning::Lambda(_),
+        ) => {
+            let message = "a switch that depends on texts or things is not planned yet";
+            Err(Trouble::not_yet(message).at(switch.origin))
+        }
+    }
 }
 
 /// Makes the rules of what a constraint says.

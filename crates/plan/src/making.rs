@@ -1,7 +1,7 @@
 //! Things made by constructors: fields without slots.
 
 use crate::evaluate::{Answer, Given, Opening};
-use crate::fault::Trouble;
+use crate::fault::{FaultKind, Trouble};
 use crate::meaning::{Frame, Made, Meaning, Opaque};
 use base::Name;
 use kernel::{ClassId, ClassKind};
@@ -49,7 +49,9 @@ impl<'a> Opening<'a> {
             ClassKind::Primitive(_) => Ok(Meaning::Opaque(Opaque::default())),
             ClassKind::Composite => self.deeper(|opening| opening.make(field_class, &[])),
             ClassKind::List(_) | ClassKind::Set(_) => Ok(Meaning::List(Rc::from([]))),
-            ClassKind::Reference(_) => Err(Trouble::wrong("a reference that names nothing")),
+            ClassKind::Reference(_) => {
+                Err(Trouble::new(FaultKind::Reference, "a reference that names nothing"))
+            }
         }
     }
 }

@@ -38,9 +38,13 @@ pub(crate) fn lower_all(model: Model<'_>, patterns: &mut Patterns) -> (Rules, Ve
             continue;
         }
         let source = Source::Constraint(index);
+        // what is set of one constraint alone says nothing of others
+        let is_set = structure.conditions.contains_key(&instance)
+            || structure.strengths.contains_key(&instance);
         let known = templates.entry((instance.class, instance.index)).or_default();
         let alike = known
             .iter()
+            .filter(|_| !is_set)
             .find(|t| t.route.follow(structure, instance.owner, &mut things, &mut slots));
         if let Some(template) = alike {
             for (shape, positions) in &template.rules {
@@ -60,7 +64,8 @@ pub(crate) fn lower_all(model: Model<'_>, patterns: &mut Patterns) -> (Rules, Ve
             }
         };
         // what guards the rules of things is opened for each
-        let route = opening.reach.route().filter(|_| known.len() < REMEMBERED && !guards);
+        let route =
+            opening.reach.route().filter(|_| known.len() < REMEMBERED && !guards && !is_set);
         let place: BTreeMap<SlotId, Position> =
             route.iter().flat_map(|(_, slots)| slots.iter().copied().zip(0..)).collect();
         let mut made = Some(Vec::new());

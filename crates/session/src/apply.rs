@@ -215,8 +215,12 @@ fn restructure(open: &mut Open, host: &dyn Host, command: &Command) -> Result<Ch
     let text = syntax::edit::apply(&before.text, &done.edits);
     let plans = open.planner.take_plans();
     let (state, planner) = State::of(text, Some(&before), host, plans);
-    let errors =
-        |s: &State| s.diagnostics.iter().filter(|d| d.severity == base::Severity::Error).count();
+    // what a reference names may be deleted: that it names nothing is said at its place
+    let may_be_wrong = |d: &base::Diagnostic| {
+        matches!(command, Command::Delete(_)) && d.code == "unknown-reference"
+    };
+    let is_error = |d: &&base::Diagnostic| d.severity == base::Severity::Error && !may_be_wrong(d);
+    let errors = |s: &State| s.diagnostics.iter().filter(is_error).count();
     if errors(&state) > errors(&before) {
         let new: Vec<base::Diagnostic> = state
             .diagnostics

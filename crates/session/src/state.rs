@@ -83,8 +83,9 @@ impl State {
         for (index, &instance) in (0..).zip(&self.structure.constraints) {
             let class = &self.lowered.document.classes[instance.class];
             let constraint = &class.constraints[instance.index as usize];
-            let required =
-                constraint.strength == Strength::Required && self.structure.is_on(instance);
+            let required = self.structure.strength(&self.lowered.document, instance)
+                == Strength::Required
+                && self.structure.is_on(instance);
             let source = Source::Constraint(index);
             let told = status.unmet.iter().any(|u| u.source == source);
             if !self.unplanned.contains(&constraint.origin) || !required || told {

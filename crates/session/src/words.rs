@@ -7,7 +7,7 @@ use crate::views;
 use base::Diagnostic;
 use kernel::{
     ClassKind, Command, ConstraintInstance, Document, Literal, Path, Primitive, SlotId, Step,
-    Strength, Structure, Term, ThingId, Value, Values,
+    Structure, Term, ThingId, Value, Values,
 };
 use plan::{EditReport, NotDecided, RefusalReason, Source};
 
@@ -169,16 +169,6 @@ pub(crate) fn constraint_name(document: &Document, instance: ConstraintInstance)
     match &constraint.name {
         Some(name) => name.to_string(),
         None => format!("constraint{}", instance.index + 1),
-    }
-}
-
-/// Returns how strong a constraint is, in the language.
-pub(crate) fn strength_name(strength: Strength) -> &'static str {
-    match strength {
-        Strength::Required => "required",
-        Strength::Strong => "strong",
-        Strength::Medium => "medium",
-        Strength::Weak => "weak",
     }
 }
 

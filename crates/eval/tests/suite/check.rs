@@ -20,8 +20,12 @@ fn document() -> (Build, Structure) {
     b.constraint(root, "wish", equal(part("c"), num(77.0))).strength = Strength::Weak;
     b.constraint(root, "off", equal(part("c"), part("a")));
     let origin = kernel::OriginId(0);
-    let switch =
-        kernel::Switch { path: kernel::Path::default(), name: "off".into(), on: false, origin };
+    let switch = kernel::Switch {
+        path: kernel::Path::default(),
+        name: "off".into(),
+        setting: kernel::Setting::Enabled(kernel::Term::Bool(false)),
+        origin,
+    };
     b.document.classes[root].switches.push(switch);
     let stay = Stay { path: path("d"), strength: None, origin: kernel::OriginId(0) };
     b.document.classes[root].stays.push(stay);

@@ -1,14 +1,15 @@
-//! Switches: which constraints of which things are off.
+//! Switches: which constraints of which things are off, or hold under a condition, and how strongly.
 //!
 //! The class of a thing has the last word on the constraints below it: what is said of a whole counts
 //! more than what is said of its part.
 
-use crate::class::Switch;
+use crate::class::{Setting, Switch};
 use crate::document::Document;
-use crate::structure::{ConstraintInstance, Structure, ThingId};
+use crate::structure::{Condition, ConstraintInstance, Structure, ThingId};
+use crate::term::Term;
 use std::collections::BTreeMap;
 
-/// Finds the constraints that are off. A switch of nothing, as where a class masks it, does nothing.
+/// Finds what is set of constraints. A switch of nothing, as where a class masks it, does nothing.
 pub(super) fn switch(document: &Document, structure: &mut Structure) {
     if document.classes.iter().all(|(_, c)| c.switches.is_empty()) {
         return;
@@ -19,14 +20,40 @@ pub(super) fn switch(document: &Document, structure: &mut Structure) {
     }
     for thing in structure.things.ids().collect::<Vec<_>>().into_iter().rev() {
         let line = document.primary_line(structure.things[thing].class);
-        for switch in line.iter().rev().flat_map(|&c| &document.classes[c].switches) {
+        let switches = line.iter().rev().flat_map(|&class| {
+            (0..).zip(&document.classes[class].switches).map(move |(i, s)| (class, i, s))
+        });
+        for (class, index, switch) in switches {
             let at = structure.follow(thing, &switch.path).ok();
             let named = at.map(|at| named(document, structure, &constraints, at, switch));
             for instance in named.unwrap_or_default() {
-                if switch.on {
-                    structure.off.remove(&instance);
-                } else {
+                let condition = Condition { me: thing, class, switch: index };
+                set(structure, instance, &switch.setting, condition);
+            }
+        }
+    }
+}
+
+fn set(
+    structure: &mut Structure,
+    instance: ConstraintInstance,
+    setting: &Setting,
+    condition: Condition,
+) {
+    match setting {
+        Setting::Strength(strength) => {
+            structure.strengths.insert(instance, *strength);
+        }
+        Setting::Enabled(term) => {
+            structure.off.remove(&instance);
+            structure.conditions.remove(&instance);
+            match term {
+                Term::Bool(true) => {}
+                Term::Bool(false) => {
                     structure.off.insert(instance);
+                }
+                _ => {
+                    structure.conditions.insert(instance, condition);
                 }
             }
         }

@@ -1,14 +1,16 @@
 //! Deleting: a member, and everything that speaks of it.
 //!
 //! A constraint, merge, given or statement of a check that speaks of what goes, goes too; a list of
-//! paths is shortened; what is itself a member takes along those that speak of it.
+//! paths is shortened, and so are `(a, b)` and `C(a, b)` by the values that stand for it; what is
+//! itself a member takes along those that speak of it. A reference stays: that it names nothing any
+//! more is an error at its place.
 
 use super::home::Home;
 use super::{Restructuring, shortened};
 use crate::references::{References, Symbol};
 use crate::uses::{Text, refused};
 use base::{Diagnostic, Span};
-use kernel::{Path, Step, builtin};
+use kernel::{ClassId, Path, Step, builtin};
 use std::collections::BTreeSet;
 use syntax::ast::{self, AstNode, Expr, Member};
 use syntax::edit::{self, TextEdit};
@@ -25,6 +27,8 @@ struct Deletion {
     seen: BTreeSet<Span>,
     /// Lists of paths, and the words in them that lead to what goes.
     lists: Vec<(SyntaxNode, Vec<Span>)>,
+    /// Values by position, those of them that stand for what goes, and what they make.
+    values: Vec<(SyntaxNode, Vec<Span>, ClassId)>,
 }
 
 impl Text<'_> {
@@ -49,6 +53,7 @@ impl Text<'_> {
             along: Vec::new(),
             seen: BTreeSet::new(),
             lists: Vec::new(),
+            values: Vec::new(),
         };
         deletion.edits.push(match edit::delete_name(&word.token) {
             Some(edit) => edit,
@@ -59,13 +64,22 @@ impl Text<'_> {
         });
         while let Some(symbol) = deletion.waiting.pop() {
             let speaks = |(_, spoken): &&(Span, Symbol)| *spoken == symbol;
-            let spans: Vec<Span> =
-                deletion.references.iter().filter(speaks).map(|(span, _)| *span).collect();
-            for span in spans {
+            let spans = |all: &BTreeSet<(Span, Symbol)>| -> Vec<Span> {
+                all.iter().filter(speaks).map(|(span, _)| *span).collect()
+            };
+            for span in spans(&deletion.references.positions) {
+                self.forget_value(span, symbol.class, &mut deletion);
+            }
+            for span in spans(&deletion.references.words) {
                 let Some(word) = self.token_at(span) else { continue };
-                if !is_gone(&deletion.edits, span) {
+                if !is_gone(&deletion.edits, span) && !is_label(&word) {
                     self.forget(&word, &mut deletion);
                 }
+            }
+        }
+        for (node, gone, class) in &deletion.values {
+            if !is_gone(&deletion.edits, syntax::span_of(node)) {
+                deletion.edits.push(self.without_values(node, gone, *class));
             }
         }
         for (node, words) in &deletion.lists {
@@ -76,6 +90,38 @@ impl Text<'_> {
         }
         let class = self.implied_by(home).class;
         Restructuring { edits: deletion.edits, along: deletion.along, class, class_of_one: None }
+    }
+
+    /// Deletes a value that stands for what goes.
+    fn forget_value(&self, span: Span, class: ClassId, deletion: &mut Deletion) {
+        let first = self.file.syntax().token_at_offset(span.start.into()).right_biased();
+        let list = first.and_then(|t| {
+            t.parent_ancestors().find(|n| {
+                let around = syntax::span_of(n).start < span.start;
+                around && matches!(n.kind(), SyntaxKind::TupleExpr | SyntaxKind::ArgList)
+            })
+        });
+        let Some(list) = list else { return };
+        match deletion.values.iter_mut().find(|(n, ..)| *n == list) {
+            Some((_, spans, _)) => spans.push(span),
+            None => deletion.values.push((list, vec![span], class)),
+        }
+    }
+
+    /// Returns the edit that leaves in `(a, b)` or `C(a, b)` only the values that stay.
+    fn without_values(&self, list: &SyntaxNode, gone: &[Span], class: ClassId) -> TextEdit {
+        let stays = |n: &SyntaxNode| {
+            let span = syntax::span_of(n);
+            !gone.iter().any(|g| span.start <= g.start && g.end <= span.end)
+        };
+        let kept: Vec<String> =
+            list.children().filter(stays).map(|n| n.text().to_string()).collect();
+        // one value in brackets is that value alone
+        let maker = match (list.kind(), kept.len()) {
+            (SyntaxKind::TupleExpr, 0 | 1) => self.lowered.document.classes[class].name.as_str(),
+            _ => "",
+        };
+        TextEdit { span: syntax::span_of(list), insert: format!("{maker}({})", kept.join(", ")) }
     }
 
     /// Deletes what stands around a word, as little as can be.
@@ -110,6 +156,9 @@ impl Text<'_> {
                     );
                 }
             }
+            // what it names is gone: that is said at its place
+            Member::Ref(_) => return,
+            Member::Part(part) if is_reference(part) => return,
             Member::Part(part) if part.definition().is_none() => {
                 let value = part.value().zip(part.class());
                 let Some((value, class)) = value.filter(|_| deletion.seen.insert(span)) else {
@@ -231,6 +280,16 @@ impl Text<'_> {
         }
         Ok(vec![edit::delete_member(class.syntax())].into())
     }
+}
+
+/// Returns true for the label of an argument, which goes with its value.
+fn is_label(word: &SyntaxToken) -> bool {
+    word.parent().is_some_and(|n| n.kind() == SyntaxKind::Arg)
+}
+
+/// Returns true for a part that names another.
+fn is_reference(part: &ast::Part) -> bool {
+    part.class().is_some_and(|c| matches!(c.shape(), ast::TypeShape::Path(_)))
 }
 
 /// Returns true for a word that stands in what is deleted already.

@@ -22,7 +22,7 @@ impl Text<'_> {
         self.must_be_free(&home, to)?;
         let symbol = self.symbol(&home, &word);
         let mut edits = vec![edit::rename(&word.token, to)];
-        for (span, spoken) in self.lowered.references() {
+        for (span, spoken) in self.lowered.references().words {
             if spoken == symbol && span != word.span() {
                 edits.push(TextEdit { span, insert: to.to_string() });
             }

@@ -48,7 +48,7 @@ fn unmet(open: &Open, u: &plan::Unmet) -> Option<Unmet> {
         constraint: words::constraint_path(state, instance),
         rule: state.lowered.source_of(constraint.origin),
         error: u.error.filter(|e| e.is_finite()),
-        strength: words::strength_name(constraint.strength).into(),
+        strength: state.structure.strength(document, instance).word().into(),
         span: state.lowered.own_span(constraint.origin).map(|s| (s.start, s.end)),
     })
 }

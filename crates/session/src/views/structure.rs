@@ -117,7 +117,7 @@ impl Maker<'_> {
             let constraint = &document.classes[instance.class].constraints[instance.index as usize];
             let name = words::constraint_name(document, instance);
             let path = owner.then(Step::Part(name.as_str().into())).to_string();
-            let is_on = structure.is_on(instance);
+            let is_on = evaluator.is_on(instance).unwrap_or(true);
             let holds = !is_on || evaluator.test(instance).is_ok_and(|v| v.holds);
             let mut row = self.row(path, depth, RowKind::Constraint, name, constraint.origin);
             row.detail = self.state.lowered.source_of(constraint.origin);
