@@ -1,6 +1,6 @@
 //! Grids of resistors and trusses in the table: whole documents, from the text to the answer.
 
-use bench::documents::{resistor_grid, warren_truss};
+use bench::documents::{braced_truss, resistor_grid, warren_truss};
 use bench::opened::Opened;
 use std::io::Write;
 use std::time::Instant;
@@ -17,6 +17,9 @@ const CORNERS: [(usize, Option<f64>, &str); 5] = [
 /// How far the middle sinks, in metres. **Source:** virtual work, exactly; OpenSees for 1000.
 const MIDDLES: [(usize, f64, &str); 3] =
     [(10, -0.056_875, ""), (100, -521.312_5, ""), (1000, -5_208_381.25, "30 ms whole")];
+
+/// What the left support of a braced truss carries: half of the load, in newtons.
+const REACTIONS: [(usize, f64); 3] = [(10, 55e3), (100, 505e3), (1000, 5_005e3)];
 
 /// Grids of resistors, in milliseconds.
 pub(crate) fn grids(out: &mut impl Write, filter: &str) -> std::io::Result<()> {
@@ -38,6 +41,12 @@ pub(crate) fn trusses(out: &mut impl Write, filter: &str) -> std::io::Result<()>
             let name = format!("{n} bays");
             let middle = format!("below.{}.uy", n / 2 - 1);
             whole(out, &name, &warren_truss(n), &middle, Some(sag), goal)?;
+        }
+    }
+    for (n, reaction) in REACTIONS {
+        if filter.is_empty() || filter == n.to_string() {
+            let name = format!("{n} braced");
+            whole(out, &name, &braced_truss(n), "pin.reactionY", Some(reaction), "")?;
         }
     }
     Ok(())

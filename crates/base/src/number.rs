@@ -8,6 +8,9 @@ pub use libm::{acos, asin, atan, atan2, cos, exp, hypot, log as ln, pow, sin, sq
 /// How far the two sides of a rule may differ, relative to the larger side.
 pub const RULE_TOLERANCE: f64 = 1e-9;
 
+/// How far a stored number may be from the one that is meant, as a part of it: some roundings.
+pub const ROUNDING: f64 = 64.0 * f64::EPSILON;
+
 /// Returns true if `a` and `b` agree to [`RULE_TOLERANCE`] of the larger side, at least of the unit.
 pub fn close(a: f64, b: f64) -> bool {
     a == b || (a - b).abs() <= RULE_TOLERANCE * a.abs().max(b.abs()).max(1.0)
@@ -15,15 +18,26 @@ pub fn close(a: f64, b: f64) -> bool {
 
 /// How far the two sides of a rule may differ.
 ///
+/// The *sway* of a rule is how far its sides move apart where every number that it is made of moves by its
+/// own size, each to the worse: the sum of `|x| |d(left - right)/dx|`. A rule whose sides differ by
+/// [`ROUNDING`] of its sway holds for numbers that nobody can tell from those that are stored.
+///
+/// **Source:** Oettli and Prager, *Compatibility of approximate solution of linear equations with given
+/// error bounds*, Numer. Math. 6 (1964).
+///
 /// ```
 /// use base::number::Tolerance;
 /// assert!(Tolerance::Relative.is_met(1e6, 1e6 + 1e-4));
 /// assert!(!Tolerance::within(1e-6).is_met(1e6, 1e6 + 1e-4));
 /// assert!(Tolerance::within(0.5).is_met(2.0, 2.25));
+/// // 1e9 + 1e-6 - 1e9 = 0, of three numbers that are stored to 1e-7
+/// assert!(!Tolerance::Relative.is_met(1e-6, 0.0));
+/// assert!(Tolerance::Relative.is_met_with(1e-6, 0.0, || 2e9));
+/// assert!(!Tolerance::Relative.is_met_with(1e-3, 0.0, || 2e9));
 /// ```
 #[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, Debug, Default)]
 pub enum Tolerance {
-    /// [`RULE_TOLERANCE`] of the larger side, at least of the unit.
+    /// [`RULE_TOLERANCE`] of the larger side, at least of the unit; or [`ROUNDING`] of the sway.
     #[default]
     Relative,
     /// As was written: so much, in base units, by the bits of the number.
@@ -42,7 +56,22 @@ impl Tolerance {
             Self::Within(bits) => f64::from_bits(bits) * (1.0 + RULE_TOLERANCE),
         }
     }
-    /// Returns true if two sides agree.
+    /// Returns the difference that two sides of a rule with this sway may have.
+    pub fn allowed_with(self, left: f64, right: f64, sway: f64) -> f64 {
+        let allowed = self.allowed(left, right);
+        match self {
+            Self::Relative if sway.is_finite() => allowed.max(ROUNDING * sway),
+            Self::Relative | Self::Within(_) => allowed,
+        }
+    }
+    /// Returns true if two sides agree, or differ by no more than rounding; the sway is asked for only
+    /// where that decides.
+    pub fn is_met_with(self, left: f64, right: f64, sway: impl FnOnce() -> f64) -> bool {
+        self.is_met(left, right)
+            || self == Self::Relative
+                && (left - right).abs() <= self.allowed_with(left, right, sway())
+    }
+    /// Returns true if two sides agree whatever they are made of.
     pub fn is_met(self, left: f64, right: f64) -> bool {
         left == right || (left - right).abs() <= self.allowed(left, right)
     }

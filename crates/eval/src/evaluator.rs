@@ -7,6 +7,7 @@ use crate::answer::{Answer, Closure, Frame};
 use crate::fault::{Fault, FaultKind};
 use crate::lookup::Tables;
 use crate::operate::unary;
+use crate::sway::Compared;
 use base::Name;
 use expr::dimension::Dimension;
 use kernel::{
@@ -50,6 +51,10 @@ pub struct Evaluator<'a> {
     pub(crate) faults: RefCell<Vec<Fault>>,
     /// The slots read since someone began to listen.
     reads: RefCell<Option<BTreeSet<SlotId>>>,
+    /// A slot whose number is read as another one.
+    nudged: Cell<Option<(SlotId, f64)>>,
+    /// What is known of the comparisons of a rule, in the order in which they are made.
+    pub(crate) compared: RefCell<Compared>,
 }
 
 impl<'a> Evaluator<'a> {
@@ -82,6 +87,8 @@ impl<'a> Evaluator<'a> {
             fuel: Cell::new(MOST_TERMS),
             faults: RefCell::new(Vec::new()),
             reads: RefCell::new(None),
+            nudged: Cell::new(None),
+            compared: RefCell::default(),
         }
     }
 
@@ -108,7 +115,18 @@ impl<'a> Evaluator<'a> {
         let before = self.reads.replace(Some(BTreeSet::new()));
         let answer = ask();
         let reads = self.reads.replace(before).unwrap_or_default();
+        if let Some(outer) = &mut *self.reads.borrow_mut() {
+            outer.extend(&reads);
+        }
         (answer, reads)
+    }
+
+    /// Asks something as if another number stood in a slot.
+    pub(crate) fn nudging<T>(&self, slot: SlotId, number: f64, ask: impl FnOnce() -> T) -> T {
+        self.nudged.set(Some((slot, number)));
+        let answer = ask();
+        self.nudged.set(None);
+        answer
     }
 
     /// Begins another question, with fuel of its own.
@@ -328,7 +346,10 @@ impl<'a> Evaluator<'a> {
         if let Some(reads) = &mut *self.reads.borrow_mut() {
             reads.insert(slot);
         }
-        let number = self.values.numbers[slot];
+        let number = match self.nudged.get() {
+            Some((nudged, number)) if nudged == slot => number,
+            Some(_) | None => self.values.numbers[slot],
+        };
         match self.structure.slots[slot].primitive {
             Primitive::Real(dimension) => Answer::Number(number, dimension),
             Primitive::Integer => Answer::plain(number),

@@ -24,7 +24,7 @@
 //! the same bits; messages call each other at most [`DEEPEST_MESSAGES`] deep.
 //!
 //! Reading order: `answer`, `evaluator`, `lookup`, `operate`, `measure`, `send`, `make`, `compare`,
-//! `builtin`, `shapes`, `verdict`, `write`, `picture`, [`checker`].
+//! `builtin`, `shapes`, `verdict`, `sway`, `write`, `picture`, [`checker`].
 mod answer;
 mod builtin;
 pub mod checker;
@@ -38,6 +38,7 @@ mod operate;
 mod picture;
 mod send;
 mod shapes;
+mod sway;
 mod verdict;
 mod write;
 

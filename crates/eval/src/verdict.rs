@@ -10,7 +10,7 @@ use crate::evaluator::{Evaluator, Result};
 use crate::fault::Fault;
 use crate::measure;
 use base::Name;
-use base::number::{Tolerance, close, shortest};
+use base::number::{close, shortest};
 use expr::dimension::Dimension;
 use kernel::{Aspect, BinaryOperator, ConstraintInstance, Setting, Term, ThingId, UnaryOperator};
 
@@ -93,7 +93,7 @@ impl<'a> Evaluator<'a> {
             Some(term) => Some(self.number(&self.term(term, frame)?)?.0.abs()),
             None => None,
         };
-        self.judge(rule, frame, within)
+        self.with_sway(within, || self.judge(rule, frame, within))
     }
 
     /// Answers what is asked of a constraint of a thing.
@@ -279,7 +279,7 @@ impl<'a> Evaluator<'a> {
             if let (Answer::Number(x, dx), Answer::Number(y, dy)) = (a, b) {
                 measure::common(*dx, *dy)?;
                 let error = x - y;
-                verdict.holds = verdict.holds && near(*x, *y, within);
+                verdict.holds &= self.agree(*x, *y, within);
                 if verdict.error.is_none_or(|e| e.abs() < error.abs()) {
                     verdict.error = Some(error);
                 }
@@ -323,7 +323,7 @@ impl<'a> Evaluator<'a> {
             return Ok(Verdict { holds, error: None, left, right });
         };
         // What is strictly less does not become so by tolerance.
-        let holds = order.is_lt() || (!strict && near(*x, *y, within));
+        let holds = order.is_lt() || (!strict && self.agree(*x, *y, within));
         Ok(Verdict { holds, error: Some((x - y).max(0.0)), left, right })
     }
 
@@ -359,10 +359,6 @@ impl<'a> Evaluator<'a> {
         }
         format!("{open}{}{close}", words.join(", "))
     }
-}
-
-fn near(x: f64, y: f64, within: Option<f64>) -> bool {
-    within.map_or(Tolerance::Relative, Tolerance::within).is_met(x, y)
 }
 
 fn both(a: &Verdict, b: &Verdict) -> Verdict {

@@ -40,7 +40,9 @@ pub(crate) fn fails(
             for e in equations {
                 let sides = rule.evaluate(e, patterns, &values.numbers, scratch);
                 let (left, right) = (sides[0], sides[1]);
-                if !rule.shape.within.is_met(left, right) {
+                let arguments = rule.slots_at(&e.slots).map(|s| values.numbers[s]);
+                let sway = || patterns.get(e.pattern).sway(arguments, scratch);
+                if !rule.shape.within.is_met_with(left, right, sway) {
                     worst = larger(worst, Some((left - right).abs()));
                 }
             }

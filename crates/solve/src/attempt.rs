@@ -346,9 +346,12 @@ impl Run<'_> {
             Program::Square(square) => square,
             Program::Inverse(inverse) => {
                 let row = &inverse.row;
-                let sides =
-                    self.buffers.work.run(&row.kernel.sides, &row.arguments, self.values, 2);
-                return row.within.is_met(sides[0], sides[1]);
+                let work = &mut self.buffers.work;
+                let sides = work.run(&row.kernel.sides, &row.arguments, self.values, 2);
+                let (left, right) = (sides[0], sides[1]);
+                return row.within.is_met_with(left, right, || {
+                    work.sway(&row.kernel, &row.arguments, self.values)
+                });
             }
             Program::Host { source, .. } => return self.host.holds(*source, self.values),
             Program::Formulas(pattern, arguments) => {

@@ -101,6 +101,13 @@ impl Workspace {
         tape.run(&self.arguments, &mut self.registers, &mut self.out);
         &mut self.out
     }
+
+    /// Computes the sway of one row.
+    pub(crate) fn sway(&mut self, kernel: &Kernel, arguments: &[SlotIndex], values: &[f64]) -> f64 {
+        self.arguments.clear();
+        self.arguments.extend(arguments.iter().map(|&s| values[s as usize]));
+        kernel.sway(&self.arguments, &mut self.registers, &mut self.out)
+    }
 }
 
 /// From how many rows of a kernel on they are evaluated in lanes.
@@ -414,6 +421,26 @@ impl Block {
         }
     }
 
+    /// Returns by what part of themselves the numbers of a linear block would have to be others for these
+    /// values to be its solution, in the worst row.
+    pub(crate) fn backward_error(&self, values: &[f64], local: &Local) -> f64 {
+        let mut worst = 0.0f64;
+        for r in 0..self.height() {
+            let residual = local.left[r] - local.right[r];
+            let (mut sum, mut size) = (0.0, 0.0);
+            for e in self.pattern.range(r) {
+                let part =
+                    local.jacobian[e] * values[self.unknowns[self.pattern.column(e)] as usize];
+                sum += part;
+                size += part.abs();
+            }
+            if residual != 0.0 {
+                worst = worst.max(residual.abs() / (size + (sum - residual).abs()));
+            }
+        }
+        if worst.is_nan() { f64::INFINITY } else { worst }
+    }
+
     /// Returns row and unknowns of every second derivative that is not zero everywhere, in the order of
     /// [`Block::each_second`].
     pub(crate) fn second_places(&self) -> impl Iterator<Item = (usize, usize, usize)> + '_ {
@@ -459,10 +486,19 @@ impl Block {
         local.right.resize(self.height(), 0.0);
     }
 
-    /// Returns true if a row holds.
-    pub(crate) fn row_holds(&self, local: &Local, row: usize) -> bool {
+    /// Returns true if a row holds for these values, at which `local` was computed.
+    pub(crate) fn row_holds(
+        &self,
+        local: &Local,
+        row: usize,
+        values: &[f64],
+        w: &mut Workspace,
+    ) -> bool {
         let (left, right) = (local.left[row], local.right[row]);
-        self.within[row].is_met(left, right)
+        self.within[row].is_met_with(left, right, || {
+            let (kernel, arguments) = self.row(row);
+            w.sway(kernel, arguments, values)
+        })
     }
 }
 

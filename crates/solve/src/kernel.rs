@@ -115,6 +115,20 @@ impl Kernel {
         (over(self.left), over(self.right))
     }
 
+    /// Computes how far its sides move apart where every argument moves by its own size.
+    pub(crate) fn sway(
+        &self,
+        arguments: &[f64],
+        registers: &mut Vec<f64>,
+        out: &mut Vec<f64>,
+    ) -> f64 {
+        out.clear();
+        out.resize(2 + self.entries.len(), 0.0);
+        self.slopes.run(arguments, registers, out);
+        let moves = self.entries.iter().zip(&out[2..]);
+        moves.map(|(e, slope)| (arguments[e.argument as usize] * slope).abs()).sum()
+    }
+
     /// Returns how many arguments it has.
     pub(crate) fn arity(&self) -> usize {
         self.solved.len()

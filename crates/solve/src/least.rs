@@ -69,10 +69,10 @@ impl Least {
     /// Returns true if every row holds for these values.
     pub(crate) fn holds_at(&self, values: &[f64], w: &mut Workspace, s: &mut LeastScratch) -> bool {
         self.block.sides(values, w, &mut s.local);
-        self.holds(s)
+        self.holds(values, w, s)
     }
-    fn holds(&self, s: &LeastScratch) -> bool {
-        (0..self.block.height()).all(|r| self.block.row_holds(&s.local, r))
+    fn holds(&self, values: &[f64], w: &mut Workspace, s: &LeastScratch) -> bool {
+        (0..self.block.height()).all(|r| self.block.row_holds(&s.local, r, values, w))
     }
 
     fn structure(&self) -> &Symmetric {
@@ -152,7 +152,7 @@ impl Least {
                 return Measured::Failed;
             }
         }
-        if self.holds(s) && size < 1e-6 { Measured::Least } else { Measured::Failed }
+        if self.holds(values, w, s) && size < 1e-6 { Measured::Least } else { Measured::Failed }
     }
 
     /// Freezes a weight for every row that makes it dimensionless.

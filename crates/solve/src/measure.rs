@@ -144,7 +144,7 @@ impl Measure {
             self.advance(values, &step, &scale, hard, &weights, w);
         }
         match self.evaluate(values, &scale, &weights, w) {
-            Some(local) if settled && self.hard_rows_hold(&local) => Measured::Least,
+            Some(local) if settled && self.hard_rows_hold(&local, values, w) => Measured::Least,
             Some(_) | None => Measured::Failed,
         }
     }
@@ -170,12 +170,14 @@ impl Measure {
             .map(|(&u, s)| (values[u as usize] - x0[u as usize]) / s)
             .collect();
         let step = self.direction(&local, &away, &weights, values, w);
-        self.hard_rows_hold(&local) && step.iter().all(|d| d.abs() <= 1e-9)
+        self.hard_rows_hold(&local, values, w) && step.iter().all(|d| d.abs() <= 1e-9)
     }
 
-    fn hard_rows_hold(&self, scaled: &Scaled) -> bool {
+    fn hard_rows_hold(&self, scaled: &Scaled, values: &[f64], w: &mut Workspace) -> bool {
         let hard = |&r: &usize| self.block.levels[r] == Level::Required;
-        (0..self.block.height()).filter(hard).all(|r| self.block.row_holds(&scaled.local, r))
+        (0..self.block.height())
+            .filter(hard)
+            .all(|r| self.block.row_holds(&scaled.local, r, values, w))
     }
     fn hard_norm(&self, local: &Scaled) -> f64 {
         let mut sum = 0.0;

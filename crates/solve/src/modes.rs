@@ -17,8 +17,9 @@ use crate::conditional::{Conditional, DemandKind};
 use crate::pattern::{Pattern, PatternId, Patterns, Scratch};
 use crate::system::{Equation, Level, RelationBody, SlotIndex, Span, System};
 use crate::truth::{Comparing, Comparison, Truth, truth};
+use base::Id;
 use base::number::{RULE_TOLERANCE, Tolerance};
-use expr::{Arena, Binary, ExprId, Unary};
+use expr::{Arena, Binary, ExprId, Unary, Var, gradient};
 use std::cell::RefCell;
 use std::collections::BTreeSet;
 use std::rc::Rc;
@@ -279,7 +280,12 @@ impl Modes {
         let sides = &self.comparisons[index as usize];
         let mut scratch = self.scratch.borrow_mut();
         let both = sides.sides.evaluate(values, &mut scratch);
-        holds_within(sides.comparing, both[0], both[1], sides.within)
+        let (left, right) = (both[0], both[1]);
+        let formula = &sides.sides;
+        holds_within(sides.comparing, left, right, sides.within, || {
+            let arguments = formula.arguments.iter().map(|&s| values[s as usize]);
+            formula.pattern.sway(arguments, &mut scratch)
+        })
     }
 
     fn is_true(&self, condition: usize, values: &[f64]) -> bool {
@@ -312,13 +318,18 @@ impl Formula {
 }
 
 /// Compares two sides of a rule: equal, at most and different to a tolerance, less exactly.
-pub fn holds_within(comparing: Comparing, left: f64, right: f64, within: Tolerance) -> bool {
-    let agree = within.is_met(left, right);
+fn holds_within(
+    comparing: Comparing,
+    left: f64,
+    right: f64,
+    within: Tolerance,
+    sway: impl FnOnce() -> f64,
+) -> bool {
     match comparing {
-        Comparing::Equal => agree,
-        Comparing::AtMost => left <= right || agree,
+        Comparing::Equal => within.is_met_with(left, right, sway),
+        Comparing::AtMost => left <= right || within.is_met_with(left, right, sway),
         Comparing::Less => left < right,
-        Comparing::Differ => !agree && !left.is_nan() && !right.is_nan(),
+        Comparing::Differ => !within.is_met(left, right) && !left.is_nan() && !right.is_nan(),
     }
 }
 
@@ -328,16 +339,25 @@ pub fn is_true_within(arena: &Arena, id: ExprId, values: &[f64], within: Toleran
     let truth = truth(&mut arena, id, true);
     all_hold(&truth, &|c| {
         let (l, r) = (arena.evaluate(c.left, values), arena.evaluate(c.right, values));
-        holds_within(c.comparing, l, r, within)
+        holds_within(c.comparing, l, r, within, || sway(&arena, c, values))
     })
 }
 
 fn holds_nearly(arena: &Arena, truth: &Truth, values: &[f64]) -> bool {
     all_hold(truth, &|c| {
         let (l, r) = (arena.evaluate(c.left, values), arena.evaluate(c.right, values));
-        let agree = |comparing| holds_within(comparing, l, r, Tolerance::Relative);
-        c.comparing.holds(l, r) || agree(Comparing::Equal)
+        c.comparing.holds(l, r) || Tolerance::Relative.is_met(l, r)
     })
+}
+
+/// Computes the sway of a comparison.
+fn sway(arena: &Arena, c: &Comparison, values: &[f64]) -> f64 {
+    let mut arena = arena.clone();
+    let difference = arena.sub(c.left, c.right);
+    let vars: Vec<Var> = arena.variables(difference).into_iter().collect();
+    let slopes = gradient(&mut arena, difference, &vars);
+    let moves = vars.iter().zip(slopes);
+    moves.map(|(v, slope)| (values[v.index()] * arena.evaluate(slope, values)).abs()).sum()
 }
 
 fn all_hold(truth: &Truth, holds: &dyn Fn(&Comparison) -> bool) -> bool {

@@ -135,6 +135,15 @@ impl Pattern {
         let arguments = kernel.entries.iter().map(|entry| entry.argument as usize);
         arguments.zip(scratch.out[2..].iter().copied())
     }
+    /// Computes the sway of an equation, as [`base::number::Tolerance`] asks for it.
+    ///
+    /// # Panics
+    /// If it has not two expressions.
+    pub fn sway(&self, arguments: impl IntoIterator<Item = f64>, scratch: &mut Scratch) -> f64 {
+        scratch.arguments.clear();
+        scratch.arguments.extend(arguments);
+        self.kernel().sway(&scratch.arguments, &mut scratch.registers, &mut scratch.out)
+    }
     /// Returns what it says if that is next to nothing.
     pub(crate) fn plain(&self) -> Option<Plain> {
         self.plain

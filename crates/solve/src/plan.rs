@@ -357,6 +357,13 @@ impl Plan {
         let sides = self.stated.pattern(equation.pattern).evaluate(arguments, scratch);
         [sides[0], sides[1]]
     }
+    /// Computes the sway of one equation, by its place in the system.
+    pub(crate) fn sway_of(&self, row: usize, values: &[f64], scratch: &mut Scratch) -> f64 {
+        let system = &self.stated.system;
+        let equation = &system.equations[row];
+        let arguments = system.arguments(equation.arguments).iter().map(|&s| values[s as usize]);
+        self.stated.pattern(equation.pattern).sway(arguments, scratch)
+    }
     /// Returns every slot that a relation speaks of.
     pub(crate) fn mentions(&self, relation: u32) -> impl Iterator<Item = SlotIndex> + '_ {
         let planned = &self.relations[relation as usize];

@@ -263,7 +263,7 @@ fn start(plan: &Plan, runner: &mut Runner, x0: &[f64], changed: &[SlotIndex]) ->
     frame.held.clear();
     for relation in &plan.relations {
         for r in relation.first_row..relation.first_row + relation.rows {
-            let (error, tolerance) = error_of(buffers, r, relation.within);
+            let (error, tolerance) = error_of(plan, &frame.x0, buffers, r, relation.within);
             frame.held.push(error <= tolerance);
         }
     }
@@ -293,11 +293,23 @@ fn test_sides(plan: &Plan, values: &[f64], buffers: &mut Buffers) {
     plan.sides(values, &mut buffers.scratch, &mut buffers.sides);
 }
 
-fn error_of(buffers: &Buffers, row: u32, within: Tolerance) -> (f64, f64) {
+/// Returns the error of an equation whose sides are computed, and how large it may be.
+fn error_of(
+    plan: &Plan,
+    values: &[f64],
+    buffers: &mut Buffers,
+    row: u32,
+    within: Tolerance,
+) -> (f64, f64) {
     let [left, right] = buffers.sides[row as usize];
     let error = if left == right { 0.0 } else { (left - right).abs() };
     let error = if error.is_nan() { f64::INFINITY } else { error };
-    (error, within.allowed(left, right))
+    let allowed = within.allowed(left, right);
+    if error <= allowed {
+        return (error, allowed);
+    }
+    let sway = plan.sway_of(row as usize, values, &mut buffers.scratch);
+    (error, within.allowed_with(left, right, sway))
 }
 
 /// Where a way stopped.
@@ -512,7 +524,8 @@ impl Way<'_> {
             }
         } else {
             for r in relation.first_row..relation.first_row + relation.rows {
-                let (error, tolerance) = error_of(self.buffers, r, relation.within);
+                let (error, tolerance) =
+                    error_of(self.plan, values, self.buffers, r, relation.within);
                 if error > tolerance && worst.is_none_or(|w| error > w.0) {
                     worst = Some((error, tolerance));
                 }

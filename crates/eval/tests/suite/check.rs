@@ -64,6 +64,30 @@ fn a_wrong_state_is_found_out() {
     assert_eq!(short, ["the state has another number of slots than the structure"]);
 }
 
+/// a + b = c: what differs by a part of 2e9 times 64 units in the last place, 2.8e-5, is rounding.
+#[test]
+fn a_sum_of_large_numbers_holds_to_their_rounding_and_no_further() {
+    let mut b = Build::new();
+    let root = b.root();
+    for name in ["a", "b", "c"] {
+        b.part(root, name, b.real);
+    }
+    b.constraint(root, "sum", equal(add(part("a"), part("b")), part("c")));
+    let structure = b.structure();
+    let says = |numbers: [f64; 3]| {
+        let mut values = Values::new(3);
+        for (i, x) in numbers.into_iter().enumerate() {
+            values.numbers[SlotId(i as u32)] = x;
+        }
+        check_state(&b.document, &structure, &values).len()
+    };
+    assert_eq!(says([1e9, -1e9 + 1e-5, 0.0]), 0);
+    assert_eq!(says([1e9, -1e9 + 1e-4, 0.0]), 1);
+    // numbers of the size people use are held to what the sides say
+    assert_eq!(says([1000.0, -1000.0 + 2e-9, 0.0]), 1);
+    assert_eq!(says([1000.0, 0.0, 1000.0 + 1e-7]), 0);
+}
+
 #[test]
 fn an_edit_moves_what_is_connected_and_nothing_else() {
     let (b, structure) = document();
