@@ -51,6 +51,6 @@ pub use checks::{Check, Expectation, PlanKind, Statement, StatementKind, without
 pub use edits::{Restructuring, edits_for, for_every};
 pub use files::File;
 pub use lower::{Lowered, lower};
-pub use numbers::{Wanted, read_literal, show_number};
+pub use numbers::{Wanted, read_literal, show_limit, show_number};
 pub use origins::Origins;
 pub use write::write_values;

@@ -2,7 +2,7 @@
 
 use crate::kinds::dimension_in_words;
 use crate::lower::OWN;
-use base::number::shortest;
+use base::number::{RULE_TOLERANCE, rounded, shortest};
 use base::{Diagnostic, Name, Place, Span};
 use expr::dimension::Dimension;
 use expr::units;
@@ -61,6 +61,46 @@ fn shifted(document: &Document, x: f64, power: i32) -> f64 {
 pub fn show_number(x: f64, dimension: Dimension, document: &Document) -> (String, String) {
     let unit = units::preferred(dimension).filter(|_| !is_of_the_sheet(dimension));
     (shortest(to_bare(document, x, dimension)), unit.unwrap_or_default().into())
+}
+
+/// Returns a limit of a way that began at `from` as text and unit: as few digits as say it to a
+/// thousandth, rounded towards the beginning, so that what is read lies on the way.
+///
+/// In the unit that the part's value is written in, angles in degrees, else as [`show_number`].
+pub fn show_limit(
+    limit: f64,
+    from: f64,
+    written: &str,
+    dimension: Dimension,
+    document: &Document,
+) -> (String, String) {
+    let last = written.trim_end_matches([')', ']', ',']).rsplit(char::is_whitespace).next();
+    let fits = |spelling: &&str| units::unit(spelling).is_some_and(|u| u.dimension == dimension);
+    let sheet = is_of_the_sheet(dimension);
+    let spelling = last.filter(fits).or(units::preferred(dimension).filter(|_| !sheet));
+    let in_unit = |x: f64| {
+        let unit = spelling.and_then(units::unit);
+        let shown = unit.and_then(|u| u.show(to_si(document, x, dimension)));
+        shown.unwrap_or(to_bare(document, x, dimension))
+    };
+    (short_of(in_unit(limit), in_unit(from)), spelling.unwrap_or_default().into())
+}
+
+/// Writes a limit with as few decimals as say it to a thousandth, rounded towards `from`.
+fn short_of(limit: f64, from: f64) -> String {
+    let size = limit.abs().max((limit - from).abs());
+    // a limit is known to the tolerance of rules, and no better
+    let known = 4.0 * RULE_TOLERANCE * limit.abs().max(1.0);
+    for decimals in 0..12 {
+        let step = base::number::pow(10.0, -(decimals as f64));
+        let beyond = |x: f64| (x - limit) * (limit - from).signum() > known && limit != from;
+        let nearest = (limit / step).round() * step;
+        let x = if beyond(nearest) { nearest - (limit - from).signum() * step } else { nearest };
+        if (x - limit).abs() <= 1e-3 * size {
+            return rounded(x + 0.0, decimals);
+        }
+    }
+    shortest(limit)
 }
 
 /// Writes a number so that reading it gives its bits, with the unit that was written before, if any.
@@ -290,4 +330,19 @@ pub(crate) fn constant(names: &dyn Fn(&Name) -> Option<f64>, expr: &Expr) -> Opt
         _ => return None,
     };
     x.is_finite().then_some(x)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_limit_is_rounded_towards_where_the_way_began() {
+        assert_eq!(short_of(130.58, 90.0), "130.5");
+        assert_eq!(short_of(130.58, 170.0), "130.6");
+        assert_eq!(short_of(99.999_999_99, 50.0), "100", "known to the tolerance of rules");
+        assert_eq!(short_of(-0.012_345, 0.0), "-0.01234");
+        assert_eq!(short_of(70.0, 70.0), "70");
+        assert_eq!(short_of(0.0, 5.0), "0");
+    }
 }

@@ -14,7 +14,7 @@ use solve::{Level, Patterns};
 use std::collections::{BTreeMap, BTreeSet};
 
 /// What an edit does to the slots, before anything is solved.
-#[derive(Debug, Default)]
+#[derive(Clone, Debug, Default)]
 pub(crate) struct Aim {
     /// Slots that take a value as it is.
     pub(crate) fixed: BTreeMap<SlotId, Value>,

@@ -4,12 +4,12 @@ use crate::aim::{Aim, with_present_values};
 use crate::component::Component;
 use crate::edit::{EditKind, EditReport, RefusalReason, Target, note};
 use crate::host::Host;
-use crate::modal::ModalDrag;
+use crate::modal::{Acting, ModalDrag, ModeChange};
 use crate::planner::{Latest, Model, Planner};
 use crate::run::{Adapter, ran, scatter, searched};
 use crate::task::{Course, Task};
 use kernel::{SlotId, Values};
-use solve::{Puzzle, Verdict};
+use solve::{Puzzle, Stay, Verdict};
 use std::collections::BTreeSet;
 use std::rc::Rc;
 use std::sync::Arc;
@@ -44,6 +44,27 @@ enum Way {
     Modes(ModalDrag),
     /// Searched anew from where it was at the press.
     Search(Rc<Puzzle>, Vec<f64>, Vec<u32>),
+}
+
+impl Press {
+    /// Returns the slots that the drag depends on and cannot move, in order of their component.
+    pub fn held(&self) -> Vec<SlotId> {
+        let held = |pull: &Pull| {
+            let slots = pull.task.component.slots.iter().zip(&pull.task.system.slots);
+            let held = slots.filter(|(_, s)| s.stay == Stay::Fixed);
+            held.map(|(&slot, _)| slot).collect::<Vec<_>>()
+        };
+        self.pulls.iter().flat_map(held).collect()
+    }
+    /// Returns what acts in the modes that stand.
+    pub fn acting(&self, planner: &Planner) -> Vec<Acting> {
+        self.pulls.iter().flat_map(|pull| pull.task.acting(planner)).collect()
+    }
+    /// Says what acts otherwise with these values than at the press.
+    pub fn mode_changes(&self, planner: &Planner, values: &Values) -> Vec<ModeChange> {
+        let changes = |pull: &Pull| pull.task.mode_changes(planner, &self.start, values);
+        self.pulls.iter().flat_map(changes).collect()
+    }
 }
 
 impl Planner {

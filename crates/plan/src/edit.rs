@@ -52,6 +52,8 @@ pub struct EditReport {
     pub conflicts: Vec<Conflict>,
     /// True if every target has the value that was wanted.
     pub reached: bool,
+    /// How far towards these values a refused edit could have gone, as a part of the way.
+    pub limit: Option<f64>,
     /// Slots where two solutions coincide: their values are known to half the digits only.
     pub double_roots: Vec<SlotId>,
     /// Where a solution was looked for in vain and not to the end.
@@ -258,6 +260,10 @@ impl Planner {
             let setup = Setup { model, holding: &holding, aim };
             let conflict = self.against(&setup, &all_rules, &wanted, host);
             report.conflicts = conflict.map_or(report.conflicts, |c| vec![c]);
+            if report.not_decided.is_none() {
+                let tasks = &self.latest.tasks;
+                report.limit = self.limit(model, values, aim, tasks, &was_unmet, host);
+            }
         }
         if report.refusal.is_none() {
             report.refusal = leaves_domain(model, values, &scratch).map(RefusalReason::OutOfRange);

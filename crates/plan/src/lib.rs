@@ -60,6 +60,7 @@ pub mod planner;
 mod aim;
 pub mod drag;
 pub mod edit;
+mod limit;
 mod run;
 
 pub mod modal;
@@ -79,7 +80,7 @@ pub use edit::{Conflict, EditKind, EditReport, NotDecided, RefusalReason, Target
 pub use explain::{ExplainedKind, ExplainedStep, PlanKind, Root, RootKind, Why};
 pub use fault::{Fault, FaultKind};
 pub use host::{Failure, Host};
-pub use modal::{Acting, ActingKind};
+pub use modal::{Acting, ActingKind, ModeChange};
 pub use planner::{Latest, Model, Planner, Unmet};
 pub use plans::{PlanCounts, Plans};
 pub use rule::{Source, Way};

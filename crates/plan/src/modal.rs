@@ -49,7 +49,45 @@ pub enum ActingKind {
     },
 }
 
+/// What acts otherwise than before an edit.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub struct ModeChange {
+    /// The constraint, and how it acts.
+    pub acting: Acting,
+    /// True if it acts so now and did not; false if it did and acts no more.
+    pub begins: bool,
+}
+
+impl Planner {
+    /// Says what acts otherwise in the components of the latest edit, from values before it to
+    /// values after it: what begins, then what ends, each in order of declaration.
+    pub fn mode_changes(&self, before: &Values, after: &Values) -> Vec<ModeChange> {
+        let tasks = self.latest.tasks.iter();
+        tasks.flat_map(|t| t.mode_changes(self, before, after)).collect()
+    }
+}
+
 impl Task {
+    /// Says what acts otherwise in the mode that stands, with values `after`, than in the mode that
+    /// values `before` choose. An inequality acts where it is at its bound.
+    pub(crate) fn mode_changes(
+        &self,
+        planner: &Planner,
+        before: &Values,
+        after: &Values,
+    ) -> Vec<ModeChange> {
+        let Course::Modes(modes, mode) = &self.course else { return Vec::new() };
+        let local = self.gather(&before.numbers);
+        let before = modes.at_bounds(&modes.first(&local, &local), &local);
+        let after = modes.at_bounds(mode, &self.gather(&after.numbers));
+        let [before, after] = [before, after].map(|mode| self.acting_in(planner, modes, &mode));
+        let begins = after.iter().filter(|a| !before.contains(a));
+        let begins = begins.map(|&acting| ModeChange { acting, begins: true });
+        // another alternative, or the opposite of a condition, says what ends by what begins
+        let ends = before.iter().filter(|a| a.kind == ActingKind::AtBound && !after.contains(a));
+        let ends = ends.map(|&acting| ModeChange { acting, begins: false });
+        begins.chain(ends).collect()
+    }
     /// Puts a task into another mode.
     pub(crate) fn stand(&mut self, stands: Stands) {
         if let Course::Modes(_, mode) = &mut self.course {
@@ -69,6 +107,9 @@ impl Task {
     /// Returns what acts in the mode that stands, in order of declaration.
     pub(crate) fn acting(&self, planner: &Planner) -> Vec<Acting> {
         let Course::Modes(modes, mode) = &self.course else { return Vec::new() };
+        self.acting_in(planner, modes, mode)
+    }
+    fn acting_in(&self, planner: &Planner, modes: &Modes, mode: &Mode) -> Vec<Acting> {
         let source = |relation: u32| self.source(&planner.rules, relation);
         let acting = |standing: Standing| match standing {
             Standing::AtBound { relation } => {

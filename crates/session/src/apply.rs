@@ -3,6 +3,7 @@
 use crate::difference::difference;
 use crate::document::{Direction, Open};
 use crate::host::Host;
+use crate::limits;
 use crate::placing::place_new_parts;
 use crate::prototype;
 use crate::state::State;
@@ -78,11 +79,27 @@ fn edit(
     let mut texts = Texts::new(&state.lowered.document, &state.structure);
     let report = open.planner.edit(state.model(), &mut values, kind, &targets, &mut texts);
     if let Some(reason) = &report.refusal {
-        return Err(words::refusal_for(&state, reason, &report));
+        let refusal = words::refusal_for(&state, reason, &report);
+        return Err(match (aims.as_slice(), report.limit) {
+            ([(aim, wanted)], Some(part)) => limited(&state, refusal, aim, wanted, part),
+            (_, _) => refusal,
+        });
     }
     let label = label(kind, &aims_paths(&state, &aims));
     let edited = aims.iter().flat_map(|(aim, _)| slots_of(&state, aim)).collect();
     keep(open, host, label, edited, &values)
+}
+
+/// Says in a refusal how far the edit could have gone.
+fn limited(state: &State, refusal: Refusal, aim: &Aim, wanted: &[Value], part: f64) -> Refusal {
+    let limit = match aim {
+        Aim::Thing(thing) => limits::of_thing(state, *thing, wanted, part),
+        Aim::Term(term) => limits::of_term(state, term, wanted, part),
+    };
+    let Some(limit) = limit else { return refusal };
+    let why = refusal.message.strip_prefix("refused: ").unwrap_or(&refusal.message);
+    let message = format!("refused: {}; {why}", limits::in_words(&limit));
+    Refusal { message, limit: Some(Box::new(limit)), ..refusal }
 }
 
 /// Returns the slots that an aim is about: those of a thing, or those that an expression reads.
@@ -176,8 +193,10 @@ pub(crate) fn keep(
         return Err(refusal);
     }
     planner.restore_latest(latest);
+    let modes = planner.mode_changes(&before.values, values);
     open.step_with(label.clone(), edited, (state, planner, status));
-    Ok(change(label, &before, &open.state))
+    let modes = limits::modes(&open.state, &modes);
+    Ok(Change { modes, ..change(label, &before, &open.state) })
 }
 
 /// Takes a text as it was typed. It may be wrong: what was right before stays in force.

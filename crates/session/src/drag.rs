@@ -3,6 +3,7 @@
 use crate::apply;
 use crate::document::Open;
 use crate::host::Host;
+use crate::limits;
 use crate::state::State;
 use crate::texts::Texts;
 use crate::view::{Change, DragState, Refusal};
@@ -21,6 +22,8 @@ pub(crate) struct Drag {
     press: Press,
     /// The values as of the last event.
     pub(crate) values: Values,
+    /// Where the pointer was then, on the sheet.
+    pub(crate) wish: [f64; 2],
 }
 
 /// Begins a drag: of a number, of a place, or of a thing with all the places that it is made of.
@@ -52,8 +55,9 @@ pub(crate) fn press(
     let slots: Vec<SlotId> = free.iter().flat_map(slots).collect();
     let mut texts = Texts::new(&state.lowered.document, structure);
     let press = planner.press(state.model(), &state.values, &targets, &mut texts)?;
-    let start = slots.iter().map(|&s| state.values.numbers[s]).collect();
-    Ok(Drag { path, slots, start, press, values: state.values.clone() })
+    let start: Vec<f64> = slots.iter().map(|&s| state.values.numbers[s]).collect();
+    let wish = [start[0], start.get(1).copied().unwrap_or(0.0)];
+    Ok(Drag { path, slots, start, press, values: state.values.clone(), wish })
 }
 
 /// Returns the places that a thing is made of, each merged one once: itself, or those of its parts.
@@ -81,6 +85,14 @@ impl Drag {
     pub(crate) fn handle(&self) -> (f64, f64) {
         (self.start[0], self.start.get(1).copied().unwrap_or(0.0))
     }
+    /// Returns the numbers of its handle, each with what it was at the press.
+    pub(crate) fn handle_slots(&self) -> impl Iterator<Item = (SlotId, f64)> + '_ {
+        self.slots.iter().copied().zip(self.start.iter().copied()).take(2)
+    }
+    /// Returns the slots that it depends on and cannot move.
+    pub(crate) fn held(&self) -> Vec<SlotId> {
+        self.press.held()
+    }
     /// Follows the pointer to a place on the sheet; a number follows the first of its coordinates.
     /// The first place goes there, the others as far and in the same direction.
     pub(crate) fn to(&mut self, state: &State, planner: &Planner, to: (f64, f64)) -> DragState {
@@ -99,8 +111,17 @@ impl Drag {
             .collect();
         let report =
             planner.drag(state.model(), &mut self.press, &mut self.values, &to, &mut texts);
-        let message = (!report.reached).then(|| words::why_not_reached(state, &report));
-        DragState { reached: report.reached, message }
+        self.wish = [to[0], to.get(1).copied().unwrap_or(0.0)];
+        let modes = limits::modes(state, &self.press.mode_changes(planner, &self.values));
+        if report.reached {
+            return DragState { reached: true, modes, ..DragState::default() };
+        }
+        let (limit, words) = limits::of_drag(state, self);
+        let message = match words::what_holds(state, &report, &self.press.acting(planner)) {
+            Some(holds) => format!("{words}; {holds}"),
+            None => words,
+        };
+        DragState { reached: false, message: Some(message), limit: Some(limit), modes }
     }
     /// Lets go: soft constraints act again, and the change is written.
     ///

@@ -20,6 +20,7 @@ mod difference;
 mod document;
 mod drag;
 mod fixes;
+mod limits;
 mod placing;
 mod prototype;
 mod recognise;

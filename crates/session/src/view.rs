@@ -31,6 +31,29 @@ pub struct Change {
     pub unsatisfied: Vec<String>,
     /// The other open documents that use this one, and so have changed as well.
     pub documents: Vec<Affected>,
+    /// What acts otherwise than before: inequalities, conditions, alternatives.
+    pub modes: Vec<ModeView>,
+}
+
+/// A constraint that acts otherwise than before an edit, or than at the press of a drag.
+#[derive(Clone, PartialEq, Eq, Debug, Serialize)]
+pub struct ModeView {
+    /// Its path and name.
+    pub constraint: String,
+    /// One sentence: "wall is at its bound: p.x <= 100".
+    pub message: String,
+    /// Where it is written, if in the document's own text.
+    pub span: Option<(u32, u32)>,
+}
+
+/// Where an edit or a drag has to stop.
+#[derive(Clone, PartialEq, Eq, Debug, Serialize)]
+pub struct Limit {
+    /// What was set or dragged.
+    pub path: String,
+    /// The last value on the way, rounded towards its beginning, as a person may type it:
+    /// `130.5 deg`, `(70, 0)`.
+    pub value: String,
 }
 
 /// A document that changed because one that it uses did.
@@ -97,6 +120,8 @@ pub struct Refusal {
     pub diagnostics: Vec<DiagnosticView>,
     /// What would work.
     pub repairs: Vec<String>,
+    /// How far one could have gone, where values were to change.
+    pub limit: Option<Box<Limit>>,
 }
 
 /// A diagnostic as an editor shows it.
@@ -308,6 +333,10 @@ pub struct DragState {
     pub reached: bool,
     /// Why not, in one sentence.
     pub message: Option<String>,
+    /// Where it stopped, if it did.
+    pub limit: Option<Limit>,
+    /// What acts otherwise than at the press.
+    pub modes: Vec<ModeView>,
 }
 
 /// The plan and the reasons, in words.

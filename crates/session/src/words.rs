@@ -9,7 +9,7 @@ use kernel::{
     ClassKind, Command, ConstraintInstance, Document, Literal, Path, Primitive, SlotId, Step,
     Structure, Term, ThingId, Value, Values,
 };
-use plan::{EditReport, NotDecided, RefusalReason, Source};
+use plan::{Acting, ActingKind, EditReport, NotDecided, RefusalReason, Source};
 
 /// Makes a refusal of one sentence.
 pub(crate) fn refuse(message: String) -> Refusal {
@@ -125,8 +125,8 @@ pub(crate) fn listed(names: &[String]) -> String {
     }
 }
 
-/// Says why a drag did not reach the pointer.
-pub(crate) fn why_not_reached(state: &State, report: &EditReport) -> String {
+/// Says what holds a drag that did not reach the pointer; nothing where no constraint can be named.
+pub(crate) fn what_holds(state: &State, report: &EditReport, acting: &[Acting]) -> Option<String> {
     let mut names: Vec<String> = Vec::new();
     for conflict in &report.conflicts {
         let sources = std::iter::once(&conflict.source).chain(&conflict.circuit);
@@ -136,10 +136,13 @@ pub(crate) fn why_not_reached(state: &State, report: &EditReport) -> String {
             }
         }
     }
-    match names.is_empty() {
-        true => "this is as far as the constraints let it go".into(),
-        false => format!("held by {}", listed(&names)),
+    let bounds = acting.iter().filter(|a| a.kind == ActingKind::AtBound);
+    for name in bounds.filter_map(|a| source_name(state, a.source)) {
+        if !names.contains(&name) {
+            names.push(name);
+        }
     }
+    (!names.is_empty()).then(|| format!("held by {}", listed(&names)))
 }
 
 /// Returns the path and name of a constraint; nothing for a wish.
@@ -169,6 +172,25 @@ pub(crate) fn constraint_name(document: &Document, instance: ConstraintInstance)
     match &constraint.name {
         Some(name) => name.to_string(),
         None => format!("constraint{}", instance.index + 1),
+    }
+}
+
+/// Returns the rule of a constraint as it is written, without its methods.
+pub(crate) fn rule_of(state: &State, index: u32) -> String {
+    let instance = state.structure.constraints[index as usize];
+    let class = &state.lowered.document.classes[instance.class];
+    let written = state.lowered.source_of(class.constraints[instance.index as usize].origin);
+    let rule = written.strip_suffix('}').and_then(|w| w.split_once('{')).map(|(rule, _)| rule);
+    rule.unwrap_or(&written).trim().to_string()
+}
+
+/// Says how a constraint of this name acts in a mode.
+pub(crate) fn acting(name: &str, kind: ActingKind) -> String {
+    match kind {
+        ActingKind::AtBound => format!("{name} is at its bound"),
+        ActingKind::Assumed(true) => format!("the condition of {name} is true"),
+        ActingKind::Assumed(false) => format!("the condition of {name} is false"),
+        ActingKind::Taken { way, of } => format!("{name} holds by alternative {} of {of}", way + 1),
     }
 }
 

@@ -216,6 +216,22 @@ impl Modes {
         all
     }
 
+    /// Returns a mode in which those inequalities act, and no others, that are at their bound in
+    /// `values`.
+    pub fn at_bounds(&self, mode: &Mode, values: &[f64]) -> Mode {
+        let is_at_bound = |sides: &Sides| {
+            let mut scratch = self.scratch.borrow_mut();
+            let both = sides.sides.evaluate(values, &mut scratch);
+            let bounded = matches!(sides.comparing, Comparing::AtMost | Comparing::Less);
+            // a strict one stops twice its tolerance short
+            let size = both[0].abs().max(both[1].abs()).max(1.0);
+            bounded && (both[0] - both[1]).abs() <= 4.0 * RULE_TOLERANCE * size
+        };
+        let all = (0..).zip(&self.comparisons);
+        let active = all.filter(|(_, sides)| is_at_bound(sides)).map(|(index, _)| index).collect();
+        Mode { active, ..mode.clone() }
+    }
+
     /// Returns the index of every relation that a demand is of, with whether it holds.
     pub fn broken(&self, mode: &Mode, values: &[f64]) -> Vec<u32> {
         let broken = self.wants_in(mode).filter(|w| !self.tree_holds(&w.tree, values));

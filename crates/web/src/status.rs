@@ -20,7 +20,12 @@ pub fn StatusLine(
             || lab.status.with(|status| !status.unmet.is_empty())
     });
     let drag = Memo::new(move |_| {
-        lab.dragging.with(|drag| drag.as_ref().and_then(|drag| drag.message.clone()))
+        lab.dragging.with(|drag| {
+            let drag = drag.as_ref()?;
+            let modes = drag.modes.iter().map(|mode| mode.message.clone());
+            let said: Vec<String> = drag.message.iter().cloned().chain(modes).collect();
+            (!said.is_empty()).then(|| said.join("; "))
+        })
     });
     let said = Memo::new(move |_| {
         lab.notice.with(|notice| match notice {

@@ -125,7 +125,11 @@ pub fn done(change: &session::view::Change) -> Option<String> {
     if !change.unsatisfied.is_empty() {
         return Some(format!("Cannot be satisfied now: {}", listed(&change.unsatisfied)));
     }
-    (!change.along.is_empty()).then(|| format!("Gone along: {}", listed(&change.along)))
+    if !change.along.is_empty() {
+        return Some(format!("Gone along: {}", listed(&change.along)));
+    }
+    let modes: Vec<String> = change.modes.iter().map(|mode| mode.message.clone()).collect();
+    (!modes.is_empty()).then(|| listed(&modes))
 }
 
 /// What the selection could be the parts of, in one sentence.

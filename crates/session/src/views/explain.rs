@@ -4,7 +4,7 @@ use crate::document::Open;
 use crate::view::{ExplainedStep, Explanation};
 use crate::words;
 use kernel::{Path, SlotId};
-use plan::{Acting, ActingKind, ExplainedKind, Root, RootKind, Source};
+use plan::{Acting, ExplainedKind, Root, RootKind, Source};
 
 /// Explains the latest plan, or why the value at a path is what it is.
 pub(crate) fn view(open: &Open, about: Option<&Path>) -> Explanation {
@@ -44,12 +44,7 @@ fn plan_in_words(open: &Open) -> Explanation {
 /// Says how a constraint acts in the mode that stands.
 fn acting(open: &Open, acting: Acting) -> Option<String> {
     let name = words::source_name(&open.state, acting.source)?;
-    Some(match acting.kind {
-        ActingKind::AtBound => format!("{name} is at its bound"),
-        ActingKind::Assumed(true) => format!("the condition of {name} is true"),
-        ActingKind::Assumed(false) => format!("the condition of {name} is false"),
-        ActingKind::Taken { way, of } => format!("{name} holds by alternative {} of {of}", way + 1),
-    })
+    Some(words::acting(&name, acting.kind))
 }
 
 fn why(open: &Open, path: &Path) -> Explanation {
@@ -159,9 +154,7 @@ fn formula(open: &Open, source: Source, kind: ExplainedKind) -> Option<String> {
     {
         return Some(state.lowered.source_of(method.origin));
     }
-    let written = state.lowered.source_of(constraint.origin);
-    let rule = written.strip_suffix('}').and_then(|w| w.split_once('{')).map(|(rule, _)| rule);
-    Some(rule.unwrap_or(&written).trim().to_string())
+    Some(words::rule_of(state, index))
 }
 
 fn method(kind: ExplainedKind) -> String {

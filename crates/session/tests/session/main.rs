@@ -4,6 +4,7 @@ mod dragging;
 
 mod explaining;
 mod fixing;
+mod limits;
 mod recognising;
 mod refusing;
 mod restructuring;

@@ -1,0 +1,178 @@
+//! Where an edit or a drag has to stop, and what begins or ceases to act on the way, in words.
+
+use crate::drag::Drag;
+use crate::state::State;
+use crate::view::{Limit, ModeView};
+use crate::words;
+use kernel::{DOCUMENT, Primitive, SlotId, Term, ThingId, Value};
+use plan::{ActingKind, ModeChange, Source};
+
+/// How straight a place, the pointer and an anchored place lie for a reach: as a sine.
+const STRAIGHT: f64 = 1e-4;
+
+/// Returns the last value on the way of a refused edit: of a number or a place, which is wanted to have
+/// the `wanted` numbers, and can go a part of the way.
+pub(crate) fn of_thing(
+    state: &State,
+    thing: ThingId,
+    wanted: &[Value],
+    part: f64,
+) -> Option<Limit> {
+    let slots = state.structure.slots_under(thing);
+    if slots.len() != wanted.len() {
+        return None;
+    }
+    let number = |(&slot, wanted): (&SlotId, &Value)| {
+        let Value::Number(wanted) = wanted else { return None };
+        let from = state.values.numbers[slot];
+        Some(show(state, slot, from + (wanted - from) * part, from))
+    };
+    let numbers: Option<Vec<String>> = slots.iter().zip(wanted).map(number).collect();
+    let path = state.structure.path(&state.lowered.document, thing).to_string();
+    Some(Limit { path, value: tuple(&numbers?) })
+}
+
+/// Returns the same of a virtual part.
+pub(crate) fn of_term(state: &State, term: &Term, wanted: &[Value], part: f64) -> Option<Limit> {
+    let evaluator = state.evaluator(&state.values);
+    let (&[Value::Number(wanted)], Ok(eval::Answer::Number(from, dimension))) =
+        (wanted, evaluator.evaluate(term, DOCUMENT))
+    else {
+        return None;
+    };
+    let limit = from + (wanted - from) * part;
+    let document = &state.lowered.document;
+    let (text, unit) = lang::show_limit(limit, from, "", dimension, document);
+    Some(Limit { path: words::term_path(term), value: joined(&text, &unit) })
+}
+
+/// Says a limit as people say it.
+pub(crate) fn in_words(limit: &Limit) -> String {
+    let Limit { path, value } = limit;
+    match value.strip_suffix(" deg") {
+        Some(degrees) => format!("{degrees}° is the limit of {path}"),
+        None => format!("{value} is the limit of {path}"),
+    }
+}
+
+/// Says where a drag has stopped short of the pointer: of a number, the limit; of a place, its reach from
+/// an anchored place where that is what ends, else how far it is from the pointer.
+pub(crate) fn of_drag(state: &State, drag: &Drag) -> (Limit, String) {
+    let path = drag.path.to_string();
+    let shown: Vec<String> = drag
+        .handle_slots()
+        .map(|(slot, start)| show(state, slot, drag.values.numbers[slot], start))
+        .collect();
+    let limit = Limit { path, value: tuple(&shown) };
+    let slots: Vec<SlotId> = drag.handle_slots().map(|(slot, _)| slot).collect();
+    let &[x, y] = slots.as_slice() else {
+        let words = in_words(&limit);
+        return (limit, words);
+    };
+    let at = [drag.values.numbers[x], drag.values.numbers[y]];
+    let short = away(at, drag.wish);
+    let place = |length: f64, from: f64| show(state, x, length, from);
+    let reach = anchored_places(state, drag).find_map(|(thing, from)| {
+        let (reach, wanted) = (away(from, at), away(from, drag.wish));
+        let aside =
+            (at[0] - from[0]) * (drag.wish[1] - at[1]) - (at[1] - from[1]) * (drag.wish[0] - at[0]);
+        let is_straight = aside.abs() <= STRAIGHT * reach * short && wanted > reach;
+        is_straight.then(|| {
+            let name = state.structure.path(&state.lowered.document, thing);
+            let (reach, wanted) = (place(reach, 0.0), place(wanted, wanted));
+            format!("reach {reach} of {wanted} from {name}")
+        })
+    });
+    let words = reach.unwrap_or_else(|| {
+        format!("{} is as far as it goes, {} short", limit.value, place(short, short))
+    });
+    (limit, words)
+}
+
+/// The places that a drag depends on and cannot move.
+fn anchored_places<'s>(
+    state: &'s State,
+    drag: &'s Drag,
+) -> impl Iterator<Item = (ThingId, [f64; 2])> + 's {
+    let mut held = drag.held();
+    held.sort_unstable();
+    let place = move |&slot: &SlotId| {
+        let thing = state.structure.slots[slot].place?;
+        let &[x, y] = state.structure.slots_under(thing).as_slice() else { return None };
+        let numbers = &drag.values.numbers;
+        (x == slot).then(|| (thing, [numbers[x], numbers[y]]))
+    };
+    held.iter().filter_map(place).collect::<Vec<_>>().into_iter()
+}
+
+fn away(from: [f64; 2], to: [f64; 2]) -> f64 {
+    base::number::hypot(to[0] - from[0], to[1] - from[1])
+}
+
+/// Shows a number at the end of a way, in the unit that its value is written in.
+fn show(state: &State, slot: SlotId, limit: f64, from: f64) -> String {
+    let s = &state.structure.slots[slot];
+    let dimension = match s.primitive {
+        Primitive::Real(dimension) => dimension,
+        Primitive::Integer | Primitive::Bool | Primitive::Text | Primitive::Color => {
+            return base::number::shortest(limit);
+        }
+    };
+    let is_angle = words::class_name(state, s.thing) == "Angle";
+    let written = match state.structure.given(slot) {
+        _ if is_angle => "deg".into(),
+        Some(given) => state.lowered.source_of(given.origin),
+        None => String::new(),
+    };
+    let document = &state.lowered.document;
+    let (text, unit) = lang::show_limit(limit, from, &written, dimension, document);
+    joined(&text, &unit)
+}
+
+fn joined(text: &str, unit: &str) -> String {
+    if unit.is_empty() { text.into() } else { format!("{text} {unit}") }
+}
+
+fn tuple(numbers: &[String]) -> String {
+    match numbers {
+        [one] => one.clone(),
+        several => format!("({})", several.join(", ")),
+    }
+}
+
+/// Says what acts otherwise than before.
+pub(crate) fn modes(state: &State, changes: &[ModeChange]) -> Vec<ModeView> {
+    changes.iter().filter_map(|change| mode(state, *change)).collect()
+}
+
+fn mode(state: &State, change: ModeChange) -> Option<ModeView> {
+    let constraint = words::source_name(state, change.acting.source)?;
+    let Source::Constraint(index) = change.acting.source else { return None };
+    let instance = state.structure.constraints[index as usize];
+    let class = &state.lowered.document.classes[instance.class];
+    let declared = &class.constraints[instance.index as usize];
+    let written = words::rule_of(state, index);
+    let rule = written.split_once("constraint").map_or(written.as_str(), |(_, rest)| rest.trim());
+    let named =
+        declared.name.as_deref().and_then(|name| rule.strip_prefix(name)?.strip_prefix(':'));
+    let rule = named.unwrap_or(rule).trim();
+    let acts = words::acting(&constraint, change.acting.kind);
+    let message = match (change.acting.kind, change.begins) {
+        (ActingKind::AtBound, true) => format!("{acts}: {rule}"),
+        (ActingKind::AtBound, false) => format!("{constraint} is off its bound: {rule}"),
+        (ActingKind::Taken { way, of }, _) => match alternative(rule, way, of) {
+            Some(way) => format!("{acts}: {way}"),
+            None => acts,
+        },
+        (ActingKind::Assumed(_), _) => acts,
+    };
+    let span = state.lowered.own_span(declared.origin).map(|s| (s.start, s.end));
+    Some(ModeView { constraint, message, span })
+}
+
+/// Returns an alternative of a rule as it is written, where the rule is plainly alternatives.
+fn alternative(rule: &str, way: u32, of: u32) -> Option<&str> {
+    let ways: Vec<&str> = rule.split(" or ").collect();
+    let is_whole = |w: &&str| w.matches('(').count() == w.matches(')').count();
+    (ways.len() == of as usize && ways.iter().all(is_whole)).then(|| ways[way as usize].trim())
+}

@@ -1,0 +1,123 @@
+//! Where edits and drags have to stop, in numbers, and what begins to act on the way.
+
+use crate::desk::{Desk, at};
+use session::{Command, Literal};
+
+const WALL: &str = "\
+class Point { x, y: Length   picture => dot(x, y) }
+p: Point = (50, 20)
+constraint wall: p.x <= 100
+";
+
+/// Ground 12, all bars 10: crank tip and foot are 20 apart where the cosine is (144 + 100 - 400) / 240.
+const LINKAGE: &str = "\
+use geometry
+a: Point = (0, 10)
+b: Point = (9.68, 12.04)
+o: Point = (0, 0)
+c: Point = (12, 0)
+ground: Line
+arm: Line
+merge ground.p1 = arm.p1 = o
+merge ground.p2 = c
+merge arm.p2 = a
+anchor o
+anchor c
+turn: AngleBetween { value = 90 deg }
+merge turn.from = ground
+merge turn.to = arm
+crank: Distance { value = 10 }
+coupler: Distance { value = 10 }
+rocker: Distance { value = 10 }
+merge crank.from = o
+merge crank.to = coupler.from = a
+merge coupler.to = rocker.from = b
+merge rocker.to = c
+";
+
+const ELBOW: &str = "\
+use geometry
+upper: ConstantLengthLine { p1 = (0, 0)  p2 = (50, 0)  size = 50 }
+lower: ConstantLengthLine { p2 = (50, 50)  size = 50 }
+merge upper.p2 = lower.p1
+anchor upper.p1
+";
+
+#[test]
+fn a_number_that_cannot_be_set_says_how_far_it_could_go() {
+    let mut desk = Desk::of("x: Real = 50\nconstraint wall: x <= 100\n");
+    let refusal = desk.set("x", 150.0).expect_err("the wall forbids it");
+    assert_eq!(refusal.message, "refused: 100 is the limit of x; wall would not hold");
+    let limit = refusal.limit.expect("it could have gone some way");
+    assert_eq!((limit.path.as_str(), limit.value.as_str()), ("x", "100"));
+    desk.type_in("x", &limit.value).expect("what is told can be set");
+    let refusal = desk.set("x", 150.0).expect_err("the wall still forbids it");
+    assert_eq!(refusal.limit, Some(limit), "where it is at its limit, the limit is where it is");
+}
+
+#[test]
+fn what_cannot_move_at_all_has_no_limit() {
+    let mut desk = Desk::of("a: Real = 1\nanchor a\nb: Real\nconstraint b = a + 1\n");
+    assert_eq!(desk.set("b", 7.0).expect_err("an anchor forbids it").limit, None);
+}
+
+#[test]
+fn an_angle_that_bars_do_not_reach_is_told_in_degrees() {
+    let mut desk = Desk::of(LINKAGE);
+    let refusal = desk.type_in("turn.value", "150 deg").expect_err("the bars are too short");
+    let told = "refused: 130.5° is the limit of turn.value; ";
+    assert!(refusal.message.starts_with(told), "{}", refusal.message);
+    let limit = refusal.limit.expect("it could have gone some way");
+    assert_eq!(limit.value, "130.5 deg");
+    desk.type_in("turn.value", &limit.value).expect("what is told can be set");
+    desk.type_in("turn.value", "130.6 deg").expect_err("130.5416° is where the bars are straight");
+}
+
+#[test]
+fn a_hand_out_of_reach_says_how_far_the_arm_reaches() {
+    let mut desk = Desk::of(ELBOW);
+    let drag = desk.hold("lower.p2", &[(300.0, 400.0)]);
+    assert!(!drag.reached);
+    assert_eq!(drag.message.as_deref(), Some("reach 100 of 500 from upper.p1"));
+    assert_eq!(drag.limit.map(|l| l.value).as_deref(), Some("(60, 80)"));
+}
+
+#[test]
+fn a_dragged_number_says_its_limit_and_what_holds_it() {
+    let mut desk = Desk::of(WALL);
+    let drag = desk.hold("p.x", &[(130.0, 0.0)]);
+    assert_eq!(drag.message.as_deref(), Some("100 is the limit of p.x; held by wall"));
+    let drag = desk.hold("p", &[(130.0, 20.0)]);
+    let told = "(100, 20) is as far as it goes, 30 short; held by wall";
+    assert_eq!(drag.message.as_deref(), Some(told));
+}
+
+#[test]
+fn a_bound_that_begins_to_act_is_told_while_it_acts() {
+    let mut desk = Desk::of(WALL);
+    let told = |modes: &[session::view::ModeView]| {
+        modes.iter().map(|m| m.message.clone()).collect::<Vec<_>>()
+    };
+    let at_bound = ["wall is at its bound: p.x <= 100"];
+    assert_eq!(told(&desk.hold("p", &[(130.0, 30.0)]).modes), at_bound);
+    assert!(desk.session.drag(desk.id, (80.0, 30.0)).modes.is_empty());
+    let drag = desk.session.drag(desk.id, (130.0, 40.0));
+    let (start, end) = drag.modes[0].span.expect("it is written here");
+    assert_eq!(&desk.text()[start as usize..end as usize], "constraint wall: p.x <= 100");
+    let change = desk.session.release(desk.id).expect("the drag can be kept");
+    assert_eq!(told(&change.modes), at_bound);
+    let change = desk.move_to("p", 60.0, 40.0).expect("it can go back");
+    assert_eq!(told(&change.modes), ["wall is off its bound: p.x <= 100"]);
+    let change = desk.move_to("p", 70.0, 40.0).expect("nothing is in the way");
+    assert_eq!(change.modes, []);
+}
+
+#[test]
+fn another_alternative_is_told() {
+    let mut desk =
+        Desk::of("use geometry\np: Point = (5, 0)\nconstraint axis: p.x = 0 or p.y = 0\n");
+    let place = Literal::Tuple(vec![Literal::Number(0.0), Literal::Number(4.0)]);
+    let change = desk.apply(&Command::Set(vec![(at("p"), place)])).expect("it lies on an axis");
+    let told: Vec<String> = change.modes.into_iter().map(|m| m.message).collect();
+    assert_eq!(told, ["axis holds by alternative 1 of 2: p.x = 0"]);
+}
