@@ -3,7 +3,8 @@
 //! In: an arena and the expressions wanted. Out: runs of equal operations, each writing the registers
 //! that follow those of the run before (single assignment). The operation is looked up once a run, so
 //! that a wide tape costs about as much as its arithmetic; an operation may read what its own run
-//! wrote, so that a chain of equal operations is one run too.
+//! wrote, so that a chain of equal operations is one run too. Where operations take turns, a stretch of
+//! them is one mixed run, each with its operands beside it.
 //!
 //! Every operation is that of [`Unary::apply`] and [`Binary::apply`]: a tape computes the same bits as
 //! [`Arena::evaluate`].
@@ -22,6 +23,24 @@ enum Operation {
     Unary(Unary),
     Binary(Binary),
     Select,
+}
+
+/// What the operations of a run have in common.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+enum Kind {
+    /// They are this one; their operands stand among [`Tape::operands`].
+    Alike(Operation),
+    /// They read values that follow one another; the first of these is their one operand.
+    Values,
+    /// Nothing; they stand among [`Tape::mixed`].
+    Mixed,
+}
+
+/// An operation that differs from those around it.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+struct Mixed {
+    operation: Operation,
+    operands: [u32; 3],
 }
 
 impl Operation {
@@ -44,14 +63,17 @@ impl Operation {
     }
 }
 
-/// Equal operations on registers that follow one another.
+/// Operations on registers that follow one another.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 struct Run {
-    operation: Operation,
+    kind: Kind,
     /// The register that the first operation writes.
     first: u32,
     count: u32,
 }
+
+/// Shorter runs than this are mixed with those beside them.
+const SHORT: u32 = 4;
 
 /// How many sets of values [`Tape::run_lanes`] takes at once.
 pub const LANES: usize = 8;
@@ -116,10 +138,14 @@ pub struct Tape {
     /// The first registers.
     constants: Vec<f64>,
     runs: Vec<Run>,
-    /// The operands of every operation, one after the other.
+    /// The operands of the operations that are alike, one after the other.
     operands: Vec<u32>,
+    /// The operations that are not.
+    mixed: Vec<Mixed>,
     /// The register of every output.
     outputs: Vec<u32>,
+    /// True if these follow one another.
+    is_straight: bool,
     registers: usize,
 }
 
@@ -181,9 +207,58 @@ impl Tape {
                 }
             }
         }
+        lowering.tape.mix();
         let register = &lowering.register;
         lowering.tape.outputs = outputs.iter().map(|&id| register[place(&order, id)]).collect();
+        let follow = lowering.tape.outputs.windows(2).all(|pair| pair[0] + 1 == pair[1]);
+        lowering.tape.is_straight = follow;
         lowering.tape
+    }
+
+    /// Makes one mixed run of short runs that follow one another.
+    fn mix(&mut self) {
+        let runs = std::mem::take(&mut self.runs);
+        let all = std::mem::take(&mut self.operands);
+        let mut rest = all.as_slice();
+        let is_short = |run: &Run| run.count < SHORT && run.kind != Kind::Alike(Operation::Load);
+        for some in runs.chunk_by(|a, b| is_short(a) && is_short(b)) {
+            if let [Run { kind: Kind::Alike(Operation::Load), first, count }] = some {
+                let (mine, others) = rest.split_at(*count as usize);
+                rest = others;
+                self.load(*first, mine);
+                continue;
+            }
+            let count = some.iter().map(|run| run.count).sum();
+            let first = some[0].first;
+            if some.len() > 1 {
+                self.runs.push(Run { kind: Kind::Mixed, first, count });
+            }
+            for run in some {
+                let Kind::Alike(operation) = run.kind else { continue };
+                let (mine, others) = rest.split_at(run.count as usize * operation.arity());
+                rest = others;
+                if some.len() == 1 {
+                    self.runs.push(*run);
+                    self.operands.extend(mine);
+                    continue;
+                }
+                for own in mine.chunks_exact(operation.arity()) {
+                    let mut operands = [0; 3];
+                    operands[..own.len()].copy_from_slice(own);
+                    self.mixed.push(Mixed { operation, operands });
+                }
+            }
+        }
+    }
+
+    /// Reads variables into the registers from `first` on, those together that follow one another.
+    fn load(&mut self, mut first: u32, variables: &[u32]) {
+        for some in variables.chunk_by(|a, b| a + 1 == *b) {
+            let count = some.len() as u32;
+            self.runs.push(Run { kind: Kind::Values, first, count });
+            self.operands.push(some[0]);
+            first += count;
+        }
     }
 
     /// Returns the number of operations, reading of values included.
@@ -226,16 +301,29 @@ impl Tape {
             *register = W::of(constant);
         }
         let mut operands = self.operands.as_slice();
+        let mut mixed = self.mixed.as_slice();
         for run in &self.runs {
-            let (mine, rest) = operands.split_at(run.count as usize * run.operation.arity());
-            operands = rest;
             let first = run.first as usize;
-            match run.operation {
-                Operation::Load => {
-                    for (register, &var) in registers[first..].iter_mut().zip(mine) {
-                        *register = values[var as usize];
-                    }
+            let operation = match run.kind {
+                Kind::Alike(operation) => operation,
+                Kind::Values => {
+                    let count = run.count as usize;
+                    let from = operands[0] as usize;
+                    operands = &operands[1..];
+                    registers[first..first + count].copy_from_slice(&values[from..from + count]);
+                    continue;
                 }
+                Kind::Mixed => {
+                    let (mine, rest) = mixed.split_at(run.count as usize);
+                    mixed = rest;
+                    run_mixed(registers, first, mine);
+                    continue;
+                }
+            };
+            let (mine, rest) = operands.split_at(run.count as usize * operation.arity());
+            operands = rest;
+            match operation {
+                Operation::Load => unreachable!("values are read in stretches"),
                 Operation::Unary(op) => run_unary(op, registers, first, mine),
                 Operation::Binary(op) => run_binary(op, registers, first, mine),
                 Operation::Select => {
@@ -246,8 +334,16 @@ impl Tape {
                 }
             }
         }
-        for (out, &register) in out.iter_mut().zip(&self.outputs) {
-            *out = registers[register as usize];
+        match self.outputs[..] {
+            [] => {}
+            [first, ..] if self.is_straight => {
+                out.copy_from_slice(&registers[first as usize..][..out.len()]);
+            }
+            [..] => {
+                for (out, &register) in out.iter_mut().zip(&self.outputs) {
+                    *out = registers[register as usize];
+                }
+            }
         }
     }
 
@@ -284,10 +380,36 @@ impl Lowering {
     fn emit(&mut self, operation: Operation, node: usize, operands: &[u32]) {
         let first = self.assign(node);
         self.tape.operands.extend(operands);
+        let kind = Kind::Alike(operation);
         match self.tape.runs.last_mut() {
-            Some(run) if run.operation == operation => run.count += 1,
-            _ => self.tape.runs.push(Run { operation, first, count: 1 }),
+            Some(run) if run.kind == kind => run.count += 1,
+            _ => self.tape.runs.push(Run { kind, first, count: 1 }),
         }
+    }
+}
+
+fn run_mixed<W: Word>(registers: &mut [W], first: usize, operations: &[Mixed]) {
+    macro_rules! each {
+        ($operation:expr, $at:ident, [$($unary:ident)*], [$($binary:ident)*], $select:expr) => {
+            match $operation {
+                $(Operation::Unary(Unary::$unary) => $at(0).map(|x| Unary::$unary.apply(x)),)*
+                $(Operation::Binary(Binary::$binary) => {
+                    $at(0).join($at(1), |x, y| Binary::$binary.apply(x, y))
+                })*
+                Operation::Load => unreachable!("values are read before anything is computed"),
+                Operation::Select => $select,
+            }
+        };
+    }
+    for (i, Mixed { operation, operands }) in operations.iter().enumerate() {
+        let at = |operand: usize| registers[operands[operand] as usize];
+        registers[first + i] = each!(
+            *operation,
+            at,
+            [Neg Abs Sqrt Sin Cos Tan Asin Acos Atan Exp Ln Floor Round Sign Not],
+            [Add Sub Mul Div Pow Atan2 Min Max Remainder Less LessEqual Equal NotEqual And Or],
+            at(0).choose(at(1), at(2))
+        );
     }
 }
 
@@ -325,13 +447,28 @@ impl fmt::Display for Tape {
             Some(&constant) => number::shortest(constant),
             None => format!("r{register}"),
         };
-        let mut operands = self.operands.as_slice();
+        let (mut operands, mut mixed) = (self.operands.as_slice(), self.mixed.iter());
         for run in &self.runs {
+            if run.kind == Kind::Values {
+                for i in 0..run.count {
+                    writeln!(f, "r{} = v{}", run.first + i, operands[0] + i)?;
+                }
+                operands = &operands[1..];
+                continue;
+            }
             for register in run.first..run.first + run.count {
-                let (mine, rest) = operands.split_at(run.operation.arity());
-                operands = rest;
+                let next = match run.kind {
+                    Kind::Alike(operation) => {
+                        let (mine, rest) = operands.split_at(operation.arity());
+                        operands = rest;
+                        Some((operation, mine))
+                    }
+                    Kind::Values => None,
+                    Kind::Mixed => mixed.next().map(|m| (m.operation, &m.operands[..])),
+                };
+                let Some((operation, mine)) = next else { continue };
                 write!(f, "r{register} = ")?;
-                match (run.operation, mine) {
+                match (operation, &mine[..operation.arity()]) {
                     (Operation::Unary(op), &[a]) => writeln!(f, "{} {}", op.name(), name(a))?,
                     (Operation::Binary(op), &[a, b]) if op.is_infix() => {
                         writeln!(f, "{} {} {}", name(a), op.name(), name(b))?;
@@ -394,6 +531,20 @@ mod tests {
         let tape = Tape::compile(&arena, &[e]);
         assert_eq!(tape.runs.len(), 2);
         assert_eq!(run(&tape, &[1.0], 1), [50_001.0]);
+    }
+    #[test]
+    fn operations_that_take_turns_are_one_run() {
+        let mut arena = Arena::new();
+        let x = arena.var(Var(0));
+        let mut e = x;
+        let mut wanted = 0.3;
+        for i in 0..100 {
+            e = if i % 2 == 0 { arena.add(e, x) } else { arena.mul(e, x) };
+            wanted = if i % 2 == 0 { wanted + 0.3 } else { wanted * 0.3 };
+        }
+        let tape = Tape::compile(&arena, &[e]);
+        assert_eq!((tape.runs.len(), tape.len()), (2, 101));
+        assert_eq!(run(&tape, &[0.3], 1), [wanted]);
     }
     #[test]
     fn a_tape_reads_like_a_page() {
