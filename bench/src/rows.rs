@@ -46,8 +46,7 @@ fn measure(
     let (rules, (mut planner, _)) = timed(|| Planner::new(opened.model(), Plans::default()));
     let Some(thing) = opened.thing(grip) else { return Ok(()) };
     let targets = [Target::Thing(thing)];
-    let mut press =
-        || timed(|| planner.press(opened.model(), &values, &targets, &mut opened.host()));
+    let mut press = || timed(|| planner.press(opened.model(), &values, &targets));
     let (first, _) = press();
     let (again, pressed) = press();
     let Ok(mut pressed) = pressed else { return writeln!(out, "{name:12} cannot be pressed") };

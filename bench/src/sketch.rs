@@ -58,7 +58,7 @@ impl Sketch {
         };
         let thing = self.opened.thing(&path).ok_or_else(|| format!("there is no {path}"))?;
         let targets = [Target::Thing(thing)];
-        let press = planner.press(self.opened.model(), values, &targets, &mut self.opened.host());
+        let press = planner.press(self.opened.model(), values, &targets);
         press.map_err(|reason| format!("{path} cannot be dragged: {reason:?}"))
     }
 

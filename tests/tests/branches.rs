@@ -157,7 +157,7 @@ fn ten_thousand_steps_of_a_drag_do_not_drift() {
     let mut linkage = FourBar::new(bars, 0.0).expect("it begins where its bars reach");
     let thing = linkage.opened.thing("c5.value").expect("the angle has a value");
     let (model, host) = (linkage.opened.model(), &mut linkage.opened.host());
-    let press = linkage.planner.press(model, &linkage.values, &[Target::Thing(thing)], host);
+    let press = linkage.planner.press(model, &linkage.values, &[Target::Thing(thing)]);
     let mut press = press.expect("an angle can be dragged");
     for i in 1..=10_000 {
         // ten turns to the left and ten back

@@ -9,7 +9,7 @@ use crate::planner::{Latest, Model, Planner};
 use crate::run::{Adapter, ran, scatter, searched};
 use crate::task::{Course, Task};
 use kernel::{SlotId, Values};
-use solve::{Puzzle, Stay, Verdict};
+use solve::{Puzzle, SlotIndex, Stay, Verdict};
 use std::collections::BTreeSet;
 use std::rc::Rc;
 use std::sync::Arc;
@@ -21,7 +21,6 @@ use std::sync::Arc;
 pub struct Press {
     aim: Aim,
     pulls: Vec<Pull>,
-    start: Values,
 }
 
 /// One component of a drag.
@@ -29,12 +28,11 @@ pub struct Press {
 struct Pull {
     task: Task,
     way: Way,
-    /// The wish and coordinate of every input.
-    inputs: Vec<(u32, u32)>,
+    /// The numbers at the press, by the slots of the system.
+    x0: Vec<f64>,
+    /// The texts at the press that the drag may write.
+    texts: Vec<(SlotId, Option<Arc<str>>)>,
     targets: Vec<f64>,
-    /// The slots that the plan writes: of the system, and of the document.
-    written: Vec<(u32, SlotId)>,
-    texts: Vec<SlotId>,
 }
 
 /// How a component follows a drag.
@@ -43,7 +41,7 @@ enum Way {
     Plan(Box<solve::Drag>),
     Modes(ModalDrag),
     /// Searched anew from where it was at the press.
-    Search(Rc<Puzzle>, Vec<f64>, Vec<u32>),
+    Search(Rc<Puzzle>),
 }
 
 impl Press {
@@ -62,13 +60,31 @@ impl Press {
     }
     /// Says what acts otherwise with these values than at the press.
     pub fn mode_changes(&self, planner: &Planner, values: &Values) -> Vec<ModeChange> {
-        let changes = |pull: &Pull| pull.task.mode_changes(planner, &self.start, values);
+        if self.pulls.iter().all(|p| !matches!(p.way, Way::Modes(_))) {
+            return Vec::new();
+        }
+        let start = self.start(values);
+        let changes = |pull: &Pull| pull.task.mode_changes(planner, &start, values);
         self.pulls.iter().flat_map(changes).collect()
+    }
+    /// Returns the values at the press, given those of now.
+    fn start(&self, values: &Values) -> Values {
+        let mut start = values.clone();
+        for pull in &self.pulls {
+            for (&slot, &x) in pull.task.component.slots.iter().zip(&pull.x0) {
+                start.numbers[slot] = x;
+            }
+            put_texts(&pull.texts, &mut start);
+        }
+        start
     }
 }
 
 impl Planner {
     /// Presses on targets, to move them together.
+    ///
+    /// Cost: that of planning the components of the targets; of what is downstream of them, where
+    /// they were pressed not long ago.
     ///
     /// # Errors
     /// Why they cannot be moved at all.
@@ -77,26 +93,18 @@ impl Planner {
         model: Model<'_>,
         values: &Values,
         targets: &[Target<'_>],
-        host: &mut dyn Host,
     ) -> Result<Press, RefusalReason> {
         let targets = with_present_values(self, model, values, targets)?;
         let aim = self.aim(model, values, EditKind::Move, &targets)?;
-        Ok(self.press_aim(model, values, aim, host))
+        Ok(self.press_aim(model, values, aim))
     }
 
-    pub(crate) fn press_aim(
-        &mut self,
-        model: Model<'_>,
-        values: &Values,
-        aim: Aim,
-        host: &mut dyn Host,
-    ) -> Press {
+    pub(crate) fn press_aim(&mut self, model: Model<'_>, values: &Values, aim: Aim) -> Press {
         let tasks = self.plan_edit(model, &aim);
         self.latest = Latest { tasks: tasks.clone(), edited: Some(aim.slots()) };
-        let mut start = values.clone();
-        let pull = |task| self.pull(model, task, &aim, &mut start, host);
+        let pull = |task| self.pull(task, &aim, values);
         let pulls = tasks.into_iter().map(pull).collect();
-        Press { aim, pulls, start: values.clone() }
+        Press { aim, pulls }
     }
 
     /// Follows the pointer: `wanted` are the targets' numbers, one after the other.
@@ -136,61 +144,62 @@ impl Planner {
         host: &mut dyn Host,
     ) -> EditReport {
         let reached = self.reached(&press.aim, values);
-        self.latest.tasks = press.pulls.iter().map(|p| p.task.clone()).collect();
         let mut report = EditReport { reached, ..EditReport::default() };
+        let start = press.start(values);
+        self.latest.tasks = press.pulls.into_iter().map(|p| p.task).collect();
         let components: Vec<Rc<Component>> =
-            press.pulls.iter().map(|p| p.task.component.clone()).collect();
+            self.latest.tasks.iter().map(|t| t.component.clone()).collect();
         if let Some(failure) = self.settle(model, &components, values, host) {
-            *values = press.start;
+            *values = start;
             report.refusal = Some(RefusalReason::Method(failure));
             return report;
         }
         let rules: BTreeSet<u32> =
             components.iter().flat_map(|c| c.rules.iter().copied()).collect();
         report.unmet = self.unmet(model, rules.iter().copied(), values, host);
-        let was_unmet = self.unmet(model, rules, &press.start, host);
+        let was_unmet = self.unmet(model, rules, &start, host);
         if report.unmet.iter().any(|u| u.is_new(&was_unmet)) {
-            *values = press.start;
+            *values = start;
             report.refusal = Some(RefusalReason::Unmet);
             return report;
         }
-        report.changed = values.changed(&press.start).collect();
+        report.changed = values.changed(&start).collect();
         report
     }
 
-    fn pull(
-        &self,
-        model: Model<'_>,
-        task: Task,
-        aim: &Aim,
-        start: &mut Values,
-        host: &mut dyn Host,
-    ) -> Pull {
-        let mut x0 = task.gather(&start.numbers);
+    fn pull(&self, task: Task, aim: &Aim, values: &Values) -> Pull {
+        let mut x0 = task.gather(&values.numbers);
         for &(known, wish, coordinate) in task.targets() {
             let formula = &aim.wishes[wish as usize].formulas[coordinate as usize];
-            x0[known as usize] = formula.value(self.plans.patterns(), &start.numbers);
+            x0[known as usize] = formula.value(self.plans.patterns(), &values.numbers);
         }
-        let known: Vec<u32> = task.targets().iter().map(|t| t.0).collect();
-        let inputs: Vec<(u32, u32)> = task.targets().iter().map(|t| (t.1, t.2)).collect();
-        let way = match &task.course {
-            Course::Plan => {
-                let mut adapter =
-                    Adapter { planner: self, model, task: &task, values: start, host };
-                Way::Plan(Box::new(solve::Drag::begin(&task.plan, &x0, &known, &mut adapter)))
-            }
-            Course::Modes(modes, _) => Way::Modes(ModalDrag::begin(modes, x0, known)),
-            Course::Search(puzzle) => Way::Search(puzzle.clone(), x0, known),
-        };
-        let slots = &task.component.slots;
-        let written: BTreeSet<u32> =
-            task.plan.steps.iter().flat_map(|s| s.targets.iter().copied()).collect();
-        let of = |i: u32| slots.get(i as usize).map(|&s| (i, s));
-        let written = written.into_iter().filter_map(of).collect();
-        let is_text = |s: &&SlotId| !model.structure.slots[**s].primitive.is_number();
-        let texts = slots.iter().filter(is_text).copied().collect();
+        let inputs: Vec<u32> = task.targets().iter().map(|t| t.0).collect();
         let targets = vec![0.0; inputs.len()];
-        Pull { way, inputs, targets, written, texts, task }
+        let slots = &task.component.slots;
+        let text = |slot: SlotId| (slot, values.texts.get(&slot).cloned());
+        let (way, texts) = match &task.course {
+            Course::Plan => {
+                let drag = solve::Drag::begin(&task.plan, &x0, &inputs);
+                let texts = drag.texts().iter().map(|&t| text(slots[t as usize])).collect();
+                (Way::Plan(Box::new(drag)), texts)
+            }
+            Course::Modes(modes, _) => {
+                let texts = slots.iter().copied().filter(|s| values.texts.contains_key(s));
+                let way = Way::Modes(ModalDrag::begin(modes, x0.clone(), inputs));
+                (way, texts.map(text).collect())
+            }
+            Course::Search(puzzle) => (Way::Search(puzzle.clone()), Vec::new()),
+        };
+        Pull { task, way, x0, texts, targets }
+    }
+}
+
+fn put_texts(texts: &[(SlotId, Option<Arc<str>>)], values: &mut Values) {
+    for (slot, text) in texts {
+        match text {
+            Some(text) => values.texts.insert(*slot, text.clone()),
+            None => values.texts.remove(slot),
+        };
     }
 }
 
@@ -204,7 +213,7 @@ impl Pull {
         host: &mut dyn Host,
         report: &mut EditReport,
     ) {
-        for (target, &(wish, coordinate)) in self.targets.iter_mut().zip(&self.inputs) {
+        for (target, &(_, wish, coordinate)) in self.targets.iter_mut().zip(self.task.targets()) {
             *target = aim.wanted[wish as usize][coordinate as usize];
         }
         let targets = &self.targets;
@@ -214,42 +223,34 @@ impl Pull {
                 let ran = drag.follow(planner, model, &mut self.task, targets, values, host);
                 return note(report, &mut self.task, ran);
             }
-            Way::Search(puzzle, x0, known) => {
-                let mut wanted = x0.clone();
-                known.iter().zip(targets).for_each(|(&k, &t)| wanted[k as usize] = t);
-                let verdict = puzzle.nearest(x0, &wanted);
+            Way::Search(puzzle) => {
+                let mut wanted = self.x0.clone();
+                let known = self.task.targets().iter().zip(targets);
+                known.for_each(|(&(known, ..), &target)| wanted[known as usize] = target);
+                let verdict = puzzle.nearest(&self.x0, &wanted);
                 if let Verdict::Found(found) = &verdict {
                     scatter(&self.task, found, values);
                 }
                 return note(report, &mut self.task, searched(&verdict));
             }
         };
-        let texts: Vec<Option<Arc<str>>> =
-            self.texts.iter().map(|s| values.texts.get(s).cloned()).collect();
+        let text = |&(slot, _): &(SlotId, _)| (slot, values.texts.get(&slot).cloned());
+        let texts: Vec<(SlotId, Option<Arc<str>>)> = self.texts.iter().map(text).collect();
         let mut adapter = Adapter { planner, model, task: &self.task, values, host };
         let outcome = drag.follow(&self.task.plan, targets, &mut adapter);
         if !outcome.is_solved() {
-            for (&slot, text) in self.texts.iter().zip(texts) {
-                match text {
-                    Some(text) => values.texts.insert(slot, text),
-                    None => values.texts.remove(&slot),
-                };
-            }
+            put_texts(&texts, values);
         }
         let now = drag.values();
+        let slots = &self.task.component.slots;
+        let put = |local: SlotIndex| {
+            if let Some(&slot) = slots.get(local as usize) {
+                values.numbers[slot] = now[local as usize] + 0.0;
+            }
+        };
         match drag.moved() {
-            Some(moved) => {
-                for &local in moved {
-                    if let Some(&slot) = self.task.component.slots.get(local as usize) {
-                        values.numbers[slot] = now[local as usize] + 0.0;
-                    }
-                }
-            }
-            None => {
-                for &(local, slot) in &self.written {
-                    values.numbers[slot] = now[local as usize] + 0.0;
-                }
-            }
+            Some(moved) => moved.iter().copied().for_each(put),
+            None => self.task.plan.steps.iter().flat_map(|s| &s.targets).copied().for_each(put),
         }
         if !outcome.is_solved() || !outcome.unmet.is_empty() {
             let ran = ran(planner, &self.task, &outcome);
@@ -267,10 +268,10 @@ pub(crate) fn move_at_once(
     host: &mut dyn Host,
 ) -> EditReport {
     let wanted = aim.wanted.concat();
-    let mut press = planner.press_aim(model, values, aim, host);
+    let mut press = planner.press_aim(model, values, aim);
     let step = planner.drag(model, &mut press, values, &wanted, host);
     if step.refusal.is_some() {
-        *values = press.start;
+        *values = press.start(values);
         return EditReport { refusal: step.refusal, ..EditReport::default() };
     }
     let mut report = planner.release(model, press, values, host);

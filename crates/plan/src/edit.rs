@@ -277,6 +277,10 @@ impl Planner {
 
     /// Plans what an edit starts.
     pub(crate) fn plan_edit(&mut self, model: Model<'_>, aim: &Aim) -> Vec<Task> {
+        if let Some(tasks) = self.recent.find(aim) {
+            tasks.iter().for_each(|_| self.plans.reuse());
+            return tasks;
+        }
         let structure = model.structure;
         let holding = |slot: SlotId| aim.holding(structure, slot);
         let tied: Vec<Vec<SlotId>> = aim.wishes.iter().map(Wish::slots).collect();
@@ -284,7 +288,9 @@ impl Planner {
             aim.slots().into_iter().chain(tied.iter().flatten().copied()).collect();
         let is_fixed = |s| holding(s) == Holding::Fixed;
         let components = self.net.around(start, &self.rules, &is_fixed, &tied);
-        self.tasks(structure, components, &holding, &aim.wishes)
+        let tasks = self.tasks(structure, components, &holding, &aim.wishes);
+        self.recent.add(aim, &tasks);
+        tasks
     }
 
     /// Lets soft constraints act when the wishes are withdrawn.

@@ -53,6 +53,7 @@ mod component;
 mod holds;
 mod past;
 pub mod plans;
+mod recent;
 mod task;
 
 pub mod planner;

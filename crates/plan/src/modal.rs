@@ -246,7 +246,7 @@ impl ModalDrag {
             values.texts.clone_from(&texts);
             let mut adapter = Adapter { planner, model, task, values, host };
             let follow = followed.entry(mode.clone()).or_insert_with(|| Followed {
-                drag: solve::Drag::begin(&plan, x0, inputs, &mut adapter),
+                drag: solve::Drag::begin(&plan, x0, inputs),
                 wish: 0,
             });
             if follow.wish + 1 < *wishes {

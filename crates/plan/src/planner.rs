@@ -6,6 +6,7 @@ use crate::holds;
 use crate::host::Host;
 use crate::past::CameId;
 use crate::plans::{PlanCounts, Plans};
+use crate::recent::Recent;
 use crate::rule::{Rules, Source};
 use crate::task::{Alike, Holding, Locals, Setting, Task, Wish, task};
 use crate::template::lower_all;
@@ -32,6 +33,7 @@ pub struct Planner {
     pub(crate) alike: Alike,
     /// Every component with nothing edited; found when first asked for.
     whole: Option<Vec<Rc<Component>>>,
+    pub(crate) recent: Recent,
     /// The tasks of the latest edit, and what it changed.
     pub(crate) latest: Latest,
     /// One task for each component, with nothing edited; made when first asked for.
@@ -62,6 +64,7 @@ impl Planner {
             plans,
             alike: Alike::default(),
             whole: None,
+            recent: Recent::default(),
             latest: Latest::default(),
             resting: None,
             came: Vec::new(),

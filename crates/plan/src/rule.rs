@@ -93,7 +93,7 @@ pub(crate) enum How<S = Position> {
 }
 
 /// A pattern over slots: an equation, or what a method or a wish computes.
-#[derive(Clone, Debug)]
+#[derive(Clone, PartialEq, Eq, Debug)]
 pub(crate) struct Formula<S = Position> {
     pub(crate) pattern: PatternId,
     /// Its arguments, in order.

@@ -38,7 +38,7 @@ pub(crate) enum Holding {
 }
 
 /// Expressions that shall take the values of a target.
-#[derive(Clone, Debug)]
+#[derive(Clone, PartialEq, Eq, Debug)]
 pub(crate) struct Wish {
     pub(crate) level: Level,
     /// One for each coordinate.

@@ -53,8 +53,7 @@ pub(crate) fn press(
     }
     let targets: Vec<Target<'_>> = free.iter().map(|&t| Target::Thing(t)).collect();
     let slots: Vec<SlotId> = free.iter().flat_map(slots).collect();
-    let mut texts = Texts::new(&state.lowered.document, structure);
-    let press = planner.press(state.model(), &state.values, &targets, &mut texts)?;
+    let press = planner.press(state.model(), &state.values, &targets)?;
     let start: Vec<f64> = slots.iter().map(|&s| state.values.numbers[s]).collect();
     let wish = [start[0], start.get(1).copied().unwrap_or(0.0)];
     Ok(Drag { path, slots, start, press, values: state.values.clone(), wish })

@@ -5,22 +5,25 @@
 //! there keeps x0's bits.
 
 use crate::block::Workspace;
-use crate::kernel::GuardKind;
 use crate::least::{Least, LeastScratch};
 use crate::lower::{Inverse, Program};
 use crate::measure::{Measure, Measured};
 use crate::outcome::{Host, Note, Reason};
-use crate::pattern::Scratch;
 use crate::plan::{Plan, Step};
 use crate::rows::{Point, generic_number};
+use crate::slice::Slice;
 use crate::square::{Solved, Square, SquareScratch, Trust};
+use crate::strip::Portion;
 use crate::system::{SlotIndex, Stay};
+use crate::test::TestScratch;
+
+mod strips;
 
 /// Up to this many unknowns least change is tried by the measure too, whose cost is cubic.
 const DENSE: usize = 60;
 
 /// The largest region that is approached: the cost is cubic.
-const LARGEST_APPROACH: usize = 150;
+pub(crate) const LARGEST_APPROACH: usize = 150;
 
 /// How a slot stands to x0.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
@@ -41,9 +44,7 @@ pub(crate) struct Buffers {
     pub(crate) square: SquareScratch,
     pub(crate) least: LeastScratch,
     pub(crate) motion: Vec<Motion>,
-    /// Both sides of every equation.
-    pub(crate) sides: Vec<[f64; 2]>,
-    pub(crate) scratch: Scratch,
+    pub(crate) test: TestScratch,
     /// The regions that were approached.
     pub(crate) approached: Vec<u32>,
     pub(crate) notes: Vec<Note>,
@@ -54,14 +55,21 @@ pub(crate) struct Buffers {
 pub(crate) struct Frame {
     /// The state when the edit began.
     pub(crate) x0: Vec<f64>,
-    /// What least change is measured from: x0, or where the branch of least change from x0 ended.
-    pub(crate) anchor: Vec<f64>,
+    /// What least change is measured from, where that is not x0: where its branch from x0 ended.
+    pub(crate) anchor: Option<Vec<f64>>,
     /// The measure of every slot.
     pub(crate) scales: Vec<f64>,
     /// For every row, whether it holds in x0.
     pub(crate) held: Vec<bool>,
     /// Texts that the edit changed.
     pub(crate) changed_texts: Vec<SlotIndex>,
+}
+
+impl Frame {
+    /// Returns what least change is measured from.
+    pub(crate) fn anchor(&self) -> &[f64] {
+        self.anchor.as_deref().unwrap_or(&self.x0)
+    }
 }
 
 /// Which regions are approached instead of met.
@@ -88,51 +96,6 @@ pub(crate) enum Part<'a> {
     Whole,
     /// What is downstream of a drag; the rest ran before, and nothing that it comes from has changed.
     Downstream(&'a Slice),
-}
-
-/// What a drag can change.
-#[derive(Clone, Debug, Default)]
-pub(crate) struct Slice {
-    /// The known slots that it moves.
-    pub(crate) inputs: Vec<SlotIndex>,
-    /// The steps downstream of them, by index.
-    pub(crate) steps: Vec<u32>,
-    /// The slots that those steps write.
-    pub(crate) targets: Vec<SlotIndex>,
-    /// The relations that speak of any of these slots, or of slots of a region that may be approached.
-    pub(crate) relations: Vec<u32>,
-}
-
-impl Slice {
-    /// Finds what is downstream of the inputs.
-    pub(crate) fn new(plan: &Plan, inputs: &[SlotIndex]) -> Self {
-        let mut is_reached = vec![false; plan.slots.len()];
-        for &slot in inputs {
-            is_reached[slot as usize] = true;
-        }
-        let mut is_region_reached = vec![false; plan.regions.len()];
-        let mut made = Self { inputs: inputs.to_vec(), ..Self::default() };
-        for (index, step) in (0..).zip(&plan.steps) {
-            if step.reads.iter().any(|&r| is_reached[r as usize]) {
-                made.steps.push(index);
-                made.targets.extend(&step.targets);
-                for &t in &step.targets {
-                    is_reached[t as usize] = true;
-                }
-                if let Some(region) = plan.regions.get(step.region as usize)
-                    && region.can_approach
-                    && !std::mem::replace(&mut is_region_reached[step.region as usize], true)
-                {
-                    for &u in &region.problem.unknowns {
-                        is_reached[u as usize] = true;
-                    }
-                }
-            }
-        }
-        let touched = |r: &u32| plan.mentions(*r).any(|s| is_reached[s as usize]);
-        made.relations = (0..plan.relations.len() as u32).filter(touched).collect();
-        made
-    }
 }
 
 /// A stride to be taken: from which state, on which branch.
@@ -168,10 +131,38 @@ impl Attempt<'_> {
                     buffers.motion[slot as usize] = motion(self.frame, values, slot);
                 }
                 slice
-                    .steps
+                    .portions
                     .iter()
-                    .try_for_each(|&i| self.step(i as usize, values, approach, buffers, host))
+                    .try_for_each(|p| self.portion(p, values, approach, buffers, host))
             }
+        }
+    }
+
+    fn portion(
+        self,
+        portion: &Portion,
+        values: &mut [f64],
+        approach: &Approach,
+        buffers: &mut Buffers,
+        host: &mut dyn Host,
+    ) -> Result<(), Failure> {
+        let strip = match portion {
+            Portion::Step(index) => {
+                return self.step(*index as usize, values, approach, buffers, host);
+            }
+            Portion::InTurn(strip) | Portion::Abreast(strip) => strip,
+        };
+        if *approach != Approach::Nowhere {
+            return strip
+                .rows
+                .iter()
+                .try_for_each(|r| self.step(r.step as usize, values, approach, buffers, host));
+        }
+        let Self { plan, frame, last, trust, part: _ } = self;
+        let mut run = Run { plan, frame, last, values, trust, buffers, host, index: 0 };
+        match portion {
+            Portion::Abreast(_) => run.abreast(strip),
+            Portion::Step(_) | Portion::InTurn(_) => run.in_turn(strip),
         }
     }
 
@@ -195,7 +186,7 @@ impl Attempt<'_> {
     }
 }
 
-fn begin(plan: &Plan, frame: &Frame, values: &mut [f64], buffers: &mut Buffers) {
+pub(crate) fn begin(plan: &Plan, frame: &Frame, values: &mut [f64], buffers: &mut Buffers) {
     for (root, members) in &plan.shared_given {
         let first = frame.x0[members[0] as usize];
         if members.iter().any(|&m| frame.x0[m as usize].to_bits() != first.to_bits()) {
@@ -422,7 +413,7 @@ impl Run<'_> {
 
     fn least(&mut self, step: &Step, least: &Least, measure: &Measure) -> Result<(), Failure> {
         self.start_from_last(&step.targets);
-        let Frame { anchor, scales, .. } = self.frame;
+        let (anchor, scales) = (self.frame.anchor(), &self.frame.scales);
         let Buffers { work, least: scratch, .. } = &mut *self.buffers;
         let result = least.solve(anchor, self.values, scales, self.trust, work, scratch);
         let may_compromise = self.trust != Trust::Branch || least.has_soft_rows();
@@ -527,12 +518,7 @@ impl Run<'_> {
             let end = at(i);
             let start = end - roots.guards[i].len();
             let value = now[end];
-            let guarded =
-                roots.guards[i].iter().zip(&now[start..end]).all(|(kind, v)| match kind {
-                    GuardKind::NonZero => v.abs() > 1e-30,
-                    GuardKind::NonNegative => *v >= 0.0,
-                    GuardKind::Positive => *v > 0.0,
-                });
+            let guarded = roots.guards[i].iter().zip(&now[start..end]).all(|(k, &v)| k.admits(v));
             if guarded && value.is_finite() {
                 self.values[target] = value;
                 let close = |j: usize| {

@@ -110,6 +110,30 @@ impl Workspace {
     }
 }
 
+impl Workspace {
+    /// Runs a tape for up to as many rows as there are lanes, given by their arguments one row after
+    /// the other; lanes beyond them repeat the last row.
+    pub(crate) fn run_wide(
+        &mut self,
+        tape: &expr::Tape,
+        arguments: &[SlotIndex],
+        arity: usize,
+        values: &[f64],
+        outs: usize,
+    ) -> &[Lanes] {
+        self.wide_arguments.resize(self.wide_arguments.len().max(arity), [0.0; LANES]);
+        self.wide_out.resize(self.wide_out.len().max(outs), [0.0; LANES]);
+        let lanes = arguments.len() / arity;
+        for (a, wide) in self.wide_arguments[..arity].iter_mut().enumerate() {
+            let of = |lane: usize| values[arguments[lane.min(lanes - 1) * arity + a] as usize];
+            *wide = std::array::from_fn(of);
+        }
+        let out = &mut self.wide_out[..outs];
+        tape.run_lanes(&self.wide_arguments[..arity], &mut self.wide_registers, out);
+        out
+    }
+}
+
 /// From how many rows of a kernel on they are evaluated in lanes.
 const WIDE: usize = 3;
 
@@ -518,18 +542,10 @@ impl Group {
         let arity = self.kernel.arity();
         let rows = self.rows.len();
         let mut row = 0;
-        w.wide_arguments.resize(w.wide_arguments.len().max(arity), [0.0; LANES]);
-        w.wide_out.resize(w.wide_out.len().max(outs), [0.0; LANES]);
         while rows - row >= WIDE {
             let lanes = LANES.min(rows - row);
-            for a in 0..arity {
-                let of = |lane: usize| {
-                    values[self.arguments[(row + lane.min(lanes - 1)) * arity + a] as usize]
-                };
-                w.wide_arguments[a] = std::array::from_fn(of);
-            }
-            let out = &mut w.wide_out[..outs];
-            tape.run_lanes(&w.wide_arguments[..arity], &mut w.wide_registers, out);
+            let arguments = &self.arguments[row * arity..][..lanes * arity];
+            let out = w.run_wide(tape, arguments, arity, values, outs);
             for lane in 0..lanes {
                 for (i, value) in out.iter().enumerate() {
                     visit(row + lane, i, value[lane]);

@@ -62,6 +62,17 @@ pub(crate) enum GuardKind {
     Positive,
 }
 
+impl GuardKind {
+    /// Returns true if a value is as demanded.
+    pub(crate) fn admits(self, value: f64) -> bool {
+        match self {
+            Self::NonZero => value.abs() > 1e-30,
+            Self::NonNegative => value >= 0.0,
+            Self::Positive => value > 0.0,
+        }
+    }
+}
+
 /// A side of an equation.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub(crate) enum Side {

@@ -81,6 +81,11 @@ mod measure;
 
 pub mod outcome;
 
+mod strip;
+
+mod slice;
+mod test;
+
 mod attempt;
 
 pub mod run;

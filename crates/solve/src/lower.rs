@@ -67,8 +67,12 @@ impl Inverse {
         Some(Self { row: row.clone(), argument, fallback: OnceCell::new() })
     }
     /// Returns the number of formulas.
-    fn roots(&self) -> u32 {
+    pub(crate) fn roots(&self) -> u32 {
         self.row.kernel.solved(self.argument).map_or(0, |s| s.guards.len() as u32)
+    }
+    /// Returns true if its target is one side of the equation, so that this holds once it has run.
+    pub(crate) fn is_stated(&self) -> bool {
+        self.row.kernel.stated().any(|(argument, _)| argument == self.argument)
     }
     /// Returns what solves it step by step.
     pub(crate) fn fallback(&self) -> &Square {

@@ -8,14 +8,15 @@ use crate::direct::{self, Direction};
 use crate::few::Few;
 use crate::lower::{self, Program, Region};
 use crate::order::{self, Block, Incidence};
-use crate::pattern::{Patterns, Scratch};
+use crate::pattern::{Pattern, PatternId, Patterns, Scratch};
 use crate::rows::{self, Rows};
+use crate::slice::Slice;
 use crate::stated::Stated;
 use crate::substitute::{self, Classes};
 use crate::system::{Level, RelationBody, Slot, SlotIndex, Span, Stay, System};
 use crate::tie;
 use base::number::Tolerance;
-use std::cell::OnceCell;
+use std::cell::{OnceCell, RefCell};
 use std::collections::BTreeMap;
 use std::rc::Rc;
 
@@ -109,6 +110,8 @@ pub struct Plan {
     pub(crate) slots: Vec<PlannedSlot>,
     pub(crate) relations: Vec<PlannedRelation>,
     pub(crate) regions: Vec<Region>,
+    /// The relations that only the host can test.
+    pub(crate) opaque: Vec<u32>,
     /// Classes of several given numbers: the representative and those numbers.
     pub(crate) shared_given: Vec<(SlotIndex, Vec<SlotIndex>)>,
     pub(crate) scale_classes: usize,
@@ -118,6 +121,8 @@ pub struct Plan {
     pub(crate) has_least: bool,
     stated: Stated,
     relaxed: OnceCell<Option<Box<Plan>>>,
+    /// What the latest drag could change.
+    slice: RefCell<Option<Rc<Slice>>>,
 }
 
 /// Up to this many slots a state that does not hold may be moved as a whole.
@@ -204,6 +209,9 @@ fn plan_stated(stated: Stated) -> Plan {
         steps: lowered.steps,
         report,
         slots: planned_slots(system),
+        opaque: (0..relations.len() as u32)
+            .filter(|&r| relations[r as usize].opaque.is_some())
+            .collect(),
         relations,
         regions: lowered.regions,
         shared_given: shared_given(&analysis),
@@ -211,6 +219,7 @@ fn plan_stated(stated: Stated) -> Plan {
         has_branches,
         stated,
         relaxed: OnceCell::new(),
+        slice: RefCell::default(),
     }
 }
 
@@ -343,19 +352,21 @@ fn shared_given(analysis: &Analysis<'_>) -> Vec<(SlotIndex, Vec<SlotIndex>)> {
 }
 
 impl Plan {
-    /// Computes both sides of every equation, by its place in the system.
-    pub(crate) fn sides(&self, values: &[f64], scratch: &mut Scratch, out: &mut Vec<[f64; 2]>) {
-        let system = &self.stated.system;
-        out.clear();
-        out.extend((0..system.equations.len()).map(|row| self.sides_of(row, values, scratch)));
+    pub(crate) fn system(&self) -> &System {
+        &self.stated.system
     }
-    /// Computes both sides of one equation, by its place in the system.
-    pub(crate) fn sides_of(&self, row: usize, values: &[f64], scratch: &mut Scratch) -> [f64; 2] {
-        let system = &self.stated.system;
-        let equation = &system.equations[row];
-        let arguments = system.arguments(equation.arguments).iter().map(|&s| values[s as usize]);
-        let sides = self.stated.pattern(equation.pattern).evaluate(arguments, scratch);
-        [sides[0], sides[1]]
+    pub(crate) fn pattern(&self, id: PatternId) -> &Pattern {
+        self.stated.pattern(id)
+    }
+    /// Returns what moving these known slots can change; made once.
+    pub(crate) fn slice(&self, inputs: &[SlotIndex]) -> Rc<Slice> {
+        let mut known = self.slice.borrow_mut();
+        if let Some(slice) = known.as_ref().filter(|s| s.inputs == inputs) {
+            return slice.clone();
+        }
+        let made = Rc::new(Slice::new(self, inputs));
+        *known = Some(made.clone());
+        made
     }
     /// Computes the sway of one equation, by its place in the system.
     pub(crate) fn sway_of(&self, row: usize, values: &[f64], scratch: &mut Scratch) -> f64 {

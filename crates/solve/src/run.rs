@@ -5,13 +5,15 @@
 //! state is taken in one stride where that is safe and in as many as needed where it is not; where
 //! the branch ends, soft wishes are met as nearly as they can be, and required ones stop the edit.
 
-use crate::attempt::{Approach, Attempt, Buffers, Failure, Frame, Part, Slice};
+use crate::attempt::{self, Approach, Attempt, Buffers, Failure, Frame, Part};
 use crate::lower::Program;
 use crate::outcome::{Host, Outcome, Reason, Status, Unmet};
 use crate::plan::Plan;
+use crate::slice::Slice;
 use crate::square::Trust;
 use crate::system::{Level, SlotIndex, Stay};
-use base::number::Tolerance;
+use crate::test::Failing;
+use std::rc::Rc;
 
 /// The shortest stride, as a part of the whole way.
 const SHORTEST: f64 = 1e-7;
@@ -100,14 +102,13 @@ pub fn run(
 #[derive(Debug)]
 pub struct Drag {
     runner: Runner,
-    slice: Slice,
+    slice: Rc<Slice>,
     /// The relations that the drag cannot change and that do not hold.
     upstream: Vec<Unmet>,
     /// True if all that is not downstream has run, and stands in the branch.
     has_run: bool,
     /// True if the last wish changed nothing but what is downstream.
     moved_slice: bool,
-    has_host: bool,
     /// The last state in which every accepted row held: where the branch is followed from.
     branch: Vec<f64>,
     /// False until a state was seen in which everything required holds.
@@ -117,22 +118,28 @@ pub struct Drag {
 
 impl Drag {
     /// Begins a drag at the press, in state `x0`, which moves the known slots `inputs`.
-    pub fn begin(plan: &Plan, x0: &[f64], inputs: &[SlotIndex], _: &mut dyn Host) -> Self {
+    pub fn begin(plan: &Plan, x0: &[f64], inputs: &[SlotIndex]) -> Self {
         let mut runner = Runner::new();
         start(plan, &mut runner, x0, &[]);
-        let has_branch = required_rows_held(plan, &runner.frame);
-        let state = runner.frame.x0.clone();
-        runner.trial = state.clone();
+        let slice = plan.slice(inputs);
+        let Runner { frame, buffers, .. } = &mut runner;
+        let has_branch = required_rows_held(plan, frame);
+        let mut branch = frame.x0.clone();
+        // what is not downstream rests where everything holds: it need not run
+        let rests = slice.is_held && frame.held.iter().all(|&held| held);
+        let has_run = rests && slice.restless.iter().all(|&s| stands(plan, s, &frame.x0));
+        if has_run {
+            attempt::begin(plan, frame, &mut branch, buffers);
+        }
         Self {
             runner,
-            slice: Slice::new(plan, inputs),
+            slice,
             upstream: Vec::new(),
-            has_run: false,
+            has_run,
             moved_slice: false,
-            has_host: plan.steps.iter().any(|s| matches!(s.program, Program::Host { .. })),
-            branch: state.clone(),
+            now: branch.clone(),
+            branch,
             has_branch,
-            now: state,
         }
     }
 
@@ -152,6 +159,11 @@ impl Drag {
     /// Returns the present state.
     pub fn values(&self) -> &[f64] {
         &self.now
+    }
+
+    /// Returns the texts that the drag may write.
+    pub fn texts(&self) -> &[SlotIndex] {
+        &self.slice.texts
     }
 
     /// Returns the slots that the last wish may have changed, where they are not all.
@@ -203,20 +215,23 @@ impl Drag {
                 if fraction < 1.0 && trust == Trust::Branch && plan.has_least {
                     // least change from x0 goes no further on its branch: from here on, then
                     let mut anew = frame.clone();
-                    anew.anchor.copy_from_slice(&limit);
+                    anew.anchor = Some(limit.clone());
                     let Way { buffers, host, trial, .. } = &mut way;
                     let mut on = Way { plan, frame: &anew, buffers, host: *host, trial, part };
                     let rest = on.walk(&mut limit, goal, trust);
                     fraction = if rest == 1.0 { 1.0 } else { fraction + (1.0 - fraction) * rest };
-                    anchored = (rest > 0.0).then_some(anew.anchor);
+                    anchored = anew.anchor.filter(|_| rest > 0.0);
                 }
-                if fraction < 1.0 && way.approach(&limit, goal, &failure).is_ok() {
-                    outcome = way.test_trial(&self.upstream);
+                let approached = fraction < 1.0 && way.approach(&limit, goal, &failure).is_ok();
+                // from here on nothing is known to hold because of how it was computed
+                way.part = Part::Whole;
+                if approached {
+                    outcome = way.test_trial(&[]);
                     if outcome.is_solved() {
                         std::mem::swap(way.trial, now);
                     }
                 } else {
-                    outcome = way.test(&limit, &self.upstream);
+                    outcome = way.test(&limit, &[]);
                     if fraction < 1.0 {
                         outcome.status = Status::Stopped(Stop::At(fraction, failure).reason());
                     }
@@ -228,14 +243,14 @@ impl Drag {
                 self.moved_slice = false;
             }
         }
-        if !outcome.is_solved() && self.has_host {
+        if !outcome.is_solved() && slice.has_host {
             // the host's texts follow the state that stands; a failure here says nothing new
             way.part = Part::Whole;
             let _ = way.direct(now, now, trust);
         }
         outcome.notes.append(&mut buffers.notes);
-        if let Some(anchor) = anchored {
-            frame.anchor = anchor;
+        if anchored.is_some() {
+            frame.anchor = anchored;
         }
         outcome
     }
@@ -253,20 +268,17 @@ fn start(plan: &Plan, runner: &mut Runner, x0: &[f64], changed: &[SlotIndex]) ->
     let Runner { frame, buffers, .. } = runner;
     frame.x0.clear();
     frame.x0.extend(x0.iter().map(|&v| if v.is_finite() { v } else { 0.0 }));
-    frame.anchor.clone_from(&frame.x0);
+    frame.anchor = None;
     measure_scales(plan, frame);
     frame.changed_texts.clear();
     frame
         .changed_texts
         .extend(changed.iter().copied().filter(|&c| !plan.slots[c as usize].is_number));
-    test_sides(plan, &frame.x0, buffers);
     frame.held.clear();
-    for relation in &plan.relations {
-        for r in relation.first_row..relation.first_row + relation.rows {
-            let (error, tolerance) = error_of(plan, &frame.x0, buffers, r, relation.within);
-            frame.held.push(error <= tolerance);
-        }
-    }
+    frame.held.resize(plan.system().equations.len(), true);
+    let Frame { x0, held, .. } = &mut *frame;
+    let all = 0..plan.relations.len() as u32;
+    plan.each_failing(all, x0, &mut buffers.test, &mut |f| held[f.row as usize] = false);
     frame.changed_texts.is_empty()
         && plan.slots.iter().all(|s| s.stay != Stay::Free)
         && required_rows_held(plan, frame)
@@ -289,27 +301,20 @@ fn measure_scales(plan: &Plan, frame: &mut Frame) {
     frame.scales.extend(plan.slots.iter().map(|s| scale(&ranges[s.scale as usize])));
 }
 
-fn test_sides(plan: &Plan, values: &[f64], buffers: &mut Buffers) {
-    plan.sides(values, &mut buffers.scratch, &mut buffers.sides);
-}
-
-/// Returns the error of an equation whose sides are computed, and how large it may be.
-fn error_of(
-    plan: &Plan,
-    values: &[f64],
-    buffers: &mut Buffers,
-    row: u32,
-    within: Tolerance,
-) -> (f64, f64) {
-    let [left, right] = buffers.sides[row as usize];
-    let error = if left == right { 0.0 } else { (left - right).abs() };
-    let error = if error.is_nan() { f64::INFINITY } else { error };
-    let allowed = within.allowed(left, right);
-    if error <= allowed {
-        return (error, allowed);
+/// Returns true if a step that runs even where everything holds changes no bit.
+fn stands(plan: &Plan, step: u32, x0: &[f64]) -> bool {
+    let step = &plan.steps[step as usize];
+    let is = |value: f64| x0[step.targets[0] as usize].to_bits() == value.to_bits();
+    match &step.program {
+        Program::Constant(value) => is(*value),
+        Program::Copy => is(x0[step.reads[0] as usize]),
+        Program::Formulas(..)
+        | Program::Inverse(_)
+        | Program::Square(_)
+        | Program::Least(_)
+        | Program::Measure(_)
+        | Program::Host { .. } => false,
     }
-    let sway = plan.sway_of(row as usize, values, &mut buffers.scratch);
-    (error, within.allowed_with(left, right, sway))
 }
 
 /// Where a way stopped.
@@ -489,24 +494,15 @@ impl Way<'_> {
         let mut unmet = Vec::new();
         match self.part {
             Part::Whole => {
-                test_sides(self.plan, values, self.buffers);
                 let all = 0..self.plan.relations.len() as u32;
-                unmet.extend(all.filter_map(|r| self.unmet(r, values)));
+                self.failing(all, &self.plan.opaque, values, &mut unmet);
             }
             Part::Downstream(slice) => {
-                for &r in &slice.relations {
-                    let relation = &self.plan.relations[r as usize];
-                    for row in relation.first_row..relation.first_row + relation.rows {
-                        let row = row as usize;
-                        let Buffers { scratch, sides, .. } = &mut *self.buffers;
-                        sides[row] = self.plan.sides_of(row, values, scratch);
-                    }
-                    unmet.extend(self.unmet(r, values));
-                }
+                self.failing(slice.tests.iter().copied(), &slice.opaque, values, &mut unmet);
                 unmet.extend(upstream);
-                unmet.sort_unstable_by_key(|u| u.relation);
             }
         }
+        unmet.sort_unstable_by_key(|u| u.relation);
         let required =
             |u: &Unmet| self.plan.relations[u.relation as usize].level == Level::Required;
         let conflict = unmet.iter().any(required);
@@ -514,23 +510,30 @@ impl Way<'_> {
         Outcome { status, unmet, notes: Vec::new() }
     }
 
-    /// Returns how far a relation is from holding, if it does not; its sides are computed.
-    fn unmet(&mut self, index: u32, values: &[f64]) -> Option<Unmet> {
-        let relation = &self.plan.relations[index as usize];
-        let mut worst: Option<(f64, f64)> = None;
-        if relation.opaque.is_some() {
-            if !self.host.holds(relation.source, values) {
-                worst = Some((1.0, 0.0));
-            }
-        } else {
-            for r in relation.first_row..relation.first_row + relation.rows {
-                let (error, tolerance) =
-                    error_of(self.plan, values, self.buffers, r, relation.within);
-                if error > tolerance && worst.is_none_or(|w| error > w.0) {
-                    worst = Some((error, tolerance));
+    /// Adds the relations that do not hold: those of equations, and those that only the host can test.
+    fn failing(
+        &mut self,
+        relations: impl Iterator<Item = u32>,
+        opaque: &[u32],
+        values: &[f64],
+        unmet: &mut Vec<Unmet>,
+    ) {
+        let mut add = |f: Failing| match unmet.last_mut() {
+            Some(last) if last.relation == f.relation => {
+                if f.error > last.error {
+                    (last.error, last.tolerance) = (f.error, f.tolerance);
                 }
             }
+            Some(_) | None => {
+                let Failing { relation, error, tolerance, .. } = f;
+                unmet.push(Unmet { relation, error, tolerance });
+            }
+        };
+        self.plan.each_failing(relations, values, &mut self.buffers.test, &mut add);
+        for &relation in opaque {
+            if !self.host.holds(self.plan.relations[relation as usize].source, values) {
+                unmet.push(Unmet { relation, error: 1.0, tolerance: 0.0 });
+            }
         }
-        worst.map(|(error, tolerance)| Unmet { relation: index, error, tolerance })
     }
 }

@@ -98,10 +98,9 @@ fn a_drag_depends_on_the_press_alone() {
     let (document, structure) = (lab.document.clone(), lab.structure.clone());
     let model = plan::Model { document: &document, structure: &structure };
     let mut host = Terms { document: &document, structure: &structure };
-    let press = |lab: &mut Lab, host: &mut Terms<'_>| {
-        lab.planner.press(model, &lab.values, &[target], host).expect("it can be moved")
-    };
-    let mut held = press(&mut lab, &mut host);
+    let press =
+        |lab: &mut Lab| lab.planner.press(model, &lab.values, &[target]).expect("it can be moved");
+    let mut held = press(&mut lab);
     for x in [7.0, 100.0, -3.3, 6.0] {
         let step = lab.planner.drag(model, &mut held, &mut lab.values, &[x, 1.0], &mut host);
         assert!(step.reached);
@@ -109,7 +108,7 @@ fn a_drag_depends_on_the_press_alone() {
     assert_eq!((lab.number("b.x"), lab.number("b.y")), (12.0, 2.0));
     lab.values = before;
     let counts = lab.planner.plan_counts();
-    let mut held = press(&mut lab, &mut host);
+    let mut held = press(&mut lab);
     assert_eq!(lab.planner.plan_counts().planned, counts.planned);
     lab.planner.drag(model, &mut held, &mut lab.values, &[6.0, 0.0], &mut host);
     let report = lab.planner.release(model, held, &mut lab.values, &mut host);

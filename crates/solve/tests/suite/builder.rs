@@ -172,7 +172,7 @@ impl Sheet {
         outcome
     }
     pub(crate) fn drag(&self, plan: &Plan, inputs: &[SlotIndex]) -> Drag {
-        Drag::begin(plan, &self.x0, inputs, &mut NoHost)
+        Drag::begin(plan, &self.x0, inputs)
     }
 }
 

@@ -150,3 +150,77 @@ fn a_chain_of_bars_follows_as_a_whole_and_comes_back() {
         }
     }
 }
+
+/// `n` rows each of `p = k a + c`, a chain of `b' = k b + c`, and `q k = a`, whose formula divides by `k`.
+fn rows_of_one_k(n: u32) -> (Sheet, SlotIndex) {
+    let mut sheet = Sheet::default();
+    let k = sheet.kept(1.25);
+    let c = sheet.given(0.5);
+    let mut before = sheet.given(1.0);
+    for i in 0..n {
+        let a = sheet.given(0.1 * f64::from(i) - 0.7);
+        let [p, b, q] = [(); 3].map(|()| sheet.free(0.0));
+        let [vk, vc, va, vp, vb, vq] = [k, c, a, p, b, q].map(|s| sheet.v(s));
+        let vbefore = sheet.v(before);
+        let line = sheet.mul(vk, va);
+        let line = sheet.add(line, vc);
+        sheet.require(vp, line);
+        let next = sheet.mul(vk, vbefore);
+        let next = sheet.add(next, vc);
+        sheet.require(vb, next);
+        let product = sheet.mul(vq, vk);
+        sheet.require(product, va);
+        before = b;
+    }
+    sheet.open();
+    (sheet, k)
+}
+
+#[test]
+fn rows_of_one_formula_have_the_bits_of_single_steps() {
+    for n in [1, 3, 11, 40] {
+        let (mut sheet, k) = rows_of_one_k(n);
+        let wish = sheet.wish(&[k]);
+        let plan = sheet.plan();
+        let mut drag = sheet.drag(&plan, &wish);
+        for value in [1.5, -0.3, 7.0, 1.0, 1.25] {
+            let outcome = drag.follow(&plan, &[value], &mut NoHost);
+            assert!(outcome.is_solved() && outcome.unmet.is_empty(), "{outcome:?}");
+            let (single, _) = sheet.run(&plan, &[(wish[0], value)], &mut NoHost);
+            assert_eq!(bits(drag.values()), bits(&single), "{n} rows at {value}");
+        }
+        assert_eq!(bits(drag.values()), bits(&sheet.x0), "{n} rows come back");
+    }
+}
+
+#[test]
+fn where_one_row_of_many_has_no_solution_none_moves() {
+    let (mut sheet, k) = rows_of_one_k(20);
+    let wish = sheet.wish(&[k]);
+    let plan = sheet.plan();
+    let mut drag = sheet.drag(&plan, &wish);
+    assert!(drag.follow(&plan, &[2.0], &mut NoHost).is_solved());
+    let there = bits(drag.values());
+    drag.follow(&plan, &[0.0], &mut NoHost);
+    let q = |values: &[f64]| values[5];
+    assert!(q(drag.values()).is_finite() && drag.values()[k as usize] > 0.0);
+    assert!(drag.follow(&plan, &[2.0], &mut NoHost).is_solved());
+    assert_eq!(bits(drag.values()), there);
+}
+
+#[test]
+fn a_press_where_all_holds_runs_what_is_downstream_alone() {
+    let (mut sheet, k) = rows_of_one_k(5);
+    // m = n stands upstream of nothing that moves, beyond its tolerance's last bit
+    let [m, n] = [sheet.kept(3.0), sheet.kept(3.0 + 1e-12)];
+    let (vm, vn) = (sheet.v(m), sheet.v(n));
+    let twice = sheet.add(vn, vn);
+    let sum = sheet.add(vm, vm);
+    sheet.require(sum, twice);
+    let wish = sheet.wish(&[k]);
+    let plan = sheet.plan();
+    let mut drag = sheet.drag(&plan, &wish);
+    assert!(drag.follow(&plan, &[1.5], &mut NoHost).is_solved());
+    assert!(drag.moved().is_some_and(|moved| !moved.contains(&m) && !moved.contains(&n)));
+    assert_eq!(drag.values()[n as usize].to_bits(), (3.0 + 1e-12_f64).to_bits());
+}

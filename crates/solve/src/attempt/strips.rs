@@ -1,0 +1,84 @@
+//! Running strips.
+//!
+//! A row whose inputs have moved is computed here; one whose inputs have not, or whose formula is not
+//! defined at them, is left to its step.
+
+use super::{Failure, Motion, Run, motion};
+use crate::kernel::Solved;
+use crate::strip::{Strip, StripRow};
+use crate::system::SlotIndex;
+use expr::LANES;
+
+impl Run<'_> {
+    /// Runs rows one after the other.
+    pub(super) fn in_turn(&mut self, strip: &Strip) -> Result<(), Failure> {
+        for row in &strip.rows {
+            let formula = &strip.formulas[row.formula as usize];
+            let arguments = &strip.arguments[row.first as usize..][..formula.arity()];
+            if !self.has_moved(arguments, formula.argument) {
+                self.alone(row)?;
+                continue;
+            }
+            let solved = formula.solved();
+            let outs = solved.guards[0].len() + 1;
+            let out = self.buffers.work.run(&solved.tape, arguments, self.values, outs);
+            match value_of(solved, |i| out[i]) {
+                Some(value) => self.put(row.target, value),
+                None => self.alone(row)?,
+            }
+        }
+        Ok(())
+    }
+
+    /// Runs rows of one formula in lanes.
+    pub(super) fn abreast(&mut self, strip: &Strip) -> Result<(), Failure> {
+        let formula = &strip.formulas[0];
+        let (arity, solved) = (formula.arity(), formula.solved());
+        let outs = solved.guards[0].len() + 1;
+        let chunks = strip.rows.chunks(LANES).zip(strip.arguments.chunks(LANES * arity));
+        for (rows, arguments) in chunks {
+            let each = || arguments.chunks_exact(arity);
+            if !each().all(|a| self.has_moved(a, formula.argument)) {
+                rows.iter().try_for_each(|row| self.alone(row))?;
+                continue;
+            }
+            let out = self.buffers.work.run_wide(&solved.tape, arguments, arity, self.values, outs);
+            let values: [Option<f64>; LANES] =
+                std::array::from_fn(|lane| value_of(solved, |i| out[i][lane]));
+            for (row, value) in rows.iter().zip(values) {
+                match value {
+                    Some(value) => self.put(row.target, value),
+                    None => self.alone(row)?,
+                }
+            }
+        }
+        Ok(())
+    }
+
+    fn has_moved(&self, arguments: &[SlotIndex], target: u32) -> bool {
+        let motion = &self.buffers.motion;
+        let mut moved = false;
+        for (i, &slot) in (0..).zip(arguments) {
+            moved |= i != target && motion[slot as usize] == Motion::Moved;
+        }
+        moved
+    }
+
+    fn put(&mut self, target: SlotIndex, value: f64) {
+        self.values[target as usize] = value;
+        self.buffers.motion[target as usize] = motion(self.frame, self.values, target);
+    }
+
+    fn alone(&mut self, row: &StripRow) -> Result<(), Failure> {
+        self.index = row.step as usize;
+        self.step(&self.plan.steps[self.index])
+    }
+}
+
+/// Returns the value of a formula, if it is defined; guards come first.
+fn value_of(solved: &Solved, out: impl Fn(usize) -> f64) -> Option<f64> {
+    let guards = &solved.guards[0];
+    let value = out(guards.len());
+    let admitted = guards.iter().enumerate().all(|(i, kind)| kind.admits(out(i)));
+    (admitted && value.is_finite()).then_some(value)
+}

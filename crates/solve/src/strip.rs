@@ -1,0 +1,193 @@
+//! Strips: steps by formula that run together.
+//!
+//! In: steps of a plan, in order. Out: the same in portions. Steps of one formula that do not read one
+//! another run abreast, in lanes, to the same bits; where each reads what the one before writes, they
+//! run in turn, with nothing looked up in between. Steps change places only within a stretch of
+//! formulas, and never with one that they read.
+
+use crate::kernel::{Kernel, Solved};
+use crate::lower::{Inverse, Program};
+use crate::plan::{Plan, Step};
+use crate::system::SlotIndex;
+use expr::LANES;
+use std::rc::Rc;
+
+/// What runs at once.
+#[derive(Debug)]
+pub(crate) enum Portion {
+    /// One step, by its index.
+    Step(u32),
+    /// Steps one after the other.
+    InTurn(Strip),
+    /// Steps of one formula, none of which reads another.
+    Abreast(Strip),
+}
+
+/// Steps by formula.
+#[derive(Debug)]
+pub(crate) struct Strip {
+    pub(crate) formulas: Vec<Formula>,
+    pub(crate) rows: Vec<StripRow>,
+    /// The arguments of every row, one row's after the other's.
+    pub(crate) arguments: Vec<SlotIndex>,
+}
+
+/// One step of a strip.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct StripRow {
+    /// Its index in the plan.
+    pub(crate) step: u32,
+    pub(crate) target: SlotIndex,
+    /// Which formula.
+    pub(crate) formula: u32,
+    /// Where its arguments begin.
+    pub(crate) first: u32,
+}
+
+/// An equation solved for one of its arguments by the one formula that there is.
+#[derive(Debug)]
+pub(crate) struct Formula {
+    kernel: Rc<Kernel>,
+    pub(crate) argument: u32,
+}
+
+impl Formula {
+    pub(crate) fn arity(&self) -> usize {
+        self.kernel.arity()
+    }
+    pub(crate) fn solved(&self) -> &Solved {
+        self.kernel.solved(self.argument).expect("a strip is made of steps that have a formula")
+    }
+}
+
+/// From how many steps on a strip is made of them.
+const FEWEST: usize = 4;
+/// A stretch with fewer steps a level than this runs in turn.
+const NARROWEST: usize = LANES;
+
+/// How many formulas back one is looked for.
+const FAR: usize = 32;
+
+/// For every slot, the step that writes it.
+#[derive(Debug)]
+pub(crate) struct Writers(Vec<u32>);
+
+impl Writers {
+    pub(crate) fn of(plan: &Plan) -> Self {
+        let mut writer = vec![u32::MAX; plan.slots.len()];
+        for (index, step) in (0..).zip(&plan.steps) {
+            step.targets.iter().for_each(|&t| writer[t as usize] = index);
+        }
+        Self(writer)
+    }
+    /// Returns true if all that a step reads is there when it runs: it is not part of a cycle.
+    pub(crate) fn are_before(&self, plan: &Plan, step: u32) -> bool {
+        plan.steps[step as usize].reads.iter().all(|&r| {
+            let writer = self.0[r as usize];
+            writer == u32::MAX || writer < step
+        })
+    }
+}
+
+/// Puts steps together, given by their indices in order.
+pub(crate) fn portions(plan: &Plan, steps: &[u32], writers: &Writers) -> Vec<Portion> {
+    let mut made = Vec::new();
+    let mut level_of_slot = vec![0; plan.slots.len()];
+    for stretch in
+        steps.chunk_by(|&a, &b| [a, b].iter().all(|&s| formula(plan, s, writers).is_some()))
+    {
+        match formula(plan, stretch[0], writers) {
+            Some(_) if stretch.len() >= FEWEST => {
+                stretch_portions(plan, stretch, &mut level_of_slot, &mut made);
+            }
+            Some(_) | None => made.extend(stretch.iter().map(|&s| Portion::Step(s))),
+        }
+    }
+    made
+}
+
+/// Returns the formula of a step that may be part of a strip.
+fn formula<'p>(plan: &'p Plan, index: u32, writers: &Writers) -> Option<&'p Inverse> {
+    let step = &plan.steps[index as usize];
+    let Program::Inverse(inverse) = &step.program else { return None };
+    let target = &plan.slots[step.targets[0] as usize];
+    let is_plain = target.is_number && !target.is_discrete && inverse.roots() == 1;
+    (is_plain && writers.are_before(plan, index)).then_some(inverse)
+}
+
+fn inverse(step: &Step) -> &Inverse {
+    match &step.program {
+        Program::Inverse(inverse) => inverse,
+        Program::Constant(_)
+        | Program::Copy
+        | Program::Formulas(..)
+        | Program::Square(_)
+        | Program::Least(_)
+        | Program::Measure(_)
+        | Program::Host { .. } => unreachable!("a stretch is made of formulas"),
+    }
+}
+
+fn stretch_portions(
+    plan: &Plan,
+    stretch: &[u32],
+    level_of_slot: &mut [u32],
+    made: &mut Vec<Portion>,
+) {
+    let mut formulas: Vec<(*const Kernel, u32)> = Vec::new();
+    let mut rows: Vec<(u32, u32, u32)> = Vec::with_capacity(stretch.len());
+    for &index in stretch {
+        let step = &plan.steps[index as usize];
+        let Inverse { row, argument, .. } = inverse(step);
+        let level = step.reads.iter().map(|&r| level_of_slot[r as usize]).max().unwrap_or(0) + 1;
+        level_of_slot[step.targets[0] as usize] = level;
+        let own = (Rc::as_ptr(&row.kernel), *argument);
+        let from = formulas.len().saturating_sub(FAR);
+        let known = formulas[from..].iter().rposition(|f| *f == own).map(|i| from + i);
+        let formula = known.unwrap_or(formulas.len());
+        if known.is_none() {
+            formulas.push(own);
+        }
+        rows.push((level, formula as u32, index));
+    }
+    for &index in stretch {
+        level_of_slot[plan.steps[index as usize].targets[0] as usize] = 0;
+    }
+    let levels = rows.iter().map(|r| r.0).max().unwrap_or(0) as usize;
+    if rows.len() < levels * NARROWEST {
+        made.push(Portion::InTurn(strip(plan, stretch.iter().copied())));
+        return;
+    }
+    rows.sort_unstable();
+    for group in rows.chunk_by(|a, b| (a.0, a.1) == (b.0, b.1)) {
+        let steps = group.iter().map(|r| r.2);
+        if group.len() >= FEWEST {
+            made.push(Portion::Abreast(strip(plan, steps)));
+        } else {
+            made.extend(steps.map(Portion::Step));
+        }
+    }
+}
+
+fn strip(plan: &Plan, steps: impl Iterator<Item = u32>) -> Strip {
+    let mut strip = Strip { formulas: Vec::new(), rows: Vec::new(), arguments: Vec::new() };
+    for index in steps {
+        let step = &plan.steps[index as usize];
+        let Inverse { row, argument, .. } = inverse(step);
+        let same = |f: &Formula| Rc::ptr_eq(&f.kernel, &row.kernel) && f.argument == *argument;
+        let from = strip.formulas.len().saturating_sub(FAR);
+        let known = strip.formulas[from..].iter().rposition(same).map(|i| from + i);
+        let formula = known.unwrap_or(strip.formulas.len());
+        if known.is_none() {
+            strip.formulas.push(Formula { kernel: row.kernel.clone(), argument: *argument });
+        }
+        strip.rows.push(StripRow {
+            step: index,
+            target: step.targets[0],
+            formula: formula as u32,
+            first: strip.arguments.len() as u32,
+        });
+        strip.arguments.extend(&row.arguments);
+    }
+    strip
+}
