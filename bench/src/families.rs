@@ -141,7 +141,7 @@ impl Made {
         let mut at = [0.0, 0.0];
         let mut last: Option<usize> = None;
         for i in 0..n {
-            let size = 10.0 + 1.5 * self.noise();
+            let size = 10.0 + 2.0 * self.noise();
             let [x, y] = at;
             let places = [[x, y], [x + size, y], [x + size, y + size], [x, y + size]];
             let ends: Vec<[usize; 2]> = if corners == Corners::Shared {
@@ -260,7 +260,7 @@ impl Made {
                 continue;
             }
             let near = nearest(&self.case.truth, p);
-            if i == 2 || i % 2 == 0 {
+            if i == 2 || self.noise() < 0.0 {
                 bars.extend([[near[0], p], [near[1], p]]);
                 continue;
             }

@@ -1,8 +1,8 @@
 //! `gcs FILE`: solves one sketch and prints one line of JSON.
 //!
 //! The file is a case of the format `gcs-case/1` ([`bench::case`]). Of the line: `status` is `solved`
-//! where every constraint holds to 1e-8, `unsolved` where not, or where no answer came in time, and
-//! `invalid` for a file that is no case; times are in milliseconds. `gcs --text FILE` prints the document
+//! where every constraint holds to 1e-8, `not decided` where the search for a solution was given up,
+//! `unsolved` where there is none, or no answer in time, and `invalid` for a file that is no case; times are in milliseconds. `gcs --text FILE` prints the document
 //! that is solved; `gcs --make FAMILY SIZE SEED` prints a case of a family ([`bench::families`]).
 
 use bench::case::Case;

@@ -35,6 +35,8 @@ pub struct Figures {
     pub redundant: usize,
     /// How many constraints do not hold.
     pub conflicting: usize,
+    /// How many constraints do not hold, and whether they can was not decided.
+    pub undecided: usize,
     /// What counting those three takes after a solve.
     pub analysis: f64,
     /// The case's drag.
@@ -90,19 +92,31 @@ pub enum Repeat {
 pub fn measure(text: &str, repeat: Repeat) -> Result<Figures, String> {
     let begin = Instant::now();
     let case = Case::read(text)?;
-    let sketch = Sketch::new(&case)?;
+    measured(&case, begin, repeat)
+}
+
+/// Solves, analyses and drags a case.
+///
+/// # Errors
+/// Why no document can say it.
+pub fn measure_case(case: &Case, repeat: Repeat) -> Result<Figures, String> {
+    measured(case, Instant::now(), repeat)
+}
+
+fn measured(case: &Case, begin: Instant, repeat: Repeat) -> Result<Figures, String> {
+    let sketch = Sketch::new(case)?;
     let build = begin.elapsed().as_secs_f64();
     let (solve, (mut planner, values)) = repeated(repeat, || sketch.solve());
     let (numbers, _) = repeated(repeat, || sketch.solve_again(&mut planner));
     let points = sketch.points(&values);
-    let residual = residual::largest(&case, &case.constraints, &points);
+    let residual = residual::largest(case, &case.constraints, &points);
     // a planner that has solved, and analysed nothing yet
     let (mut fresh, solved) = sketch.solve();
     let begin = Instant::now();
     let found = black_box(sketch.analyse(&mut fresh, &solved));
     let analysis = begin.elapsed().as_secs_f64();
     let drag = match &case.drag {
-        Some(drag) => Some(follow(&case, &sketch, &mut planner, values, drag)?),
+        Some(drag) => Some(follow(case, &sketch, &mut planner, values, drag)?),
         None => None,
     };
     Ok(Figures {
@@ -114,6 +128,7 @@ pub fn measure(text: &str, repeat: Repeat) -> Result<Figures, String> {
         freedom: found.freedom,
         redundant: found.redundant.len(),
         conflicting: found.conflicting.len(),
+        undecided: found.undecided.len(),
         analysis,
         drag,
     })

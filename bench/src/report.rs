@@ -7,7 +7,12 @@ use serde_json::{Map, Value, json};
 pub fn of_figures(f: &Figures) -> Value {
     let mut all = Map::new();
     let mut put = |name: &str, value: Value| all.insert(name.to_owned(), value);
-    put("status", json!(if f.is_solved() { "solved" } else { "unsolved" }));
+    let status = match f.undecided {
+        _ if f.is_solved() => "solved",
+        0 => "unsolved",
+        _ => "not decided",
+    };
+    put("status", json!(status));
     put("residual", json!(f.residual));
     put("solve_ms", in_milliseconds(&f.solve));
     put("replan_free_ms", in_milliseconds(&f.numbers));

@@ -2,7 +2,7 @@
 
 use bench::case::Case;
 use bench::families::{FAMILIES, Family, generate};
-use bench::measure::{Figures, Repeat, measure, median};
+use bench::measure::{Figures, Repeat, measure_case, median};
 use std::fs;
 use std::io::Write;
 use std::path::Path;
@@ -138,8 +138,7 @@ fn cases(filter: &str) -> std::io::Result<Vec<Case>> {
 }
 
 fn figures(case: &Case) -> Figures {
-    let text = serde_json::to_string(case).unwrap_or_default();
-    measure(&text, Repeat::Enough).unwrap_or_default()
+    measure_case(case, Repeat::Enough).unwrap_or_default()
 }
 
 fn state(figures: &Figures, peer: &Peer) -> String {

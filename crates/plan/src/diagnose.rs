@@ -16,10 +16,12 @@ pub(crate) mod trial;
 
 use crate::host::Host;
 use crate::planner::{Model, Planner, Unmet};
+use crate::rule::Source;
 use kernel::{SlotId, Values};
 use motion::{Freedom, Motion};
 use redundancy::Redundant;
 use solve::Level;
+use std::collections::BTreeSet;
 
 /// What can be said of a state: how much of it is free, what is superfluous, what does not hold.
 #[derive(Clone, PartialEq, Debug, Default)]
@@ -34,6 +36,9 @@ pub struct Analysis {
     pub redundant: Vec<Redundant>,
     /// The required constraints that do not hold, in order of declaration.
     pub conflicting: Vec<Unmet>,
+    /// Those that do not hold either, of components for which a search was given up: whether they can
+    /// is not decided.
+    pub undecided: Vec<Unmet>,
 }
 
 impl Planner {
@@ -47,6 +52,15 @@ impl Planner {
         conflicting.retain(|u| u.level == Level::Required);
         let redundancy = self.redundancy(model, values, &conflicting, host);
         let Freedom { freedom, free, motions } = self.freedom(model, values, &redundancy, host);
-        Analysis { freedom, free, motions, redundant: redundancy.constraints, conflicting }
+        let open: BTreeSet<Source> = self
+            .given_up
+            .iter()
+            .flat_map(|(component, _)| &component.rules)
+            .map(|&r| self.rules.get(r).source)
+            .collect();
+        let (undecided, conflicting) =
+            conflicting.into_iter().partition(|u| open.contains(&u.source));
+        let redundant = redundancy.constraints;
+        Analysis { freedom, free, motions, redundant, conflicting, undecided }
     }
 }

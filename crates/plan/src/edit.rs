@@ -67,6 +67,8 @@ pub enum NotDecided {
     Search(u64),
     /// After so many modes.
     Modes(u64),
+    /// After so many ways to choose among the roots of equations.
+    Roots(u64),
 }
 
 /// Why an edit changed nothing.
@@ -140,6 +142,7 @@ impl Planner {
         let mut report = EditReport { reached: true, ..EditReport::default() };
         let before = values.clone();
         self.plans.past.begin();
+        self.given_up.clear();
         let mut is_known = vec![false; self.rules.len()];
         let mut came = Vec::with_capacity(tasks.len());
         for task in &mut tasks {
@@ -179,6 +182,9 @@ impl Planner {
         }
         let ran = run(self, model, task, &Aim::default(), before, values, host);
         let is_plain = ran.is_solved && ran.double_roots.is_empty();
+        if let Some(bound) = ran.not_decided {
+            self.given_up.push((task.component.clone(), bound));
+        }
         note(report, task, ran);
         let (plan, began) = began.filter(|_| is_plain)?;
         let rules = task.component.rules.iter().copied();
@@ -258,7 +264,13 @@ impl Planner {
                 Some(report.not_decided.map_or(RefusalReason::Unmet, RefusalReason::NotDecided));
             let holding = |s| aim.holding(model.structure, s);
             let setup = Setup { model, holding: &holding, aim };
-            let conflict = self.against(&setup, &all_rules, &wanted, host);
+            let conflict = match report.not_decided {
+                // every part of it would be searched as long
+                Some(NotDecided::Roots(_)) => None,
+                Some(NotDecided::Search(_) | NotDecided::Modes(_)) | None => {
+                    self.against(&setup, &all_rules, &wanted, host)
+                }
+            };
             report.conflicts = conflict.map_or(report.conflicts, |c| vec![c]);
             if report.not_decided.is_none() {
                 let tasks = &self.latest.tasks;

@@ -1,6 +1,7 @@
 //! The planner: rules lowered once for a structure, components, and plans by shape.
 
 use crate::component::{Component, Net};
+use crate::edit::NotDecided;
 use crate::fault::Fault;
 use crate::holds;
 use crate::host::Host;
@@ -40,6 +41,8 @@ pub struct Planner {
     resting: Option<Vec<Task>>,
     /// For every component, what opening the document came to, if that is remembered.
     pub(crate) came: Vec<Option<CameId>>,
+    /// The components for which opening found no solution before a search was given up.
+    pub(crate) given_up: Vec<(Rc<Component>, NotDecided)>,
 }
 
 /// What the latest edit planned: what an explanation is about.
@@ -68,6 +71,7 @@ impl Planner {
             latest: Latest::default(),
             resting: None,
             came: Vec::new(),
+            given_up: Vec::new(),
         };
         (planner, faults)
     }

@@ -129,9 +129,16 @@ pub(crate) fn ran(planner: &Planner, task: &Task, outcome: &Outcome) -> Ran {
             relation.map(|r| Failure { source: source(r), message: message.clone() })
         }
         Status::Solved
-        | Status::Stopped(Reason::Limit { .. } | Reason::NoSolution { .. } | Reason::Conflict) => {
-            None
-        }
+        | Status::Stopped(
+            Reason::Limit { .. }
+            | Reason::NoSolution { .. }
+            | Reason::NotDecided { .. }
+            | Reason::Conflict,
+        ) => None,
+    };
+    let not_decided = match outcome.status {
+        Status::Stopped(Reason::NotDecided { tried }) => Some(NotDecided::Roots(tried.into())),
+        Status::Solved | Status::Stopped(_) => None,
     };
     let double_roots = outcome.notes.iter().filter_map(|n| match n {
         solve::Note::DoubleRoot { slot } => task.component.slots.get(*slot as usize).copied(),
@@ -139,7 +146,7 @@ pub(crate) fn ran(planner: &Planner, task: &Task, outcome: &Outcome) -> Ran {
     let is_solved = outcome.is_solved();
     let is_conflict = outcome.status == Status::Stopped(Reason::Conflict);
     let double_roots = double_roots.collect();
-    Ran { is_solved, is_conflict, conflicts, failure, double_roots, ..Ran::default() }
+    Ran { is_solved, is_conflict, conflicts, failure, double_roots, not_decided, ..Ran::default() }
 }
 
 /// The host as the solver sees it: relations by number, texts kept aside.

@@ -82,10 +82,11 @@ pub(crate) fn refusal_for(state: &State, reason: &RefusalReason, report: &EditRe
 }
 
 /// Names the bound at which a search was given up.
-fn given_up(bound: NotDecided) -> String {
+pub(crate) fn given_up(bound: NotDecided) -> String {
     match bound {
         NotDecided::Search(n) => format!("{n} states of the search, and not all were looked at"),
         NotDecided::Modes(n) => format!("{n} modes, and not all were tried"),
+        NotDecided::Roots(n) => format!("{n} choices among roots, and not all were tried"),
     }
 }
 

@@ -17,6 +17,8 @@ use crate::strip::Portion;
 use crate::system::{SlotIndex, Stay};
 use crate::test::TestScratch;
 
+mod backtrack;
+mod roots;
 mod strips;
 
 /// Up to this many unknowns least change is tried by the measure too, whose cost is cubic.
@@ -261,6 +263,21 @@ struct Run<'a> {
 
 impl Run<'_> {
     fn step(&mut self, step: &Step) -> Result<(), Failure> {
+        let inputs = self.inputs(step);
+        let valued = step.targets.iter().all(|&t| self.plan.slots[t as usize].stay != Stay::Free);
+        if inputs != Motion::Moved && valued && self.holds_in_x0(step, inputs) {
+            for &t in &step.targets {
+                self.values[t as usize] = self.frame.x0[t as usize];
+                self.buffers.motion[t as usize] = Motion::Still;
+            }
+            return Ok(());
+        }
+        self.compute(step)?;
+        self.settle(step, inputs)
+    }
+
+    /// How what a step reads stands to x0.
+    fn inputs(&self, step: &Step) -> Motion {
         let mut inputs = Motion::Still;
         for &r in &step.reads {
             match self.buffers.motion[r as usize] {
@@ -273,15 +290,11 @@ impl Run<'_> {
                 }
             }
         }
-        let valued = step.targets.iter().all(|&t| self.plan.slots[t as usize].stay != Stay::Free);
-        if inputs != Motion::Moved && valued && self.holds_in_x0(step, inputs) {
-            for &t in &step.targets {
-                self.values[t as usize] = self.frame.x0[t as usize];
-                self.buffers.motion[t as usize] = Motion::Still;
-            }
-            return Ok(());
-        }
-        self.compute(step)?;
+        inputs
+    }
+
+    /// Tests and marks what a step has computed.
+    fn settle(&mut self, step: &Step, inputs: Motion) -> Result<(), Failure> {
         for &t in &step.targets {
             let slot = &self.plan.slots[t as usize];
             let value = self.values[t as usize];
@@ -429,7 +442,7 @@ impl Run<'_> {
     fn measure(&mut self, step: &Step, measure: &Measure) -> Result<(), Failure> {
         for k in 0..self.tries(step) {
             self.start_from_last(&step.targets);
-            self.scatter(&step.targets, k);
+            self.scatter(&step.targets, k, 0.25 * f64::from(1u32 << k));
             let Frame { x0, scales, .. } = self.frame;
             let work = &mut self.buffers.work;
             if measure.solve(x0, self.values, scales, self.trust, work) == Measured::Least {
@@ -450,33 +463,29 @@ impl Run<'_> {
             Trust::Branch => &[Trust::Branch],
             Trust::Any | Trust::Leap => &[Trust::Any, Trust::Leap],
         };
-        for k in 0..self.tries(step) {
-            for &way in ways {
-                self.start_from_last(&step.targets);
-                self.scatter(&step.targets, k);
-                let buffers = &mut *self.buffers;
-                let (work, scratch) = (&mut buffers.work, &mut buffers.square);
-                let (last, scales) = (self.last, &self.frame.scales);
-                match square.solve(last, self.values, scales, way, work, scratch) {
-                    Solved::Regular => return Ok(()),
-                    Solved::Double(slot) => {
-                        self.buffers.notes.push(Note::DoubleRoot { slot });
-                        return Ok(());
-                    }
-                    Solved::Failed => {}
+        for &way in ways {
+            self.start_from_last(&step.targets);
+            let buffers = &mut *self.buffers;
+            let (work, scratch) = (&mut buffers.work, &mut buffers.square);
+            let (last, scales) = (self.last, &self.frame.scales);
+            match square.solve(last, self.values, scales, way, work, scratch) {
+                Solved::Regular => return Ok(()),
+                Solved::Double(slot) => {
+                    self.buffers.notes.push(Note::DoubleRoot { slot });
+                    return Ok(());
                 }
+                Solved::Failed => {}
             }
         }
         self.fail(step)
     }
 
-    /// Moves the start of a search that found nothing before; its first try begins where it stands.
-    fn scatter(&mut self, targets: &[SlotIndex], k: u32) {
+    /// Moves the `k`th start of a search; its first begins where it stands.
+    fn scatter(&mut self, targets: &[SlotIndex], k: u32, reach: f64) {
         if k == 0 {
             return;
         }
         let point = if k % 2 == 1 { Point::Positive } else { Point::Mixed };
-        let reach = 0.25 * f64::from(1u32 << k);
         for &t in targets {
             let by = generic_number(u64::from(t) << 8 | u64::from(k), point);
             self.values[t as usize] += reach * self.frame.scales[t as usize] * by;

@@ -57,6 +57,11 @@ pub enum Reason {
         /// Its index in the plan.
         step: u32,
     },
+    /// No solution was found before the search over the roots of steps reached its bound.
+    NotDecided {
+        /// How many ways to choose them were tried.
+        tried: u32,
+    },
     /// Required relations contradict: they are unmet.
     Conflict,
     /// A host's method failed.

@@ -72,6 +72,22 @@ pub struct Step {
     pub(crate) rows: Few,
 }
 
+impl Step {
+    /// Returns true if it may have several solutions for what it reads.
+    pub(crate) fn may_branch(&self) -> bool {
+        match self.kind {
+            StepKind::Inverse { roots } => roots > 1,
+            StepKind::Newton => true,
+            StepKind::Alias
+            | StepKind::Method { .. }
+            | StepKind::Linear
+            | StepKind::LeastChange
+            | StepKind::Compromise
+            | StepKind::Opaque { .. } => false,
+        }
+    }
+}
+
 /// A row that depends on rows accepted before it.
 #[derive(Clone, PartialEq, Eq, Debug)]
 pub struct Rejected {

@@ -69,7 +69,10 @@ pub fn run(
     let trust = if solved_before && plan.has_branches { Trust::Branch } else { Trust::Any };
     let mut way = Way { plan, frame, buffers, host, trial, part: Part::Whole };
     let mut result = way.go(last, goal, values, trust);
-    if let Err(Stop::NoWay(Failure { reason: Reason::NoSolution { .. }, .. })) = result
+    if let Err(Stop::NoWay(Failure {
+        reason: Reason::NoSolution { .. } | Reason::NotDecided { .. },
+        ..
+    })) = result
         && !solved_before
         && let Some(relaxed) = plan.relaxed()
     {
@@ -328,9 +331,10 @@ impl Stop {
         match self {
             Self::At(fraction, Failure { reason, .. }) => match reason {
                 Reason::Method { .. } => reason,
-                Reason::Limit { .. } | Reason::NoSolution { .. } | Reason::Conflict => {
-                    Reason::Limit { fraction }
-                }
+                Reason::Limit { .. }
+                | Reason::NoSolution { .. }
+                | Reason::NotDecided { .. }
+                | Reason::Conflict => Reason::Limit { fraction },
             },
             Self::NoWay(failure) => failure.reason,
         }
@@ -360,6 +364,10 @@ impl Way<'_> {
         let failure = match self.direct(last, goal, trust) {
             Ok(()) => {
                 values.copy_from_slice(self.trial);
+                // on another root a surplus row may hold
+                if trust != Trust::Branch && self.is_broken() && self.search(last, goal).is_ok() {
+                    values.copy_from_slice(self.trial);
+                }
                 return Ok(());
             }
             Err(failure) => failure,
@@ -372,14 +380,14 @@ impl Way<'_> {
             values.copy_from_slice(last);
             return Ok(());
         }
-        if self.approach(last, goal, &failure).is_ok() || self.same_orientation(goal) {
-            values.copy_from_slice(self.trial);
-            return Ok(());
-        }
-        Err(match trust {
-            Trust::Branch => Stop::At(fraction, failure),
-            Trust::Any | Trust::Leap => Stop::NoWay(failure),
-        })
+        let arrived = match self.approach(last, goal, &failure) {
+            Ok(()) => Ok(()),
+            Err(_) if trust == Trust::Branch => {
+                self.same_orientation(goal).then_some(()).ok_or(Stop::At(fraction, failure))
+            }
+            Err(_) => self.search(last, goal).map_err(Stop::NoWay),
+        };
+        arrived.map(|()| values.copy_from_slice(self.trial))
     }
 
     /// One stride.
@@ -395,6 +403,14 @@ impl Way<'_> {
         trust: Trust,
         approach: &Approach,
     ) -> Result<(), Failure> {
+        self.set_out(last, goal, part);
+        let Self { plan, frame, part, .. } = *self;
+        let attempt = Attempt { plan, frame, last, trust, part };
+        attempt.run(self.trial, approach, self.buffers, self.host)
+    }
+
+    /// Puts the last state and the known slots, that part of the way on, where attempts run.
+    fn set_out(&mut self, last: &[f64], goal: &[f64], part: f64) {
         self.trial.clear();
         self.trial.extend_from_slice(last);
         let mut move_known = |i: usize| {
@@ -411,9 +427,6 @@ impl Way<'_> {
                 slice.inputs.iter().for_each(|&slot| move_known(slot as usize));
             }
         }
-        let Self { plan, frame, part, .. } = *self;
-        let attempt = Attempt { plan, frame, last, trust, part };
-        attempt.run(self.trial, approach, self.buffers, self.host)
     }
 
     /// Many strides, each as long as the branch allows; returns the part that was gone.
@@ -456,6 +469,21 @@ impl Way<'_> {
                 Err(next) => failure = next,
             }
         }
+    }
+
+    /// One stride, going back to other roots where a step has no solution.
+    fn search(&mut self, last: &[f64], goal: &[f64]) -> Result<(), Failure> {
+        self.set_out(last, goal, 1.0);
+        let Self { plan, frame, part, .. } = *self;
+        let attempt = Attempt { plan, frame, last, trust: Trust::Any, part };
+        attempt.search(self.trial, self.buffers, self.host)
+    }
+
+    /// Returns true if a required row that depends on others does not hold, but may on another root.
+    fn is_broken(&mut self) -> bool {
+        let Self { plan, frame, part, .. } = *self;
+        let attempt = Attempt { plan, frame, last: &[], trust: Trust::Any, part };
+        plan.has_branches && attempt.broken(self.trial, self.buffers).is_some()
     }
 
     /// Tries to arrive without a way: allowed where every block lies as it did.

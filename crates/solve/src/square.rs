@@ -6,6 +6,8 @@
 //! and Marquardt's is. Iteration goes on to stagnation, so that double roots come out as well as the
 //! arithmetic allows. The linear algebra is dense where the core is small, sparse where it is not.
 
+mod further;
+
 use crate::block::{Block, Local, Workspace};
 use crate::dense::{self, Factors};
 use crate::lower::{Definers, Problem};
@@ -49,6 +51,8 @@ pub(crate) struct SquareScratch {
     start: Vec<f64>,
     /// By row.
     weight: Vec<f64>,
+    /// How much was done: unknowns of the core, each time that a matrix was factorised.
+    pub(crate) work: usize,
 }
 
 /// How much a solution may differ from where it started.
@@ -202,6 +206,7 @@ impl Square {
 
     /// Factorises the matrix.
     fn factorise(&self, s: &mut SquareScratch) -> Factors {
+        s.work += self.block.core.len();
         if self.is_dense() {
             s.factors.clear();
             s.factors.extend_from_slice(&s.matrix);

@@ -11,7 +11,7 @@ use crate::aim::Aim;
 use crate::diagnose::gradient::is_linear;
 use crate::diagnose::repair::{Repair, Suspects};
 use crate::diagnose::trial::{Setup, Trial, perturbed};
-use crate::edit::Conflict;
+use crate::edit::{Conflict, NotDecided};
 use crate::host::Host;
 use crate::planner::{Model, Planner, Unmet};
 use crate::rule::Source;
@@ -56,6 +56,8 @@ pub enum Certainty {
         /// How many sets were tried.
         trials: usize,
     },
+    /// Not decided: no solution was found, and the search for one was given up.
+    GivenUp(NotDecided),
 }
 
 /// A constraint with its rules.
@@ -93,6 +95,18 @@ impl Planner {
         for component in self.whole(model.structure) {
             let units = self.units(&component.rules);
             if !units.iter().any(|u| unmet.contains(&u.source)) {
+                continue;
+            }
+            let given_up = self.given_up.iter().find(|(c, _)| c.rules == component.rules);
+            if let Some(&(_, bound)) = given_up {
+                // parts of it would be searched as long
+                let constraints = units.iter().map(|u| u.source);
+                found.push(Contradiction {
+                    constraints: constraints.filter(|s| unmet.contains(s)).collect(),
+                    anchors: Vec::new(),
+                    certainty: Certainty::GivenUp(bound),
+                    repairs: Vec::new(),
+                });
                 continue;
             }
             let most = (TRIED / units.len()).clamp(20, TRIALS);

@@ -85,6 +85,9 @@ fn motion(open: &Open, motion: &Motion) -> MotionView {
     MotionView { summary, moves }
 }
 
+/// How many constraints of a search that was given up are named.
+const FEW: usize = 4;
+
 fn contradiction(open: &Open, c: &Contradiction) -> ContradictionView {
     let state = &open.state;
     let constraints = names(open, &c.constraints);
@@ -104,6 +107,18 @@ fn contradiction(open: &Open, c: &Contradiction) -> ContradictionView {
         (Certainty::NotDecided { trials }, _) => {
             let end = format!("the search ended after {trials} trials");
             (false, format!("not decided which of {list} contradict: {end}"))
+        }
+        (Certainty::GivenUp(bound), count) => {
+            let few = words::listed(&all[..count.min(FEW)]);
+            let more =
+                if count > FEW { format!(" and {} more", count - FEW) } else { String::new() };
+            let bound = words::given_up(bound);
+            (
+                false,
+                format!(
+                    "not decided whether {few}{more} can hold: no solution was found in {bound}"
+                ),
+            )
         }
     };
     let shown = |x: f64| base::number::rounded(x, 6);

@@ -7,6 +7,7 @@ mod idle;
 mod measure;
 mod random;
 mod reach;
+mod roots;
 mod searching;
 mod ways;
 mod who;

@@ -1,0 +1,79 @@
+//! Several roots: where one leads nowhere, another does; and a search that ends.
+
+use crate::builder::{Sheet, bits, close};
+use solve::{NoHost, Reason, SlotIndex, Status};
+
+/// A place at these distances from two others.
+fn tied(sheet: &mut Sheet, start: [f64; 2], ties: [([SlotIndex; 2], f64); 2]) -> [SlotIndex; 2] {
+    let place = sheet.place(start[0], start[1]);
+    for (from, length) in ties {
+        let (distance, length) = (sheet.distance(from, place), sheet.c(length));
+        sheet.require(distance, length);
+    }
+    place
+}
+
+/// A knee between two walls, almost stretched: up or down by 0.0316 from half way between them.
+fn knee(sheet: &mut Sheet, height: f64) -> [SlotIndex; 2] {
+    let (left, right) = (sheet.anchor(0.0, 0.0), sheet.anchor(10.0, 0.0));
+    tied(sheet, [5.0, height], [(left, 5.0001), (right, 5.0001)])
+}
+
+#[test]
+fn what_no_root_allows_is_refused_and_changes_nothing() {
+    let mut s = Sheet::default();
+    let p = knee(&mut s, 0.3);
+    let below = s.anchor(5.0, -3.0);
+    // neither from 0.0316 nor from -0.0316 do 1 and 1.9 reach
+    tied(&mut s, [5.0, -1.0], [(p, 1.0), (below, 1.9)]);
+    let plan = s.plan();
+    let (values, outcome) = s.run(&plan, &[], &mut NoHost);
+    assert!(matches!(outcome.status, Status::Stopped(Reason::NoSolution { .. })), "{outcome:?}");
+    assert_eq!(bits(&values), bits(&s.x0));
+}
+
+#[test]
+fn an_earlier_step_takes_its_other_root_where_a_later_one_finds_none() {
+    let mut s = Sheet::default();
+    // it starts above, and above it is found; from there 1 and 1.99 do not reach 3.0316 far
+    let p = knee(&mut s, 0.3);
+    let below = s.anchor(5.0, -3.0);
+    let q = tied(&mut s, [5.1, -1.0], [(p, 1.0), (below, 1.99)]);
+    let (values, outcome) = s.run(&s.plan(), &[], &mut NoHost);
+    assert!(outcome.is_solved(), "{outcome:?}");
+    let height = -base::number::sqrt(5.0001 * 5.0001 - 25.0);
+    close(values[p[1] as usize], height, 1e-6);
+    let [x, y] = q.map(|s| values[s as usize]);
+    close(base::number::hypot(x - 5.0, y + 3.0), 1.99, 1e-9);
+    assert!(x > 5.0, "of its own two roots it takes the nearer");
+}
+
+#[test]
+fn what_has_no_part_in_a_failure_keeps_the_nearest_root() {
+    let mut s = Sheet::default();
+    let p = knee(&mut s, 0.3);
+    let below = s.anchor(5.0, -3.0);
+    // a second knee between the first and the wall that fails, with no part in it
+    let (left, right) = (s.anchor(20.0, 0.0), s.anchor(30.0, 0.0));
+    let other = tied(&mut s, [25.0, 0.3], [(left, 5.0001), (right, 5.0001)]);
+    tied(&mut s, [25.0, 1.0], [(other, 1.0), (left, 5.1)]);
+    tied(&mut s, [5.1, -1.0], [(p, 1.0), (below, 1.99)]);
+    let (values, outcome) = s.run(&s.plan(), &[], &mut NoHost);
+    assert!(outcome.is_solved(), "{outcome:?}");
+    assert!(values[other[1] as usize] > 0.0, "{}", values[other[1] as usize]);
+}
+
+#[test]
+fn a_surplus_row_chooses_the_root_on_which_it_holds() {
+    let mut s = Sheet::default();
+    let p = knee(&mut s, 0.3);
+    let below = s.anchor(5.0, -3.0);
+    let height = 3.0 - base::number::sqrt(5.0001 * 5.0001 - 25.0);
+    let (distance, length) = (s.distance(below, p), s.c(height));
+    s.require(distance, length);
+    let plan = s.plan();
+    assert_eq!(plan.report.rejected.len(), 1);
+    let (values, outcome) = s.run(&plan, &[], &mut NoHost);
+    assert!(outcome.is_solved(), "{outcome:?}");
+    close(values[p[1] as usize], height - 3.0, 1e-6);
+}
