@@ -100,14 +100,14 @@ impl<'a> Evaluator<'a> {
                 }
                 _ => {
                     let builtin = self.known(THING_MESSAGES, to, name)?;
-                    in_place(builtin, arguments)?;
-                    self.send_thing(builtin.function, to, nearest)
+                    let arguments = in_place(builtin, arguments)?;
+                    self.send_thing(builtin.function, to, &arguments, nearest)
                 }
             },
             Answer::Made(_) => {
                 let builtin = self.known(THING_MESSAGES, to, name)?;
-                in_place(builtin, arguments)?;
-                self.send_thing(builtin.function, to, nearest)
+                let arguments = in_place(builtin, arguments)?;
+                self.send_thing(builtin.function, to, &arguments, nearest)
             }
             Answer::Bool(b) if name == "text" && arguments.is_empty() => {
                 Ok(Answer::text(if *b { "true" } else { "false" }))
@@ -274,25 +274,17 @@ impl<'a> Evaluator<'a> {
         &self,
         message: ThingMessage,
         to: &Answer<'a>,
+        arguments: &[Answer<'a>],
         nearest: ThingId,
     ) -> Result<Answer<'a>> {
         match (message, to) {
-            (ThingMessage::Picture, Answer::Thing(t)) => self.picture_of_parts(*t),
-            (ThingMessage::Picture, Answer::Made(made)) => {
-                let is_thing = |a: &&Answer<'a>| matches!(a, Answer::Thing(_) | Answer::Made(_));
-                let name = &self.tables.picture;
-                let picture = |a: &Answer<'a>| self.send(a, name, Vec::new(), None, nearest);
-                let parts = made.fields.iter().filter(is_thing).map(picture);
-                self.join_pictures(&parts.collect::<Result<Vec<_>>>()?)
-            }
-            (ThingMessage::Parts, _) => Ok(Answer::List(self.by_position(to)?.into())),
+            (ThingMessage::Parts, _) => Ok(Answer::List(self.parts_of(to)?.into())),
+            (ThingMessage::Made, _) => self.made_of(to, arguments, nearest),
+            (ThingMessage::IsPlace, _) => Ok(Answer::Bool(self.is_place(to))),
             (ThingMessage::Owner, _) => self.owner(to),
             (ThingMessage::Class, _) => {
                 let name = self.class_of(to).map(|c| &self.document.classes[c].name);
                 Ok(Answer::text(name.map_or("", |n| n)))
-            }
-            (ThingMessage::Picture, _) => {
-                Err(Fault::wrong(format!("{} has no picture", self.kind(to))))
             }
         }
     }

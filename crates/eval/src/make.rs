@@ -52,6 +52,75 @@ impl<'a> Evaluator<'a> {
         Ok(Answer::Made(Rc::new(made)))
     }
 
+    /// Returns the parts of a thing, in order; what it only refers to is none.
+    pub(crate) fn parts_of(&self, of: &Answer<'a>) -> Result<Vec<Answer<'a>>> {
+        match of {
+            Answer::Thing(t) if !self.is_set(*t) => {
+                let own = self.structure.parts(*t).filter(|&p| !self.is_reference(p));
+                own.map(|p| self.part(p)).collect()
+            }
+            other => self.by_position(other),
+        }
+    }
+
+    /// Makes a thing of another's class with other parts; what that one refers to, it refers to.
+    pub(crate) fn made_of(
+        &self,
+        model: &Answer<'a>,
+        arguments: &[Answer<'a>],
+        nearest: ThingId,
+    ) -> Result<Answer<'a>> {
+        let Some(parts) = arguments.first() else { return Ok(model.clone()) };
+        let mut parts = self.items(parts)?.iter().cloned().collect::<Vec<_>>().into_iter();
+        let composite = match model {
+            Answer::Thing(t) => *self.class_kind(*t) == ClassKind::Composite,
+            _ => true,
+        };
+        let Some(class) = self.class_of(model).filter(|_| composite) else {
+            return Ok(Answer::List(parts.collect()));
+        };
+        let layout = self.layout(class);
+        let mut made = Made { class, fields: Vec::with_capacity(layout.fields.len()) };
+        for (i, &field) in layout.fields.iter().enumerate() {
+            let field_class = self.document.field_class(field);
+            let refers = matches!(self.document.classes[field_class].kind, ClassKind::Reference(_));
+            made.fields.push(match (model, refers) {
+                (Answer::Thing(t), true) => {
+                    let part = ThingId(self.structure.things[*t].first_part.0 + i as u32);
+                    self.part(part).unwrap_or(Answer::List(Rc::from([])))
+                }
+                (_, _) => match parts.next() {
+                    Some(part) => self.as_class(part, field_class, nearest)?,
+                    None => self.default_field(&made, field, nearest)?,
+                },
+            });
+        }
+        match parts.next() {
+            None => Ok(Answer::Made(Rc::new(made))),
+            Some(_) => {
+                let class = &self.document.classes[class].name;
+                Err(Fault::wrong(format!(
+                    "{class} has {} parts, and here are more",
+                    made.fields.len()
+                )))
+            }
+        }
+    }
+
+    /// Returns true for a thing of two lengths `x` and `y`.
+    pub(crate) fn is_place(&self, of: &Answer<'a>) -> bool {
+        let Some(class) = self.class_of(of) else { return false };
+        self.coordinates(class).is_some() && self.layout(class).fields.len() == 2
+    }
+
+    fn is_reference(&self, thing: ThingId) -> bool {
+        matches!(self.class_kind(thing), ClassKind::Reference(_))
+    }
+
+    fn is_set(&self, thing: ThingId) -> bool {
+        matches!(self.class_kind(thing), ClassKind::Set(_))
+    }
+
     /// Sees a tuple as a thing of the class that is wanted; leaves everything else as it is.
     pub(crate) fn as_class(
         &self,

@@ -97,7 +97,7 @@ impl Evaluator<'_> {
     }
 
     /// Returns the fields that are the coordinates of a class's things, if they are places.
-    fn coordinates(&self, class: ClassId) -> Option<(u32, u32)> {
+    pub(crate) fn coordinates(&self, class: ClassId) -> Option<(u32, u32)> {
         if self.document.classes[class].kind != ClassKind::Composite {
             return None;
         }

@@ -8,8 +8,7 @@ use crate::answer::{Answer, Closure, Frame};
 use crate::evaluator::{Evaluator, Given, Result};
 use crate::fault::Fault;
 use base::Name;
-use kernel::{ClassId, ClassKind, Message, PartRole, ThingId};
-use std::rc::Rc;
+use kernel::{ClassId, Message, PartRole, ThingId};
 
 impl<'a> Evaluator<'a> {
     /// Sends a message, or reads a part. `nearest` is the thing whose message sends it.
@@ -93,7 +92,18 @@ impl<'a> Evaluator<'a> {
         nearest: ThingId,
     ) -> Result<Answer<'a>> {
         let frame = self.bind(Frame::sent(to.clone(), nearest), message, arguments)?;
-        self.deeper(|| self.term(&message.answer, &frame)).map_err(|f| f.within(message.origin))
+        let answer = self
+            .deeper(|| self.term(&message.answer, &frame))
+            .map_err(|f| f.within(message.origin));
+        match answer {
+            // things and lists of things stand for their pictures
+            Ok(Answer::Thing(_) | Answer::Made(_) | Answer::List(_))
+                if message.name == self.tables.picture =>
+            {
+                self.join_pictures(&[answer?], frame.nearest)
+            }
+            other => other,
+        }
     }
 
     /// Binds the arguments of a message to its parameters, by label or by position.
@@ -159,6 +169,12 @@ impl<'a> Evaluator<'a> {
         self.deeper(|| self.term(body, &frame))
     }
 
+    /// Returns what every thing answers to a message, if it does.
+    fn general(&self, class: ClassId, name: &Name) -> Option<&'a Message> {
+        let object = *self.document.primary_line(class).last()?;
+        self.class_message(object, name)
+    }
+
     /// Combines what several superclasses say, where that is what the message means.
     ///
     /// Of the primary line the nearest definition speaks; classes passed on the way there add what
@@ -176,7 +192,8 @@ impl<'a> Evaluator<'a> {
         }
         let document = self.document;
         let found = self.message(&Answer::Thing(thing), name, None);
-        if name != "picture" && !found.is_some_and(|m| m.is_combining) {
+        let general = self.general(class, name);
+        if ![found, general].into_iter().flatten().any(|m| m.is_combining) {
             return Ok(None);
         }
         let line = document.primary_line(class);
@@ -190,14 +207,14 @@ impl<'a> Evaluator<'a> {
         let mut answers = Vec::new();
         if let Some((_, message)) = own {
             answers.push(self.answer(&Answer::Thing(thing), message, Vec::new(), thing)?);
-        } else if name == "picture" {
-            return self.picture_of_parts(thing).map(Some);
+        } else if let Some(general) = general {
+            return self.answer(&Answer::Thing(thing), general, Vec::new(), thing).map(Some);
         }
         for (i, field) in layout.fields.iter().enumerate() {
             if field.role == PartRole::Superclass && passed.contains(&field.class) {
                 let part =
                     Answer::Thing(ThingId(self.structure.things[thing].first_part.0 + i as u32));
-                if name == "picture" || self.message(&part, name, None).is_some() {
+                if self.message(&part, name, None).is_some() {
                     answers.push(self.send(&part, name, Vec::new(), None, thing)?);
                 }
             }
@@ -206,7 +223,7 @@ impl<'a> Evaluator<'a> {
             return Ok(answers.pop());
         }
         if name == "picture" {
-            return self.join_pictures(&answers).map(Some);
+            return self.join_pictures(&answers, thing).map(Some);
         }
         let mut all = Vec::new();
         for answer in answers {
@@ -216,31 +233,5 @@ impl<'a> Evaluator<'a> {
             }
         }
         Ok(Some(Answer::List(all.into())))
-    }
-
-    /// Combines the pictures of all parts; where one has a fault, the others go on without it.
-    pub(crate) fn picture_of_parts(&self, thing: ThingId) -> Result<Answer<'a>> {
-        let mut elements = Vec::new();
-        for part in self.structure.parts(thing) {
-            match self.class_kind(part) {
-                ClassKind::Primitive(_) | ClassKind::Set(_) | ClassKind::Reference(_) => continue,
-                ClassKind::Composite | ClassKind::List(_) => {}
-            }
-            let to = Answer::Thing(part);
-            match self.deeper(|| self.send(&to, &self.tables.picture, Vec::new(), None, part)) {
-                Ok(Answer::Picture(picture)) => match Rc::try_unwrap(picture) {
-                    Ok(more) if elements.is_empty() => elements = more,
-                    Ok(more) => elements.extend(more),
-                    Err(shared) => elements.extend(shared.iter().cloned()),
-                },
-                Ok(other) => {
-                    let kind = self.kind(&other);
-                    let fault = Fault::wrong(format!("{kind} where a picture is wanted"));
-                    self.faults.borrow_mut().push(fault);
-                }
-                Err(fault) => self.faults.borrow_mut().push(fault),
-            }
-        }
-        Ok(Answer::Picture(Rc::new(elements)))
     }
 }

@@ -5,8 +5,8 @@ use crate::evaluator::{Evaluator, Result};
 use crate::fault::Fault;
 use base::Name;
 use drawing::{Anchoring, Color, Element, Layer, Line, Placement, Point, Shape, Tag};
-use kernel::ThingId;
 use kernel::builtin::{Function, PictureMessage};
+use kernel::{ClassKind, ThingId};
 use std::rc::Rc;
 
 /// How high a label's letters are, in pixels.
@@ -46,7 +46,7 @@ impl<'a> Evaluator<'a> {
             }
             Function::Label => self.words(arguments, Placement::OnScreen(LABEL_PIXELS))?,
             Function::Text => self.words(arguments, Placement::OnSheet(number(2)?.abs()))?,
-            Function::Picture => return self.join_pictures(arguments),
+            Function::Picture => return self.join_pictures(arguments, nearest),
             Function::Sqrt
             | Function::Abs
             | Function::Sin
@@ -113,24 +113,63 @@ impl<'a> Evaluator<'a> {
     }
 
     /// Makes several pictures, or lists of pictures, one.
-    pub(crate) fn join_pictures(&self, pictures: &[Answer<'a>]) -> Result<Answer<'a>> {
+    pub(crate) fn join_pictures(
+        &self,
+        pictures: &[Answer<'a>],
+        nearest: ThingId,
+    ) -> Result<Answer<'a>> {
+        if let [picture @ Answer::Picture(_)] = pictures {
+            return Ok(picture.clone());
+        }
         let mut all = Vec::new();
-        self.gather(pictures, &mut all)?;
+        for picture in pictures {
+            self.gather(picture, nearest, &mut all)?;
+        }
         Ok(Answer::Picture(Rc::new(all)))
     }
 
-    fn gather(&self, pictures: &[Answer<'a>], all: &mut Vec<Element>) -> Result<()> {
-        for picture in pictures {
-            match picture {
-                Answer::Picture(elements) => all.extend(elements.iter().cloned()),
-                Answer::List(items) => self.deeper(|| self.gather(items, all))?,
-                other => {
-                    let kind = self.kind(other);
-                    return Err(Fault::wrong(format!("{kind} where a picture is wanted")));
+    /// Adds a picture, that of a thing, or those of a list: numbers and texts among its elements draw
+    /// nothing, and where a thing has a fault, the others go on without it.
+    fn gather(&self, picture: &Answer<'a>, nearest: ThingId, all: &mut Vec<Element>) -> Result<()> {
+        match picture {
+            Answer::Picture(elements) => all.extend(elements.iter().cloned()),
+            Answer::List(items) => {
+                for item in items.iter().filter(|i| self.may_draw(i)) {
+                    self.deeper(|| self.gather(item, nearest, all))?;
                 }
+            }
+            Answer::Thing(_) | Answer::Made(_) if self.may_draw(picture) => {
+                let name = &self.tables.picture;
+                match self.deeper(|| self.send(picture, name, Vec::new(), None, nearest)) {
+                    Ok(Answer::Picture(more)) => match Rc::try_unwrap(more) {
+                        Ok(more) if all.is_empty() => *all = more,
+                        Ok(more) => all.extend(more),
+                        Err(shared) => all.extend(shared.iter().cloned()),
+                    },
+                    Ok(other) => {
+                        let kind = self.kind(&other);
+                        let fault = Fault::wrong(format!("{kind} where a picture is wanted"));
+                        self.faults.borrow_mut().push(fault);
+                    }
+                    Err(fault) => self.faults.borrow_mut().push(fault),
+                }
+            }
+            Answer::Thing(_) => {}
+            other => {
+                let kind = self.kind(other);
+                return Err(Fault::wrong(format!("{kind} where a picture is wanted")));
             }
         }
         Ok(())
+    }
+
+    /// Returns true for what has a picture; the members of a set are parts of something else.
+    fn may_draw(&self, answer: &Answer<'a>) -> bool {
+        match answer {
+            Answer::Picture(_) | Answer::List(_) | Answer::Made(_) => true,
+            Answer::Thing(t) => !matches!(self.class_kind(*t), ClassKind::Set(_)),
+            Answer::Number(..) | Answer::Bool(_) | Answer::Text(_) | Answer::Function(_) => false,
+        }
     }
 
     /// Changes how a picture looks.

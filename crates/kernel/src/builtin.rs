@@ -36,6 +36,8 @@ pub enum Kind {
     Function,
     /// A picture.
     Picture,
+    /// A picture, a thing that has one, or a list of these.
+    Pictures,
     /// Any value.
     Any,
 }
@@ -148,7 +150,7 @@ table! {
     Rectangle "rectangle" Any [one("corner", Kind::Place), one("opposite", Kind::Place)] Picture "An upright box between two opposite corners.";
     Label "label" Any [one("at", Kind::Place), one("text", Kind::Text)] Picture "Words of one height on the screen, whatever the zoom.";
     Text "text" Any [one("at", Kind::Place), one("text", Kind::Text), one("size", Kind::Length)] Picture "Words whose height is a length on the sheet.";
-    Picture "picture" Any [many("picture", Kind::Any)] Picture "Several pictures in one, later ones in front.";
+    Picture "picture" Any [many("picture", Kind::Pictures)] Picture "Several pictures in one, later ones in front.";
 }
 
 table! {
@@ -209,8 +211,9 @@ table! {
 table! {
     /// A message that every thing knows.
     ThingMessage, THING_MESSAGES:
-    Picture "picture" Any [] Picture "The pictures of all its parts, unless its class says otherwise.";
-    Parts "parts" Any [] List "Its parts, in order.";
+    Parts "parts" Any [] List "Its parts, in order; what it only refers to is none.";
+    Made "made" Any [one("of", Kind::List)] Any "A thing of its class that is made of other parts.";
+    IsPlace "isPlace" Any [] Bool "Whether it consists of two lengths x and y.";
     Class "class" Any [] Text "The name of its class.";
     Owner "owner" Any [] Any "What it is a part of.";
 }

@@ -57,10 +57,7 @@ impl Lowerer<'_> {
             self.refer(Place { file: scope.file, span: word.span() }, &name, definer);
         }
         let (arguments, kind) = match above {
-            Some(definer) => self.user_message(scope, definer, word, args)?,
-            None if builtin::find(builtin::THING_MESSAGES, &name).is_some() => {
-                (unchecked(args), Kind::Picture)
-            }
+            Some(definer) => self.user_message(scope, (class, definer), word, args)?,
             None => {
                 let message = format!("no superclass has a message {name}");
                 self.error("unknown-part", scope.file, word.span(), message);
@@ -109,7 +106,7 @@ impl Lowerer<'_> {
                     return Some((Vec::new(), Kind::of_class(&self.document, part)));
                 }
                 match self.find_message(*class, &name, None).map(|(c, _)| c) {
-                    Some(definer) => self.user_message(scope, definer, word, args),
+                    Some(definer) => self.user_message(scope, (*class, definer), word, args),
                     None => self.own_message(scope, builtin::THING_MESSAGES, receiver, word, args),
                 }
             }
@@ -134,7 +131,7 @@ impl Lowerer<'_> {
     fn user_message(
         &mut self,
         scope: &Scope,
-        definer: ClassId,
+        (receiver, definer): (ClassId, ClassId),
         word: &ast::Word,
         args: Vec<Arg>,
     ) -> Option<(Vec<Argument>, Kind)> {
@@ -153,7 +150,7 @@ impl Lowerer<'_> {
             return None;
         }
         let arguments = self.bound(scope, &name, &wanted, args)?;
-        Some((arguments, self.message_kind(definer, &name)))
+        Some((arguments, self.message_kind(definer, &name).for_receiver(receiver, self.object)))
     }
 
     /// Binds arguments by label or position, their kinds checked.
@@ -305,7 +302,7 @@ impl Lowerer<'_> {
                 _ => Kind::Unknown,
             },
             Builtin::Function => Kind::Function,
-            Builtin::Picture => Kind::Picture,
+            Builtin::Picture | Builtin::Pictures => Kind::Picture,
             Builtin::Place | Builtin::Answer | Builtin::Any => Kind::Unknown,
         }
     }
@@ -332,7 +329,10 @@ impl Lowerer<'_> {
     pub(crate) fn call(&mut self, scope: &Scope, call: &ast::CallExpr) -> Option<(Term, Kind)> {
         let word = call.name()?;
         let name = word.name();
-        if matches!(word.text(), "der" | "moved" | "all" | "plot") {
+        // `moved(by: way)` is what every thing answers; of a place it is a task of a lesson
+        let labelled =
+            call.args().and_then(|a| a.args().next()).is_some_and(|a| a.label().is_some());
+        if matches!(word.text(), "der" | "moved" | "all" | "plot") && !labelled {
             self.not_yet(scope.file, call.span(), &format!("`{name}(…)` is"));
             return None;
         }
@@ -352,8 +352,13 @@ impl Lowerer<'_> {
             }
         }
         let Some(b) = builtin::find(builtin::FUNCTIONS, &name) else {
-            self.unknown_name(scope, &word);
-            return None;
+            let Some(b) = builtin::find(builtin::THING_MESSAGES, &name) else {
+                self.unknown_name(scope, &word);
+                return None;
+            };
+            let (arguments, kind) = self.own_arguments(scope, b, call.span(), None, args)?;
+            let to = Box::new(Term::Me);
+            return Some((Term::Send { to, name, arguments, above: None }, kind));
         };
         let (arguments, kind) = self.own_arguments(scope, b, call.span(), None, args)?;
         Some((Term::Call { name, arguments }, kind))
@@ -428,6 +433,7 @@ fn wanted_number(wanted: Builtin) -> Kind {
         | Builtin::Answer
         | Builtin::Function
         | Builtin::Picture
+        | Builtin::Pictures
         | Builtin::Any => Kind::Unknown,
     }
 }

@@ -160,6 +160,7 @@ fn is_statement(member: &Member) -> bool {
         member,
         Member::Set(_)
             | Member::Move(_)
+            | Member::Merge(_)
             | Member::Unmerge(_)
             | Member::Delete(_)
             | Member::Edit(_)

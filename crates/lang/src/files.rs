@@ -12,7 +12,7 @@ use syntax::{Parse, SyntaxElement, SyntaxKind, SyntaxToken};
 /// A text that a document is made of.
 #[derive(Clone, Debug)]
 pub struct File {
-    /// What `use` calls it; empty for the document itself.
+    /// What `use` calls it; empty for the document itself, and for what every thing answers.
     pub name: String,
     /// The text.
     pub text: Rc<str>,
@@ -20,7 +20,23 @@ pub struct File {
     pub parse: Parse,
 }
 
+/// What every thing answers, in the language itself.
+const OBJECT: &str = include_str!("object.thing");
+
 impl Lowerer<'_> {
+    /// Declares what every thing answers.
+    pub(crate) fn declare_object(&mut self) {
+        let id = self.files.next_id();
+        let parse = syntax::parse(id, OBJECT);
+        let classes = parse.file().members().filter_map(|m| match m {
+            Member::Class(class) => class.body(),
+            _ => None,
+        });
+        let members = classes.flat_map(|body| body.members()).collect();
+        self.files.push(File { name: String::new(), text: OBJECT.into(), parse: parse.clone() });
+        self.declare_body(&Scope::of(id, self.object), members);
+    }
+
     /// Reads a text and what it uses; returns its id.
     pub(crate) fn read(&mut self, name: &str, text: &str) -> FileId {
         let id = self.files.next_id();

@@ -92,6 +92,15 @@ impl Kind {
         }
     }
 
+    /// Returns what a message answers to a thing of a class: what is said to be an Object is a thing of
+    /// that class again.
+    pub(crate) fn for_receiver(self, receiver: ClassId, object: ClassId) -> Self {
+        match self {
+            Self::Thing(class) if class == object => Self::Thing(receiver),
+            known => known,
+        }
+    }
+
     /// Returns what is known of two values that fit: of bare numbers, what the other measures.
     pub(crate) fn joined(self, other: Self) -> Self {
         match self {
@@ -123,6 +132,8 @@ impl Kind {
             (Builtin::Numbers, _) => self.is(Builtin::Same, first, document),
             (Builtin::Function, _) => *self == Self::Function,
             (Builtin::Picture, _) => *self == Self::Picture,
+            (Builtin::Pictures, Self::List(element)) => element.is(wanted, first, document),
+            (Builtin::Pictures, _) => matches!(self, Self::Picture | Self::Thing(_)),
         }
     }
 }
@@ -148,7 +159,7 @@ pub(crate) fn wanted_in_words(wanted: Builtin, first: &Kind, document: &Document
         Builtin::Place => "a place, (x, y)".into(),
         Builtin::List => "a list".into(),
         Builtin::Function => "a function, `x => …`".into(),
-        Builtin::Picture => "a picture".into(),
+        Builtin::Picture | Builtin::Pictures => "a picture".into(),
         Builtin::Element | Builtin::Answer | Builtin::Any => "something".into(),
     }
 }

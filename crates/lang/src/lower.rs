@@ -263,6 +263,7 @@ impl<'l> Lowerer<'l> {
             let members = class.body().into_iter().flat_map(|b| b.members()).collect();
             self.declare_body(&Scope::of(file, id), members);
         }
+        self.declare_object();
         let root = self.document.root;
         self.declare_file(OWN, root);
     }

@@ -128,6 +128,10 @@ impl Lowerer<'_> {
         let mut names: Vec<String> = Vec::new();
         for c in document.lineage(class) {
             let c = &document.classes[c];
+            // what every thing answers is not worth a word
+            if c.supers.is_empty() {
+                continue;
+            }
             if c.supers.len() > 1 {
                 names.extend(c.supers.iter().map(|s| s.name.to_string()));
             }

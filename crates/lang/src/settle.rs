@@ -1,9 +1,10 @@
 //! Settling: what can be told only once every class has its members.
 
 use crate::classes::small_first;
+use crate::kinds::Kind;
 use crate::lower::Lowerer;
 use base::{Diagnostic, Name, Place};
-use kernel::{ClassId, Step};
+use kernel::{ClassId, Step, builtin};
 use std::collections::BTreeMap;
 use syntax::ast::AstNode;
 use syntax::edit::{Spot, insert_member};
@@ -12,6 +13,7 @@ impl Lowerer<'_> {
     /// Reports what can be told only once every class has its members.
     pub(crate) fn settle(&mut self) {
         self.report_overrides();
+        self.report_general();
         self.report_switches();
         self.report_conflicts();
         self.note_correspondences();
@@ -92,6 +94,38 @@ impl Lowerer<'_> {
         }
     }
 
+    /// What the lab asks of every thing has to be of a kind that it can show.
+    fn report_general(&mut self) {
+        for ((class, name), place) in self.named_at.clone() {
+            let general = self.defined_message(self.object, &name).is_some();
+            if class == self.object || !general || self.defined_message(class, &name).is_none() {
+                continue;
+            }
+            let found = self.message_kind(class, &name);
+            let (fits, wanted) = match name.as_str() {
+                "picture" => {
+                    let known = found.is(builtin::Kind::Pictures, &Kind::Unknown, &self.document);
+                    (known, "a picture, a thing, or a list of these")
+                }
+                "description" => (matches!(found, Kind::Text | Kind::Unknown), "a text"),
+                "accepts" => (matches!(found, Kind::Bool | Kind::Unknown), "a truth value"),
+                "structure" | "values" => {
+                    (matches!(found, Kind::List(_) | Kind::Unknown), "a list of parts or of rows")
+                }
+                _ => {
+                    let thing = matches!(found, Kind::Thing(_) | Kind::Tuple(_) | Kind::Unknown);
+                    (thing, "a thing of the class")
+                }
+            };
+            if !fits {
+                let found = found.words(&self.document);
+                let message = format!("{name} is {found} here, wanted {wanted}");
+                let d = Diagnostic::error("override-kind", place, message);
+                self.report(d.hint("every thing has this message; give yours another name"));
+            }
+        }
+    }
+
     /// Two unrelated definitions of one message are a conflict that the class must settle.
     fn report_conflicts(&mut self) {
         for (id, file, class) in self.declared.clone() {
@@ -138,7 +172,8 @@ impl Lowerer<'_> {
         let mut found: BTreeMap<Name, Vec<ClassId>> = BTreeMap::new();
         for c in document.lineage(id).into_iter().skip(1) {
             for m in &document.classes[c].messages {
-                let combined = kernel::builtin::THING_MESSAGES.iter().any(|b| m.name == b.name);
+                let general = self.defined_message(self.object, &m.name);
+                let combined = general.is_some_and(|m| m.is_combining);
                 if !m.is_default && !m.is_combining && !combined {
                     found.entry(m.name.clone()).or_default().push(c);
                 }

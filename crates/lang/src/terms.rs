@@ -115,6 +115,9 @@ impl Lowerer<'_> {
         if let (Kind::Text, Kind::Number(_)) | (Kind::Number(_), Kind::Text) = (left, right) {
             d = d.hint("write `.text` after the number");
         }
+        if (left, right) == (&Kind::Picture, &Kind::Picture) {
+            d = d.hint("`picture(a, b)` draws both");
+        }
         self.report(d);
     }
 

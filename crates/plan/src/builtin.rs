@@ -4,8 +4,10 @@ use crate::evaluate::{Answer, Given, Opening};
 use crate::fault::{FaultKind, Trouble};
 use crate::meaning::Meaning;
 use base::Name;
+use expr::dimension::Dimension;
 use expr::{Binary, ExprId, Unary};
-use kernel::BinaryOperator;
+use kernel::builtin::{THING_MESSAGES, find};
+use kernel::{BinaryOperator, ClassId, ClassKind, Primitive};
 
 impl<'a> Opening<'a> {
     /// Calls a function of the language: `sqrt(x)`, `max(a, b, c)`.
@@ -52,6 +54,9 @@ impl<'a> Opening<'a> {
             Meaning::Opaque(_) => Ok(self.opaque(arguments.iter().chain([to]))),
             Meaning::List(_) => self.send_list(to, name, &arguments),
             Meaning::Thing(_) if self.items(to).is_ok() => self.send_list(to, name, &arguments),
+            Meaning::Thing(_) | Meaning::Made(_) if find(THING_MESSAGES, name).is_some() => {
+                self.send_thing(to, name, &arguments)
+            }
             Meaning::Thing(t) => {
                 let class = self.structure.things[*t].class;
                 let class = &self.document.classes[class].name;
@@ -64,6 +69,65 @@ impl<'a> Opening<'a> {
                 Err(Trouble::new(FaultKind::UnknownName, message))
             }
             Meaning::Lambda(_) => Err(Trouble::wrong(format!("a function has no `{name}`"))),
+        }
+    }
+
+    /// Sends what every thing knows.
+    fn send_thing(
+        &mut self,
+        to: &Meaning<'a>,
+        name: &Name,
+        arguments: &[Meaning<'a>],
+    ) -> Answer<'a> {
+        let unknown = || {
+            let message = format!("a rule cannot use `{name}` of a thing");
+            Err(Trouble::new(FaultKind::UnknownName, message))
+        };
+        let class = match to {
+            Meaning::Thing(t) => self.structure.things[*t].class,
+            Meaning::Made(made) => made.class,
+            Meaning::Number(_) | Meaning::List(_) | Meaning::Opaque(_) | Meaning::Lambda(_) => {
+                return unknown();
+            }
+        };
+        let document = self.document;
+        let fields: Vec<(Name, ClassId)> = document
+            .layout(class)
+            .into_iter()
+            .map(|f| (document.field_name(f).clone(), document.field_class(f)))
+            .collect();
+        let refers = |c: ClassId| matches!(document.classes[c].kind, ClassKind::Reference(_));
+        match (name.as_str(), arguments) {
+            ("parts", []) => {
+                let own = fields.iter().filter(|(_, c)| !refers(*c));
+                let parts: Result<Vec<_>, _> =
+                    own.map(|(name, _)| self.send(to, name, &[], None)).collect();
+                Ok(Meaning::List(parts?.into()))
+            }
+            ("made", [parts]) => {
+                let parts = self.items(parts)?;
+                let mut parts = parts.iter();
+                let mut given: Vec<Given<'a>> = Vec::new();
+                for (name, class) in fields {
+                    match refers(class) {
+                        true => given.push((Some(name.clone()), self.send(to, &name, &[], None)?)),
+                        false => given.extend(parts.next().map(|part| (Some(name), part.clone()))),
+                    }
+                }
+                self.make(class, &given)
+            }
+            ("isPlace", []) => {
+                let is_length = |c: ClassId| {
+                    let length = ClassKind::Primitive(Primitive::Real(Dimension::LENGTH));
+                    document.classes[c].kind == length
+                };
+                let is_place = match fields.as_slice() {
+                    [(x, a), (y, b)] => *x == *"x" && *y == *"y" && is_length(*a) && is_length(*b),
+                    _ => false,
+                };
+                Ok(self.number(f64::from(u8::from(is_place))))
+            }
+            _ => unknown(),
         }
     }
 

@@ -2,6 +2,7 @@
 
 use crate::difference::difference;
 use crate::document::{Direction, Open};
+use crate::general;
 use crate::host::Host;
 use crate::limits;
 use crate::placing::place_new_parts;
@@ -24,6 +25,9 @@ pub(crate) fn apply(
     host: &dyn Host,
     command: &Command,
 ) -> Result<Change, Refusal> {
+    for path in general::changed(command) {
+        general::accept(&open.state, path)?;
+    }
     if let Command::Set(targets) | Command::Move(targets) = command
         && let Some(class) = targets.first().and_then(|t| prototype::class_of(&open.state, &t.0))
     {
@@ -357,16 +361,17 @@ pub(crate) fn preview(state: &State, command: &Command) -> Result<Option<Questio
 }
 
 /// Returns the values that a document keeps where a command only takes away what held it: every path
-/// keeps its present value, those of parts that are no longer one, too.
+/// keeps its present value, those of parts that are no longer one, too; or where the class of what is
+/// merged says what it holds then.
 fn carried_over(command: &Command, before: &State, after: &State) -> Option<Values> {
     match command {
         Command::Unmerge(_)
         | Command::Delete(_)
+        | Command::Merge(_)
         | Command::Anchor { .. }
         | Command::Enable { on: false, .. } => {}
         Command::Set(_)
         | Command::Move(_)
-        | Command::Merge(_)
         | Command::Edit { .. }
         | Command::Rename { .. }
         | Command::Promote { .. }
@@ -376,6 +381,18 @@ fn carried_over(command: &Command, before: &State, after: &State) -> Option<Valu
         | Command::Redo => return None,
     }
     let mut values = after.values.clone();
+    if let Command::Merge(paths) = command {
+        let holds = general::merged(before, paths);
+        let slot = |path: &Path| {
+            let thing = after.structure.follow(DOCUMENT, path).ok()?;
+            after.structure.slot_of[thing]
+        };
+        let holds: Vec<(SlotId, Value)> =
+            holds.into_iter().filter_map(|(path, value)| Some((slot(&path)?, value))).collect();
+        let any = !holds.is_empty();
+        holds.into_iter().for_each(|(slot, value)| values.put(slot, value));
+        return any.then_some(values);
+    }
     for slot in after.structure.slots.ids() {
         let thing = before.structure.follow(DOCUMENT, &after.slot_path(slot)).ok();
         if let Some(was) = thing.and_then(|t| before.structure.slot_of[t]) {

@@ -2,6 +2,7 @@
 
 use crate::apply;
 use crate::document::Open;
+use crate::general;
 use crate::host::Host;
 use crate::limits;
 use crate::state::State;
@@ -15,6 +16,8 @@ use plan::{Planner, Press, RefusalReason, Target};
 pub(crate) struct Drag {
     /// What is dragged, for the undo list.
     pub(crate) path: Path,
+    /// The thing and where its first place was at the press, where its class says how it moves.
+    moved: Option<(ThingId, (f64, f64))>,
     /// What holds its numbers.
     slots: Vec<SlotId>,
     /// Where each of them was at the press.
@@ -37,9 +40,12 @@ pub(crate) fn press(
     path: Path,
 ) -> Result<Drag, RefusalReason> {
     let structure = &state.structure;
-    let handles = match structure.slot_of[thing] {
-        Some(_) => vec![thing],
-        None => places(structure, thing),
+    general::accept(state, &path).map_err(|r| RefusalReason::Target(r.message))?;
+    let otherwise = otherwise(state, thing);
+    let handles = match (structure.slot_of[thing], &otherwise) {
+        (Some(_), _) => vec![thing],
+        (None, Some(moves)) => moves.iter().map(|&slot| structure.slots[slot].thing).collect(),
+        (None, None) => places(structure, thing),
     };
     let slots = |&t: &ThingId| structure.slots_under(t);
     let is_held = |t: &ThingId| slots(t).iter().all(|&s| structure.slots[s].anchored);
@@ -52,11 +58,32 @@ pub(crate) fn press(
         return Err(RefusalReason::Anchored(first));
     }
     let targets: Vec<Target<'_>> = free.iter().map(|&t| Target::Thing(t)).collect();
-    let slots: Vec<SlotId> = free.iter().flat_map(slots).collect();
+    let dragged: Vec<SlotId> = free.iter().flat_map(slots).collect();
     let press = planner.press(state.model(), &state.values, &targets)?;
-    let start: Vec<f64> = slots.iter().map(|&s| state.values.numbers[s]).collect();
+    let start: Vec<f64> = dragged.iter().map(|&s| state.values.numbers[s]).collect();
+    let number = |s: Option<&SlotId>| s.map_or(0.0, |&s| state.values.numbers[s]);
+    let moved = otherwise.map(|_| {
+        let first = places(structure, thing).first().map_or_else(Vec::new, slots);
+        (thing, (number(first.first()), number(first.get(1))))
+    });
     let wish = [start[0], start.get(1).copied().unwrap_or(0.0)];
-    Ok(Drag { path, slots, start, press, values: state.values.clone(), wish })
+    Ok(Drag { path, moved, slots: dragged, start, press, values: state.values.clone(), wish })
+}
+
+/// Returns the numbers that move with a thing whose class says itself how it moves.
+fn otherwise(state: &State, thing: ThingId) -> Option<Vec<SlotId>> {
+    if !general::defines(state, thing, "moved") {
+        return None;
+    }
+    let mut moves: Vec<SlotId> = Vec::new();
+    for way in [(1.0, 0.0), (0.0, 1.0)] {
+        let there = general::moved(state, thing, way)?;
+        let other = |(slot, x): (SlotId, f64)| (state.values.numbers[slot] != x).then_some(slot);
+        moves.extend(there.into_iter().filter_map(other));
+    }
+    moves.sort();
+    moves.dedup();
+    Some(moves).filter(|m| !m.is_empty())
 }
 
 /// Returns the places that a thing is made of, each merged one once: itself, or those of its parts.
@@ -82,7 +109,10 @@ fn places(structure: &Structure, thing: ThingId) -> Vec<ThingId> {
 impl Drag {
     /// Returns where the first of its places was at the press: what the pointer drags.
     pub(crate) fn handle(&self) -> (f64, f64) {
-        (self.start[0], self.start.get(1).copied().unwrap_or(0.0))
+        match self.moved {
+            Some((_, first)) => first,
+            None => (self.start[0], self.start.get(1).copied().unwrap_or(0.0)),
+        }
     }
     /// Returns the numbers of its handle, each with what it was at the press.
     pub(crate) fn handle_slots(&self) -> impl Iterator<Item = (SlotId, f64)> + '_ {
@@ -97,17 +127,24 @@ impl Drag {
     pub(crate) fn to(&mut self, state: &State, planner: &Planner, to: (f64, f64)) -> DragState {
         let mut texts = Texts::new(&state.lowered.document, &state.structure);
         let (x0, y0) = self.handle();
-        let to: Vec<f64> = self
-            .start
-            .iter()
-            .enumerate()
-            .map(|(i, start)| match i {
-                0 => to.0,
-                1 => to.1,
-                _ if i % 2 == 0 => start + (to.0 - x0),
-                _ => start + (to.1 - y0),
-            })
-            .collect();
+        let there = self.moved.and_then(|(t, _)| general::moved(state, t, (to.0 - x0, to.1 - y0)));
+        let to: Vec<f64> = match there {
+            Some(there) => {
+                let place = |slot: &SlotId| there.iter().find(|(s, _)| s == slot).map(|(_, x)| *x);
+                self.slots.iter().zip(&self.start).map(|(s, x)| place(s).unwrap_or(*x)).collect()
+            }
+            None => self
+                .start
+                .iter()
+                .enumerate()
+                .map(|(i, start)| match i {
+                    0 => to.0,
+                    1 => to.1,
+                    _ if i % 2 == 0 => start + (to.0 - x0),
+                    _ => start + (to.1 - y0),
+                })
+                .collect(),
+        };
         let report =
             planner.drag(state.model(), &mut self.press, &mut self.values, &to, &mut texts);
         self.wish = [to[0], to.get(1).copied().unwrap_or(0.0)];

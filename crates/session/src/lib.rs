@@ -10,7 +10,8 @@
 //!
 //! Reading order: [`session`](Session), `document`, `state`, `apply`, `drag`, `write_back`,
 //! `complaints`, `check`, `views`, [`view`], [`host`].
-pub mod host;
+pub mod general;
+mod host;
 pub mod view;
 
 mod apply;

@@ -65,7 +65,8 @@ impl State {
     }
     /// Returns true if what the document uses is still as it was read.
     pub(crate) fn is_up_to_date(&self, host: &dyn Host) -> bool {
-        let mut used = self.lowered.files.iter().skip(1).map(|(_, file)| file);
+        let mut used =
+            self.lowered.files.iter().map(|(_, file)| file).filter(|f| !f.name.is_empty());
         used.all(|file| host.read(&file.name).is_some_and(|text| *text == *file.text))
     }
     /// Returns what every question to the planner is about.

@@ -195,6 +195,18 @@ pub(crate) fn acting(name: &str, kind: ActingKind) -> String {
     }
 }
 
+/// Returns what a thing is, in the words of its class where that has some.
+pub(crate) fn description(state: &State, thing: ThingId, values: &Values) -> String {
+    let own = crate::general::defines(state, thing, "description").then(|| {
+        let evaluator = state.evaluator(values);
+        evaluator.ask(thing, &base::Name::new("description")).ok()
+    });
+    match own.flatten() {
+        Some(eval::Answer::Text(words)) => words.to_string(),
+        _ => class_name(state, thing),
+    }
+}
+
 /// Returns the path that a term of parts and messages spells.
 pub(crate) fn term_path(term: &Term) -> String {
     match term {

@@ -54,6 +54,10 @@ impl Build {
             line: root,
             origins: 0,
         };
+        // as the language says it of every thing
+        b.message(object, "picture", &[], call("picture", vec![part("parts")]));
+        let general = &mut b.document.classes[object].messages[0];
+        (general.is_default, general.is_combining) = (true, true);
         b.point = b.class("Point", &[]);
         b.part(b.point, "x", length);
         b.part(b.point, "y", length);
@@ -86,7 +90,11 @@ impl Build {
         self.document.classes.push(blank(name, ClassKind::Composite, line))
     }
     pub(crate) fn kind(&mut self, name: &str, kind: ClassKind) -> ClassId {
-        self.document.classes.push(blank(name, kind, Vec::new()))
+        self.document.classes.push(blank(
+            name,
+            kind,
+            vec![Superclass { class: ClassId(0), name: Name::new("object") }],
+        ))
     }
     pub(crate) fn part(&mut self, class: ClassId, name: &str, of: ClassId) {
         let origin = self.origin();

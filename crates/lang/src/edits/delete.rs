@@ -10,7 +10,7 @@ use super::{Restructuring, shortened};
 use crate::references::{References, Symbol};
 use crate::uses::{Text, refused};
 use base::{Diagnostic, Span};
-use kernel::{ClassId, Path, Step, builtin};
+use kernel::{ClassId, Path, Step};
 use std::collections::BTreeSet;
 use syntax::ast::{self, AstNode, Expr, Member};
 use syntax::edit::{self, TextEdit};
@@ -194,10 +194,10 @@ impl Text<'_> {
             false => self.class_at(path),
         });
         let (Some(class), Some(name)) = (class, name) else { return };
-        // what a class above, or the language, says instead is still there to be spoken of
+        // what a class above says instead is still there to be spoken of
         let document = &self.lowered.document;
         let inherited = document.find_message(class, name.text(), Some(class)).is_some();
-        if !inherited && builtin::find(builtin::THING_MESSAGES, name.text()).is_none() {
+        if !inherited {
             deletion.waiting.push(Symbol { class, name: name.name() });
         }
     }

@@ -140,6 +140,20 @@ const WRONG: &[(&str, &str, &str)] = &[
     ("use shapes\np: Placed of Line { p1 = (0, 0) }", "virtual-part", "p1"),
     ("q: Path to Real = bee", "unknown-reference", "bee"),
     ("p: Path to Real = 3", "unknown-reference", "3"),
+    // what every thing answers
+    ("class A { picture => 3 }", "override-kind", "picture"),
+    ("class A { description => 4 }", "override-kind", "description"),
+    ("class A { values => 3 }", "override-kind", "values"),
+    ("class A { accepts(change: Text) => \"yes\" }", "override-kind", "accepts"),
+    ("class A { moved(by d: Text) => 7 }", "override-kind", "moved"),
+    ("class A { accepts => true }", "override-signature", "accepts"),
+    (
+        "use shapes\nclass A { a: Line  picture => a.picture + a.picture }",
+        "value-of-wrong-class",
+        "a.picture + a.picture",
+    ),
+    ("use shapes\nclass A { a: Line  picture => picture(a, 3) }", "value-of-wrong-class", "3"),
+    ("use shapes\na: Line\nb: Line = a.made(of: 3)", "value-of-wrong-class", "3"),
     // what is set of constraints
     ("a: Real\nconstraint c: a = 1\nd.enabled = false", "unknown-name", "d"),
     ("a: Real\nconstraint c: a = 1\nc.enabled = 3", "value-of-wrong-class", "3"),

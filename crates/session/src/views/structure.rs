@@ -68,7 +68,7 @@ impl Maker<'_> {
         let slots = structure.slots_under(thing);
         let origin = self.part_origin(thing);
         let mut row = self.row(path.to_string(), depth, RowKind::Part, name, origin);
-        row.detail = words::class_name(self.state, thing);
+        row.detail = words::description(self.state, thing, self.values);
         row.doc = words::doc_of(self.state, thing);
         row.value = words::show_thing(self.state, thing, self.values);
         row.merged_with = (first != thing).then(|| structure.path(document, first).to_string());
@@ -78,13 +78,17 @@ impl Maker<'_> {
         let class = structure.things[thing].class;
         match document.classes[class].kind {
             ClassKind::Composite | ClassKind::List(_) if first == thing => {
-                let parts = structure.parts(thing);
+                let parts: Vec<ThingId> =
+                    match crate::general::named(self.state, thing, "structure") {
+                        Some(named) => named,
+                        None => structure.parts(thing).collect(),
+                    };
                 let all = parts.len();
                 if all > MOST_ELEMENTS {
                     let shown = format!("the first {MOST_ELEMENTS} of {all}");
                     self.rows[at].detail = format!("{}, {shown}", self.rows[at].detail);
                 }
-                for part in parts.take(MOST_ELEMENTS) {
+                for part in parts.into_iter().take(MOST_ELEMENTS) {
                     self.thing(part, depth + 1);
                 }
                 self.own(thing, depth + 1);

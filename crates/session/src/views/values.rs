@@ -69,7 +69,23 @@ fn show_virtual(
     owner: ThingId,
     name: &Name,
 ) -> Option<Shown> {
-    show_answer(&state.lowered.document, &evaluator.ask(owner, name).ok()?).map(|shown| shown.0)
+    let document = &state.lowered.document;
+    let answer = evaluator.ask(owner, name).or_else(|fault| {
+        let table = evaluator.ask(owner, &Name::new("values"))?;
+        let Answer::List(items) = table else { return Err(fault) };
+        let named = items.iter().filter_map(entry).find(|(n, _)| **n == **name);
+        named.map(|(_, value)| value).ok_or(fault)
+    });
+    show_answer(document, &answer.ok()?).map(|shown| shown.0)
+}
+
+/// Returns the name and the value that a row of a table consists of.
+fn entry<'r, 'd>(row: &'r Answer<'d>) -> Option<(&'r str, Answer<'d>)> {
+    let Answer::List(pair) = row else { return None };
+    match &pair[..] {
+        [Answer::Text(name), value] => Some((name, value.clone())),
+        _ => None,
+    }
 }
 
 /// Returns an answer in words, and its class; nothing where it is no value.
@@ -126,6 +142,9 @@ impl Maker<'_> {
             });
             return;
         }
+        if crate::general::defines(state, thing, "values") && thing != kernel::DOCUMENT {
+            return self.add_table(thing, path);
+        }
         let end = path.len();
         for part in structure.parts(thing) {
             match structure.field_name(document, part) {
@@ -139,6 +158,55 @@ impl Maker<'_> {
         }
         if document.classes[structure.things[thing].class].kind == ClassKind::Composite {
             self.add_virtual(thing, path);
+        }
+    }
+
+    /// Adds the rows that a thing's class says: parts and messages by name, or names with values.
+    fn add_table(&mut self, thing: ThingId, path: &mut String) {
+        let document = &self.state.lowered.document;
+        let structure = &self.state.structure;
+        let end = path.len();
+        let Ok(Answer::List(items)) = self.evaluator.ask(thing, &Name::new("values")) else {
+            return;
+        };
+        for item in items.iter() {
+            let (name, value) = match item {
+                Answer::Text(name) => match structure.part_named(thing, name) {
+                    Some(part) => {
+                        append(path, name);
+                        self.add(part, path);
+                        path.truncate(end);
+                        continue;
+                    }
+                    None => (name.to_string(), self.evaluator.ask(thing, &Name::new(name)).ok()),
+                },
+                Answer::Thing(part) => {
+                    let mut to = structure.path(document, *part).to_string();
+                    self.add(*part, &mut to);
+                    continue;
+                }
+                pair => match entry(pair) {
+                    Some((name, value)) => (name.to_string(), Some(value)),
+                    None => continue,
+                },
+            };
+            let Some((shown, class)) = value.and_then(|v| show_answer(document, &v)) else {
+                continue;
+            };
+            append(path, &name);
+            self.rows.push(ValueRow {
+                path: path.clone(),
+                class: class.into(),
+                text: shown.text,
+                unit: shown.unit,
+                number: shown.number,
+                given: false,
+                is_virtual: true,
+                anchored: false,
+                freedom: None,
+                doc: String::new(),
+            });
+            path.truncate(end);
         }
     }
 
@@ -179,13 +247,16 @@ fn append(path: &mut String, name: &str) {
 
 /// Returns the messages that read as values, with what `///` says of them, in order of declaration.
 ///
-/// One that a subclass defines anew stands where it was first declared, once. The picture is no value,
-/// whatever it answers.
+/// One that a subclass defines anew stands where it was first declared, once. What the lab shows in
+/// views of its own is no value, whatever it answers.
 fn virtual_parts(document: &Document, class: ClassId) -> Rc<[(Name, String)]> {
     let mut found: IndexMap<&Name, &str> = IndexMap::new();
     for class in document.primary_line(class).into_iter().rev() {
+        if document.classes[class].supers.is_empty() {
+            continue;
+        }
         let messages = document.classes[class].messages.iter();
-        for message in messages.filter(|m| m.parameters.is_empty() && *m.name != *"picture") {
+        for message in messages.filter(|m| m.parameters.is_empty() && !is_view(&m.name)) {
             let doc = found.entry(&message.name).or_default();
             if !message.doc.is_empty() {
                 *doc = &message.doc;
@@ -193,4 +264,8 @@ fn virtual_parts(document: &Document, class: ClassId) -> Rc<[(Name, String)]> {
         }
     }
     found.into_iter().map(|(name, doc)| (name.clone(), doc.to_string())).collect()
+}
+
+fn is_view(name: &Name) -> bool {
+    matches!(name.as_str(), "picture" | "structure" | "values")
 }
