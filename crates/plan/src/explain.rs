@@ -6,7 +6,7 @@ use crate::planner::{Model, Planner};
 use crate::rule::Source;
 use crate::task::{Course, Holding, Task};
 use kernel::{SlotId, Values};
-use solve::{Count, Step, StepKind, System};
+use solve::{Count, Proofs, Rejected, Step, StepKind, System};
 use std::collections::BTreeSet;
 
 /// One step of a plan, in the document's terms.
@@ -204,16 +204,34 @@ impl Planner {
         }
         let aim = self.aim_at(slot);
         let tasks = self.plan_edit(model, &aim);
-        let mut conflicts = Vec::new();
-        for task in &tasks {
-            for rejected in &task.plan.report.rejected {
-                let source = task.source(&self.rules, rejected.relation);
-                if source != Source::Wish(0) {
-                    continue;
-                }
-                let circuit: BTreeSet<Source> =
-                    rejected.circuit.iter().map(|c| task.source(&self.rules, c.0)).collect();
-                conflicts.push(Conflict { source, circuit: circuit.into_iter().collect() });
+        let is_wish =
+            |task: &Task, r: &Rejected| task.source(&self.rules, r.relation) == Source::Wish(0);
+        tasks.iter().flat_map(|task| self.conflicts(task, |r| is_wish(task, r))).collect()
+    }
+
+    /// Returns what some rejected rows of a task conflict with: the accepted rows and the equalities
+    /// that they depend on.
+    pub(crate) fn conflicts(
+        &self,
+        task: &Task,
+        is_meant: impl Fn(&Rejected) -> bool,
+    ) -> Vec<Conflict> {
+        let mut proofs = None;
+        let mut conflicts: Vec<Conflict> = Vec::new();
+        for rejected in task.plan.report.rejected.iter().filter(|r| is_meant(r)) {
+            let mut rows = rejected.circuit.clone();
+            rows.push((rejected.relation, rejected.row));
+            let proofs =
+                proofs.get_or_insert_with(|| Proofs::new(&task.system, self.plans.patterns()));
+            let equalities = proofs.connecting(&rows);
+            let circuit = rejected.circuit.iter().chain(&equalities);
+            let circuit: BTreeSet<Source> =
+                circuit.map(|c| task.source(&self.rules, c.0)).collect();
+            let source = task.source(&self.rules, rejected.relation);
+            let circuit = circuit.into_iter().filter(|s| *s != source).collect();
+            let conflict = Conflict { source, circuit };
+            if !conflicts.contains(&conflict) {
+                conflicts.push(conflict);
             }
         }
         conflicts

@@ -114,15 +114,7 @@ pub(crate) fn scatter(task: &Task, local: &[f64], values: &mut Values) {
 pub(crate) fn ran(planner: &Planner, task: &Task, outcome: &Outcome) -> Ran {
     let unmet: BTreeSet<u32> = outcome.unmet.iter().map(|u| u.relation).collect();
     let source = |relation: u32| task.source(&planner.rules, relation);
-    let mut conflicts: Vec<Conflict> = Vec::new();
-    for rejected in task.plan.report.rejected.iter().filter(|r| unmet.contains(&r.relation)) {
-        let circuit: BTreeSet<Source> = rejected.circuit.iter().map(|c| source(c.0)).collect();
-        let circuit = circuit.into_iter().collect();
-        let conflict = Conflict { source: source(rejected.relation), circuit };
-        if !conflicts.contains(&conflict) {
-            conflicts.push(conflict);
-        }
-    }
+    let conflicts = planner.conflicts(task, |rejected| unmet.contains(&rejected.relation));
     let failure = match &outcome.status {
         Status::Stopped(Reason::Method { step, message }) => {
             let relation = task.plan.steps[*step as usize].relations.first().copied();

@@ -126,6 +126,24 @@ pub(crate) fn listed(names: &[String]) -> String {
     }
 }
 
+/// Names slots: a place whose coordinates are all among them by its own path.
+pub(crate) fn slots_listed(state: &State, slots: &[SlotId]) -> Vec<String> {
+    let mut names: Vec<String> = Vec::new();
+    for &slot in slots {
+        let place = state.structure.slots[slot].place;
+        let whole = place
+            .filter(|&place| state.structure.slots_under(place).iter().all(|s| slots.contains(s)));
+        let name = match whole {
+            Some(place) => state.structure.path(&state.lowered.document, place).to_string(),
+            None => state.slot_path(slot).to_string(),
+        };
+        if !names.contains(&name) {
+            names.push(name);
+        }
+    }
+    names
+}
+
 /// Says what holds a drag that did not reach the pointer; nothing where no constraint can be named.
 pub(crate) fn what_holds(state: &State, report: &EditReport, acting: &[Acting]) -> Option<String> {
     let mut names: Vec<String> = Vec::new();

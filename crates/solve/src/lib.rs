@@ -48,6 +48,8 @@ mod stated;
 mod substitute;
 mod union;
 
+pub mod proof;
+
 mod tableau;
 
 pub mod echelon;
@@ -104,6 +106,7 @@ pub use modes::{Decision, Ended, Mode, Modes, Standing, Tried, decide};
 pub use outcome::{Host, NoHost, Note, Outcome, Reason, Status, Unmet};
 pub use pattern::{Pattern, PatternId, Patterns, Scratch};
 pub use plan::{Plan, Rejected, Report, Step, StepKind, plan};
+pub use proof::Proofs;
 pub use run::{Drag, Runner, run};
 pub use search::{Count, Puzzle, Verdict};
 pub use system::{

@@ -45,6 +45,10 @@ impl Classes {
     pub(crate) fn is_settled(&self, equation: usize) -> bool {
         self.fates[equation] != Fate::Row
     }
+    /// Returns true if an equation, by its place in the system, holds by substitution.
+    pub(crate) fn is_used(&self, equation: usize) -> bool {
+        self.fates[equation] == Fate::Used
+    }
     /// Returns every class of several slots: its representative and all of them, in order.
     pub(crate) fn members(&self) -> impl Iterator<Item = (SlotIndex, &[SlotIndex])> {
         self.members.iter().map(|&(root, span)| (root, &self.grouped[span.range()]))
@@ -68,20 +72,21 @@ impl Classes {
 
 /// An equation that says that two slots are equal, or that one is a number (the node after the last).
 #[derive(Clone, Copy, Debug)]
-struct Edge {
-    ends: [usize; 2],
-    equation: Key,
+pub(crate) struct Edge {
+    pub(crate) ends: [usize; 2],
+    pub(crate) equation: Key,
 }
 
 /// The equations used, as a forest of slots, and all numbers as one more node.
-struct Forest {
+#[derive(Debug)]
+pub(crate) struct Forest {
     /// For every node, the one towards its root, the equation between, and how far the root is.
     up: Vec<Option<(usize, Key)>>,
     depth: Vec<u32>,
 }
 
 impl Forest {
-    fn new(nodes: usize, edges: &[Edge]) -> Self {
+    pub(crate) fn new(nodes: usize, edges: &[Edge]) -> Self {
         let mut at: Vec<Vec<(usize, Key)>> = vec![Vec::new(); nodes];
         for &Edge { ends: [a, b], equation } in edges {
             at[a].push((b, equation));
@@ -108,7 +113,7 @@ impl Forest {
         Self { up, depth }
     }
     /// Adds the equations of the way from `a` to `b` to a circuit.
-    fn way(&self, mut a: usize, mut b: usize, circuit: &mut Vec<Key>) {
+    pub(crate) fn way(&self, mut a: usize, mut b: usize, circuit: &mut Vec<Key>) {
         while a != b {
             if self.depth[a] < self.depth[b] {
                 std::mem::swap(&mut a, &mut b);

@@ -39,10 +39,14 @@ fn redundant(open: &Open, r: &Redundant) -> Option<RedundantView> {
     let implied_by = names(open, &r.implied_by);
     let because = match (r.kind, implied_by.is_empty()) {
         (RedundantKind::Form, true) => "it speaks of numbers that are fixed anyway".to_string(),
-        (RedundantKind::Form, false) => format!("{} say it already", words::listed(&implied_by)),
+        (RedundantKind::Form, false) => {
+            let say = if implied_by.len() == 1 { "says" } else { "say" };
+            format!("{} {say} it already", words::listed(&implied_by))
+        }
         (RedundantKind::Theorem, true) => "it holds wherever the others do".to_string(),
         (RedundantKind::Theorem, false) => {
-            format!("it holds wherever {} do", words::listed(&implied_by))
+            let hold = if implied_by.len() == 1 { "does" } else { "do" };
+            format!("it holds wherever {} {hold}", words::listed(&implied_by))
         }
     };
     Some(RedundantView { constraint, implied_by, because })

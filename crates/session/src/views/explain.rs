@@ -1,9 +1,10 @@
 //! Explanations: the plan in words, and why a value is what it is.
 
 use crate::document::Open;
-use crate::view::{ExplainedStep, Explanation};
+use crate::state::State;
+use crate::view::{ExplainedStep, Explanation, Refusal};
 use crate::words;
-use kernel::{Path, SlotId};
+use kernel::{ConstraintInstance, Path, SlotId, Step};
 use plan::{Acting, ExplainedKind, Root, RootKind, Source};
 
 /// Explains the latest plan, or why the value at a path is what it is.
@@ -47,18 +48,24 @@ fn acting(open: &Open, acting: Acting) -> Option<String> {
     Some(words::acting(&name, acting.kind))
 }
 
+/// What is asked about: how its sentence begins, and the numbers that make it so.
+struct Subject {
+    opening: String,
+    slots: Vec<SlotId>,
+}
+
 fn why(open: &Open, path: &Path) -> Explanation {
     let state = &open.state;
     let about = path.to_string();
-    let thing = match words::find(state, path) {
-        Ok(thing) => thing,
+    let Subject { opening, slots } = match subject(open, path) {
+        Ok(subject) => subject,
         Err(refusal) => {
             return Explanation { about, summary: refusal.message, steps: Vec::new() };
         }
     };
     let mut steps: Vec<plan::ExplainedStep> = Vec::new();
     let mut roots: Vec<Root> = Vec::new();
-    for slot in state.structure.slots_under(thing) {
+    for &slot in &slots {
         let why = open.planner.why(state.model(), slot);
         for step in why.steps {
             if !steps.contains(&step) {
@@ -71,29 +78,106 @@ fn why(open: &Open, path: &Path) -> Explanation {
             }
         }
     }
-    let value = words::show_thing(state, thing, &state.values).unwrap_or_default();
-    let from: Vec<String> = roots.iter().map(|r| root(open, *r)).collect();
     let summary = match (roots.as_slice(), steps.is_empty()) {
-        ([], true) => format!("{about} is {value}."),
-        ([], false) => format!("{about} is {value}: its constraints alone decide it."),
-        ([only], true) => format!("{about} is {value}: it {}.", held_by(only.kind)),
-        (_, _) => format!("{about} is {value}, because {}.", enumerated(&from)),
+        ([], true) => format!("{opening}."),
+        ([], false) => format!("{opening}: the constraints alone decide it."),
+        ([only], true) if slots == [only.slot] && state.slot_path(only.slot) == *path => {
+            format!("{opening}: it {}.", held_by(only.kind, 1))
+        }
+        (_, _) => format!("{opening}, because {}.", enumerated(&reasons(open, &roots))),
     };
     let steps = steps.iter().map(|s| step(open, s)).collect();
     Explanation { about, summary, steps }
 }
 
-fn root(open: &Open, root: Root) -> String {
-    let path = open.state.slot_path(root.slot);
-    format!("{path} = {} {}", value(open, root.slot), held_by(root.kind))
+/// Finds what is at a path: a part, a virtual part or a constraint.
+fn subject(open: &Open, path: &Path) -> Result<Subject, Refusal> {
+    let state = &open.state;
+    let astray = match words::find(state, path) {
+        Ok(thing) => {
+            let slots = state.structure.slots_under(thing);
+            let opening = match words::show_thing(state, thing, open.values()) {
+                Some(value) => format!("{path} is {value}"),
+                None => format!("{path} is as it is"),
+            };
+            return Ok(Subject { opening, slots });
+        }
+        Err(astray) => astray,
+    };
+    let Some((Step::Part(name), owner)) = path.0.split_last() else { return Err(astray) };
+    let Ok(owner) = words::find(state, &Path(owner.to_vec())) else { return Err(astray) };
+    let evaluator = state.evaluator(open.values());
+    let constraints = &state.structure.constraints;
+    let its = |c: &&ConstraintInstance| {
+        c.owner == owner && words::constraint_name(&state.lowered.document, **c) == **name
+    };
+    let (opening, slots) = match constraints.iter().find(its) {
+        Some(&constraint) => {
+            let (verdict, slots) = evaluator.listening(|| evaluator.test(constraint));
+            (judged(state, path, constraint, verdict.ok()), slots)
+        }
+        None => {
+            let (answer, slots) = evaluator.listening(|| evaluator.ask(owner, name));
+            let Ok(answer) = answer else { return Err(astray) };
+            let value = super::values::in_words(&state.lowered.document, &answer)
+                .unwrap_or_else(|| evaluator.text_of(&answer));
+            (format!("{path} is {value}"), slots)
+        }
+    };
+    Ok(Subject { opening, slots: slots.into_iter().collect() })
 }
 
-fn held_by(kind: RootKind) -> &'static str {
-    match kind {
-        RootKind::Anchored => "is anchored",
-        RootKind::Given => "is given in the text",
-        RootKind::Kept => "stays as it was",
-        RootKind::Edited => "is what the edit wanted",
+/// Says whether a constraint holds, and by how much it does not.
+fn judged(
+    state: &State,
+    path: &Path,
+    constraint: ConstraintInstance,
+    verdict: Option<eval::Verdict>,
+) -> String {
+    let short = |x: f64| base::number::rounded(x, 6);
+    match verdict {
+        _ if !state.structure.is_on(constraint) => format!("{path} is switched off"),
+        Some(verdict) if verdict.holds => format!("{path} holds"),
+        Some(eval::Verdict { error: Some(error), .. }) => {
+            format!("{path} does not hold: it is off by {}", short(error.abs()))
+        }
+        Some(_) => format!("{path} does not hold"),
+        None => format!("{path} cannot be tested"),
+    }
+}
+
+/// Says where values begin, those that are held alike together.
+fn reasons(open: &Open, roots: &[Root]) -> Vec<String> {
+    const MOST: usize = 6;
+    let mut kinds: Vec<RootKind> = Vec::new();
+    for root in roots {
+        if !kinds.contains(&root.kind) {
+            kinds.push(root.kind);
+        }
+    }
+    let of_kind = |kind: RootKind| {
+        let its: Vec<&Root> = roots.iter().filter(|r| r.kind == kind).collect();
+        let named =
+            |r: &&Root| format!("{} = {}", open.state.slot_path(r.slot), value(open, r.slot));
+        let mut names: Vec<String> = its.iter().take(MOST).map(named).collect();
+        if its.len() > MOST {
+            names.push(format!("{} more", its.len() - MOST));
+        }
+        format!("{} {}", enumerated(&names), held_by(kind, its.len()))
+    };
+    kinds.into_iter().map(of_kind).collect()
+}
+
+fn held_by(kind: RootKind, number: usize) -> &'static str {
+    match (kind, number) {
+        (RootKind::Anchored, 1) => "is anchored",
+        (RootKind::Anchored, _) => "are anchored",
+        (RootKind::Given, 1) => "is given in the text",
+        (RootKind::Given, _) => "are given in the text",
+        (RootKind::Kept, 1) => "stays as it was",
+        (RootKind::Kept, _) => "stay as they were",
+        (RootKind::Edited, 1) => "is what the edit wanted",
+        (RootKind::Edited, _) => "are what the edit wanted",
     }
 }
 

@@ -3,7 +3,14 @@
 use crate::document::Open;
 use crate::view::HeldView;
 use crate::words;
-use kernel::Path;
+use kernel::{Path, SlotId};
+
+/// What stands in the way of some numbers alike.
+#[derive(PartialEq)]
+struct Hold {
+    constraints: Vec<String>,
+    anchors: Vec<String>,
+}
 
 /// Says what holds the thing at a path; nothing where it can move, or where there is none.
 pub(crate) fn view(open: &mut Open, about: &Path) -> Option<HeldView> {
@@ -11,51 +18,63 @@ pub(crate) fn view(open: &mut Open, about: &Path) -> Option<HeldView> {
     let thing = words::find(&state, about).ok()?;
     let slots = state.structure.slots_under(thing);
     let numbers = slots.into_iter().filter(|&s| state.structure.slots[s].primitive.is_number());
-    let (mut constraints, mut anchors): (Vec<String>, Vec<String>) = (Vec::new(), Vec::new());
-    let add = |names: &mut Vec<String>, name: String| {
-        if !names.contains(&name) {
-            names.push(name);
-        }
+    let place = |slot: SlotId| {
+        let thing = state.structure.slots[slot].place;
+        let thing = thing.unwrap_or(state.structure.slots[slot].thing);
+        state.structure.path(&state.lowered.document, thing).to_string()
     };
-    let (mut held, mut loose) = (Vec::new(), Vec::new());
+    let mut holds: Vec<(Hold, Vec<SlotId>)> = Vec::new();
+    let mut loose = Vec::new();
     for slot in numbers {
-        let path = state.slot_path(slot).to_string();
-        match open.planner.held(state.model(), slot) {
-            None => loose.push(path),
-            Some(by) => {
-                held.push(path);
-                for source in by.constraints {
-                    if let Some(name) = words::source_name(&state, source) {
-                        add(&mut constraints, name);
-                    }
-                }
-                for anchor in by.anchors {
-                    let s = &state.structure.slots[anchor];
-                    let thing = s.place.unwrap_or(s.thing);
-                    let path = state.structure.path(&state.lowered.document, thing);
-                    add(&mut anchors, path.to_string());
-                }
-            }
+        let Some(by) = open.planner.held(state.model(), slot) else {
+            loose.push(slot);
+            continue;
+        };
+        let mut hold = Hold { constraints: Vec::new(), anchors: Vec::new() };
+        for name in by.constraints.into_iter().filter_map(|s| words::source_name(&state, s)) {
+            push_new(&mut hold.constraints, name);
+        }
+        by.anchors.into_iter().for_each(|anchor| push_new(&mut hold.anchors, place(anchor)));
+        match holds.iter_mut().find(|known| known.0 == hold) {
+            Some(known) => known.1.push(slot),
+            None => holds.push((hold, vec![slot])),
         }
     }
-    if held.is_empty() {
+    let whole = |slots: &[SlotId]| words::slots_listed(&state, slots);
+    let only = holds.len() == 1 && loose.is_empty();
+    let mut sentences = Vec::new();
+    for (hold, slots) in &holds {
+        let (names, number) =
+            if only { (vec![about.to_string()], 1) } else { (whole(slots), whole(slots).len()) };
+        let (moves, is) = if number == 1 { ("does", "it is") } else { ("do", "they are") };
+        let names = words::listed(&names);
+        let reason = match (hold.constraints.is_empty(), hold.anchors.is_empty()) {
+            (true, _) => format!("{is} anchored"),
+            (false, true) => format!("held by {}", words::listed(&hold.constraints)),
+            (false, false) => format!(
+                "held by {}, and by the anchor of {}",
+                words::listed(&hold.constraints),
+                words::listed(&hold.anchors)
+            ),
+        };
+        sentences.push(format!("{names} {moves} not move: {reason}"));
+    }
+    if sentences.is_empty() {
         return None;
     }
-    let subject = if loose.is_empty() { about.to_string() } else { words::listed(&held) };
-    let message = match (constraints.is_empty(), anchors.is_empty()) {
-        (true, _) => format!("{subject} does not move: it is anchored"),
-        (false, true) => {
-            format!("{subject} does not move: held by {}", words::listed(&constraints))
-        }
-        (false, false) => format!(
-            "{subject} does not move: held by {}, and by the anchor of {}",
-            words::listed(&constraints),
-            words::listed(&anchors)
-        ),
-    };
-    let message = match loose.is_empty() {
-        true => message,
-        false => format!("{message}; {} can", words::listed(&loose)),
-    };
-    Some(HeldView { message, constraints, anchors })
+    if !loose.is_empty() {
+        sentences.push(format!("{} can move", words::listed(&whole(&loose))));
+    }
+    let (mut constraints, mut anchors) = (Vec::new(), Vec::new());
+    for (hold, _) in holds {
+        hold.constraints.into_iter().for_each(|name| push_new(&mut constraints, name));
+        hold.anchors.into_iter().for_each(|path| push_new(&mut anchors, path));
+    }
+    Some(HeldView { message: sentences.join("; "), constraints, anchors })
+}
+
+fn push_new(names: &mut Vec<String>, name: String) {
+    if !names.contains(&name) {
+        names.push(name);
+    }
 }

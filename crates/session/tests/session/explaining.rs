@@ -47,7 +47,7 @@ fn why_fahrenheit_is_what_it_is() {
     let desk = Desk::of(&gallery("temperature"));
     let about = at("fahrenheit.node.number");
     let wanted = "\
-fahrenheit.node.number is 162.5, because celsius.node.number = 72.5 is given in the text, factor.node.number = 1.8 is anchored and offset.node.number = 32 is anchored.
+fahrenheit.node.number is 162.5, because celsius.node.number = 72.5 is given in the text and factor.node.number = 1.8 and offset.node.number = 32 are anchored.
 times.result.number: its rule, solved for it; times.times must hold, given celsius.node.number = 72.5 and factor.node.number = 1.8
   constraint times: result.number = operand1.number * operand2.number
   130.5
@@ -89,4 +89,33 @@ fn what_does_not_move_names_what_holds_it() {
     let next = "b does not move: held by next, and by the anchor of a";
     assert_eq!(held("b").as_deref(), Some(next));
     assert_eq!(held("c"), None);
+}
+
+const FLAT: &str = "use geometry
+k: Line { p1 = (0, 60)  p2 = (30, 60) }
+constraint flat: k.p1.y = k.p2.y
+constraint long: k.length >= 40
+anchor k.p1
+";
+
+#[test]
+fn equalities_are_named_among_what_holds_a_thing() {
+    let mut desk = Desk::of(FLAT);
+    let mut held = |path: &str| desk.session.held(desk.id, &at(path)).map(|h| h.message);
+    let flat = "k.p2.y does not move: held by flat, and by the anchor of k.p1";
+    assert_eq!(held("k.p2.y").as_deref(), Some(flat));
+    let whole = format!("k.p1 does not move: it is anchored; {flat}; k.p2.x can move");
+    assert_eq!(held("k"), Some(whole));
+}
+
+#[test]
+fn virtual_parts_constraints_and_wholes_are_explained() {
+    let desk = Desk::of(FLAT);
+    let why = |path: &str| desk.session.explain(desk.id, Some(&at(path))).summary;
+    // the inequality made it longer than what is given
+    let from = "because k.p1.x = 0 and k.p1.y = 60 are anchored";
+    assert_eq!(why("k.length"), format!("k.length is 40, {from}."));
+    assert_eq!(why("flat"), "flat holds, because k.p1.y = 60 is anchored.");
+    assert_eq!(why("k"), format!("k is as it is, {from}."));
+    assert_eq!(why("k.breadth"), "there is no breadth in k.breadth");
 }

@@ -1,0 +1,67 @@
+//! Proofs: by which equations substitution made slots equal, or known.
+//!
+//! In: a system. Out, for rows of it, the equalities that connect what those speak of. A plan keeps no
+//! proofs; they are made where someone asks for reasons.
+
+use crate::pattern::Patterns;
+use crate::stated::Stated;
+use crate::substitute::{Classes, Edge, Forest, Key, substitute};
+use crate::system::{RelationBody, Stay, System};
+use std::collections::BTreeMap;
+use std::rc::Rc;
+
+/// The equalities of a system, as ways from slot to slot.
+#[derive(Debug)]
+pub struct Proofs {
+    system: Rc<System>,
+    classes: Classes,
+    forest: Forest,
+}
+
+impl Proofs {
+    /// Finds the equalities of a system over its patterns.
+    pub fn new(system: &Rc<System>, patterns: &Patterns) -> Self {
+        let classes = substitute(&Stated::new(system, patterns));
+        let n = system.slots.len();
+        let mut edges = Vec::new();
+        for (r, relation) in (0..).zip(&system.relations) {
+            let RelationBody::Equations(span) = relation.body else { continue };
+            for (e, at) in (0..).zip(span.range()).filter(|&(_, at)| classes.is_used(at)) {
+                let arguments = system.arguments(system.equations[at].arguments);
+                let end = |i: usize| arguments.get(i).map_or(n, |&slot| slot as usize);
+                edges.push(Edge { ends: [end(0), end(1)], equation: (r, e) });
+            }
+        }
+        let forest = Forest::new(n + 1, &edges);
+        Self { system: system.clone(), classes, forest }
+    }
+
+    /// Returns the equations (relation, equation) that make slots of some rows equal or known, in order.
+    pub fn connecting(&self, rows: &[Key]) -> Vec<Key> {
+        let mut spoken_of: BTreeMap<u32, Vec<usize>> = BTreeMap::new();
+        for &(relation, equation) in rows {
+            let relation = &self.system.relations[relation as usize];
+            if let RelationBody::Equations(span) = relation.body {
+                let equation = &self.system.equations[span.range()][equation as usize];
+                for &slot in self.system.arguments(equation.arguments) {
+                    let root = self.classes.representative[slot as usize];
+                    spoken_of.entry(root).or_default().push(slot as usize);
+                }
+            }
+        }
+        let mut ways = Vec::new();
+        for (root, slots) in spoken_of {
+            let is_constant = self.classes.constants.iter().any(|c| c.0 == root);
+            let known = match self.classes.stay[root as usize] {
+                Stay::Fixed if is_constant => Some(self.system.slots.len()),
+                Stay::Fixed => Some(root as usize),
+                Stay::Given | Stay::Kept { .. } | Stay::Free => None,
+            };
+            let from = known.unwrap_or(slots[0]);
+            slots.iter().for_each(|&slot| self.forest.way(slot, from, &mut ways));
+        }
+        ways.sort_unstable();
+        ways.dedup();
+        ways
+    }
+}
