@@ -142,6 +142,8 @@ pub(crate) struct Lowerer<'l> {
     pub(crate) message_kinds: BTreeMap<(ClassId, Name), Option<Kind>>,
     /// Every part that a class declares, by its name: its index among the class's parts.
     pub(crate) parts: BTreeMap<(ClassId, Name), usize>,
+    /// How many elements the value of a list has that is declared without a count.
+    pub(crate) given_counts: BTreeMap<(ClassId, Name), u32>,
     /// Every message that a class defines, by its name: the index of the last among its messages.
     pub(crate) messages: BTreeMap<(ClassId, Name), usize>,
     /// Where parts and messages are named.
@@ -200,6 +202,7 @@ impl<'l> Lowerer<'l> {
             definitions: BTreeMap::new(),
             message_kinds: BTreeMap::new(),
             parts: BTreeMap::new(),
+            given_counts: BTreeMap::new(),
             messages: BTreeMap::new(),
             named_at: BTreeMap::new(),
             rule_names: BTreeSet::new(),

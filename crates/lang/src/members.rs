@@ -4,7 +4,9 @@ use crate::kinds::Kind;
 use crate::lower::{Lowerer, OWN};
 use crate::scope::Scope;
 use base::{Diagnostic, FileId, Name, Place, Span};
-use kernel::{ClassId, ClassKind, Message, OriginId, Parameter, Part, Path, Primitive, Step, Term};
+use kernel::{
+    ClassId, ClassKind, Count, Message, OriginId, Parameter, Part, Path, Primitive, Step, Term,
+};
 use syntax::ast::{self, AstNode, Expr, Member, span_without_doc};
 
 /// How many members all `for` of a document may come to.
@@ -210,8 +212,9 @@ impl Lowerer<'_> {
             let message = format!("{path} is not a list");
             return self.error("value-of-wrong-class", scope.file, list.span(), message);
         };
-        let Some(count) = self.count_of(scope, &list) else {
-            let what = "`for` over a list without a count, `List of 3 C`, is";
+        let Some(count) = self.count_of(scope, &list).or_else(|| self.given_count(scope, &list))
+        else {
+            let what = "`for` over a list without a count, `List of 3 C` or `= [a, b]`, is";
             return self.not_yet(scope.file, list.span(), what);
         };
         let members: Vec<Member> = each.body().into_iter().flat_map(|b| b.members()).collect();
@@ -267,6 +270,12 @@ impl Lowerer<'_> {
             let declared = Part { name: name.clone(), doc, class, count, range, origin };
             let place = Place { file: scope.file, span: word.span() };
             self.add_part(place, scope.class(), declared);
+            if let (Some(Count::Given), Some(Expr::List(list))) =
+                (count, part.value().and_then(ast::Value::expr))
+            {
+                let key = (scope.class(), name.clone());
+                self.given_counts.insert(key, list.elements().count() as u32);
+            }
             if let Some(value) = part.value().and_then(ast::Value::expr) {
                 let prefix = vec![Step::Part(name)];
                 let pending = Pending::Value { scope: scope.clone(), prefix, target: None, value };

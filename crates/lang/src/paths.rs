@@ -145,6 +145,14 @@ impl Lowerer<'_> {
         self.count_of_part(class, &name)
     }
 
+    /// Returns how many elements a list of the thing's own has by the value it is declared with.
+    pub(crate) fn given_count(&self, scope: &Scope, list: &Expr) -> Option<u32> {
+        let Expr::Name(name) = list else { return None };
+        let name = name.name()?.name();
+        let line = self.document.primary_line(scope.class());
+        line.into_iter().find_map(|c| self.given_counts.get(&(c, name.clone())).copied())
+    }
+
     /// Returns how many elements the list of this name has, if its class tells.
     pub(crate) fn count_of_part(&self, class: ClassId, name: &Name) -> Option<u32> {
         let line = self.document.primary_line(class);

@@ -127,6 +127,10 @@ impl Lowerer<'_> {
                 // they are seen where they are placed
                 let nothing = Term::Call { name: Name::new("picture"), arguments: Vec::new() };
                 self.add_hidden_message(class, "picture", nothing, Kind::Picture, origin);
+                for view in ["structure", "values"] {
+                    let rows = Kind::List(Box::new(Kind::Unknown));
+                    self.add_hidden_message(class, view, Term::List(Vec::new()), rows, origin);
+                }
                 self.add_hidden_part(root, name.clone(), class, origin);
                 let path = Path(vec![Step::Part(name.clone())]);
                 let strength = Some(Strength::Strong);

@@ -202,6 +202,12 @@ impl Lowerer<'_> {
                 let wanted = merge.paths().count();
                 let paths = self.paths(scope, merge.paths());
                 let Some(name) = self.rule_name(scope, merge.name()) else { return };
+                let twice = (1..paths.len()).find(|&i| paths[..i].contains(&paths[i]));
+                if let Some(i) = twice {
+                    let message = format!("{} is merged with itself", paths[i]);
+                    self.error("vacuous-merge", scope.file, merge.span(), message);
+                    return;
+                }
                 if paths.len() == wanted && wanted > 1 {
                     self.document.classes[class].merges.push(Merge { name, paths, origin });
                 }

@@ -140,6 +140,14 @@ const WRONG: &[(&str, &str, &str)] = &[
     ("use shapes\np: Placed of Line { p1 = (0, 0) }", "virtual-part", "p1"),
     ("q: Path to Real = bee", "unknown-reference", "bee"),
     ("p: Path to Real = 3", "unknown-reference", "3"),
+    ("use shapes\na: Line\nmerge a = a", "vacuous-merge", "merge a = a"),
+    (
+        "use shapes\na, b: Line\nmerge a.p1 = b.p1 = a.p1",
+        "vacuous-merge",
+        "merge a.p1 = b.p1 = a.p1",
+    ),
+    ("l: List of Real\nfor a in l { stay a }", "not-yet", "l"),
+    ("l: List of 2 Real\nk: List of 3 Real\nmerge l = k", "unlike-merge", "merge l = k"),
     // what every thing answers
     ("class A { picture => 3 }", "override-kind", "picture"),
     ("class A { description => 4 }", "override-kind", "description"),

@@ -3,18 +3,27 @@
 use crate::state::State;
 use crate::view::{Grip, PictureView};
 use crate::words;
-use kernel::{Values, Vertical};
+use kernel::{DOCUMENT, ThingId, Values, Vertical};
 
 /// Returns the picture for some values of a state.
 pub(crate) fn picture(state: &State, values: &Values, status: &plan::Status) -> PictureView {
     let (document, structure) = (&state.lowered.document, &state.structure);
-    let made = state.evaluator(values).picture(kernel::DOCUMENT);
+    let made = state.evaluator(values).picture(DOCUMENT);
     let mut drawing = made.drawing;
     drawing.vertical = match document.vertical {
         Vertical::Up => drawing::Vertical::Up,
         Vertical::Down => drawing::Vertical::Down,
     };
-    let grips = made.grips.iter().map(|grip| {
+    // what a view of the structure does not show, cannot be gripped
+    let unseen = |part: &ThingId| {
+        crate::general::named(state, *part, "structure").is_some_and(|shown| shown.is_empty())
+    };
+    let unseen: Vec<ThingId> = structure.parts(DOCUMENT).filter(unseen).collect();
+    let is_seen = |grip: &&eval::Grip| {
+        let owners = std::iter::successors(Some(grip.thing), |&t| structure.things[t].owner);
+        unseen.is_empty() || !owners.into_iter().any(|t| unseen.contains(&t))
+    };
+    let grips = made.grips.iter().filter(is_seen).map(|grip| {
         let slots = structure.slots_under(grip.thing);
         Grip {
             path: structure.path(document, grip.thing).to_string(),

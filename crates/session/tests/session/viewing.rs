@@ -56,3 +56,52 @@ fn rows_below_a_row_are_counted() {
         }
     }
 }
+
+/// A thing whose class says otherwise than Object what its views show, and how it moves.
+const WEIGHT: &str = "use geometry
+class Weight {
+    at: Point = (10, 10)
+    load: Force = 5 N
+    sag: Length => load * 2 m/N
+    description => \"a weight of \" + (load / 1 N).text + \" N\"
+    values => [\"load\", \"sag\"]
+    structure => [\"at\"]
+    moved(by way: Point) => Weight(at: Point(at.x + way.x, at.y), load: load)
+}
+w: Weight
+";
+
+#[test]
+fn a_class_says_what_its_views_show() {
+    let desk = Desk::of(WEIGHT);
+    let values: Vec<String> = desk.session.values(desk.id).into_iter().map(|r| r.path).collect();
+    assert_eq!(values, ["w.load", "w.sag"]);
+    let rows = desk.session.structure(desk.id);
+    let w = rows.iter().position(|r| r.path == "w").expect("the weight is there");
+    assert_eq!(rows[w].detail, "a weight of 5 N");
+    assert!(rows.iter().any(|r| r.path == "w.at") && !rows.iter().any(|r| r.path == "w.load"));
+}
+
+#[test]
+fn a_class_says_how_a_whole_moves() {
+    let mut desk = Desk::of(WEIGHT);
+    let path = session::parse_path("w").expect("a path");
+    let from = desk.session.press(desk.id, &path).expect("it can be dragged");
+    assert_eq!(from, (10.0, 10.0));
+    desk.session.drag(desk.id, (25.0, 40.0));
+    desk.session.release(desk.id).expect("nothing holds it");
+    let grips = desk.session.picture(desk.id).grips;
+    assert_eq!(grips.iter().map(|g| (g.x, g.y)).collect::<Vec<_>>(), [(25.0, 10.0)]);
+}
+
+#[test]
+fn masters_are_seen_where_they_are_placed_alone() {
+    let desk = Desk::of(
+        "use geometry\nclass Gear { rim: Point = (10, 0) }\nwheel: Placed of Gear { at = (10, 20) }\n",
+    );
+    let values = desk.session.values(desk.id);
+    assert!(values.iter().all(|r| !r.path.starts_with("masters")), "{values:?}");
+    let grips = desk.session.picture(desk.id).grips;
+    let paths: Vec<&str> = grips.iter().map(|g| g.path.as_str()).collect();
+    assert_eq!(paths, ["wheel.at"]);
+}
