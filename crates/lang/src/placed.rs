@@ -73,7 +73,12 @@ impl Lowerer<'_> {
             let masters = self.masters(master, origin);
             let master_path =
                 Term::send(Term::send(Term::Document, &masters), &self.master_name(master));
-            for (name, value) in [("scale", Term::number(1.0)), ("master", master_path)] {
+            let given = [
+                ("scale", Term::number(1.0)),
+                ("turn", Term::number(0.0)),
+                ("master", master_path),
+            ];
+            for (name, value) in given {
                 let path = Path::of(&[name]);
                 self.document.classes[class].givens.push(Given { path, value, origin });
             }
