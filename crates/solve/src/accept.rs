@@ -130,7 +130,7 @@ fn decide(
 /// Returns the slots of every place that may be held, by its group, over representatives.
 ///
 /// A coordinate that equals an earlier or firmer one has yielded, and its place with it.
-fn places(system: &System, classes: &Classes) -> Lists {
+pub(crate) fn places(system: &System, classes: &Classes) -> Lists {
     let grouped = || {
         (0..).zip(&system.slots).filter_map(|(s, slot)| match slot.stay {
             Stay::Kept { group } => Some((group, classes.representative[s as usize])),

@@ -12,6 +12,7 @@ use crate::system::{Level, SlotIndex};
 use base::number::Tolerance;
 use expr::{Arena, ExprId, LANES, Lanes, Var};
 use std::rc::Rc;
+use std::sync::OnceLock;
 
 /// Rows over unknowns.
 #[derive(Debug)]
@@ -33,6 +34,7 @@ pub(crate) struct Block {
     /// True if no derivative depends on an unknown.
     pub(crate) is_linear: bool,
     groups: Vec<Group>,
+    seconds: OnceLock<Vec<(u32, u32)>>,
     /// For every row, its group and its place there.
     place: Vec<(u32, u32)>,
 }
@@ -192,6 +194,7 @@ impl Block {
             definitions: Vec::new(),
             is_linear,
             groups,
+            seconds: OnceLock::new(),
             place,
         };
         block.define(definers);
@@ -465,20 +468,31 @@ impl Block {
         if worst.is_nan() { f64::INFINITY } else { worst }
     }
 
-    /// Returns row and unknowns of every second derivative that is not zero everywhere, in the order of
-    /// [`Block::each_second`].
-    pub(crate) fn second_places(&self) -> impl Iterator<Item = (usize, usize, usize)> + '_ {
-        let at = |slot: SlotIndex| self.unknowns.binary_search(&slot).ok();
-        self.groups.iter().flat_map(move |group| {
-            let arity = group.kernel.arity();
-            group.rows.iter().enumerate().flat_map(move |(i, &row)| {
-                let arguments = &group.arguments[i * arity..][..arity];
-                group.kernel.second().entries.iter().filter_map(move |&(a, b)| {
-                    let (i, j) = (at(arguments[a as usize])?, at(arguments[b as usize])?);
-                    Some((row as usize, i, j))
-                })
-            })
+    /// Returns the unknowns of every second derivative of every row, in the order of
+    /// [`Block::each_second`], which leaves out those by what is known; found once.
+    fn seconds(&self) -> &[(u32, u32)] {
+        self.seconds.get_or_init(|| {
+            let at = |slot: SlotIndex| self.unknowns.binary_search(&slot).ok();
+            let mut seconds = Vec::new();
+            for group in &self.groups {
+                for arguments in group.arguments.chunks_exact(group.kernel.arity()) {
+                    let entries = group.kernel.second().entries.iter();
+                    seconds.extend(entries.map(|&(a, b)| {
+                        match (at(arguments[a as usize]), at(arguments[b as usize])) {
+                            (Some(i), Some(j)) => (i as u32, j as u32),
+                            (None, _) | (_, None) => (KNOWN, KNOWN),
+                        }
+                    }));
+                }
+            }
+            seconds
         })
+    }
+
+    /// Returns the unknowns of every second derivative that is not zero everywhere, in the order of
+    /// [`Block::each_second`].
+    pub(crate) fn second_places(&self) -> impl Iterator<Item = (u32, u32)> + '_ {
+        self.seconds().iter().copied().filter(|&(i, _)| i != KNOWN)
     }
 
     /// Calls `visit` with row, unknowns and value of every second derivative that is not zero
@@ -487,19 +501,21 @@ impl Block {
         &self,
         values: &[f64],
         w: &mut Workspace,
-        visit: &mut dyn FnMut(usize, usize, usize, f64),
+        visit: &mut impl FnMut(usize, usize, usize, f64),
     ) {
-        let at = |slot: SlotIndex| self.unknowns.binary_search(&slot).ok();
+        let mut places = self.seconds();
         for group in &self.groups {
             let second = group.kernel.second();
-            let arity = group.kernel.arity();
-            group.each(&second.tape, second.entries.len(), values, w, &mut |row, out, value| {
-                let arguments = &group.arguments[row * arity..][..arity];
-                let (a, b) = second.entries[out];
-                if let (Some(i), Some(j)) = (at(arguments[a as usize]), at(arguments[b as usize])) {
+            let count = second.entries.len();
+            let (own, rest) = places.split_at(group.rows.len() * count);
+            places = rest;
+            group.each(&second.tape, count, values, w, &mut |row, out, value| {
+                let (i, j) = own[row * count + out];
+                if i != KNOWN {
                     // two arguments that are one unknown are their own mirror
+                    let (a, b) = second.entries[out];
                     let both = if a != b && i == j { 2.0 } else { 1.0 };
-                    visit(group.rows[row] as usize, i, j, both * value);
+                    visit(group.rows[row] as usize, i as usize, j as usize, both * value);
                 }
             });
         }

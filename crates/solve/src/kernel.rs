@@ -21,6 +21,7 @@ pub(crate) struct Kernel {
     /// Both sides, then the derivatives.
     pub(crate) slopes: Tape,
     derivatives: Vec<ExprId>,
+    stated: OnceLock<Vec<(u32, Side)>>,
     second: OnceLock<Second>,
     solved: Vec<OnceLock<Option<Solved>>>,
 }
@@ -105,8 +106,8 @@ impl Kernel {
         outs.extend(&derivatives);
         let slopes = Tape::compile(&arena, &outs);
         let solved = (0..arity).map(|_| OnceLock::new()).collect();
-        let second = OnceLock::new();
-        Self { arena, left, right, entries, sides, slopes, derivatives, second, solved }
+        let (stated, second) = (OnceLock::new(), OnceLock::new());
+        Self { arena, left, right, entries, sides, slopes, derivatives, stated, second, solved }
     }
 
     /// Compiles an equation of slots; returns the slots that are its arguments too.
@@ -192,15 +193,21 @@ impl Kernel {
     /// Returns the arguments that the equation states outright, each with its side: alone there, and
     /// not on the other.
     pub(crate) fn stated(&self) -> impl Iterator<Item = (u32, Side)> + '_ {
-        let sides = [(self.left, self.right, Side::Left), (self.right, self.left, Side::Right)];
-        sides.into_iter().filter_map(|(side, other, name)| match self.arena.node(side) {
-            Node::Var(var) if !self.arena.variables(other).contains(&var) => Some((var.0, name)),
-            Node::Var(_)
-            | Node::Constant(_)
-            | Node::Unary(..)
-            | Node::Binary(..)
-            | Node::Select { .. } => None,
-        })
+        let find = || {
+            let sides = [(self.left, self.right, Side::Left), (self.right, self.left, Side::Right)];
+            let stated = sides.map(|(side, other, name)| match self.arena.node(side) {
+                Node::Var(var) if !self.arena.variables(other).contains(&var) => {
+                    Some((var.0, name))
+                }
+                Node::Var(_)
+                | Node::Constant(_)
+                | Node::Unary(..)
+                | Node::Binary(..)
+                | Node::Select { .. } => None,
+            });
+            stated.into_iter().flatten().collect()
+        };
+        self.stated.get_or_init(find).iter().copied()
     }
 }
 

@@ -82,7 +82,7 @@ impl Least {
             for r in 0..m {
                 entries.extend(self.block.pattern.row(r as usize).iter().map(|&c| (c, n + r)));
             }
-            entries.extend(self.block.second_places().map(|(_, i, j)| (i as u32, j as u32)));
+            entries.extend(self.block.second_places());
             Symmetric::new((n + m) as usize, &entries)
         })
     }
@@ -199,12 +199,14 @@ impl Least {
             }
         }
         let first_curved = s.entries.len();
-        let curved = curvature == Curvature::Exact;
-        block.each_second(values, w, &mut |row, i, j, second| {
-            let factor = s.multipliers[row] * s.weight[row];
-            let value = if factor == 0.0 { 0.0 } else { factor * second * s.scale[i] * s.scale[j] };
-            s.entries.push(if curved && value.is_finite() { value } else { 0.0 });
-        });
+        match curvature {
+            Curvature::None => s.entries.extend(block.second_places().map(|_| 0.0)),
+            Curvature::Exact => block.each_second(values, w, &mut |row, i, j, second| {
+                let factor = s.multipliers[row] * s.weight[row];
+                let value = factor * second * s.scale[i] * s.scale[j];
+                s.entries.push(if factor != 0.0 && value.is_finite() { value } else { 0.0 });
+            }),
+        }
         let mut shift = 1.0;
         loop {
             match structure.factorise(&s.entries, &mut s.ldl) {

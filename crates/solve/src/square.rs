@@ -30,6 +30,9 @@ pub(crate) struct Square {
 #[derive(Clone, Debug, Default)]
 pub(crate) struct SquareScratch {
     local: Local,
+    /// The block and the residuals where a step began.
+    kept: Local,
+    kept_residual: Vec<f64>,
     /// The scaled Jacobian of the core, dense, or of all rows, in the order of their pattern.
     matrix: Vec<f64>,
     factors: Vec<f64>,
@@ -444,7 +447,8 @@ impl Square {
         self.weighted_norm(s)
     }
 
-    /// Walks along the step, halving it until the residuals are smaller; returns length and norm.
+    /// Walks along the step, halving it until the residuals are smaller; returns length and norm, or
+    /// nothing where that does not come about: then all is as it was.
     fn search(
         &self,
         values: &mut [f64],
@@ -455,9 +459,15 @@ impl Square {
     ) -> Option<(f64, f64)> {
         s.start.clear();
         s.start.extend((0..s.step.len()).map(|c| values[self.slot(c)]));
+        std::mem::swap(&mut s.local, &mut s.kept);
+        std::mem::swap(&mut s.residual, &mut s.kept_residual);
         let mut length = 1.0;
         let shortest = if was_held { 1.0 } else { 1e-7 };
-        while length >= shortest {
+        // what is too short to change a bit finds nothing better
+        let moves = |s: &SquareScratch, length: f64| {
+            s.start.iter().zip(&s.step).any(|(start, d)| start + length * d != *start)
+        };
+        while length >= shortest && moves(s, length) {
             for (c, (start, d)) in s.start.iter().zip(&s.step).enumerate() {
                 values[self.slot(c)] = start + length * d;
             }
@@ -471,7 +481,9 @@ impl Square {
         for (c, start) in s.start.iter().enumerate() {
             values[self.slot(c)] = *start;
         }
-        self.evaluate(values, w, s);
+        self.block.compute_defined(values, w);
+        std::mem::swap(&mut s.local, &mut s.kept);
+        std::mem::swap(&mut s.residual, &mut s.kept_residual);
         None
     }
 

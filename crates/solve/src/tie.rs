@@ -7,13 +7,12 @@
 //! least. A place with freedom (one end of a bar) reaches as far as it ever will, and so do linear
 //! rows (midpoints, alignments, offsets): they tie nothing; nor does a row that determines a lone number.
 
-use crate::accept::Acceptance;
+use crate::accept::{Acceptance, places};
 use crate::direct::Direction;
 use crate::lists::Lists;
 use crate::rows::Rows;
 use crate::substitute::Classes;
 use crate::system::{SlotIndex, Stay, System};
-use std::collections::BTreeMap;
 
 /// Lets tied places yield; `direction` is that of the acceptance. Returns true if any does.
 pub(crate) fn tie(
@@ -23,9 +22,15 @@ pub(crate) fn tie(
     direction: &Direction,
     acceptance: &mut Acceptance,
 ) -> bool {
+    if acceptance.accepted.iter().all(|&r| !rows[r].curved) {
+        return false;
+    }
     let places = places(system, classes);
     let place = |slot: SlotIndex| match classes.stay[slot as usize] {
-        Stay::Kept { group } => places.get(&group).map_or(&[][..], |p| p),
+        Stay::Kept { group } => {
+            let place = places.of(group);
+            if place.len() > 1 { place } else { &[] }
+        }
         Stay::Fixed | Stay::Given | Stay::Free => &[],
     };
     let free = with_freedom(rows, direction, acceptance);
@@ -50,24 +55,6 @@ pub(crate) fn tie(
         }
     }
     tied
-}
-
-/// The coordinates of every place that yields as one, over representatives.
-fn places(system: &System, classes: &Classes) -> BTreeMap<u32, Vec<SlotIndex>> {
-    let mut places: BTreeMap<u32, Vec<SlotIndex>> = BTreeMap::new();
-    for (s, slot) in (0..).zip(&system.slots) {
-        if let Stay::Kept { group } = slot.stay {
-            places.entry(group).or_default().push(s);
-        }
-    }
-    places.retain(|&group, slots| {
-        for s in slots.iter_mut() {
-            *s = classes.representative[*s as usize];
-        }
-        let own = |s: &SlotIndex| classes.stay[*s as usize] == Stay::Kept { group };
-        slots.len() > 1 && slots.iter().all(own)
-    });
-    places
 }
 
 /// For every slot: a slot that no row determines can be exchanged for it.
