@@ -101,6 +101,15 @@ pub fn shortest(x: f64) -> String {
     }
 }
 
+/// Which way a number goes.
+#[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Debug)]
+pub enum Toward {
+    /// It shrinks.
+    Less,
+    /// It grows.
+    More,
+}
+
 /// Returns `x` rounded to `digits` decimals, trailing zeros dropped.
 ///
 /// ```

@@ -1,6 +1,9 @@
 //! A document: classes, the last word of which is the document's own.
 
 use crate::class::{Class, ClassId, ClassKind, Message, Part};
+use crate::path::Path;
+use crate::term::OriginId;
+use base::number::Toward;
 use base::{IdVec, Name};
 use std::collections::BTreeSet;
 
@@ -24,6 +27,73 @@ pub struct Document {
     pub vertical: Vertical,
     /// How many base units of length are in a metre: 1000 for `unit mm`, 1 without a unit line.
     pub units_per_metre: f64,
+    /// Which way things go that stand where two branches meet.
+    pub sides: Vec<Side>,
+}
+
+/// Which way a place or a number goes from where two branches meet, and its values do not say it.
+#[derive(Clone, PartialEq, Debug)]
+pub struct Side {
+    /// The place or number, from the document.
+    pub path: Path,
+    /// Which way.
+    pub way: SideWay,
+    /// Where it was written.
+    pub origin: OriginId,
+}
+
+/// The ways that can be written: of a place as on the sheet, of a number by its size.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub enum SideWay {
+    /// Its `x` shrinks.
+    Left,
+    /// Its `x` grows.
+    Right,
+    /// Up the sheet, whichever way `y` runs.
+    Up,
+    /// Down the sheet.
+    Down,
+    /// A number shrinks.
+    Less,
+    /// A number grows.
+    More,
+}
+
+impl SideWay {
+    /// All of them.
+    pub const ALL: [Self; 6] =
+        [Self::Left, Self::Right, Self::Up, Self::Down, Self::Less, Self::More];
+
+    /// Returns the word for it in the language.
+    pub fn word(self) -> &'static str {
+        match self {
+            Self::Left => "left",
+            Self::Right => "right",
+            Self::Up => "up",
+            Self::Down => "down",
+            Self::Less => "less",
+            Self::More => "more",
+        }
+    }
+    /// Returns the coordinate of a place that it speaks of; nothing where it speaks of a number.
+    pub fn coordinate(self) -> Option<&'static str> {
+        match self {
+            Self::Left | Self::Right => Some("x"),
+            Self::Up | Self::Down => Some("y"),
+            Self::Less | Self::More => None,
+        }
+    }
+    /// Returns whether the number that it speaks of grows.
+    pub fn toward(self, vertical: Vertical) -> Toward {
+        match (self, vertical) {
+            (Self::Right | Self::More, _)
+            | (Self::Up, Vertical::Up)
+            | (Self::Down, Vertical::Down) => Toward::More,
+            (Self::Left | Self::Less, _)
+            | (Self::Down, Vertical::Up)
+            | (Self::Up, Vertical::Down) => Toward::Less,
+        }
+    }
 }
 
 /// A part as an instance has it: whose class it comes from and where in that class.

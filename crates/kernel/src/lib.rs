@@ -27,7 +27,7 @@ pub use class::{
     Part, Primitive, Setting, Stay, Strength, Superclass, Switch,
 };
 pub use command::{Command, Literal};
-pub use document::{Document, PartRef, PartRole, Vertical};
+pub use document::{Document, PartRef, PartRole, Side, SideWay, Vertical};
 pub use instantiate::{Fault, FaultKind, instantiate};
 pub use path::{Path, Step};
 pub use structure::{

@@ -1,9 +1,10 @@
 //! The structure: every thing of a document, what it is part of, what it is merged with.
 
 use crate::class::{ClassId, Primitive, Strength, Switch};
-use crate::document::{Document, PartRef, PartRole};
+use crate::document::{Document, PartRef, PartRole, SideWay};
 use crate::path::{Path, Step};
 use crate::term::{OriginId, Term};
+use base::number::Toward;
 use base::{IdVec, Name};
 use std::collections::{BTreeMap, BTreeSet};
 use std::rc::Rc;
@@ -110,6 +111,8 @@ pub struct Structure {
     pub strengths: BTreeMap<ConstraintInstance, Strength>,
     /// Declared stays and anchors.
     pub stays: Vec<StayInstance>,
+    /// Which way slots go that stand where two branches meet, for those of which it is written.
+    pub sides: BTreeMap<SlotId, Toward>,
     /// The members of every set, by the set's first thing, in order of declaration, merged ones once.
     pub sets: BTreeMap<ThingId, Vec<ThingId>>,
     /// What references name, for those that name something. No target is a reference.
@@ -305,6 +308,28 @@ impl Structure {
     /// Returns the given value of a slot.
     pub fn given(&self, slot: SlotId) -> Option<&GivenTerm> {
         self.slots[slot].given.map(|g| &self.givens[g.value])
+    }
+    /// Returns the slot that is meant where a thing goes some way: a coordinate of a place, or a number.
+    pub fn slot_of_side(&self, thing: ThingId, way: SideWay) -> Option<SlotId> {
+        match way.coordinate() {
+            Some(coordinate) => self.slot_of[self.part_named(thing, coordinate)?],
+            None => self.slot_of[thing],
+        }
+    }
+    /// Returns how it is written that a slot goes some way: of its place where it is a coordinate.
+    pub fn side_of(&self, document: &Document, slot: SlotId, toward: Toward) -> (Path, SideWay) {
+        let s = &self.slots[slot];
+        let thing = s.place.unwrap_or(s.thing);
+        let says = |way: &SideWay| {
+            way.toward(document.vertical) == toward && self.slot_of_side(thing, *way) == Some(slot)
+        };
+        match SideWay::ALL.into_iter().find(says) {
+            Some(way) => (self.path(document, thing), way),
+            None => {
+                let way = if toward == Toward::More { SideWay::More } else { SideWay::Less };
+                (self.path(document, s.thing), way)
+            }
+        }
     }
     /// Returns the name of the field that a thing is, or nothing for the document and list elements.
     pub fn field_name<'d>(&self, document: &'d Document, thing: ThingId) -> Option<&'d Name> {

@@ -11,6 +11,7 @@ mod home;
 mod merge;
 mod promote;
 mod rename;
+mod sides;
 mod switch;
 
 use crate::lower::Lowered;
@@ -18,6 +19,7 @@ use crate::uses::{Text, refused};
 use base::Diagnostic;
 use home::Home;
 use kernel::{ClassId, Command, Path, Step, Structure};
+pub use sides::write_sides;
 use syntax::ast::Expr;
 use syntax::edit::{self, TextEdit};
 use syntax::{SyntaxKind, SyntaxNode};

@@ -48,7 +48,7 @@ mod visible;
 mod write;
 
 pub use checks::{Check, Expectation, PlanKind, Statement, StatementKind, without_checks};
-pub use edits::{Restructuring, edits_for, for_every};
+pub use edits::{Restructuring, edits_for, for_every, write_sides};
 pub use files::File;
 pub use lower::{Lowered, lower};
 pub use numbers::{Wanted, read_literal, show_limit, show_number};

@@ -9,7 +9,7 @@ use crate::terms::code_for;
 use base::{Diagnostic, Name, Place};
 use kernel::{
     BinaryOperator, ClassId, ClassKind, Constraint, Given, Insert, Merge, Method, OriginId, Path,
-    Primitive, Stay, Step, Strength, Term,
+    Primitive, Side, SideWay, Stay, Step, Strength, Term,
 };
 use syntax::ast::{self, AstNode, Expr, Member, MethodItem, Rule, span_without_doc};
 
@@ -193,6 +193,32 @@ impl Lowerer<'_> {
         true
     }
 
+    fn define_side(&mut self, scope: &Scope, side: &ast::Side, origin: OriginId) {
+        let (Some(target), Some(word)) = (side.target(), side.side()) else { return };
+        let Some(path) = self.paths(scope, std::iter::once(target.clone())).pop() else { return };
+        let class = self.class_at(scope.class(), &path);
+        let is_place = class.is_some_and(|c| self.document.is_place(c));
+        let is_number = class.is_some_and(|c| match &self.document.classes[c].kind {
+            ClassKind::Primitive(primitive) => primitive.is_number(),
+            _ => false,
+        });
+        let way = SideWay::ALL.into_iter().find(|way| *word.name() == *way.word());
+        let fits = |way: &SideWay| way.coordinate().is_some() == is_place;
+        match way.filter(fits) {
+            _ if !is_place && !is_number => {
+                let message = format!("{path} is neither a place nor a number");
+                self.error("side-of-nothing", scope.file, target.span(), message);
+            }
+            Some(way) => self.document.sides.push(Side { path, way, origin }),
+            None => {
+                let ways = SideWay::ALL.into_iter().filter(fits).map(SideWay::word);
+                let ways = ways.collect::<Vec<_>>().join(", ");
+                let message = format!("found `{}`, wanted one of {ways}", word.name());
+                self.error("unknown-side", scope.file, word.span(), message);
+            }
+        }
+    }
+
     fn define(&mut self, scope: &Scope, member: &Member) {
         let origin = self.origin(scope.file, span_without_doc(member.syntax()));
         let class = scope.class();
@@ -224,6 +250,7 @@ impl Lowerer<'_> {
                     self.document.classes[class].stays.push(Stay { path, strength: None, origin });
                 }
             }
+            Member::Side(side) => self.define_side(scope, side, origin),
             Member::Insert(insert) => self.define_insert(scope, insert, origin),
             Member::Without(without) => {
                 for e in without.paths() {

@@ -6,7 +6,7 @@ use crate::edit::{EditKind, EditReport, RefusalReason, Target, note};
 use crate::host::Host;
 use crate::modal::{Acting, ModalDrag, ModeChange};
 use crate::planner::{Latest, Model, Planner};
-use crate::run::{Adapter, ran, scatter, searched};
+use crate::run::{Adapter, leans, ran, scatter, searched};
 use crate::task::{Course, Task};
 use kernel::{SlotId, Values};
 use solve::{Puzzle, SlotIndex, Stay, Verdict};
@@ -102,7 +102,7 @@ impl Planner {
     pub(crate) fn press_aim(&mut self, model: Model<'_>, values: &Values, aim: Aim) -> Press {
         let tasks = self.plan_edit(model, &aim);
         self.latest = Latest { tasks: tasks.clone(), edited: Some(aim.slots()) };
-        let pull = |task| self.pull(task, &aim, values);
+        let pull = |task| self.pull(model, task, &aim, values);
         let pulls = tasks.into_iter().map(pull).collect();
         Press { aim, pulls }
     }
@@ -146,6 +146,7 @@ impl Planner {
         let reached = self.reached(&press.aim, values);
         let mut report = EditReport { reached, ..EditReport::default() };
         let start = press.start(values);
+        let aim = press.aim;
         self.latest.tasks = press.pulls.into_iter().map(|p| p.task).collect();
         let components: Vec<Rc<Component>> =
             self.latest.tasks.iter().map(|t| t.component.clone()).collect();
@@ -164,10 +165,11 @@ impl Planner {
             return report;
         }
         report.changed = values.changed(&start).collect();
+        report.undecided = self.undecided(model, &self.latest.tasks, &aim, &start, values);
         report
     }
 
-    fn pull(&self, task: Task, aim: &Aim, values: &Values) -> Pull {
+    fn pull(&self, model: Model<'_>, task: Task, aim: &Aim, values: &Values) -> Pull {
         let mut x0 = task.gather(&values.numbers);
         for &(known, wish, coordinate) in task.targets() {
             let formula = &aim.wishes[wish as usize].formulas[coordinate as usize];
@@ -179,7 +181,8 @@ impl Planner {
         let text = |slot: SlotId| (slot, values.texts.get(&slot).cloned());
         let (way, texts) = match &task.course {
             Course::Plan => {
-                let drag = solve::Drag::begin(&task.plan, &x0, &inputs);
+                let mut drag = solve::Drag::begin(&task.plan, &x0, &inputs);
+                drag.lean(&task.plan, &leans(model, &task));
                 let texts = drag.texts().iter().map(|&t| text(slots[t as usize])).collect();
                 (Way::Plan(Box::new(drag)), texts)
             }

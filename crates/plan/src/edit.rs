@@ -11,6 +11,7 @@ use crate::rule::Source;
 use crate::run::{Ran, run, scatter};
 use crate::task::{Holding, Task, Wish};
 use base::IdVec;
+use base::number::Toward;
 use kernel::{SlotId, Term, ThingId, Value, Values};
 use solve::Level;
 use std::collections::BTreeSet;
@@ -52,6 +53,8 @@ pub struct EditReport {
     pub conflicts: Vec<Conflict>,
     /// True if every target has the value that was wanted.
     pub reached: bool,
+    /// Which way slots go whose values, as the edit left them, do not say on which of two branches.
+    pub undecided: Vec<(SlotId, Toward)>,
     /// How far towards these values a refused edit could have gone, as a part of the way.
     pub limit: Option<f64>,
     /// Slots where two solutions coincide: their values are known to half the digits only.
@@ -282,6 +285,8 @@ impl Planner {
         }
         if report.refusal.is_none() {
             report.changed = scratch.changed(values).collect();
+            let tasks = &self.latest.tasks;
+            report.undecided = self.undecided(model, tasks, aim, values, &scratch);
             *values = scratch;
         }
         report

@@ -7,7 +7,7 @@ use crate::edit::{Conflict, NotDecided};
 use crate::host::Host;
 use crate::planner::{Model, Planner};
 use crate::rule::Source;
-use crate::run::{Adapter, Ground, Ran, ran, scatter};
+use crate::run::{Adapter, Ground, Ran, leans, ran, scatter};
 use crate::task::{Course, Task};
 use kernel::Values;
 use solve::{
@@ -148,7 +148,7 @@ pub(crate) fn run(
         values.texts.clone_from(&texts);
         let mut adapter = Adapter { planner, model, task, values, host };
         let Ground { x0, changed, .. } = ground;
-        let runner = &mut Runner::new();
+        let runner = &mut Runner::leaning(leans(model, task));
         let outcome = solve::run(&plan, runner, x0, &mut local, changed, &mut adapter);
         Tried { plan, outcome, values: local }
     };
@@ -240,14 +240,16 @@ impl ModalDrag {
         self.wishes += 1;
         let Self { modes, x0, inputs, followed, mode, now, wishes } = self;
         let texts = values.texts.clone();
+        let leans = leans(model, task);
         let first = Mode { active: Default::default(), ..mode.clone() };
         let mut attempt = |mode: &Mode| {
             let (_, plan) = planner.plans.in_mode(modes, mode);
             values.texts.clone_from(&texts);
             let mut adapter = Adapter { planner, model, task, values, host };
-            let follow = followed.entry(mode.clone()).or_insert_with(|| Followed {
-                drag: solve::Drag::begin(&plan, x0, inputs),
-                wish: 0,
+            let follow = followed.entry(mode.clone()).or_insert_with(|| {
+                let mut drag = solve::Drag::begin(&plan, x0, inputs);
+                drag.lean(&plan, &leans);
+                Followed { drag, wish: 0 }
             });
             if follow.wish + 1 < *wishes {
                 follow.drag.stand_at(now);

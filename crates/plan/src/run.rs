@@ -8,8 +8,9 @@ use crate::modal::{self, Stands};
 use crate::planner::{Model, Planner};
 use crate::rule::{How, Source};
 use crate::task::{Course, Origin, Task};
+use base::number::Toward;
 use kernel::{SlotId, Value, Values};
-use solve::{Outcome, Reason, Runner, Scratch, SlotIndex, Status, Verdict};
+use solve::{Lean, Outcome, Reason, Runner, Scratch, SlotIndex, Status, Verdict};
 use std::collections::BTreeSet;
 
 /// What came of a task.
@@ -55,7 +56,7 @@ pub(crate) fn run(
         Course::Plan => {
             let Ground { x0, mut local, changed } = ground;
             let mut adapter = Adapter { planner, model, task, values, host };
-            let runner = &mut Runner::new();
+            let runner = &mut Runner::leaning(leans(model, task));
             let outcome = solve::run(&task.plan, runner, &x0, &mut local, &changed, &mut adapter);
             scatter(task, &local, values);
             ran(planner, task, &outcome)
@@ -90,6 +91,44 @@ fn ground(planner: &Planner, task: &Task, aim: &Aim, start: &Values, values: &Va
         }
     }
     Ground { x0, local, changed }
+}
+
+/// Returns what is written of the slots of a task: which way they go from where two branches meet.
+pub(crate) fn leans(model: Model<'_>, task: &Task) -> Vec<Lean> {
+    let sides = &model.structure.sides;
+    if sides.is_empty() {
+        return Vec::new();
+    }
+    let slots = (0..).zip(&task.component.slots);
+    let lean =
+        |(slot, id): (SlotIndex, &SlotId)| sides.get(id).map(|&toward| Lean { slot, toward });
+    slots.filter_map(lean).collect()
+}
+
+impl Planner {
+    /// Returns which way slots go that an edit brought to where two branches meet, so that the
+    /// branch it came on goes on. Cost: a factorisation of every block with several solutions.
+    pub(crate) fn undecided(
+        &self,
+        model: Model<'_>,
+        tasks: &[Task],
+        aim: &Aim,
+        before: &Values,
+        after: &Values,
+    ) -> Vec<(SlotId, Toward)> {
+        let mut undecided = Vec::new();
+        for task in tasks.iter().filter(|t| !matches!(t.course, Course::Search(_))) {
+            let [x0, now] =
+                [before, after].map(|values| ground(self, task, aim, values, values).x0);
+            let slot = |lean: Lean| {
+                let slot = task.component.slots.get(lean.slot as usize)?;
+                Some((*slot, lean.toward))
+            };
+            let leaning = solve::leaning(&task.plan, &x0, &leans(model, task), &now);
+            undecided.extend(leaning.into_iter().filter_map(slot));
+        }
+        undecided
+    }
 }
 
 /// Says what came of a search.

@@ -11,7 +11,8 @@ use crate::state::State;
 use crate::texts::Texts;
 use crate::view::{Change, Choice, Question, Refusal};
 use crate::words;
-use crate::write_back::{differing, write_back};
+use crate::write_back::{differing, sides_after, write_back, write_sides};
+use base::number::Toward;
 use kernel::{Command, DOCUMENT, Literal, Path, SlotId, Step, Term, ThingId, Value, Values};
 use plan::{EditKind, Planner, Target};
 use std::sync::Arc;
@@ -91,7 +92,7 @@ fn edit(
     }
     let label = label(kind, &aims_paths(&state, &aims));
     let edited = aims.iter().flat_map(|(aim, _)| slots_of(&state, aim)).collect();
-    keep(open, host, label, edited, &values)
+    keep(open, host, label, edited, &values, &report.undecided)
 }
 
 /// Says in a refusal how far the edit could have gone.
@@ -161,7 +162,8 @@ fn flatten(literal: &Literal, values: &mut Vec<Value>) {
     }
 }
 
-/// Makes values the document's own, as one step: written back, opened anew.
+/// Makes values the document's own, as one step: written back, opened anew. `undecided` is which way slots
+/// go whose values do not say on which of two branches they lie.
 ///
 /// # Errors
 /// That the text cannot say them, because what would have to say them is wrong; or that a required
@@ -172,6 +174,7 @@ pub(crate) fn keep(
     label: String,
     edited: Vec<SlotId>,
     values: &Values,
+    undecided: &[(SlotId, Toward)],
 ) -> Result<Change, Refusal> {
     let before = open.state.clone();
     if values.changed(&before.values).next().is_none() {
@@ -179,7 +182,9 @@ pub(crate) fn keep(
     }
     let latest = open.planner.take_latest();
     let plans = open.planner.take_plans();
-    let (state, mut planner) = write_back(&before, values, &edited, host, plans);
+    let (state, planner) = write_back(&before, values, &edited, host, plans);
+    let sides = sides_after(&before, values, undecided);
+    let (state, mut planner) = write_sides(state, planner, &sides, host);
     let status = state.status(&mut planner);
     let unsaid = differing(&state, values).next().filter(|_| !state.diagnostics.is_empty());
     let refusal = match unsaid {
@@ -199,7 +204,8 @@ pub(crate) fn keep(
     planner.restore_latest(latest);
     let modes = planner.mode_changes(&before.values, values);
     open.step_with(label.clone(), edited, (state, planner, status));
-    let modes = limits::modes(&open.state, &modes);
+    let mut modes = limits::modes(&open.state, &modes);
+    modes.extend(limits::sides(&before, &open.state));
     Ok(Change { modes, ..change(label, &before, &open.state) })
 }
 

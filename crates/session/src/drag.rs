@@ -171,6 +171,6 @@ impl Drag {
             return Err(words::refusal_for(&state, reason, &report));
         }
         let label = format!("move {}", self.path);
-        apply::keep(open, host, label, self.slots, &self.values)
+        apply::keep(open, host, label, self.slots, &self.values, &report.undecided)
     }
 }

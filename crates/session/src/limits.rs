@@ -4,6 +4,7 @@ use crate::drag::Drag;
 use crate::state::State;
 use crate::view::{Limit, ModeView};
 use crate::words;
+use base::number::Toward;
 use kernel::{DOCUMENT, Primitive, SlotId, Term, ThingId, Value};
 use plan::{ActingKind, ModeChange, Source};
 
@@ -138,6 +139,27 @@ fn tuple(numbers: &[String]) -> String {
         [one] => one.clone(),
         several => format!("({})", several.join(", ")),
     }
+}
+
+/// Says which orientations are written that were not, and which are not any more.
+pub(crate) fn sides(before: &State, after: &State) -> Vec<ModeView> {
+    let told = |state: &State, other: &State, slot: SlotId, toward: Toward| {
+        let (path, way) = state.structure.side_of(&state.lowered.document, slot, toward);
+        (other.structure.sides.get(&slot) != Some(&toward)).then(|| (path, way.word()))
+    };
+    let new = after.structure.sides.iter().filter_map(|(&slot, &toward)| {
+        let (path, way) = told(after, before, slot, toward)?;
+        let message =
+            format!("two branches meet at {path}: it goes on {way}, which is written (side)");
+        Some(ModeView { constraint: path.to_string(), message, span: None })
+    });
+    let old = before.structure.sides.iter().filter_map(|(&slot, &toward)| {
+        let (path, way) = told(before, after, slot, toward)?;
+        let decided = !after.structure.sides.contains_key(&slot);
+        let message = format!("{path} has gone {way}: its values say it now");
+        decided.then(|| ModeView { constraint: path.to_string(), message, span: None })
+    });
+    new.chain(old).collect()
 }
 
 /// Says what acts otherwise than before.

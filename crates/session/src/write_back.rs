@@ -7,10 +7,10 @@
 
 use crate::host::Host;
 use crate::state::State;
-use base::number::close;
-use kernel::{Literal, Path, Primitive, SlotId, ThingId, Value, Values};
+use base::number::{Toward, close};
+use kernel::{Literal, Path, Primitive, SideWay, SlotId, ThingId, Value, Values};
 use plan::{Planner, Plans};
-use std::collections::BTreeSet;
+use std::collections::{BTreeMap, BTreeSet};
 
 /// Makes the state whose text gives these values, and its planner.
 ///
@@ -61,6 +61,46 @@ pub(crate) fn write_back(
         more = if written.len() < 8 { 1 } else { more * 2 };
         plans = planner.into_plans();
     }
+}
+
+/// Returns which way slots go from where two branches meet, after an edit: as the edit says, and as is
+/// written of what it did not move. Where values decide, nothing is to be written.
+pub(crate) fn sides_after(
+    before: &State,
+    values: &Values,
+    undecided: &[(SlotId, Toward)],
+) -> BTreeMap<SlotId, Toward> {
+    let mut sides: BTreeMap<SlotId, Toward> = undecided.iter().copied().collect();
+    for (&slot, &toward) in &before.structure.sides {
+        let unit = unit_of_writing(before, slot);
+        let is_told = undecided.iter().any(|&(s, _)| unit_of_writing(before, s) == unit);
+        let stays =
+            |s: &SlotId| values.numbers[*s].to_bits() == before.values.numbers[*s].to_bits();
+        if !is_told && before.structure.slots_under(unit).iter().all(stays) {
+            sides.insert(slot, toward);
+        }
+    }
+    sides
+}
+
+/// Makes the state whose text says these sides and no others, and its planner.
+pub(crate) fn write_sides(
+    state: State,
+    planner: Planner,
+    sides: &BTreeMap<SlotId, Toward>,
+    host: &dyn Host,
+) -> (State, Planner) {
+    if *sides == state.structure.sides {
+        return (state, planner);
+    }
+    let document = &state.lowered.document;
+    let wanted: Vec<(Path, SideWay)> = sides
+        .iter()
+        .map(|(&slot, &toward)| state.structure.side_of(document, slot, toward))
+        .collect();
+    let edits = lang::write_sides(&state.lowered, &wanted);
+    let text = syntax::edit::apply(&state.text, &edits);
+    State::of(text, Some(&state), host, planner.into_plans())
 }
 
 /// Returns the slots whose values differ by more than rounding.

@@ -90,6 +90,8 @@ mod test;
 
 mod attempt;
 
+pub mod fork;
+
 pub mod run;
 
 pub mod conditional;
@@ -102,12 +104,13 @@ pub mod search;
 
 pub use conditional::{Condition, Conditional, Demand, DemandKind, Guard, SlotRange};
 pub use few::Few;
+pub use fork::Lean;
 pub use modes::{Decision, Ended, Mode, Modes, Standing, Tried, decide};
 pub use outcome::{Host, NoHost, Note, Outcome, Reason, Status, Unmet};
 pub use pattern::{Pattern, PatternId, Patterns, Scratch};
 pub use plan::{Plan, Rejected, Report, Step, StepKind, plan};
 pub use proof::Proofs;
-pub use run::{Drag, Runner, run};
+pub use run::{Drag, Runner, leaning, run};
 pub use search::{Count, Puzzle, Verdict};
 pub use system::{
     Equation, Level, Method, MethodBody, Relation, RelationBody, Slot, SlotIndex, Span, Stay,

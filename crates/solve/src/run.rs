@@ -6,6 +6,7 @@
 //! the branch ends, soft wishes are met as nearly as they can be, and required ones stop the edit.
 
 use crate::attempt::{self, Approach, Attempt, Buffers, Failure, Frame, Part};
+use crate::fork::{self, Lean};
 use crate::lower::Program;
 use crate::outcome::{Host, Outcome, Reason, Status, Unmet};
 use crate::plan::Plan;
@@ -29,6 +30,7 @@ pub struct Runner {
     goal: Vec<f64>,
     came: Vec<f64>,
     trial: Vec<f64>,
+    leans: Vec<Lean>,
 }
 
 impl Runner {
@@ -36,6 +38,21 @@ impl Runner {
     pub fn new() -> Self {
         Self::default()
     }
+    /// Makes one for a state that leans where two branches meet.
+    pub fn leaning(leans: Vec<Lean>) -> Self {
+        Self { leans, ..Self::default() }
+    }
+}
+
+/// Returns which way the state that a run or drag came to leans where two branches meet, so that the
+/// branch on which it came can be gone back.
+///
+/// `x0` is the state when the edit began, where `leans` said what its values do not. Blocks with more
+/// than a dozen unknowns are not looked at.
+pub fn leaning(plan: &Plan, x0: &[f64], leans: &[Lean], values: &[f64]) -> Vec<Lean> {
+    let mut runner = Runner::new();
+    start(plan, &mut runner, x0, &[]);
+    fork::leaning(plan, &runner.frame, &mut runner.buffers, leans, values)
 }
 
 /// Runs a plan for one edit.
@@ -56,9 +73,10 @@ pub fn run(
     runner.came.clear();
     runner.came.extend_from_slice(values);
     let solved_before = start(plan, runner, x0, changed);
-    let Runner { frame, buffers, last, goal, came, trial } = runner;
+    let Runner { frame, buffers, last, goal, came, trial, leans } = runner;
     last.clear();
     last.extend_from_slice(&frame.x0);
+    fork::lean(plan, frame, buffers, leans, last);
     goal.clear();
     goal.extend_from_slice(&frame.x0);
     for (i, slot) in plan.slots.iter().enumerate() {
@@ -116,6 +134,8 @@ pub struct Drag {
     branch: Vec<f64>,
     /// False until a state was seen in which everything required holds.
     has_branch: bool,
+    /// True while the branch is followed from a state that leans: the press, a little aside.
+    leans: bool,
     now: Vec<f64>,
 }
 
@@ -143,7 +163,20 @@ impl Drag {
             now: branch.clone(),
             branch,
             has_branch,
+            leans: false,
         }
+    }
+
+    /// Says which way the state at the press leans where two branches meet.
+    pub fn lean(&mut self, plan: &Plan, leans: &[Lean]) {
+        if leans.is_empty() {
+            return;
+        }
+        let Runner { frame, buffers, .. } = &mut self.runner;
+        fork::lean(plan, frame, buffers, leans, &mut self.branch);
+        self.leans = true;
+        // what is not downstream is to have its bits back
+        self.has_run = false;
     }
 
     /// Goes on from another state, which another plan's drag came to.
@@ -154,6 +187,7 @@ impl Drag {
         self.branch.copy_from_slice(state);
         self.now.copy_from_slice(state);
         self.has_branch = false;
+        self.leans = false;
         // what the drag does not move has to be computed again from here
         self.has_run = false;
         self.upstream.clear();
@@ -210,6 +244,7 @@ impl Drag {
                     std::mem::swap(way.trial, now);
                     branch.copy_from_slice(now);
                     self.has_branch = true;
+                    self.leans = false;
                 }
             }
             Err(failure) => {
@@ -225,6 +260,10 @@ impl Drag {
                     fraction = if rest == 1.0 { 1.0 } else { fraction + (1.0 - fraction) * rest };
                     anchored = anew.anchor.filter(|_| rest > 0.0);
                 }
+                self.leans &= fraction == 0.0;
+                if self.leans {
+                    limit.clone_from(&frame.x0);
+                }
                 let approached = fraction < 1.0 && way.approach(&limit, goal, &failure).is_ok();
                 // from here on nothing is known to hold because of how it was computed
                 way.part = Part::Whole;
@@ -238,7 +277,9 @@ impl Drag {
                     if fraction < 1.0 {
                         outcome.status = Status::Stopped(Stop::At(fraction, failure).reason());
                     }
-                    branch.copy_from_slice(&limit);
+                    if !self.leans {
+                        branch.copy_from_slice(&limit);
+                    }
                     now.copy_from_slice(&limit);
                 }
                 // a region that was approached is not downstream alone

@@ -131,10 +131,64 @@ impl Square {
         self.factorise(s).sign
     }
 
+    /// Returns the direction that the core is free to go in to first order, in scaled unknowns, where the
+    /// Jacobian is so nearly singular that two solutions meet to the tolerance of rules. Nothing where
+    /// values decide between them, where more than one direction is open, and in a core too large for
+    /// dense algebra.
+    pub(crate) fn fork(
+        &self,
+        values: &[f64],
+        scales: &[f64],
+        w: &mut Workspace,
+        s: &mut SquareScratch,
+    ) -> Option<Vec<f64>> {
+        // two solutions that lie nearer than this are solutions where the other one is: their
+        // residual is the square of it
+        const MEET: f64 = 3e-5;
+        if self.block.is_linear || !self.is_dense() {
+            return None;
+        }
+        let n = self.block.core.len();
+        s.weight.clear();
+        s.weight.resize(self.block.height(), 1.0);
+        self.block.slopes(values, w, &mut s.local);
+        // a distance has no slope where it is nothing
+        s.local.jacobian.iter_mut().filter(|d| !d.is_finite()).for_each(|d| *d = 0.0);
+        s.own = None;
+        self.weigh(scales, s);
+        self.fill(scales, s);
+        if self.factorise(s).ratio > 1e-2 {
+            return None;
+        }
+        let (values, vectors) = dense::eigen(normal(&s.matrix, n), n);
+        let mut order: Vec<usize> = (0..n).collect();
+        order.sort_by(|&a, &b| values[a].total_cmp(&values[b]));
+        let open = MEET * MEET * values[*order.last()?];
+        let is_fork = values[order[0]] <= open && order.get(1).is_none_or(|&i| values[i] > open);
+        (is_fork || n == 1 && values[0] <= MEET * MEET).then(|| vectors[order[0]].clone())
+    }
+
+    /// Moves the core by so much of a direction in scaled unknowns, and what it defines with it.
+    pub(crate) fn shift(
+        &self,
+        values: &mut [f64],
+        direction: &[f64],
+        by: f64,
+        scales: &[f64],
+        w: &mut Workspace,
+    ) {
+        for (core, d) in direction.iter().enumerate() {
+            let slot = self.slot(core);
+            values[slot] += by * d * scales[slot];
+        }
+        self.block.compute_defined(values, w);
+    }
+
     fn is_dense(&self) -> bool {
         self.block.core.len() <= DENSE
     }
-    fn slot(&self, core: usize) -> usize {
+    /// Returns the slot of an unknown of the core.
+    pub(crate) fn slot(&self, core: usize) -> usize {
         self.block.unknowns[self.block.core[core] as usize] as usize
     }
 
@@ -538,18 +592,23 @@ impl Square {
         if !self.is_dense() || n > EIGEN {
             return Solved::Double(self.slot(largest(&s.step)) as SlotIndex);
         }
-        let mut normal = vec![0.0; n * n];
-        for row in s.matrix.chunks_exact(n) {
-            for i in 0..n {
-                for j in 0..n {
-                    normal[i * n + j] += row[i] * row[j];
-                }
-            }
-        }
-        let (values, vectors) = dense::eigen(normal, n);
+        let (values, vectors) = dense::eigen(normal(&s.matrix, n), n);
         let least = (0..n).min_by(|&a, &b| values[a].total_cmp(&values[b])).unwrap_or(0);
         Solved::Double(self.slot(largest(&vectors[least])) as SlotIndex)
     }
+}
+
+/// Returns `AᵀA` of a square matrix.
+fn normal(matrix: &[f64], n: usize) -> Vec<f64> {
+    let mut normal = vec![0.0; n * n];
+    for row in matrix.chunks_exact(n) {
+        for i in 0..n {
+            for j in 0..n {
+                normal[i * n + j] += row[i] * row[j];
+            }
+        }
+    }
+    normal
 }
 
 /// Solves `(AᵀA + damping) step = Aᵀ right`.

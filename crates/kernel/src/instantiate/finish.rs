@@ -4,7 +4,7 @@ use super::Maker;
 use super::body::Body;
 use super::refer::refer;
 use crate::class::{ClassId, ClassKind};
-use crate::structure::{GivenIn, Slot, Structure, ThingId};
+use crate::structure::{DOCUMENT, GivenIn, Slot, Structure, ThingId};
 use base::IdVec;
 use std::collections::BTreeMap;
 
@@ -42,6 +42,12 @@ pub(super) fn finish(maker: &mut Maker<'_>, body: Body) -> Structure {
         }
     }
     refer(maker, &mut structure, &references);
+    for side in &maker.document.sides {
+        let thing = structure.follow(DOCUMENT, &side.path).ok();
+        if let Some(slot) = thing.and_then(|t| structure.slot_of_side(t, side.way)) {
+            structure.sides.insert(slot, side.way.toward(maker.document.vertical));
+        }
+    }
     structure
 }
 

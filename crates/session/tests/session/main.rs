@@ -9,6 +9,7 @@ mod recognising;
 mod refusing;
 mod restructuring;
 mod saving;
+mod sides;
 mod undoing;
 mod updating;
 mod viewing;
