@@ -3,8 +3,8 @@
 use super::Restructuring;
 use crate::numbers::constant;
 use crate::uses::{Text, refused};
-use base::Diagnostic;
-use kernel::{Path, Step};
+use base::{Diagnostic, Name};
+use kernel::{ClassId, Path, Step};
 use syntax::ast::{self, AstNode, Expr, Member, TypeShape};
 use syntax::edit::{self, TextEdit};
 
@@ -44,14 +44,27 @@ impl Text<'_> {
         Ok(Restructuring { edits, along, ..self.implied_by(&home) })
     }
 
-    /// Deletes the members that speak of an element, and counts those behind it one less.
+    /// Returns the class that declares what a path leads to, and its name there.
+    fn declared_in(&self, path: &Path) -> Option<(ClassId, Name)> {
+        let (Step::Part(name), owner) = path.0.split_last()? else { return None };
+        let document = &self.lowered.document;
+        let class = match owner {
+            [] => document.root,
+            owner => self.class_at(&Path(owner.to_vec()))?,
+        };
+        let declares = |c: &ClassId| document.classes[*c].parts.iter().any(|p| p.name == *name);
+        Some((document.lineage(class).into_iter().find(declares)?, name.clone()))
+    }
+
+    /// Deletes the members that speak of an element, of whatever thing of the class, and counts those behind it one less.
     fn move_up(&self, list: &Path, i: u32, edits: &mut Vec<TextEdit>) -> Vec<String> {
+        let whose = self.declared_in(list);
         let mut gone: Vec<Member> = Vec::new();
         let mut moved = Vec::new();
         for index in self.file.syntax().descendants().filter_map(ast::IndexExpr::cast) {
-            let of = index.receiver().and_then(|r| self.path_of(&r));
+            let of = index.receiver().and_then(|r| self.declared_in(&self.path_of(&r)?));
             let at = self.path_of(&Expr::Index(index.clone()));
-            let (Some(at), Some(e)) = (at.filter(|_| of.as_ref() == Some(list)), index.index())
+            let (Some(at), Some(e)) = (at.filter(|_| of.is_some() && of == whose), index.index())
             else {
                 continue;
             };
