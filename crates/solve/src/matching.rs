@@ -14,7 +14,6 @@ use crate::dense;
 use crate::lists::Lists;
 use crate::order::strong_components;
 use crate::rows::Rows;
-use crate::sparse::pivot::choose;
 use crate::sparse::{Lu, Pattern, Symbolic};
 use crate::substitute::Classes;
 use crate::system::{Level, SlotIndex, Stay, System};
@@ -247,8 +246,7 @@ impl<'a> Matcher<'a> {
             let places = |&r: &u32| entries(r).map(|(c, _)| c as u32).collect();
             let pattern = Pattern::of_rows(n, block.iter().map(places));
             let values: Vec<f64> = block.iter().flat_map(|&r| entries(r).map(|e| e.1)).collect();
-            let symbolic = Symbolic::new(choose(&pattern, &values));
-            symbolic.factorise(&pattern, &values, &mut Lu::default())
+            Symbolic::suited(&pattern, &values, &mut Lu::default()).1
         };
         factors.is_some_and(|f| f.sign != 0 && f.ratio > REGULAR)
     }

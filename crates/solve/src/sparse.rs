@@ -6,6 +6,8 @@ pub(crate) mod pattern;
 
 pub(crate) mod pivot;
 
+pub(crate) mod degree;
+
 pub(crate) mod lu;
 
 pub(crate) mod ldl;

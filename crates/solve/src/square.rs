@@ -12,7 +12,8 @@ use crate::block::{Block, Local, Workspace};
 use crate::dense::{self, Factors};
 use crate::lower::{Definers, Problem};
 use crate::rows::{Point, generic_number};
-use crate::sparse::{Ldl, Lu, Symbolic, Symmetric, pivot};
+use crate::sparse::pivot::{self, How};
+use crate::sparse::{Ldl, Lu, Symbolic, Symmetric};
 use crate::system::SlotIndex;
 use std::sync::OnceLock;
 
@@ -277,8 +278,7 @@ impl Square {
                 return factors;
             }
         }
-        let symbolic = Symbolic::new(pivot::choose(pattern, &s.matrix));
-        let factors = symbolic.factorise(pattern, &s.matrix, &mut s.lu);
+        let (symbolic, factors) = Symbolic::suited(pattern, &s.matrix, &mut s.lu);
         s.own = Some(symbolic);
         factors.unwrap_or(singular)
     }
@@ -295,7 +295,7 @@ impl Square {
                 *value = generic_number(i as u64, Point::Mixed);
             }
         }
-        Symbolic::new(pivot::choose(&self.block.pattern, &local.jacobian))
+        Symbolic::new(pivot::choose(&self.block.pattern, &local.jacobian, How::Paired))
     }
 
     /// Newton's step for the core, from the factors.

@@ -7,7 +7,7 @@
 //! **Source:** Davis, *Algorithm 849: a concise sparse Cholesky factorization package*, ACM TOMS 31
 //! (2005); Vanderbei, *Symmetric quasidefinite matrices*, SIAM J. Optim. 5 (1995).
 
-use super::pivot::Counts;
+use super::degree::{self, Elimination};
 
 /// The factors' structure: every index is a place in the order of elimination.
 #[derive(Clone, Debug, Default)]
@@ -39,7 +39,7 @@ impl Symmetric {
     /// Lays the factors out for a matrix of `n` rows; each entry stands for its mirror too, and
     /// those at one place are summed.
     pub(crate) fn new(n: usize, entries: &[(u32, u32)]) -> Self {
-        let (order, columns) = minimum_degree(n, entries);
+        let Elimination { order, columns } = degree::eliminate(n, entries.iter().copied());
         let mut place = vec![0u32; n];
         for (k, &i) in order.iter().enumerate() {
             place[i as usize] = k as u32;
@@ -60,7 +60,7 @@ impl Symmetric {
         let mut total = 0;
         for (k, column) in (0..).zip(&columns) {
             for &i in column {
-                rows[place[i as usize] as usize].push(k);
+                rows[i as usize].push(k);
             }
             total += column.len() as u32;
             made.column_starts.push(total);
@@ -138,45 +138,6 @@ impl Symmetric {
             b[i as usize] = *value;
         }
     }
-}
-
-/// An order in which each has the fewest neighbours left, and the neighbours that each then has.
-fn minimum_degree(n: usize, entries: &[(u32, u32)]) -> (Vec<u32>, Vec<Vec<u32>>) {
-    let mut near: Vec<Vec<u32>> = vec![Vec::new(); n];
-    for &(i, j) in entries.iter().filter(|e| e.0 != e.1) {
-        near[i as usize].push(j);
-        near[j as usize].push(i);
-    }
-    for own in &mut near {
-        own.sort_unstable();
-        own.dedup();
-    }
-    let mut degrees = Counts::new(near.iter().map(|own| own.len() as u32).collect());
-    let (mut order, mut columns) = (Vec::with_capacity(n), Vec::with_capacity(n));
-    let mut mark = vec![u32::MAX; n];
-    let mut least = 0;
-    for _ in 0..n {
-        let found = (least..n).find_map(|d| degrees.of(d).next());
-        let i = found.expect("as many are left as have not been taken");
-        let own = std::mem::take(&mut near[i as usize]);
-        least = own.len().saturating_sub(1);
-        degrees.unlink(i);
-        for &j in &own {
-            let others = &mut near[j as usize];
-            others.retain(|&o| o != i);
-            for &o in others.iter() {
-                mark[o as usize] = j;
-            }
-            mark[j as usize] = j;
-            others.extend(own.iter().filter(|&&o| mark[o as usize] != j));
-            let degree = others.len();
-            degrees.set(j, degree);
-            least = least.min(degree);
-        }
-        order.push(i);
-        columns.push(own);
-    }
-    (order, columns)
 }
 
 #[cfg(test)]

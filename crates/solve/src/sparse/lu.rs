@@ -4,7 +4,7 @@
 //! tail, dense, is factorised with partial pivoting of its own.
 
 use super::pattern::Pattern;
-use super::pivot::Pivots;
+use super::pivot::{self, How, Pivots};
 use crate::dense::{self, Factors};
 
 /// An entry this many times its row's pivot means that the pivots do not suit the numbers.
@@ -37,7 +37,26 @@ pub(crate) struct Lu {
     work: Vec<f64>,
 }
 
+/// Pivots of this ratio, ordered as a whole, are not trusted before others were tried.
+const POOR: f64 = 1e-9;
+
 impl Symbolic {
+    /// Chooses pivots that suit these numbers and puts them in; no factors where none do.
+    pub(crate) fn suited(
+        pattern: &Pattern,
+        values: &[f64],
+        lu: &mut Lu,
+    ) -> (Self, Option<Factors>) {
+        let paired = Self::new(pivot::choose(pattern, values, How::Paired));
+        let factors = paired.factorise(pattern, values, lu);
+        if factors.as_ref().is_some_and(|f| f.ratio > POOR) {
+            return (paired, factors);
+        }
+        let single = Self::new(pivot::choose(pattern, values, How::Single));
+        let factors = single.factorise(pattern, values, lu);
+        (single, factors)
+    }
+
     /// Lays the factors out.
     pub(crate) fn new(pivots: Pivots) -> Self {
         let n = pivots.rows.len();
@@ -186,7 +205,7 @@ fn parity(order: &[u32]) -> i8 {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::sparse::pivot;
+    use crate::sparse::pivot::{self, How};
 
     fn random(seed: &mut u64) -> f64 {
         *seed =
@@ -209,7 +228,7 @@ mod tests {
     fn a_singular_matrix_is_told() {
         let pattern = Pattern::of_rows(2, [vec![0, 1], vec![0, 1]].into_iter());
         let values = [1.0, 2.0, 2.0, 4.0];
-        let symbolic = Symbolic::new(pivot::choose(&pattern, &values));
+        let symbolic = Symbolic::new(pivot::choose(&pattern, &values, How::Paired));
         let factors = symbolic.factorise(&pattern, &values, &mut Lu::default());
         assert!(factors.is_none_or(|f| f.sign == 0));
     }
@@ -217,7 +236,7 @@ mod tests {
     #[test]
     fn random_sparse_systems_agree_with_dense_ones() {
         let mut seed = 1;
-        for n in [1, 5, 30, 200] {
+        for n in [1, 5, 30, 200, 700] {
             for others in [1, 3] {
                 let (pattern, values) = case(n, others, &mut seed);
                 let mut full = vec![0.0; n * n];
@@ -226,7 +245,7 @@ mod tests {
                         full[r * n + pattern.column(e)] = values[e];
                     }
                 }
-                let symbolic = Symbolic::new(pivot::choose(&pattern, &values));
+                let symbolic = Symbolic::new(pivot::choose(&pattern, &values, How::Paired));
                 let mut lu = Lu::default();
                 let right: Vec<f64> = (0..n).map(|_| random(&mut seed)).collect();
                 let dense = dense::factorise(&mut full.clone(), n, &mut Vec::new());
@@ -252,7 +271,7 @@ mod tests {
     fn factors_serve_other_numbers_of_the_pattern() {
         let mut seed = 5;
         let (pattern, values) = case(60, 2, &mut seed);
-        let symbolic = Symbolic::new(pivot::choose(&pattern, &values));
+        let symbolic = Symbolic::new(pivot::choose(&pattern, &values, How::Paired));
         let others: Vec<f64> = values.iter().map(|v| v * 3.0).collect();
         let mut lu = Lu::default();
         assert!(symbolic.factorise(&pattern, &others, &mut lu).is_some());
