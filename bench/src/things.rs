@@ -6,7 +6,7 @@
 
 use kernel::Values;
 use plan::{Model, Planner, Plans};
-use session::{Command, Host, Session};
+use session::{Command, DocumentId, Host, Literal, Session};
 use std::fmt::Write as _;
 use std::fs;
 use std::io::Write;
@@ -46,11 +46,11 @@ pub(crate) fn table(out: &mut impl Write) -> std::io::Result<()> {
     for i in 0..THINGS {
         let _ = writeln!(written, "w{i}: Widget {{ left = {i}  bottom = {} }}", i % 100);
     }
-    let merge =
-        ["merge widgets[17].left = widgets[4711].right\n", "merge w17.left = w4711.right\n"];
-    for (name, text, merge) in [("listed", &listed, merge[0]), ("written", &written, merge[1])] {
-        stages(out, name, text)?;
-        edits(out, name, text, merge)?;
+    let listed = (listed, ["widgets[17]", "widgets[4711]"]);
+    for (name, (text, things)) in [("listed", listed), ("written", (written, ["w17", "w4711"]))] {
+        stages(out, name, &text)?;
+        let (mut session, id) = edits(out, name, &text, things)?;
+        hands(out, name, &mut session, id, things[0])?;
     }
     Ok(())
 }
@@ -99,8 +99,14 @@ fn stages(out: &mut impl Write, name: &str, text: &str) -> std::io::Result<()> {
     )
 }
 
-/// Measures what a person waits for.
-fn edits(out: &mut impl Write, name: &str, text: &str, merge: &str) -> std::io::Result<()> {
+/// Measures what a person waits for who edits the text.
+fn edits(
+    out: &mut impl Write,
+    name: &str,
+    text: &str,
+    [one, other]: [&str; 2],
+) -> std::io::Result<(Session, DocumentId)> {
+    let merge = format!("merge {one}.left = {other}.right\n");
     let open_it = || {
         let mut session = Session::new(Box::new(Nothing));
         let id = session.open(name, text);
@@ -135,6 +141,46 @@ fn edits(out: &mut impl Write, name: &str, text: &str, merge: &str) -> std::io::
         least(|| timed(|| session.values(id)).0),
         least(|| timed(|| session.structure(id)).0),
         least(|| timed(|| session.picture(id)).0),
+    )?;
+    Ok((session, id))
+}
+
+/// Measures what a hand does to one number, and taking it back.
+fn hands(
+    out: &mut impl Write,
+    name: &str,
+    session: &mut Session,
+    id: DocumentId,
+    thing: &str,
+) -> std::io::Result<()> {
+    let path = session::parse_path(&format!("{thing}.left")).expect("the path is well formed");
+    let mut times: Vec<[f64; 6]> = Vec::new();
+    for i in 0..TIMES {
+        let x = 50.0 + i as f64;
+        let set = Command::Set(vec![(path.clone(), Literal::Number(x))]);
+        let (set, change) = timed(|| session.apply(id, &set));
+        assert!(change.is_ok(), "the number can be set: {change:?}");
+        let (undo, _) = timed(|| session.apply(id, &Command::Undo));
+        let (press, pressed) = timed(|| session.press(id, &path));
+        assert!(pressed.is_ok(), "the number can be dragged: {pressed:?}");
+        session.drag(id, (x, 0.0));
+        let (drag, dragged) = timed(|| session.drag(id, (x + 0.5, 0.0)));
+        assert!(dragged.reached, "the number follows: {dragged:?}");
+        let (release, change) = timed(|| session.release(id));
+        assert!(change.is_ok(), "the drag is kept: {change:?}");
+        let (again, _) = timed(|| session.apply(id, &Command::Undo));
+        times.push([set, undo, press, drag, release, again]);
+    }
+    let least = |i: usize| times.iter().map(|t| t[i]).fold(f64::INFINITY, f64::min);
+    writeln!(
+        out,
+        "{name:8} set {:.1}  undo {:.1}  press {:.2}  drag {:.4}  release {:.1}  undo {:.1} ms",
+        least(0),
+        least(1),
+        least(2),
+        least(3),
+        least(4),
+        least(5),
     )
 }
 

@@ -9,6 +9,7 @@ use crate::scope::Scope;
 use base::Span;
 use kernel::{Command, Path, Step, Term};
 use std::rc::Rc;
+use syntax::SyntaxKind;
 use syntax::ast::{self, AstNode, Member};
 
 /// A `check` block.
@@ -98,7 +99,7 @@ pub fn without_checks(text: &str) -> String {
 /// Lowers the checks of the document's own text.
 pub(crate) fn lower(l: &mut Lowerer<'_>) -> Vec<Check> {
     let mut checks = Vec::new();
-    for member in l.files[OWN].parse.file().members() {
+    for member in l.files[OWN].members_of(&[SyntaxKind::Check]) {
         let Member::Check(check) = member else { continue };
         checks.push(lower_check(l, &check));
     }

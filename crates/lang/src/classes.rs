@@ -6,6 +6,7 @@ use base::{Diagnostic, FileId, Name, Place, Span};
 use expr::dimension::Dimension;
 use kernel::{Class, ClassId, ClassKind, Count, OriginId, Primitive, Superclass};
 use std::collections::BTreeMap;
+use syntax::SyntaxKind;
 use syntax::ast::{self, AstNode, Member, TypeShape};
 
 impl Lowerer<'_> {
@@ -61,7 +62,7 @@ impl Lowerer<'_> {
     /// Names every class of every file, then finds superclasses.
     pub(crate) fn declare_classes(&mut self) {
         for file in self.order.clone() {
-            for member in self.files[file].parse.file().members() {
+            for member in self.files[file].members_of(&[SyntaxKind::Class]) {
                 let Member::Class(class) = member else { continue };
                 let Some(name) = class.name() else { continue };
                 let origin = self.origin(file, class.span());

@@ -23,11 +23,20 @@ pub struct File {
 /// What every thing answers, in the language itself.
 const OBJECT: &str = include_str!("object.thing");
 
+impl File {
+    /// Returns the members at the top of the text that are of these kinds.
+    pub(crate) fn members_of(&self, kinds: &[SyntaxKind]) -> Vec<Member> {
+        let file = self.parse.file();
+        let of_kinds = self.parse.outline().filter(|(kind, _)| kinds.contains(kind));
+        of_kinds.filter_map(|(_, span)| file.member_at(span)).collect()
+    }
+}
+
 impl Lowerer<'_> {
     /// Declares what every thing answers.
     pub(crate) fn declare_object(&mut self) {
         let id = self.files.next_id();
-        let parse = syntax::parse(id, OBJECT);
+        let parse = self.parse(id, "", OBJECT);
         let classes = parse.file().members().filter_map(|m| match m {
             Member::Class(class) => class.body(),
             _ => None,
@@ -37,19 +46,30 @@ impl Lowerer<'_> {
         self.declare_body(&Scope::of(id, self.object), members);
     }
 
+    /// Parses a text; what is as it was before is not parsed again.
+    fn parse(&self, id: FileId, name: &str, text: &str) -> Parse {
+        let Some(before) = self.before else { return syntax::parse(id, text) };
+        if id == OWN {
+            return syntax::reparse(id, &before.effective_parse, &before.effective, text);
+        }
+        let known = before.files.get(id).filter(|f| f.name == name && *f.text == *text);
+        known.map_or_else(|| syntax::parse(id, text), |f| f.parse.clone())
+    }
+
     /// Reads a text and what it uses; returns its id.
     pub(crate) fn read(&mut self, name: &str, text: &str) -> FileId {
         let id = self.files.next_id();
-        let parse = syntax::parse(id, text);
+        let parse = self.parse(id, name, text);
         for diagnostic in parse.diagnostics() {
             match strange_unit(&parse, diagnostic) {
                 Some(word) => self.unknown_unit(id, syntax::span_of_token(&word), word.text()),
                 None => self.report(diagnostic.clone()),
             }
         }
-        self.files.push(File { name: name.into(), text: text.into(), parse: parse.clone() });
+        self.files.push(File { name: name.into(), text: text.into(), parse });
         self.reading.push(id);
-        for member in parse.file().members() {
+        let kinds = [SyntaxKind::Use, SyntaxKind::UnitLine, SyntaxKind::YLine];
+        for member in self.files[id].members_of(&kinds) {
             match member {
                 Member::Use(used) => self.read_used(id, &used),
                 Member::Unit(unit) if id == OWN => self.set_unit(&unit),
@@ -91,9 +111,8 @@ impl Lowerer<'_> {
 
     /// Declares the top level of a file in a class: its members, and the things of what it uses.
     pub(crate) fn declare_file(&mut self, file: FileId, class: ClassId) {
-        let parse = self.files[file].parse.clone();
         self.using.push(file);
-        for member in parse.file().members() {
+        for member in self.files[file].members_of(&[SyntaxKind::Use]) {
             let Member::Use(used) = member else { continue };
             let Some(path) = used.path() else { continue };
             let name = name_of(&path);
@@ -118,7 +137,14 @@ impl Lowerer<'_> {
             }
         }
         self.using.pop();
-        self.declare_body(&Scope::of(file, class), parse.file().members().collect());
+        let scope = Scope::of(file, class);
+        match file {
+            OWN => self.declare_own(&scope),
+            _ => {
+                let members = self.files[file].parse.file().members().collect();
+                self.declare_body(&scope, members);
+            }
+        }
     }
 
     /// Makes the class of a file that has things, of its own or by what it uses.
@@ -135,7 +161,7 @@ impl Lowerer<'_> {
     }
 
     fn has_things(&self, file: FileId) -> bool {
-        let mut members = self.files[file].parse.file().members();
+        let mut members = self.files[file].members_of(&[SyntaxKind::Part]).into_iter();
         members.any(|m| matches!(m, Member::Part(part) if part.definition().is_none()))
     }
 

@@ -18,7 +18,7 @@
 //! stays in force; reading a number that was written gives its bits.
 //!
 //! Reading order: `origins`, `lower`, `files`, `visible`, `classes`, `scope`, `members`, `rules`,
-//! `switches`, `names`, `paths`, `refine`, `terms`, `calls`, `kinds`, `settle`, `restore`, `checks`,
+//! `switches`, `kept`, `names`, `paths`, `refine`, `terms`, `calls`, `kinds`, `settle`, `restore`, `checks`,
 //! `numbers`, `write`, `uses`,
 //! `edits`.
 mod calls;
@@ -27,6 +27,7 @@ mod classes;
 mod constraints;
 mod edits;
 mod files;
+mod kept;
 mod kinds;
 mod lower;
 mod members;

@@ -6,6 +6,7 @@
 
 use crate::checks::{self, Check};
 use crate::files::File;
+use crate::kept::Added;
 use crate::kinds::Kind;
 use crate::members::Pending;
 use crate::origins::Origins;
@@ -16,11 +17,14 @@ use crate::rules::Mask;
 use crate::scope::Scope;
 use crate::switches::PendingSwitch;
 use crate::visible::Visible;
-use base::{Diagnostic, FileId, IdVec, Name, Place, Severity, Span};
+use base::{Diagnostic, FileId, IdVec, Mixer, Name, Place, Severity, Span};
+use indexmap::IndexMap;
 use kernel::{ClassId, Document, Fault, OriginId, Vertical};
 use std::collections::{BTreeMap, BTreeSet};
+use std::hash::BuildHasherDefault;
 use std::rc::Rc;
-use syntax::ast::{self, AstNode, Member};
+use syntax::ast::{self, AstNode};
+use syntax::{Parse, SyntaxKind};
 
 /// What a text means.
 #[derive(Clone, Debug)]
@@ -39,14 +43,21 @@ pub struct Lowered {
     pub files: IdVec<FileId, File>,
     /// The text with what members with an error said before; equal to the text without errors.
     pub(crate) effective: Rc<str>,
+    /// The tree of the effective text.
+    pub(crate) effective_parse: Parse,
+    /// What each member at the top of the effective text added, where that may be kept.
+    pub(crate) added: Vec<Option<Added>>,
     /// Where the effective text differs from the text.
     pub(crate) patches: Vec<Patch>,
     pub(crate) classes_of_one: BTreeSet<ClassId>,
     /// Every part that a class declares, by its name: its index among the class's parts.
-    pub(crate) parts: BTreeMap<(ClassId, Name), usize>,
+    pub(crate) parts: ByName<usize>,
     /// Where the document's own text declares classes.
     pub(crate) class_spans: Vec<Span>,
 }
+
+/// What members of classes are told apart by: class and name, in order of declaration.
+pub(crate) type ByName<T> = IndexMap<(ClassId, Name), T, BuildHasherDefault<Mixer>>;
 
 /// The document's own text.
 pub(crate) const OWN: FileId = FileId(0);
@@ -60,13 +71,13 @@ pub fn lower(
     load: &dyn Fn(&str) -> Option<String>,
     before: Option<&Lowered>,
 ) -> Lowered {
-    let first = lower_text(text, load);
+    let first = lower_text(text, load, before);
     let Some(before) = before.filter(|_| errors(&first) > 0) else { return first };
     // Members with an error are read as they were when they last had none.
     let mut best: Option<Lowered> = None;
     for grain in [Grain::Inner, Grain::Outer] {
-        let (patched, patches) = crate::restore::restore(&first, &before.effective, grain);
-        let mut mended = lower_text(&patched, load);
+        let (patched, patches) = crate::restore::restore(&first, &before.effective_parse, grain);
+        let mut mended = lower_text(&patched, load, Some(&first));
         mended.patches = patches;
         if errors(&mended) < best.as_ref().map_or(errors(&first), errors) {
             best = Some(mended);
@@ -87,38 +98,46 @@ fn errors(lowered: &Lowered) -> usize {
 
 /// Finds what of a text speaks of a member of a class.
 pub(crate) fn references(text: &str, load: &dyn Fn(&str) -> Option<String>) -> References {
-    let mut l = Lowerer::new(load);
+    let mut l = Lowerer::new(load, None);
     l.references = Some(References::default());
     l.run(text);
     l.references.unwrap_or_default()
 }
 
-pub(crate) fn lower_text(text: &str, load: &dyn Fn(&str) -> Option<String>) -> Lowered {
-    let mut l = Lowerer::new(load);
+pub(crate) fn lower_text(
+    text: &str,
+    load: &dyn Fn(&str) -> Option<String>,
+    before: Option<&Lowered>,
+) -> Lowered {
+    let mut l = Lowerer::new(load, before);
     let checks = l.run(text);
-    let own = l.files[OWN].parse.file();
-    let doc = own.members().find_map(|m| m.doc()).unwrap_or_default();
+    let doc = l.first_doc();
+    let own = &l.files[OWN];
+    let classes = own.members_of(&[SyntaxKind::Class]);
+    let (effective, effective_parse) = (own.text.clone(), own.parse.clone());
     Lowered {
         document: l.document,
         checks,
         origins: l.origins,
         diagnostics: l.diagnostics,
         doc,
-        effective: text.into(),
+        effective,
+        effective_parse,
+        class_spans: classes.iter().map(|class| syntax::span_of(class.syntax())).collect(),
         patches: Vec::new(),
         files: l.files,
         classes_of_one: l.classes_of_one,
         parts: l.parts,
-        class_spans: own
-            .members()
-            .filter_map(|m| matches!(m, Member::Class(_)).then(|| m.syntax().clone()))
-            .map(|n| syntax::span_of(&n))
-            .collect(),
+        added: l.added,
     }
 }
 
 pub(crate) struct Lowerer<'l> {
     pub(crate) load: &'l dyn Fn(&str) -> Option<String>,
+    /// What an earlier text meant.
+    pub(crate) before: Option<&'l Lowered>,
+    /// What each member at the top of the text added, where that may be kept.
+    pub(crate) added: Vec<Option<Added>>,
     pub(crate) files: IdVec<FileId, File>,
     /// The files that are being read, each by the one before it.
     pub(crate) reading: Vec<FileId>,
@@ -141,13 +160,13 @@ pub(crate) struct Lowerer<'l> {
     /// What messages are worth, once known; nothing while it is being found out.
     pub(crate) message_kinds: BTreeMap<(ClassId, Name), Option<Kind>>,
     /// Every part that a class declares, by its name: its index among the class's parts.
-    pub(crate) parts: BTreeMap<(ClassId, Name), usize>,
+    pub(crate) parts: ByName<usize>,
     /// How many elements the value of a list has that is declared without a count.
     pub(crate) given_counts: BTreeMap<(ClassId, Name), u32>,
     /// Every message that a class defines, by its name: the index of the last among its messages.
-    pub(crate) messages: BTreeMap<(ClassId, Name), usize>,
+    pub(crate) messages: ByName<usize>,
     /// Where parts and messages are named.
-    pub(crate) named_at: BTreeMap<(ClassId, Name), Place>,
+    pub(crate) named_at: ByName<Place>,
     /// Names of constraints and merges.
     pub(crate) rule_names: BTreeSet<(ClassId, Name)>,
     /// What `without` names.
@@ -175,9 +194,11 @@ pub(crate) struct Lowerer<'l> {
 }
 
 impl<'l> Lowerer<'l> {
-    fn new(load: &'l dyn Fn(&str) -> Option<String>) -> Self {
+    fn new(load: &'l dyn Fn(&str) -> Option<String>, before: Option<&'l Lowered>) -> Self {
         let mut l = Self {
             load,
+            before,
+            added: Vec::new(),
             files: IdVec::new(),
             reading: Vec::new(),
             using: Vec::new(),
@@ -202,10 +223,10 @@ impl<'l> Lowerer<'l> {
             pending: Vec::new(),
             definitions: BTreeMap::new(),
             message_kinds: BTreeMap::new(),
-            parts: BTreeMap::new(),
+            parts: ByName::default(),
+            messages: ByName::default(),
+            named_at: ByName::default(),
             given_counts: BTreeMap::new(),
-            messages: BTreeMap::new(),
-            named_at: BTreeMap::new(),
             rule_names: BTreeSet::new(),
             masks: Vec::new(),
             switches: Vec::new(),
@@ -231,6 +252,16 @@ impl<'l> Lowerer<'l> {
         self.refine_parts();
         self.settle();
         checks
+    }
+
+    /// Returns what the first comment for readers in the document's own text says.
+    fn first_doc(&self) -> String {
+        let File { parse, .. } = &self.files[OWN];
+        let file = parse.file();
+        // a part that may be kept has none
+        let others = parse.outline().zip(&self.added).filter(|(_, added)| added.is_none());
+        let mut others = others.filter_map(|((_, span), _)| file.member_at(span));
+        others.find_map(|m| m.doc()).unwrap_or_default()
     }
 
     pub(crate) fn origin(&mut self, file: FileId, span: Span) -> OriginId {

@@ -1,5 +1,6 @@
 //! Members: parts and messages are declared first, then everything that speaks of parts is lowered.
 
+use crate::kept::Added;
 use crate::kinds::Kind;
 use crate::lower::{Lowerer, OWN};
 use crate::scope::Scope;
@@ -30,6 +31,12 @@ pub(crate) enum Pending {
     Each { scope: Scope, each: ast::For },
     /// What a reference names, by a path from the document.
     Absolute { scope: Scope, path: Path, target: Expr },
+    /// The values of a part of the document that is kept: where it stands, and what it was.
+    Kept { member: usize, part: u32, was: Added, shift: i64 },
+    /// The values of one part of the document follow.
+    Note,
+    /// They end here: so many values of the part of this index, which is this member.
+    Noted { member: usize, part: u32, givens: u32 },
     /// The answer of a message.
     Answer { scope: Scope, index: usize, answer: Expr },
 }
@@ -435,7 +442,7 @@ impl Lowerer<'_> {
 }
 
 /// Returns the values of a body that holds nothing but constants for parts.
-fn values_alone(members: &[Member]) -> Option<Vec<(Expr, Expr)>> {
+pub(crate) fn values_alone(members: &[Member]) -> Option<Vec<(Expr, Expr)>> {
     let value = |m: &Member| match m {
         Member::Assign(a) => {
             let value = a.value()?.expr()?;
@@ -447,7 +454,7 @@ fn values_alone(members: &[Member]) -> Option<Vec<(Expr, Expr)>> {
 }
 
 /// Returns true if an expression speaks of no part.
-fn is_constant(expr: &Expr) -> bool {
+pub(crate) fn is_constant(expr: &Expr) -> bool {
     !expr.syntax().descendants().any(|n| {
         matches!(
             n.kind(),

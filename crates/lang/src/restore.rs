@@ -8,7 +8,7 @@ use crate::lower::{Lowered, OWN};
 use base::{Name, Severity, Span};
 use syntax::ast::{AstNode, Member};
 use syntax::edit::{apply, body_of};
-use syntax::{SyntaxKind, SyntaxNode, TextEdit};
+use syntax::{Parse, SyntaxKind, SyntaxNode, TextEdit};
 
 /// A stretch of the text that is read as something else.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
@@ -32,7 +32,7 @@ pub(crate) enum Grain {
 }
 
 /// Returns the text with every wrong member as it was in `before`, or without it.
-pub(crate) fn restore(wrong: &Lowered, before: &str, grain: Grain) -> (String, Vec<Patch>) {
+pub(crate) fn restore(wrong: &Lowered, before: &Parse, grain: Grain) -> (String, Vec<Patch>) {
     let spans: Vec<Span> = wrong
         .diagnostics
         .iter()
@@ -40,7 +40,7 @@ pub(crate) fn restore(wrong: &Lowered, before: &str, grain: Grain) -> (String, V
         .map(|d| d.place.span)
         .collect();
     let mut edits = Vec::new();
-    let old = syntax::parse(OWN, before).syntax();
+    let old = before.syntax();
     mend(&wrong.files[OWN].parse.syntax(), Some(&old), &spans, grain, &mut edits);
     let mut patches = Vec::new();
     let mut shift: i64 = 0;

@@ -55,8 +55,14 @@ impl Lowerer<'_> {
     }
 
     fn define_pending(&mut self, wrong: &mut Vec<(ClassId, Name)>) {
+        let mut noted = self.so_far();
         for pending in std::mem::take(&mut self.pending) {
             match pending {
+                Pending::Kept { member, part, was, shift } => {
+                    self.keep_values(member, part, was, shift);
+                }
+                Pending::Note => noted = self.so_far(),
+                Pending::Noted { member, part, givens } => self.note(member, part, givens, noted),
                 Pending::Each { scope, each } => {
                     self.unroll_list(&scope, &each);
                     self.define_pending(wrong);

@@ -65,9 +65,13 @@ impl Lowerer<'_> {
 
     /// A part is declared once in a line of classes; a message keeps its parameters.
     fn report_overrides(&mut self) {
+        let mut line: (Option<ClassId>, Vec<ClassId>) = (None, Vec::new());
         for ((class, name), place) in self.named_at.clone() {
-            let above: Vec<ClassId> =
-                self.document.primary_line(class).into_iter().skip(1).collect();
+            if line.0 != Some(class) {
+                // the members of a class stand together, as a rule
+                line = (Some(class), self.document.primary_line(class));
+            }
+            let above = &line.1[1..];
             let stored = above.iter().find(|&&c| self.parts.contains_key(&(c, name.clone())));
             if let Some(&above) = stored {
                 let before = self.named_at.get(&(above, name.clone())).copied();
@@ -81,9 +85,9 @@ impl Lowerer<'_> {
                 continue;
             }
             let parameters = |m: &kernel::Message| m.parameters.len();
-            let own = self.defined_message(class, &name).map(parameters);
+            let Some(own) = self.defined_message(class, &name).map(parameters) else { continue };
             let inherited = self.find_message(class, &name, Some(class));
-            let (Some(own), Some((from, message))) = (own, inherited) else { continue };
+            let Some((from, message)) = inherited else { continue };
             let wanted = parameters(message);
             if own != wanted {
                 let from = &self.document.classes[from].name;

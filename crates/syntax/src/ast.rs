@@ -34,6 +34,7 @@ pub use statements::{
 use crate::kind::{SyntaxElement, SyntaxKind, SyntaxNode, SyntaxToken};
 use crate::tree::{span_of, span_of_token};
 use base::{Name, Span};
+use rowan::TextRange;
 
 /// A wrapper of a node of the tree.
 pub trait AstNode: Sized {
@@ -194,6 +195,11 @@ impl File {
     /// Returns the members or statements of the file.
     pub fn members(&self) -> impl Iterator<Item = Member> + use<> {
         children(&self.syntax)
+    }
+    /// Returns the member at these bytes, which [`crate::Parse::outline`] tells.
+    pub fn member_at(&self, span: Span) -> Option<Member> {
+        let range = TextRange::new(span.start.into(), span.end.into());
+        Member::cast(self.syntax.child_or_token_at_range(range)?.into_node()?)
     }
     /// Returns the expression of a text that is one: see [`crate::parse_expression`].
     pub fn expression(&self) -> Option<Expr> {

@@ -30,6 +30,8 @@ mod grammar;
 
 pub mod tree;
 
+mod reparse;
+
 pub mod ast;
 
 pub mod format;
@@ -39,4 +41,5 @@ pub mod edit;
 pub use edit::TextEdit;
 pub use format::format;
 pub use kind::{SyntaxElement, SyntaxKind, SyntaxNode, SyntaxToken};
+pub use reparse::reparse;
 pub use tree::{Parse, dump, parse, parse_expression, parse_statements, span_of, span_of_token};

@@ -2,11 +2,11 @@
 
 use crate::ast;
 use crate::grammar::{self, Scope};
-use crate::kind::{SyntaxElement, SyntaxNode, SyntaxToken};
+use crate::kind::{self, SyntaxElement, SyntaxKind, SyntaxNode, SyntaxToken};
 use crate::lexer::lex;
 use crate::parser::Parser;
 use base::{Diagnostic, FileId, Span};
-use rowan::GreenNode;
+use rowan::{GreenNode, GreenNodeData, Language as _, NodeOrToken};
 use std::fmt::Write;
 
 /// A text as a tree, and what is wrong with it. Cheap to copy, and free to cross threads.
@@ -17,6 +17,13 @@ pub struct Parse {
 }
 
 impl Parse {
+    /// A text with which nothing is wrong.
+    pub(crate) fn of(green: GreenNode) -> Self {
+        Self { green, diagnostics: Vec::new() }
+    }
+    pub(crate) fn green(&self) -> &GreenNode {
+        &self.green
+    }
     /// Returns the root of the tree.
     pub fn syntax(&self) -> SyntaxNode {
         SyntaxNode::new_root(self.green.clone())
@@ -24,6 +31,29 @@ impl Parse {
     /// Returns the root of the tree as a file.
     pub fn file(&self) -> ast::File {
         ast::File { syntax: self.syntax() }
+    }
+    /// Returns the kind and the bytes of every member at the top of the file, in order. It costs less
+    /// than to look at them.
+    pub fn outline(&self) -> impl Iterator<Item = (SyntaxKind, Span)> {
+        let mut at = 0;
+        self.green.children().filter_map(move |child| {
+            let start = at;
+            at += u32::from(child.text_len());
+            let node = child.into_node()?;
+            Some((kind::Language::kind_from_raw(node.kind()), Span::new(start, at)))
+        })
+    }
+    fn members(&self) -> impl DoubleEndedIterator<Item = &GreenNodeData> {
+        self.green.children().filter_map(NodeOrToken::into_node)
+    }
+    /// Returns how many members at the top are the same as in another tree, from the beginning and from
+    /// the end: those that [`crate::reparse`] took from there.
+    pub fn shared(&self, other: &Self) -> (usize, usize) {
+        let most = self.members().count().min(other.members().count());
+        let is_same = |(a, b): &(&GreenNodeData, &GreenNodeData)| std::ptr::eq(*a, *b);
+        let head = self.members().zip(other.members()).take_while(is_same).count();
+        let tail = self.members().rev().zip(other.members().rev()).take_while(is_same).count();
+        (head, tail.min(most - head))
     }
     /// Returns what is wrong, in the order of the text.
     pub fn diagnostics(&self) -> &[Diagnostic] {
@@ -55,7 +85,7 @@ pub fn parse_expression(file: FileId, text: &str) -> Parse {
     parse_with(file, text, grammar::lone_expression)
 }
 
-fn parse_with(file: FileId, text: &str, rule: impl FnOnce(&mut Parser<'_>)) -> Parse {
+pub(crate) fn parse_with(file: FileId, text: &str, rule: impl FnOnce(&mut Parser<'_>)) -> Parse {
     let mut parser = Parser::new(file, text, lex(text));
     rule(&mut parser);
     let (green, diagnostics) = parser.finish_parse();

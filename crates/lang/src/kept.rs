@@ -1,0 +1,257 @@
+//! Kept: parts of the document that are written as they were say what they said.
+//!
+//! A part at the top of the document's own text, of a class that is declared and with values that are
+//! constants, depends on the classes alone. Where these are as they were, and the part's node is the
+//! one that it was, its part and given values are copied from what the text meant before.
+
+use crate::files::File;
+use crate::lower::{Lowered, Lowerer, OWN};
+use crate::members::{Pending, is_constant, values_alone};
+use crate::scope::Scope;
+use base::{Id, Place, Span};
+use kernel::{Count, Given, Part};
+use syntax::SyntaxKind;
+use syntax::ast::{Member, Value};
+
+/// What a member at the top of the text added to the document's class, where that depends on the
+/// classes alone: one part, and some given values.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub(crate) struct Added {
+    part: u32,
+    first_given: u32,
+    givens: u32,
+}
+
+/// Which members of a text are those of the text before.
+#[derive(Clone, Copy)]
+struct Shared<'l> {
+    before: &'l Lowered,
+    /// How many at the beginning.
+    head: usize,
+    /// The first of those at the end: its place in this text and in the one before.
+    tail: (usize, usize),
+    /// How far the text at the end has moved.
+    shift: i64,
+}
+
+impl Shared<'_> {
+    /// Returns what a member added before, and how far it has moved.
+    fn known(&self, member: usize) -> Option<(Added, i64)> {
+        let (was, shift) = match member.checked_sub(self.tail.0) {
+            Some(behind) => (self.tail.1 + behind, self.shift),
+            None if member < self.head => (member, 0),
+            None => return None,
+        };
+        Some(((*self.before.added.get(was)?)?, shift))
+    }
+}
+
+impl<'l> Lowerer<'l> {
+    /// Finds out which members are those of the text before: none, unless all classes are as they were.
+    fn shared(&self) -> Option<Shared<'l>> {
+        let before = self.before?;
+        let is_same = |(a, b): (&File, &File)| a.name == b.name && a.text == b.text;
+        let used = self.files.iter().zip(before.files.iter()).skip(1);
+        let mut used = used.map(|((_, a), (_, b))| (a, b));
+        if self.files.len() != before.files.len() || !used.all(is_same) {
+            return None;
+        }
+        let (parse, was) = (&self.files[OWN].parse, &before.effective_parse);
+        let (head, tail) = parse.shared(was);
+        let (now, then) = (parse.outline().count(), was.outline().count());
+        let changed = parse.outline().take(now - tail).skip(head);
+        let gone = was.outline().take(then - tail).skip(head);
+        let kinds = [SyntaxKind::Class, SyntaxKind::Use, SyntaxKind::UnitLine, SyntaxKind::YLine];
+        if changed.chain(gone).any(|(kind, _)| kinds.contains(&kind)) {
+            return None;
+        }
+        let shift = self.files[OWN].text.len() as i64 - before.effective.len() as i64;
+        Some(Shared { before, head, tail: (now - tail, then - tail), shift })
+    }
+
+    /// Declares what the document's own text adds to the document's class.
+    pub(crate) fn declare_own(&mut self, scope: &Scope) {
+        let shared = self.shared();
+        let parse = self.files[OWN].parse.clone();
+        let file = parse.file();
+        self.added = vec![None; parse.outline().count()];
+        let classes = self.document.classes.len();
+        for (member, (_, span)) in parse.outline().enumerate() {
+            let known = shared.and_then(|s| Some((s.before, s.known(member)?)));
+            let part = self.document.classes[scope.class()].parts.len() as u32;
+            if let Some((before, (was, shift))) = known
+                && self.keep_part(scope, before, was, span)
+            {
+                self.pending.push(Pending::Kept { member, part, was, shift });
+                continue;
+            }
+            let Some(node) = file.member_at(span) else { continue };
+            let effects =
+                |l: &Self| (l.pending.len(), l.document.classes.len(), l.diagnostics.len());
+            let (from, made, said) = effects(self);
+            let is_plain = is_plain(&node);
+            self.declare_body(scope, vec![node]);
+            let (to, made_now, said_now) = effects(self);
+            let is_one = match &self.document.classes[scope.class()].parts[part as usize..] {
+                // how many elements a list is given is counted where it is declared
+                [part] => part.class.index() < classes && part.count != Some(Count::Given),
+                _ => false,
+            };
+            if is_plain && is_one && (made, said) == (made_now, said_now) {
+                let givens = (to - from) as u32;
+                self.pending.insert(from, Pending::Note);
+                self.pending.push(Pending::Noted { member, part, givens });
+            }
+        }
+    }
+
+    /// Declares a part as it was declared before; false where its name is taken now.
+    fn keep_part(&mut self, scope: &Scope, before: &Lowered, added: Added, span: Span) -> bool {
+        let root = before.document.root;
+        let part = &before.document.classes[root].parts[added.part as usize];
+        if self.named_at.contains_key(&(scope.class(), part.name.clone())) {
+            return false;
+        }
+        let origin = self.origin(OWN, span);
+        let end = span.start + part.name.as_str().len() as u32;
+        let place = Place { file: OWN, span: Span::new(span.start, end) };
+        self.add_part(place, scope.class(), Part { origin, ..part.clone() });
+        true
+    }
+
+    /// Gives a part that was kept the values that it was given before.
+    pub(crate) fn keep_values(&mut self, member: usize, part: u32, was: Added, shift: i64) {
+        let Some(before) = self.before else { return };
+        let (root, first) = (self.document.root, was.first_given as usize);
+        let first_given = self.document.classes[root].givens.len() as u32;
+        let givens = &before.document.classes[before.document.root].givens;
+        for given in &givens[first..first + was.givens as usize] {
+            let place = before.origins.place(given.origin);
+            let moved = |at: u32| (i64::from(at) + shift) as u32;
+            let span = Span::new(moved(place.span.start), moved(place.span.end));
+            let origin = self.origin(OWN, span);
+            self.document.classes[root].givens.push(Given { origin, ..given.clone() });
+        }
+        self.added[member] = Some(Added { part, first_given, givens: was.givens });
+    }
+
+    /// Returns what tells whether values did more than give: givens, classes, diagnostics.
+    pub(crate) fn so_far(&self) -> (usize, usize, usize) {
+        let givens = self.document.classes[self.document.root].givens.len();
+        (givens, self.document.classes.len(), self.diagnostics.len())
+    }
+
+    /// Notes what a part of the document and its values added, if they did no more than that.
+    pub(crate) fn note(
+        &mut self,
+        member: usize,
+        part: u32,
+        givens: u32,
+        before: (usize, usize, usize),
+    ) {
+        let first_given = before.0 as u32;
+        if self.so_far() == (before.0 + givens as usize, before.1, before.2) {
+            self.added[member] = Some(Added { part, first_given, givens });
+        }
+    }
+}
+
+/// Returns true for one part without a comment, all of whose values are constants.
+fn is_plain(member: &Member) -> bool {
+    let Member::Part(part) = member else { return false };
+    let value = part.value().map(|v| Value::expr(v).is_some_and(|e| is_constant(&e)));
+    let values = || part.body().map(|b| values_alone(&b.members().collect::<Vec<_>>()));
+    part.definition().is_none()
+        && part.doc().is_none()
+        && part.names().count() == 1
+        && value.unwrap_or(true)
+        && values().is_none_or(|v| v.is_some())
+}
+
+#[cfg(test)]
+mod tests {
+    use crate::lower::{Lowered, lower};
+
+    const CLASSES: &str = "class Widget { left: Real = 1  bottom: Real = 2  top: Real
+    constraint top = left + bottom }
+class Pair { a: Widget  b: Widget }
+class Row { all: List of Real = [1] }
+";
+
+    /// What the lines of a document may be: plain parts, and all that they are not.
+    const LINES: [&str; 22] = [
+        "w: Widget { left = 5  bottom = 7 }",
+        "v: Widget",
+        "x: Real = 3",
+        "y: Real",
+        "w: Widget { left = 8 }",
+        "p: Pair { a.left = 4 }",
+        "many: List of 3 Widget",
+        "few: List of 2 Real = [1, 2]",
+        "z: Widget { left = x }",
+        "/// said\nu: Widget { left = 2 }",
+        "i, j: Real = 0",
+        "q: Widget { top.enabled = false }",
+        "o: Pair { merge a = b }",
+        "constraint x = y",
+        "merge v.left = w.left",
+        "t: Text = \"word\"",
+        "k: Integer in 0..9 = 4",
+        "unit mm",
+        "class More { a: Real }",
+        "m: More",
+        "some: List of Real = [1, 2, 3]",
+        "for a in some { constraint a <= 9 }",
+    ];
+
+    /// Numbers that depend on nothing but the seed.
+    struct Dice(u64);
+
+    impl Dice {
+        fn below(&mut self, n: usize) -> usize {
+            self.0 = self.0.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1);
+            (self.0 >> 33) as usize % n
+        }
+    }
+
+    fn told(l: &Lowered) -> String {
+        let Lowered { document, checks, origins, diagnostics, doc, parts, class_spans, .. } = l;
+        let more = (&l.classes_of_one, &l.effective, &l.added);
+        format!(
+            "{document:#?}{checks:?}{origins:?}{diagnostics:#?}{doc}{parts:?}{class_spans:?}{more:?}"
+        )
+    }
+
+    #[test]
+    fn what_is_kept_is_what_lowering_anew_gives() {
+        let mut dice = Dice(5);
+        let mut kept = 0;
+        for _ in 0..220 {
+            let mut lines: Vec<&str> = (0..6).map(|_| LINES[dice.below(LINES.len())]).collect();
+            let mut before: Option<Lowered> = None;
+            for _ in 0..12 {
+                let text = format!("{CLASSES}{}\n", lines.join("\n"));
+                let now = lower(&text, &|_| None, before.as_ref());
+                // where something is wrong what was right before stays in force
+                let anew = lower(&text, &|_| None, None);
+                if anew.diagnostics.is_empty() {
+                    assert_eq!(told(&now), told(&anew), "{text}");
+                    kept += now.added.iter().flatten().count();
+                } else {
+                    assert_eq!(now.diagnostics, anew.diagnostics, "{text}");
+                }
+                before = Some(now);
+                let (at, line) = (dice.below(lines.len()), LINES[dice.below(LINES.len())]);
+                match dice.below(3) {
+                    0 => lines[at] = line,
+                    1 => lines.insert(at, line),
+                    _ if lines.len() > 1 => {
+                        lines.remove(at);
+                    }
+                    _ => {}
+                }
+            }
+        }
+        assert!(kept > 500, "{kept} parts could be kept");
+    }
+}

@@ -1,0 +1,103 @@
+//! Parsing again: a tree and an edited text in, the tree of the text out.
+//!
+//! The lines that both texts have at their beginning and end keep their nodes; the members between
+//! them are parsed alone, with two of their neighbours on either side, since a member may look at
+//! what follows it. That is the tree of the whole text where nothing is wrong: then every bracket,
+//! comment and text ends in the member that it begins in. Anything else is parsed as a whole.
+
+use crate::grammar::{self, Scope};
+use crate::kind::SyntaxKind;
+use crate::tree::{Parse, parse, parse_with};
+use base::FileId;
+use rowan::NodeOrToken;
+
+/// How many members on either side are parsed with those between them.
+const NEIGHBOURS: usize = 2;
+
+/// Parses a document whose text was `before` when `known` was made. Gives what [`parse`] gives.
+///
+/// # Panics
+/// If the text is longer than 4 GiB.
+///
+/// Cost: that of comparing the texts and of the members that changed.
+pub fn reparse(file: FileId, known: &Parse, before: &str, text: &str) -> Parse {
+    spliced(file, known, before, text).unwrap_or_else(|| parse(file, text))
+}
+
+/// A piece of the file's children: their indices, and their bytes in the text before.
+struct Piece {
+    children: std::ops::Range<usize>,
+    bytes: std::ops::Range<usize>,
+}
+
+fn spliced(file: FileId, known: &Parse, before: &str, text: &str) -> Option<Parse> {
+    if !known.diagnostics().is_empty() {
+        return None;
+    }
+    let most = before.len().min(text.len());
+    let head = common(before.bytes(), text.bytes(), most);
+    let tail = common(before.bytes().rev(), text.bytes().rev(), most - head);
+    let piece = piece(known, head, before.len() - tail)?;
+    let end = piece.bytes.end + text.len() - before.len();
+    let part = text.get(piece.bytes.start..end)?;
+    let made = parse_with(file, part, |p| grammar::file(p, Scope::Thing));
+    let green = known.green();
+    let was = green.children().take(piece.children.end).rev().filter_map(NodeOrToken::into_node);
+    let now = made.green().children().rev().filter_map(NodeOrToken::into_node);
+    let same = now.zip(was).take(NEIGHBOURS).filter(|(a, b)| a == b).count();
+    let is_last = piece.bytes.end == before.len();
+    if !made.diagnostics().is_empty() || !is_last && same < NEIGHBOURS {
+        return None;
+    }
+    let children = made.green().children().map(|c| match c {
+        NodeOrToken::Node(node) => NodeOrToken::Node(node.to_owned()),
+        NodeOrToken::Token(token) => NodeOrToken::Token(token.to_owned()),
+    });
+    Some(Parse::of(green.splice_children(piece.children, children)))
+}
+
+fn common(a: impl Iterator<Item = u8>, b: impl Iterator<Item = u8>, most: usize) -> usize {
+    a.zip(b).take(most).take_while(|(a, b)| a == b).count()
+}
+
+/// Finds the children that a change of the bytes from `from` to `to` may reach: from the beginning of
+/// a member that begins a line to the end of one that ends a line, or to the end of the file.
+fn piece(known: &Parse, from: usize, to: usize) -> Option<Piece> {
+    let green = known.green();
+    // members that begin a line before the change: index and first byte
+    let mut starts: Vec<(usize, usize)> = Vec::new();
+    let mut after = 0;
+    let (mut at, mut is_line) = (0, true);
+    let mut end = None;
+    for (index, child) in green.children().enumerate() {
+        let length = usize::from(child.text_len());
+        let node = match &child {
+            NodeOrToken::Node(_) => true,
+            NodeOrToken::Token(token) => {
+                let is_space = token.kind() == rowan::SyntaxKind::from(SyntaxKind::Whitespace);
+                let ends_line = is_space && token.text().contains('\n');
+                if ends_line && after >= NEIGHBOURS {
+                    end = Some((index, at));
+                    break;
+                }
+                is_line = ends_line;
+                false
+            }
+        };
+        if node {
+            if is_line && at + length < from {
+                starts.push((index, at));
+            }
+            is_line = false;
+            // strictly behind the change: what stands before it is its own
+            after += usize::from(at > to);
+        }
+        at += length;
+    }
+    let (first, start) = match starts.len().checked_sub(NEIGHBOURS) {
+        Some(index) => *starts.get(index)?,
+        None => (0, 0),
+    };
+    let (last, end) = end.unwrap_or((green.children().len(), at));
+    Some(Piece { children: first..last, bytes: start..end })
+}
