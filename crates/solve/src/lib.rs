@@ -64,6 +64,7 @@ mod tie;
 mod direct;
 
 mod order;
+mod view;
 
 pub mod plan;
 

@@ -59,7 +59,7 @@ pub(crate) struct Inverse {
 
 impl Inverse {
     /// Solves a row by formula, where there is one.
-    fn new(row: &ProblemRow, target: SlotIndex) -> Option<Self> {
+    pub(crate) fn new(row: &ProblemRow, target: SlotIndex) -> Option<Self> {
         let mut places = (0..).zip(&row.arguments).filter(|a| *a.1 == target);
         let (argument, _) = places.next()?;
         let once = places.next().is_none();
@@ -178,7 +178,7 @@ fn alias(
     }
 }
 
-fn problem_row(analysis: &Analysis<'_>, row: usize) -> Option<ProblemRow> {
+pub(crate) fn problem_row(analysis: &Analysis<'_>, row: usize) -> Option<ProblemRow> {
     let kernel = analysis.rows.kernel(row)?.clone();
     let arguments = analysis.rows.mentions(row).into();
     let Row { level, within, .. } = analysis.rows[row];

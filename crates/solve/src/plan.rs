@@ -15,6 +15,7 @@ use crate::stated::Stated;
 use crate::substitute::{self, Classes};
 use crate::system::{Level, RelationBody, Slot, SlotIndex, Span, Stay, System};
 use crate::tie;
+use crate::view::{self, Exchange};
 use base::number::Tolerance;
 use std::cell::{OnceCell, RefCell};
 use std::collections::BTreeMap;
@@ -141,6 +142,9 @@ pub struct Plan {
     slice: RefCell<Option<Rc<Slice>>>,
 }
 
+/// Up to this many rows it is looked at whether one that a given number would yield to is implied.
+const IMPLIED_ROWS: usize = 300;
+
 /// Up to this many slots a state that does not hold may be moved as a whole.
 const RELAXED_SLOTS: usize = 300;
 
@@ -183,6 +187,29 @@ impl Analysis<'_> {
             None => self.rows.mentions(row),
         }
     }
+    /// Accepts a superfluous row in place of one of its circuit, and goes another way from there.
+    fn accept_instead(&mut self, Exchange { dependent, row }: Exchange) {
+        let exchanged = &mut self.acceptance.dependent[dependent];
+        let now = std::mem::replace(&mut exchanged.row, row);
+        let accepted = self.acceptance.accepted.iter_mut().chain(&mut exchanged.circuit);
+        accepted.filter(|r| **r == row).for_each(|r| *r = now);
+        let system = &self.stated.system;
+        self.direction = direct::direct(system, &self.classes, &self.rows, &self.acceptance);
+        self.method_reads = method_reads(system, &self.classes, &self.direction);
+    }
+}
+
+/// Returns, for every relation whose written method was chosen, the slots that that reads.
+fn method_reads(
+    system: &System,
+    classes: &Classes,
+    direction: &Direction,
+) -> BTreeMap<u32, Vec<SlotIndex>> {
+    let reads = |&(r, m): &(u32, u32)| {
+        let body = &system.relations[r as usize].methods[m as usize].body;
+        (r, rows::method_reads(system, classes, body))
+    };
+    direction.methods.iter().map(reads).collect()
 }
 
 /// Plans a system over these patterns. Equal systems have equal plans.
@@ -193,24 +220,34 @@ pub fn plan(system: &Rc<System>, patterns: &Patterns) -> Plan {
 fn plan_stated(stated: Stated) -> Plan {
     let system = &*stated.system;
     let classes = substitute::substitute(&stated);
-    let rows = rows::rows(&stated, &classes);
+    let mut rows = rows::rows(&stated, &classes);
     let mut acceptance = accept::accept(system, &classes, &rows);
+    if !acceptance.yielded.is_empty()
+        && rows.len() <= IMPLIED_ROWS
+        && let Some(there) = rows::rows_where_linear_hold(&stated, &classes)
+    {
+        // no number yields to a row that says nothing new
+        let again = accept::accept(system, &classes, &there);
+        if again.yielded.len() < acceptance.yielded.len() {
+            (rows, acceptance) = (there, again);
+        }
+    }
     let mut direction = direct::direct(system, &classes, &rows, &acceptance);
     if tie::tie(system, &classes, &rows, &direction, &mut acceptance) {
         direction = direct::direct(system, &classes, &rows, &acceptance);
     }
-    let method_reads = direction
-        .methods
-        .iter()
-        .map(|&(r, m)| {
-            let body = &system.relations[r as usize].methods[m as usize].body;
-            (r, rows::method_reads(system, &classes, body))
-        })
-        .collect();
     let relations = tests_of_relations(system);
-    let analysis = Analysis { stated: &stated, classes, rows, acceptance, direction, method_reads };
-    let (report, together) = report(&analysis);
-    let blocks = blocks(&analysis, &together);
+    let method_reads = method_reads(system, &classes, &direction);
+    let mut analysis =
+        Analysis { stated: &stated, classes, rows, acceptance, direction, method_reads };
+    let (mut findings, mut together) = report(&analysis);
+    let mut blocks = blocks_of(&analysis, &together);
+    for _ in 0..analysis.acceptance.dependent.len() {
+        let Some(exchange) = view::exchange(&analysis, &blocks) else { break };
+        analysis.accept_instead(exchange);
+        (findings, together) = report(&analysis);
+        blocks = blocks_of(&analysis, &together);
+    }
     let lowered = lower::lower(&analysis, &blocks);
     let has_branches = lowered.steps.iter().any(|s| match s.kind {
         StepKind::Inverse { roots } => roots > 1,
@@ -223,7 +260,7 @@ fn plan_stated(stated: Stated) -> Plan {
     Plan {
         has_least,
         steps: lowered.steps,
-        report,
+        report: findings,
         slots: planned_slots(system),
         opaque: (0..relations.len() as u32)
             .filter(|&r| relations[r as usize].opaque.is_some())
@@ -335,7 +372,7 @@ fn report(analysis: &Analysis<'_>) -> (Report, Vec<Vec<usize>>) {
     (Report { rejected, freedom: analysis.acceptance.freedom, yielded, free_slots }, together)
 }
 
-fn blocks(analysis: &Analysis<'_>, together: &[Vec<usize>]) -> Vec<Block> {
+fn blocks_of(analysis: &Analysis<'_>, together: &[Vec<usize>]) -> Vec<Block> {
     let mut taking_part = analysis.acceptance.accepted.clone();
     taking_part.extend(together.iter().map(|set| set[0]));
     taking_part.sort_unstable();

@@ -79,6 +79,61 @@ pub(crate) fn rows(stated: &Stated, classes: &Classes) -> Rows {
     rows
 }
 
+/// Makes the rows with the derivatives that they have where the linear ones among them hold: there a row
+/// that they and others imply shows that it does. None where no row is linear.
+pub(crate) fn rows_where_linear_hold(stated: &Stated, classes: &Classes) -> Option<Rows> {
+    let mut rows = stated_rows(stated, classes);
+    let is_linear = |r: &usize| {
+        let kernel = rows.kernel(*r);
+        kernel.is_some_and(|k| k.entries.iter().all(|e| e.depends.is_empty()))
+    };
+    let linear: Vec<usize> = (0..rows.len()).filter(is_linear).collect();
+    let n = stated.system.slots.len();
+    let mut values: Vec<f64> = (0..n as u64).map(|i| generic_number(i, Point::Mixed)).collect();
+    let at = evaluate(&rows, &values);
+    let mut system = Vec::with_capacity(linear.len());
+    for &r in &linear {
+        let kernel = rows.kernel(r)?;
+        let mut row = vec![0.0; n + 1];
+        let mentions = rows.mentions(r);
+        for (entry, slope) in kernel.entries.iter().zip(&at.slopes[at.first[r]..]) {
+            row[mentions[entry.argument as usize] as usize] += slope;
+        }
+        row[n] = -at.errors[r];
+        system.push(row);
+    }
+    let may_move = |s: usize| classes.stay[s] != Stay::Fixed;
+    move_onto(system, &may_move, &mut values);
+    let slopes = evaluate(&rows, &values).slopes;
+    let is_usable = !linear.is_empty() && slopes.iter().all(|slope| slope.is_finite());
+    set_columns(&stated.system, classes, &mut rows, &slopes);
+    is_usable.then_some(rows)
+}
+
+/// Moves a point so that linear equations in the differences hold as far as what may move allows.
+fn move_onto(mut system: Vec<Vec<f64>>, may_move: &dyn Fn(usize) -> bool, values: &mut [f64]) {
+    const SMALL: f64 = 1e-9;
+    let n = values.len();
+    let mut pivots: Vec<(usize, usize)> = Vec::new();
+    for r in 0..system.len() {
+        let sizes = (0..n).filter(|&c| may_move(c)).map(|c| (c, system[r][c].abs()));
+        let Some((pivot, size)) = sizes.max_by(|a, b| a.1.total_cmp(&b.1)) else { continue };
+        if size <= SMALL {
+            continue;
+        }
+        let row = std::mem::take(&mut system[r]);
+        for other in system.iter_mut().filter(|other| !other.is_empty() && other[pivot] != 0.0) {
+            let factor = other[pivot] / row[pivot];
+            other.iter_mut().zip(&row).for_each(|(x, y)| *x -= factor * y);
+        }
+        system[r] = row;
+        pivots.push((r, pivot));
+    }
+    for (r, pivot) in pivots {
+        values[pivot] += system[r][n] / system[r][pivot];
+    }
+}
+
 /// Makes the rows without their columns.
 fn stated_rows(stated: &Stated, classes: &Classes) -> Rows {
     let system = &*stated.system;
@@ -190,24 +245,10 @@ impl Kernels {
 /// The derivatives of all rows, row after row, at the first of a few generic points that suits them
 /// best.
 fn slopes(rows: &Rows, slots: usize) -> Vec<f64> {
-    // rows of one kernel are evaluated together
-    let mut first = Vec::with_capacity(rows.len() + 1);
-    let mut count = 0;
-    let mut of_kernel: Vec<Vec<u32>> = vec![Vec::new(); rows.kernels.len()];
-    for r in 0..rows.len() {
-        first.push(count);
-        if let Some(kernel) = rows.kernel(r) {
-            count += kernel.entries.len();
-            of_kernel[rows[r].kernel as usize].push(r as u32);
-        }
-    }
     let mut best = (usize::MAX, Vec::new());
     for point in Point::ALL {
         let values: Vec<f64> = (0..slots as u64).map(|i| generic_number(i, point)).collect();
-        let mut out = vec![0.0; count];
-        for (kernel, own) in rows.kernels.iter().zip(&of_kernel) {
-            kernel_slopes(rows, kernel, own, &values, &first, &mut out);
-        }
+        let out = evaluate(rows, &values).slopes;
         let bad = out.iter().filter(|v| !v.is_finite()).count();
         if bad < best.0 {
             best = (bad, out);
@@ -219,14 +260,36 @@ fn slopes(rows: &Rows, slots: usize) -> Vec<f64> {
     best.1
 }
 
-fn kernel_slopes(
-    rows: &Rows,
-    kernel: &Kernel,
-    own: &[u32],
-    values: &[f64],
-    first: &[usize],
-    out: &mut [f64],
-) {
+/// What rows come to at a point.
+struct Evaluated {
+    /// For every row, where its derivatives begin.
+    first: Vec<usize>,
+    /// The derivatives, row after row.
+    slopes: Vec<f64>,
+    /// For every row, by how much its left side is larger.
+    errors: Vec<f64>,
+}
+
+fn evaluate(rows: &Rows, values: &[f64]) -> Evaluated {
+    // rows of one kernel are evaluated together
+    let mut first = Vec::with_capacity(rows.len() + 1);
+    let mut count = 0;
+    let mut of_kernel: Vec<Vec<u32>> = vec![Vec::new(); rows.kernels.len()];
+    for r in 0..rows.len() {
+        first.push(count);
+        if let Some(kernel) = rows.kernel(r) {
+            count += kernel.entries.len();
+            of_kernel[rows[r].kernel as usize].push(r as u32);
+        }
+    }
+    let mut out = Evaluated { first, slopes: vec![0.0; count], errors: vec![0.0; rows.len()] };
+    for (kernel, own) in rows.kernels.iter().zip(&of_kernel) {
+        evaluate_kernel(rows, kernel, own, values, &mut out);
+    }
+    out
+}
+
+fn evaluate_kernel(rows: &Rows, kernel: &Kernel, own: &[u32], values: &[f64], out: &mut Evaluated) {
     let entries = kernel.entries.len();
     let mut arguments: Vec<Lanes> = vec![[0.0; LANES]; kernel.arity()];
     let mut results: Vec<Lanes> = vec![[0.0; LANES]; entries + 2];
@@ -239,7 +302,8 @@ fn kernel_slopes(
         }
         kernel.slopes.run_lanes(&arguments, &mut registers, &mut results);
         for (lane, &r) in some.iter().enumerate() {
-            let own = &mut out[first[r as usize]..][..entries];
+            out.errors[r as usize] = results[0][lane] - results[1][lane];
+            let own = &mut out.slopes[out.first[r as usize]..][..entries];
             for (out, result) in own.iter_mut().zip(&results[2..]) {
                 *out = result[lane];
             }
