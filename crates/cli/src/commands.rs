@@ -275,6 +275,10 @@ pub(crate) fn analyse(path: &Path, form: Form) -> Result<Report, OpenError> {
             let _ = writeln!(words, "  this would help: {repair}");
         }
     }
+    for advice in &analysis.advice {
+        let members = advice.members.trim_end().replace('\n', "\n    ");
+        let _ = writeln!(words, "{}:\n    {members}", advice.message);
+    }
     Ok(report(form, analysis.contradictions.is_empty(), words, &json!(analysis)))
 }
 

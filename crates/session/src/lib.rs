@@ -14,6 +14,7 @@ pub mod general;
 mod host;
 pub mod view;
 
+mod advice;
 mod apply;
 mod check;
 mod complaints;

@@ -71,22 +71,28 @@ pub(crate) fn recognise(state: &State, paths: &[Path]) -> Result<Vec<Recognised>
 /// Writes a thing of a class whose parts are those selected; they stand first, so that they keep their
 /// values.
 fn members(state: &State, class: &Name, parts: &[(String, String)]) -> String {
+    let name = free_name(state, class);
+    let merges = parts.iter().map(|(field, part)| format!("merge {part} = {name}.{field}\n"));
+    std::iter::once(format!("{name}: {class}\n")).chain(merges).collect()
+}
+
+/// Returns a name for a new thing of a class that nothing in the document has.
+pub(crate) fn free_name(state: &State, class: &Name) -> String {
     let word: String = class.chars().enumerate().map(small_first).collect();
     let names = std::iter::once(word.clone()).chain((2..).map(|i| format!("{word}{i}")));
     let is_free = |name: &String| {
         let path = Path(vec![Step::Part(Name::new(name))]);
         Name::new(name) != *class && words::find(state, &path).is_err()
     };
-    let name = { names }.find(is_free).unwrap_or_default();
-    let merges = parts.iter().map(|(field, part)| format!("merge {part} = {name}.{field}\n"));
-    std::iter::once(format!("{name}: {class}\n")).chain(merges).collect()
+    { names }.find(is_free).unwrap_or_default()
 }
 
 fn small_first((at, letter): (usize, char)) -> char {
     if at == 0 { letter.to_ascii_lowercase() } else { letter }
 }
 
-fn is_candidate(state: &State, id: ClassId, class: &Class) -> bool {
+/// Whether a class is one that people make things of.
+pub(crate) fn is_candidate(state: &State, id: ClassId, class: &Class) -> bool {
     let document = &state.lowered.document;
     class.kind == ClassKind::Composite
         && !class.is_abstract

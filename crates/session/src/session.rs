@@ -1,5 +1,6 @@
 //! The session: open documents, and what is done to them.
 
+use crate::advice;
 use crate::apply;
 use crate::check;
 use crate::complaints;
@@ -248,7 +249,9 @@ impl Session {
     ///
     /// Where something does not hold this may take a few hundred solves.
     pub fn analysis(&mut self, id: DocumentId) -> Analysis {
-        views::analysis::view(self.document_mut(id))
+        let analysis = views::analysis::view(self.document_mut(id));
+        let beside = Beside::of(&*self.host, &self.documents, id);
+        Analysis { advice: advice::advice(self.document(id), &beside), ..analysis }
     }
     /// Returns what the document calls itself: the first words of its first `///`, else its name.
     pub fn title(&self, id: DocumentId) -> String {

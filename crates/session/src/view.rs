@@ -389,6 +389,17 @@ pub struct Analysis {
     pub redundant: Vec<RedundantView>,
     /// The required constraints that cannot hold together.
     pub contradictions: Vec<ContradictionView>,
+    /// Second views that would let what is solved together be computed one after the other.
+    pub advice: Vec<Advice>,
+}
+
+/// A second view of things that would make a plan lighter; it was tried.
+#[derive(Clone, PartialEq, Eq, Debug, Serialize)]
+pub struct Advice {
+    /// One sentence.
+    pub message: String,
+    /// The members of the document that would make it.
+    pub members: String,
 }
 
 /// A way to move while every required constraint goes on holding.

@@ -6,9 +6,10 @@ use crate::picture::covers;
 use crate::{icons, words};
 use leptos::prelude::*;
 use session::view::{
-    Analysis, ContradictionView, ExplainedStep, HeldView, MotionView, RedundantView, Unmet,
+    Advice, Analysis, ContradictionView, ExplainedStep, HeldView, MotionView, RedundantView, Unmet,
     Velocity,
 };
+use session::{Command, Path};
 
 /// Paths as buttons that select them, after a word; nothing if there are none.
 pub(crate) fn listed(lab: Lab, word: &'static str, paths: Vec<String>) -> Option<impl IntoView> {
@@ -94,7 +95,7 @@ fn Held(lab: Lab, held: HeldView) -> impl IntoView {
 /// Of the motions those of one thing, if one is meant.
 #[component]
 fn Analysed(lab: Lab, analysis: Analysis, about: Option<String>) -> impl IntoView {
-    let Analysis { freedom, free: _, mut motions, redundant, contradictions } = analysis;
+    let Analysis { freedom, free: _, mut motions, redundant, contradictions, advice } = analysis;
     let title = match &about {
         None => format!("{}, {}", words::FREE, words::ways(freedom)),
         Some(about) => {
@@ -111,6 +112,10 @@ fn Analysed(lab: Lab, analysis: Analysis, about: Option<String>) -> impl IntoVie
         {(!redundant.is_empty()).then(|| view! {
             <h3 class="redundant">{words::REDUNDANT}</h3>
             <ul>{redundant.into_iter().map(|r| view! { <Redundant lab=lab redundant=r /> }).collect_view()}</ul>
+        })}
+        {(!advice.is_empty()).then(|| view! {
+            <h3>{words::ADVICE}</h3>
+            <ul>{advice.into_iter().map(|a| view! { <Advised lab=lab advice=a /> }).collect_view()}</ul>
         })}
         {(!motions.is_empty()).then(|| view! {
             <h3>{title}</h3>
@@ -135,6 +140,17 @@ fn Contradiction(lab: Lab, contradiction: ContradictionView) -> impl IntoView {
             })}
         </li>
     }
+}
+
+/// A second view, and a button that makes it.
+#[component]
+fn Advised(lab: Lab, advice: Advice) -> impl IntoView {
+    let Advice { message, members } = advice;
+    let make = move |_| {
+        let (target, members) = (Path::default(), members.clone());
+        lab.apply(&Command::Edit { target, members });
+    };
+    view! { <li>{message}" "<button on:click=make>{words::ADD_IT}</button></li> }
 }
 
 #[component]

@@ -94,6 +94,8 @@ pub const NOT_RECOGNISED: &str =
     "No class of this document has such parts with all its rules true.";
 pub const RECOGNISED: &str = "These could be the parts of";
 pub const MAKE_ONE: &str = "Make it one";
+pub const ADVICE: &str = "Would be lighter";
+pub const ADD_IT: &str = "Add it";
 pub const HELD: &str = "Does not move";
 pub const CONTRADICTION: &str = "Cannot hold together";
 pub const FREE: &str = "Can still move";

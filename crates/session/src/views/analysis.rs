@@ -27,7 +27,14 @@ pub(crate) fn view(open: &mut Open) -> Analysis {
     let motions = found.motions.iter().map(|m| motion(open, m)).collect();
     let redundant = found.redundant.iter().filter_map(|r| redundant(open, r)).collect();
     let contradictions = against.iter().map(|c| contradiction(open, c)).collect();
-    Analysis { freedom: found.freedom as u32, free, motions, redundant, contradictions }
+    Analysis {
+        freedom: found.freedom as u32,
+        free,
+        motions,
+        redundant,
+        contradictions,
+        advice: Vec::new(),
+    }
 }
 
 fn names(open: &Open, sources: &[plan::Source]) -> Vec<String> {

@@ -2,6 +2,7 @@
 
 use crate::desk::{Desk, at, gallery};
 use session::view::Explanation;
+use session::{Command, Path};
 use std::fmt::Write as _;
 
 fn page(explanation: &Explanation) -> String {
@@ -118,4 +119,31 @@ fn virtual_parts_constraints_and_wholes_are_explained() {
     assert_eq!(why("flat"), "flat holds, because k.p1.y = 60 is anchored.");
     assert_eq!(why("k"), format!("k is as it is, {from}."));
     assert_eq!(why("k.breadth"), "there is no breadth in k.breadth");
+}
+
+const DIVIDER: &str = "use circuits
+battery: Battery { anchor emf }
+r1: Resistor { resistance = 100 ohm }
+r2: Resistor { resistance = 200 ohm }
+ground: Ground
+merge battery.a.node = r1.a.node
+merge r1.b.node = r2.a.node
+merge r2.b.node = battery.b.node = ground.lead.node
+";
+
+#[test]
+fn what_is_solved_together_is_advised_a_second_view_that_was_tried() {
+    let mut desk = Desk::of(DIVIDER);
+    let advice = desk.session.analysis(desk.id).advice;
+    let message = "equations about r1, r2 are solved together; with a SeriesResistors of them, one \
+        after the other";
+    let members = "seriesResistors: SeriesResistors\nmerge r1 = seriesResistors.first\n\
+        merge r2 = seriesResistors.second\n";
+    let found: Vec<_> = advice.iter().map(|a| (a.message.as_str(), a.members.as_str())).collect();
+    assert_eq!(found, [(message, members)]);
+    let before = desk.number("r1.b.node.voltage");
+    desk.apply(&Command::Edit { target: Path::default(), members: members.into() }).unwrap();
+    assert_eq!((before, desk.number("r1.b.node.voltage")), (1.0, 1.0));
+    assert!(desk.session.explain(desk.id, None).summary.contains("one after the other"));
+    assert_eq!(desk.session.analysis(desk.id).advice, []);
 }
