@@ -54,8 +54,11 @@ impl Node {
     }
 }
 
+/// Sixty-four times as many nodes are marked rather than collected.
+const MARKS: usize = 32;
+
 /// A set in order of insertion, without random state.
-pub(crate) type Set<T> = IndexSet<T, BuildHasherDefault<Mixer>>;
+type Set<T> = IndexSet<T, BuildHasherDefault<Mixer>>;
 
 /// Expressions, each stored once.
 ///
@@ -76,6 +79,10 @@ impl Arena {
     /// Makes an empty arena.
     pub fn new() -> Self {
         Self::default()
+    }
+    /// Makes an empty arena with room for so many nodes.
+    pub fn for_nodes(count: usize) -> Self {
+        Self { nodes: Set::with_capacity_and_hasher(count, BuildHasherDefault::default()) }
     }
     /// Returns the number of nodes.
     pub fn len(&self) -> usize {
@@ -324,7 +331,33 @@ impl Arena {
     /// Returns every node that the `roots` are made of, operands before users.
     ///
     /// Cost: that of the nodes reached, whatever else the arena holds.
-    pub(crate) fn reachable(&self, roots: &[ExprId]) -> Set<ExprId> {
+    pub(crate) fn reachable(&self, roots: &[ExprId]) -> Vec<ExprId> {
+        let end = roots.iter().map(|r| r.index() + 1).max().unwrap_or(0);
+        if end <= MARKS * 64 { self.marked(roots) } else { self.collected(roots) }
+    }
+    /// Marks what is reached among the first nodes; users stand after their operands, so that one
+    /// pass from the end meets them all.
+    fn marked(&self, roots: &[ExprId]) -> Vec<ExprId> {
+        let mut marks = [0_u64; MARKS];
+        let mark = |marks: &mut [u64; MARKS], id: ExprId| {
+            marks[id.index() / 64] |= 1 << (id.index() % 64);
+        };
+        roots.iter().for_each(|&r| mark(&mut marks, r));
+        let mut reached = Vec::with_capacity(4 * roots.len() + 8);
+        for word in (0..MARKS).rev() {
+            let mut below = u64::MAX;
+            while marks[word] & below != 0 {
+                let bit = 63 - (marks[word] & below).leading_zeros();
+                below = (1 << bit) - 1;
+                let id = ExprId::from_index(word * 64 + bit as usize);
+                reached.push(id);
+                self.node(id).each_operand(|operand| mark(&mut marks, operand));
+            }
+        }
+        reached.reverse();
+        reached
+    }
+    fn collected(&self, roots: &[ExprId]) -> Vec<ExprId> {
         let mut reached: Set<ExprId> = roots.iter().copied().collect();
         let mut next = 0;
         while next < reached.len() {
@@ -333,6 +366,7 @@ impl Arena {
             });
             next += 1;
         }
+        let mut reached: Vec<ExprId> = reached.into_iter().collect();
         reached.sort_unstable();
         reached
     }
@@ -467,8 +501,13 @@ pub struct Excerpt {
 }
 
 /// Returns where `id` stands in an order that holds it.
-pub(crate) fn place(order: &Set<ExprId>, id: ExprId) -> usize {
-    order.get_index_of(&id).expect("an order of reachable nodes holds their operands")
+pub(crate) fn place(order: &[ExprId], id: ExprId) -> usize {
+    // where nothing is left out, that is its distance from the first
+    let most = id.index() - order[0].index();
+    if order.get(most) == Some(&id) {
+        return most;
+    }
+    order.binary_search(&id).expect("an order of reachable nodes holds their operands")
 }
 
 impl PartialEq for Arena {

@@ -9,7 +9,7 @@
 //!
 //! **Source:** Griewank and Walther, *Evaluating Derivatives*, 2nd ed., §3.2 (adjoints).
 
-use crate::arena::{Arena, ExprId, Node, Set, Var, place};
+use crate::arena::{Arena, ExprId, Node, Var, place};
 use crate::op::{Binary, Unary};
 use std::collections::BTreeMap;
 
@@ -91,7 +91,7 @@ fn is_flat(node: Node) -> bool {
 /// One expression being differentiated; nodes are named by their place in `order`.
 struct Pass<'a> {
     arena: &'a mut Arena,
-    order: Set<ExprId>,
+    order: Vec<ExprId>,
     depends: Vec<bool>,
     wanted: BTreeMap<Var, usize>,
     /// The derivatives of the choices met so far.
@@ -129,10 +129,12 @@ impl Pass<'_> {
     fn sweep(&mut self, root: ExprId) -> Sparse {
         let mut result = Sparse::new();
         // Users stand after operands, so the last pending node has all its contributions.
-        let mut pending = Sparse::new();
+        let top = place(&self.order, root);
+        let mut pending = vec![None; top + 1];
         let one = self.arena.constant(1.0);
         self.contribute(&mut pending, root, one);
-        while let Some((i, adjoint)) = pending.pop_last() {
+        for i in (0..=top).rev() {
+            let Some(adjoint) = pending[i] else { continue };
             if let Some(choice) = self.choices.get(&i) {
                 for (v, d) in choice.clone() {
                     let contribution = self.arena.mul(adjoint, d);
@@ -164,18 +166,18 @@ impl Pass<'_> {
         }
         result
     }
-    fn contribute(&mut self, pending: &mut Sparse, to: ExprId, contribution: ExprId) {
+    fn contribute(&mut self, pending: &mut [Option<ExprId>], to: ExprId, contribution: ExprId) {
         let i = place(&self.order, to);
         if self.depends[i] {
-            self.accumulate(pending, i, contribution);
+            pending[i] = Some(self.sum(pending[i], contribution));
         }
     }
     fn accumulate(&mut self, sums: &mut Sparse, key: usize, contribution: ExprId) {
-        let sum = match sums.get(&key) {
-            Some(&before) => self.arena.add(before, contribution),
-            None => contribution,
-        };
+        let sum = self.sum(sums.get(&key).copied(), contribution);
         sums.insert(key, sum);
+    }
+    fn sum(&mut self, before: Option<ExprId>, contribution: ExprId) -> ExprId {
+        before.map_or(contribution, |before| self.arena.add(before, contribution))
     }
 }
 

@@ -8,7 +8,7 @@
 //! Of the inverse of a periodic function only the principal value is given (for `sin` and `cos`, both
 //! values within one turn).
 
-use crate::arena::{Arena, ExprId, Node, Set, Var, place};
+use crate::arena::{Arena, ExprId, Node, Var, place};
 use crate::op::{Binary, Unary};
 use crate::polynomial::{self, Coefficients};
 use std::f64::consts::{FRAC_PI_2, PI};
@@ -158,7 +158,7 @@ impl Branch {
 }
 
 /// Tells for every node whether the variable occurs in it.
-fn occurrences(arena: &Arena, order: &Set<ExprId>, var: Var) -> Vec<bool> {
+fn occurrences(arena: &Arena, order: &Vec<ExprId>, var: Var) -> Vec<bool> {
     let mut holds: Vec<bool> = Vec::with_capacity(order.len());
     for &id in order {
         let node = arena.node(id);

@@ -72,6 +72,9 @@ struct Run {
     count: u32,
 }
 
+/// The end of a list of those who wait.
+const NOBODY: u32 = u32::MAX;
+
 /// Shorter runs than this are mixed with those beside them.
 const SHORT: u32 = 4;
 
@@ -169,20 +172,27 @@ impl Tape {
         for (i, var) in loads {
             lowering.emit(Operation::Load, i, &[var.index() as u32]);
         }
-        // Operands still to be computed, and who waits for each node.
+        // Operands still to be computed, and who waits for each node: the latest, and who before.
         let mut missing = vec![0_u32; order.len()];
-        let mut users: Vec<Vec<u32>> = vec![Vec::new(); order.len()];
-        let mut ready: Vec<VecDeque<usize>> = vec![VecDeque::new(); Operation::COUNT];
-        for i in inner {
+        let mut latest = vec![NOBODY; order.len()];
+        let mut waiting: Vec<(u32, u32)> = Vec::with_capacity(2 * inner.len());
+        let mut ready = [const { VecDeque::new() }; Operation::COUNT];
+        for &i in inner.iter().rev() {
+            let mut operands = [0; 3];
+            let mut count = 0;
             arena.node(order[i]).each_operand(|a| {
-                let a = place(&order, a);
+                operands[count] = place(&order, a);
+                count += 1;
+            });
+            for &a in operands[..count].iter().rev() {
                 if lowering.register[a] == u32::MAX {
                     missing[i] += 1;
-                    users[a].push(i as u32);
+                    waiting.push((i as u32, latest[a]));
+                    latest[a] = waiting.len() as u32 - 1;
                 }
-            });
+            }
             if missing[i] == 0 {
-                ready[queue_of(arena.node(order[i]))].push_back(i);
+                ready[queue_of(arena.node(order[i]))].push_front(i);
             }
         }
         // The longest queue next: it runs dry before another operation is looked up.
@@ -198,7 +208,10 @@ impl Tape {
                     count += 1;
                 });
                 lowering.emit(Operation::from_place(queue), i, &operands[..count]);
-                for &user in &users[i] {
+                let mut next = latest[i];
+                while next != NOBODY {
+                    let (user, before) = waiting[next as usize];
+                    next = before;
                     let user = user as usize;
                     missing[user] -= 1;
                     if missing[user] == 0 {

@@ -45,6 +45,8 @@ pub(crate) struct Reach<'a> {
 #[derive(Debug)]
 pub(crate) struct Route {
     classes: Vec<ClassId>,
+    /// The classes of what is merged with things unlike it, which answers messages too.
+    unlike: Vec<(Reached, ClassId)>,
     steps: Vec<Step>,
     /// Where slots were met for the first time.
     stored: Vec<Reached>,
@@ -75,11 +77,7 @@ impl<'a> Reach<'a> {
         self.found(owner);
     }
 
-    /// Notes a thing; what is merged with unlike things is not the same elsewhere.
     fn found(&mut self, thing: ThingId) {
-        if !self.structure.unlike(thing).is_empty() {
-            self.is_repeatable = false;
-        }
         let number = self.things.len() as Reached;
         self.things.push(thing);
         // the last way counts: every way is noted
@@ -225,8 +223,11 @@ impl<'a> Reach<'a> {
         }
         again.sort_unstable();
         again.dedup();
-        let classes = self.things.iter().map(|&t| self.structure.things[t].class).collect();
-        Some((Route { classes, steps: self.steps.clone(), stored, again }, slots))
+        let class = |t: &ThingId| self.structure.things[*t].class;
+        let classes = self.things.iter().map(class).collect();
+        let others = |(n, &t)| self.structure.unlike(t).iter().map(move |t| (n, class(t)));
+        let unlike = (0..).zip(&self.things).flat_map(others).collect();
+        Some((Route { classes, unlike, steps: self.steps.clone(), stored, again }, slots))
     }
 }
 
@@ -246,11 +247,14 @@ impl Route {
     ) -> bool {
         things.clear();
         slots.clear();
-        let found = |thing: ThingId, things: &mut Vec<ThingId>| {
-            let alike = structure.things[thing].class == self.classes[things.len()]
-                && structure.unlike(thing).is_empty();
+        let class = |t: ThingId| structure.things[t].class;
+        let mut unlike = self.unlike.iter();
+        let mut found = |thing: ThingId, things: &mut Vec<ThingId>| {
+            let number = things.len();
             things.push(thing);
-            alike
+            let mut others = structure.unlike(thing).iter();
+            class(thing) == self.classes[number]
+                && others.all(|&t| unlike.next() == Some(&(number as Reached, class(t))))
         };
         if !found(owner, things) {
             return false;
@@ -284,6 +288,9 @@ impl Route {
             if !holds {
                 return false;
             }
+        }
+        if unlike.next().is_some() {
+            return false;
         }
         let slot = |n: Reached| structure.slot_of[things[n as usize]];
         slots.extend(self.stored.iter().filter_map(|&n| slot(n)));

@@ -113,18 +113,39 @@ impl Formula<SlotId> {
     }
 }
 
+/// Up to this many slots one is found by looking at all.
+const FEW: usize = 16;
+
 /// Gives slots their positions, in the order in which they are met.
 #[derive(Default)]
 struct Numbering {
     slots: Vec<SlotId>,
+    /// Of all slots, once they are many.
     position: BTreeMap<SlotId, Position>,
 }
 
 impl Numbering {
+    fn of(slots: &[SlotId]) -> Self {
+        let mut numbering = Self::default();
+        slots.iter().for_each(|slot| {
+            numbering.one(slot);
+        });
+        numbering
+    }
     fn one(&mut self, slot: &SlotId) -> Position {
         let Self { slots, position } = self;
-        *position.entry(*slot).or_insert_with(|| {
+        let known = if slots.len() <= FEW {
+            slots.iter().position(|s| s == slot).map(|at| at as Position)
+        } else {
+            position.get(slot).copied()
+        };
+        known.unwrap_or_else(|| {
             slots.push(*slot);
+            if slots.len() == FEW + 1 {
+                position.extend(slots.iter().copied().zip(0..));
+            } else if slots.len() > FEW {
+                position.insert(*slot, slots.len() as Position - 1);
+            }
             slots.len() as Position - 1
         })
     }
@@ -224,8 +245,7 @@ impl Rules {
     pub(crate) fn guard(&mut self, index: u32, when: &[When<SlotId>]) {
         let rule = self.get(index);
         let (source, mut shape) = (rule.source, rule.shape.clone());
-        let position = rule.slots.iter().copied().zip(0..).collect();
-        let mut numbering = Numbering { slots: rule.slots.to_vec(), position };
+        let mut numbering = Numbering::of(rule.slots);
         shape.when.extend(when.iter().map(|w| numbering.when(w)));
         let shape = self.add_shape(shape);
         self.add(source, shape, numbering.slots);

@@ -7,6 +7,7 @@
 use crate::system::SlotIndex;
 use expr::{Arena, Binary, ExprId, Guard, Node, Tape, Unary, Var, gradient};
 use std::collections::BTreeSet;
+use std::rc::Rc;
 use std::sync::OnceLock;
 
 /// An equation of numbered arguments, with everything derived from it.
@@ -17,7 +18,7 @@ pub(crate) struct Kernel {
     /// The derivatives of `left - right` that are not zero everywhere, by argument.
     pub(crate) entries: Vec<Entry>,
     /// Both sides.
-    pub(crate) sides: Tape,
+    pub(crate) sides: Rc<Tape>,
     /// Both sides, then the derivatives.
     pub(crate) slopes: Tape,
     derivatives: Vec<ExprId>,
@@ -82,14 +83,18 @@ pub(crate) enum Side {
 }
 
 impl Kernel {
-    /// Compiles an equation whose variables are `Var(0)` to `Var(arity - 1)`.
-    pub(crate) fn compile(from: &Arena, left: ExprId, right: ExprId, arity: u32) -> Self {
-        let mut arena = Arena::new();
-        let same = |arena: &mut Arena, id| {
-            let vars: Vec<ExprId> = (0..arity).map(|i| arena.var(Var(i))).collect();
-            arena.import(from, id, &mut |v: Var| vars[v.0 as usize])
-        };
-        let (left, right) = (same(&mut arena, left), same(&mut arena, right));
+    /// Compiles an equation whose variables are `Var(0)` to `Var(arity - 1)`; `sides` are its own.
+    pub(crate) fn compile(
+        from: &Arena,
+        left: ExprId,
+        right: ExprId,
+        arity: u32,
+        sides: Rc<Tape>,
+    ) -> Self {
+        let mut arena = Arena::for_nodes(4 * from.len());
+        let vars: Vec<ExprId> = (0..arity).map(|i| arena.var(Var(i))).collect();
+        let [left, right] =
+            [left, right].map(|id| arena.import(from, id, &mut |v| vars[v.0 as usize]));
         let residual = arena.sub(left, right);
         let vars: Vec<Var> = arena.variables(residual).into_iter().collect();
         let (mut entries, mut derivatives) = (Vec::new(), Vec::new());
@@ -102,7 +107,6 @@ impl Kernel {
             }
         }
         let mut outs = vec![left, right];
-        let sides = Tape::compile(&arena, &outs);
         outs.extend(&derivatives);
         let slopes = Tape::compile(&arena, &outs);
         let solved = (0..arity).map(|_| OnceLock::new()).collect();
@@ -114,7 +118,8 @@ impl Kernel {
     pub(crate) fn of_slots(from: &Arena, left: ExprId, right: ExprId) -> (Self, Vec<SlotIndex>) {
         let mut arena = Arena::new();
         let (left, right, arguments) = canonical(from, left, right, &mut arena);
-        (Self::compile(&arena, left, right, arguments.len() as u32), arguments)
+        let sides = Rc::new(Tape::compile(&arena, &[left, right]));
+        (Self::compile(&arena, left, right, arguments.len() as u32, sides), arguments)
     }
 
     /// Returns both sides in another arena, every argument replaced.

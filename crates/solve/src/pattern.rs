@@ -8,7 +8,7 @@
 use crate::kernel::Kernel;
 use crate::system::SlotIndex;
 use base::{Id, Mixer, define_id};
-use expr::{Arena, Excerpt, ExprId, Node, Tape, Var};
+use expr::{Arena, Excerpt, ExprId, LANES, Lanes, Node, Tape, Var};
 use indexmap::IndexSet;
 use std::cell::{OnceCell, RefCell};
 use std::collections::BTreeMap;
@@ -21,10 +21,10 @@ define_id!(PatternId, "p", "A pattern, by its place among those of one planner."
 #[derive(Debug)]
 pub struct Pattern {
     excerpt: Excerpt,
-    arena: Arena,
+    arena: OnceCell<Arena>,
     arity: usize,
     plain: Option<Plain>,
-    values: OnceCell<Tape>,
+    values: OnceCell<Rc<Tape>>,
     kernel: OnceCell<Rc<Kernel>>,
     identified: RefCell<BTreeMap<Box<[u32]>, Identified>>,
 }
@@ -43,12 +43,11 @@ pub(crate) type Identified = (Rc<Pattern>, Rc<[u32]>);
 
 impl Pattern {
     fn new(excerpt: Excerpt) -> Self {
-        let arena = Arena::of_excerpt(&excerpt);
         let arity = excerpt.nodes.iter().filter(|n| matches!(n, Node::Var(_))).count();
-        let plain = plain(&arena, &excerpt.roots);
+        let plain = plain(&excerpt);
         Self {
             excerpt,
-            arena,
+            arena: OnceCell::new(),
             arity,
             plain,
             values: OnceCell::new(),
@@ -58,7 +57,7 @@ impl Pattern {
     }
     /// Returns its expressions, in an arena that holds nothing else.
     pub fn arena(&self) -> &Arena {
-        &self.arena
+        self.arena.get_or_init(|| Arena::of_excerpt(&self.excerpt))
     }
     /// Returns its expressions: of an equation, the left and the right side.
     pub fn roots(&self) -> &[ExprId] {
@@ -144,13 +143,36 @@ impl Pattern {
         scratch.arguments.extend(arguments);
         self.kernel().sway(&scratch.arguments, &mut scratch.registers, &mut scratch.out)
     }
+    /// Computes the sway of an equation in every lane.
+    ///
+    /// # Panics
+    /// If it has not two expressions.
+    pub(crate) fn sways(
+        &self,
+        arguments: &[Lanes],
+        registers: &mut Vec<Lanes>,
+        out: &mut Vec<Lanes>,
+    ) -> Lanes {
+        let kernel = self.kernel();
+        out.clear();
+        out.resize(2 + kernel.entries.len(), [0.0; LANES]);
+        kernel.slopes.run_lanes(arguments, registers, out);
+        let mut sways = [0.0; LANES];
+        for (entry, slopes) in kernel.entries.iter().zip(&out[2..]) {
+            let moved = arguments[entry.argument as usize];
+            for (sway, (slope, x)) in sways.iter_mut().zip(slopes.iter().zip(moved)) {
+                *sway += (x * slope).abs();
+            }
+        }
+        sways
+    }
     /// Returns what it says if that is next to nothing.
     pub(crate) fn plain(&self) -> Option<Plain> {
         self.plain
     }
     /// Returns the tape of its expressions.
-    pub(crate) fn values(&self) -> &Tape {
-        self.values.get_or_init(|| Tape::compile(&self.arena, self.roots()))
+    pub(crate) fn values(&self) -> &Rc<Tape> {
+        self.values.get_or_init(|| Rc::new(Tape::compile(self.arena(), self.roots())))
     }
     /// Returns what is derived from it, if it is an equation's.
     ///
@@ -159,7 +181,8 @@ impl Pattern {
     pub(crate) fn kernel(&self) -> &Rc<Kernel> {
         self.kernel.get_or_init(|| {
             let [left, right] = self.roots() else { panic!("an equation has two sides") };
-            Rc::new(Kernel::compile(&self.arena, *left, *right, self.arity as u32))
+            let sides = self.values().clone();
+            Rc::new(Kernel::compile(self.arena(), *left, *right, self.arity as u32, sides))
         })
     }
     /// Returns the pattern with every argument replaced by one before it, or itself.
@@ -174,7 +197,7 @@ impl Pattern {
             .map(|&root| {
                 let mut vars: Vec<ExprId> = Vec::new();
                 vars.extend((0..self.arity).map(|i| arena.var(Var::from_index(i))));
-                arena.import(&self.arena, root, &mut |v| vars[which[v.index()] as usize])
+                arena.import(self.arena(), root, &mut |v| vars[which[v.index()] as usize])
             })
             .collect();
         let (excerpt, left) = arena.excerpt(&roots);
@@ -185,9 +208,9 @@ impl Pattern {
     }
 }
 
-fn plain(arena: &Arena, roots: &[ExprId]) -> Option<Plain> {
-    let &[left, right] = roots else { return None };
-    match (arena.node(left), arena.node(right)) {
+fn plain(excerpt: &Excerpt) -> Option<Plain> {
+    let &[left, right] = &excerpt.roots[..] else { return None };
+    match (excerpt.nodes[left.index()], excerpt.nodes[right.index()]) {
         (Node::Var(a), Node::Var(b)) if a != b => Some(Plain::Same),
         (Node::Var(_), Node::Constant(bits)) | (Node::Constant(bits), Node::Var(_)) => {
             f64::from_bits(bits).is_finite().then_some(Plain::Number(bits))

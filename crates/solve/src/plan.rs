@@ -8,7 +8,7 @@ use crate::direct::{self, Direction};
 use crate::few::Few;
 use crate::lower::{self, Program, Region};
 use crate::order::{self, Block, Incidence};
-use crate::pattern::{Pattern, PatternId, Patterns, Scratch};
+use crate::pattern::{Pattern, PatternId, Patterns};
 use crate::rows::{self, Rows};
 use crate::slice::Slice;
 use crate::stated::Stated;
@@ -420,13 +420,6 @@ impl Plan {
         let made = Rc::new(Slice::new(self, inputs));
         *known = Some(made.clone());
         made
-    }
-    /// Computes the sway of one equation, by its place in the system.
-    pub(crate) fn sway_of(&self, row: usize, values: &[f64], scratch: &mut Scratch) -> f64 {
-        let system = &self.stated.system;
-        let equation = &system.equations[row];
-        let arguments = system.arguments(equation.arguments).iter().map(|&s| values[s as usize]);
-        self.stated.pattern(equation.pattern).sway(arguments, scratch)
     }
     /// Returns every slot that a relation speaks of.
     pub(crate) fn mentions(&self, relation: u32) -> impl Iterator<Item = SlotIndex> + '_ {

@@ -3,7 +3,7 @@
 //! In: relations, by their places in the plan, and values. Out: the equations whose sides differ by
 //! more than they may. Equations of one pattern that follow one another are evaluated in lanes.
 
-use crate::pattern::{Pattern, PatternId, Scratch};
+use crate::pattern::{Pattern, PatternId};
 use crate::plan::Plan;
 use base::number::Tolerance;
 use expr::{LANES, Lanes};
@@ -28,7 +28,7 @@ pub(crate) struct TestScratch {
     batch: Vec<(u32, u32, Tolerance)>,
     arguments: Vec<Lanes>,
     registers: Vec<Lanes>,
-    single: Scratch,
+    out: Vec<Lanes>,
 }
 
 impl Plan {
@@ -49,7 +49,7 @@ impl Plan {
                 let same = at_hand.is_some_and(|(id, _)| id == equation.pattern);
                 if !same || scratch.batch.len() == LANES {
                     if let Some((_, pattern)) = at_hand {
-                        self.flush(pattern, values, scratch, fails);
+                        flush(pattern, scratch, fails);
                     }
                     if !same {
                         let pattern = self.pattern(equation.pattern);
@@ -67,34 +67,29 @@ impl Plan {
             }
         }
         if let Some((_, pattern)) = at_hand {
-            self.flush(pattern, values, scratch, fails);
+            flush(pattern, scratch, fails);
         }
     }
+}
 
-    fn flush(
-        &self,
-        pattern: &Pattern,
-        values: &[f64],
-        scratch: &mut TestScratch,
-        fails: &mut impl FnMut(Failing),
-    ) {
-        let mut sides = [[0.0; LANES]; 2];
-        let TestScratch { batch, arguments, registers, single } = scratch;
-        pattern.values().run_lanes(&arguments[..pattern.arity()], registers, &mut sides);
-        let [lefts, rights] = sides;
-        for ((relation, row, within), (left, right)) in
-            batch.drain(..).zip(lefts.into_iter().zip(rights))
-        {
-            let error = if left == right { 0.0 } else { (left - right).abs() };
-            let error = if error.is_nan() { f64::INFINITY } else { error };
-            if error <= within.allowed(left, right) {
-                continue;
-            }
-            let sway = self.sway_of(row as usize, values, single);
-            let tolerance = within.allowed_with(left, right, sway);
-            if error > tolerance {
-                fails(Failing { relation, row, error, tolerance });
-            }
+/// Tests the equations at hand, all of this pattern.
+fn flush(pattern: &Pattern, scratch: &mut TestScratch, fails: &mut impl FnMut(Failing)) {
+    let mut sides = [[0.0; LANES]; 2];
+    let mut sways = None;
+    let TestScratch { batch, arguments, registers, out } = scratch;
+    let arguments = &arguments[..pattern.arity()];
+    pattern.values().run_lanes(arguments, registers, &mut sides);
+    for (lane, (relation, row, within)) in batch.drain(..).enumerate() {
+        let [left, right] = sides.map(|side| side[lane]);
+        let error = if left == right { 0.0 } else { (left - right).abs() };
+        let error = if error.is_nan() { f64::INFINITY } else { error };
+        if error <= within.allowed(left, right) {
+            continue;
+        }
+        let sways = sways.get_or_insert_with(|| pattern.sways(arguments, registers, out));
+        let tolerance = within.allowed_with(left, right, sways[lane]);
+        if error > tolerance {
+            fails(Failing { relation, row, error, tolerance });
         }
     }
 }
