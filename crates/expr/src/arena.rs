@@ -398,6 +398,10 @@ impl Arena {
         }
         results[place(&order, id)]
     }
+    /// Calls `visit` with every operation that an expression is made of, operands before users.
+    pub fn each_node(&self, id: ExprId, visit: impl FnMut(Node)) {
+        self.reachable(&[id]).into_iter().map(|id| self.node(id)).for_each(visit);
+    }
     /// Returns the variables that occur in an expression.
     pub fn variables(&self, id: ExprId) -> BTreeSet<Var> {
         let mut variables = BTreeSet::new();

@@ -12,7 +12,6 @@
 use crate::arena::{Arena, ExprId, Node, place};
 use crate::op::{Binary, Unary};
 use base::{Id, number};
-use std::collections::VecDeque;
 use std::fmt;
 
 /// What the operations of a run do.
@@ -176,7 +175,7 @@ impl Tape {
         let mut missing = vec![0_u32; order.len()];
         let mut latest = vec![NOBODY; order.len()];
         let mut waiting: Vec<(u32, u32)> = Vec::with_capacity(2 * inner.len());
-        let mut ready = [const { VecDeque::new() }; Operation::COUNT];
+        let mut ready = Ready::new(order.len());
         for &i in inner.iter().rev() {
             let mut operands = [0; 3];
             let mut count = 0;
@@ -192,16 +191,12 @@ impl Tape {
                 }
             }
             if missing[i] == 0 {
-                ready[queue_of(arena.node(order[i]))].push_front(i);
+                ready.put_first(queue_of(arena.node(order[i])), i);
             }
         }
         // The longest queue next: it runs dry before another operation is looked up.
-        while let Some(queue) = (0..Operation::COUNT)
-            .rev()
-            .max_by_key(|&q| ready[q].len())
-            .filter(|&q| !ready[q].is_empty())
-        {
-            while let Some(i) = ready[queue].pop_front() {
+        while let Some(queue) = ready.longest() {
+            while let Some(i) = ready.take(queue) {
                 let (mut operands, mut count) = ([0; 3], 0);
                 arena.node(order[i]).each_operand(|a| {
                     operands[count] = lowering.register[place(&order, a)];
@@ -215,7 +210,7 @@ impl Tape {
                     let user = user as usize;
                     missing[user] -= 1;
                     if missing[user] == 0 {
-                        ready[queue_of(arena.node(order[user]))].push_back(user);
+                        ready.put_last(queue_of(arena.node(order[user])), user);
                     }
                 }
             }
@@ -373,6 +368,75 @@ fn queue_of(node: Node) -> usize {
         Node::Binary(op, ..) => Unary::ALL.len() + op as usize,
         Node::Select { .. } => Unary::ALL.len() + Binary::ALL.len(),
         Node::Constant(_) | Node::Var(_) => unreachable!("constants and variables do not wait"),
+    }
+}
+
+/// Nodes whose operands are computed, in a queue for each operation.
+struct Ready {
+    /// How many wait in each queue, and the first and the last of them.
+    queues: [(u32, u32, u32); Operation::COUNT],
+    /// The queues in which somebody waits, as bits.
+    waiting: u64,
+    /// For every node, the next in its queue.
+    next: Vec<u32>,
+}
+
+impl Ready {
+    fn new(nodes: usize) -> Self {
+        const { assert!(Operation::COUNT <= 64, "there is a bit for every queue") };
+        Self {
+            queues: [(0, NOBODY, NOBODY); Operation::COUNT],
+            waiting: 0,
+            next: vec![NOBODY; nodes],
+        }
+    }
+    fn put_first(&mut self, queue: usize, node: usize) {
+        let (count, first, last) = &mut self.queues[queue];
+        self.next[node] = *first;
+        *first = node as u32;
+        if *count == 0 {
+            *last = node as u32;
+        }
+        *count += 1;
+        self.waiting |= 1 << queue;
+    }
+    fn put_last(&mut self, queue: usize, node: usize) {
+        let (count, first, last) = &mut self.queues[queue];
+        self.next[node] = NOBODY;
+        if *count == 0 {
+            *first = node as u32;
+        } else {
+            self.next[*last as usize] = node as u32;
+        }
+        *last = node as u32;
+        *count += 1;
+        self.waiting |= 1 << queue;
+    }
+    fn take(&mut self, queue: usize) -> Option<usize> {
+        let (count, first, _) = &mut self.queues[queue];
+        if *count == 0 {
+            return None;
+        }
+        let node = *first as usize;
+        *first = self.next[node];
+        *count -= 1;
+        if *count == 0 {
+            self.waiting &= !(1 << queue);
+        }
+        Some(node)
+    }
+    /// Returns the queue in which most wait, the first of several.
+    fn longest(&self) -> Option<usize> {
+        let (mut rest, mut longest) = (self.waiting, None);
+        while rest != 0 {
+            let queue = rest.trailing_zeros() as usize;
+            rest &= rest - 1;
+            let count = self.queues[queue].0;
+            if longest.is_none_or(|(most, _)| count > most) {
+                longest = Some((count, queue));
+            }
+        }
+        longest.map(|(_, queue)| queue)
     }
 }
 

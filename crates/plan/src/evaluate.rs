@@ -22,6 +22,9 @@ const DEEPEST_TERMS: u32 = 1000;
 /// How many terms one rule may open into: what a mistyped recursion may cost.
 const MOST_TERMS: u32 = 1_000_000;
 
+/// How many nodes most rules open into at most.
+const NODES: usize = 28;
+
 /// An argument with its label, evaluated.
 pub(crate) type Given<'a> = (Option<Name>, Meaning<'a>);
 
@@ -207,7 +210,7 @@ impl<'a> Opening<'a> {
     /// Begins another rule: with no expression, so that it is stated alike wherever it stands.
     pub(crate) fn begin(&mut self, owner: ThingId) {
         self.reach.begin(owner);
-        self.arena = Arena::new();
+        self.arena = Arena::for_nodes(NODES);
         self.terms = 0;
         self.depth = 0;
         self.nested = 0;

@@ -6,7 +6,6 @@
 
 use crate::system::SlotIndex;
 use expr::{Arena, Binary, ExprId, Guard, Node, Tape, Unary, Var, gradient};
-use std::collections::BTreeSet;
 use std::rc::Rc;
 use std::sync::OnceLock;
 
@@ -96,12 +95,12 @@ impl Kernel {
         let [left, right] =
             [left, right].map(|id| arena.import(from, id, &mut |v| vars[v.0 as usize]));
         let residual = arena.sub(left, right);
-        let vars: Vec<Var> = arena.variables(residual).into_iter().collect();
+        let (vars, _) = choices(&arena, residual);
         let (mut entries, mut derivatives) = (Vec::new(), Vec::new());
         for (var, d) in vars.iter().zip(gradient(&mut arena, residual, &vars)) {
             if arena.as_constant(d) != Some(0.0) {
-                let depends = arena.variables(d).into_iter().map(|v| v.0).collect();
-                let branches = branches(&arena, d);
+                let (depends, branches) = choices(&arena, d);
+                let depends = depends.into_iter().map(|v| v.0).collect();
                 entries.push(Entry { argument: var.0, depends, branches });
                 derivatives.push(d);
             }
@@ -238,18 +237,18 @@ fn canonical(
     (left, right, arguments)
 }
 
-/// Returns true if the value of an expression depends on a choice.
-fn branches(arena: &Arena, id: ExprId) -> bool {
-    let mut seen = BTreeSet::from([id]);
-    let mut stack = vec![id];
-    while let Some(id) = stack.pop() {
-        let node = arena.node(id);
-        let chooses = match node {
-            Node::Constant(_) | Node::Var(_) => false,
-            Node::Unary(op, _) => {
-                matches!(op, Unary::Abs | Unary::Sign | Unary::Floor | Unary::Round | Unary::Not)
-            }
-            Node::Binary(op, ..) => matches!(
+/// Returns the variables of an expression, in order, and true if its value depends on a choice.
+fn choices(arena: &Arena, id: ExprId) -> (Vec<Var>, bool) {
+    let (mut vars, mut chooses) = (Vec::new(), false);
+    arena.each_node(id, |node| match node {
+        Node::Constant(_) => {}
+        Node::Var(var) => vars.push(var),
+        Node::Unary(op, _) => {
+            chooses |=
+                matches!(op, Unary::Abs | Unary::Sign | Unary::Floor | Unary::Round | Unary::Not);
+        }
+        Node::Binary(op, ..) => {
+            chooses |= matches!(
                 op,
                 Binary::Min
                     | Binary::Max
@@ -257,17 +256,10 @@ fn branches(arena: &Arena, id: ExprId) -> bool {
                     | Binary::LessEqual
                     | Binary::Equal
                     | Binary::NotEqual
-            ),
-            Node::Select { .. } => true,
-        };
-        if chooses {
-            return true;
+            );
         }
-        node.each_operand(|a| {
-            if seen.insert(a) {
-                stack.push(a);
-            }
-        });
-    }
-    false
+        Node::Select { .. } => chooses = true,
+    });
+    vars.sort_unstable();
+    (vars, chooses)
 }

@@ -175,3 +175,28 @@ fn a_rule_over_a_set_counts_its_members() {
     let totals = ["x.total", "y.total", "z.total"].map(|path| lab.number(path));
     assert_eq!(totals, [3.0, 12.0, 112.0]);
 }
+
+/// What a rule says depends on what its owner is merged with: the third is opened for itself.
+#[test]
+fn a_rule_is_opened_once_for_what_is_merged_with_things_of_the_same_classes() {
+    let mut b = Builder::new();
+    let sized = b.class("Sized", &[("size", REAL)]);
+    let [double, triple] = [("Double", 2.0), ("Triple", 3.0)].map(|(name, factor)| {
+        let class = b.subclass(name, sized, &[]);
+        b.message(class, "factor", &[], n(factor));
+        class
+    });
+    let twelve = b.subclass("Twelve", sized, &[]);
+    b.constraint(twelve, equal(mul(p("size"), p("factor")), n(12.0)));
+    let parts = [("d1", double), ("d2", double), ("t", triple)];
+    let rules = ["r1", "r2", "r3"].map(|name| (name, twelve));
+    let root = b.class("document", &[&parts[..], &rules[..]].concat());
+    for pair in [["r1", "d1"], ["r2", "d2"], ["r3", "t"]] {
+        b.merge(root, &pair);
+    }
+    let lab = b.open(root);
+    assert_eq!(lab.faults, vec![]);
+    assert!(lab.opened.unmet.is_empty());
+    let sizes = ["d1.size", "d2.size", "t.size"].map(|path| lab.number(path));
+    assert_eq!(sizes, [6.0, 6.0, 4.0]);
+}
