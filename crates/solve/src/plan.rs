@@ -187,8 +187,9 @@ impl Analysis<'_> {
             None => self.rows.mentions(row),
         }
     }
-    /// Accepts a superfluous row in place of one of its circuit, and goes another way from there.
-    fn accept_instead(&mut self, Exchange { dependent, row }: Exchange) {
+    /// Accepts a superfluous row in place of one of its circuit, and goes another way from there; returns
+    /// what takes that back.
+    fn accept_instead(&mut self, Exchange { dependent, row }: Exchange) -> Exchange {
         let exchanged = &mut self.acceptance.dependent[dependent];
         let now = std::mem::replace(&mut exchanged.row, row);
         let accepted = self.acceptance.accepted.iter_mut().chain(&mut exchanged.circuit);
@@ -196,6 +197,7 @@ impl Analysis<'_> {
         let system = &self.stated.system;
         self.direction = direct::direct(system, &self.classes, &self.rows, &self.acceptance);
         self.method_reads = method_reads(system, &self.classes, &self.direction);
+        Exchange { dependent, row: now }
     }
 }
 
@@ -240,13 +242,17 @@ fn plan_stated(stated: Stated) -> Plan {
     let method_reads = method_reads(system, &classes, &direction);
     let mut analysis =
         Analysis { stated: &stated, classes, rows, acceptance, direction, method_reads };
-    let (mut findings, mut together) = report(&analysis);
+    let (mut findings, together) = report(&analysis);
     let mut blocks = blocks_of(&analysis, &together);
-    for _ in 0..analysis.acceptance.dependent.len() {
-        let Some(exchange) = view::exchange(&analysis, &blocks) else { break };
-        analysis.accept_instead(exchange);
-        (findings, together) = report(&analysis);
-        blocks = blocks_of(&analysis, &together);
+    for exchange in view::exchanges(&analysis, &blocks) {
+        let back = analysis.accept_instead(exchange);
+        let (other, tied) = report(&analysis);
+        let split = blocks_of(&analysis, &tied);
+        if view::together(&split) < view::together(&blocks) {
+            (findings, blocks) = (other, split);
+        } else {
+            analysis.accept_instead(back);
+        }
     }
     let lowered = lower::lower(&analysis, &blocks);
     let has_branches = lowered.steps.iter().any(|s| match s.kind {
