@@ -3,7 +3,7 @@
 use crate::past::Past;
 use base::Mixer;
 use indexmap::IndexMap;
-use solve::{Conditional, Mode, Modes, Patterns, Plan, Puzzle, System};
+use solve::{Conditional, Mode, Modes, Patterns, Plan, Puzzle, Stay, System};
 use std::cell::RefCell;
 use std::hash::BuildHasherDefault;
 use std::rc::Rc;
@@ -15,7 +15,8 @@ pub struct Plans {
     made: IndexMap<Rc<System>, Rc<Plan>, BuildHasherDefault<Mixer>>,
     modes: IndexMap<Conditional, Rc<Modes>, BuildHasherDefault<Mixer>>,
     puzzles: IndexMap<Conditional, (Rc<System>, Rc<Puzzle>), BuildHasherDefault<Mixer>>,
-    /// Plans of systems in a mode: which mode is seen only when an edit runs.
+    /// Plans of systems in a mode: which mode, or that given numbers hold, is seen only
+    /// when an edit runs.
     in_modes: RefCell<IndexMap<Rc<System>, Rc<Plan>, BuildHasherDefault<Mixer>>>,
     reused: usize,
     /// What plans came to.
@@ -70,7 +71,22 @@ impl Plans {
     }
     /// Returns the plain system of a mode, and its plan.
     pub(crate) fn in_mode(&self, modes: &Modes, mode: &Mode) -> (Rc<System>, Rc<Plan>) {
-        let system = modes.system(mode);
+        self.plan_later(modes.system(mode))
+    }
+    /// Returns the plan in which the given numbers that yield in a plan of numbers alone are constants;
+    /// nothing where none yields.
+    pub(crate) fn with_given_held(&self, system: &System, plan: &Plan) -> Option<Rc<Plan>> {
+        let is_plain = system.slots.iter().all(|s| s.is_number);
+        if plan.report.yielded.is_empty() || !is_plain {
+            return None;
+        }
+        let mut held = system.clone();
+        for &slot in &plan.report.yielded {
+            held.slots[slot as usize].stay = Stay::Fixed;
+        }
+        Some(self.plan_later(held).1)
+    }
+    fn plan_later(&self, system: System) -> (Rc<System>, Rc<Plan>) {
         if let Some((system, plan)) = self.in_modes.borrow().get_key_value(&system) {
             return (system.clone(), plan.clone());
         }

@@ -10,7 +10,7 @@ use crate::rule::{How, Source};
 use crate::task::{Course, Origin, Task};
 use base::number::Toward;
 use kernel::{SlotId, Value, Values};
-use solve::{Lean, Outcome, Reason, Runner, Scratch, SlotIndex, Status, Verdict};
+use solve::{Lean, Outcome, Plan, Reason, Runner, Scratch, SlotIndex, Status, Verdict};
 use std::collections::BTreeSet;
 
 /// What came of a task.
@@ -54,10 +54,19 @@ pub(crate) fn run(
     let ground = ground(planner, task, aim, start, values);
     match &task.course {
         Course::Plan => {
-            let Ground { x0, mut local, changed } = ground;
-            let mut adapter = Adapter { planner, model, task, values, host };
+            let Ground { x0, local: began, changed } = ground;
             let runner = &mut Runner::leaning(leans(model, task));
-            let outcome = solve::run(&task.plan, runner, &x0, &mut local, &changed, &mut adapter);
+            let mut by_plan = |plan: &Plan| {
+                let mut local = began.clone();
+                let mut adapter = Adapter { planner, model, task, values, host };
+                let outcome = solve::run(plan, runner, &x0, &mut local, &changed, &mut adapter);
+                (outcome, local)
+            };
+            // rows that depend on others here, though not at a generic point, free no given number
+            let held = planner.plans.with_given_held(&task.system, &task.plan);
+            let held = held.map(|plan| by_plan(&plan));
+            let held = held.filter(|(outcome, _)| outcome.is_solved() && outcome.unmet.is_empty());
+            let (outcome, local) = held.unwrap_or_else(|| by_plan(&task.plan));
             scatter(task, &local, values);
             ran(planner, task, &outcome)
         }
