@@ -9,8 +9,7 @@
 //! undo and redo bring back states, bit for bit.
 //!
 //! Reading order: [`session`](Session), `document`, `state`, `apply`, `drag`, `write_back`,
-//! `complaints`, `check`, `views`, [`view`], [`host`].
-pub mod general;
+//! `complaints`, `check`, `views`, [`view`], `host`.
 mod host;
 pub mod view;
 
@@ -22,6 +21,7 @@ mod difference;
 mod document;
 mod drag;
 mod fixes;
+mod general;
 mod limits;
 mod placing;
 mod prototype;
