@@ -7,6 +7,8 @@
 //!
 //! **Source:** Moore, Kearfott and Cloud, *Introduction to Interval Analysis*, §5.
 
+mod narrow;
+
 use crate::arena::{Arena, ExprId, Node, place};
 use crate::op::{Binary, Unary};
 use base::Id;
@@ -48,6 +50,16 @@ impl Interval {
     pub fn join(self, other: Self) -> Self {
         Self { low: self.low.min(other.low), high: self.high.max(other.high) }
     }
+    /// Returns what is in both.
+    #[must_use]
+    pub fn meet(self, other: Self) -> Self {
+        self.clip(other.low, other.high)
+    }
+    /// Returns all that is at most so far from it.
+    #[must_use]
+    pub fn inflate(self, by: f64) -> Self {
+        Self { low: self.low - by, high: self.high + by }
+    }
     fn clip(self, low: f64, high: f64) -> Self {
         Self { low: self.low.max(low), high: self.high.min(high) }
     }
@@ -81,9 +93,14 @@ impl Arena {
     /// If a variable that occurs in it has no interval.
     pub fn enclose(&self, id: ExprId, boxes: &[Interval]) -> Interval {
         let order = self.reachable(&[id]);
+        self.enclose_each(&order, boxes)[place(&order, id)]
+    }
+
+    /// Returns an interval for every one of these expressions, operands before users.
+    fn enclose_each(&self, order: &[ExprId], boxes: &[Interval]) -> Vec<Interval> {
         let mut known: Vec<Interval> = Vec::with_capacity(order.len());
-        for &id in &order {
-            let of = |a| known[place(&order, a)];
+        for &id in order {
+            let of = |a| known[place(order, a)];
             let interval = match self.node(id) {
                 Node::Constant(bits) => Interval::point(f64::from_bits(bits)),
                 Node::Var(var) => boxes[var.index()],
@@ -96,7 +113,7 @@ impl Arena {
             };
             known.push(interval);
         }
-        known[place(&order, id)]
+        known
     }
 }
 

@@ -6,7 +6,7 @@ use crate::edit::{EditKind, EditReport, RefusalReason, Target, note};
 use crate::host::Host;
 use crate::modal::{Acting, ModalDrag, ModeChange};
 use crate::planner::{Latest, Model, Planner};
-use crate::run::{Adapter, leans, ran, scatter, searched};
+use crate::run::{Adapter, Ground, Ran, leans, or_whole, ran, scatter, searched};
 use crate::task::{Course, Task};
 use kernel::{SlotId, Values};
 use solve::{Puzzle, SlotIndex, Stay, Verdict};
@@ -27,6 +27,8 @@ pub struct Press {
 #[derive(Debug)]
 struct Pull {
     task: Task,
+    /// The task as it was planned, where whole numbers that are looked for may put it into another mode.
+    planned: Option<Box<Task>>,
     way: Way,
     /// The numbers at the press, by the slots of the system.
     x0: Vec<f64>,
@@ -60,7 +62,7 @@ impl Press {
     }
     /// Says what acts otherwise with these values than at the press.
     pub fn mode_changes(&self, planner: &Planner, values: &Values) -> Vec<ModeChange> {
-        if self.pulls.iter().all(|p| !matches!(p.way, Way::Modes(_))) {
+        if self.pulls.iter().all(|p| !matches!(p.task.course, Course::Modes(..))) {
             return Vec::new();
         }
         let start = self.start(values);
@@ -193,7 +195,8 @@ impl Planner {
             }
             Course::Search(puzzle) => (Way::Search(puzzle.clone()), Vec::new()),
         };
-        Pull { task, way, x0, texts, targets }
+        let planned = task.whole().map(|_| Box::new(task.clone()));
+        Pull { task, planned, way, x0, texts, targets }
     }
 }
 
@@ -219,11 +222,15 @@ impl Pull {
         for (target, &(_, wish, coordinate)) in self.targets.iter_mut().zip(self.task.targets()) {
             *target = aim.wanted[wish as usize][coordinate as usize];
         }
+        if let Some(planned) = &self.planned {
+            self.task.clone_from(planned);
+        }
         let targets = &self.targets;
         let drag = match &mut self.way {
             Way::Plan(drag) => drag,
             Way::Modes(drag) => {
                 let ran = drag.follow(planner, model, &mut self.task, targets, values, host);
+                let ran = self.or_whole(planner, model, ran, values, host);
                 return note(report, &mut self.task, ran);
             }
             Way::Search(puzzle) => {
@@ -255,10 +262,30 @@ impl Pull {
             Some(moved) => moved.iter().copied().for_each(put),
             None => self.task.plan.steps.iter().flat_map(|s| &s.targets).copied().for_each(put),
         }
-        if !outcome.is_solved() || !outcome.unmet.is_empty() {
+        if !outcome.is_solved() || !outcome.unmet.is_empty() || self.task.whole().is_some() {
             let ran = ran(planner, &self.task, &outcome);
+            let ran = self.or_whole(planner, model, ran, values, host);
             note(report, &mut self.task, ran);
         }
+    }
+
+    /// Looks for whole numbers, from where the drag began, where it made none.
+    fn or_whole(
+        &self,
+        planner: &Planner,
+        model: Model<'_>,
+        ran: Ran,
+        values: &mut Values,
+        host: &mut dyn Host,
+    ) -> Ran {
+        if self.task.whole().is_none() {
+            return ran;
+        }
+        let inputs: Vec<SlotIndex> = self.task.targets().iter().map(|t| t.0).collect();
+        let mut local = self.x0.clone();
+        inputs.iter().zip(&self.targets).for_each(|(&i, &target)| local[i as usize] = target);
+        let ground = Ground { x0: self.x0.clone(), local, changed: inputs };
+        or_whole(planner, model, &self.task, &ground, ran, values, host)
     }
 }
 

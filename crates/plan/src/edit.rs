@@ -72,6 +72,8 @@ pub enum NotDecided {
     Modes(u64),
     /// After so many ways to choose among the roots of equations.
     Roots(u64),
+    /// After so many choices of whole numbers among real unknowns.
+    Whole(u64),
 }
 
 /// Why an edit changed nothing.
@@ -269,7 +271,7 @@ impl Planner {
             let setup = Setup { model, holding: &holding, aim };
             let conflict = match report.not_decided {
                 // every part of it would be searched as long
-                Some(NotDecided::Roots(_)) => None,
+                Some(NotDecided::Roots(_) | NotDecided::Whole(_)) => None,
                 Some(NotDecided::Search(_) | NotDecided::Modes(_)) | None => {
                     self.against(&setup, &all_rules, &wanted, host)
                 }

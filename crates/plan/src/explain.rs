@@ -88,6 +88,13 @@ pub struct Why {
     pub roots: Vec<Root>,
 }
 
+/// Solutions that are not counted: a whole number stands among real unknowns.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub struct Uncountable {
+    /// The whole number.
+    pub slot: SlotId,
+}
+
 /// A value that nothing else explains.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub struct Root {
@@ -115,8 +122,8 @@ impl Planner {
     pub fn explain(&self) -> Vec<ExplainedStep> {
         let mut explained = Vec::new();
         for task in &self.latest.tasks {
-            explained.extend(self.ran(task).map(|step| self.in_words(task, step)));
             explained.extend(self.search_in_words(task));
+            explained.extend(self.ran(task).map(|step| self.in_words(task, step)));
         }
         explained
     }
@@ -129,11 +136,24 @@ impl Planner {
 
     /// Counts the solutions of what is searched, with nothing edited and given numbers held; nothing
     /// where nothing is searched.
-    pub fn solutions(&mut self, model: Model<'_>, values: &Values) -> Option<Count> {
+    ///
+    /// # Errors
+    /// If whole numbers stand among real unknowns: these are not counted.
+    pub fn solutions(
+        &mut self,
+        model: Model<'_>,
+        values: &Values,
+    ) -> Result<Option<Count>, Uncountable> {
         self.plan_resting(model.structure);
         let mut all = None;
+        let mut among_reals = None;
         for task in self.resting() {
-            let Course::Search(puzzle) = &task.course else { continue };
+            let Course::Search(puzzle) = &task.course else {
+                let whole = task.whole().and_then(|whole| whole.slots().next());
+                let slot = whole.map(|local| task.component.slots[local as usize]);
+                among_reals = among_reals.or(slot);
+                continue;
+            };
             let one = puzzle.count(&task.gather(&values.numbers));
             let Count { solutions, is_complete } =
                 all.unwrap_or(Count { solutions: 1, is_complete: true });
@@ -142,7 +162,10 @@ impl Planner {
                 is_complete: is_complete && one.is_complete,
             });
         }
-        all
+        match (all, among_reals) {
+            (None, Some(slot)) => Err(Uncountable { slot }),
+            (all, _) => Ok(all),
+        }
     }
 
     /// Returns the heaviest kind of step of the latest edit; nothing to do is one pass.
@@ -157,8 +180,9 @@ impl Planner {
     /// rest, which [`Planner::status`] makes.
     pub fn why(&self, model: Model<'_>, slot: SlotId) -> Why {
         let computes = |t: &&Task| {
-            let is_searched = matches!(t.course, Course::Search(_));
-            local(t, slot).is_some_and(|s| is_searched || producer(t, s).is_some())
+            let is_searched =
+                |s| matches!(t.course, Course::Search(_)) || t.looked_for().contains(&s);
+            local(t, slot).is_some_and(|s| is_searched(s) || producer(t, s).is_some())
         };
         let task = self
             .latest
@@ -169,7 +193,9 @@ impl Planner {
         let Some(task) = task else {
             return Why { steps: Vec::new(), roots: vec![self.root(model, slot)] };
         };
-        if let Some(search) = self.search_in_words(task) {
+        let search = self.search_in_words(task);
+        if let (Course::Search(_), Some(search)) = (&task.course, &search) {
+            let search = search.clone();
             let roots = search.reads.iter().map(|&slot| self.root(model, slot)).collect();
             return Why { steps: vec![search], roots };
         }
@@ -185,6 +211,14 @@ impl Planner {
             });
             wanted.extend(&step.reads);
             steps.push(self.in_words(task, step));
+        }
+        if let Some(search) =
+            search.filter(|_| task.looked_for().iter().any(|s| wanted.contains(s)))
+        {
+            task.looked_for().iter().for_each(|s| {
+                wanted.remove(s);
+            });
+            steps.push(search);
         }
         steps.reverse();
         for local in wanted {
@@ -261,6 +295,7 @@ impl Planner {
         for &slot in self.latest.edited.iter().flatten() {
             touched.extend(local(task, slot));
         }
+        touched.extend(task.looked_for());
         task.plan.steps.iter().filter(move |step| {
             let runs = everything || step.reads.iter().any(|r| touched.contains(r));
             if runs {
@@ -270,12 +305,24 @@ impl Planner {
         })
     }
 
-    /// Returns the one step of a task that is searched.
+    /// Returns the step of a task in which whole numbers are searched, alone or among real unknowns.
     fn search_in_words(&self, task: &Task) -> Option<ExplainedStep> {
-        let Course::Search(_) = task.course else { return None };
-        let is_known = |i: usize| task.system.slots[i].stay == solve::Stay::Fixed;
+        let looked_for = task.looked_for();
+        let is_searched = match task.course {
+            Course::Search(_) => true,
+            Course::Plan | Course::Modes(..) => !looked_for.is_empty(),
+        };
+        if !is_searched {
+            return None;
+        }
+        let is_fixed = |i: usize| task.system.slots[i].stay == solve::Stay::Fixed;
+        let is_target = |i: usize| match task.course {
+            Course::Search(_) => !is_fixed(i),
+            Course::Plan | Course::Modes(..) => looked_for.contains(&(i as u32)),
+        };
         let slots = task.component.slots.iter().enumerate();
-        let (reads, targets): (Vec<_>, Vec<_>) = slots.partition(|(i, _)| is_known(*i));
+        let slots = slots.filter(|(i, _)| is_target(*i) || is_fixed(*i));
+        let (targets, reads): (Vec<_>, Vec<_>) = slots.partition(|(i, _)| is_target(*i));
         let of = |all: Vec<(usize, &SlotId)>| all.into_iter().map(|(_, &s)| s).collect();
         let relations = 0..task.system.relations.len() as u32;
         let mut sources: Vec<Source> = relations.map(|r| task.source(&self.rules, r)).collect();

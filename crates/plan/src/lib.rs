@@ -65,6 +65,7 @@ mod limit;
 mod run;
 
 pub mod modal;
+mod whole;
 
 pub mod diagnose;
 pub mod explain;
@@ -78,7 +79,7 @@ pub use diagnose::redundancy::{Redundancy, Redundant, RedundantKind};
 pub use diagnose::repair::Repair;
 pub use drag::Press;
 pub use edit::{Conflict, EditKind, EditReport, NotDecided, RefusalReason, Target};
-pub use explain::{ExplainedKind, ExplainedStep, PlanKind, Root, RootKind, Why};
+pub use explain::{ExplainedKind, ExplainedStep, PlanKind, Root, RootKind, Uncountable, Why};
 pub use fault::{Fault, FaultKind};
 pub use host::{Failure, Host};
 pub use modal::{Acting, ActingKind, ModeChange};

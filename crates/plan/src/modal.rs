@@ -9,9 +9,10 @@ use crate::planner::{Model, Planner};
 use crate::rule::Source;
 use crate::run::{Adapter, Ground, Ran, leans, ran, scatter};
 use crate::task::{Course, Task};
-use kernel::Values;
+use kernel::{SlotId, Values};
 use solve::{
-    Decision, Ended, Mode, Modes, Plan, Runner, SlotIndex, Standing, System, Tried, decide,
+    Constants, Decision, Ended, Lean, Mode, Modes, Plan, Runner, SlotIndex, Standing, System,
+    Tried, decide,
 };
 use std::collections::BTreeMap;
 use std::rc::Rc;
@@ -25,7 +26,7 @@ pub(crate) struct Stands {
 }
 
 /// What acts in the mode of a component: what a reader may want to know of it.
-#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+#[derive(Clone, Copy, PartialEq, Debug)]
 pub struct Acting {
     /// The constraint.
     pub source: Source,
@@ -34,7 +35,7 @@ pub struct Acting {
 }
 
 /// How a constraint acts in a mode.
-#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+#[derive(Clone, Copy, PartialEq, Debug)]
 pub enum ActingKind {
     /// An inequality holds at its bound.
     AtBound,
@@ -47,10 +48,17 @@ pub enum ActingKind {
         /// How many there are.
         of: u32,
     },
+    /// This whole number was looked for.
+    Whole {
+        /// Where it is.
+        slot: SlotId,
+        /// The whole number.
+        value: f64,
+    },
 }
 
 /// What acts otherwise than before an edit.
-#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+#[derive(Clone, Copy, PartialEq, Debug)]
 pub struct ModeChange {
     /// The constraint, and how it acts.
     pub acting: Acting,
@@ -77,6 +85,7 @@ impl Task {
         after: &Values,
     ) -> Vec<ModeChange> {
         let Course::Modes(modes, mode) = &self.course else { return Vec::new() };
+        let stepped = self.stepped(planner, before, after);
         let local = self.gather(&before.numbers);
         let before = modes.at_bounds(&modes.first(&local, &local), &local);
         let after = modes.at_bounds(mode, &self.gather(&after.numbers));
@@ -86,15 +95,42 @@ impl Task {
         // another alternative, or the opposite of a condition, says what ends by what begins
         let ends = before.iter().filter(|a| a.kind == ActingKind::AtBound && !after.contains(a));
         let ends = ends.map(|&acting| ModeChange { acting, begins: false });
-        begins.chain(ends).collect()
+        begins.chain(ends).chain(stepped).collect()
+    }
+    /// Returns the whole numbers that were looked for and are others than before.
+    fn stepped(&self, planner: &Planner, before: &Values, after: &Values) -> Vec<ModeChange> {
+        let step = |local: SlotIndex| {
+            let slot = self.component.slots[local as usize];
+            let value = after.numbers[slot];
+            let speaks = |r: &&u32| planner.rules.get(**r).slots.contains(&slot);
+            let rule = self.component.rules.iter().find(speaks)?;
+            let source = planner.rules.source(*rule);
+            let acting = Acting { source, kind: ActingKind::Whole { slot, value } };
+            (value != before.numbers[slot]).then_some(ModeChange { acting, begins: true })
+        };
+        self.looked_for().into_iter().filter_map(step).collect()
+    }
+    /// Returns the slots of whole numbers that were looked for among real unknowns, in the mode that
+    /// stands.
+    pub(crate) fn looked_for(&self) -> Vec<SlotIndex> {
+        match (&self.course, self.whole()) {
+            (Course::Modes(_, mode), Some(whole)) if mode.constants != Constants::None => {
+                whole.slots().collect()
+            }
+            (Course::Plan | Course::Modes(..) | Course::Search(_), _) => Vec::new(),
+        }
     }
     /// Puts a task into another mode.
     pub(crate) fn stand(&mut self, stands: Stands) {
-        if let Course::Modes(_, mode) = &mut self.course {
-            **mode = stands.mode;
-            self.system = stands.system;
-            self.plan = stands.plan;
-        }
+        let modes = match (&self.course, self.whole()) {
+            (Course::Modes(modes, _), _) => modes.clone(),
+            // whole numbers were looked for beside a plan
+            (Course::Plan, Some(whole)) => whole.modes.clone(),
+            (Course::Plan | Course::Search(_), _) => return,
+        };
+        self.course = Course::Modes(modes, Box::new(stands.mode));
+        self.system = stands.system;
+        self.plan = stands.plan;
     }
     /// Returns a task in the mode that values choose, no inequality acting; none without modes.
     pub(crate) fn by_values(&self, planner: &Planner, values: &Values) -> Option<Self> {
@@ -142,15 +178,10 @@ pub(crate) fn run(
     host: &mut dyn Host,
 ) -> Ran {
     let texts = values.texts.clone();
+    let leans = leans(model, task);
     let mut attempt = |mode: &Mode| {
-        let (_, plan) = planner.plans.in_mode(modes, mode);
-        let mut local = ground.local.clone();
         values.texts.clone_from(&texts);
-        let mut adapter = Adapter { planner, model, task, values, host };
-        let Ground { x0, changed, .. } = ground;
-        let runner = &mut Runner::leaning(leans(model, task));
-        let outcome = solve::run(&plan, runner, x0, &mut local, changed, &mut adapter);
-        Tried { plan, outcome, values: local }
+        attempt_in_mode(planner, model, task, modes, mode, ground, &leans, values, host)
     };
     let first = modes.first(&ground.x0, &ground.local);
     let decision = decide(modes, &first, &mut attempt);
@@ -162,12 +193,34 @@ pub(crate) fn run(
     tell(planner, modes, task, decision)
 }
 
-fn has_texts(task: &Task) -> bool {
+/// Runs the plan of a mode from where an edit began.
+#[expect(clippy::too_many_arguments, reason = "an attempt is all of these")]
+pub(crate) fn attempt_in_mode(
+    planner: &Planner,
+    model: Model<'_>,
+    task: &Task,
+    modes: &Modes,
+    mode: &Mode,
+    ground: &Ground,
+    leans: &[Lean],
+    values: &mut Values,
+    host: &mut dyn Host,
+) -> Tried {
+    let (_, plan) = planner.plans.in_mode(modes, mode);
+    let Ground { x0, local, changed } = ground;
+    let mut local = local.clone();
+    let mut adapter = Adapter { planner, model, task, values, host };
+    let runner = &mut Runner::leaning(leans.to_vec());
+    let outcome = solve::run(&plan, runner, x0, &mut local, changed, &mut adapter);
+    Tried { plan, outcome, values: local }
+}
+
+pub(crate) fn has_texts(task: &Task) -> bool {
     task.system.slots.iter().any(|s| !s.is_number)
 }
 
 /// Says in the document's terms what a decision came to.
-fn tell(planner: &Planner, modes: &Modes, task: &Task, decision: Decision) -> Ran {
+pub(crate) fn tell(planner: &Planner, modes: &Modes, task: &Task, decision: Decision) -> Ran {
     let stands = stands(planner, modes, decision.mode);
     let mut task = task.clone();
     task.stand(stands.clone());

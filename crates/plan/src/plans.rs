@@ -1,6 +1,7 @@
 //! Plans by shape: what is planned once serves every component of the same shape.
 
 use crate::past::Past;
+use crate::whole::Whole;
 use base::Mixer;
 use indexmap::IndexMap;
 use solve::{Conditional, Mode, Modes, Patterns, Plan, Puzzle, Stay, System};
@@ -15,6 +16,7 @@ pub struct Plans {
     made: IndexMap<Rc<System>, Rc<Plan>, BuildHasherDefault<Mixer>>,
     modes: IndexMap<Conditional, Rc<Modes>, BuildHasherDefault<Mixer>>,
     puzzles: IndexMap<Conditional, (Rc<System>, Rc<Puzzle>), BuildHasherDefault<Mixer>>,
+    wholes: IndexMap<Conditional, Rc<Whole>, BuildHasherDefault<Mixer>>,
     /// Plans of systems in a mode: which mode, or that given numbers hold, is seen only
     /// when an edit runs.
     in_modes: RefCell<IndexMap<Rc<System>, Rc<Plan>, BuildHasherDefault<Mixer>>>,
@@ -68,6 +70,15 @@ impl Plans {
         let modes = Rc::new(Modes::new(stated.clone(), &mut self.patterns));
         self.modes.insert(stated, modes.clone());
         modes
+    }
+    /// Returns how whole numbers among the real unknowns of a system are looked for.
+    pub(crate) fn whole(&mut self, stated: Conditional) -> Rc<Whole> {
+        if let Some(whole) = self.wholes.get(&stated) {
+            return whole.clone();
+        }
+        let whole = Rc::new(Whole::new(self.modes(stated.clone())));
+        self.wholes.insert(stated, whole.clone());
+        whole
     }
     /// Returns the plain system of a mode, and its plan.
     pub(crate) fn in_mode(&self, modes: &Modes, mode: &Mode) -> (Rc<System>, Rc<Plan>) {

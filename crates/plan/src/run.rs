@@ -8,6 +8,7 @@ use crate::modal::{self, Stands};
 use crate::planner::{Model, Planner};
 use crate::rule::{How, Source};
 use crate::task::{Course, Origin, Task};
+use crate::whole;
 use base::number::Toward;
 use kernel::{SlotId, Value, Values};
 use solve::{Lean, Outcome, Plan, Reason, Runner, Scratch, SlotIndex, Status, Verdict};
@@ -52,6 +53,38 @@ pub(crate) fn run(
     host: &mut dyn Host,
 ) -> Ran {
     let ground = ground(planner, task, aim, start, values);
+    let ran = by_course(planner, model, task, &ground, values, host);
+    or_whole(planner, model, task, &ground, ran, values, host)
+}
+
+/// Looks for whole numbers where what was run made none, or did not come to an end.
+pub(crate) fn or_whole(
+    planner: &Planner,
+    model: Model<'_>,
+    task: &Task,
+    ground: &Ground,
+    ran: Ran,
+    values: &mut Values,
+    host: &mut dyn Host,
+) -> Ran {
+    let Some(whole) = task.whole() else { return ran };
+    let is_solved = ran.is_solved && whole.is_whole(task, values);
+    if is_solved || ran.failure.is_some() {
+        return ran;
+    }
+    let found = whole::run(planner, model, task, ground, values, host);
+    found.unwrap_or(Ran { is_solved: false, ..ran })
+}
+
+/// Runs a task by its plan, its modes or its search.
+fn by_course(
+    planner: &Planner,
+    model: Model<'_>,
+    task: &Task,
+    ground: &Ground,
+    values: &mut Values,
+    host: &mut dyn Host,
+) -> Ran {
     match &task.course {
         Course::Plan => {
             let Ground { x0, local: began, changed } = ground;
@@ -59,7 +92,7 @@ pub(crate) fn run(
             let mut by_plan = |plan: &Plan| {
                 let mut local = began.clone();
                 let mut adapter = Adapter { planner, model, task, values, host };
-                let outcome = solve::run(plan, runner, &x0, &mut local, &changed, &mut adapter);
+                let outcome = solve::run(plan, runner, x0, &mut local, changed, &mut adapter);
                 (outcome, local)
             };
             // rows that depend on others here, though not at a generic point, free no given number
@@ -70,7 +103,7 @@ pub(crate) fn run(
             scatter(task, &local, values);
             ran(planner, task, &outcome)
         }
-        Course::Modes(modes, _) => modal::run(planner, model, task, modes, &ground, values, host),
+        Course::Modes(modes, _) => modal::run(planner, model, task, modes, ground, values, host),
         Course::Search(puzzle) => {
             let verdict = puzzle.nearest(&ground.x0, &ground.local);
             if let Verdict::Found(found) = &verdict {

@@ -6,6 +6,7 @@
 use crate::component::{Component, Net};
 use crate::plans::Plans;
 use crate::rule::{Body, Formula, How, Position, Rule, Rules, Source, When};
+use crate::whole::{self, Whole};
 use base::number::Tolerance;
 use base::{IdVec, Mixer};
 use expr::Dimension;
@@ -88,6 +89,8 @@ struct Stated {
     relations: Vec<Origin>,
     /// The number of its plan, where what that comes to depends on numbers alone.
     number: Option<u32>,
+    /// How its whole numbers are looked for, where some are among real unknowns.
+    whole: Option<Rc<Whole>>,
     /// The component's slots that can move while nothing is edited; found when first asked for.
     movable: OnceCell<Vec<SlotIndex>>,
     /// The rows that may depend on others at some state; found when first asked for.
@@ -168,10 +171,11 @@ fn state(
     }
     making.ranges();
     let Making { conditional, holds, targets, relations, .. } = making;
+    let whole = whole::stated(&conditional).then(|| plans.whole(conditional.clone()));
     let (system, plan, course, number) = course(plans, conditional);
-    let number = number.filter(|_| !has_host(&system));
+    let number = number.filter(|_| whole.is_none() && !has_host(&system));
     let (movable, core) = Default::default();
-    (system, plan, course, Stated { holds, targets, relations, number, movable, core })
+    (system, plan, course, Stated { holds, targets, relations, number, whole, movable, core })
 }
 
 /// Returns true if the host takes part: in texts, in relations or in methods.
@@ -555,6 +559,10 @@ impl Task {
             Origin::Rule(r) => rules.source(r),
             Origin::Wish(w) => Source::Wish(w),
         }
+    }
+    /// Returns how its whole numbers are looked for, where some are among real unknowns.
+    pub(crate) fn whole(&self) -> Option<&Rc<Whole>> {
+        self.stated.whole.as_ref()
     }
     /// Returns the number of its plan, where what that comes to depends on numbers alone.
     pub(crate) fn number(&self) -> Option<u32> {

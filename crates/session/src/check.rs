@@ -204,6 +204,10 @@ impl Run<'_> {
             }
             Expectation::Solutions(n) => {
                 let found = self.open.planner.solutions(state.model(), &state.values);
+                let found = found.map_err(|e| {
+                    let slot = state.slot_path(e.slot);
+                    format!("{slot} stands among real numbers, whose solutions are not counted")
+                })?;
                 let found = found.ok_or("no whole numbers are searched here")?;
                 match (found.solutions == *n, found.is_complete) {
                     (true, true) => Ok(()),

@@ -178,7 +178,7 @@ fn mode(state: &State, change: ModeChange) -> Option<ModeView> {
     let named =
         declared.name.as_deref().and_then(|name| rule.strip_prefix(name)?.strip_prefix(':'));
     let rule = named.unwrap_or(rule).trim();
-    let acts = words::acting(&constraint, change.acting.kind);
+    let acts = words::acting(state, &constraint, change.acting.kind);
     let message = match (change.acting.kind, change.begins) {
         (ActingKind::AtBound, true) => format!("{acts}: {rule}"),
         (ActingKind::AtBound, false) => format!("{constraint} is off its bound: {rule}"),
@@ -186,7 +186,7 @@ fn mode(state: &State, change: ModeChange) -> Option<ModeView> {
             Some(way) => format!("{acts}: {way}"),
             None => acts,
         },
-        (ActingKind::Assumed(_), _) => acts,
+        (ActingKind::Whole { .. } | ActingKind::Assumed(_), _) => acts,
     };
     let span = state.lowered.own_span(declared.origin).map(|s| (s.start, s.end));
     Some(ModeView { constraint, message, span })

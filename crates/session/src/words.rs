@@ -86,6 +86,9 @@ pub(crate) fn given_up(bound: NotDecided) -> String {
     match bound {
         NotDecided::Search(n) => format!("{n} states of the search, and not all were looked at"),
         NotDecided::Modes(n) => format!("{n} modes, and not all were tried"),
+        NotDecided::Whole(n) => {
+            format!("{n} choices of whole numbers, and not all were looked at")
+        }
         NotDecided::Roots(n) => format!("{n} choices among roots, and not all were tried"),
     }
 }
@@ -204,8 +207,11 @@ pub(crate) fn rule_of(state: &State, index: u32) -> String {
 }
 
 /// Says how a constraint of this name acts in a mode.
-pub(crate) fn acting(name: &str, kind: ActingKind) -> String {
+pub(crate) fn acting(state: &State, name: &str, kind: ActingKind) -> String {
     match kind {
+        ActingKind::Whole { slot, value } => {
+            format!("{} is {} now", state.slot_path(slot), base::number::shortest(value))
+        }
         ActingKind::AtBound => format!("{name} is at its bound"),
         ActingKind::Assumed(true) => format!("the condition of {name} is true"),
         ActingKind::Assumed(false) => format!("the condition of {name} is false"),

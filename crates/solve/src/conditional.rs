@@ -71,7 +71,7 @@ pub struct Conditional {
     pub conditions: Vec<Condition>,
     /// The guards, in the order of their relations; one relation may have several.
     pub guards: Vec<Guard>,
-    /// Ranges of whole numbers.
+    /// Ranges of whole numbers, in the order of their slots.
     pub ranges: Vec<SlotRange>,
 }
 
@@ -80,7 +80,22 @@ impl Conditional {
     pub fn is_plain(&self) -> bool {
         self.demands.is_empty() && self.guards.is_empty() && self.ranges.is_empty()
     }
-    /// Returns true if nothing but whole numbers is unknown, and not equations alone decide them.
+    /// Returns true for a slot whose whole number is unknown.
+    pub fn is_whole_unknown(&self, slot: SlotIndex) -> bool {
+        let slot = &self.system.slots[slot as usize];
+        slot.is_number && slot.is_discrete && slot.stay != Stay::Fixed
+    }
+    /// Returns true if a whole number is unknown, whatever else is.
+    pub fn has_whole_unknowns(&self) -> bool {
+        (0..self.system.slots.len() as SlotIndex).any(|s| self.is_whole_unknown(s))
+    }
+    fn has_finite_ranges(&self) -> bool {
+        let is_ranged = |s: SlotIndex| self.ranges.binary_search_by_key(&s, |r| r.slot).is_ok();
+        let mut slots = 0..self.system.slots.len() as SlotIndex;
+        slots.all(|s| !self.is_whole_unknown(s) || is_ranged(s))
+    }
+    /// Returns true if nothing but whole numbers is unknown, and not equations alone decide them. Where
+    /// they are summed up with what is not whole, their ranges have to be finite.
     pub fn is_searched(&self) -> bool {
         let is_unknown = |s: &&Slot| s.stay != Stay::Fixed;
         let mut unknown = self.system.slots.iter().filter(is_unknown).peekable();
@@ -88,6 +103,7 @@ impl Conditional {
             && unknown.peek().is_some()
             && unknown.all(|s| s.is_number && s.is_discrete)
             && self.system.slots.iter().all(|s| s.is_number)
+            && (self.system.slots.iter().all(|s| s.is_discrete) || self.has_finite_ranges())
             && self
                 .system
                 .relations

@@ -103,6 +103,8 @@ pub mod modes;
 
 pub mod search;
 
+pub mod whole;
+
 pub use conditional::{Condition, Conditional, Demand, DemandKind, Guard, SlotRange};
 pub use few::Few;
 pub use fork::Lean;
@@ -118,3 +120,4 @@ pub use system::{
     System,
 };
 pub use truth::Comparing;
+pub use whole::{Constants, Looked, Trial, Wholes};

@@ -17,6 +17,7 @@ use crate::conditional::{Conditional, DemandKind};
 use crate::pattern::{Pattern, PatternId, Patterns, Scratch};
 use crate::system::{Equation, Level, RelationBody, SlotIndex, Span, System};
 use crate::truth::{Comparing, Comparison, Truth, truth};
+use crate::whole::Constants;
 use base::Id;
 use base::number::{RULE_TOLERANCE, Tolerance};
 use expr::{Arena, Binary, ExprId, Unary, Var, gradient};
@@ -33,6 +34,8 @@ pub struct Mode {
     pub taken: Vec<u32>,
     /// The comparisons that act as equations, by index.
     pub active: BTreeSet<u32>,
+    /// Which unknowns are constants.
+    pub constants: Constants,
 }
 
 /// A conditional system, taken apart.
@@ -141,7 +144,13 @@ impl Modes {
             assumed: vec![false; self.conditions.len()],
             taken: vec![0; self.choices.len()],
             active: BTreeSet::new(),
+            constants: Constants::None,
         }
+    }
+
+    /// Returns the system that was taken apart.
+    pub fn conditional(&self) -> &Conditional {
+        &self.conditional
     }
 
     /// Returns the mode to begin with: conditions as they are in `values`, alternatives as they were
@@ -152,7 +161,7 @@ impl Modes {
         for want in &self.wants {
             self.take(&want.tree, start, &mut taken);
         }
-        Mode { assumed, taken, active: BTreeSet::new() }
+        Mode { assumed, taken, active: BTreeSet::new(), constants: Constants::None }
     }
 
     /// Returns the plain system that the system is in a mode. Relations keep their index.
@@ -164,6 +173,10 @@ impl Modes {
             equations: Vec::with_capacity(whole.equations.len()),
             arguments: whole.arguments.clone(),
         };
+        for slot in &mut system.slots {
+            let is_whole = slot.is_number && slot.is_discrete;
+            slot.stay = mode.constants.stay(slot.stay, is_whole);
+        }
         for (index, relation) in (0..).zip(&whole.relations) {
             let plain = &mut system.relations[index as usize];
             if !self.counts(index, mode) {

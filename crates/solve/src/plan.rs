@@ -435,6 +435,10 @@ impl Plan {
         let stated = system.equations[rows].iter().flat_map(|e| system.arguments(e.arguments));
         stated.chain(planned.opaque.iter().flatten()).copied()
     }
+    /// Returns true if a whole number is unknown.
+    pub(crate) fn has_whole_unknowns(&self) -> bool {
+        self.slots.iter().any(|s| s.is_number && s.is_discrete && s.stay != Stay::Fixed)
+    }
     /// The plan in which every place may yield: for a state that does not hold, where those that
     /// structure lets yield cannot reach far enough. None where nothing more would yield.
     pub(crate) fn relaxed(&self) -> Option<&Plan> {

@@ -92,6 +92,8 @@ pub fn run(
         ..
     })) = result
         && !solved_before
+        // whole numbers that come out broken are looked for with everything else as planned
+        && !plan.has_whole_unknowns()
         && let Some(relaxed) = plan.relaxed()
     {
         way.plan = relaxed;

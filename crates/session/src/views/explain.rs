@@ -45,7 +45,7 @@ fn plan_in_words(open: &Open) -> Explanation {
 /// Says how a constraint acts in the mode that stands.
 fn acting(open: &Open, acting: Acting) -> Option<String> {
     let name = words::source_name(&open.state, acting.source)?;
-    Some(words::acting(&name, acting.kind))
+    Some(words::acting(&open.state, &name, acting.kind))
 }
 
 /// What is asked about: how its sentence begins, and the numbers that make it so.

@@ -13,5 +13,6 @@ mod sides;
 mod undoing;
 mod updating;
 mod viewing;
+mod whole;
 mod wrong_text;
 mod wrong_values;
