@@ -1,134 +1,359 @@
-//! Echelon form: rows in, pivots out; which rows depend on others, and what is left free.
+//! Echelon forms: which rows depend on which, and what motions they leave.
 //!
-//! Rows are taken one by one and kept sparse. A row whose remainder cancels is dependent, and the
-//! combination of earlier rows that it is can be told. Columns without a pivot are free: any choice of
-//! them determines the rest, from the last row back to the first.
+//! In: sparse rows with numbers. Out: their rank; for each row that depends on earlier ones, which; and for
+//! any choice of the columns that are left free, what the others then are. What is eliminated next is what
+//! makes few new entries (Markowitz), so that large sparse rows stay sparse; what depends on what is told in
+//! the order in which the rows came all the same.
+//!
+//! **Source:** Markowitz, *The elimination form of the inverse*, Management Science 3 (1957).
 
-use std::collections::{BTreeMap, BTreeSet};
+use crate::sparse::pivot::Counts;
+use std::collections::BTreeMap;
 
 /// What cancels to this part of its terms counts as zero. States are solved to about 1e-12.
 const CANCELLED: f64 = 1e-8;
-/// A pivot is at least this part of the largest number of its row.
+/// What is smaller than this part of the largest number of its row is rounding: a slope that vanishes
+/// where the state is solved.
+const ROUNDING: f64 = 1e-12;
+/// A pivot is at least this part of the largest number of its row …
 const PIVOT: f64 = 0.1;
+/// … or this part, where no other row has anything in its column.
+const ALONE: f64 = 1e-8;
+/// A row with a share below this part of the largest in a sum that vanishes is not told as depending.
+const SHARE: f64 = 1e-6;
+/// How many rows are looked at for one pivot.
+const CANDIDATES: usize = 4;
 
 /// A sparse row: columns in order, with their coefficients.
 pub type Row = Vec<(u32, f64)>;
 
 /// Rows in echelon form.
-#[derive(Debug, Default)]
+#[derive(Clone, Debug, Default)]
 pub struct Echelon {
-    rows: Vec<Reduced>,
-    row_of_pivot: BTreeMap<u32, u32>,
+    /// In order of elimination: the row, its pivot's column, and the rest of it where the pivot is one.
+    pivots: Vec<(u32, u32, Row)>,
+    /// For every column: it is the pivot of a row.
+    has_pivot: Vec<bool>,
+    /// For every row, how much of which pivots' rows was subtracted.
+    taken: Vec<Vec<(u32, f64)>>,
+    /// Rows of which nothing is left.
+    vanished: Vec<u32>,
 }
 
-#[derive(Debug)]
-struct Reduced {
-    pivot: u32,
-    /// Scaled to a pivot of one; columns that earlier rows have as pivots do not occur.
-    row: Row,
-    /// What the row was divided by.
-    scale: f64,
-    /// How much of which earlier rows was subtracted.
-    taken: Vec<(u32, f64)>,
-}
-
-/// What became of a row.
-#[derive(Clone, PartialEq, Debug)]
-pub enum Verdict {
-    /// It is independent of the rows before it: it has this number among the independent ones.
-    Independent(u32),
-    /// It is a combination of these independent rows.
-    Dependent(Vec<u32>),
+/// A row that is a combination of rows that came before it.
+#[derive(Clone, PartialEq, Eq, Debug)]
+pub struct Dependent {
+    /// The row.
+    pub row: u32,
+    /// The rows that it is a combination of, in order; none of them depends on others.
+    pub circuit: Vec<u32>,
 }
 
 impl Echelon {
-    /// Adds a row. Of the columns that may be its pivot, `cost` tells which would rather be.
-    pub fn add(&mut self, row: &Row, cost: impl Fn(u32) -> u32) -> Verdict {
-        let mut work: BTreeMap<u32, (f64, f64)> =
-            row.iter().map(|&(c, v)| (c, (v, v.abs()))).collect();
-        let mut waiting: BTreeSet<u32> =
-            row.iter().filter_map(|(c, _)| self.row_of_pivot.get(c).copied()).collect();
-        let mut taken = Vec::new();
-        while let Some(r) = waiting.pop_first() {
-            let by = &self.rows[r as usize];
-            let Some((factor, size)) = work.remove(&by.pivot) else { continue };
-            if factor.abs() <= CANCELLED * size {
-                continue;
-            }
-            taken.push((r, factor));
-            for &(c, v) in by.row.iter().filter(|e| e.0 != by.pivot) {
-                let entry = work.entry(c).or_insert((0.0, 0.0));
-                entry.0 -= factor * v;
-                entry.1 = entry.1.max((factor * v).abs());
-                if let Some(&next) = self.row_of_pivot.get(&c) {
-                    waiting.insert(next);
-                }
-            }
+    /// Eliminates rows over this many columns.
+    pub fn new(rows: &[Row], columns: usize) -> Self {
+        let mut rest = Remainder::new(rows, columns);
+        while let Some((row, column)) = rest.best() {
+            rest.eliminate(row, column);
         }
-        let left = work.into_iter().filter(|(_, (v, size))| v.abs() > CANCELLED * size);
-        let left: Row = left.map(|(c, (v, _))| (c, v)).collect();
-        let largest = left.iter().fold(0.0f64, |m, e| m.max(e.1.abs()));
-        let pivot = left
-            .iter()
-            .filter(|e| e.1.abs() >= PIVOT * largest)
-            .min_by_key(|e| (cost(e.0), e.0))
-            .copied();
-        let Some((pivot, scale)) = pivot else { return Verdict::Dependent(self.spread(&taken)) };
-        let number = self.rows.len() as u32;
-        let row = left.into_iter().map(|(c, v)| (c, v / scale)).collect();
-        self.rows.push(Reduced { pivot, row, scale, taken });
-        self.row_of_pivot.insert(pivot, number);
-        Verdict::Independent(number)
+        rest.out
     }
 
     /// Returns how many rows are independent.
     pub fn rank(&self) -> usize {
-        self.rows.len()
+        self.pivots.len()
     }
 
     /// Returns true if the column is the pivot of a row.
     pub fn has_pivot(&self, column: u32) -> bool {
-        self.row_of_pivot.contains_key(&column)
+        self.has_pivot[column as usize]
     }
 
-    /// Tells a combination of reduced rows as one of the rows that were added.
-    fn spread(&self, taken: &[(u32, f64)]) -> Vec<u32> {
+    /// Returns the rows that depend on earlier ones.
+    pub fn dependent(&self) -> Vec<Dependent> {
+        // the combinations that vanish, each of them reduced until its last row is in no other
+        let mut reduced: Vec<(u32, Row)> = Vec::new();
+        for &row in &self.vanished {
+            let mut own = self.combination(row);
+            for (last, other) in &reduced {
+                take_away(&mut own, *last, other);
+            }
+            let largest = own.iter().fold(0.0f64, |m, e| m.max(e.1.abs()));
+            let suits = |e: &&(u32, f64)| e.1.abs() >= SHARE * largest;
+            let Some(&(last, value)) = own.iter().rfind(suits) else { continue };
+            own.iter_mut().for_each(|e| e.1 /= value);
+            for (_, other) in &mut reduced {
+                take_away(other, last, &own);
+            }
+            reduced.push((last, own));
+        }
+        reduced.sort_unstable_by_key(|e| e.0);
+        let told = reduced.into_iter().map(|(row, combination)| {
+            let circuit = combination.iter().map(|e| e.0).filter(|&r| r != row).collect();
+            Dependent { row, circuit }
+        });
+        told.collect()
+    }
+
+    /// Returns how much of each row there is in a sum that vanishes, with one of this vanished row.
+    fn combination(&self, row: u32) -> Row {
+        let mut made = vec![(row, 1.0)];
         let mut weight: BTreeMap<u32, (f64, f64)> =
-            taken.iter().map(|&(r, f)| (r, (f, f.abs()))).collect();
-        let mut rows = Vec::new();
-        while let Some((r, (w, size))) = weight.pop_last() {
+            self.taken[row as usize].iter().map(|&(k, f)| (k, (-f, f.abs()))).collect();
+        while let Some((k, (w, size))) = weight.pop_last() {
             if w.abs() <= CANCELLED * size {
                 continue;
             }
-            rows.push(r);
-            let reduced = &self.rows[r as usize];
-            let share = w / reduced.scale;
-            for &(k, f) in &reduced.taken {
-                let entry = weight.entry(k).or_insert((0.0, 0.0));
-                entry.0 -= share * f;
-                entry.1 = entry.1.max((share * f).abs());
+            let pivot_row = self.pivots[k as usize].0;
+            made.push((pivot_row, w));
+            for &(j, f) in &self.taken[pivot_row as usize] {
+                let entry = weight.entry(j).or_insert((0.0, 0.0));
+                entry.0 -= w * f;
+                entry.1 = entry.1.max((w * f).abs());
             }
         }
-        rows.reverse();
-        rows
+        made.sort_unstable_by_key(|e| e.0);
+        made
     }
 
     /// Computes the pivots that go with a choice of the free columns.
     pub fn complete(&self, free: &[(u32, f64)]) -> Row {
-        let mut made: BTreeMap<u32, f64> = free.iter().copied().collect();
-        for reduced in self.rows.iter().rev() {
+        let mut made = vec![0.0; self.has_pivot.len()];
+        free.iter().for_each(|&(c, v)| made[c as usize] = v);
+        for (_, column, row) in self.pivots.iter().rev() {
             let (mut sum, mut size) = (0.0, 0.0f64);
-            for &(c, v) in reduced.row.iter().filter(|e| e.0 != reduced.pivot) {
-                if let Some(x) = made.get(&c) {
-                    sum -= v * x;
-                    size = size.max((v * x).abs());
-                }
+            for &(c, v) in row {
+                let term = v * made[c as usize];
+                sum -= term;
+                size = size.max(term.abs());
             }
             if sum.abs() > CANCELLED * size {
-                made.insert(reduced.pivot, sum);
+                made[*column as usize] = sum;
             }
         }
-        made.into_iter().filter(|e| e.1 != 0.0).collect()
+        (0..).zip(made).filter(|e| e.1 != 0.0).collect()
+    }
+}
+
+/// Subtracts so much of a row, one in its `last` column, that the other has nothing there.
+fn take_away(from: &mut Row, last: u32, row: &Row) {
+    let Ok(at) = from.binary_search_by_key(&last, |e| e.0) else { return };
+    let factor = from[at].1;
+    let mut out = Vec::with_capacity(from.len() + row.len());
+    let (mut i, mut j) = (0, 0);
+    while i < from.len() || j < row.len() {
+        let a = from.get(i).map_or(u32::MAX, |e| e.0);
+        let b = row.get(j).map_or(u32::MAX, |e| e.0);
+        let column = a.min(b);
+        let (mut value, mut size) = (0.0, 0.0f64);
+        if a == column {
+            value = from[i].1;
+            size = value.abs();
+            i += 1;
+        }
+        if b == column {
+            let term = factor * row[j].1;
+            value -= term;
+            size = size.max(term.abs());
+            j += 1;
+        }
+        if column != last && value.abs() > CANCELLED * size {
+            out.push((column, value));
+        }
+    }
+    *from = out;
+}
+
+/// An entry of what is left.
+#[derive(Clone, Copy, Debug)]
+struct Entry {
+    column: u32,
+    value: f64,
+    /// The largest of the terms that it was summed of.
+    size: f64,
+}
+
+impl Entry {
+    fn is_something(&self) -> bool {
+        self.value.is_finite() && self.value.abs() > CANCELLED * self.size
+    }
+}
+
+fn largest(entries: &[Entry]) -> f64 {
+    entries.iter().fold(0.0, |most, e| most.max(e.value.abs()))
+}
+
+/// What is left to be eliminated.
+struct Remainder {
+    rows: Vec<Vec<Entry>>,
+    /// The rows that each column may stand in; what is gone or cancelled is named too.
+    columns: Vec<Vec<u32>>,
+    by_row: Counts,
+    by_column: Counts,
+    /// Where each column stands in the row at hand.
+    at: Vec<u32>,
+    out: Echelon,
+}
+
+const NONE: u32 = u32::MAX;
+
+impl Remainder {
+    fn new(rows: &[Row], width: usize) -> Self {
+        let mut columns: Vec<Vec<u32>> = vec![Vec::new(); width];
+        let mut own = Vec::with_capacity(rows.len());
+        for (r, row) in (0..).zip(rows) {
+            let largest = row.iter().fold(0.0f64, |m, e| m.max(e.1.abs()));
+            let entry = |&(column, value): &(u32, f64)| {
+                let value = value / largest;
+                Entry { column, value, size: value.abs() }
+            };
+            let counts = |e: &Entry| e.value.is_finite() && e.size > ROUNDING;
+            let entries: Vec<Entry> = row.iter().map(entry).filter(counts).collect();
+            entries.iter().for_each(|e| columns[e.column as usize].push(r));
+            own.push(entries);
+        }
+        let by_row = Counts::new(own.iter().map(|r| r.len() as u32).collect(), width);
+        let by_column = Counts::new(columns.iter().map(|c| c.len() as u32).collect(), rows.len());
+        let out = Echelon {
+            has_pivot: vec![false; width],
+            taken: vec![Vec::new(); rows.len()],
+            ..Echelon::default()
+        };
+        let mut made = Self { rows: own, columns, by_row, by_column, at: vec![NONE; width], out };
+        for r in 0..rows.len() as u32 {
+            if made.rows[r as usize].is_empty() {
+                made.vanish(r);
+            }
+        }
+        made
+    }
+
+    fn vanish(&mut self, row: u32) {
+        self.by_row.unlink(row);
+        self.out.vanished.push(row);
+    }
+
+    /// The pivot that makes the fewest new entries, among a few candidates; none where nothing is left.
+    fn best(&mut self) -> Option<(u32, u32)> {
+        // what stands alone in its column changes no other row
+        let alone = self.by_column.of(1).take(CANDIDATES).find_map(|column| {
+            let stands = |r: &&u32| {
+                let entries = &self.rows[**r as usize];
+                let own = entries.iter().find(|e| e.column == column);
+                own.is_some_and(|e| e.value.abs() >= ALONE * largest(entries))
+            };
+            let row = self.columns[column as usize].iter().find(stands)?;
+            Some((*row, column))
+        });
+        if alone.is_some() {
+            return alone;
+        }
+        let mut best: Option<(usize, f64, u32, u32)> = None;
+        let mut looked = 0;
+        let least = self.by_row.least();
+        for count in least..=self.columns.len() {
+            for row in self.by_row.of(count) {
+                let entries = &self.rows[row as usize];
+                let least = PIVOT * largest(entries);
+                for e in entries.iter().filter(|e| e.value.abs() >= least) {
+                    let cost = (count - 1) * (self.by_column.count(e.column) as usize - 1);
+                    let size = e.value.abs();
+                    if best.is_none_or(|b| cost < b.0 || cost == b.0 && size > b.1) {
+                        best = Some((cost, size, row, e.column));
+                    }
+                }
+                looked += 1;
+                if best.is_some_and(|b| b.0 <= (count - 1) * (count - 1) || looked >= CANDIDATES) {
+                    return best.map(|b| (b.2, b.3));
+                }
+            }
+        }
+        best.map(|b| (b.2, b.3))
+    }
+
+    fn eliminate(&mut self, row: u32, column: u32) {
+        let mut pivot_row = std::mem::take(&mut self.rows[row as usize]);
+        let number = self.out.pivots.len() as u32;
+        for e in &pivot_row {
+            self.by_column.set(e.column, self.by_column.count(e.column) as usize - 1);
+        }
+        let own = pivot_row.iter().position(|e| e.column == column);
+        let pivot = pivot_row.swap_remove(own.expect("the pivot stands in its row")).value;
+        for r in std::mem::take(&mut self.columns[column as usize]) {
+            self.subtract(r, &pivot_row, pivot, (column, number));
+        }
+        self.by_row.unlink(row);
+        self.by_column.unlink(column);
+        self.out.has_pivot[column as usize] = true;
+        let rest = pivot_row.iter().map(|e| (e.column, e.value / pivot));
+        self.out.pivots.push((row, column, rest.collect()));
+    }
+
+    /// Subtracts as much of a pivot's row, the pivot left out, as takes its column away from another.
+    fn subtract(&mut self, r: u32, pivot_row: &[Entry], pivot: f64, (column, number): (u32, u32)) {
+        let target = &mut self.rows[r as usize];
+        let Some(own) = target.iter().position(|e| e.column == column) else { return };
+        let factor = target.swap_remove(own).value / pivot;
+        for (i, e) in (0..).zip(target.iter()) {
+            self.at[e.column as usize] = i;
+        }
+        for e in pivot_row {
+            let (c, value) = (e.column as usize, -factor * e.value);
+            if self.at[c] == NONE {
+                target.push(Entry { column: e.column, value, size: value.abs() });
+                self.columns[c].push(r);
+                self.by_column.set(e.column, self.by_column.count(e.column) as usize + 1);
+            } else {
+                let entry = &mut target[self.at[c] as usize];
+                entry.value += value;
+                entry.size = entry.size.max(value.abs());
+            }
+        }
+        target.iter().for_each(|e| self.at[e.column as usize] = NONE);
+        let by_column = &mut self.by_column;
+        target.retain(|e| {
+            let stays = e.is_something();
+            if !stays {
+                by_column.set(e.column, by_column.count(e.column) as usize - 1);
+            }
+            stays
+        });
+        self.out.taken[r as usize].push((number, factor));
+        self.by_row.set(r, target.len());
+        if target.is_empty() {
+            self.vanish(r);
+        }
+    }
+}
+
+/// Rows that come one after the other, each told apart from what those before can make.
+#[derive(Clone, Debug, Default)]
+pub struct Basis {
+    /// Each with a pivot of one, which no other has.
+    rows: Vec<(u32, Row)>,
+}
+
+impl Basis {
+    /// Adds a row; returns false, and adds nothing, if those before can make it.
+    pub fn add(&mut self, row: &Row) -> bool {
+        let mut own = row.clone();
+        for (pivot, other) in &self.rows {
+            take_away(&mut own, *pivot, other);
+        }
+        let size = |e: &(u32, f64)| e.1.abs();
+        let larger = |a: &&(u32, f64), b: &&(u32, f64)| size(a).total_cmp(&size(b));
+        let Some(&(pivot, value)) = own.iter().max_by(larger) else { return false };
+        own.iter_mut().for_each(|e| e.1 /= value);
+        for (_, other) in &mut self.rows {
+            take_away(other, pivot, &own);
+        }
+        self.rows.push((pivot, own));
+        true
+    }
+
+    /// Returns how many rows there are.
+    pub fn rank(&self) -> usize {
+        self.rows.len()
     }
 }
 
@@ -136,30 +361,43 @@ impl Echelon {
 mod tests {
     use super::*;
 
-    fn first(_: u32) -> u32 {
-        0
-    }
-
     #[test]
     fn a_dependent_row_tells_the_rows_that_it_is_made_of() {
-        let mut e = Echelon::default();
-        let rows: [Row; 3] = [vec![(0, 1.0), (1, 2.0)], vec![(1, 1.0), (2, -1.0)], vec![(3, 1.0)]];
-        for row in &rows {
-            assert!(matches!(e.add(row, first), Verdict::Independent(_)));
-        }
-        // row 0 twice, and row 1
-        let sum = vec![(0, 2.0), (1, 5.0), (2, -1.0)];
-        assert_eq!(e.add(&sum, first), Verdict::Dependent(vec![0, 1]));
-        assert_eq!(e.add(&vec![(3, 7.0)], first), Verdict::Dependent(vec![2]));
+        // row 3 is row 0 twice and row 1, row 4 is row 2
+        let rows: [Row; 5] = [
+            vec![(0, 1.0), (1, 2.0)],
+            vec![(1, 1.0), (2, -1.0)],
+            vec![(3, 1.0)],
+            vec![(0, 2.0), (1, 5.0), (2, -1.0)],
+            vec![(3, 7.0)],
+        ];
+        let e = Echelon::new(&rows, 4);
+        let told = [(3, vec![0, 1]), (4, vec![2])];
+        let told = told.map(|(row, circuit)| Dependent { row, circuit });
+        assert_eq!(e.dependent(), told);
         assert_eq!(e.rank(), 3);
+    }
+
+    /// The last of those that depend on each other is told, and by rows that depend on nothing.
+    #[test]
+    fn of_what_depends_the_last_is_told() {
+        let rows: Vec<Row> = vec![
+            vec![(0, 1.0), (1, 1.0)],
+            vec![(0, 2.0), (1, 2.0)],
+            vec![(0, 1.0), (1, -1.0)],
+            vec![(0, 1.0)],
+            vec![(1, 3.0)],
+        ];
+        let told = Echelon::new(&rows, 2).dependent();
+        let told: Vec<(u32, &[u32])> = told.iter().map(|d| (d.row, &d.circuit[..])).collect();
+        assert_eq!(told, [(1, &[0][..]), (3, &[0, 2]), (4, &[0, 2])]);
     }
 
     #[test]
     fn the_free_columns_determine_the_others() {
-        let mut e = Echelon::default();
-        // a + b = 0, b + c = 0, with the last column as pivot of the first row
-        e.add(&vec![(0, 1.0), (1, 1.0)], |c| 1 - c);
-        e.add(&vec![(1, 1.0), (2, 1.0)], first);
+        // a + b = 0, b + c = 0
+        let rows = [vec![(0, 1.0), (1, 1.0)], vec![(1, 1.0), (2, 1.0)]];
+        let e = Echelon::new(&rows, 3);
         let free: Vec<u32> = (0..3).filter(|&c| !e.has_pivot(c)).collect();
         assert_eq!(free.len(), 1);
         let motion = e.complete(&[(free[0], 1.0)]);
@@ -170,6 +408,38 @@ mod tests {
 
     #[test]
     fn an_empty_row_depends_on_nothing() {
-        assert_eq!(Echelon::default().add(&Row::new(), first), Verdict::Dependent(Vec::new()));
+        let told = Echelon::new(&[Row::new(), vec![(0, 1.0)]], 1).dependent();
+        assert_eq!(told, [Dependent { row: 0, circuit: Vec::new() }]);
+    }
+
+    /// Differences along all edges of a grid: as many depend on others as there are faces, and each is
+    /// told by those about a face or more.
+    #[test]
+    fn a_large_sparse_system_keeps_its_rank() {
+        let side = 60u32;
+        let mut rows = Vec::new();
+        for i in 0..side * side {
+            if i % side + 1 < side {
+                rows.push(vec![(i, 1.0), (i + 1, -1.0)]);
+            }
+            if i + side < side * side {
+                rows.push(vec![(i, 1.0), (i + side, -1.0)]);
+            }
+        }
+        let e = Echelon::new(&rows, (side * side) as usize);
+        assert_eq!(e.rank() as u32, side * side - 1);
+        let told = e.dependent();
+        assert_eq!(told.len() as u32, (side - 1) * (side - 1));
+        assert!(told.iter().all(|d| d.circuit.len() >= 3 && d.circuit.iter().all(|&r| r < d.row)));
+    }
+
+    #[test]
+    fn what_a_basis_can_make_is_not_added() {
+        let mut basis = Basis::default();
+        assert!(basis.add(&vec![(0, 1.0), (2, 2.0)]));
+        assert!(basis.add(&vec![(2, -1.0), (3, 5.0)]));
+        assert!(!basis.add(&vec![(0, 1.0), (3, 10.0)]));
+        assert!(!basis.add(&Row::new()));
+        assert_eq!(basis.rank(), 2);
     }
 }

@@ -15,7 +15,7 @@ use crate::planner::{Model, Planner};
 use crate::rule::{Body, Source};
 use crate::task::{Course, Holding, Task};
 use kernel::{Primitive, SlotId, ThingId, Values};
-use solve::echelon::{Echelon, Row, Verdict};
+use solve::echelon::{Basis, Echelon, Row};
 use solve::{Level, Scratch};
 use std::collections::{BTreeMap, BTreeSet};
 
@@ -188,12 +188,7 @@ impl Space {
                 rows.push(row.into_iter().filter_map(|(s, v)| Some((column(s)?, v))).collect());
             }
         }
-        let mut uses = vec![0u32; columns.len()];
-        rows.iter().flatten().for_each(|e| uses[e.0 as usize] += 1);
-        let mut echelon = Echelon::default();
-        for row in &rows {
-            echelon.add(row, |c| uses[c as usize]);
-        }
+        let echelon = Echelon::new(&rows, columns.len());
         let free = (0..columns.len() as u32).filter(|&c| !echelon.has_pivot(c)).collect();
         let mut held: BTreeMap<ThingId, Vec<f64>> = BTreeMap::new();
         for &s in task.component.slots.iter().filter(|&&s| column(s).is_none()) {
@@ -214,7 +209,7 @@ impl Space {
 
     /// Returns a readable basis.
     fn motions(&self, model: Model<'_>, values: &Values) -> Vec<Motion> {
-        let mut chosen = Chosen { space: self, known: Echelon::default(), motions: Vec::new() };
+        let mut chosen = Chosen { space: self, known: Basis::default(), motions: Vec::new() };
         if self.free.is_empty() {
             return chosen.motions;
         }
@@ -259,13 +254,17 @@ impl Space {
     fn alone(&self, group: &[u32], rows_of: &[Vec<u32>], chosen: &mut Chosen<'_>) {
         let touching: BTreeSet<u32> =
             group.iter().flat_map(|&c| rows_of[c as usize].iter().copied()).collect();
-        let mut echelon = Echelon::default();
-        for r in touching {
-            let row = self.rows[r as usize].iter().filter(|e| group.contains(&e.0));
-            echelon.add(&row.copied().collect(), |c| c);
-        }
-        for &c in group.iter().filter(|&&c| !echelon.has_pivot(c)) {
-            chosen.consider(MotionKind::Alone, echelon.complete(&[(c, 1.0)]));
+        let own = |r: u32| -> Row {
+            let row = self.rows[r as usize].iter();
+            let place = |c: u32| group.iter().position(|&g| g == c).map(|i| i as u32);
+            row.filter_map(|&(c, v)| Some((place(c)?, v))).collect()
+        };
+        let rows: Vec<Row> = touching.into_iter().map(own).collect();
+        let echelon = Echelon::new(&rows, group.len());
+        for c in (0..group.len() as u32).filter(|&c| !echelon.has_pivot(c)) {
+            let motion = echelon.complete(&[(c, 1.0)]);
+            let motion = motion.into_iter().map(|(c, v)| (group[c as usize], v)).collect();
+            chosen.consider(MotionKind::Alone, motion);
         }
     }
 
@@ -315,7 +314,7 @@ impl Space {
 struct Chosen<'s> {
     space: &'s Space,
     /// The free columns of the chosen ones: a motion is known by these alone.
-    known: Echelon,
+    known: Basis,
     motions: Vec<Motion>,
 }
 
@@ -328,7 +327,7 @@ impl Chosen<'_> {
             return;
         }
         let shadow = row.iter().filter(|e| !space.echelon.has_pivot(e.0)).copied().collect();
-        if let Verdict::Dependent(_) = self.known.add(&shadow, |c| c) {
+        if !self.known.add(&shadow) {
             return;
         }
         let largest = row.iter().fold(0.0f64, |m, e| if e.1.abs() > m.abs() { e.1 } else { m });

@@ -15,7 +15,7 @@ use crate::planner::{Model, Planner, Unmet};
 use crate::rule::{Body, Rule, Source};
 use crate::task::{Holding, Origin, Task};
 use kernel::{SlotId, Values};
-use solve::echelon::{Echelon, Row, Verdict};
+use solve::echelon::{Dependent, Echelon, Row};
 use solve::{Level, Scratch};
 use std::collections::{BTreeMap, BTreeSet};
 
@@ -179,38 +179,29 @@ fn candidates(
     }
     let patterns = planner.plans.patterns();
     let column = |s: SlotId| task.component.slots.binary_search(&s).ok().map(|i| i as u32);
-    let mut uses = vec![0u32; task.component.slots.len()];
-    let mut echelon = Echelon::default();
-    let mut rule_of_row: Vec<u32> = Vec::new();
-    let rows = core.iter().map(|&(position, e)| (task.component.rules[position as usize], e));
-    let counts = |r: u32| counts(patterns, planner.rules.get(r), values, &mut Scratch::default());
-    let rows: Vec<(u32, u32)> = rows.filter(|&(index, _)| counts(index)).collect();
-    for (index, _) in &rows {
-        let rule = planner.rules.get(*index);
-        rule.slots.iter().filter_map(|&s| column(s)).for_each(|c| uses[c as usize] += 1);
-    }
-    for (index, e) in rows {
+    let mut rows: Vec<Row> = Vec::with_capacity(core.len());
+    let mut rule_of_row: Vec<u32> = Vec::with_capacity(core.len());
+    for &(position, e) in core.iter() {
+        let index = task.component.rules[position as usize];
         let rule = planner.rules.get(index);
         let Body::Equations(equations) = &rule.shape.body else { continue };
+        if !counts(patterns, rule, values, scratch) {
+            continue;
+        }
         let writable = writable(rule);
         let moves = |s: SlotId| {
             Planner::resting_hold(model.structure, s) != Holding::Fixed
                 && writable.as_ref().is_none_or(|w| w.contains(&s))
         };
         let row = gradient(patterns, rule, &equations[e as usize], &values.numbers, scratch);
-        let row: Row = row
-            .into_iter()
-            .filter(|e| moves(e.0))
-            .filter_map(|(s, v)| Some((column(s)?, v)))
-            .collect();
-        match echelon.add(&row, |c| uses[c as usize]) {
-            Verdict::Independent(_) => rule_of_row.push(index),
-            Verdict::Dependent(rows) => {
-                let candidate = found.entry(index).or_default();
-                candidate.rows += 1;
-                candidate.circuit.extend(rows.iter().map(|&r| rule_of_row[r as usize]));
-            }
-        }
+        let own = row.into_iter().filter(|e| moves(e.0));
+        rows.push(own.filter_map(|(s, v)| Some((column(s)?, v))).collect());
+        rule_of_row.push(index);
+    }
+    for Dependent { row, circuit } in Echelon::new(&rows, task.component.slots.len()).dependent() {
+        let candidate = found.entry(rule_of_row[row as usize]).or_default();
+        candidate.rows += 1;
+        candidate.circuit.extend(circuit.iter().map(|&r| rule_of_row[r as usize]));
     }
     found
 }

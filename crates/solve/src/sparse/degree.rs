@@ -59,7 +59,7 @@ fn order(near: Vec<Vec<u32>>) -> Vec<u32> {
         elements: vec![Vec::new(); n],
         members: vec![Vec::new(); n],
         size: vec![0; n],
-        degrees: Counts::new(near.iter().map(|own| own.len() as u32).collect()),
+        degrees: Counts::new(near.iter().map(|own| own.len() as u32).collect(), n),
         near,
     };
     let mut order = Vec::with_capacity(n);

@@ -45,23 +45,27 @@ pub(crate) struct Pivots {
 
 /// Numbered things by how many entries each has, to find those with few.
 #[derive(Debug)]
-pub(super) struct Counts {
+pub(crate) struct Counts {
     count: Vec<u32>,
     head: Vec<u32>,
     next: Vec<u32>,
     previous: Vec<u32>,
+    /// Nothing has fewer than this.
+    least: usize,
 }
 
 const NONE: u32 = u32::MAX;
 
 impl Counts {
-    pub(super) fn new(counts: Vec<u32>) -> Self {
+    /// Begins with these counts; none will ever be more than `most`.
+    pub(crate) fn new(counts: Vec<u32>, most: usize) -> Self {
         let n = counts.len();
         let mut made = Self {
-            head: vec![NONE; n + 1],
+            head: vec![NONE; most + 1],
             next: vec![NONE; n],
             previous: vec![NONE; n],
             count: counts,
+            least: most,
         };
         for i in (0..n as u32).rev() {
             made.link(i);
@@ -69,6 +73,7 @@ impl Counts {
         made
     }
     fn link(&mut self, i: u32) {
+        self.least = self.least.min(self.count[i as usize] as usize);
         let head = &mut self.head[self.count[i as usize] as usize];
         self.next[i as usize] = *head;
         self.previous[i as usize] = NONE;
@@ -77,7 +82,7 @@ impl Counts {
         }
         *head = i;
     }
-    pub(super) fn unlink(&mut self, i: u32) {
+    pub(crate) fn unlink(&mut self, i: u32) {
         let (next, previous) = (self.next[i as usize], self.previous[i as usize]);
         if previous == NONE {
             self.head[self.count[i as usize] as usize] = next;
@@ -88,17 +93,24 @@ impl Counts {
             self.previous[next as usize] = previous;
         }
     }
-    pub(super) fn set(&mut self, i: u32, count: usize) {
+    pub(crate) fn set(&mut self, i: u32, count: usize) {
         if self.count[i as usize] != count as u32 {
             self.unlink(i);
             self.count[i as usize] = count as u32;
             self.link(i);
         }
     }
-    pub(super) fn count(&self, i: u32) -> u32 {
+    /// Returns a number that no count is below.
+    pub(crate) fn least(&mut self) -> usize {
+        while self.least + 1 < self.head.len() && self.head[self.least] == NONE {
+            self.least += 1;
+        }
+        self.least
+    }
+    pub(crate) fn count(&self, i: u32) -> u32 {
         self.count[i as usize]
     }
-    pub(super) fn of(&self, count: usize) -> impl Iterator<Item = u32> + '_ {
+    pub(crate) fn of(&self, count: usize) -> impl Iterator<Item = u32> + '_ {
         let mut at = self.head[count];
         std::iter::from_fn(move || {
             let i = at;
@@ -195,8 +207,8 @@ impl Remainder {
                     .collect()
             })
             .collect();
-        let by_row = Counts::new(rows.iter().map(|r| r.len() as u32).collect());
-        let by_column = Counts::new(columns.iter().map(|c| c.len() as u32).collect());
+        let by_row = Counts::new(rows.iter().map(|r| r.len() as u32).collect(), n);
+        let by_column = Counts::new(columns.iter().map(|c| c.len() as u32).collect(), n);
         Self { rows, columns, by_row, by_column, entries: pattern.len(), left: n }
     }
 
