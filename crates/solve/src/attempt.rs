@@ -57,8 +57,8 @@ pub(crate) struct Buffers {
 pub(crate) struct Frame {
     /// The state when the edit began.
     pub(crate) x0: Vec<f64>,
-    /// What least change is measured from, where that is not x0: where its branch from x0 ended.
-    pub(crate) anchor: Option<Vec<f64>>,
+    /// The states that least change was measured from anew, each where the branch from the one before ended.
+    pub(crate) anchors: Vec<Vec<f64>>,
     /// The measure of every slot.
     pub(crate) scales: Vec<f64>,
     /// For every row, whether it holds in x0.
@@ -70,7 +70,7 @@ pub(crate) struct Frame {
 impl Frame {
     /// Returns what least change is measured from.
     pub(crate) fn anchor(&self) -> &[f64] {
-        self.anchor.as_deref().unwrap_or(&self.x0)
+        self.anchors.last().unwrap_or(&self.x0)
     }
 }
 

@@ -55,6 +55,10 @@ const STEPS: usize = 100;
 const DELTA: f64 = 1e-6;
 /// Steps below this, in parts of the extent, are no steps.
 const SETTLED: f64 = 1e-13;
+/// A branch of least change is left where the curvature of what is least, one at first, has come down to
+/// this in some direction. At nothing the branch ends, and near there what is free runs ahead of the wish
+/// without bound.
+const FIRM: f64 = 0.125;
 
 impl Least {
     /// Lays a block out.
@@ -128,6 +132,7 @@ impl Least {
                 // a branch of least change ends where it has no minimum any more
                 let leaves = match iteration {
                     0 => size > 0.5 || shift > 1.0,
+                    1 => size > 0.1 * before && size > 1e-7,
                     _ => size > 0.5 * before && size > 1e-7,
                 };
                 if leaves {
@@ -152,7 +157,29 @@ impl Least {
                 return Measured::Failed;
             }
         }
-        if self.holds(values, w, s) && size < 1e-6 { Measured::Least } else { Measured::Failed }
+        let is_found = self.holds(values, w, s) && size < 1e-6;
+        if is_found && (!follows || self.is_firm(s)) { Measured::Least } else { Measured::Failed }
+    }
+
+    /// Returns true if what is least is curved by [`FIRM`] in every direction that the rows leave free, by the
+    /// matrix of the last step.
+    fn is_firm(&self, s: &mut LeastScratch) -> bool {
+        let (n, m) = (self.block.unknowns.len(), self.block.height());
+        let seconds = s.entries.len() - self.block.second_places().count();
+        // rows of small sums cannot bring it down so far
+        s.start.clear();
+        s.start.resize(n, 0.0);
+        for ((i, j), h) in self.block.second_places().zip(&s.entries[seconds..]) {
+            s.start[i as usize] += h.abs();
+            if i != j {
+                s.start[j as usize] += h.abs();
+            }
+        }
+        if s.start.iter().all(|&sum| sum < 1.0 - FIRM) {
+            return true;
+        }
+        s.entries[..n].fill(1.0 - FIRM);
+        self.structure().factorise(&s.entries, &mut s.ldl) == Some(m)
     }
 
     /// Freezes a weight for every row that makes it dimensionless.

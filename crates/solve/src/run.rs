@@ -5,6 +5,8 @@
 //! state is taken in one stride where that is safe and in as many as needed where it is not; where
 //! the branch ends, soft wishes are met as nearly as they can be, and required ones stop the edit.
 
+mod anchors;
+
 use crate::attempt::{self, Approach, Attempt, Buffers, Failure, Frame, Part};
 use crate::fork::{self, Lean};
 use crate::lower::Program;
@@ -14,9 +16,11 @@ use crate::slice::Slice;
 use crate::square::Trust;
 use crate::system::{Level, SlotIndex, Stay};
 use crate::test::Failing;
+use std::ops::Range;
 use std::rc::Rc;
 
-/// The shortest stride, as a part of the whole way.
+/// The first stride of a walk, and the shortest, as parts of the whole way.
+const LONGEST: f64 = 0.5;
 const SHORTEST: f64 = 1e-7;
 /// How many strides are tried before a way is given up.
 const STRIDES: usize = 600;
@@ -232,7 +236,8 @@ impl Drag {
         self.moved_slice = self.has_run;
         let mut way = Way { plan, frame, buffers, host, trial, part };
         let mut outcome;
-        let mut anchored = None;
+        while trust == Trust::Branch && way.take_back(slice, branch, goal) {}
+        let anchors = way.frame.anchors.len();
         match way.direct(branch, goal, trust) {
             Ok(()) => {
                 outcome = way.test_trial(&self.upstream);
@@ -245,31 +250,24 @@ impl Drag {
                     }
                     std::mem::swap(way.trial, now);
                     branch.copy_from_slice(now);
+                    way.rest_at(now);
                     self.has_branch = true;
                     self.leans = false;
                 }
             }
             Err(failure) => {
                 let mut limit = branch.clone();
-                let mut fraction = way.walk(&mut limit, goal, trust);
-                if fraction < 1.0 && trust == Trust::Branch && plan.has_least {
-                    // least change from x0 goes no further on its branch: from here on, then
-                    let mut anew = frame.clone();
-                    anew.anchor = Some(limit.clone());
-                    let Way { buffers, host, trial, .. } = &mut way;
-                    let mut on = Way { plan, frame: &anew, buffers, host: *host, trial, part };
-                    let rest = on.walk(&mut limit, goal, trust);
-                    fraction = if rest == 1.0 { 1.0 } else { fraction + (1.0 - fraction) * rest };
-                    anchored = anew.anchor.filter(|_| rest > 0.0);
-                }
+                let fraction = way.walk_on(&mut limit, goal, trust);
                 self.leans &= fraction == 0.0;
                 if self.leans {
-                    limit.clone_from(&frame.x0);
+                    limit.clone_from(&way.frame.x0);
                 }
                 let approached = fraction < 1.0 && way.approach(&limit, goal, &failure).is_ok();
                 // from here on nothing is known to hold because of how it was computed
                 way.part = Part::Whole;
                 if approached {
+                    // the branch is followed from where it was
+                    way.frame.anchors.truncate(anchors);
                     outcome = way.test_trial(&[]);
                     if outcome.is_solved() {
                         std::mem::swap(way.trial, now);
@@ -295,9 +293,6 @@ impl Drag {
             let _ = way.direct(now, now, trust);
         }
         outcome.notes.append(&mut buffers.notes);
-        if anchored.is_some() {
-            frame.anchor = anchored;
-        }
         outcome
     }
 }
@@ -314,7 +309,7 @@ fn start(plan: &Plan, runner: &mut Runner, x0: &[f64], changed: &[SlotIndex]) ->
     let Runner { frame, buffers, .. } = runner;
     frame.x0.clear();
     frame.x0.extend(x0.iter().map(|&v| if v.is_finite() { v } else { 0.0 }));
-    frame.anchor = None;
+    frame.anchors.clear();
     measure_scales(plan, frame);
     frame.changed_texts.clear();
     frame
@@ -387,7 +382,7 @@ impl Stop {
 /// The way from one state to another.
 struct Way<'a> {
     plan: &'a Plan,
-    frame: &'a Frame,
+    frame: &'a mut Frame,
     buffers: &'a mut Buffers,
     host: &'a mut dyn Host,
     /// Where attempts put their values.
@@ -416,7 +411,7 @@ impl Way<'_> {
             Err(failure) => failure,
         };
         let fraction = match trust {
-            Trust::Branch => self.walk(last, goal, trust),
+            Trust::Branch => self.walk_on(last, goal, trust),
             Trust::Any | Trust::Leap => 0.0,
         };
         if fraction == 1.0 {
@@ -447,8 +442,8 @@ impl Way<'_> {
         approach: &Approach,
     ) -> Result<(), Failure> {
         self.set_out(last, goal, part);
-        let Self { plan, frame, part, .. } = *self;
-        let attempt = Attempt { plan, frame, last, trust, part };
+        let Self { plan, part, .. } = *self;
+        let attempt = Attempt { plan, frame: self.frame, last, trust, part };
         attempt.run(self.trial, approach, self.buffers, self.host)
     }
 
@@ -472,10 +467,11 @@ impl Way<'_> {
         }
     }
 
-    /// Many strides, each as long as the branch allows; returns the part that was gone.
-    fn walk(&mut self, last: &mut [f64], goal: &[f64], trust: Trust) -> f64 {
+    /// Many strides, each as long as the branch allows, the first and the shortest so long; returns the part
+    /// that was gone.
+    fn walk(&mut self, last: &mut [f64], goal: &[f64], trust: Trust, strides: Range<f64>) -> f64 {
         let mut gone = 0.0;
-        let mut length: f64 = 0.5;
+        let mut length = strides.start;
         for _ in 0..STRIDES {
             let part = if gone + length >= 1.0 { 1.0 } else { length / (1.0 - gone) };
             if self.stride(last, goal, part, trust, &Approach::Nowhere).is_ok() {
@@ -487,7 +483,7 @@ impl Way<'_> {
                 length *= 2.0;
             } else {
                 length = length.min(1.0 - gone) * 0.5;
-                if length < SHORTEST {
+                if length < strides.end {
                     break;
                 }
             }
@@ -517,15 +513,15 @@ impl Way<'_> {
     /// One stride, going back to other roots where a step has no solution.
     fn search(&mut self, last: &[f64], goal: &[f64]) -> Result<(), Failure> {
         self.set_out(last, goal, 1.0);
-        let Self { plan, frame, part, .. } = *self;
-        let attempt = Attempt { plan, frame, last, trust: Trust::Any, part };
+        let Self { plan, part, .. } = *self;
+        let attempt = Attempt { plan, frame: self.frame, last, trust: Trust::Any, part };
         attempt.search(self.trial, self.buffers, self.host)
     }
 
     /// Returns true if a required row that depends on others does not hold, but may on another root.
     fn is_broken(&mut self) -> bool {
-        let Self { plan, frame, part, .. } = *self;
-        let attempt = Attempt { plan, frame, last: &[], trust: Trust::Any, part };
+        let Self { plan, part, .. } = *self;
+        let attempt = Attempt { plan, frame: self.frame, last: &[], trust: Trust::Any, part };
         plan.has_branches && attempt.broken(self.trial, self.buffers).is_some()
     }
 

@@ -224,3 +224,72 @@ fn a_press_where_all_holds_runs_what_is_downstream_alone() {
     assert!(drag.moved().is_some_and(|moved| !moved.contains(&m) && !moved.contains(&n)));
     assert_eq!(drag.values()[n as usize].to_bits(), (3.0 + 1e-12_f64).to_bits());
 }
+
+/// Drags a chain of fifty joints there and back in so many frames; returns the states at every tenth of the
+/// way, and the largest move in a frame of a unit.
+fn there_and_back(far: [f64; 2], frames: u32) -> (Vec<Vec<f64>>, f64) {
+    let (s, crank) = chain_of_bars(50);
+    let plan = s.plan();
+    let home = crank.map(|slot| s.x0[slot as usize]);
+    let mut drag = s.drag(&plan, &crank);
+    let (mut states, mut fastest) = (Vec::new(), 0.0_f64);
+    let away = [far[0] - home[0], far[1] - home[1]];
+    let length = (away[0] * away[0] + away[1] * away[1]).sqrt();
+    for frame in (1..=frames).chain((0..frames).rev()) {
+        let part = f64::from(frame) / f64::from(frames);
+        let target = [home[0] + part * away[0], home[1] + part * away[1]];
+        let before = drag.values().to_vec();
+        let outcome = drag.follow(&plan, &target, &mut NoHost);
+        assert!(outcome.is_solved(), "{target:?}: {outcome:?}");
+        let moved = furthest(&before, drag.values());
+        fastest = fastest.max(moved / length * f64::from(frames));
+        if frame % (frames / 10) == 0 {
+            states.push(drag.values().to_vec());
+        }
+    }
+    assert_eq!(bits(drag.values()), bits(&s.x0), "{far:?} in {frames} frames");
+    (states, fastest)
+}
+
+fn furthest(a: &[f64], b: &[f64]) -> f64 {
+    a.iter().zip(b).map(|(a, b)| (a - b).abs()).fold(0.0, f64::max)
+}
+
+#[test]
+fn a_long_chain_comes_back_as_it_went_however_the_frames_fall() {
+    // the first two leave the branch of least change from the press, four times and once
+    for far in [[200.0, 200.0], [60.0, 200.0], [150.0, 20.0], [0.0, -200.0]] {
+        let (states, fastest) = there_and_back(far, 700);
+        assert!(fastest < 4.0, "{far:?}: a joint moves {fastest} times as fast as the end");
+        for (out, back) in states[..9].iter().zip(states[10..19].iter().rev()) {
+            assert!(furthest(out, back) < 1e-9, "{far:?}: {:e} off", furthest(out, back));
+        }
+        for frames in [30, 90] {
+            for (one, other) in states.iter().zip(&there_and_back(far, frames).0) {
+                let off = furthest(one, other);
+                assert!(off < 1e-9, "{far:?} in {frames} frames: {off:e} off");
+            }
+        }
+    }
+}
+
+#[test]
+fn a_long_chain_that_is_led_round_does_not_jump() {
+    let (s, crank) = chain_of_bars(50);
+    let plan = s.plan();
+    let home = crank.map(|slot| s.x0[slot as usize]);
+    let mut drag = s.drag(&plan, &crank);
+    let mut from = home;
+    for to in [[200.0, 200.0], [0.0, 200.0], home] {
+        let mut largest = 0.0_f64;
+        for frame in 1..=500 {
+            let part = f64::from(frame) / 500.0;
+            let target = [0, 1].map(|i| from[i] + part * (to[i] - from[i]));
+            let before = drag.values().to_vec();
+            assert!(drag.follow(&plan, &target, &mut NoHost).is_solved());
+            largest = largest.max(furthest(&before, drag.values()));
+        }
+        assert!(largest < 1.0, "a joint moves by {largest} on the way to {to:?}");
+        from = to;
+    }
+}

@@ -1,0 +1,117 @@
+//! Anchors: where least change was measured anew.
+//!
+//! In: a way along a branch of least change. Least change from the press has no minimum any more beyond some
+//! wish, as where a chain that bent one way would have to bend the other. The way goes on from there, measured
+//! from there: the state is an anchor. Where the wish comes back past it, the former measure is taken up
+//! again. So what a wish leads to depends on the way there and not on its frames, and the way back is the way out.
+
+use super::{LONGEST, SHORTEST, Way};
+use crate::attempt::Approach;
+use crate::slice::Slice;
+use crate::square::Trust;
+use crate::system::SlotIndex;
+
+/// The shortest stride where the end of a branch is to be found exactly.
+const EXACT: f64 = 1e-11;
+/// How often least change is measured anew in one drag.
+const ANCHORS: usize = 256;
+/// A way comes past an anchor where it is as near to it as this, in parts of its own length.
+const PASSING: f64 = 0.5;
+/// Two measures agree where no slot differs by more, in parts of the extent.
+const SAME: f64 = 5e-3;
+/// The part of the way on from there that shows whether a measure can go on.
+const ONWARD: f64 = 1.0 / 1024.0;
+
+impl Way<'_> {
+    /// Many strides; where least change goes no further on its branch, it is measured anew from there. Returns
+    /// the part that was gone.
+    pub(super) fn walk_on(&mut self, last: &mut [f64], goal: &[f64], trust: Trust) -> f64 {
+        let mut gone = self.walk(last, goal, trust, LONGEST..SHORTEST);
+        if trust != Trust::Branch || !self.plan.has_least {
+            return gone;
+        }
+        while gone < 1.0 && self.frame.anchors.len() < ANCHORS {
+            self.frame.anchors.push(last.to_vec());
+            let goes_on = self.stride(last, goal, SHORTEST, trust, &Approach::Nowhere).is_ok();
+            self.frame.anchors.pop();
+            if !goes_on {
+                break;
+            }
+            // from exactly where the branch ends, however long the strides were
+            gone += (1.0 - gone) * self.walk(last, goal, trust, SHORTEST..EXACT);
+            self.frame.anchors.push(last.to_vec());
+            let on = self.walk(last, goal, trust, LONGEST..SHORTEST);
+            gone = if on == 1.0 { 1.0 } else { gone + (1.0 - gone) * on };
+        }
+        gone
+    }
+
+    /// Where the way from `last` to the goal comes back past the wish at which least change was last measured
+    /// anew, goes there, and measures again from where it was measured from before. Returns true if it did.
+    pub(super) fn take_back(&mut self, slice: &Slice, last: &mut [f64], goal: &[f64]) -> bool {
+        let Some(anchor) = self.frame.anchors.pop() else { return false };
+        let taken = self.former(slice, &anchor, last, goal);
+        if let Some(state) = &taken {
+            last.copy_from_slice(state);
+        } else {
+            self.frame.anchors.push(anchor);
+        }
+        taken.is_some()
+    }
+
+    /// Finds the state that the former measure gives where a way passes an anchor, if the present one, whose
+    /// `anchor` it is, gives the same there and the former one can go on.
+    fn former(
+        &mut self,
+        slice: &Slice,
+        anchor: &[f64],
+        last: &[f64],
+        goal: &[f64],
+    ) -> Option<Vec<f64>> {
+        let turn = passing(slice, &self.frame.scales, anchor, last, goal)?;
+        self.stride(anchor, &turn, 1.0, Trust::Branch, &Approach::Nowhere).ok()?;
+        let state = self.trial.clone();
+        let mut present = last.to_vec();
+        self.frame.anchors.push(anchor.to_vec());
+        let came = self.walk(&mut present, &turn, Trust::Branch, LONGEST..SHORTEST) == 1.0;
+        self.frame.anchors.pop();
+        let is_near = |&t: &SlotIndex| {
+            let t = t as usize;
+            (present[t] - state[t]).abs() <= SAME * self.frame.scales[t]
+        };
+        (came && slice.targets.iter().all(is_near)).then_some(state)
+    }
+
+    /// Forgets the anchors where everything is as it was when the edit began.
+    pub(super) fn rest_at(&mut self, state: &[f64]) {
+        if !self.frame.anchors.is_empty() && self.frame.x0 == state {
+            self.frame.anchors.clear();
+        }
+    }
+}
+
+/// Returns where the way from one wish to another has just been nearest to an anchor's, if that is near.
+fn passing(
+    slice: &Slice,
+    scales: &[f64],
+    anchor: &[f64],
+    last: &[f64],
+    goal: &[f64],
+) -> Option<Vec<f64>> {
+    let inputs = || slice.inputs.iter().map(|&i| i as usize);
+    let (mut along, mut square) = (0.0, 0.0);
+    for i in inputs() {
+        let way = (goal[i] - last[i]) / scales[i];
+        along += way * ((anchor[i] - last[i]) / scales[i]);
+        square += way * way;
+    }
+    let part = (along / square).max(0.0);
+    let mut turn = goal.to_vec();
+    if part < 1.0 {
+        let part = part + ONWARD * (1.0 - part);
+        inputs().for_each(|i| turn[i] = last[i] + part * (goal[i] - last[i]));
+    }
+    let off = |i: usize| (turn[i] - anchor[i]) / scales[i];
+    let distance: f64 = inputs().map(|i| off(i) * off(i)).sum();
+    (distance <= PASSING * PASSING * square).then_some(turn)
+}
