@@ -186,16 +186,12 @@ impl Planner {
             }
         }
         let ran = run(self, model, task, &Aim::default(), before, values, host);
-        let is_plain = ran.is_solved && ran.double_roots.is_empty();
+        let is_plain = ran.is_solved && ran.is_met && ran.double_roots.is_empty();
         if let Some(bound) = ran.not_decided {
             self.given_up.push((task.component.clone(), bound));
         }
         note(report, task, ran);
         let (plan, began) = began.filter(|_| is_plain)?;
-        let rules = task.component.rules.iter().copied();
-        if !self.unmet(model, rules, values, host).is_empty() {
-            return None;
-        }
         let mut local = began.clone();
         local.iter_mut().zip(task.numbers(&values.numbers)).for_each(|(x, now)| *x = now);
         Some(self.plans.past.keep(plan, slots, &began, &local))

@@ -21,6 +21,8 @@ pub(crate) struct Ran {
     pub(crate) is_solved: bool,
     /// True if everything could be computed, and something required does not hold all the same.
     pub(crate) is_conflict: bool,
+    /// True if every relation of a task without modes holds.
+    pub(crate) is_met: bool,
     pub(crate) conflicts: Vec<Conflict>,
     pub(crate) failure: Option<Failure>,
     /// Slots where two solutions coincide.
@@ -219,7 +221,17 @@ pub(crate) fn ran(planner: &Planner, task: &Task, outcome: &Outcome) -> Ran {
     let is_solved = outcome.is_solved();
     let is_conflict = outcome.status == Status::Stopped(Reason::Conflict);
     let double_roots = double_roots.collect();
-    Ran { is_solved, is_conflict, conflicts, failure, double_roots, not_decided, ..Ran::default() }
+    let is_met = outcome.unmet.is_empty();
+    Ran {
+        is_solved,
+        is_conflict,
+        is_met,
+        conflicts,
+        failure,
+        double_roots,
+        not_decided,
+        ..Ran::default()
+    }
 }
 
 /// The host as the solver sees it: relations by number, texts kept aside.

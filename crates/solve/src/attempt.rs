@@ -15,7 +15,8 @@ use crate::slice::Slice;
 use crate::square::{Solved, Square, SquareScratch, Trust};
 use crate::strip::Portion;
 use crate::system::{SlotIndex, Stay};
-use crate::test::TestScratch;
+use crate::test::{Place, TestScratch};
+use std::cell::Cell;
 
 mod backtrack;
 mod roots;
@@ -62,12 +63,30 @@ pub(crate) struct Frame {
     /// The measure of every slot.
     pub(crate) scales: Vec<f64>,
     /// For every row, whether it holds in x0.
-    pub(crate) held: Vec<bool>,
+    pub(crate) held: Vec<Cell<Held>>,
     /// Texts that the edit changed.
     pub(crate) changed_texts: Vec<SlotIndex>,
 }
 
+/// Whether a row holds in x0.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub(crate) enum Held {
+    /// Nobody has asked yet.
+    Unknown,
+    Yes,
+    No,
+}
+
 impl Frame {
+    /// Returns true if a row holds in x0, which is found out where it is not known.
+    pub(crate) fn holds(&self, plan: &Plan, place: Place, work: &mut Workspace) -> bool {
+        let held = &self.held[place.row as usize];
+        if held.get() == Held::Unknown {
+            let holds = plan.holds(place, &self.x0, work);
+            held.set(if holds { Held::Yes } else { Held::No });
+        }
+        held.get() == Held::Yes
+    }
     /// Returns what least change is measured from.
     pub(crate) fn anchor(&self) -> &[f64] {
         self.anchors.last().unwrap_or(&self.x0)
@@ -337,7 +356,10 @@ impl Run<'_> {
             return match &step.program {
                 Program::Constant(_) | Program::Copy => false,
                 Program::Formulas(..) | Program::Inverse(_) | Program::Square(_) => {
-                    step.rows.iter().all(|&r| self.frame.held[r as usize])
+                    step.rows.iter().all(|&row| {
+                        let place = self.plan.place_of(row);
+                        self.frame.holds(self.plan, place, &mut self.buffers.work)
+                    })
                 }
                 Program::Host { source, .. } => self.host.holds(*source, self.values),
                 Program::Measure(_) | Program::Least(_) => unreachable!("asked above"),

@@ -8,12 +8,13 @@ use crate::direct::{self, Direction};
 use crate::few::Few;
 use crate::lower::{self, Program, Region};
 use crate::order::{self, Block, Incidence};
-use crate::pattern::{Pattern, PatternId, Patterns};
+use crate::pattern::{Pattern, Patterns};
 use crate::rows::{self, Rows};
 use crate::slice::Slice;
 use crate::stated::Stated;
 use crate::substitute::{self, Classes};
 use crate::system::{Level, RelationBody, Slot, SlotIndex, Span, Stay, System};
+use crate::test::{Place, Tests};
 use crate::tie;
 use crate::view::{self, Exchange};
 use base::number::Tolerance;
@@ -138,6 +139,8 @@ pub struct Plan {
     pub(crate) has_least: bool,
     stated: Stated,
     relaxed: OnceCell<Option<Box<Plan>>>,
+    /// Every equation, laid out to be tested when that is first asked.
+    tests: OnceCell<Tests>,
     /// What the latest drag could change.
     slice: RefCell<Option<Rc<Slice>>>,
 }
@@ -161,11 +164,18 @@ pub(crate) struct PlannedRelation {
     pub(crate) level: Level,
     pub(crate) within: Tolerance,
     pub(crate) source: u32,
-    /// Its first equation in the system; an opaque relation has none.
+    /// Its first equation in the system; one that has none stands where it would.
     pub(crate) first_row: u32,
     pub(crate) rows: u32,
     /// For an opaque relation, the slots that it speaks of.
     pub(crate) opaque: Option<Vec<SlotIndex>>,
+}
+
+impl PlannedRelation {
+    /// Returns its equations, itself being the relation of this index.
+    pub(crate) fn places(&self, relation: u32) -> impl Iterator<Item = Place> + use<> {
+        (self.first_row..self.first_row + self.rows).map(move |row| Place { relation, row })
+    }
 }
 
 /// Everything known before blocks are lowered.
@@ -278,6 +288,7 @@ fn plan_stated(stated: Stated) -> Plan {
         has_branches,
         stated,
         relaxed: OnceCell::new(),
+        tests: OnceCell::new(),
         slice: RefCell::default(),
     }
 }
@@ -294,11 +305,15 @@ fn planned_slots(system: &System) -> Vec<PlannedSlot> {
 
 fn tests_of_relations(system: &System) -> Vec<PlannedRelation> {
     let mut relations = Vec::with_capacity(system.relations.len());
+    let mut next = 0;
     for relation in &system.relations {
         let (rows, opaque) = match &relation.body {
-            RelationBody::Equations(span) => (*span, None),
-            RelationBody::Opaque { slots } => (Span::default(), Some(slots.clone())),
+            RelationBody::Equations(span) if span.len > 0 => (*span, None),
+            RelationBody::Equations(_) => (Span { start: next, len: 0 }, None),
+            RelationBody::Opaque { slots } => (Span { start: next, len: 0 }, Some(slots.clone())),
         };
+        debug_assert!(rows.start >= next, "equations stand in the order of their relations");
+        next = rows.start + rows.len;
         relations.push(PlannedRelation {
             level: relation.level,
             within: relation.within,
@@ -414,8 +429,24 @@ impl Plan {
     pub(crate) fn system(&self) -> &System {
         &self.stated.system
     }
-    pub(crate) fn pattern(&self, id: PatternId) -> &Pattern {
-        self.stated.pattern(id)
+    /// Returns the pattern of an equation, by its place among those that the system uses.
+    pub(crate) fn pattern_place(&self, row: u32) -> usize {
+        self.stated.place(self.system().equations[row as usize].pattern)
+    }
+    /// Returns an equation with the relation that it is of.
+    pub(crate) fn place_of(&self, row: u32) -> Place {
+        let relation = self.relations.partition_point(|r| r.first_row + r.rows <= row);
+        Place { relation: relation as u32, row }
+    }
+    pub(crate) fn pattern_at(&self, place: usize) -> &Pattern {
+        self.stated.pattern_at(place)
+    }
+    pub(crate) fn pattern_count(&self) -> usize {
+        self.stated.pattern_count()
+    }
+    /// Returns every equation, laid out to be tested.
+    pub(crate) fn tests(&self) -> &Tests {
+        self.tests.get_or_init(|| Tests::new(self, 0..self.relations.len() as u32))
     }
     /// Returns what moving these known slots can change; made once.
     pub(crate) fn slice(&self, inputs: &[SlotIndex]) -> Rc<Slice> {

@@ -7,7 +7,8 @@
 
 mod anchors;
 
-use crate::attempt::{self, Approach, Attempt, Buffers, Failure, Frame, Part};
+use crate::attempt::{self, Approach, Attempt, Buffers, Failure, Frame, Held, Part};
+use crate::block::Workspace;
 use crate::fork::{self, Lean};
 use crate::lower::Program;
 use crate::outcome::{Host, Outcome, Reason, Status, Unmet};
@@ -15,8 +16,9 @@ use crate::plan::Plan;
 use crate::slice::Slice;
 use crate::square::Trust;
 use crate::system::{Level, SlotIndex, Stay};
-use crate::test::Failing;
-use std::ops::Range;
+use crate::test::{Differing, Failing, Place, Tests};
+use std::cell::Cell;
+use std::ops::{ControlFlow, Range};
 use std::rc::Rc;
 
 /// The first stride of a walk, and the shortest, as parts of the whole way.
@@ -76,8 +78,11 @@ pub fn run(
 ) -> Outcome {
     runner.came.clear();
     runner.came.extend_from_slice(values);
-    let solved_before = start(plan, runner, x0, changed);
+    start(plan, runner, x0, changed);
     let Runner { frame, buffers, last, goal, came, trial, leans } = runner;
+    let solved_before = frame.changed_texts.is_empty()
+        && plan.slots.iter().all(|s| s.stay != Stay::Free)
+        && required_rows_held(plan, frame, buffers);
     last.clear();
     last.extend_from_slice(&frame.x0);
     fork::lean(plan, frame, buffers, leans, last);
@@ -152,10 +157,10 @@ impl Drag {
         start(plan, &mut runner, x0, &[]);
         let slice = plan.slice(inputs);
         let Runner { frame, buffers, .. } = &mut runner;
-        let has_branch = required_rows_held(plan, frame);
+        let has_branch = required_rows_held(plan, frame, buffers);
         let mut branch = frame.x0.clone();
         // what is not downstream rests where everything holds: it need not run
-        let rests = slice.is_held && frame.held.iter().all(|&held| held);
+        let rests = slice.is_held && frame.held.iter().all(|held| held.get() == Held::Yes);
         let has_run = rests && slice.restless.iter().all(|&s| stands(plan, s, &frame.x0));
         if has_run {
             attempt::begin(plan, frame, &mut branch, buffers);
@@ -297,16 +302,9 @@ impl Drag {
     }
 }
 
-fn required_rows_held(plan: &Plan, frame: &Frame) -> bool {
-    plan.relations.iter().filter(|r| r.level == Level::Required).all(|r| {
-        let first = r.first_row as usize;
-        frame.held[first..first + r.rows as usize].iter().all(|&held| held)
-    })
-}
-
-/// Fixes what does not change during the edit; returns true if x0 holds already.
-fn start(plan: &Plan, runner: &mut Runner, x0: &[f64], changed: &[SlotIndex]) -> bool {
-    let Runner { frame, buffers, .. } = runner;
+/// Fixes what does not change during the edit.
+fn start(plan: &Plan, runner: &mut Runner, x0: &[f64], changed: &[SlotIndex]) {
+    let Runner { frame, .. } = runner;
     frame.x0.clear();
     frame.x0.extend(x0.iter().map(|&v| if v.is_finite() { v } else { 0.0 }));
     frame.anchors.clear();
@@ -316,13 +314,29 @@ fn start(plan: &Plan, runner: &mut Runner, x0: &[f64], changed: &[SlotIndex]) ->
         .changed_texts
         .extend(changed.iter().copied().filter(|&c| !plan.slots[c as usize].is_number));
     frame.held.clear();
-    frame.held.resize(plan.system().equations.len(), true);
-    let Frame { x0, held, .. } = &mut *frame;
-    let all = 0..plan.relations.len() as u32;
-    plan.each_failing(all, x0, &mut buffers.test, &mut |f| held[f.row as usize] = false);
-    frame.changed_texts.is_empty()
-        && plan.slots.iter().all(|s| s.stay != Stay::Free)
-        && required_rows_held(plan, frame)
+    frame.held.resize(plan.system().equations.len(), Cell::new(Held::Unknown));
+}
+
+/// Returns true if every required row holds in x0. Where that is so it is known of the others too.
+fn required_rows_held(plan: &Plan, frame: &Frame, buffers: &mut Buffers) -> bool {
+    let Buffers { work, test, .. } = buffers;
+    let mut differs = |differing: Differing, work: &mut Workspace| {
+        let Place { relation, row } = differing.place;
+        if plan.is_rounding(differing, &frame.x0, work) {
+            return ControlFlow::Continue(());
+        }
+        frame.held[row as usize].set(Held::No);
+        match plan.relations[relation as usize].level {
+            Level::Required => ControlFlow::Break(()),
+            Level::Strong | Level::Move | Level::Medium | Level::Weak => ControlFlow::Continue(()),
+        }
+    };
+    if plan.each_differing(plan.tests(), &frame.x0, work, test, &mut differs).is_break() {
+        return false;
+    }
+    let unknown = frame.held.iter().filter(|held| held.get() == Held::Unknown);
+    unknown.for_each(|held| held.set(Held::Yes));
+    true
 }
 
 /// The extent of every class of slots that have a value; at least their size, one where all is zero.
@@ -561,11 +575,10 @@ impl Way<'_> {
         let mut unmet = Vec::new();
         match self.part {
             Part::Whole => {
-                let all = 0..self.plan.relations.len() as u32;
-                self.failing(all, &self.plan.opaque, values, &mut unmet);
+                self.failing(self.plan.tests(), &self.plan.opaque, values, &mut unmet);
             }
             Part::Downstream(slice) => {
-                self.failing(slice.tests.iter().copied(), &slice.opaque, values, &mut unmet);
+                self.failing(&slice.tests, &slice.opaque, values, &mut unmet);
                 unmet.extend(upstream);
             }
         }
@@ -578,13 +591,7 @@ impl Way<'_> {
     }
 
     /// Adds the relations that do not hold: those of equations, and those that only the host can test.
-    fn failing(
-        &mut self,
-        relations: impl Iterator<Item = u32>,
-        opaque: &[u32],
-        values: &[f64],
-        unmet: &mut Vec<Unmet>,
-    ) {
+    fn failing(&mut self, tests: &Tests, opaque: &[u32], values: &[f64], unmet: &mut Vec<Unmet>) {
         let mut add = |f: Failing| match unmet.last_mut() {
             Some(last) if last.relation == f.relation => {
                 if f.error > last.error {
@@ -596,7 +603,8 @@ impl Way<'_> {
                 unmet.push(Unmet { relation, error, tolerance });
             }
         };
-        self.plan.each_failing(relations, values, &mut self.buffers.test, &mut add);
+        let Buffers { work, test, .. } = &mut *self.buffers;
+        self.plan.each_failing(tests, values, work, test, &mut add);
         for &relation in opaque {
             if !self.host.holds(self.plan.relations[relation as usize].source, values) {
                 unmet.push(Unmet { relation, error: 1.0, tolerance: 0.0 });

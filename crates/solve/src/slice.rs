@@ -8,6 +8,7 @@ use crate::lower::Program;
 use crate::plan::{Plan, Step};
 use crate::strip::{Portion, Writers, portions};
 use crate::system::{SlotIndex, Stay};
+use crate::test::Tests;
 
 /// What a drag can change.
 #[derive(Debug, Default)]
@@ -21,8 +22,8 @@ pub(crate) struct Slice {
     /// The relations that speak of any of these slots, or of slots of a region that may be
     /// approached.
     pub(crate) relations: Vec<u32>,
-    /// Those of them that a run of the steps does not make hold by itself.
-    pub(crate) tests: Vec<u32>,
+    /// The equations of those of them that a run of the steps does not make hold by itself.
+    pub(crate) tests: Tests,
     /// Those of them that the host tests.
     pub(crate) opaque: Vec<u32>,
     /// Steps upstream that have to run even where all their relations hold.
@@ -83,6 +84,7 @@ impl Slice {
             }
         }
         made.portions = portions(plan, &steps, &writers);
+        let mut tests = Vec::new();
         for r in 0..plan.relations.len() as u32 {
             if !plan.mentions(r).any(|s| is_reached[s as usize]) {
                 continue;
@@ -93,9 +95,10 @@ impl Slice {
             if relation.opaque.is_some() {
                 made.opaque.push(r);
             } else if !is_settled[rows].iter().all(|&settled| settled) {
-                made.tests.push(r);
+                tests.push(r);
             }
         }
+        made.tests = Tests::new(plan, tests.into_iter());
         made
     }
 }

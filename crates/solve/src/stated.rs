@@ -35,6 +35,9 @@ impl Stated {
     pub(crate) fn place(&self, id: PatternId) -> usize {
         self.patterns.partition_point(|p| p.0 < id)
     }
+    pub(crate) fn pattern_count(&self) -> usize {
+        self.patterns.len()
+    }
     pub(crate) fn pattern_at(&self, place: usize) -> &Rc<Pattern> {
         &self.patterns[place].1
     }

@@ -1,95 +1,214 @@
 //! Tests: which equations do not hold at a state.
 //!
-//! In: relations, by their places in the plan, and values. Out: the equations whose sides differ by
-//! more than they may. Equations of one pattern that follow one another are evaluated in lanes.
+//! In: equations, by their places in the system, and values. Out: those whose sides differ by more than
+//! they may. Equations of one pattern are laid out together once and evaluated in lanes. Whether
+//! rounding explains a difference is asked only of an equation whose sides differ, and only where
+//! somebody wants to know.
 
-use crate::pattern::{Pattern, PatternId};
+use crate::block::Workspace;
+use crate::pattern::{Pattern, Plain};
 use crate::plan::Plan;
+use crate::system::SlotIndex;
 use base::number::Tolerance;
 use expr::{LANES, Lanes};
+use std::ops::ControlFlow;
 
 /// An equation that does not hold.
 #[derive(Clone, Copy, PartialEq, Debug)]
 pub(crate) struct Failing {
     /// The relation that it belongs to.
     pub(crate) relation: u32,
-    /// Its place in the system.
-    pub(crate) row: u32,
     /// By how much its sides differ.
     pub(crate) error: f64,
     /// By how much they may.
     pub(crate) tolerance: f64,
 }
 
+/// An equation whose sides differ by more than rounding of the sides explains.
+#[derive(Clone, Copy, PartialEq, Debug)]
+pub(crate) struct Differing {
+    pub(crate) place: Place,
+    left: f64,
+    right: f64,
+}
+
+/// An equation to be tested.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub(crate) struct Place {
+    /// The relation that it belongs to.
+    pub(crate) relation: u32,
+    /// Its place in the system.
+    pub(crate) row: u32,
+}
+
+/// Equations to be tested, those of one pattern together.
+#[derive(Clone, Debug, Default)]
+pub(crate) struct Tests {
+    /// Each with the place of its pattern among those that the system uses.
+    groups: Vec<(u32, Vec<Place>)>,
+}
+
 /// Working space for tests.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct TestScratch {
-    /// Relation, place and tolerance of the equations at hand, all of one pattern.
-    batch: Vec<(u32, u32, Tolerance)>,
     arguments: Vec<Lanes>,
     registers: Vec<Lanes>,
-    out: Vec<Lanes>,
+    differing: Vec<Differing>,
 }
 
-impl Plan {
-    /// Calls `fails` for every equation of these relations that does not hold, in their order.
-    pub(crate) fn each_failing(
-        &self,
-        relations: impl Iterator<Item = u32>,
-        values: &[f64],
-        scratch: &mut TestScratch,
-        fails: &mut impl FnMut(Failing),
-    ) {
-        let system = self.system();
-        let mut at_hand: Option<(PatternId, &Pattern)> = None;
-        for r in relations {
-            let relation = &self.relations[r as usize];
-            for row in relation.first_row..relation.first_row + relation.rows {
-                let equation = system.equations[row as usize];
-                let same = at_hand.is_some_and(|(id, _)| id == equation.pattern);
-                if !same || scratch.batch.len() == LANES {
-                    if let Some((_, pattern)) = at_hand {
-                        flush(pattern, scratch, fails);
-                    }
-                    if !same {
-                        let pattern = self.pattern(equation.pattern);
-                        at_hand = Some((equation.pattern, pattern));
-                        let arity = pattern.arity().max(scratch.arguments.len());
-                        scratch.arguments.resize(arity, [0.0; LANES]);
-                    }
+/// From how many equations of a pattern on they are evaluated in lanes.
+const WIDE: usize = 3;
+
+impl Tests {
+    /// Lays out the equations of these relations.
+    pub(crate) fn new(plan: &Plan, relations: impl Iterator<Item = u32>) -> Self {
+        const NONE: u32 = u32::MAX;
+        let mut group_of: Vec<u32> = vec![NONE; plan.pattern_count()];
+        let mut groups: Vec<(u32, Vec<Place>)> = Vec::new();
+        for relation in relations {
+            for place in plan.relations[relation as usize].places(relation) {
+                let pattern = plan.pattern_place(place.row);
+                let group = &mut group_of[pattern];
+                if *group == NONE {
+                    *group = groups.len() as u32;
+                    groups.push((pattern as u32, Vec::new()));
                 }
-                let lane = scratch.batch.len();
-                let arguments = system.arguments(equation.arguments);
-                for (lanes, &slot) in scratch.arguments.iter_mut().zip(arguments) {
-                    lanes[lane] = values[slot as usize];
-                }
-                scratch.batch.push((r, row, relation.within));
+                groups[*group as usize].1.push(place);
             }
         }
-        if let Some((_, pattern)) = at_hand {
-            flush(pattern, scratch, fails);
-        }
+        Self { groups }
     }
 }
 
-/// Tests the equations at hand, all of this pattern.
-fn flush(pattern: &Pattern, scratch: &mut TestScratch, fails: &mut impl FnMut(Failing)) {
-    let mut sides = [[0.0; LANES]; 2];
-    let mut sways = None;
-    let TestScratch { batch, arguments, registers, out } = scratch;
-    let arguments = &arguments[..pattern.arity()];
-    pattern.values().run_lanes(arguments, registers, &mut sides);
-    for (lane, (relation, row, within)) in batch.drain(..).enumerate() {
-        let [left, right] = sides.map(|side| side[lane]);
-        let error = if left == right { 0.0 } else { (left - right).abs() };
+impl Plan {
+    /// Calls `differs` for the equations whose sides differ, until it breaks off.
+    pub(crate) fn each_differing(
+        &self,
+        tests: &Tests,
+        values: &[f64],
+        work: &mut Workspace,
+        scratch: &mut TestScratch,
+        differs: &mut impl FnMut(Differing, &mut Workspace) -> ControlFlow<()>,
+    ) -> ControlFlow<()> {
+        for (pattern, places) in &tests.groups {
+            let pattern = self.pattern_at(*pattern as usize);
+            let mut compare = |place: Place, [left, right]: [f64; 2], work: &mut Workspace| {
+                let within = self.relations[place.relation as usize].within;
+                if within.is_met(left, right) {
+                    return ControlFlow::Continue(());
+                }
+                differs(Differing { place, left, right }, work)
+            };
+            if pattern.plain() == Some(Plain::Same) {
+                for &place in places {
+                    let [a, b] = *self.arguments(place.row) else { unreachable!("it has two") };
+                    compare(place, [a, b].map(|s| values[s as usize]), work)?;
+                }
+                continue;
+            }
+            for some in places.chunks(LANES) {
+                if some.len() < WIDE {
+                    for &place in some {
+                        let sides = self.sides(place.row, pattern, values, work);
+                        compare(place, sides, work)?;
+                    }
+                    continue;
+                }
+                let sides = self.sides_in_lanes(some, pattern, values, scratch);
+                for (lane, &place) in some.iter().enumerate() {
+                    compare(place, sides.map(|side| side[lane]), work)?;
+                }
+            }
+        }
+        ControlFlow::Continue(())
+    }
+
+    /// Calls `fails` for the equations that do not hold, one relation's together.
+    pub(crate) fn each_failing(
+        &self,
+        tests: &Tests,
+        values: &[f64],
+        work: &mut Workspace,
+        scratch: &mut TestScratch,
+        fails: &mut impl FnMut(Failing),
+    ) {
+        let mut differing = std::mem::take(&mut scratch.differing);
+        differing.clear();
+        let add = &mut |d, _: &mut Workspace| {
+            differing.push(d);
+            ControlFlow::Continue(())
+        };
+        // never broken off
+        let _ = self.each_differing(tests, values, work, scratch, add);
+        differing.sort_unstable_by_key(|d| d.place.row);
+        differing.iter().filter_map(|&d| self.failing(d, values, work)).for_each(fails);
+        scratch.differing = differing;
+    }
+
+    /// Returns what an equation fails by whose sides differ; nothing where rounding explains it.
+    fn failing(&self, differing: Differing, values: &[f64], w: &mut Workspace) -> Option<Failing> {
+        let Differing { place: Place { relation, row }, left, right } = differing;
+        let error = (left - right).abs();
         let error = if error.is_nan() { f64::INFINITY } else { error };
-        if error <= within.allowed(left, right) {
-            continue;
+        let within = self.relations[relation as usize].within;
+        let sway = match within {
+            Tolerance::Relative => self.sway(row, values, w),
+            Tolerance::Within(_) => 0.0,
+        };
+        let tolerance = within.allowed_with(left, right, sway);
+        (error > tolerance).then_some(Failing { relation, error, tolerance })
+    }
+
+    /// Returns true if rounding explains by how much the sides of an equation differ.
+    pub(crate) fn is_rounding(
+        &self,
+        differing: Differing,
+        values: &[f64],
+        work: &mut Workspace,
+    ) -> bool {
+        self.failing(differing, values, work).is_none()
+    }
+
+    /// Returns true if an equation of a relation holds.
+    pub(crate) fn holds(&self, place: Place, values: &[f64], work: &mut Workspace) -> bool {
+        let pattern = self.pattern_at(self.pattern_place(place.row));
+        let [left, right] = self.sides(place.row, pattern, values, work);
+        let within = self.relations[place.relation as usize].within;
+        within.is_met(left, right)
+            || self.is_rounding(Differing { place, left, right }, values, work)
+    }
+
+    fn arguments(&self, row: u32) -> &[SlotIndex] {
+        let system = self.system();
+        system.arguments(system.equations[row as usize].arguments)
+    }
+    fn sway(&self, row: u32, values: &[f64], work: &mut Workspace) -> f64 {
+        let pattern = self.pattern_at(self.pattern_place(row));
+        work.sway(pattern.kernel(), self.arguments(row), values)
+    }
+    fn sides(&self, row: u32, pattern: &Pattern, values: &[f64], w: &mut Workspace) -> [f64; 2] {
+        let sides = w.run(pattern.values(), self.arguments(row), values, 2);
+        [sides[0], sides[1]]
+    }
+    fn sides_in_lanes(
+        &self,
+        places: &[Place],
+        pattern: &Pattern,
+        values: &[f64],
+        scratch: &mut TestScratch,
+    ) -> [Lanes; 2] {
+        let arity = pattern.arity();
+        if scratch.arguments.len() < arity {
+            scratch.arguments.resize(arity, [0.0; LANES]);
         }
-        let sways = sways.get_or_insert_with(|| pattern.sways(arguments, registers, out));
-        let tolerance = within.allowed_with(left, right, sways[lane]);
-        if error > tolerance {
-            fails(Failing { relation, row, error, tolerance });
+        let arguments = &mut scratch.arguments[..arity];
+        for (lane, place) in places.iter().enumerate() {
+            for (lanes, &slot) in arguments.iter_mut().zip(self.arguments(place.row)) {
+                lanes[lane] = values[slot as usize];
+            }
         }
+        let mut sides = [[0.0; LANES]; 2];
+        pattern.values().run_lanes(arguments, &mut scratch.registers, &mut sides);
+        sides
     }
 }

@@ -120,14 +120,11 @@ impl Attempt<'_> {
     /// Finds a required surplus row that does not hold; returns its slots.
     pub(crate) fn broken(self, values: &[f64], buffers: &mut Buffers) -> Option<Vec<SlotIndex>> {
         let plan = self.plan;
-        let rejected = plan.report.rejected.iter().map(|r| r.relation);
-        let required = |r: &u32| {
-            let relation = &plan.relations[*r as usize];
-            relation.level == Level::Required && relation.opaque.is_none()
-        };
-        let mut broken = None;
-        plan.each_failing(rejected.filter(required), values, &mut buffers.test, &mut |f| {
-            broken = broken.or(Some(f.relation));
+        let mut rejected = plan.report.rejected.iter().map(|r| r.relation);
+        let broken = rejected.find(|&r| {
+            let planned = &plan.relations[r as usize];
+            planned.level == Level::Required
+                && !planned.places(r).all(|place| plan.holds(place, values, &mut buffers.work))
         });
         Some(plan.mentions(broken?).collect())
     }
