@@ -333,29 +333,33 @@ impl Arena {
     /// Cost: that of the nodes reached, whatever else the arena holds.
     pub(crate) fn reachable(&self, roots: &[ExprId]) -> Vec<ExprId> {
         let end = roots.iter().map(|r| r.index() + 1).max().unwrap_or(0);
-        if end <= MARKS * 64 { self.marked(roots) } else { self.collected(roots) }
+        if end <= MARKS * 64 { self.marked(roots, end) } else { self.collected(roots) }
     }
-    /// Marks what is reached among the first nodes; users stand after their operands, so that one
+    fn marked(&self, roots: &[ExprId], end: usize) -> Vec<ExprId> {
+        let mut reached = Vec::with_capacity(end);
+        self.each_marked(roots, end, |id, _| reached.push(id));
+        reached.reverse();
+        reached
+    }
+    /// Marks what is reached among the nodes before `end`; users stand after their operands, so that one
     /// pass from the end meets them all.
-    fn marked(&self, roots: &[ExprId]) -> Vec<ExprId> {
+    fn each_marked(&self, roots: &[ExprId], end: usize, mut visit: impl FnMut(ExprId, Node)) {
         let mut marks = [0_u64; MARKS];
         let mark = |marks: &mut [u64; MARKS], id: ExprId| {
             marks[id.index() / 64] |= 1 << (id.index() % 64);
         };
         roots.iter().for_each(|&r| mark(&mut marks, r));
-        let mut reached = Vec::with_capacity(4 * roots.len() + 8);
-        for word in (0..MARKS).rev() {
+        for word in (0..end.div_ceil(64)).rev() {
             let mut below = u64::MAX;
             while marks[word] & below != 0 {
                 let bit = 63 - (marks[word] & below).leading_zeros();
                 below = (1 << bit) - 1;
                 let id = ExprId::from_index(word * 64 + bit as usize);
-                reached.push(id);
-                self.node(id).each_operand(|operand| mark(&mut marks, operand));
+                let node = self.node(id);
+                visit(id, node);
+                node.each_operand(|operand| mark(&mut marks, operand));
             }
         }
-        reached.reverse();
-        reached
     }
     fn collected(&self, roots: &[ExprId]) -> Vec<ExprId> {
         let mut reached: Set<ExprId> = roots.iter().copied().collect();
@@ -398,9 +402,14 @@ impl Arena {
         }
         results[place(&order, id)]
     }
-    /// Calls `visit` with every operation that an expression is made of, operands before users.
-    pub fn each_node(&self, id: ExprId, visit: impl FnMut(Node)) {
-        self.reachable(&[id]).into_iter().map(|id| self.node(id)).for_each(visit);
+    /// Calls `visit` with every operation that an expression is made of, users before operands.
+    pub fn each_node(&self, id: ExprId, mut visit: impl FnMut(Node)) {
+        let end = id.index() + 1;
+        if end <= MARKS * 64 {
+            self.each_marked(&[id], end, |_, node| visit(node));
+        } else {
+            self.collected(&[id]).into_iter().rev().for_each(|id| visit(self.node(id)));
+        }
     }
     /// Returns the variables that occur in an expression.
     pub fn variables(&self, id: ExprId) -> BTreeSet<Var> {
@@ -480,6 +489,12 @@ impl Arena {
     /// Makes the arena of an excerpt, in which its roots have the ids that they have there.
     pub fn of_excerpt(excerpt: &Excerpt) -> Self {
         Self { nodes: excerpt.nodes.iter().copied().collect() }
+    }
+    /// Makes the same arena, with room for the derivatives of its roots.
+    pub fn to_derive(excerpt: &Excerpt) -> Self {
+        let mut arena = Self::for_nodes(4 * excerpt.nodes.len() + 8);
+        arena.nodes.extend(excerpt.nodes.iter().copied());
+        arena
     }
     /// Makes a node again over other operands, simplified anew.
     fn rebuild(&mut self, node: Node, operand: impl Fn(ExprId) -> ExprId) -> ExprId {

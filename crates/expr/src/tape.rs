@@ -77,6 +77,9 @@ const NOBODY: u32 = u32::MAX;
 /// Shorter runs than this are mixed with those beside them.
 const SHORT: u32 = 4;
 
+/// Up to this many nodes a tape keeps their order: gathering equal operations would make few runs long.
+const SMALL: usize = 40;
+
 /// How many sets of values [`Tape::run_lanes`] takes at once.
 pub const LANES: usize = 8;
 /// One number of each of several sets.
@@ -155,6 +158,9 @@ impl Tape {
     /// Lowers the nodes that `outputs` are made of.
     pub fn compile(arena: &Arena, outputs: &[ExprId]) -> Self {
         let order = arena.reachable(outputs);
+        if order.len() <= SMALL {
+            return in_order(arena, &order, outputs);
+        }
         let mut lowering =
             Lowering { tape: Self::default(), register: vec![u32::MAX; order.len()] };
         let (mut loads, mut inner) = (Vec::new(), Vec::new());
@@ -359,6 +365,51 @@ impl Tape {
     pub fn describe(&self) -> String {
         self.to_string()
     }
+}
+
+/// Lowers nodes in the order in which they stand.
+fn in_order(arena: &Arena, order: &[ExprId], outputs: &[ExprId]) -> Tape {
+    let mut tape = Tape::default();
+    let mut register = [0_u32; SMALL];
+    let mut loads = Vec::with_capacity(order.len());
+    for (i, &id) in order.iter().enumerate() {
+        if let Node::Constant(bits) = arena.node(id) {
+            register[i] = tape.constants.len() as u32;
+            tape.constants.push(f64::from_bits(bits));
+        }
+    }
+    let mut next = tape.constants.len() as u32;
+    for (i, &id) in order.iter().enumerate() {
+        if let Node::Var(var) = arena.node(id) {
+            register[i] = next + loads.len() as u32;
+            loads.push(var.index() as u32);
+        }
+    }
+    tape.load(next, &loads);
+    next += loads.len() as u32;
+    let first = next;
+    tape.mixed.reserve_exact(order.len() - first as usize);
+    for (i, &id) in order.iter().enumerate() {
+        let at = |a: ExprId| register[place(order, a)];
+        let (operation, operands) = match arena.node(id) {
+            Node::Constant(_) | Node::Var(_) => continue,
+            Node::Unary(op, a) => (Operation::Unary(op), [at(a), 0, 0]),
+            Node::Binary(op, a, b) => (Operation::Binary(op), [at(a), at(b), 0]),
+            Node::Select { condition, then, otherwise } => {
+                (Operation::Select, [at(condition), at(then), at(otherwise)])
+            }
+        };
+        tape.mixed.push(Mixed { operation, operands });
+        register[i] = next;
+        next += 1;
+    }
+    if next > first {
+        tape.runs.push(Run { kind: Kind::Mixed, first, count: next - first });
+    }
+    tape.registers = next as usize;
+    tape.outputs.extend(outputs.iter().map(|&id| register[place(order, id)]));
+    tape.is_straight = tape.outputs.windows(2).all(|pair| pair[0] + 1 == pair[1]);
+    tape
 }
 
 /// Returns where a node waits for its turn.
@@ -632,8 +683,8 @@ mod tests {
         let doubled = arena.mul(two, y);
         let e = arena.select(less, square, doubled);
         let text = Tape::compile(&arena, &[e]).describe();
-        let wanted = "r1 = v0\nr2 = v1\nr3 = r1 * r1\nr4 = r2 * 2\nr5 = r3 < r2\n\
-                      r6 = if r5 then r3 else r4\nout 0 = r6\n";
+        let wanted = "r1 = v0\nr2 = v1\nr3 = r1 * r1\nr4 = r3 < r2\nr5 = r2 * 2\n\
+                      r6 = if r4 then r3 else r5\nout 0 = r6\n";
         assert_eq!(text, wanted);
     }
     #[test]

@@ -93,6 +93,8 @@ pub struct Structure {
     pub(crate) next_merged: IdVec<ThingId, ThingId>,
     /// For every first thing of a merge of unlike things, the first of each class, in order.
     pub(crate) unlike: BTreeMap<ThingId, Vec<ThingId>>,
+    /// For every thing, whether it is among the keys of `unlike`; empty where nothing is.
+    pub(crate) is_unlike: IdVec<ThingId, bool>,
     /// For every primitive thing, its slot.
     pub slot_of: IdVec<ThingId, Option<SlotId>>,
     /// Every slot, in order of declaration of its first thing.
@@ -300,10 +302,11 @@ impl Structure {
     /// Returns the first thing of each class that `thing` is merged with, in order of declaration;
     /// nothing where all are of its own class.
     pub fn unlike(&self, thing: ThingId) -> &[ThingId] {
-        if self.unlike.is_empty() {
+        let first = self.merged[thing];
+        if self.is_unlike.get(first) != Some(&true) {
             return &[];
         }
-        self.unlike.get(&self.merged[thing]).map_or(&[], |all| all)
+        self.unlike.get(&first).map_or(&[], |all| all)
     }
     /// Returns the given value of a slot.
     pub fn given(&self, slot: SlotId) -> Option<&GivenTerm> {

@@ -5,10 +5,10 @@
 //! on one side alone and not in e) is *defined*: it is computed forward, exactly, and what is
 //! iterated is the core, from where it is. Forces between beams, results of operations are such.
 
-use crate::kernel::{Kernel, Side};
+use crate::kernel::{Entry, Kernel, Side};
 use crate::lower::{Definers, Problem};
 use crate::sparse::Pattern;
-use crate::system::{Level, SlotIndex};
+use crate::system::{Level, SlotIndex, Span};
 use base::number::Tolerance;
 use expr::{Arena, ExprId, LANES, Lanes, Var};
 use std::rc::Rc;
@@ -34,6 +34,12 @@ pub(crate) struct Block {
     /// True if no derivative depends on an unknown.
     pub(crate) is_linear: bool,
     groups: Vec<Group>,
+    /// The rows of all groups.
+    grouped: Vec<u32>,
+    /// The slots of all rows, in the order of `grouped`.
+    arguments: Vec<SlotIndex>,
+    /// For every row in that order, where each of the kernel's derivatives goes in the Jacobian.
+    entries: Vec<u32>,
     seconds: OnceLock<Vec<(u32, u32)>>,
     /// For every row, its group and its place there.
     place: Vec<(u32, u32)>,
@@ -54,12 +60,12 @@ pub(crate) struct Definition {
 #[derive(Debug)]
 struct Group {
     kernel: Rc<Kernel>,
-    /// The rows, by position.
-    rows: Vec<u32>,
-    /// The slots of every row, one row after the other.
-    arguments: Vec<SlotIndex>,
-    /// For every row, where each of the kernel's derivatives goes in the Jacobian.
-    entries: Vec<u32>,
+    /// The rows, by position, among [`Block::grouped`].
+    rows: Span,
+    /// Where the slots of its rows begin, one row after the other, among [`Block::arguments`].
+    arguments: u32,
+    /// Where its entries begin among [`Block::entries`].
+    entries: u32,
 }
 
 /// The derivative is by something known.
@@ -74,6 +80,8 @@ pub(crate) struct Local {
     pub(crate) right: Vec<f64>,
     /// The entries of the Jacobian of `left - right`, in the order of the pattern.
     pub(crate) jacobian: Vec<f64>,
+    /// The sway of every row, where it was computed.
+    sway: Vec<f64>,
 }
 
 /// Working space for evaluation; serves any number of blocks.
@@ -143,62 +151,84 @@ impl Block {
     /// Lays a block out.
     pub(crate) fn new(problem: &Problem, definers: Definers) -> Self {
         let unknowns = problem.unknowns.clone();
-        let position = |slot: SlotIndex| unknowns.binary_search(&slot).ok();
         let mut groups: Vec<Group> = Vec::new();
-        let mut place = Vec::with_capacity(problem.rows.len());
-        let mut is_linear = true;
-        for (r, row) in problem.rows.iter().enumerate() {
+        let mut place: Vec<(u32, u32)> = Vec::with_capacity(problem.rows.len());
+        for row in &problem.rows {
             let same = |g: &Group| Rc::ptr_eq(&g.kernel, &row.kernel);
             let at = groups.iter().rposition(same).unwrap_or_else(|| {
-                groups.push(Group {
-                    kernel: Rc::clone(&row.kernel),
-                    rows: Vec::new(),
-                    arguments: Vec::new(),
-                    entries: Vec::new(),
-                });
+                let kernel = Rc::clone(&row.kernel);
+                groups.push(Group { kernel, rows: Span::default(), arguments: 0, entries: 0 });
                 groups.len() - 1
             });
-            place.push((at as u32, groups[at].rows.len() as u32));
-            groups[at].rows.push(r as u32);
-            groups[at].arguments.extend(&row.arguments);
-            let is_unknown = |a: u32| position(row.arguments[a as usize]).is_some();
-            is_linear &= row
-                .kernel
-                .entries
-                .iter()
-                .all(|e| !is_unknown(e.argument) || !e.depends.iter().any(|&a| is_unknown(a)));
+            place.push((at as u32, groups[at].rows.len));
+            groups[at].rows.len += 1;
         }
-        let columns = |row: &crate::lower::ProblemRow| -> Vec<u32> {
-            let of = |e: &crate::kernel::Entry| position(row.arguments[e.argument as usize]);
-            row.kernel.entries.iter().filter_map(of).map(|c| c as u32).collect()
-        };
-        let pattern = Pattern::of_rows(unknowns.len(), problem.rows.iter().map(columns));
+        let (mut rows, mut arguments, mut entries) = (0, 0, 0);
         for group in &mut groups {
-            for (i, &r) in group.rows.iter().enumerate() {
-                let arguments = &group.arguments[i * group.kernel.arity()..];
-                let entry = |e: &crate::kernel::Entry| {
-                    position(arguments[e.argument as usize])
-                        .and_then(|c| pattern.find(r as usize, c as u32))
-                        .map_or(KNOWN, |at| at as u32)
-                };
-                group.entries.extend(group.kernel.entries.iter().map(entry));
-            }
+            group.rows.start = rows;
+            (group.arguments, group.entries) = (arguments, entries);
+            rows += group.rows.len;
+            arguments += group.rows.len * group.kernel.arity() as u32;
+            entries += group.rows.len * group.kernel.entries.len() as u32;
         }
         let mut block = Self {
             within: problem.rows.iter().map(|r| r.within).collect(),
             levels: problem.rows.iter().map(|r| r.level).collect(),
             unknowns,
-            pattern,
+            pattern: Pattern::default(),
             core_rows: Vec::new(),
             core: Vec::new(),
             definitions: Vec::new(),
-            is_linear,
+            is_linear: true,
             groups,
+            grouped: vec![0; rows as usize],
+            arguments: vec![0; arguments as usize],
+            entries: vec![KNOWN; entries as usize],
             seconds: OnceLock::new(),
             place,
         };
+        block.fill(problem);
         block.define(definers);
         block
+    }
+
+    /// Puts the slots of every row in, and where its derivatives go.
+    fn fill(&mut self, problem: &Problem) {
+        let mut pattern = Pattern::with_width(self.unknowns.len());
+        // the unknown that each argument of the row is
+        let mut position: Vec<u32> = Vec::new();
+        for (r, row) in problem.rows.iter().enumerate() {
+            let (group, at) = self.place[r];
+            let Group { kernel, rows, arguments, entries } = &self.groups[group as usize];
+            let (arity, count) = (kernel.arity(), kernel.entries.len());
+            self.grouped[(rows.start + at) as usize] = r as u32;
+            let start = *arguments as usize + at as usize * arity;
+            self.arguments[start..start + arity].copy_from_slice(&row.arguments);
+            let unknown = |s| self.unknowns.binary_search(s).map_or(KNOWN, |at| at as u32);
+            position.clear();
+            position.extend(row.arguments.iter().map(unknown));
+            let of = |e: &Entry| position[e.argument as usize];
+            let is_unknown = |&a: &u32| position[a as usize] != KNOWN;
+            self.is_linear &=
+                kernel.entries.iter().all(|e| of(e) == KNOWN || !e.depends.iter().any(is_unknown));
+            pattern.push(kernel.entries.iter().map(of).filter(|&c| c != KNOWN));
+            let places = &mut self.entries[*entries as usize + at as usize * count..][..count];
+            for (place, entry) in places.iter_mut().zip(&kernel.entries) {
+                if of(entry) != KNOWN {
+                    *place = pattern.find(r, of(entry)).map_or(KNOWN, |at| at as u32);
+                }
+            }
+        }
+        self.pattern = pattern;
+    }
+    /// Returns the rows of a group, by position.
+    fn rows_of(&self, group: &Group) -> &[u32] {
+        &self.grouped[group.rows.range()]
+    }
+    /// Returns the slots of the rows of a group, one row after the other.
+    fn arguments_of(&self, group: &Group) -> &[SlotIndex] {
+        let count = group.rows.len as usize * group.kernel.arity();
+        &self.arguments[group.arguments as usize..][..count]
     }
 
     /// Returns the number of rows.
@@ -207,17 +237,15 @@ impl Block {
     }
     /// Returns every slot that the rows speak of, some more than once.
     pub(crate) fn slots(&self) -> impl Iterator<Item = SlotIndex> + '_ {
-        self.groups
-            .iter()
-            .flat_map(|g| g.arguments.iter().copied())
-            .chain(self.unknowns.iter().copied())
+        self.arguments.iter().chain(&self.unknowns).copied()
     }
     /// Returns a row's kernel and arguments.
     pub(crate) fn row(&self, row: usize) -> (&Rc<Kernel>, &[SlotIndex]) {
         let (group, at) = self.place[row];
         let group = &self.groups[group as usize];
         let arity = group.kernel.arity();
-        (&group.kernel, &group.arguments[at as usize * arity..][..arity])
+        let start = group.arguments as usize + at as usize * arity;
+        (&group.kernel, &self.arguments[start..][..arity])
     }
 
     /// Finds what the rows define, in an order in which it can be computed.
@@ -412,11 +440,13 @@ impl Block {
     /// Evaluates both sides of every row.
     pub(crate) fn sides(&self, values: &[f64], w: &mut Workspace, local: &mut Local) {
         self.prepare(local);
+        local.sway.clear();
         for group in &self.groups {
             let Local { left, right, .. } = local;
-            group.each(&group.kernel.sides, 2, values, w, &mut |row, out, value| {
-                let side = if out == 0 { &mut *left } else { &mut *right };
-                side[group.rows[row] as usize] = value;
+            let rows = self.rows_of(group);
+            self.each(group, &group.kernel.sides, 2, values, w, &mut |row, out| {
+                let at = rows[row] as usize;
+                (left[at], right[at]) = (out[0], out[1]);
             });
         }
     }
@@ -426,25 +456,28 @@ impl Block {
         self.prepare(local);
         local.jacobian.clear();
         local.jacobian.resize(self.pattern.len(), 0.0);
+        local.sway.clear();
+        local.sway.resize(self.height(), 0.0);
         for group in &self.groups {
-            let count = group.kernel.entries.len();
-            let Local { left, right, jacobian } = local;
-            group.each(
-                &group.kernel.slopes,
-                2 + count,
-                values,
-                w,
-                &mut |row, out, value| match out {
-                    0 => left[group.rows[row] as usize] = value,
-                    1 => right[group.rows[row] as usize] = value,
-                    _ => {
-                        let at = group.entries[row * count + out - 2];
-                        if at != KNOWN {
-                            jacobian[at as usize] += value;
-                        }
+            let kernel = &group.kernel;
+            let (count, arity) = (kernel.entries.len(), kernel.arity());
+            let (rows, arguments) = (self.rows_of(group), self.arguments_of(group));
+            let places = &self.entries[group.entries as usize..][..rows.len() * count];
+            let Local { left, right, jacobian, sway } = local;
+            self.each(group, &kernel.slopes, 2 + count, values, w, &mut |row, out| {
+                let at = rows[row] as usize;
+                (left[at], right[at]) = (out[0], out[1]);
+                let arguments = &arguments[row * arity..][..arity];
+                let places = &places[row * count..][..count];
+                let mut moved = 0.0;
+                for ((entry, &place), &slope) in kernel.entries.iter().zip(places).zip(&out[2..]) {
+                    moved += (values[arguments[entry.argument as usize] as usize] * slope).abs();
+                    if place != KNOWN {
+                        jacobian[place as usize] += slope;
                     }
-                },
-            );
+                }
+                sway[at] = moved;
+            });
         }
     }
 
@@ -475,7 +508,7 @@ impl Block {
             let at = |slot: SlotIndex| self.unknowns.binary_search(&slot).ok();
             let mut seconds = Vec::new();
             for group in &self.groups {
-                for arguments in group.arguments.chunks_exact(group.kernel.arity()) {
+                for arguments in self.arguments_of(group).chunks_exact(group.kernel.arity()) {
                     let entries = group.kernel.second().entries.iter();
                     seconds.extend(entries.map(|&(a, b)| {
                         match (at(arguments[a as usize]), at(arguments[b as usize])) {
@@ -507,15 +540,17 @@ impl Block {
         for group in &self.groups {
             let second = group.kernel.second();
             let count = second.entries.len();
-            let (own, rest) = places.split_at(group.rows.len() * count);
+            let rows = self.rows_of(group);
+            let (own, rest) = places.split_at(rows.len() * count);
             places = rest;
-            group.each(&second.tape, count, values, w, &mut |row, out, value| {
-                let (i, j) = own[row * count + out];
-                if i != KNOWN {
-                    // two arguments that are one unknown are their own mirror
-                    let (a, b) = second.entries[out];
-                    let both = if a != b && i == j { 2.0 } else { 1.0 };
-                    visit(group.rows[row] as usize, i as usize, j as usize, both * value);
+            self.each(group, &second.tape, count, values, w, &mut |row, out| {
+                let places = &own[row * count..][..count];
+                for ((&(i, j), &(a, b)), &value) in places.iter().zip(&second.entries).zip(out) {
+                    if i != KNOWN {
+                        // two arguments that are one unknown are their own mirror
+                        let both = if a != b && i == j { 2.0 } else { 1.0 };
+                        visit(rows[row] as usize, i as usize, j as usize, both * value);
+                    }
                 }
             });
         }
@@ -535,45 +570,50 @@ impl Block {
         w: &mut Workspace,
     ) -> bool {
         let (left, right) = (local.left[row], local.right[row]);
-        self.within[row].is_met_with(left, right, || {
-            let (kernel, arguments) = self.row(row);
-            w.sway(kernel, arguments, values)
+        self.within[row].is_met_with(left, right, || match local.sway.get(row) {
+            Some(&sway) => sway,
+            None => {
+                let (kernel, arguments) = self.row(row);
+                w.sway(kernel, arguments, values)
+            }
         })
     }
 }
 
-impl Group {
-    /// Runs a tape for every row; calls `visit` with the row's place, the output and its value.
+impl Block {
+    /// Runs a tape for every row of a group; calls `visit` with the row's place there and what comes out.
     fn each(
         &self,
+        group: &Group,
         tape: &expr::Tape,
         outs: usize,
         values: &[f64],
         w: &mut Workspace,
-        visit: &mut impl FnMut(usize, usize, f64),
+        visit: &mut impl FnMut(usize, &[f64]),
     ) {
         if outs == 0 {
             return;
         }
-        let arity = self.kernel.arity();
-        let rows = self.rows.len();
+        let (arity, all) = (group.kernel.arity(), self.arguments_of(group));
+        let rows = group.rows.len as usize;
         let mut row = 0;
-        while rows - row >= WIDE {
-            let lanes = LANES.min(rows - row);
-            let arguments = &self.arguments[row * arity..][..lanes * arity];
-            let out = w.run_wide(tape, arguments, arity, values, outs);
-            for lane in 0..lanes {
-                for (i, value) in out.iter().enumerate() {
-                    visit(row + lane, i, value[lane]);
+        if rows >= WIDE {
+            let mut one = std::mem::take(&mut w.out);
+            while rows - row >= WIDE {
+                let lanes = LANES.min(rows - row);
+                let arguments = &all[row * arity..][..lanes * arity];
+                let out = w.run_wide(tape, arguments, arity, values, outs);
+                for lane in 0..lanes {
+                    one.clear();
+                    one.extend(out.iter().map(|value| value[lane]));
+                    visit(row + lane, &one);
                 }
+                row += lanes;
             }
-            row += lanes;
+            w.out = one;
         }
         for row in row..rows {
-            let out = w.run(tape, &self.arguments[row * arity..][..arity], values, outs);
-            for (i, &value) in out.iter().enumerate() {
-                visit(row, i, value);
-            }
+            visit(row, w.run(tape, &all[row * arity..][..arity], values, outs));
         }
     }
 }

@@ -1,7 +1,8 @@
-//! Short lists of numbers, most of them held in place.
+//! Short lists of numbers, most of them held in place; longer ones are shared by their copies.
 
 use std::fmt;
 use std::ops::Deref;
+use std::rc::Rc;
 
 /// How many numbers are held in place.
 const IN_PLACE: usize = 5;
@@ -13,7 +14,7 @@ pub struct Few(Held);
 #[derive(Clone)]
 enum Held {
     InPlace(u8, [u32; IN_PLACE]),
-    Apart(Box<[u32]>),
+    Apart(Rc<[u32]>),
 }
 
 impl Deref for Few {

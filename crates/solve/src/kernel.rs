@@ -84,16 +84,12 @@ pub(crate) enum Side {
 impl Kernel {
     /// Compiles an equation whose variables are `Var(0)` to `Var(arity - 1)`; `sides` are its own.
     pub(crate) fn compile(
-        from: &Arena,
+        mut arena: Arena,
         left: ExprId,
         right: ExprId,
         arity: u32,
         sides: Rc<Tape>,
     ) -> Self {
-        let mut arena = Arena::for_nodes(4 * from.len());
-        let vars: Vec<ExprId> = (0..arity).map(|i| arena.var(Var(i))).collect();
-        let [left, right] =
-            [left, right].map(|id| arena.import(from, id, &mut |v| vars[v.0 as usize]));
         let residual = arena.sub(left, right);
         let (vars, _) = choices(&arena, residual);
         let (mut entries, mut derivatives) = (Vec::new(), Vec::new());
@@ -118,7 +114,7 @@ impl Kernel {
         let mut arena = Arena::new();
         let (left, right, arguments) = canonical(from, left, right, &mut arena);
         let sides = Rc::new(Tape::compile(&arena, &[left, right]));
-        (Self::compile(&arena, left, right, arguments.len() as u32, sides), arguments)
+        (Self::compile(arena, left, right, arguments.len() as u32, sides), arguments)
     }
 
     /// Returns both sides in another arena, every argument replaced.

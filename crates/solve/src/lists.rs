@@ -7,6 +7,12 @@ pub(crate) struct Lists {
     items: Vec<u32>,
 }
 
+impl Default for Lists {
+    fn default() -> Self {
+        Self { first: vec![0], items: Vec::new() }
+    }
+}
+
 impl Lists {
     /// Sorts pairs by their first number; those of one number stay in order.
     pub(crate) fn new(count: usize, pairs: impl Iterator<Item = (u32, u32)> + Clone) -> Self {
@@ -22,6 +28,19 @@ impl Lists {
             next[of as usize] += 1;
         }
         Self { first, items }
+    }
+    /// Adds the list of the next number.
+    pub(crate) fn push(&mut self, own: &[u32]) {
+        self.items.extend_from_slice(own);
+        self.first.push(self.items.len() as u32);
+    }
+    /// Returns all lists, one after the other.
+    pub(crate) fn all(&self) -> &[u32] {
+        &self.items
+    }
+    /// Returns where each list starts among all, and where the last one ends.
+    pub(crate) fn starts(&self) -> &[u32] {
+        &self.first
     }
     /// Returns how many lists there are.
     pub(crate) fn len(&self) -> usize {

@@ -139,7 +139,7 @@ pub(crate) fn lower(analysis: &Analysis<'_>, blocks: &[Block]) -> Lowered {
     let mut steps = Vec::with_capacity(blocks.len());
     for &(slot, bits) in &classes.constants {
         let program = Program::Constant(f64::from_bits(bits));
-        steps.push(alias(&equalities, slot, slot, program, Few::default()));
+        steps.push(alias(told(&equalities, slot), slot, program, Few::default()));
     }
     let region_of = regions_of(analysis, blocks);
     for (block, &region) in blocks.iter().zip(&region_of) {
@@ -150,28 +150,28 @@ pub(crate) fn lower(analysis: &Analysis<'_>, blocks: &[Block]) -> Lowered {
         }
     }
     for (root, members) in classes.members() {
+        let relations = told(&equalities, root);
         for &m in members.iter().filter(|&&m| m != root) {
             let reads = [root].into_iter().collect();
-            steps.push(alias(&equalities, root, m, Program::Copy, reads));
+            steps.push(alias(relations.clone(), m, Program::Copy, reads));
         }
     }
     Lowered { steps, regions: regions(analysis, blocks, &region_of) }
 }
 
-fn alias(
-    equalities: &[(SlotIndex, u32)],
-    root: SlotIndex,
-    target: SlotIndex,
-    program: Program,
-    reads: Few,
-) -> Step {
+/// Returns the first of the relations that make a class of slots one.
+fn told(equalities: &[(SlotIndex, u32)], root: SlotIndex) -> Few {
     let first = equalities.partition_point(|e| e.0 < root);
     let own = equalities[first..].iter().take_while(|e| e.0 == root).take(MOST_TOLD);
+    own.map(|e| e.1).collect()
+}
+
+fn alias(relations: Few, target: SlotIndex, program: Program, reads: Few) -> Step {
     Step {
         kind: StepKind::Alias,
         targets: [target].into_iter().collect(),
         reads,
-        relations: own.map(|e| e.1).collect(),
+        relations,
         program,
         region: u32::MAX,
         rows: Few::default(),

@@ -8,7 +8,7 @@
 use crate::kernel::Kernel;
 use crate::system::SlotIndex;
 use base::{Id, Mixer, define_id};
-use expr::{Arena, Excerpt, ExprId, LANES, Lanes, Node, Tape, Var};
+use expr::{Arena, Excerpt, ExprId, Node, Tape, Var};
 use indexmap::IndexSet;
 use std::cell::{OnceCell, RefCell};
 use std::collections::BTreeMap;
@@ -143,29 +143,6 @@ impl Pattern {
         scratch.arguments.extend(arguments);
         self.kernel().sway(&scratch.arguments, &mut scratch.registers, &mut scratch.out)
     }
-    /// Computes the sway of an equation in every lane.
-    ///
-    /// # Panics
-    /// If it has not two expressions.
-    pub(crate) fn sways(
-        &self,
-        arguments: &[Lanes],
-        registers: &mut Vec<Lanes>,
-        out: &mut Vec<Lanes>,
-    ) -> Lanes {
-        let kernel = self.kernel();
-        out.clear();
-        out.resize(2 + kernel.entries.len(), [0.0; LANES]);
-        kernel.slopes.run_lanes(arguments, registers, out);
-        let mut sways = [0.0; LANES];
-        for (entry, slopes) in kernel.entries.iter().zip(&out[2..]) {
-            let moved = arguments[entry.argument as usize];
-            for (sway, (slope, x)) in sways.iter_mut().zip(slopes.iter().zip(moved)) {
-                *sway += (x * slope).abs();
-            }
-        }
-        sways
-    }
     /// Returns what it says if that is next to nothing.
     pub(crate) fn plain(&self) -> Option<Plain> {
         self.plain
@@ -182,7 +159,8 @@ impl Pattern {
         self.kernel.get_or_init(|| {
             let [left, right] = self.roots() else { panic!("an equation has two sides") };
             let sides = self.values().clone();
-            Rc::new(Kernel::compile(self.arena(), *left, *right, self.arity as u32, sides))
+            let arena = Arena::to_derive(&self.excerpt);
+            Rc::new(Kernel::compile(arena, *left, *right, self.arity as u32, sides))
         })
     }
     /// Returns the pattern with every argument replaced by one before it, or itself.

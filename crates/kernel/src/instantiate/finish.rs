@@ -33,6 +33,10 @@ pub(super) fn finish(maker: &mut Maker<'_>, body: Body) -> Structure {
     structure.constraints = body.constraints;
     structure.stays = body.stays;
     structure.unlike = body.unlike.keys().map(|&t| (t, first_of_each(&structure, t))).collect();
+    if !structure.unlike.is_empty() {
+        structure.is_unlike = IdVec::filled(false, structure.things.len());
+        structure.unlike.keys().for_each(|&t| structure.is_unlike[t] = true);
+    }
     for index in 0..structure.stays.len() {
         let stay = structure.stays[index];
         if stay.strength.is_none() {

@@ -8,28 +8,28 @@
 //! Anal. Appl. 17 (1996).
 
 use super::pivot::Counts;
+use crate::lists::Lists;
 
 /// An order of elimination and what is left of each column when its turn comes.
-#[derive(Clone, Debug, Default)]
+#[derive(Debug)]
 pub(crate) struct Elimination {
     /// The places, in order.
     pub(crate) order: Vec<u32>,
     /// For each in that order, where it stands in the order that is joined to it by then, increasing.
-    pub(crate) columns: Vec<Vec<u32>>,
+    pub(crate) columns: Lists,
 }
 
 /// Orders `n` places of which these are joined; a pair may come twice, either way round.
-pub(crate) fn eliminate(n: usize, joined: impl Iterator<Item = (u32, u32)>) -> Elimination {
-    let mut near: Vec<Vec<u32>> = vec![Vec::new(); n];
-    for (i, j) in joined.filter(|e| e.0 != e.1) {
-        near[i as usize].push(j);
-        near[j as usize].push(i);
-    }
-    for own in &mut near {
+pub(crate) fn eliminate(n: usize, joined: impl Iterator<Item = (u32, u32)> + Clone) -> Elimination {
+    let both = joined.filter(|e| e.0 != e.1).flat_map(|(i, j)| [(i, j), (j, i)]);
+    let near = Lists::new(n, both);
+    let distinct = |i: u32| {
+        let mut own = near.of(i).to_vec();
         own.sort_unstable();
         own.dedup();
-    }
-    let order = order(near.clone());
+        own
+    };
+    let order = order((0..n as u32).map(distinct).collect());
     let columns = columns(&order, &near);
     Elimination { order, columns }
 }
@@ -204,33 +204,38 @@ fn same_members(a: &[u32], b: &[u32]) -> bool {
 
 /// What is left of each column when its turn comes: its own entries, and those of columns that it is the
 /// first entry of.
-fn columns(order: &[u32], near: &[Vec<u32>]) -> Vec<Vec<u32>> {
+fn columns(order: &[u32], near: &Lists) -> Lists {
+    const NONE: u32 = u32::MAX;
     let n = order.len();
     let mut place = vec![0u32; n];
     for (k, &i) in order.iter().enumerate() {
         place[i as usize] = k as u32;
     }
-    let mut mark = vec![u32::MAX; n];
-    let mut from: Vec<Vec<u32>> = vec![Vec::new(); n];
-    let mut columns: Vec<Vec<u32>> = Vec::with_capacity(n);
-    for (k, &i) in order.iter().enumerate() {
-        mark[k] = k as u32;
-        let mut own: Vec<u32> = Vec::new();
+    let mut mark = vec![NONE; n];
+    // the latest column of which each is the first entry, and for every column the one before it
+    let (mut latest, mut before) = (vec![NONE; n], vec![NONE; n]);
+    let mut columns = Lists::default();
+    let mut own: Vec<u32> = Vec::new();
+    for (k, &i) in (0..).zip(order) {
+        mark[k as usize] = k;
+        own.clear();
         let mut add = |j: u32| {
-            if j as usize > k && mark[j as usize] != k as u32 {
-                mark[j as usize] = k as u32;
+            if j > k && mark[j as usize] != k {
+                mark[j as usize] = k;
                 own.push(j);
             }
         };
-        near[i as usize].iter().for_each(|&j| add(place[j as usize]));
-        for earlier in std::mem::take(&mut from[k]) {
-            columns[earlier as usize].iter().for_each(|&j| add(j));
+        near.of(i).iter().for_each(|&j| add(place[j as usize]));
+        let mut earlier = latest[k as usize];
+        while earlier != NONE {
+            columns.of(earlier).iter().for_each(|&j| add(j));
+            earlier = before[earlier as usize];
         }
         own.sort_unstable();
         if let Some(&first) = own.first() {
-            from[first as usize].push(k as u32);
+            before[k as usize] = std::mem::replace(&mut latest[first as usize], k);
         }
-        columns.push(own);
+        columns.push(&own);
     }
     columns
 }
@@ -252,7 +257,7 @@ mod tests {
         joined
     }
     fn entries(e: &Elimination) -> usize {
-        e.columns.iter().map(Vec::len).sum()
+        e.columns.all().len()
     }
 
     #[test]
@@ -286,7 +291,7 @@ mod tests {
         }
         for k in 0..81 {
             let own: Vec<u32> = (k + 1..81).filter(|&j| matrix[k][j]).map(|j| j as u32).collect();
-            assert_eq!(found.columns[k], own);
+            assert_eq!(found.columns.of(k as u32), own);
             for &i in &own {
                 for &j in &own {
                     matrix[i as usize][j as usize] |= i != j;

@@ -44,33 +44,29 @@ impl Symmetric {
         for (k, &i) in order.iter().enumerate() {
             place[i as usize] = k as u32;
         }
-        let mut of_place: Vec<Vec<(u32, u32)>> = vec![Vec::new(); n];
-        for (number, &(i, j)) in (0..).zip(entries) {
+        let places = |&(i, j): &(u32, u32)| {
             let (i, j) = (place[i as usize], place[j as usize]);
-            of_place[i.max(j) as usize].push((i.min(j), number));
+            (i.max(j), i.min(j))
+        };
+        let entry_starts = starts(n, entries.iter().map(|e| places(e).0));
+        let mut next = entry_starts.clone();
+        let mut own = vec![(0, 0); entries.len()];
+        for (number, entry) in (0..).zip(entries) {
+            let (later, earlier) = places(entry);
+            own[next[later as usize] as usize] = (earlier, number);
+            next[later as usize] += 1;
         }
-        let mut made = Self { order, ..Self::default() };
-        made.entry_starts.push(0);
-        for own in of_place {
-            made.entries.extend(own);
-            made.entry_starts.push(made.entries.len() as u32);
-        }
-        let mut rows: Vec<Vec<u32>> = vec![Vec::new(); n];
-        made.column_starts.push(0);
-        let mut total = 0;
-        for (k, column) in (0..).zip(&columns) {
-            for &i in column {
-                rows[i as usize].push(k);
+        let row_starts = starts(n, columns.all().iter().copied());
+        let mut next = row_starts.clone();
+        let mut rows = vec![0; columns.all().len()];
+        for k in 0..n as u32 {
+            for &i in columns.of(k) {
+                rows[next[i as usize] as usize] = k;
+                next[i as usize] += 1;
             }
-            total += column.len() as u32;
-            made.column_starts.push(total);
         }
-        made.row_starts.push(0);
-        for row in rows {
-            made.rows.extend(row);
-            made.row_starts.push(made.rows.len() as u32);
-        }
-        made
+        let column_starts = columns.starts().to_vec();
+        Self { order, entry_starts, entries: own, row_starts, rows, column_starts }
     }
 
     /// Puts numbers in, in the order of the entries; returns how many pivots are negative, or
@@ -138,6 +134,16 @@ impl Symmetric {
             b[i as usize] = *value;
         }
     }
+}
+
+/// Returns where the items of each of `n` numbers start, and where the last end, of items of these.
+fn starts(n: usize, of: impl Iterator<Item = u32>) -> Vec<u32> {
+    let mut starts = vec![0; n + 1];
+    of.for_each(|i| starts[i as usize + 1] += 1);
+    for i in 0..n {
+        starts[i + 1] += starts[i];
+    }
+    starts
 }
 
 #[cfg(test)]

@@ -12,14 +12,29 @@ pub(crate) struct Pattern {
 impl Pattern {
     /// Makes the pattern of rows whose columns come in any order, some perhaps twice.
     pub(crate) fn of_rows(width: usize, rows: impl Iterator<Item = Vec<u32>>) -> Self {
-        let mut made = Self { width, starts: vec![0], columns: Vec::new() };
-        for mut row in rows {
-            row.sort_unstable();
-            row.dedup();
-            made.columns.extend(row);
-            made.starts.push(made.columns.len() as u32);
-        }
+        let mut made = Self::with_width(width);
+        rows.for_each(|row| made.push(row));
         made
+    }
+    /// Makes the pattern of no rows.
+    pub(crate) fn with_width(width: usize) -> Self {
+        Self { width, starts: vec![0], columns: Vec::new() }
+    }
+    /// Adds a row whose columns come in any order, some perhaps twice.
+    pub(crate) fn push(&mut self, row: impl IntoIterator<Item = u32>) {
+        let start = self.columns.len();
+        self.columns.extend(row);
+        let own = &mut self.columns[start..];
+        own.sort_unstable();
+        let mut end = start;
+        for at in start..self.columns.len() {
+            if at == start || self.columns[at] != self.columns[end - 1] {
+                self.columns[end] = self.columns[at];
+                end += 1;
+            }
+        }
+        self.columns.truncate(end);
+        self.starts.push(end as u32);
     }
     /// Returns the number of rows.
     pub(crate) fn height(&self) -> usize {

@@ -34,17 +34,18 @@ pub(super) fn eliminate(rest: &Remainder, out: &mut Pivots) -> bool {
     let row_at = |k: usize| rows[order[k] as usize];
     let dense_from = (0..order.len()).find(|&k| {
         let left = order.len() - k;
-        columns[k].len() as f64 + 1.0 >= (1.0 - 0.5 * DENSE) * left as f64
+        columns.of(k as u32).len() as f64 + 1.0 >= (1.0 - 0.5 * DENSE) * left as f64
     });
     let sparse = dense_from.unwrap_or(order.len());
-    for (k, below) in columns.into_iter().enumerate() {
+    for k in 0..order.len() {
+        let below = columns.of(k as u32);
         let row = row_at(k);
         out.rows.push(row);
         out.columns.push(column_of[row as usize]);
         if k >= sparse {
             continue;
         }
-        for &j in &below {
+        for &j in below {
             out.lower[row_at(j as usize) as usize].push((before + k) as u32);
         }
         let upper = below.iter().map(|&j| column_of[row_at(j as usize) as usize]);
