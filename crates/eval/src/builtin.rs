@@ -283,7 +283,8 @@ impl<'a> Evaluator<'a> {
             (ThingMessage::IsPlace, _) => Ok(Answer::Bool(self.is_place(to))),
             (ThingMessage::Owner, _) => self.owner(to),
             (ThingMessage::Class, _) => {
-                let name = self.class_of(to).map(|c| &self.document.classes[c].name);
+                let class = self.class_of(to).map(|c| self.document.named_class(c));
+                let name = class.map(|c| &self.document.classes[c].name);
                 Ok(Answer::text(name.map_or("", |n| n)))
             }
         }

@@ -162,10 +162,10 @@ impl<'a> Evaluator<'a> {
                 .local(name)
                 .cloned()
                 .ok_or_else(|| Fault::unknown(format!("nothing is named `{name}` here"))),
-            Term::Send { to, name, arguments, above } => {
+            Term::Send { to, name, arguments, search } => {
                 let to = self.term(to, frame)?;
                 let arguments = self.arguments(arguments, frame)?;
-                self.send(&to, name, arguments, *above, frame.nearest)
+                self.send(&to, name, arguments, *search, frame.nearest)
             }
             Term::Call { name, arguments } => {
                 let arguments = self.arguments(arguments, frame)?;
@@ -386,7 +386,7 @@ impl<'a> Evaluator<'a> {
     /// Says what a value is, by its class where it has one.
     pub(crate) fn kind(&self, answer: &Answer<'a>) -> String {
         let class = |c: ClassId| {
-            let name = &self.document.classes[c].name;
+            let name = &self.document.classes[self.document.named_class(c)].name;
             if name.is_empty() { "the document".to_string() } else { format!("a {name}") }
         };
         match answer {

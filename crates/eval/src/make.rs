@@ -176,7 +176,8 @@ impl<'a> Evaluator<'a> {
             ClassKind::Primitive(Primitive::Text | Primitive::Color) => Ok(Answer::text("")),
             ClassKind::Composite => self.deeper(|| self.make(class, &[], nearest)),
             ClassKind::List(element) => {
-                let n = match count {
+                let own = self.document.classes[class].count.map(Count::Fixed);
+                let n = match count.or(own) {
                     Some(Count::Fixed(n)) => n,
                     Some(Count::Given) | None => 0,
                 };

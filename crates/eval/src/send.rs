@@ -8,7 +8,7 @@ use crate::answer::{Answer, Closure, Frame};
 use crate::evaluator::{Evaluator, Given, Result};
 use crate::fault::Fault;
 use base::Name;
-use kernel::{ClassId, Message, PartRole, ThingId};
+use kernel::{Message, Search, ThingId};
 
 impl<'a> Evaluator<'a> {
     /// Sends a message, or reads a part. `nearest` is the thing whose message sends it.
@@ -17,23 +17,22 @@ impl<'a> Evaluator<'a> {
         to: &Answer<'a>,
         name: &Name,
         arguments: Vec<Given<'a>>,
-        above: Option<ClassId>,
+        search: Option<Search>,
         nearest: ThingId,
     ) -> Result<Answer<'a>> {
         self.burn()?;
         if arguments.is_empty()
-            && above.is_none()
+            && search.is_none()
             && let Some(part) = self.stored_part(to, name)
         {
             return part;
         }
         if let Answer::Thing(thing) = to
-            && arguments.is_empty()
-            && let Some(answer) = self.combined(*thing, name, above)?
+            && let Some(answer) = self.combined(*thing, name, &arguments, search)?
         {
             return Ok(answer);
         }
-        match self.message(to, name, above) {
+        match self.message(to, name, search) {
             Some(message) => self.answer(to, message, arguments, nearest),
             None => self.send_builtin(to, name, &arguments, nearest),
         }
@@ -61,12 +60,12 @@ impl<'a> Evaluator<'a> {
         &self,
         to: &Answer<'a>,
         name: &Name,
-        above: Option<ClassId>,
+        search: Option<Search>,
     ) -> Option<&'a Message> {
         let s = self.structure;
-        let find = |class| match above {
+        let find = |class| match search {
             None => self.class_message(class, name),
-            Some(_) => self.document.find_message(class, name, above).map(|found| found.1),
+            Some(_) => self.document.find_message(class, name, search).map(|found| found.1),
         };
         match to {
             Answer::Thing(t) => find(s.things[*t].class).or_else(|| {
@@ -169,55 +168,27 @@ impl<'a> Evaluator<'a> {
         self.deeper(|| self.term(body, &frame))
     }
 
-    /// Returns what every thing answers to a message, if it does.
-    fn general(&self, class: ClassId, name: &Name) -> Option<&'a Message> {
-        let object = *self.document.primary_line(class).last()?;
-        self.class_message(object, name)
-    }
-
     /// Combines what several superclasses say, where that is what the message means.
-    ///
-    /// Of the primary line the nearest definition speaks; classes passed on the way there add what
-    /// their other superclasses say. Without any definition, pictures combine those of all parts.
     fn combined(
         &self,
         thing: ThingId,
         name: &Name,
-        above: Option<ClassId>,
+        arguments: &[Given<'a>],
+        search: Option<Search>,
     ) -> Result<Option<Answer<'a>>> {
         let class = self.structure.things[thing].class;
         let layout = self.layout(class);
         if layout.superclasses.is_empty() {
             return Ok(None);
         }
-        let document = self.document;
-        let found = self.message(&Answer::Thing(thing), name, None);
-        let general = self.general(class, name);
-        if ![found, general].into_iter().flatten().any(|m| m.is_combining) {
-            return Ok(None);
-        }
-        let line = document.primary_line(class);
-        let from = above.and_then(|a| line.iter().position(|&c| c == a));
-        let search = from.map_or(0, |i| i + 1);
-        let own = line[search..].iter().enumerate().find_map(|(i, &c)| {
-            let message = document.classes[c].messages.iter().rev().find(|m| m.name == *name)?;
-            (!message.is_default).then_some((search + i, message))
-        });
-        let passed = &line[from.unwrap_or(0)..own.map_or(line.len(), |(i, _)| i)];
+        let Some(voices) = self.document.voices(class, name, search) else { return Ok(None) };
         let mut answers = Vec::new();
-        if let Some((_, message)) = own {
-            answers.push(self.answer(&Answer::Thing(thing), message, Vec::new(), thing)?);
-        } else if let Some(general) = general {
-            return self.answer(&Answer::Thing(thing), general, Vec::new(), thing).map(Some);
+        if let Some(message) = voices.own {
+            answers.push(self.answer(&Answer::Thing(thing), message, arguments.to_vec(), thing)?);
         }
-        for (i, field) in layout.fields.iter().enumerate() {
-            if field.role == PartRole::Superclass && passed.contains(&field.class) {
-                let part =
-                    Answer::Thing(ThingId(self.structure.things[thing].first_part.0 + i as u32));
-                if self.message(&part, name, None).is_some() {
-                    answers.push(self.send(&part, name, Vec::new(), None, thing)?);
-                }
-            }
+        for field in voices.others {
+            let part = Answer::Thing(ThingId(self.structure.things[thing].first_part.0 + field));
+            answers.push(self.send(&part, name, arguments.to_vec(), None, thing)?);
         }
         if answers.len() < 2 {
             return Ok(answers.pop());

@@ -166,11 +166,11 @@ impl<'a> Evaluator<'a> {
                 let frame = frame.bind(name, self.term(bound, frame)?);
                 self.deeper(|| self.judge(body, &frame, within))
             }
-            Term::Send { to, name, arguments, above } => {
+            Term::Send { to, name, arguments, search } => {
                 let to = self.term(to, frame)?;
                 let part = matches!(to, Answer::Thing(t) if self.part_named(t, name).is_some());
-                match self.message(&to, name, *above) {
-                    Some(message) if !part || above.is_some() => {
+                match self.message(&to, name, *search) {
+                    Some(message) if !part || search.is_some() => {
                         let arguments = self.arguments(arguments, frame)?;
                         let inner = Frame::sent(to.clone(), frame.nearest);
                         let inner = self.bind(inner, message, arguments)?;
@@ -293,7 +293,7 @@ impl<'a> Evaluator<'a> {
 
     /// Returns true if a text reads as the number whose text a term asks for, to the digits asked for.
     fn reads_as(&self, text: &str, term: &'a Term, frame: &Frame<'a>) -> Result<bool> {
-        let Term::Send { to, name, arguments, above: None } = term else { return Ok(false) };
+        let Term::Send { to, name, arguments, search: None } = term else { return Ok(false) };
         if name != "text" {
             return Ok(false);
         }

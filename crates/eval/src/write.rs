@@ -78,9 +78,9 @@ impl<'a> Evaluator<'a> {
         frame: &Frame<'a>,
         taker: Side,
     ) -> Result<Vec<(SlotId, Value)>> {
-        if let Term::Send { to, name, arguments, above } = rule {
+        if let Term::Send { to, name, arguments, search } = rule {
             let to = self.term(to, frame)?;
-            if let Some(message) = self.message(&to, name, *above) {
+            if let Some(message) = self.message(&to, name, *search) {
                 let arguments = self.arguments(arguments, frame)?;
                 let inner = self.bind(Frame::sent(to, frame.nearest), message, arguments)?;
                 return self.deeper(|| self.copy_in(&message.answer, &inner, taker));
@@ -102,7 +102,7 @@ impl<'a> Evaluator<'a> {
     /// Finds the part that a term names, stored and not computed.
     fn target(&self, term: &'a Term, frame: &Frame<'a>) -> Result<ThingId> {
         let found = match term {
-            Term::Send { to, name, arguments, above: None } if arguments.is_empty() => {
+            Term::Send { to, name, arguments, search: None } if arguments.is_empty() => {
                 self.term(to, frame)?.thing().and_then(|owner| self.part_named(owner, name))
             }
             Term::Index(list, index) => {

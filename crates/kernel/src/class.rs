@@ -84,8 +84,13 @@ pub struct Class {
     pub doc: String,
     /// What kind of class it is.
     pub kind: ClassKind,
+    /// How many elements every list of the class has, where the class itself says so: one that is an
+    /// element of another list.
+    pub count: Option<u32>,
     /// The superclasses, the primary one first. Empty only for `Object`.
     pub supers: Vec<Superclass>,
+    /// True for the class of a single thing, or of a part as its owner refines it: no text names it.
+    pub is_of_one: bool,
     /// True if it has no instances of its own.
     pub is_abstract: bool,
     /// The stored parts that it adds, in order of declaration.
@@ -122,7 +127,9 @@ impl Class {
             name,
             doc: String::new(),
             kind,
+            count: None,
             supers,
+            is_of_one: false,
             is_abstract: false,
             parts: Vec::new(),
             givens: Vec::new(),
@@ -145,7 +152,7 @@ impl Class {
 pub struct Superclass {
     /// The class.
     pub class: ClassId,
-    /// The name of the superclass part.
+    /// The name by which it is reached; empty for a class's only one, unless `as` names it.
     pub name: Name,
 }
 

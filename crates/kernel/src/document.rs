@@ -2,7 +2,7 @@
 
 use crate::class::{Class, ClassId, ClassKind, Message, Part};
 use crate::path::Path;
-use crate::term::OriginId;
+use crate::term::{OriginId, Search};
 use base::number::Toward;
 use base::{IdVec, Name};
 use std::collections::BTreeSet;
@@ -107,6 +107,15 @@ pub struct PartRef {
     pub role: PartRole,
 }
 
+/// Who answers a combining message.
+#[derive(Clone, Debug)]
+pub struct Voices<'m> {
+    /// The definition of the thing's own primary line.
+    pub own: Option<&'m Message>,
+    /// The fields, by index in the layout, of superclasses that add what they say.
+    pub others: Vec<u32>,
+}
+
 /// What a field of an instance stands for.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub enum PartRole {
@@ -195,34 +204,78 @@ impl Document {
     pub fn class_named(&self, name: &str) -> Option<ClassId> {
         self.classes.iter().rev().find(|(_, c)| c.name == name).map(|(id, _)| id)
     }
+    /// Returns the class that is named in the text: of a class of one, the one that it comes from.
+    pub fn named_class(&self, class: ClassId) -> ClassId {
+        let line = self.primary_line(class);
+        line.into_iter().find(|&c| !self.classes[c].is_of_one).unwrap_or(class)
+    }
     /// Finds a message by the thesis's order: the class, its primary line, then all others.
     ///
-    /// `above` begins the search above that class. A message marked `default` gives way to others.
+    /// A message marked `default` gives way to others.
     /// **Source:** Borning 1979, chapter 3, "Message Behavior".
     pub fn find_message(
         &self,
         class: ClassId,
         name: &str,
-        above: Option<ClassId>,
+        search: Option<Search>,
     ) -> Option<(ClassId, &Message)> {
         let own = |c: ClassId| self.classes[c].messages.iter().rev().find(|m| m.name == name);
-        self.find_message_by(class, above, &own)
+        self.find_message_by(class, search, &own)
     }
     /// Finds a message by the thesis's order, where `own` returns what a class defines itself.
     pub fn find_message_by<'m>(
         &self,
         class: ClassId,
-        above: Option<ClassId>,
+        search: Option<Search>,
         own: &dyn Fn(ClassId) -> Option<&'m Message>,
     ) -> Option<(ClassId, &'m Message)> {
-        let lineage = self.lineage(class);
-        let skip = above.and_then(|a| lineage.iter().position(|&c| c == a)).map_or(0, |p| p + 1);
+        let lineage = match search {
+            Some(Search::As(superclass)) => self.lineage(superclass),
+            Some(Search::Above(_)) | None => self.lineage(class),
+        };
+        let skip = match search {
+            Some(Search::Above(a)) => lineage.iter().position(|&c| c == a).map_or(0, |p| p + 1),
+            Some(Search::As(_)) | None => 0,
+        };
         let mut found = lineage[skip..].iter().filter_map(|&c| Some((c, own(c)?)));
         let first = found.next()?;
         if !first.1.is_default {
             return Some(first);
         }
         Some(found.find(|(_, m)| !m.is_default).unwrap_or(first))
+    }
+    /// Returns who answers a combining message; nothing for any other message.
+    ///
+    /// Of the primary line the nearest definition speaks, and classes passed on the way there add what
+    /// their other superclasses say. Where only Object defines it, Object's definition speaks alone.
+    pub fn voices(&self, class: ClassId, name: &str, search: Option<Search>) -> Option<Voices<'_>> {
+        let own = |c: ClassId| self.classes[c].messages.iter().rev().find(|m| m.name == name);
+        let line = self.primary_line(class);
+        let general = line.last().and_then(|&object| own(object));
+        let found = self.find_message(class, name, None).map(|found| found.1);
+        if ![found, general].into_iter().flatten().any(|m| m.is_combining) {
+            return None;
+        }
+        let at = |class| line.iter().position(|&c| c == class).unwrap_or(0);
+        // where definitions are looked for, and from where other superclasses add theirs
+        let (first, adding) = match search {
+            Some(Search::Above(class)) => (at(class) + 1, at(class)),
+            Some(Search::As(class)) => (at(class), at(class)),
+            None => (0, 0),
+        };
+        let defines = |i: &usize| own(line[*i]).is_some_and(|m| !m.is_default);
+        let nearest = (first..line.len()).find(defines);
+        if nearest.is_none() && general.is_some() {
+            return Some(Voices { own: general, others: Vec::new() });
+        }
+        let passed = &line[adding..nearest.unwrap_or(line.len())];
+        let adds = |field: &PartRef| {
+            field.role == PartRole::Superclass
+                && passed.contains(&field.class)
+                && self.find_message(self.field_class(*field), name, None).is_some()
+        };
+        let others = (0..).zip(self.layout(class)).filter(|(_, f)| adds(f)).map(|(i, _)| i);
+        Some(Voices { own: nearest.and_then(|i| own(line[i])), others: others.collect() })
     }
     /// Returns true if things of the class are a *place*: two or three stored parts, all real
     /// numbers, no constraints. A place yields as one. A document is none, whatever it consists of.

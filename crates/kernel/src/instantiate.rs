@@ -85,22 +85,26 @@ const MOST_COPIES: usize = 2 * MOST_THINGS;
 /// Cost: what the classes say, once for each class; a copy for every thing; the merges between
 /// things, each times the parts that become one.
 pub fn instantiate(document: &Document) -> (Structure, Vec<Fault>) {
-    let mut maker = Maker {
-        document,
-        layouts: IdVec::filled(None, document.classes.len()),
-        bodies: IdVec::filled(None, document.classes.len()),
-        givens: IdVec::new(),
-        on_the_way: Vec::new(),
-        copied: 0,
-        is_full: false,
-        faults: Vec::new(),
-    };
+    let mut maker = Maker::new(document);
     let mut body = fill::make_body(&mut maker, document.root);
     rules::give_up(&mut maker, &mut body);
     let mut structure = finish::finish(&mut maker, body);
     switches::switch(document, &mut structure);
     maker.faults.dedup();
     (structure, maker.faults)
+}
+
+/// Says what could not be made of the things of some classes, were there any.
+///
+/// What leads out of such a thing is not looked at: that depends on where it is.
+pub fn faults_of(document: &Document, classes: impl IntoIterator<Item = ClassId>) -> Vec<Fault> {
+    let mut maker = Maker::new(document);
+    for class in classes {
+        let origin = document.classes[class].origin;
+        fill::body_of(&mut maker, class, origin);
+    }
+    maker.faults.dedup();
+    maker.faults
 }
 
 /// What is known of the document's classes while its things are made.
@@ -120,7 +124,19 @@ struct Maker<'d> {
     faults: Vec<Fault>,
 }
 
-impl Maker<'_> {
+impl<'d> Maker<'d> {
+    fn new(document: &'d Document) -> Self {
+        Self {
+            document,
+            layouts: IdVec::filled(None, document.classes.len()),
+            bodies: IdVec::filled(None, document.classes.len()),
+            givens: IdVec::new(),
+            on_the_way: Vec::new(),
+            copied: 0,
+            is_full: false,
+            faults: Vec::new(),
+        }
+    }
     fn layout(&mut self, class: ClassId) -> Rc<Layout> {
         let document = self.document;
         let layout = &mut self.layouts[class];

@@ -27,12 +27,12 @@ pub use class::{
     Part, Primitive, Setting, Stay, Strength, Superclass, Switch,
 };
 pub use command::{Command, Literal};
-pub use document::{Document, PartRef, PartRole, Side, SideWay, Vertical};
-pub use instantiate::{Fault, FaultKind, instantiate};
+pub use document::{Document, PartRef, PartRole, Side, SideWay, Vertical, Voices};
+pub use instantiate::{Fault, FaultKind, faults_of, instantiate};
 pub use path::{Path, Step};
 pub use structure::{
     Astray, Condition, ConstraintInstance, DOCUMENT, GivenId, GivenIn, GivenTerm, Layout, Slot,
     SlotId, StayInstance, Structure, Thing, ThingId,
 };
-pub use term::{Argument, Aspect, BinaryOperator, OriginId, Term, UnaryOperator};
+pub use term::{Argument, Aspect, BinaryOperator, OriginId, Search, Term, UnaryOperator};
 pub use values::{Value, Values};

@@ -154,7 +154,11 @@ impl Layout {
             }
         }
         let line = document.primary_line(class).into_iter().map(|c| &document.classes[c].supers);
-        let own_names = line.filter(|s| s.len() > 1).map(|s| s[0].name.clone()).collect();
+        let own_names = line
+            .filter_map(|s| s.first())
+            .map(|s| s.name.clone())
+            .filter(|n| !n.is_empty())
+            .collect();
         let classes = fields.iter().map(|&f| document.refined_class(class, f)).collect();
         Self { fields, classes, index, superclasses, own_names }
     }

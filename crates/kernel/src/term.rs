@@ -37,7 +37,7 @@ pub enum Term {
     Local(Name),
     /// A part of a thing, or the answer to a message: `a.b`, `a.scaled(by: 2)`.
     ///
-    /// `above` is set by `super.name`: the search begins above that class.
+    /// `search` is set by `super.name`, and by `t.name` where `t` is the primary superclass.
     Send {
         /// The receiver.
         to: Box<Term>,
@@ -45,8 +45,8 @@ pub enum Term {
         name: Name,
         /// The arguments; none for a part.
         arguments: Vec<Argument>,
-        /// Where the search for the message begins, if above a class.
-        above: Option<ClassId>,
+        /// Where its definition is looked for, if not in the class of the receiver.
+        search: Option<Search>,
     },
     /// A function of the language: `sqrt(x)`, `segment(p, q)`.
     Call {
@@ -97,6 +97,25 @@ pub enum Term {
     },
 }
 
+/// Where the definition of a message is looked for.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub enum Search {
+    /// Above a class of the receiver: `super.name`.
+    Above(ClassId),
+    /// As if the receiver were no more than a thing of this class, one of its primary superclasses.
+    As(ClassId),
+}
+
+impl Search {
+    /// Returns the same, said in another class.
+    fn with_above(self, from: ClassId, to: ClassId) -> Self {
+        match self {
+            Self::Above(class) if class == from => Self::Above(to),
+            other => other,
+        }
+    }
+}
+
 /// What can be asked of a constraint.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub enum Aspect {
@@ -143,11 +162,11 @@ impl Term {
             | Self::Document
             | Self::Local(_)
             | Self::All(_) => self.clone(),
-            Self::Send { to: receiver, name, arguments: a, above } => Self::Send {
+            Self::Send { to: receiver, name, arguments: a, search } => Self::Send {
                 to: boxed(receiver),
                 name: name.clone(),
                 arguments: arguments(a),
-                above: above.map(|c| if c == from { to } else { c }),
+                search: search.map(|s| s.with_above(from, to)),
             },
             Self::Call { name, arguments: a } => {
                 Self::Call { name: name.clone(), arguments: arguments(a) }
@@ -231,7 +250,7 @@ impl Term {
     }
     /// Makes the term that reads `name` of `to`.
     pub fn send(to: Self, name: &str) -> Self {
-        Self::Send { to: Box::new(to), name: Name::new(name), arguments: Vec::new(), above: None }
+        Self::Send { to: Box::new(to), name: Name::new(name), arguments: Vec::new(), search: None }
     }
     /// Makes a bare number.
     pub fn number(value: f64) -> Self {

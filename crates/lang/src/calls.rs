@@ -9,7 +9,7 @@ use base::diagnostic::nearest;
 use base::{Diagnostic, Name, Place, Span};
 use expr::dimension::Dimension;
 use kernel::builtin::{self, Kind as Builtin};
-use kernel::{Argument, ClassId, Term};
+use kernel::{Argument, ClassId, Search, Term};
 use syntax::ast::{self, AstNode, Expr};
 
 /// An argument, lowered, before it is known what is wanted of it.
@@ -41,7 +41,39 @@ impl Lowerer<'_> {
         let element = if let Kind::List(element) = &kind { element } else { &Kind::Unknown };
         let args = self.arguments(scope, field.args(), element)?;
         let (arguments, answer) = self.message(scope, &kind, &word, args, &to)?;
-        Some((Term::Send { to: Box::new(to), name, arguments, above: None }, answer))
+        let search = match kind {
+            Kind::Thing(class) if self.is_primary_superclass(scope, &receiver) => {
+                self.class_of_part(class, &name).is_none().then_some(Search::As(class))
+            }
+            _ => None,
+        };
+        Some((Term::Send { to: Box::new(to), name, arguments, search }, answer))
+    }
+
+    /// Returns true for an expression that reaches a thing by the name of a primary superclass: what is
+    /// sent to it is answered as that class says.
+    fn is_primary_superclass(&mut self, scope: &Scope, e: &Expr) -> bool {
+        let named = |word: Option<ast::Word>| word.map(|w| w.name());
+        match e {
+            Expr::Paren(inner) => {
+                inner.inner().is_some_and(|e| self.is_primary_superclass(scope, &e))
+            }
+            Expr::Name(name) => {
+                let Some(name) = named(name.name()) else { return false };
+                let bound = scope.local(&name).is_some() || scope.element(&name).is_some();
+                let owner = scope.classes.iter().find(|&&c| self.class_of_part(c, &name).is_some());
+                !bound && owner.is_some_and(|&c| self.is_primary_name(c, &name))
+            }
+            Expr::Field(field) => {
+                let name = named(field.name()).filter(|n| self.primary_names.contains(n));
+                let (Some(name), Some(receiver)) = (name, field.receiver()) else { return false };
+                self.silent += 1;
+                let owner = self.expr(scope, &receiver);
+                self.silent -= 1;
+                matches!(owner, Some((_, Kind::Thing(c))) if self.is_primary_name(c, &name))
+            }
+            _ => false,
+        }
     }
 
     fn super_message(
@@ -52,7 +84,8 @@ impl Lowerer<'_> {
     ) -> Option<(Term, Kind)> {
         let (class, name) = (scope.class(), word.name());
         let args = self.arguments(scope, field.args(), &Kind::Unknown)?;
-        let above = self.find_message(class, &name, Some(class)).map(|(c, _)| c);
+        let search = Some(Search::Above(class));
+        let above = self.find_message(class, &name, search).map(|(c, _)| c);
         if let Some(definer) = above {
             self.refer(Place { file: scope.file, span: word.span() }, &name, definer);
         }
@@ -65,7 +98,7 @@ impl Lowerer<'_> {
             }
         };
         let to = Box::new(Term::Me);
-        Some((Term::Send { to, name, arguments, above: Some(class) }, kind))
+        Some((Term::Send { to, name, arguments, search }, kind))
     }
 
     /// Finds out what a receiver answers to a name; reports a name that it does not know.
@@ -348,7 +381,10 @@ impl Lowerer<'_> {
             if self.kind_of_part(class, &name).is_some() {
                 let receiver = Kind::Thing(class);
                 let (arguments, kind) = self.message(scope, &receiver, &word, args, &Term::Me)?;
-                return Some((Term::Send { to: Box::new(me), name, arguments, above: None }, kind));
+                return Some((
+                    Term::Send { to: Box::new(me), name, arguments, search: None },
+                    kind,
+                ));
             }
         }
         let Some(b) = builtin::find(builtin::FUNCTIONS, &name) else {
@@ -358,7 +394,7 @@ impl Lowerer<'_> {
             };
             let (arguments, kind) = self.own_arguments(scope, b, call.span(), None, args)?;
             let to = Box::new(Term::Me);
-            return Some((Term::Send { to, name, arguments, above: None }, kind));
+            return Some((Term::Send { to, name, arguments, search: None }, kind));
         };
         let (arguments, kind) = self.own_arguments(scope, b, call.span(), None, args)?;
         Some((Term::Call { name, arguments }, kind))

@@ -41,11 +41,9 @@ impl Lowerer<'_> {
         supers: &[ClassId],
         origin: OriginId,
     ) -> ClassId {
-        let supers = supers.iter().map(|&class| {
-            let name = small_first(&self.document.classes[class].name);
-            Superclass { class, name }
-        });
-        let class = Class::new(name.into(), kind, supers.collect(), origin);
+        let nameless = |&class: &ClassId| Superclass { class, name: Name::new("") };
+        let supers = supers.iter().map(nameless).collect();
+        let class = Class::new(name.into(), kind, supers, origin);
         self.document.classes.push(class)
     }
 
@@ -80,6 +78,7 @@ impl Lowerer<'_> {
         }
         for (id, file, class) in self.declared.clone() {
             let mut supers: Vec<Superclass> = Vec::new();
+            let only = class.superclasses().count() == 1;
             for above in class.superclasses() {
                 let Some(ty) = above.class() else { continue };
                 let Some(class) = self.class_of_type(file, &ty) else { continue };
@@ -91,6 +90,7 @@ impl Lowerer<'_> {
                 }
                 let name = match above.alias() {
                     Some(alias) => alias.name(),
+                    None if only => Name::new(""),
                     None => small_first(&self.document.classes[class].name),
                 };
                 if supers.iter().any(|s| s.name == name) {
@@ -106,8 +106,9 @@ impl Lowerer<'_> {
                 supers.push(Superclass { class, name });
             }
             if supers.is_empty() {
-                supers.push(Superclass { class: self.object, name: "object".into() });
+                supers.push(Superclass { class: self.object, name: Name::new("") });
             }
+            self.primary_names.extend(supers.first().map(|s| s.name.clone()));
             self.document.classes[id].supers = supers;
         }
         self.break_cycles();
@@ -150,7 +151,7 @@ impl Lowerer<'_> {
         let name = self.document.classes[*id].name.clone();
         let message = format!("{name} is its own superclass, by way of the classes above it");
         self.error("superclass-cycle", *file, span, message);
-        let name = Name::new("object");
+        let name = Name::new("");
         self.document.classes[*id].supers = vec![Superclass { class: self.object, name }];
     }
 
@@ -175,7 +176,7 @@ impl Lowerer<'_> {
                 found
             }
             TypeShape::List { element, .. } => {
-                let element = self.class_of_type(file, &element?)?;
+                let element = self.class_of_element(file, &element?)?;
                 Some(self.class_made_of("List of", ClassKind::List(element), element))
             }
             TypeShape::Set(element) => {
@@ -191,6 +192,30 @@ impl Lowerer<'_> {
                 self.placed_class(file, ty.span(), master)
             }
         }
+    }
+
+    /// Returns the class of a list's elements; of lists in it, one that says how long they are.
+    fn class_of_element(&mut self, file: FileId, ty: &ast::Type) -> Option<ClassId> {
+        let class = self.class_of_type(file, ty)?;
+        let count = self.declared_count(&Scope::of(file, self.object), ty);
+        match (self.document.classes[class].kind.clone(), count) {
+            (ClassKind::List(element), Some(Count::Fixed(n))) => Some(self.counted(element, n)),
+            _ => Some(class),
+        }
+    }
+
+    /// Returns the class of lists of so many elements.
+    pub(crate) fn counted(&mut self, element: ClassId, count: u32) -> ClassId {
+        if let Some(&known) = self.counted.get(&(element, count)) {
+            return known;
+        }
+        let name = format!("List of {count} {}", self.document.classes[element].name);
+        let object = self.object;
+        let origin = self.document.classes[object].origin;
+        let class = self.add_class(&name, ClassKind::List(element), &[object], origin);
+        self.document.classes[class].count = Some(count);
+        self.counted.insert((element, count), class);
+        class
     }
 
     /// Returns the class of parts that name a thing of a class.

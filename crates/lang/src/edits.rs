@@ -20,6 +20,7 @@ use base::Diagnostic;
 use home::Home;
 use kernel::{ClassId, Command, Path, Step, Structure};
 pub use sides::write_sides;
+pub use switch::of_constraint;
 use syntax::ast::Expr;
 use syntax::edit::{self, TextEdit};
 use syntax::{SyntaxKind, SyntaxNode};
@@ -44,6 +45,8 @@ impl From<Vec<TextEdit>> for Restructuring {
 }
 
 /// Returns the edits of the text that a command is, and what they imply.
+///
+/// Values that are set are no structure, apart from what is set of a constraint.
 ///
 /// # Errors
 /// Why the text cannot say it: a path that leads nowhere, something that is a class's to say, a
@@ -72,7 +75,14 @@ pub fn edits_for(
         }
         Command::Anchor { path, held: false } => text.let_go(path)?.into(),
         Command::Enable { path, on } => text.switch(path, *on)?,
-        Command::Set(_) | Command::Move(_) | Command::Text(_) | Command::Undo | Command::Redo => {
+        Command::Set(targets) => match targets.as_slice() {
+            [(path, value)] => text.set_of_constraint(path, value)?,
+            _ => {
+                let message = "what is set of a constraint is an edit of its own".to_string();
+                return Err(refused("not-settable", message));
+            }
+        },
+        Command::Move(_) | Command::Text(_) | Command::Undo | Command::Redo => {
             Restructuring::default()
         }
     };
@@ -116,8 +126,15 @@ pub fn for_every(lowered: &Lowered, command: &Command) -> Option<Command> {
 }
 
 fn must_lead(text: &Text<'_>, structure: &Structure, path: &Path) -> Result<(), Diagnostic> {
+    // parts of placed things are joined by their own word; of any other virtual part the text says why not
+    let is_message = || {
+        let (Step::Part(name), owner) = path.0.split_last()? else { return None };
+        let class = text.class_at(&Path(owner.to_vec()))?;
+        text.lowered.document.find_message(class, name, None)
+    };
     let known = structure.follow(kernel::DOCUMENT, path).is_ok()
-        || text.prototype(path).is_some() && text.class_at(path).is_some();
+        || text.prototype(path).is_some() && text.class_at(path).is_some()
+        || is_message().is_some();
     match known {
         true => Ok(()),
         false => Err(refused("unknown-part", format!("{path} leads nowhere"))),

@@ -155,7 +155,7 @@ impl Lowerer<'_> {
         let name = self.files[file].name.clone();
         let object = self.object;
         let class = self.add_unnamed_class(&name, object, origin);
-        self.classes_of_one.insert(class);
+        self.document.classes[class].is_of_one = true;
         self.declare_file(file, class);
         Some(class)
     }

@@ -216,7 +216,7 @@ class Row { all: List of Real = [1] }
 
     fn told(l: &Lowered) -> String {
         let Lowered { document, checks, origins, diagnostics, doc, parts, class_spans, .. } = l;
-        let more = (&l.classes_of_one, &l.effective, &l.added);
+        let more = (&l.effective, &l.added);
         format!(
             "{document:#?}{checks:?}{origins:?}{diagnostics:#?}{doc}{parts:?}{class_spans:?}{more:?}"
         )

@@ -49,7 +49,7 @@ mod visible;
 mod write;
 
 pub use checks::{Check, Expectation, PlanKind, Statement, StatementKind, without_checks};
-pub use edits::{Restructuring, edits_for, for_every, write_sides};
+pub use edits::{Restructuring, edits_for, for_every, of_constraint, write_sides};
 pub use files::File;
 pub use lower::{Lowered, lower};
 pub use numbers::{Wanted, read_literal, show_limit, show_number};

@@ -19,7 +19,7 @@ use crate::switches::PendingSwitch;
 use crate::visible::Visible;
 use base::{Diagnostic, FileId, IdVec, Mixer, Name, Place, Severity, Span};
 use indexmap::IndexMap;
-use kernel::{ClassId, Document, Fault, OriginId, Vertical};
+use kernel::{ClassId, Document, Fault, OriginId, Search, Vertical};
 use std::collections::{BTreeMap, BTreeSet};
 use std::hash::BuildHasherDefault;
 use std::rc::Rc;
@@ -49,7 +49,6 @@ pub struct Lowered {
     pub(crate) added: Vec<Option<Added>>,
     /// Where the effective text differs from the text.
     pub(crate) patches: Vec<Patch>,
-    pub(crate) classes_of_one: BTreeSet<ClassId>,
     /// Every part that a class declares, by its name: its index among the class's parts.
     pub(crate) parts: ByName<usize>,
     /// Where the document's own text declares classes.
@@ -126,7 +125,6 @@ pub(crate) fn lower_text(
         class_spans: classes.iter().map(|class| syntax::span_of(class.syntax())).collect(),
         patches: Vec::new(),
         files: l.files,
-        classes_of_one: l.classes_of_one,
         parts: l.parts,
         added: l.added,
     }
@@ -152,7 +150,6 @@ pub(crate) struct Lowerer<'l> {
     /// What has been reported, so that it is said once.
     said: BTreeSet<(Place, String)>,
     pub(crate) object: ClassId,
-    pub(crate) classes_of_one: BTreeSet<ClassId>,
     /// Members whose expressions are still to be lowered.
     pub(crate) pending: Vec<Pending>,
     /// Definitions of messages, by class and name, with the scope they stand in.
@@ -165,6 +162,10 @@ pub(crate) struct Lowerer<'l> {
     pub(crate) given_counts: BTreeMap<(ClassId, Name), u32>,
     /// Every message that a class defines, by its name: the index of the last among its messages.
     pub(crate) messages: ByName<usize>,
+    /// The names by which things are reached as their primary superclasses.
+    pub(crate) primary_names: BTreeSet<Name>,
+    /// Parts and messages whose declaration is wrong: what speaks of them says no more.
+    pub(crate) broken: BTreeSet<(ClassId, Name)>,
     /// Where parts and messages are named.
     pub(crate) named_at: ByName<Place>,
     /// Names of constraints and merges.
@@ -181,6 +182,8 @@ pub(crate) struct Lowerer<'l> {
     pub(crate) unrolled: usize,
     /// Classes of lists and sets, by `List of` or `Set of` and what they hold.
     pub(crate) made: BTreeMap<(&'static str, ClassId), ClassId>,
+    /// Classes of lists of so many elements.
+    pub(crate) counted: BTreeMap<(ClassId, u32), ClassId>,
     pub(crate) placed: PlacedClasses,
     /// Every constraint with a name, by the class that declares it.
     pub(crate) constraints: BTreeSet<(ClassId, Name)>,
@@ -215,16 +218,18 @@ impl<'l> Lowerer<'l> {
             diagnostics: Vec::new(),
             said: BTreeSet::new(),
             made: BTreeMap::new(),
+            counted: BTreeMap::new(),
             placed: PlacedClasses::default(),
             constraints: BTreeSet::new(),
             depth: 0,
             object: ClassId(0),
-            classes_of_one: BTreeSet::new(),
             pending: Vec::new(),
             definitions: BTreeMap::new(),
             message_kinds: BTreeMap::new(),
             parts: ByName::default(),
             messages: ByName::default(),
+            primary_names: BTreeSet::new(),
+            broken: BTreeSet::new(),
             named_at: ByName::default(),
             given_counts: BTreeMap::new(),
             rule_names: BTreeSet::new(),
@@ -313,9 +318,9 @@ impl<'l> Lowerer<'l> {
         &self,
         class: ClassId,
         name: &Name,
-        above: Option<ClassId>,
+        search: Option<Search>,
     ) -> Option<(ClassId, &kernel::Message)> {
-        self.document.find_message_by(class, above, &|c| self.defined_message(c, name))
+        self.document.find_message_by(class, search, &|c| self.defined_message(c, name))
     }
 }
 
@@ -377,8 +382,17 @@ impl Lowered {
         let place = self.origins.place(self.document.classes[class].origin);
         (place.file == OWN && self.class_spans.contains(&place.span)).then_some(class)
     }
+    /// Returns the classes that the document's own text declares.
+    pub fn own_classes(&self) -> impl Iterator<Item = ClassId> {
+        let is_own = |(id, class): (ClassId, &kernel::Class)| {
+            let place = self.origins.place(class.origin);
+            let declared = place.file == OWN && self.class_spans.contains(&place.span);
+            (declared && !self.is_class_of_one(id)).then_some(id)
+        };
+        self.document.classes.iter().filter_map(is_own)
+    }
     /// Returns true if a class is that of a single part.
     pub fn is_class_of_one(&self, class: ClassId) -> bool {
-        self.classes_of_one.contains(&class)
+        self.document.classes[class].is_of_one
     }
 }

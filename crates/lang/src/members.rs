@@ -223,8 +223,9 @@ impl Lowerer<'_> {
             let message = format!("{path} is not a list");
             return self.error("value-of-wrong-class", scope.file, list.span(), message);
         };
-        let Some(count) = self.count_of(scope, &list).or_else(|| self.given_count(scope, &list))
-        else {
+        let counted = class.and_then(|c| self.document.classes[c].count);
+        let count = counted.or_else(|| self.count_of(scope, &list));
+        let Some(count) = count.or_else(|| self.given_count(scope, &list)) else {
             let what = "`for` over a list without a count, `List of 3 C` or `= [a, b]`, is";
             return self.not_yet(scope.file, list.span(), what);
         };
@@ -265,7 +266,9 @@ impl Lowerer<'_> {
         if let Some(definition) = part.definition() {
             return self.declare_virtual(scope, part, &ty, &definition);
         }
-        let Some(class) = self.class_of_type(scope.file, &ty) else { return };
+        let Some(class) = self.class_of_type(scope.file, &ty) else {
+            return self.broken.extend(part.names().map(|w| (scope.class(), w.name())));
+        };
         let count = self.declared_count(scope, &ty);
         let range = part.domain().and_then(|d| self.domain(scope, &d, class));
         self.refuse_block(scope, part.value());
@@ -298,7 +301,10 @@ impl Lowerer<'_> {
     /// Declares a part that names another thing.
     fn declare_reference(&mut self, scope: &Scope, reference: &ast::Ref) {
         let (Some(word), Some(ty)) = (reference.name(), reference.class()) else { return };
-        let Some(to) = self.class_of_type(scope.file, &ty) else { return };
+        let Some(to) = self.class_of_type(scope.file, &ty) else {
+            self.broken.insert((scope.class(), word.name()));
+            return;
+        };
         if !self.is_new(scope, &word) {
             return;
         }
@@ -365,7 +371,7 @@ impl Lowerer<'_> {
             owner => format!("{owner}.{name}"),
         };
         let one = self.add_unnamed_class(&label, class, origin);
-        self.classes_of_one.insert(one);
+        self.document.classes[one].is_of_one = true;
         self.declare_body(&scope.inside(one), members);
         one
     }

@@ -56,7 +56,16 @@ impl Lowerer<'_> {
         None
     }
 
+    /// Returns true for a name whose own declaration is wrong, and says so.
+    fn is_broken(&self, class: ClassId, name: &Name) -> bool {
+        let broken = |&c: &ClassId| self.broken.contains(&(c, name.clone()));
+        !self.broken.is_empty() && self.document.lineage(class).iter().any(broken)
+    }
+
     pub(crate) fn unknown_name(&mut self, scope: &Scope, word: &ast::Word) {
+        if scope.classes.iter().any(|&class| self.is_broken(class, &word.name())) {
+            return;
+        }
         let message = format!("there is nothing called {} here", word.text());
         let place = Place { file: scope.file, span: word.span() };
         let mut d = Diagnostic::error("unknown-name", place, message);
@@ -98,6 +107,9 @@ impl Lowerer<'_> {
 
     /// Says that a receiver has no part or message of this name, and which it has.
     pub(crate) fn unknown_part(&mut self, scope: &Scope, receiver: &Kind, word: &ast::Word) {
+        if matches!(receiver, Kind::Thing(class) if self.is_broken(*class, &word.name())) {
+            return;
+        }
         let what = receiver.words(&self.document);
         let message = format!("{what} has no part or message {}", word.text());
         let place = Place { file: scope.file, span: word.span() };
@@ -132,9 +144,8 @@ impl Lowerer<'_> {
             if c.supers.is_empty() {
                 continue;
             }
-            if c.supers.len() > 1 {
-                names.extend(c.supers.iter().map(|s| s.name.to_string()));
-            }
+            let supers = c.supers.iter().filter(|s| !s.name.is_empty());
+            names.extend(supers.map(|s| s.name.to_string()));
             names.extend(c.parts.iter().map(|p| p.name.to_string()));
             names.extend(c.messages.iter().map(|m| m.name.to_string()));
         }
@@ -251,7 +262,7 @@ fn find_part(
         let mut next = Some(class);
         while let Some(c) = next.filter(|&c| seen.insert(c)) {
             let supers = &document.classes[c].supers;
-            let named = supers.iter().filter(|_| supers.len() > 1).find(|s| *s.name == *name);
+            let named = supers.iter().find(|s| *s.name == *name);
             if let Some(found) = own(c).or(named.map(|s| s.class)) {
                 return Some(referred(document, found));
             }

@@ -137,6 +137,10 @@ impl Lowerer<'_> {
                 let path = loose_path(&field.receiver()?)?;
                 (self.class_at(scope.class(), &path)?, field.name()?.name())
             }
+            Expr::Index(_) => {
+                let class = self.class_at(scope.class(), &loose_path(list)?)?;
+                return self.document.classes[class].count;
+            }
             _ => return None,
         };
         if scope.local(&name).is_some() {

@@ -11,13 +11,15 @@
 
 use crate::kinds::Kind;
 use crate::lower::{Lowerer, OWN};
+use crate::scope::Scope;
 use base::{Diagnostic, FileId, Name, Place, Span};
 use expr::dimension::Dimension;
 use kernel::{
-    Argument, BinaryOperator, ClassId, ClassKind, Document, Given, Message, OriginId, Part, Path,
-    Primitive, Stay, Step, Strength, Term,
+    Argument, BinaryOperator, ClassId, ClassKind, Constraint, Document, Given, Message, OriginId,
+    Part, Path, Primitive, Stay, Step, Strength, Term,
 };
 use std::collections::{BTreeMap, BTreeSet};
+use syntax::ast::{self, AstNode, Expr};
 
 /// How many parts of a master are placed, those of its parts included.
 const MOST_FIELDS: u32 = 10_000;
@@ -45,6 +47,12 @@ impl Lowerer<'_> {
             let name = &self.document.classes[master].name;
             let message = format!("{name} has no parts that could be placed");
             self.error("value-of-wrong-class", file, span, message);
+            return None;
+        }
+        if self.document.classes[master].is_abstract {
+            let name = &self.document.classes[master].name;
+            let message = format!("{name} is abstract: it has no things of its own");
+            self.error("abstract-part", file, span, message);
             return None;
         }
         let class = self.class_made_of("Placed of", ClassKind::Composite, master);
@@ -187,7 +195,7 @@ impl Lowerer<'_> {
             };
             let arguments = parameters.iter().map(pass).collect();
             let to = Box::new(placed.clone());
-            let answer = Term::Send { to, name: name.clone(), arguments, above: None };
+            let answer = Term::Send { to, name: name.clone(), arguments, search: None };
             let index = self.add_hidden_message(class, &name, answer, kind, origin);
             self.document.classes[class].messages[index].parameters = parameters;
         }
@@ -218,6 +226,81 @@ impl Lowerer<'_> {
     }
 }
 
+impl Lowerer<'_> {
+    /// Returns true if an expression leads to a part of a master, as a placed thing shows it.
+    fn is_placed_part(&mut self, scope: &Scope, e: &Expr) -> bool {
+        let (receiver, name) = match e {
+            Expr::Paren(inner) => {
+                return inner.inner().is_some_and(|e| self.is_placed_part(scope, &e));
+            }
+            Expr::Field(field) if field.args().is_none() => (field.receiver(), field.name()),
+            Expr::Index(index) => (index.receiver(), None),
+            _ => return false,
+        };
+        let Some(receiver) = receiver else { return false };
+        self.silent += 1;
+        let owner = self.path(scope, &receiver).and_then(|(_, class)| class);
+        self.silent -= 1;
+        match (owner.and_then(|c| Some((c, *self.placed.of.get(&c)?))), name) {
+            (Some((class, master)), Some(word)) => {
+                let name = word.name();
+                self.class_of_part(class, &name).is_none()
+                    && self.class_of_part(master, &name).is_some()
+            }
+            _ => owner.is_none() && self.is_placed_part(scope, &receiver),
+        }
+    }
+
+    /// Lowers a merge that names parts of placed things: they stay in one place by a constraint, since
+    /// what is placed is not stored. Returns false for any other merge.
+    pub(crate) fn define_joint(
+        &mut self,
+        scope: &Scope,
+        merge: &ast::Merge,
+        origin: OriginId,
+    ) -> bool {
+        if self.placed.of.is_empty() || !merge.paths().any(|e| self.is_placed_part(scope, &e)) {
+            return false;
+        }
+        let Some(name) = self.rule_name(scope, merge.name()) else { return true };
+        let mut parts = Vec::new();
+        for e in merge.paths() {
+            let Some((term, kind)) = self.expr(scope, &e) else { return true };
+            parts.push((term, kind, e.span()));
+        }
+        let Some(((first, wanted, _), others)) = parts.split_first() else { return true };
+        let mut rule: Option<Term> = None;
+        for (other, kind, span) in others {
+            if !kind.fits(wanted, &self.document) {
+                let (one, other) = (wanted.words(&self.document), kind.words(&self.document));
+                let message = format!("{one} and {other} cannot be one part");
+                self.error("unlike-merge", scope.file, *span, message);
+                return true;
+            }
+            let sides = (Box::new(first.clone()), Box::new(other.clone()));
+            let equal = Term::Binary(BinaryOperator::Equal, sides.0, sides.1);
+            rule = Some(match rule {
+                None => equal,
+                Some(all) => Term::Binary(BinaryOperator::And, Box::new(all), Box::new(equal)),
+            });
+        }
+        let Some(rule) = rule else { return true };
+        let joint = Constraint {
+            name,
+            doc: String::new(),
+            rule,
+            strength: Strength::Required,
+            methods: Vec::new(),
+            derived: true,
+            reads: Vec::new(),
+            within: None,
+            origin,
+        };
+        self.document.classes[scope.class()].constraints.push(joint);
+        true
+    }
+}
+
 /// Returns true if things of a class have coordinates `x` and `y`.
 fn planar(document: &Document, class: ClassId) -> bool {
     ["x", "y"].iter().all(|name| {
@@ -244,7 +327,10 @@ impl Placing<'_> {
     /// lists around it.
     fn term(&mut self, of: Term, class: ClassId, depth: u32) -> Term {
         match self.document.classes[class].kind {
-            ClassKind::Primitive(_) if is_length(self.document, class) => times(own("scale"), of),
+            ClassKind::Primitive(Primitive::Real(dimension)) => {
+                let scales = (1..=3).find(|&n| dimension == Dimension::LENGTH.power(n));
+                (0..scales.unwrap_or(0)).fold(of, |value, _| times(own("scale"), value))
+            }
             ClassKind::Primitive(_) | ClassKind::Reference(_) | ClassKind::Set(_) => of,
             ClassKind::List(element) => {
                 let name = Name::new(&format!("(element {depth})"));
@@ -252,7 +338,7 @@ impl Placing<'_> {
                 let value = Term::Lambda(vec![name], Box::new(each));
                 let arguments = vec![Argument { label: None, value }];
                 let map = Name::new("map");
-                Term::Send { to: Box::new(of), name: map, arguments, above: None }
+                Term::Send { to: Box::new(of), name: map, arguments, search: None }
             }
             ClassKind::Composite => self.thing(&of, class, depth),
         }

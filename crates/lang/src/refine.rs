@@ -39,7 +39,7 @@ impl Lowerer<'_> {
         let origin = self.origin(scope.file, modify.span());
         let name = self.document.classes[class].name.to_string();
         let body = self.add_unnamed_class(&name, class, origin);
-        self.classes_of_one.insert(body);
+        self.document.classes[body].is_of_one = true;
         self.modifications.entry(scope.class()).or_default().push(body);
         let members = modify.body().into_iter().flat_map(|b| b.members()).collect();
         self.declare_body(&Scope::of(scope.file, body), members);
@@ -113,7 +113,10 @@ impl Lowerer<'_> {
             ClassKind::Primitive(_) | ClassKind::Set(_) | ClassKind::Reference(_) => return None,
             ClassKind::List(element) => {
                 let element = self.narrower(element, refinement, made)?;
-                return Some(self.class_made_of("List of", ClassKind::List(element), element));
+                return Some(match self.document.classes[class].count {
+                    Some(count) => self.counted(element, count),
+                    None => self.class_made_of("List of", ClassKind::List(element), element),
+                });
             }
             ClassKind::Composite => {}
         }
@@ -131,7 +134,7 @@ impl Lowerer<'_> {
             (c.name.to_string(), c.origin)
         };
         let one = self.add_unnamed_class(&name, class, origin);
-        self.classes_of_one.insert(one);
+        self.document.classes[one].is_of_one = true;
         made.insert(key, one);
         for &body in &refinement.bodies {
             if self.document.is_a(class, self.modified(body)) {
@@ -277,12 +280,13 @@ impl Lowerer<'_> {
     }
 
     /// Returns true if a name is that of a primary superclass, by which a thing reaches itself.
-    fn is_primary_name(&self, class: ClassId, name: &Name) -> bool {
-        let document = &self.document;
-        document.primary_line(class).iter().any(|&c| {
-            let supers = &document.classes[c].supers;
-            supers.len() > 1 && supers[0].name == *name
-        })
+    pub(crate) fn is_primary_name(&self, class: ClassId, name: &Name) -> bool {
+        let declares = |&c: &ClassId| {
+            let supers = &self.document.classes[c].supers;
+            let part = self.parts.contains_key(&(c, name.clone()));
+            part.then_some(false).or(supers.iter().position(|s| s.name == *name).map(|i| i == 0))
+        };
+        self.document.primary_line(class).iter().find_map(declares).unwrap_or(false)
     }
 
     /// Returns the superclass parts on the way to every rule of this name; none for the thing itself.

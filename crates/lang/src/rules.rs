@@ -11,6 +11,7 @@ use kernel::{
     BinaryOperator, ClassId, ClassKind, Constraint, Given, Insert, Merge, Method, OriginId, Path,
     Primitive, Side, SideWay, Stay, Step, Strength, Term,
 };
+use std::collections::BTreeSet;
 use syntax::ast::{self, AstNode, Expr, Member, MethodItem, Rule, span_without_doc};
 
 /// Where a rule stands.
@@ -47,16 +48,29 @@ impl Lowerer<'_> {
     /// Lowers every expression that waits.
     pub(crate) fn define_members(&mut self) {
         self.complete_placed();
-        let mut wrong = Vec::new();
-        self.define_pending(&mut wrong);
-        for (class, name) in wrong {
-            self.document.classes[class].messages.retain(|m| m.name != name);
+        self.define_pending();
+        self.drop_broken_messages();
+    }
+
+    /// Takes away the messages whose answers are wrong.
+    fn drop_broken_messages(&mut self) {
+        let classes: BTreeSet<ClassId> = self.broken.iter().map(|(class, _)| *class).collect();
+        for class in classes {
+            let messages = &mut self.document.classes[class].messages;
+            messages.retain(|m| !self.broken.contains(&(class, m.name.clone())));
+            for (index, message) in messages.iter().enumerate() {
+                self.messages.insert((class, message.name.clone()), index);
+            }
         }
     }
 
-    fn define_pending(&mut self, wrong: &mut Vec<(ClassId, Name)>) {
+    fn define_pending(&mut self) {
         let mut noted = self.so_far();
-        for pending in std::mem::take(&mut self.pending) {
+        // what speaks of a message whose answer is wrong goes with it, and says no more
+        let (answers, others): (Vec<Pending>, Vec<Pending>) = std::mem::take(&mut self.pending)
+            .into_iter()
+            .partition(|p| matches!(p, Pending::Answer { .. }));
+        for pending in answers.into_iter().chain(others) {
             match pending {
                 Pending::Kept { member, part, was, shift } => {
                     self.keep_values(member, part, was, shift);
@@ -65,7 +79,7 @@ impl Lowerer<'_> {
                 Pending::Noted { member, part, givens } => self.note(member, part, givens, noted),
                 Pending::Each { scope, each } => {
                     self.unroll_list(&scope, &each);
-                    self.define_pending(wrong);
+                    self.define_pending();
                 }
                 Pending::Member(scope, member) => self.define(&scope, &member),
                 Pending::Value { scope, prefix, target, value } => {
@@ -80,7 +94,10 @@ impl Lowerer<'_> {
                     let wanted = self.message_kind(class, &name);
                     match self.expr_of(&scope, &answer, &wanted) {
                         Some(term) => self.document.classes[class].messages[index].answer = term,
-                        None => wrong.push((class, name)),
+                        None => {
+                            self.messages.shift_remove(&(class, name.clone()));
+                            self.broken.insert((class, name));
+                        }
                     }
                 }
             }
@@ -230,6 +247,7 @@ impl Lowerer<'_> {
         let class = scope.class();
         match member {
             Member::Constraint(c) => self.define_constraint(scope, c, origin),
+            Member::Merge(merge) if self.define_joint(scope, merge, origin) => {}
             Member::Merge(merge) => {
                 let wanted = merge.paths().count();
                 let paths = self.paths(scope, merge.paths());
@@ -277,7 +295,11 @@ impl Lowerer<'_> {
     }
 
     /// Returns the name of a constraint or merge, if it has one; nothing where it is not new.
-    fn rule_name(&mut self, scope: &Scope, word: Option<ast::Word>) -> Option<Option<Name>> {
+    pub(crate) fn rule_name(
+        &mut self,
+        scope: &Scope,
+        word: Option<ast::Word>,
+    ) -> Option<Option<Name>> {
         let Some(word) = word else { return Some(None) };
         let is_new = self.rule_names.insert((scope.class(), word.name()));
         if is_new || !scope.constants.is_empty() || !scope.elements.is_empty() {
@@ -486,8 +508,8 @@ impl Lowerer<'_> {
 fn from_document(term: Term) -> Term {
     match term {
         Term::Me => Term::Document,
-        Term::Send { to, name, arguments, above } => {
-            Term::Send { to: Box::new(from_document(*to)), name, arguments, above }
+        Term::Send { to, name, arguments, search } => {
+            Term::Send { to: Box::new(from_document(*to)), name, arguments, search }
         }
         Term::Index(list, at) => Term::Index(Box::new(from_document(*list)), at),
         other => other,
@@ -540,7 +562,7 @@ fn stored_path(term: &Term) -> Option<Path> {
     match term {
         Term::Me => Some(Path::default()),
         Term::Owner => Some(Path(vec![Step::Owner])),
-        Term::Send { to, name, arguments, above: None } if arguments.is_empty() => {
+        Term::Send { to, name, arguments, search: None } if arguments.is_empty() => {
             let step = if *name == "owner" { Step::Owner } else { Step::Part(name.clone()) };
             Some(stored_path(to)?.then(step))
         }

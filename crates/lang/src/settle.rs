@@ -4,7 +4,7 @@ use crate::classes::small_first;
 use crate::kinds::Kind;
 use crate::lower::Lowerer;
 use base::{Diagnostic, Name, Place};
-use kernel::{ClassId, Step, builtin};
+use kernel::{ClassId, Search, Step, builtin};
 use std::collections::BTreeMap;
 use syntax::ast::AstNode;
 use syntax::edit::{Spot, insert_member};
@@ -86,7 +86,7 @@ impl Lowerer<'_> {
             }
             let parameters = |m: &kernel::Message| m.parameters.len();
             let Some(own) = self.defined_message(class, &name).map(parameters) else { continue };
-            let inherited = self.find_message(class, &name, Some(class));
+            let inherited = self.find_message(class, &name, Some(Search::Above(class)));
             let Some((from, message)) = inherited else { continue };
             let wanted = parameters(message);
             if own != wanted {

@@ -357,7 +357,7 @@ impl Lowerer<'_> {
             to: Box::new(a.clone()),
             name: Name::new(name),
             arguments: vec![Argument { label: None, value }],
-            above: None,
+            search: None,
         };
         if op == BinaryOp::Union {
             return Some((send("union", b), ka.joined(kb)));

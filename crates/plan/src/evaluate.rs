@@ -9,8 +9,8 @@ use crate::reach::Reach;
 use base::Name;
 use expr::{Arena, ExprId, Node, Unary, Var};
 use kernel::{
-    Argument, Aspect, BinaryOperator, ClassId, ClassKind, Document, Message, Setting, SlotId,
-    Structure, Term, ThingId, UnaryOperator,
+    Argument, Aspect, BinaryOperator, ClassId, ClassKind, Document, Message, Search, Setting,
+    SlotId, Structure, Term, ThingId, UnaryOperator,
 };
 use std::collections::BTreeSet;
 use std::rc::Rc;
@@ -74,10 +74,10 @@ impl<'a> Opening<'a> {
             Term::Local(name) => frame.local(name).ok_or_else(|| {
                 Trouble::new(FaultKind::UnknownName, format!("nothing is named `{name}` here"))
             }),
-            Term::Send { to, name, arguments, above } => {
+            Term::Send { to, name, arguments, search } => {
                 let to = self.meaning(to, frame)?;
                 let arguments = self.arguments(arguments, frame)?;
-                self.send(&to, name, &arguments, *above)
+                self.send(&to, name, &arguments, *search)
             }
             Term::Call { name, arguments } => {
                 let arguments = self.arguments(arguments, frame)?;
@@ -298,16 +298,55 @@ impl<'a> Opening<'a> {
         to: &Meaning<'a>,
         name: &Name,
         arguments: &[Given<'a>],
-        above: Option<ClassId>,
+        search: Option<Search>,
     ) -> Answer<'a> {
-        if let Some(part) = self.stored_part(to, name, arguments, above)? {
+        if let Some(part) = self.stored_part(to, name, arguments, search)? {
             return Ok(part);
         }
-        if let Some(message) = self.message(to, name, above) {
+        if let Some(combined) = self.combined(to, name, arguments, search)? {
+            return Ok(combined);
+        }
+        if let Some(message) = self.message(to, name, search) {
             let frame = bind_arguments(Frame::new(to.clone()), message, arguments)?;
             return self.deeper(|opening| opening.meaning(&message.answer, &frame));
         }
         self.send_builtin(to, name, arguments)
+    }
+
+    /// Lists what several superclasses say, where a message combines that.
+    fn combined(
+        &mut self,
+        to: &Meaning<'a>,
+        name: &Name,
+        arguments: &[Given<'a>],
+        search: Option<Search>,
+    ) -> Result<Option<Meaning<'a>>, Trouble> {
+        let &Meaning::Thing(thing) = to else { return Ok(None) };
+        let class = self.structure.things[thing].class;
+        if self.structure.layout(class).is_none_or(|l| l.superclasses.is_empty()) {
+            return Ok(None);
+        }
+        let Some(voices) = self.document.voices(class, name, search) else { return Ok(None) };
+        let mut said = Vec::new();
+        if let Some(message) = voices.own {
+            let frame = bind_arguments(Frame::new(to.clone()), message, arguments)?;
+            said.push(self.deeper(|opening| opening.meaning(&message.answer, &frame))?);
+        }
+        let parts = self.reach.parts(thing);
+        for part in voices.others.iter().filter_map(|&i| parts.get(i as usize)) {
+            said.push(self.send(&Meaning::Thing(*part), name, arguments, None)?);
+        }
+        if said.len() < 2 {
+            return Ok(said.pop());
+        }
+        let mut all = Vec::new();
+        for meaning in said {
+            match self.items(&meaning) {
+                Ok(items) => all.extend(items.iter().cloned()),
+                Err(_) => all.push(meaning),
+            }
+        }
+        Ok(Some(Meaning::List(all.into())))
     }
 
     /// Reads a stored part, where the message is nothing else.
@@ -316,9 +355,9 @@ impl<'a> Opening<'a> {
         to: &Meaning<'a>,
         name: &Name,
         arguments: &[Given<'a>],
-        above: Option<ClassId>,
+        search: Option<Search>,
     ) -> Result<Option<Meaning<'a>>, Trouble> {
-        if !arguments.is_empty() || above.is_some() {
+        if !arguments.is_empty() || search.is_some() {
             return Ok(None);
         }
         match to {
@@ -340,10 +379,10 @@ impl<'a> Opening<'a> {
         &self,
         to: &Meaning<'a>,
         name: &str,
-        above: Option<ClassId>,
+        search: Option<Search>,
     ) -> Option<&'a Message> {
         let document = self.document;
-        let find = |class| document.find_message(class, name, above).map(|found| found.1);
+        let find = |class| document.find_message(class, name, search).map(|found| found.1);
         match to {
             Meaning::Thing(t) => find(self.structure.things[*t].class).or_else(|| {
                 let alike = self.structure.unlike(*t);

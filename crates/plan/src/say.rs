@@ -86,10 +86,10 @@ pub(crate) fn say<'a>(
             let operand = opening.meaning(operand, frame)?;
             want(opening, &operand, 0.0, said)
         }
-        Term::Send { to, name, arguments, above } => {
+        Term::Send { to, name, arguments, search } => {
             let to = opening.meaning(to, frame)?;
             if let (Some(message), true) =
-                (opening.message(&to, name, *above), is_message(opening, &to, name))
+                (opening.message(&to, name, *search), is_message(opening, &to, name))
             {
                 let mut given = Vec::new();
                 for a in arguments {

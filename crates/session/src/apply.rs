@@ -35,6 +35,11 @@ pub(crate) fn apply(
         return prototype::edit(open, host, command, targets, class);
     }
     match command {
+        Command::Set(targets)
+            if targets.iter().any(|t| lang::of_constraint(&open.state.lowered, &t.0).is_some()) =>
+        {
+            restructure(open, host, command)
+        }
         Command::Set(targets) => edit(open, host, EditKind::Set, targets),
         Command::Move(targets) => edit(open, host, EditKind::Move, targets),
         Command::Text(text) => Ok(take_text(open, host, text)),

@@ -146,7 +146,13 @@ impl Run<'_> {
             Some(StatementKind::Unclear) | None if self.is_told(statement) => return Ok(()),
             Some(StatementKind::Unclear) | None => {
                 let (_, message) = self.lowered(std::slice::from_ref(statement));
-                return Err(message.unwrap_or_else(|| "this means nothing here".into()));
+                let is_error = |d: &base::Diagnostic| d.severity == base::Severity::Error;
+                return match message {
+                    Some(message) => Err(message),
+                    // what it speaks of is wrong where it is declared, and that is said there
+                    None if self.of.diagnostics.iter().any(is_error) => Ok(()),
+                    None => Err("this means nothing here".into()),
+                };
             }
             Some(kind) => kind,
         };

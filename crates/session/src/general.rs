@@ -124,7 +124,7 @@ fn sent(name: &str, label: &str, value: Term) -> Term {
         to: Box::new(Term::Me),
         name: Name::new(name),
         arguments: vec![argument],
-        above: None,
+        search: None,
     }
 }
 

@@ -41,7 +41,13 @@ impl State {
     ) -> (Self, Planner) {
         let load = |name: &str| host.read(name);
         let lowered = lang::lower(&text, &load, before.map(|b| &b.lowered));
-        let (structure, faults) = kernel::instantiate(&lowered.document);
+        let (structure, mut faults) = kernel::instantiate(&lowered.document);
+        let idle = lowered.own_classes().filter(|&c| structure.layout(c).is_none());
+        for fault in kernel::faults_of(&lowered.document, idle) {
+            if !faults.contains(&fault) {
+                faults.push(fault);
+            }
+        }
         debug_assert_eq!(kernel::check::structure(&lowered.document, &structure), Ok(()));
         let model = Model { document: &lowered.document, structure: &structure };
         let (mut planner, unplanned) = Planner::new(model, plans);

@@ -291,16 +291,12 @@ pub(crate) fn show_thing(state: &State, thing: ThingId, values: &Values) -> Opti
 pub(crate) fn class_name(state: &State, thing: ThingId) -> String {
     let document = &state.lowered.document;
     let class = state.structure.things[thing].class;
-    let named = match document.classes[class].supers.first() {
-        Some(above) if state.lowered.is_class_of_one(class) => above.class,
-        Some(_) | None => class,
-    };
     match &document.classes[class].kind {
         ClassKind::List(element) => {
             let n = state.structure.things[thing].parts;
             format!("List of {n} {}", document.classes[*element].name)
         }
-        _ => document.classes[named].name.to_string(),
+        _ => document.classes[document.named_class(class)].name.to_string(),
     }
 }
 

@@ -201,7 +201,7 @@ pub(crate) fn call(name: &str, values: Vec<Term>) -> Term {
     Term::Call { name: name.into(), arguments: arguments(values) }
 }
 pub(crate) fn send(to: Term, name: &str, values: Vec<Term>) -> Term {
-    Term::Send { to: Box::new(to), name: name.into(), arguments: arguments(values), above: None }
+    Term::Send { to: Box::new(to), name: name.into(), arguments: arguments(values), search: None }
 }
 pub(crate) fn make(class: ClassId, values: Vec<Term>) -> Term {
     Term::Make { class, arguments: arguments(values) }

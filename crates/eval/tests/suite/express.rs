@@ -161,7 +161,7 @@ fn messages_take_arguments_by_label_and_position() {
         to: Box::new(Term::Me),
         name: "less".into(),
         arguments,
-        above: None,
+        search: None,
     };
     let plain = |value| kernel::Argument { label: None, value };
     assert_eq!(value(&b, &ask(vec![plain(num(5.0)), plain(num(3.0))])), "2");
@@ -178,7 +178,7 @@ fn numbers_become_texts_and_texts_numbers() {
         to: Box::new(num(x)),
         name: "text".into(),
         arguments: vec![labelled("digits", num(n))],
-        above: None,
+        search: None,
     };
     assert_eq!(value(&b, &send(part("n"), "text", vec![])), "\"2.5\"");
     assert_eq!(value(&b, &digits(1.21451, 3.0)), "\"1.215\"");
@@ -257,7 +257,7 @@ fn super_begins_above() {
         to: Box::new(Term::Me),
         name: "sign".into(),
         arguments: vec![],
-        above: Some(lower),
+        search: Some(kernel::Search::Above(lower)),
     };
     b.message(lower, "sign", &[], add(above, text("l")));
     b.part(b.root(), "it", lower);

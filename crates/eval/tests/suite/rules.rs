@@ -91,7 +91,7 @@ fn a_text_reads_as_its_number_to_the_digits_asked_for() {
         to: Box::new(part("value")),
         name: "text".into(),
         arguments: vec![labelled("digits", num(2.0))],
-        above: None,
+        search: None,
     };
     let root = b.root();
     b.document.classes[root].constraints.clear();

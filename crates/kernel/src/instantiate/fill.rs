@@ -47,13 +47,13 @@ pub(super) fn fill<'d>(
 }
 
 /// Returns the body of a class: what its things have below them where nothing else is given.
-fn body_of(maker: &mut Maker<'_>, class: ClassId, origin: OriginId) -> Option<Rc<Body>> {
+pub(super) fn body_of(maker: &mut Maker<'_>, class: ClassId, origin: OriginId) -> Option<Rc<Body>> {
     if let Some(body) = &maker.bodies[class] {
         return Some(body.clone());
     }
     if maker.on_the_way.contains(&class) {
         let name = &maker.document.classes[class].name;
-        let message = format!("a {name} would have another {name} as a part, without end");
+        let message = format!("{name} would have another {name} as a part, without end");
         maker.fault(origin, FaultKind::EndlessParts, message);
         return None;
     }
@@ -100,7 +100,8 @@ fn fill_list<'d>(
         Term::List(items) => items.len(),
         _ => 0,
     });
-    let count = match declared(maker, body, thing).and_then(|field| field.1) {
+    let own = maker.document.classes[body.things[thing].class].count.map(Count::Fixed);
+    let count = match declared(maker, body, thing).and_then(|field| field.1).or(own) {
         Some(Count::Fixed(n)) => n as usize,
         Some(Count::Given) | None => {
             body.counts_givens = true;

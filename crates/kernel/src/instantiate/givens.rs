@@ -166,7 +166,7 @@ fn towards(maker: &mut Maker<'_>, class: ClassId, name: &Name) -> Option<Towards
 fn has_part(document: &Document, class: ClassId, name: &Name) -> bool {
     document.lineage(class).into_iter().any(|c| {
         let c = &document.classes[c];
-        let names_superclass = c.supers.len() > 1 && c.supers.iter().any(|s| s.name == *name);
+        let names_superclass = c.supers.iter().any(|s| s.name == *name);
         names_superclass || c.parts.iter().any(|p| p.name == *name)
     })
 }

@@ -88,7 +88,7 @@ fn common_parts(
         views.map_or_else(Vec::new, |(a, b, c)| pairs(a, b, document.layout(c).len() as u32));
     if named && pairs.is_empty() {
         let message = format!(
-            "a {} and a {} have no parts in common: merging them would say nothing",
+            "{} and {} have no parts in common: merging them would say nothing",
             name(ca),
             name(cb)
         );

@@ -68,7 +68,7 @@ impl Search<'_> {
             Term::Me => Ok(me),
             Term::Document => Ok(DOCUMENT),
             Term::Owner => step(me, Step::Owner),
-            Term::Send { to, name, arguments, above: None } if arguments.is_empty() => {
+            Term::Send { to, name, arguments, search: None } if arguments.is_empty() => {
                 let from = self.follow(to, me, depth)?;
                 let is_list =
                     matches!(self.document.classes[s.things[from].class].kind, ClassKind::List(_));

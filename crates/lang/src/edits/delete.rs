@@ -10,7 +10,7 @@ use super::{Restructuring, shortened};
 use crate::references::{References, Symbol};
 use crate::uses::{Text, refused};
 use base::{Diagnostic, Span};
-use kernel::{ClassId, Path, Step};
+use kernel::{ClassId, Path, Search, Step};
 use std::collections::BTreeSet;
 use syntax::ast::{self, AstNode, Expr, Member};
 use syntax::edit::{self, TextEdit};
@@ -196,7 +196,8 @@ impl Text<'_> {
         let (Some(class), Some(name)) = (class, name) else { return };
         // what a class above says instead is still there to be spoken of
         let document = &self.lowered.document;
-        let inherited = document.find_message(class, name.text(), Some(class)).is_some();
+        let inherited =
+            document.find_message(class, name.text(), Some(Search::Above(class))).is_some();
         if !inherited {
             deletion.waiting.push(Symbol { class, name: name.name() });
         }

@@ -1,12 +1,13 @@
 //! Merges made and undone.
 
+use super::Restructuring;
 use super::home::{Home, common_owner};
-use super::{Restructuring, shortened};
 use crate::uses::{Text, refused};
 use base::{Diagnostic, Name};
 use kernel::{Merge, Path, Step};
-use syntax::SyntaxKind;
-use syntax::ast::Expr;
+use syntax::ast::{AstNode, Expr};
+use syntax::edit::{self, TextEdit};
+use syntax::{SyntaxKind, SyntaxNode};
 
 impl Text<'_> {
     /// Merges parts, in the body of the thing that has them all.
@@ -18,28 +19,93 @@ impl Text<'_> {
         self.said_in(&home, SyntaxKind::Merge, &format!("merge {}", paths.join(" = ")))
     }
 
-    /// Takes a path out of the merges that name it; the rest stay merged.
+    /// Takes a path out of the merges that name it; the rest of them all stay merged.
     pub(super) fn unmerge(&self, path: &Path) -> Result<Restructuring, Diagnostic> {
         let members = self.lists(SyntaxKind::Merge, path);
-        let stays = |e: &Expr| !self.leads_to(e, path);
-        let mut done = Restructuring::from(
-            members.iter().flat_map(|m| shortened(m, &stays)).collect::<Vec<_>>(),
-        );
+        let mut done = Restructuring::default();
+        // what each body says of the path in its merges; of these things one each
+        let mut left: Vec<Path> = Vec::new();
+        let mut members = members.into_iter().peekable();
+        let is_named = members.peek().is_some();
+        while let Some(member) = members.next() {
+            let mut together = vec![member];
+            while let Some(next) = members.next_if(|m| m.parent() == together[0].parent()) {
+                together.push(next);
+            }
+            left.extend(self.parted(&together, path, &mut done.edits));
+        }
         if let Some((class, _)) = self.prototype(path) {
             done.class = Some(class);
         }
-        let inherited = self.unmerge_inherited(path, &mut done)?;
-        if members.is_empty() && !inherited {
-            let message = format!("no merge names {path}");
-            let d = refused("not-merged", message);
-            return Err(d.hint("wholes that are merged have to be unmerged as wholes"));
+        let before = left.len();
+        self.unmerge_inherited(path, &mut done, &mut left)?;
+        if !is_named && left.len() == before {
+            return Err(self.not_merged(path));
+        }
+        if left.len() > 1 {
+            done.edits.extend(self.merge(&left).edits);
         }
         Ok(done)
     }
 
+    /// Takes a path out of the merges of one body, which become one; returns what is left of them.
+    fn parted(
+        &self,
+        merges: &[SyntaxNode],
+        path: &Path,
+        edits: &mut Vec<TextEdit>,
+    ) -> Option<Path> {
+        let listed = |m: &SyntaxNode| m.children().filter_map(Expr::cast).collect::<Vec<_>>();
+        let mut kept: Vec<Expr> = merges.iter().flat_map(listed).collect();
+        kept.retain(|e| !self.leads_to(e, path));
+        let first = kept.first().and_then(|e| self.path_of(e));
+        let (one, others) = merges.split_first()?;
+        edits.extend(others.iter().map(edit::delete_member));
+        let all = listed(one);
+        edits.push(match (all.first(), all.last()) {
+            (Some(first), Some(last)) if kept.len() > 1 => {
+                let kept: Vec<String> =
+                    kept.iter().map(|e| e.syntax().text().to_string()).collect();
+                let span = first.span().join(last.span());
+                TextEdit { span, insert: kept.join(" = ") }
+            }
+            _ => edit::delete_member(one),
+        });
+        first
+    }
+
+    /// Says why nothing can be taken out of a merge: by what it is merged, if it is.
+    fn not_merged(&self, path: &Path) -> Diagnostic {
+        let d = refused("not-merged", format!("no merge names {path}"));
+        let whole = (1..path.0.len()).rev().map(|n| Path(path.0[..n].to_vec()));
+        let mut whole = whole.filter(|p| self.is_merged(p));
+        match whole.next() {
+            Some(whole) => d.hint(format!("it is a part of {whole}, which is merged as a whole")),
+            None => {
+                d.hint("it is not merged with anything, or only by a whole that it is a part of")
+            }
+        }
+    }
+
+    /// Returns true if a merge of the text or of a class names exactly this path.
+    fn is_merged(&self, path: &Path) -> bool {
+        let document = &self.lowered.document;
+        let says = |n: usize| {
+            let (owner, rest) = (Path(path.0[..n].to_vec()), Path(path.0[n..].to_vec()));
+            let line = self.class_at(&owner).map(|c| document.primary_line(c)).unwrap_or_default();
+            let mut merges = line.iter().flat_map(|&c| &document.classes[c].merges);
+            merges.any(|m| m.paths.contains(&rest))
+        };
+        (0..path.0.len()).any(says)
+    }
+
     /// Masks the merges of classes that name a path, at the thing that has them.
-    fn unmerge_inherited(&self, path: &Path, done: &mut Restructuring) -> Result<bool, Diagnostic> {
-        let mut found = false;
+    fn unmerge_inherited(
+        &self,
+        path: &Path,
+        done: &mut Restructuring,
+        left: &mut Vec<Path>,
+    ) -> Result<(), Diagnostic> {
         for n in (0..path.0.len()).rev() {
             let (owner, rest) = (Path(path.0[..n].to_vec()), Path(path.0[n..].to_vec()));
             let Some(class) = self.class_at(&owner) else { continue };
@@ -60,22 +126,23 @@ impl Text<'_> {
                 return Err(self.of_a_class(path));
             };
             let mut members = Vec::new();
-            for merge in merges {
-                let name = self.name_of_merge(&merge, done)?;
-                members.push(format!("without {name}"));
-                let others: Vec<String> =
-                    merge.paths.iter().filter(|p| **p != rest).map(ToString::to_string).collect();
-                if others.len() > 1 {
-                    members.push(format!("merge {}", others.join(" = ")));
-                }
+            let mut kept: Vec<&Path> = Vec::new();
+            for merge in &merges {
+                members.push(format!("without {}", self.name_of_merge(merge, done)?));
+                let others = merge.paths.iter().filter(|p| **p != rest);
+                others.for_each(|p| kept.extend((!kept.contains(&p)).then_some(p)));
             }
+            if kept.len() > 1 {
+                let kept: Vec<String> = kept.iter().map(ToString::to_string).collect();
+                members.push(format!("merge {}", kept.join(" = ")));
+            }
+            left.extend(kept.first().map(|&p| owner.join(p)));
             let said = self.said_in(&home, SyntaxKind::Merge, &members.join("  "));
             done.edits.extend(said.edits);
             done.class_of_one = said.class_of_one;
             done.class = done.class.or(said.class);
-            found = true;
         }
-        Ok(found)
+        Ok(())
     }
 
     /// Returns true for a body whose thing is plain: everything it has comes from its class.

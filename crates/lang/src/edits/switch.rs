@@ -2,10 +2,10 @@
 
 use super::Restructuring;
 use super::home::Home;
-use crate::lower::OWN;
+use crate::lower::{Lowered, OWN};
 use crate::uses::{Text, refused};
 use base::{Diagnostic, Name, Span};
-use kernel::{ClassId, Constraint, OriginId, Path, Step};
+use kernel::{Aspect, ClassId, Constraint, Literal, OriginId, Path, Step, Strength};
 use syntax::SyntaxKind;
 use syntax::ast::{AstNode, Expr, Member};
 use syntax::edit::{self, TextEdit};
@@ -13,39 +13,104 @@ use syntax::edit::{self, TextEdit};
 impl Text<'_> {
     /// Switches a constraint on or off.
     pub(super) fn switch(&self, path: &Path, on: bool) -> Result<Restructuring, Diagnostic> {
-        let (owner, class, constraint) = self.constraint(path)?;
+        let (owner, class, _) = self.constraint(path)?;
         let home = self.home(&owner)?;
         let mut done = Restructuring::default();
-        let name = match &constraint.name {
-            Some(name) => name.clone(),
-            None => self.name_given(constraint.origin, "constraint", "rule", &mut done)?,
-        };
-        let rest = Path(owner.0[home.path.0.len()..].to_vec()).then(Step::Part(name));
-        let switch = rest.then(Step::Part("enabled".into()));
-        let written = self.switches(&home, &switch);
+        let switch = self.setting(&home, path, "enabled", &mut done)?;
+        let written = self.settings(&home, &switch);
         let is_own = self.class_at(&home.path) == Some(class);
-        let said = match written.first() {
+        let said = match written.first().map(|(node, value)| (node, literal(value))) {
             // what was written here is taken back, unless a class says the opposite
-            Some((node, was)) if *was != on => {
+            Some((node, Some(was))) if was != on => {
                 let implied = self.implied_by(&home);
                 Restructuring { edits: vec![edit::delete_member(node)], ..implied }
             }
-            Some(_) => return Err(already(path, on)),
+            Some((_, Some(_))) => return Err(already(path, on)),
             None if on && is_own => return Err(already(path, on)),
-            None => self.said_in(&home, SyntaxKind::Assign, &format!("{switch} = {on}")),
+            Some((_, None)) | None => self.said_of_constraint(&home, &switch, &on.to_string()),
         };
         // it is a value of the thing: what has it is as much of its class as before
         let edits = done.edits.into_iter().chain(said.edits).collect();
         Ok(Restructuring { edits, class_of_one: None, ..said })
     }
 
-    /// Returns the members of a body that set this switch, and what they set it to.
-    fn switches(&self, home: &Home, switch: &Path) -> Vec<(syntax::SyntaxNode, bool)> {
+    /// Sets what can be set of a constraint: `level.enabled`, `level.strength`.
+    ///
+    /// # Errors
+    /// It cannot be set, or is not set to what it may be.
+    pub(super) fn set_of_constraint(
+        &self,
+        path: &Path,
+        value: &Literal,
+    ) -> Result<Restructuring, Diagnostic> {
+        let Some((constraint, aspect)) = of_constraint(self.lowered, path) else {
+            return Err(refused(
+                "unknown-constraint",
+                format!("{path} is nothing of a constraint"),
+            ));
+        };
+        match (aspect, value) {
+            (Aspect::Enabled, Literal::Bool(on)) => self.switch(&constraint, *on),
+            (Aspect::Strength, Literal::Text(word)) => {
+                if !Strength::ALL.iter().any(|s| s.word() == word) {
+                    let d = refused("not-a-strength", "a strength is one of four words".into());
+                    return Err(d.hint("\"required\", \"strong\", \"medium\" or \"weak\""));
+                }
+                let (owner, _, _) = self.constraint(&constraint)?;
+                let home = self.home(&owner)?;
+                let mut done = Restructuring::default();
+                let setting = self.setting(&home, &constraint, "strength", &mut done)?;
+                let said = self.said_of_constraint(&home, &setting, &format!("\"{word}\""));
+                let edits = done.edits.into_iter().chain(said.edits).collect();
+                Ok(Restructuring { edits, class_of_one: None, ..said })
+            }
+            (Aspect::Enabled | Aspect::Strength, _) => {
+                let message = format!("{path} is not given what it can be");
+                Err(refused("value-of-wrong-class", message)
+                    .hint("`enabled` is a truth value, `strength` one of four words"))
+            }
+            (Aspect::Error | Aspect::Satisfied, _) => {
+                let message = format!("{path} is what the constraint comes to: it is not given");
+                Err(refused("not-settable", message).hint("`enabled` and `strength` can be set"))
+            }
+        }
+    }
+
+    /// Returns the path from a body to what is set of a constraint, which gets a name if it has none.
+    fn setting(
+        &self,
+        home: &Home,
+        path: &Path,
+        aspect: &str,
+        done: &mut Restructuring,
+    ) -> Result<Path, Diagnostic> {
+        let (owner, _, constraint) = self.constraint(path)?;
+        let name = match &constraint.name {
+            Some(name) => name.clone(),
+            None => self.name_given(constraint.origin, "constraint", "rule", done)?,
+        };
+        let rest = Path(owner.0[home.path.0.len()..].to_vec()).then(Step::Part(name));
+        Ok(rest.then(Step::Part(aspect.into())))
+    }
+
+    /// Says what is set of a constraint, in the place of what was said of it there.
+    fn said_of_constraint(&self, home: &Home, setting: &Path, value: &str) -> Restructuring {
+        match self.settings(home, setting).into_iter().next() {
+            Some((_, was)) => {
+                let edits = vec![edit::replace(was.syntax(), value)];
+                Restructuring { edits, ..self.implied_by(home) }
+            }
+            None => self.said_in(home, SyntaxKind::Assign, &format!("{setting} = {value}")),
+        }
+    }
+
+    /// Returns the members of a body that set this of a constraint, and what they set it to.
+    fn settings(&self, home: &Home, setting: &Path) -> Vec<(syntax::SyntaxNode, Expr)> {
         let sets = |m: Member| {
             let Member::Assign(assign) = &m else { return None };
             let target = crate::paths::loose_path(&assign.target()?)?;
-            let Expr::Bool(on) = assign.value()?.expr()? else { return None };
-            (target == *switch).then(|| (m.syntax().clone(), on.value()))
+            let value = assign.value()?.expr()?;
+            (target == *setting).then(|| (m.syntax().clone(), value))
         };
         home.members().into_iter().filter_map(sets).collect()
     }
@@ -100,6 +165,26 @@ impl Text<'_> {
         let end = place.span.start + (at + keyword.len()) as u32;
         done.edits.push(TextEdit { span: Span::new(end, end), insert: format!(" {name}:") });
         Ok(Name::new(&name))
+    }
+}
+
+/// Returns the constraint that a path asks something of, and what it asks.
+pub fn of_constraint(lowered: &Lowered, path: &Path) -> Option<(Path, Aspect)> {
+    let (Step::Part(word), constraint) = path.0.split_last()? else { return None };
+    let aspect = Aspect::of_word(word)?;
+    let (Step::Part(name), owner) = constraint.split_last()? else { return None };
+    let text = Text::of(lowered);
+    let owner = text.class_at(&Path(owner.to_vec()))?;
+    let constraint = Path(constraint.to_vec());
+    let is_part = crate::names::class_of_part(&lowered.document, owner, name).is_some();
+    (!is_part && text.constraint(&constraint).is_ok()).then_some((constraint, aspect))
+}
+
+/// Returns the truth value that an expression is, if it is one.
+fn literal(e: &Expr) -> Option<bool> {
+    match e {
+        Expr::Bool(on) => Some(on.value()),
+        _ => None,
     }
 }
 

@@ -193,8 +193,11 @@ fn messages_have_labels_and_may_give_way() {
     let labels: Vec<(&str, &str)> =
         message.parameters.iter().map(|p| (p.label.as_str(), p.name.as_str())).collect();
     assert_eq!(labels, [("by", "k"), ("n", "n")]);
-    let Term::Send { above, .. } = &class(&lowered, "B").messages[0].answer else { panic!("sent") };
-    assert_eq!(*above, lowered.document.class_named("B"));
+    let Term::Send { search, .. } = &class(&lowered, "B").messages[0].answer else {
+        panic!("sent")
+    };
+    let b = lowered.document.class_named("B").expect("it is declared");
+    assert_eq!(*search, Some(kernel::Search::Above(b)));
 }
 
 #[test]

@@ -255,7 +255,7 @@ pub(crate) fn call(name: &str, arguments: Vec<Term>) -> Term {
 }
 pub(crate) fn send(to: Term, name: &str, arguments: Vec<Term>) -> Term {
     let arguments = arguments.into_iter().map(|value| Argument { label: None, value }).collect();
-    Term::Send { to: Box::new(to), name: Name::new(name), arguments, above: None }
+    Term::Send { to: Box::new(to), name: Name::new(name), arguments, search: None }
 }
 pub(crate) fn method(target: &str, value: Term) -> Method {
     Method { targets: vec![to_path(target)], values: vec![value], origin: OriginId(7) }
