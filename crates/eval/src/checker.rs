@@ -3,6 +3,11 @@
 //! It shares no code with planner or solver: it evaluates rules as they are written and compares
 //! states bit by bit. What it says is a list of sentences; an empty one is praise.
 
+mod algebra;
+mod answer;
+mod slopes;
+mod ways;
+
 use crate::evaluator::Evaluator;
 use base::number::shortest;
 use kernel::{
@@ -52,6 +57,10 @@ pub fn check_edit(document: &Document, structure: &Structure, edit: Edit<'_>) ->
             let path = path(slot);
             wrong.push(format!("nothing connects {path} to the edit; {before} became {after}"));
         }
+    }
+    if wrong.is_empty() {
+        wrong.extend(answer::complaints(document, structure, edit, &connected));
+        wrong.extend(ways::complaints(document, structure, edit));
     }
     wrong
 }

@@ -15,17 +15,27 @@ const NUDGE: f64 = 1.0 / 1_048_576.0;
 #[derive(Clone, Debug, Default)]
 pub(crate) struct Compared {
     /// The differences found so far.
-    differences: Vec<f64>,
+    pub(crate) differences: Vec<f64>,
+    /// How each shall compare with zero.
+    pub(crate) orders: Vec<Order>,
     /// The sway of each, where it is known.
     sways: Vec<f64>,
 }
 
+/// How the difference of two sides shall compare with zero.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub(crate) enum Order {
+    Equal,
+    AtMost,
+}
+
 impl<'a> Evaluator<'a> {
     /// Returns true if two sides agree, to `within` where that is written.
-    pub(crate) fn agree(&self, x: f64, y: f64, within: Option<f64>) -> bool {
+    pub(crate) fn agree(&self, x: f64, y: f64, within: Option<f64>, order: Order) -> bool {
         let mut compared = self.compared.borrow_mut();
         let sway = compared.sways.get(compared.differences.len()).copied().unwrap_or(0.0);
         compared.differences.push(x - y);
+        compared.orders.push(order);
         within.map_or(Tolerance::Relative, Tolerance::within).is_met_with(x, y, || sway)
     }
 
@@ -71,7 +81,7 @@ impl<'a> Evaluator<'a> {
                 }
             }
         }
-        self.compared.replace(Compared { differences: Vec::new(), sways });
+        self.compared.replace(Compared { sways, ..Compared::default() });
         judge()
     }
 }

@@ -9,6 +9,7 @@ use crate::builtin::{number_text, read_number};
 use crate::evaluator::{Evaluator, Result};
 use crate::fault::Fault;
 use crate::measure;
+use crate::sway::Order;
 use base::Name;
 use base::number::{close, shortest};
 use expr::dimension::Dimension;
@@ -133,7 +134,12 @@ impl<'a> Evaluator<'a> {
         }
     }
 
-    fn judge(&self, rule: &'a Term, frame: &Frame<'a>, within: Option<f64>) -> Result<Verdict> {
+    pub(crate) fn judge(
+        &self,
+        rule: &'a Term,
+        frame: &Frame<'a>,
+        within: Option<f64>,
+    ) -> Result<Verdict> {
         self.burn()?;
         use BinaryOperator as B;
         match rule {
@@ -279,7 +285,7 @@ impl<'a> Evaluator<'a> {
             if let (Answer::Number(x, dx), Answer::Number(y, dy)) = (a, b) {
                 measure::common(*dx, *dy)?;
                 let error = x - y;
-                verdict.holds &= self.agree(*x, *y, within);
+                verdict.holds &= self.agree(*x, *y, within, Order::Equal);
                 if verdict.error.is_none_or(|e| e.abs() < error.abs()) {
                     verdict.error = Some(error);
                 }
@@ -323,7 +329,8 @@ impl<'a> Evaluator<'a> {
             return Ok(Verdict { holds, error: None, left, right });
         };
         // What is strictly less does not become so by tolerance.
-        let holds = order.is_lt() || (!strict && self.agree(*x, *y, within));
+        let agree = self.agree(*x, *y, within, Order::AtMost);
+        let holds = order.is_lt() || (!strict && agree);
         Ok(Verdict { holds, error: Some((x - y).max(0.0)), left, right })
     }
 

@@ -8,7 +8,7 @@ use crate::rows::Rows;
 use crate::substitute::Classes;
 use crate::system::{Level, SlotIndex, Stay, System};
 use crate::tableau::{Reduced, SparseRow, Tableau};
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 
 /// What may move a column.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
@@ -50,11 +50,7 @@ pub(crate) fn accept(
             }
         }
     }
-    for column in state.columns.values_mut() {
-        if *column == Column::Given {
-            *column = Column::Stays;
-        }
-    }
+    hold_given(&mut state, classes);
     for place in piece.places() {
         hold(&mut state, place);
     }
@@ -111,6 +107,32 @@ impl State {
             .filter(|e| e.1.abs() >= 0.05 * largest)
             .max_by_key(|e| (self.willing.get(&e.0), e.0))
             .map(|e| e.0)
+    }
+}
+
+/// Holds every given number but those without which the rows would lose rank, each by itself: whether
+/// one yields does not depend on the order of the rows.
+fn hold_given(state: &mut State, classes: &Classes) {
+    let is_given = |c: u32| classes.stay[c as usize] == Stay::Given;
+    let given: Vec<u32> = state.columns.keys().copied().filter(|&c| is_given(c)).collect();
+    let mut yielded: BTreeSet<u32> = BTreeSet::new();
+    for &c in &given {
+        let Some(row) = state.tableau.row_with_pivot(c) else { continue };
+        // what is not given yields first, however small
+        let others = state.tableau.row(row).iter().filter(|e| !is_given(e.0));
+        let other = others.max_by(|a, b| a.1.abs().total_cmp(&b.1.abs())).map(|e| e.0);
+        if let Some(other) = other {
+            state.tableau.exchange(row, other);
+        }
+    }
+    for &c in &given {
+        let Some(row) = state.tableau.row_with_pivot(c) else { continue };
+        yielded.extend(state.tableau.row(row).iter().map(|e| e.0));
+        yielded.insert(c);
+    }
+    for c in given {
+        let column = if yielded.contains(&c) { Column::Open } else { Column::Stays };
+        state.columns.insert(c, column);
     }
 }
 

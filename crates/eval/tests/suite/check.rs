@@ -1,8 +1,8 @@
 //! The checker: every lie that a solver could tell is found out.
 
-use crate::build::{Build, add, equal, method, num, part, path, send};
+use crate::build::{Build, add, equal, method, num, op, part, path, send};
 use eval::checker::{Edit, check_edit, check_state};
-use kernel::{SlotId, Stay, Strength, Structure, Value, Values};
+use kernel::{BinaryOperator, SlotId, Stay, Strength, Structure, Value, Values};
 
 /// b = a + 1, c by itself, d anchored, whole in 0..9, words = a.text by written methods.
 fn document() -> (Build, Structure) {
@@ -104,4 +104,91 @@ fn an_edit_moves_what_is_connected_and_nothing_else() {
     let anchored = ["d is anchored, and went from 4 to 5"];
     assert_eq!(says([1.0, 2.0, 3.0, 5.0, 5.0], "1", &[SlotId(0)]), anchored);
     assert_eq!(says([1.0, 2.0, 3.0, 5.0, 5.0], "1", &[SlotId(3)]), [""; 0]);
+}
+
+/// Numbers by name, those that are given with a value of their own.
+fn numbers(names: &[&str], given: &[&str]) -> Build {
+    let mut b = Build::new();
+    let root = b.root();
+    for name in names {
+        b.part(root, name, b.real);
+    }
+    for name in given {
+        b.given(root, name, num(0.0));
+    }
+    b
+}
+
+/// What is said of an edit of the last number.
+fn says(b: &Build, before: &[f64], after: &[f64]) -> Vec<String> {
+    let structure = b.structure();
+    let [before, after] = [before, after].map(|numbers| {
+        let mut values = Values::new(numbers.len());
+        for (i, &x) in numbers.iter().enumerate() {
+            values.numbers[SlotId(i as u32)] = x;
+        }
+        values
+    });
+    let edited = &[SlotId(before.numbers.len() as u32 - 1)];
+    check_edit(&b.document, &structure, Edit { before: &before, after: &after, edited })
+}
+
+/// x + y = z: of two that may both move neither moves alone, unless a bound holds it.
+#[test]
+fn a_change_that_is_not_the_least_is_found_out() {
+    let mut b = numbers(&["x", "y", "z"], &[]);
+    let root = b.root();
+    b.constraint(root, "sum", equal(add(part("x"), part("y")), part("z")));
+    let from = [1.0, 1.0, 2.0];
+    assert_eq!(says(&b, &from, &[2.0, 2.0, 4.0]), [""; 0]);
+    assert_eq!(says(&b, &from, &[1.0, 3.0, 4.0]), [""; 0], "x may have been held");
+    let found = says(&b, &from, &[1.5, 2.5, 4.0]);
+    assert!(found[0].starts_with("numbers changed more than they had to"), "{found:?}");
+    b.constraint(root, "wall", op(BinaryOperator::LessEqual, part("x"), num(1.5)));
+    assert_eq!(says(&b, &from, &[1.5, 2.5, 4.0]), [""; 0], "the wall holds x");
+}
+
+/// A place on x + y = z beside a wall: the wall may hold it, and may not pull it.
+#[test]
+fn a_bound_that_acts_the_wrong_way_is_found_out() {
+    let mut b = Build::new();
+    let root = b.root();
+    b.part(root, "p", b.point);
+    b.part(root, "z", b.length);
+    b.constraint(root, "sum", equal(add(part("p.x"), part("p.y")), part("z")));
+    let wall = |x| op(BinaryOperator::LessEqual, part("p.x"), num(x));
+    b.constraint(root, "wall", wall(1.5));
+    let from = [1.0, 1.0, 2.0];
+    assert_eq!(says(&b, &from, &[1.5, 2.5, 4.0]), [""; 0], "without it x were 2");
+    let pulled = says(&b, &from, &[1.5, 1.1, 2.6]);
+    assert!(pulled[0].starts_with("numbers changed more than they had to"), "{pulled:?}");
+}
+
+/// a + k = z with a given: k yields, and a only where k cannot.
+#[test]
+fn a_given_number_that_yields_without_need_is_found_out() {
+    let mut b = numbers(&["a", "k", "z"], &["a"]);
+    let root = b.root();
+    b.constraint(root, "sum", equal(add(part("a"), part("k")), part("z")));
+    let from = [1.0, 1.0, 2.0];
+    assert_eq!(says(&b, &from, &[1.0, 3.0, 4.0]), [""; 0]);
+    let needless = ["a is given and went from 1 to 3, where others could have yielded"];
+    assert_eq!(says(&b, &from, &[3.0, 1.0, 4.0]), needless);
+    b.constraint(root, "held", equal(part("k"), num(1.0)));
+    assert_eq!(says(&b, &from, &[3.0, 1.0, 4.0]), [""; 0], "nothing else can");
+}
+
+/// p = z by two written methods: the first writes p, the second q, which stands for p nowhere else.
+#[test]
+fn a_later_method_is_found_out_where_an_earlier_one_was_possible() {
+    let mut b = numbers(&["p", "q", "z"], &[]);
+    let root = b.root();
+    b.constraint(root, "sum", equal(add(part("p"), part("q")), part("z"))).methods =
+        vec![method(&["p"], vec![part("z")]), method(&["q"], vec![part("z")])];
+    let from = [1.0, 1.0, 2.0];
+    assert_eq!(says(&b, &from, &[3.0, 1.0, 4.0]), [""; 0]);
+    let later = ["sum took its method 2, and method 1 was possible"];
+    assert_eq!(says(&b, &from, &[1.0, 3.0, 4.0]), later);
+    b.constraint(root, "other", equal(part("p"), num(1.0)));
+    assert_eq!(says(&b, &from, &[1.0, 3.0, 4.0]), [""; 0], "another constraint speaks of p");
 }

@@ -131,17 +131,16 @@ impl Net {
                 continue;
             }
             accepted.push(r);
-            if self.rank(&accepted, &open) < accepted.len() {
-                // every given number that could help yields
-                let helps = |g: &u32| {
-                    let mut wider = open.clone();
-                    wider.insert(*g);
-                    self.rank(&accepted, &wider) == accepted.len()
-                };
-                let yielding: Vec<u32> = given.iter().copied().filter(helps).collect();
-                open.extend(yielding);
-            }
         }
+        // a given number yields if what is not given cannot do without it
+        let others = self.rank(&accepted, &open);
+        let helps = |g: &u32| {
+            let mut wider = open.clone();
+            wider.insert(*g);
+            self.rank(&accepted, &wider) > others
+        };
+        let yielding: Vec<u32> = given.iter().copied().filter(helps).collect();
+        open.extend(yielding);
         for group in 0..self.classes.representative.len() as u32 {
             let slots = &self.stated.system.slots;
             let own: Vec<u32> = (0..slots.len())

@@ -1,0 +1,281 @@
+//! Whether an edit has the right answer: who yields, and how much.
+//!
+//! Only what the rules themselves prove is told, so these are conditions that every answer meets, not
+//! all that there are: to first order, at the state after the edit, where no rule is soft, a written method or
+//! never written by its own constraint. Components of more than [`MOST`] slots are not looked at.
+
+use super::algebra::{Span, length, rest_of_cone};
+use super::slopes::{Row, rows};
+use super::{Edit, shown};
+use crate::evaluator::Evaluator;
+use crate::sway::Order;
+use kernel::{ConstraintInstance, Document, Primitive, SlotId, Strength, Structure, Values};
+use std::collections::BTreeSet;
+
+/// How many slots a component may have to be looked at.
+const MOST: usize = 150;
+/// How many inequalities may act for their signs to be looked at.
+const MOST_ACTING: usize = 8;
+/// How far a gradient may be off, as a part of its length: slopes are found by moving numbers.
+const OFF: f64 = 1e-4;
+
+pub(crate) fn complaints(
+    document: &Document,
+    structure: &Structure,
+    edit: Edit<'_>,
+    connected: &BTreeSet<SlotId>,
+) -> Vec<String> {
+    let changed: BTreeSet<SlotId> = edit.before.changed(edit.after).collect();
+    // what moved by rounding alone was held
+    let moves = |s: &SlotId| {
+        let [before, after] = [edit.before, edit.after].map(|v| v.numbers[*s]);
+        (after - before).abs() > 1e-9 * before.abs().max(1.0) && !edit.edited.contains(s)
+    };
+    let moved: Vec<SlotId> = changed.iter().copied().filter(moves).collect();
+    if moved.is_empty() || connected.len() > MOST {
+        return Vec::new();
+    }
+    let after = Evaluator::new(document, structure, edit.after);
+    let before = after.in_state(edit.before);
+    let Some(constraints) = plain(&after, connected) else { return Vec::new() };
+    let held = |c: &ConstraintInstance| before.test(*c).is_ok_and(|verdict| verdict.holds);
+    if !constraints.iter().all(held) {
+        return Vec::new();
+    }
+    let mut own = Answer {
+        edit,
+        structure,
+        path: &|slot| structure.path(document, structure.slots[slot].thing).to_string(),
+        wrong: Vec::new(),
+    };
+    let aside = aside(edit.after, &moved);
+    let states = [&after, &after.in_state(&aside)];
+    own.least(states, &constraints, &moved);
+    own.exchange(states, &constraints, &moved, connected);
+    own.wrong
+}
+
+/// Returns the constraints around these slots; nothing where some are more than plain equations and
+/// inequalities.
+fn plain(
+    evaluator: &Evaluator<'_>,
+    connected: &BTreeSet<SlotId>,
+) -> Option<Vec<ConstraintInstance>> {
+    let structure = evaluator.structure;
+    let stays = structure.stays.iter().filter(|s| s.strength.is_some());
+    if stays.flat_map(|s| structure.slots_under(s.thing)).any(|s| connected.contains(&s)) {
+        return None;
+    }
+    let mut plain = Vec::new();
+    for &constraint in &structure.constraints {
+        let (is_on, reads) = evaluator.listening(|| {
+            let is_on = evaluator.is_on(constraint).unwrap_or(false);
+            evaluator.test(constraint).ok();
+            is_on
+        });
+        if reads.is_disjoint(connected) {
+            continue;
+        }
+        let class = &evaluator.document.classes[constraint.class];
+        let written = &class.constraints[constraint.index as usize];
+        let is_required = structure.strength(evaluator.document, constraint) == Strength::Required;
+        let is_conditional = structure.conditions.contains_key(&constraint)
+            || evaluator.idle(constraint).is_ok_and(|idle| !idle.is_empty());
+        let is_number = reads.iter().all(|s| structure.slots[*s].primitive.is_number());
+        if !is_on
+            || !is_required
+            || is_conditional
+            || !is_number
+            || !written.methods.is_empty()
+            || !written.reads.is_empty()
+            || written.within.is_some()
+        {
+            return None;
+        }
+        plain.push(constraint);
+    }
+    Some(plain)
+}
+
+/// What is found of one edit.
+struct Answer<'a> {
+    edit: Edit<'a>,
+    structure: &'a Structure,
+    path: &'a dyn Fn(SlotId) -> String,
+    wrong: Vec<String>,
+}
+
+impl Answer<'_> {
+    fn is_given(&self, slot: SlotId) -> bool {
+        let slot = &self.structure.slots[slot];
+        slot.given.is_some() && slot.place.is_none()
+    }
+
+    fn distance(&self, slot: SlotId) -> f64 {
+        self.edit.after.numbers[slot] - self.edit.before.numbers[slot]
+    }
+
+    /// The change of given numbers is least, then that of the others: no direction that the rules leave
+    /// open makes it less. Told apart by what numbers measure, since they weigh differently.
+    fn least(&mut self, states: [&Evaluator<'_>; 2], of: &[ConstraintInstance], moved: &[SlotId]) {
+        let mut measures: Vec<Primitive> = Vec::new();
+        for &slot in moved {
+            let primitive = self.structure.slots[slot].primitive;
+            if matches!(primitive, Primitive::Real(_)) && !measures.contains(&primitive) {
+                measures.push(primitive);
+            }
+        }
+        for measure in measures {
+            let alike = |s: &&SlotId| self.structure.slots[**s].primitive == measure;
+            let all: Vec<SlotId> = moved.iter().filter(alike).copied().collect();
+            let kept: Vec<SlotId> = all.iter().copied().filter(|s| !self.is_given(*s)).collect();
+            let given_first = |s: SlotId| if self.is_given(s) { self.distance(s) } else { 0.0 };
+            let all_gradient: Vec<f64> = all.iter().map(|&s| given_first(s)).collect();
+            let kept_gradient: Vec<f64> = kept.iter().map(|&s| self.distance(s)).collect();
+            for (columns, gradient, what) in
+                [(&all, all_gradient, "given numbers"), (&kept, kept_gradient, "numbers")]
+            {
+                let size = length(&gradient);
+                if size < 1e-6 {
+                    continue;
+                }
+                let [here, aside] = states.map(|state| all_rows(state, of, columns));
+                let (Some(here), Some(aside)) = (here, aside) else { continue };
+                if here.len() != aside.len() {
+                    continue;
+                }
+                let acts = |of: &[Row]| -> Vec<Row> {
+                    let both = of.iter().zip(&here).filter(|(_, here)| here.acts());
+                    both.map(|(row, _)| row.clone()).collect()
+                };
+                // where rules depend on one another only here, as at the end of a reach, slopes prove nothing
+                let rows = acts(&here);
+                if rank(&rows) < rank(&acts(&aside)) {
+                    continue;
+                }
+                let groups = columns.iter().map(|&s| self.structure.slots[s].place.ok_or(s));
+                let rest = unexplained(&rows, &gradient, &groups.collect::<Vec<_>>());
+                if rest > OFF * size {
+                    let paths: Vec<String> = columns.iter().map(|&s| (self.path)(s)).collect();
+                    let paths = paths.join(", ");
+                    let part = rest / size;
+                    self.wrong.push(format!(
+                        "{what} changed more than they had to, by {part:.1e} of the change: {paths}"
+                    ));
+                }
+            }
+        }
+    }
+
+    /// A given number yields only where no number that is not given can yield in its place.
+    fn exchange(
+        &mut self,
+        states: [&Evaluator<'_>; 2],
+        of: &[ConstraintInstance],
+        moved: &[SlotId],
+        connected: &BTreeSet<SlotId>,
+    ) {
+        let yielded: Vec<SlotId> = moved.iter().copied().filter(|s| self.is_given(*s)).collect();
+        if yielded.is_empty() {
+            return;
+        }
+        let weaker = |s: &&SlotId| {
+            let slot = &self.structure.slots[**s];
+            matches!(slot.primitive, Primitive::Real(_))
+                && !slot.anchored
+                && !self.is_given(**s)
+                && !self.edit.edited.contains(s)
+        };
+        let weaker: Vec<SlotId> = connected.iter().filter(weaker).copied().collect();
+        let columns: Vec<SlotId> = weaker.iter().chain(&yielded).copied().collect();
+        let spared = states.map(|state| {
+            let rows = acting(state, of, &columns)?;
+            // rows of length one: what they measure differs by orders of magnitude
+            let column = |i: usize| -> Vec<f64> {
+                rows.iter().map(|r| r.slopes[i] / length(&r.slopes)).collect()
+            };
+            let span = Span::of((0..weaker.len()).map(column));
+            let is_spared = |i: usize| {
+                let own = column(i);
+                length(&span.rest(&own)) <= OFF * length(&own)
+            };
+            Some((weaker.len()..columns.len()).map(is_spared).collect::<Vec<bool>>())
+        });
+        // here and a little aside: who yields is decided where nothing is special
+        let [Some(here), Some(aside)] = spared else { return };
+        for (i, &slot) in yielded.iter().enumerate() {
+            if here[i] && aside[i] {
+                let [was, is] = [self.edit.before, self.edit.after].map(|v| shown(v, slot));
+                let path = (self.path)(slot);
+                self.wrong.push(format!(
+                    "{path} is given and went from {was} to {is}, where others could have yielded"
+                ));
+            }
+        }
+    }
+}
+
+/// Returns a state a little aside, in which nothing is special.
+fn aside(values: &Values, moved: &[SlotId]) -> Values {
+    let mut aside = values.clone();
+    let sizes = moved.iter().map(|&s| values.numbers[s].abs());
+    let extent = sizes.fold(1.0, f64::max);
+    for (i, &slot) in (1..).zip(moved) {
+        // the fractional parts of multiples of the golden ratio lie evenly
+        let part = (f64::from(i) * 0.618_033_988_749_895).fract() - 0.5;
+        aside.numbers[slot] += 0.02 * extent * part;
+    }
+    aside
+}
+
+/// Returns every row of these constraints; nothing where one compares no numbers.
+fn all_rows(
+    evaluator: &Evaluator<'_>,
+    of: &[ConstraintInstance],
+    columns: &[SlotId],
+) -> Option<Vec<Row>> {
+    let each = of.iter().map(|&constraint| rows(evaluator, constraint, columns));
+    each.collect::<Option<Vec<_>>>().map(|rows| rows.concat())
+}
+
+/// Returns the rows that act and speak of some of the columns; nothing where a rule has none.
+fn acting(
+    evaluator: &Evaluator<'_>,
+    of: &[ConstraintInstance],
+    columns: &[SlotId],
+) -> Option<Vec<Row>> {
+    let speaks = |r: &Row| r.slopes.iter().any(|s| *s != 0.0);
+    let all = all_rows(evaluator, of, columns)?;
+    Some(all.into_iter().filter(|r| r.acts() && speaks(r)).collect())
+}
+
+/// Returns how many of some rows are independent.
+fn rank(rows: &[Row]) -> usize {
+    Span::of(rows.iter().map(|r| r.slopes.clone())).rank()
+}
+
+/// Returns how much of a gradient no multipliers of the rows explain; those of inequalities have a sign.
+///
+/// `places` says which columns yield together. Where one of them yields to an inequality alone, another would
+/// have moved if that did not act, and its sign says nothing.
+fn unexplained<P: PartialEq>(rows: &[Row], gradient: &[f64], places: &[P]) -> f64 {
+    let of = |order: Order| rows.iter().filter(move |r| r.order == order).map(|r| r.slopes.clone());
+    let equal: Vec<Vec<f64>> = of(Order::Equal).collect();
+    let count = rows.len() - equal.len();
+    let span = Span::of(equal.iter().cloned());
+    let yields_to_these = |place: &P| {
+        let is_own = |column: usize| places[column] == *place;
+        let without = equal.iter().map(|row| {
+            let slopes = row.iter().enumerate();
+            slopes.map(|(i, &s)| if is_own(i) { 0.0 } else { s }).collect()
+        });
+        Span::of(without).rank() < span.rank()
+    };
+    if count == 0 || count > MOST_ACTING || !places.iter().all(yields_to_these) {
+        return length(&Span::of(rows.iter().map(|r| r.slopes.clone())).rest(gradient));
+    }
+    let pushing: Vec<Vec<f64>> = of(Order::AtMost)
+        .map(|slopes| span.rest(&slopes).into_iter().map(|x| 0.0 - x).collect())
+        .collect();
+    rest_of_cone(&span.rest(gradient), &pushing)
+}
