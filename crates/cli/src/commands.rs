@@ -1,8 +1,8 @@
 //! The subcommands that work on documents: each returns what to print and whether all is well.
 //!
 //! With `--json` each prints one JSON object: `check` {files: [{path, diagnostics}]}, `test` {files:
-//! [{path, checks}], passed, failed}, `run` {path, values, status}, `explain` the explanation and what
-//! holds the thing in `held`, `recognise`
+//! [{path, checks}], passed, failed}, `run` {path, values, status}, `explain` the explanation, what
+//! holds the thing in `held`, and where else it could be in `ghosts`, `recognise`
 //! {path, classes}, `draw`
 //! {path, svg}, `fmt` {files: [{path, changed}]}. The shapes of their parts are those of
 //! `session::view`.
@@ -203,7 +203,12 @@ pub(crate) fn explain(path: &Path, about: Option<&str>, form: Form) -> Result<Re
     };
     let explanation: Explanation = opened.session.explain(opened.id, about.as_ref());
     let held = about.as_ref().and_then(|path| opened.session.held(opened.id, path));
+    let ghosts = about.as_ref().and_then(|path| opened.session.ghosts(opened.id, path).ok());
+    let ghosts = ghosts.unwrap_or_default();
     let mut words = format!("{}\n", explanation.summary);
+    for ghost in &ghosts {
+        let _ = writeln!(words, "It could also be: {}.", ghost.label);
+    }
     if let Some(held) = &held {
         let _ = writeln!(words, "{}.", held.message);
     }
@@ -221,6 +226,7 @@ pub(crate) fn explain(path: &Path, about: Option<&str>, form: Form) -> Result<Re
     }
     let mut json = json!(explanation);
     json["held"] = json!(held);
+    json["ghosts"] = json!(ghosts);
     Ok(report(form, true, words, &json))
 }
 

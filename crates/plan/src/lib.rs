@@ -69,6 +69,7 @@ mod whole;
 
 pub mod diagnose;
 pub mod explain;
+mod ghost;
 pub mod status;
 
 pub use diagnose::Analysis;
@@ -81,6 +82,7 @@ pub use drag::Press;
 pub use edit::{Conflict, EditKind, EditReport, NotDecided, RefusalReason, Target};
 pub use explain::{ExplainedKind, ExplainedStep, PlanKind, Root, RootKind, Uncountable, Why};
 pub use fault::{Fault, FaultKind};
+pub use ghost::{Ghost, GhostKind};
 pub use host::{Failure, Host};
 pub use modal::{Acting, ActingKind, ModeChange};
 pub use planner::{Latest, Model, Planner, Unmet};

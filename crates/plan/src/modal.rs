@@ -146,19 +146,20 @@ impl Task {
         self.acting_in(planner, modes, mode)
     }
     fn acting_in(&self, planner: &Planner, modes: &Modes, mode: &Mode) -> Vec<Acting> {
-        let source = |relation: u32| self.source(&planner.rules, relation);
-        let acting = |standing: Standing| match standing {
-            Standing::AtBound { relation } => {
-                Acting { source: source(relation), kind: ActingKind::AtBound }
-            }
-            Standing::Assumed { relation, truth } => {
-                Acting { source: source(relation), kind: ActingKind::Assumed(truth) }
-            }
-            Standing::Taken { relation, way, of } => {
-                Acting { source: source(relation), kind: ActingKind::Taken { way, of } }
-            }
+        modes
+            .standings(mode)
+            .into_iter()
+            .map(|standing| self.acting_by(planner, standing))
+            .collect()
+    }
+    /// Says in the document's terms how a relation stands in a mode.
+    pub(crate) fn acting_by(&self, planner: &Planner, standing: Standing) -> Acting {
+        let (relation, kind) = match standing {
+            Standing::AtBound { relation } => (relation, ActingKind::AtBound),
+            Standing::Assumed { relation, truth } => (relation, ActingKind::Assumed(truth)),
+            Standing::Taken { relation, way, of } => (relation, ActingKind::Taken { way, of }),
         };
-        modes.standings(mode).into_iter().map(acting).collect()
+        Acting { source: self.source(&planner.rules, relation), kind }
     }
 }
 

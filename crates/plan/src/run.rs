@@ -116,7 +116,13 @@ fn by_course(
     }
 }
 
-fn ground(planner: &Planner, task: &Task, aim: &Aim, start: &Values, values: &Values) -> Ground {
+pub(crate) fn ground(
+    planner: &Planner,
+    task: &Task,
+    aim: &Aim,
+    start: &Values,
+    values: &Values,
+) -> Ground {
     let mut x0 = task.gather(&start.numbers);
     let mut local = task.gather(&values.numbers);
     for (known, slot) in task.holds() {

@@ -22,6 +22,7 @@ mod document;
 mod drag;
 mod fixes;
 mod general;
+mod ghosts;
 mod limits;
 mod placing;
 mod prototype;

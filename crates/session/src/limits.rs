@@ -167,7 +167,8 @@ pub(crate) fn modes(state: &State, changes: &[ModeChange]) -> Vec<ModeView> {
     changes.iter().filter_map(|change| mode(state, *change)).collect()
 }
 
-fn mode(state: &State, change: ModeChange) -> Option<ModeView> {
+/// Says how a constraint acts, with its rule as it is written.
+pub(crate) fn mode(state: &State, change: ModeChange) -> Option<ModeView> {
     let constraint = words::source_name(state, change.acting.source)?;
     let Source::Constraint(index) = change.acting.source else { return None };
     let instance = state.structure.constraints[index as usize];

@@ -6,12 +6,13 @@ use crate::check;
 use crate::complaints;
 use crate::document::Open;
 use crate::drag;
+use crate::ghosts;
 use crate::host::{Beside, Host};
 use crate::recognise;
 use crate::state::State;
 use crate::view::{
-    Affected, Analysis, Change, CheckReport, DocumentId, DragState, Explanation, FixView, HeldView,
-    PictureView, Question, Recognised, Refusal, Status, StructureRow, TextView, ValueRow,
+    Affected, Analysis, Change, CheckReport, DocumentId, DragState, Explanation, FixView, Ghost,
+    HeldView, PictureView, Question, Recognised, Refusal, Status, StructureRow, TextView, ValueRow,
 };
 use crate::views;
 use crate::words;
@@ -244,6 +245,14 @@ impl Session {
     /// Says why a thing does not move; nothing where it can.
     pub fn held(&mut self, id: DocumentId, about: &Path) -> Option<HeldView> {
         views::held::view(self.document_mut(id), about)
+    }
+    /// Returns where else a thing could be, at most eight states: where a constraint holds by another of its
+    /// alternatives, or equations have another root. Nothing where no rule decides where it is.
+    ///
+    /// # Errors
+    /// That the path leads nowhere.
+    pub fn ghosts(&mut self, id: DocumentId, about: &Path) -> Result<Vec<Ghost>, Refusal> {
+        ghosts::view(self.document_mut(id), about)
     }
     /// Says what is free, what is superfluous and what cannot hold together, with what would help.
     ///

@@ -185,6 +185,30 @@ pub struct PictureView {
     pub grips: Vec<Grip>,
 }
 
+/// Another state that the rules allow.
+#[derive(Clone, Debug, Serialize)]
+pub struct Ghost {
+    /// What is otherwise in it, and where that leads: "c on the other side of a and b: c = (5, -4)".
+    pub label: String,
+    /// What is elsewhere in it.
+    pub moves: Vec<GhostMove>,
+    /// The elements of the picture that look otherwise in it.
+    #[serde(skip)]
+    pub picture: drawing::Drawing,
+    /// What picks it: one step, that sets what is elsewhere.
+    #[serde(skip)]
+    pub command: kernel::Command,
+}
+
+/// A number or a place of a ghost.
+#[derive(Clone, PartialEq, Eq, Debug, Serialize)]
+pub struct GhostMove {
+    /// Its path.
+    pub path: String,
+    /// Its value in the ghost, as a person may type it.
+    pub value: String,
+}
+
 /// Something that a pointer can grip and drag.
 #[derive(Clone, PartialEq, Debug, Serialize)]
 pub struct Grip {

@@ -19,6 +19,7 @@ use crate::test::{Place, TestScratch};
 use std::cell::Cell;
 
 mod backtrack;
+pub(crate) mod others;
 mod roots;
 mod strips;
 

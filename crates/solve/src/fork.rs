@@ -96,7 +96,7 @@ pub(crate) fn leaning(
 }
 
 /// Returns the equations of a step that may have several solutions.
-fn forking(program: &Program) -> Option<&Square> {
+pub(crate) fn forking(program: &Program) -> Option<&Square> {
     match program {
         Program::Square(square) => Some(square),
         Program::Inverse(inverse) if inverse.roots() > 1 => Some(inverse.fallback()),

@@ -105,6 +105,7 @@ pub mod search;
 
 pub mod whole;
 
+pub use attempt::others::Other;
 pub use conditional::{Condition, Conditional, Demand, DemandKind, Guard, SlotRange};
 pub use few::Few;
 pub use fork::Lean;
@@ -113,7 +114,7 @@ pub use outcome::{Host, NoHost, Note, Outcome, Reason, Status, Unmet};
 pub use pattern::{Pattern, PatternId, Patterns, Scratch};
 pub use plan::{Plan, Rejected, Report, Step, StepKind, plan};
 pub use proof::Proofs;
-pub use run::{Drag, Runner, leaning, run};
+pub use run::{Drag, Runner, leaning, others, run};
 pub use search::{Count, Puzzle, Verdict};
 pub use system::{
     Equation, Level, Method, MethodBody, Relation, RelationBody, Slot, SlotIndex, Span, Stay,

@@ -229,6 +229,26 @@ impl Modes {
         all
     }
 
+    /// Returns the modes in which one alternative is taken otherwise, no inequality acting, each with what
+    /// is taken then; in order of declaration.
+    pub fn other_ways(&self, mode: &Mode) -> Vec<(Mode, Standing)> {
+        let mut others = Vec::new();
+        for want in self.wants_in(mode) {
+            let mut choices = BTreeSet::new();
+            choices_of(&want.tree, &mut choices);
+            for choice in choices {
+                let (relation, of) = self.choices[choice as usize];
+                let taken = mode.taken[choice as usize];
+                for way in (0..of).filter(|&way| way != taken) {
+                    let mut other = Mode { active: BTreeSet::new(), ..mode.clone() };
+                    other.taken[choice as usize] = way;
+                    others.push((other, Standing::Taken { relation, way, of }));
+                }
+            }
+        }
+        others
+    }
+
     /// Returns a mode in which those inequalities act, and no others, that are at their bound in
     /// `values`.
     pub fn at_bounds(&self, mode: &Mode, values: &[f64]) -> Mode {

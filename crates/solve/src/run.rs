@@ -7,6 +7,7 @@
 
 mod anchors;
 
+use crate::attempt::others::Other;
 use crate::attempt::{self, Approach, Attempt, Buffers, Failure, Frame, Held, Part};
 use crate::block::Workspace;
 use crate::fork::{self, Lean};
@@ -59,6 +60,18 @@ pub fn leaning(plan: &Plan, x0: &[f64], leans: &[Lean], values: &[f64]) -> Vec<L
     let mut runner = Runner::new();
     start(plan, &mut runner, x0, &[]);
     fork::leaning(plan, &runner.frame, &mut runner.buffers, leans, values)
+}
+
+/// Returns other states that a plan can come to from a state that holds: in each, one step takes another of
+/// its roots, and the rest follows. At `most` so many; steps of more than a dozen unknowns are not asked.
+pub fn others(plan: &Plan, x0: &[f64], most: usize, host: &mut dyn Host) -> Vec<Other> {
+    let mut runner = Runner::new();
+    start(plan, &mut runner, x0, &[]);
+    let Runner { frame, buffers, .. } = &mut runner;
+    let mut values = frame.x0.clone();
+    let last = frame.x0.clone();
+    let attempt = Attempt { plan, frame, last: &last, trust: Trust::Any, part: Part::Whole };
+    attempt.others(&mut values, most, buffers, host)
 }
 
 /// Runs a plan for one edit.

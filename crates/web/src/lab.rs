@@ -9,8 +9,8 @@ use crate::sheet::View;
 use crate::{js, theme, words};
 use leptos::prelude::*;
 use session::view::{
-    Analysis, Change, DocumentId, DragState, Explanation, FixView, HeldView, PictureView, Question,
-    Recognised, Refusal, Status, StructureRow, TextView, ValueRow, Velocity,
+    Analysis, Change, DocumentId, DragState, Explanation, FixView, Ghost, HeldView, PictureView,
+    Question, Recognised, Refusal, Status, StructureRow, TextView, ValueRow, Velocity,
 };
 use session::{Command, Path, Session};
 use std::collections::BTreeMap;
@@ -81,6 +81,8 @@ pub struct Lab {
     pub marked: Memo<Marked>,
     /// The motion that the picture shows by arrows.
     pub motion: RwSignal<Vec<Velocity>>,
+    /// Where else the selection could be, as the picture shows it.
+    pub ghosts: RwSignal<Vec<drawing::Drawing>>,
     /// What there is to say.
     pub notice: RwSignal<Option<Notice>>,
     /// Where the present drag has got to, if there is one.
@@ -166,6 +168,7 @@ impl Lab {
             hovered,
             marked,
             motion: RwSignal::new(Vec::new()),
+            ghosts: RwSignal::new(Vec::new()),
             notice: RwSignal::new(None),
             dragging: RwSignal::new(None),
             listed: RwSignal::new(Vec::new()),
@@ -260,6 +263,7 @@ impl Lab {
         self.select(None);
         self.hovered.set(None);
         self.motion.set(Vec::new());
+        self.ghosts.set(Vec::new());
         self.notice.set(None);
         self.conflict.set(None);
         let draft = theme::keep(&draft_key(path)).filter(|draft| *draft != opened.saved);
@@ -395,6 +399,12 @@ impl Lab {
     /// Why a thing does not move; nothing where it can.
     pub fn held(self, about: &Path) -> Option<HeldView> {
         self.tell(|session, id| session.held(id, about)).flatten()
+    }
+
+    /// Where else a thing could be.
+    pub fn elsewhere(self, about: &Path) -> Vec<Ghost> {
+        let found = self.tell(|session, id| session.ghosts(id, about));
+        found.and_then(Result::ok).unwrap_or_default()
     }
 
     /// Says which classes the selected things could be the parts of.

@@ -15,7 +15,7 @@
 //! | 7, x, y, dx, dy, pixels | an arrow from a point, so many pixels for each unit of its direction |
 
 use crate::sheet::View;
-use drawing::{Anchoring, Color, Element, Layer, Line, Placement, Point, Shape, Style};
+use drawing::{Anchoring, Color, Drawing, Element, Layer, Line, Placement, Point, Shape, Style};
 use session::view::{Freedom, PictureView, Velocity};
 use std::collections::BTreeSet;
 
@@ -115,6 +115,26 @@ pub fn arrows(list: &mut DisplayList, picture: &PictureView, motion: &[Velocity]
         let grip = picture.grips.iter().find(|grip| grip.path == velocity.path);
         if let (Some(grip), &[dx, dy]) = (grip, velocity.direction.as_slice()) {
             list.numbers.extend([7.0, grip.x, grip.y, dx, dy, ARROW]);
+        }
+    }
+}
+
+/// Adds what looks otherwise where a thing could be elsewhere, faint and dashed.
+pub fn ghosts(list: &mut DisplayList, drawn: &[Drawing]) {
+    for element in drawn.iter().flat_map(|drawing| &drawing.elements) {
+        match element.shape {
+            Shape::Dot(at) => {
+                begin(list, Hue::Faint as i32, -1, Line::Solid, USUAL_WIDTH, Space::Screen);
+                sign(list, Sign::Disc, at, POINT);
+            }
+            Shape::Text { .. } => {}
+            Shape::Segment(..)
+            | Shape::Polyline { .. }
+            | Shape::Circle { .. }
+            | Shape::Arc { .. } => {
+                begin(list, Hue::Faint as i32, -1, Line::Dashed, USUAL_WIDTH, Space::Screen);
+                shape(list, &element.shape);
+            }
         }
     }
 }

@@ -5,7 +5,7 @@
 
 use crate::js::{self, Painter};
 use crate::lab::{Lab, Marked, Zoom, first_path};
-use crate::paint::{DisplayList, Mark, arrows, display_list, grid};
+use crate::paint::{DisplayList, Mark, arrows, display_list, ghosts, grid};
 use crate::sheet::{View, fit};
 use crate::words;
 use drawing::{Point, Vertical};
@@ -42,6 +42,7 @@ pub fn Picture(
             let freedom = states.with(|states| grip_freedom(picture, states));
             let marks = marked.with(|marked| marks(picture, marked));
             let mut list = display_list(picture, &freedom, &marks);
+            lab.ghosts.with(|drawn| ghosts(&mut list, drawn));
             lab.motion.with(|motion| arrows(&mut list, picture, motion));
             list
         })

@@ -6,8 +6,8 @@ use crate::picture::covers;
 use crate::{icons, words};
 use leptos::prelude::*;
 use session::view::{
-    Advice, Analysis, ContradictionView, ExplainedStep, HeldView, MotionView, RedundantView, Unmet,
-    Velocity,
+    Advice, Analysis, ContradictionView, ExplainedStep, Ghost, HeldView, MotionView, RedundantView,
+    Unmet, Velocity,
 };
 use session::{Command, Path};
 
@@ -46,13 +46,33 @@ pub fn Why(
         lab.status.track();
         about.with(|about| about.as_ref().and_then(|path| lab.held(path)))
     });
+    // compared by what is said: a drawing follows from it
+    let elsewhere = Memo::new_with_compare(
+        move |_| {
+            lab.status.track();
+            about.with(|about| about.as_ref().map(|path| lab.elsewhere(path))).unwrap_or_default()
+        },
+        |old: Option<&Vec<Ghost>>, new: Option<&Vec<Ghost>>| {
+            let labels = |ghosts: Option<&Vec<Ghost>>| -> Vec<String> {
+                ghosts.into_iter().flatten().map(|g| g.label.clone()).collect()
+            };
+            labels(old) != labels(new)
+        },
+    );
     let analysis = Memo::new(move |_| {
         lab.status.track();
         lab.analysis()
     });
     let unmet = Memo::new(move |_| lab.status.with(|status| status.unmet.clone()));
     let steps = Memo::new(move |_| explanation.with(|e| e.steps.clone()));
-    on_cleanup(move || lab.motion.set(Vec::new()));
+    let show_all = move || {
+        lab.ghosts.set(elsewhere.with(|ghosts| ghosts.iter().map(|g| g.picture.clone()).collect()));
+    };
+    Effect::new(move |_| show_all());
+    on_cleanup(move || {
+        lab.motion.set(Vec::new());
+        lab.ghosts.set(Vec::new());
+    });
     view! {
         <section id="why" class="panel why" aria-label=words::WHY>
             <header class="head">
@@ -70,6 +90,12 @@ pub fn Why(
                 })}
                 <p>{move || explanation.with(|e| e.summary.clone())}</p>
                 {move || held.get().map(|held| view! { <Held lab=lab held=held /> })}
+                {move || (!elsewhere.with(Vec::is_empty)).then(|| view! {
+                    <h3>{words::ELSEWHERE}</h3>
+                    <ul class="motions" on:pointerleave=move |_| show_all()>
+                        {elsewhere.get().into_iter().map(|g| view! { <Elsewhere lab=lab ghost=g /> }).collect_view()}
+                    </ul>
+                })}
                 {move || view! { <Analysed lab=lab analysis=analysis.get() about=lab.selected.get() /> }}
                 {move || (!steps.with(Vec::is_empty)).then(|| view! {
                     <h3>{words::STEPS}</h3>
@@ -87,6 +113,20 @@ fn Held(lab: Lab, held: HeldView) -> impl IntoView {
         <h3>{words::HELD}</h3>
         <p>{held.message}</p>
         {listed(lab, words::IN_THE_WAY, held.constraints.into_iter().chain(held.anchors).collect())}
+    }
+}
+
+/// Where else the selection could be: the picture shows it alone while the pointer or the keyboard is on it.
+#[component]
+fn Elsewhere(lab: Lab, ghost: Ghost) -> impl IntoView {
+    let Ghost { label, moves: _, picture, command } = ghost;
+    let show = move || lab.ghosts.set(vec![picture.clone()]);
+    let focus = show.clone();
+    view! {
+        <li>
+            <button class="bare motion" title=words::PICK on:pointerenter=move |_| show()
+                on:focus=move |_| focus() on:click=move |_| { lab.apply(&command); }>{label}</button>
+        </li>
     }
 }
 

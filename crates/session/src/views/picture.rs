@@ -40,6 +40,14 @@ pub(crate) fn picture(state: &State, values: &Values, status: &plan::Status) -> 
     }
 }
 
+/// Returns the elements of a picture that look otherwise with these values than with those of the state.
+pub(crate) fn changed(state: &State, values: &Values, status: &plan::Status) -> drawing::Drawing {
+    let now = picture(state, &state.values, status).drawing;
+    let mut made = picture(state, values, status).drawing;
+    made.elements.retain(|element| !now.elements.contains(element));
+    made
+}
+
 /// Returns a picture as SVG, each element with the path of its thing.
 pub(crate) fn svg(picture: &PictureView) -> String {
     let path = |tag: drawing::Tag| picture.paths.get(tag.0 as usize).cloned();

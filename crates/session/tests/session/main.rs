@@ -4,6 +4,7 @@ mod dragging;
 
 mod explaining;
 mod fixing;
+mod ghosts;
 mod limits;
 mod recognising;
 mod refusing;

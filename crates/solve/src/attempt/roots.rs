@@ -90,7 +90,13 @@ impl Run<'_> {
     }
 
     /// Keeps what is found from where the targets stand, if it is new.
-    fn look(&mut self, step: &Step, square: &Square, way: Trust, found: &mut Vec<Vec<f64>>) {
+    pub(super) fn look(
+        &mut self,
+        step: &Step,
+        square: &Square,
+        way: Trust,
+        found: &mut Vec<Vec<f64>>,
+    ) {
         let (work, scratch) = (&mut self.buffers.work, &mut self.buffers.square);
         let scales = &self.frame.scales;
         let end = square.solve(self.last, self.values, scales, way, work, scratch);

@@ -77,3 +77,35 @@ fn a_surplus_row_chooses_the_root_on_which_it_holds() {
     assert!(outcome.is_solved(), "{outcome:?}");
     close(values[p[1] as usize], height - 3.0, 1e-6);
 }
+
+#[test]
+fn a_state_has_others_where_a_step_takes_its_other_root() {
+    let mut s = Sheet::default();
+    let (left, right) = (s.anchor(0.0, 0.0), s.anchor(6.0, 0.0));
+    let p = tied(&mut s, [3.0, 4.0], [(left, 5.0), (right, 5.0)]);
+    // above p, and to its right
+    let q = tied(&mut s, [6.0, 8.0], [(left, 10.0), (p, 5.0)]);
+    let plan = s.plan();
+    let others = solve::others(&plan, &s.x0, 8, &mut NoHost);
+    let places: Vec<[f64; 4]> = others
+        .iter()
+        .map(|o| [p[0], p[1], q[0], q[1]].map(|slot| o.values[slot as usize]))
+        .collect();
+    // q is where left, p and q lie on one line: a double root that is no other
+    assert_eq!(places.len(), 1, "{places:?}");
+    for (at, wanted) in places[0].iter().zip([3.0, -4.0, 6.0, -8.0]) {
+        close(*at, wanted, 1e-6);
+    }
+    assert!(solve::others(&plan, &s.x0, 0, &mut NoHost).is_empty());
+}
+
+#[test]
+fn the_coupler_of_a_four_bar_has_another_side() {
+    let mut s = Sheet::default();
+    let (tip, foot) = (s.anchor(40.0, 0.0), s.anchor(160.0, 0.0));
+    let p = tied(&mut s, [365.0 / 3.0, 113.712_600_689_437_92], [(tip, 140.0), (foot, 120.0)]);
+    let others = solve::others(&s.plan(), &s.x0, 8, &mut NoHost);
+    let [other] = &others[..] else { panic!("{others:?}") };
+    close(other.values[p[0] as usize], 365.0 / 3.0, 1e-9);
+    close(other.values[p[1] as usize], -113.712_600_689_437_92, 1e-9);
+}

@@ -1,0 +1,206 @@
+//! Ghosts: other states that the rules allow as well, of a thing that they determine.
+//!
+//! In: a state that holds, and a thing. Out: states in which the thing is elsewhere, because a constraint
+//! holds by another of its alternatives, or because equations have another root. What the thing is made of
+//! is looked for anew; everything else that is given stays, or, where it has to follow, is left to.
+
+use crate::aim::Aim;
+use crate::host::Host;
+use crate::modal::{Acting, attempt_in_mode};
+use crate::planner::{Model, Planner, Unmet};
+use crate::run::{Adapter, ground, leans, scatter};
+use crate::task::{Course, Holding, Task};
+use kernel::{SlotId, ThingId, Values};
+use solve::{Ended, Modes, Plan, decide};
+use std::collections::BTreeSet;
+use std::rc::Rc;
+
+/// At most so many states are found.
+const MOST: usize = 8;
+/// With more slots than this nothing is looked for: every ghost is a whole solve.
+const LARGEST: usize = 2_000;
+
+/// Another state that the rules allow.
+#[derive(Clone, PartialEq, Debug)]
+pub struct Ghost {
+    /// What is otherwise in it.
+    pub kind: GhostKind,
+    /// The state.
+    pub values: Values,
+}
+
+/// What is otherwise in a ghost.
+#[derive(Clone, PartialEq, Debug)]
+pub enum GhostKind {
+    /// A constraint holds by this alternative.
+    Taken(Acting),
+    /// Equations have another root.
+    Root {
+        /// What they are about, besides what they are solved for.
+        reads: Vec<SlotId>,
+    },
+}
+
+/// What becomes of everything but the thing.
+#[derive(Clone, Copy, PartialEq, Eq)]
+enum Rest {
+    /// What is given stays, what is not is computed.
+    Stays,
+    /// It yields where it has to.
+    Follows,
+}
+
+impl Planner {
+    /// Finds other states of a thing that the rules allow, at most eight, nearest roots first.
+    ///
+    /// Nothing where the rules leave the thing free, or hold it by other than real numbers. Cost: two plans
+    /// of its component and a solve for each state that is found; the plans are not kept.
+    pub fn ghosts(
+        &mut self,
+        model: Model<'_>,
+        values: &Values,
+        thing: ThingId,
+        host: &mut dyn Host,
+    ) -> Vec<Ghost> {
+        let structure = model.structure;
+        let under = structure.slots_under(thing);
+        let is_whole = structure.slot_of[thing].is_none();
+        let own: BTreeSet<SlotId> = under
+            .into_iter()
+            .filter(|&slot| match Self::resting_hold(structure, slot) {
+                Holding::Fixed => false,
+                // numbers that a thing is given make it what it is
+                Holding::Given => !is_whole,
+                Holding::Kept | Holding::Alone | Holding::Free => true,
+            })
+            .collect();
+        let mark = self.plans.mark();
+        let alike = std::mem::take(&mut self.alike);
+        let mut found: Vec<Ghost> = Vec::new();
+        for rest in [Rest::Stays, Rest::Follows] {
+            let holding = |slot: SlotId| {
+                let resting = Self::resting_hold(structure, slot);
+                match (resting, rest) {
+                    (Holding::Fixed, _) => Holding::Fixed,
+                    _ if own.contains(&slot) => Holding::Free,
+                    (_, Rest::Follows) => resting,
+                    (_, Rest::Stays) if structure.slots[slot].given.is_some() => Holding::Fixed,
+                    (_, Rest::Stays) => Holding::Free,
+                }
+            };
+            let is_fixed = |slot| holding(slot) == Holding::Fixed;
+            let mut components = self.net.around(own.iter().copied(), &self.rules, &is_fixed, &[]);
+            components.retain(|c| c.slots.len() <= LARGEST);
+            for task in self.tasks(structure, components, &holding, &[]) {
+                self.ghosts_of(model, &task, values, host, &mut found);
+            }
+        }
+        self.alike = alike;
+        self.plans.forget_since(mark);
+        found
+    }
+
+    /// Adds the states that one component can come to.
+    fn ghosts_of(
+        &self,
+        model: Model<'_>,
+        task: &Task,
+        values: &Values,
+        host: &mut dyn Host,
+        found: &mut Vec<Ghost>,
+    ) {
+        match &task.course {
+            Course::Plan => self.other_roots(model, task, &task.plan, values, host, found),
+            Course::Modes(modes, _) => {
+                let now = task.gather(&values.numbers);
+                let mode = modes.first(&now, &now);
+                let (_, plan) = self.plans.in_mode(modes, &mode);
+                self.other_roots(model, task, &plan, values, host, found);
+                self.other_alternatives(model, task, modes, values, host, found);
+            }
+            Course::Search(_) => {}
+        }
+    }
+
+    fn other_roots(
+        &self,
+        model: Model<'_>,
+        task: &Task,
+        plan: &Rc<Plan>,
+        values: &Values,
+        host: &mut dyn Host,
+        found: &mut Vec<Ghost>,
+    ) {
+        let x0 = ground(self, task, &Aim::default(), values, values).x0;
+        let mut trial = values.clone();
+        let mut adapter = Adapter { planner: self, model, task, values: &mut trial, host };
+        for other in solve::others(plan, &x0, MOST, &mut adapter) {
+            let reads = plan.steps[other.step as usize].reads.iter();
+            let reads = reads.filter_map(|&r| task.component.slots.get(r as usize).copied());
+            let kind = GhostKind::Root { reads: reads.collect() };
+            self.add(model, task, &other.values, kind, values, host, found);
+        }
+    }
+
+    fn other_alternatives(
+        &self,
+        model: Model<'_>,
+        task: &Task,
+        modes: &Rc<Modes>,
+        values: &Values,
+        host: &mut dyn Host,
+        found: &mut Vec<Ghost>,
+    ) {
+        let ground = ground(self, task, &Aim::default(), values, values);
+        let leans = leans(model, task);
+        for (mode, standing) in modes.other_ways(&modes.first(&ground.x0, &ground.x0)) {
+            let mut trial = values.clone();
+            let mut attempt = |mode: &solve::Mode| {
+                attempt_in_mode(self, model, task, modes, mode, &ground, &leans, &mut trial, host)
+            };
+            let decision = decide(modes, &mode, &mut attempt);
+            if decision.ended == Ended::Settled && decision.mode.taken == mode.taken {
+                let kind = GhostKind::Taken(task.acting_by(self, standing));
+                self.add(model, task, &decision.tried.values, kind, values, host, found);
+            }
+        }
+    }
+
+    /// Adds a state, if it is another one and all that holds now holds in it.
+    #[expect(clippy::too_many_arguments, reason = "a ghost is all of these")]
+    fn add(
+        &self,
+        model: Model<'_>,
+        task: &Task,
+        local: &[f64],
+        kind: GhostKind,
+        values: &Values,
+        host: &mut dyn Host,
+        found: &mut Vec<Ghost>,
+    ) {
+        let mut state = values.clone();
+        scatter(task, local, &mut state);
+        let slots = &task.component.slots;
+        let is_near = |other: &Values| {
+            slots.iter().all(|&s| {
+                let (a, b) = (state.numbers[s], other.numbers[s]);
+                (a - b).abs() <= 1e-6 * a.abs().max(b.abs()).max(1e-3)
+            })
+        };
+        if found.len() == MOST || is_near(values) || found.iter().any(|g| is_near(&g.values)) {
+            return;
+        }
+        let rules = || task.component.rules.iter().copied();
+        let was_unmet = self.unmet(model, rules(), values, host);
+        let unmet = self.unmet(model, rules(), &state, host);
+        if unmet.iter().all(|u: &Unmet| !u.is_new(&was_unmet)) {
+            // what did not move keeps its bits
+            for &s in slots {
+                if base::number::close(state.numbers[s], values.numbers[s]) {
+                    state.numbers[s] = values.numbers[s];
+                }
+            }
+            found.push(Ghost { kind, values: state });
+        }
+    }
+}
