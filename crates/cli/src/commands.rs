@@ -9,7 +9,7 @@
 
 use crate::documents::{self, OpenError, Opened, find, open};
 use serde_json::{Value, json};
-use session::view::{CheckReport, DiagnosticView, Explanation, ValueRow};
+use session::view::{Advice, CheckReport, DiagnosticView, Explanation, ValueRow};
 use std::fmt::Write as _;
 use std::path::{Path, PathBuf};
 
@@ -206,6 +206,11 @@ pub(crate) fn explain(path: &Path, about: Option<&str>, form: Form) -> Result<Re
     let ghosts = about.as_ref().and_then(|path| opened.session.ghosts(opened.id, path).ok());
     let ghosts = ghosts.unwrap_or_default();
     let mut words = format!("{}\n", explanation.summary);
+    for warning in &explanation.warnings {
+        let _ = writeln!(words, "warning: {warning}.");
+    }
+    let advice = if about.is_none() { opened.session.advice(opened.id) } else { Vec::new() };
+    write_advice(&mut words, &advice);
     for ghost in &ghosts {
         let _ = writeln!(words, "It could also be: {}.", ghost.label);
     }
@@ -227,6 +232,7 @@ pub(crate) fn explain(path: &Path, about: Option<&str>, form: Form) -> Result<Re
     let mut json = json!(explanation);
     json["held"] = json!(held);
     json["ghosts"] = json!(ghosts);
+    json["advice"] = json!(advice);
     Ok(report(form, true, words, &json))
 }
 
@@ -281,11 +287,16 @@ pub(crate) fn analyse(path: &Path, form: Form) -> Result<Report, OpenError> {
             let _ = writeln!(words, "  this would help: {repair}");
         }
     }
-    for advice in &analysis.advice {
+    write_advice(&mut words, &analysis.advice);
+    Ok(report(form, analysis.contradictions.is_empty(), words, &json!(analysis)))
+}
+
+/// Names second views, with the members that make them.
+fn write_advice(words: &mut String, advice: &[Advice]) {
+    for advice in advice {
         let members = advice.members.trim_end().replace('\n', "\n    ");
         let _ = writeln!(words, "{}:\n    {members}", advice.message);
     }
-    Ok(report(form, analysis.contradictions.is_empty(), words, &json!(analysis)))
 }
 
 /// Draws a document as SVG, into a file or onto standard output.

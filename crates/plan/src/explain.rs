@@ -370,6 +370,23 @@ impl ExplainedKind {
     }
 }
 
+impl ExplainedKind {
+    /// Returns true if a step goes towards its answer by steps of its own, without a proof that they converge:
+    /// 1979's relaxation. Those of one unknown, of linear equations and of formulas have one.
+    pub fn is_approached(self) -> bool {
+        match self {
+            Self::Alias
+            | Self::Method { .. }
+            | Self::Isolated { .. }
+            | Self::Linear { .. }
+            | Self::Search { .. } => false,
+            Self::Newton { unknowns }
+            | Self::LeastChange { unknowns }
+            | Self::Compromise { unknowns } => unknowns > 1,
+        }
+    }
+}
+
 fn kind(system: &System, step: &Step) -> ExplainedKind {
     let unknowns = step.targets.len() as u32;
     match step.kind {

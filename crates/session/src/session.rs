@@ -11,8 +11,9 @@ use crate::host::{Beside, Host};
 use crate::recognise;
 use crate::state::State;
 use crate::view::{
-    Affected, Analysis, Change, CheckReport, DocumentId, DragState, Explanation, FixView, Ghost,
-    HeldView, PictureView, Question, Recognised, Refusal, Status, StructureRow, TextView, ValueRow,
+    Advice, Affected, Analysis, Change, CheckReport, DocumentId, DragState, Explanation, FixView,
+    Ghost, HeldView, PictureView, Question, Recognised, Refusal, Status, StructureRow, TextView,
+    ValueRow,
 };
 use crate::views;
 use crate::words;
@@ -259,8 +260,13 @@ impl Session {
     /// Where something does not hold this may take a few hundred solves.
     pub fn analysis(&mut self, id: DocumentId) -> Analysis {
         let analysis = views::analysis::view(self.document_mut(id));
+        Analysis { advice: self.advice(id), ..analysis }
+    }
+    /// Returns second views by which the opening of a document would go on one step after the other, where it
+    /// does not. Each was tried in a copy of the document.
+    pub fn advice(&self, id: DocumentId) -> Vec<Advice> {
         let beside = Beside::of(&*self.host, &self.documents, id);
-        Analysis { advice: advice::advice(self.document(id), &beside), ..analysis }
+        advice::advice(self.document(id), &beside)
     }
     /// Returns what the document calls itself: the first words of its first `///`, else its name.
     pub fn title(&self, id: DocumentId) -> String {

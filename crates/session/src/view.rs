@@ -372,6 +372,8 @@ pub struct Explanation {
     pub summary: String,
     /// The steps, in order.
     pub steps: Vec<ExplainedStep>,
+    /// What is approached step by step, without a proof that this ends at an answer.
+    pub warnings: Vec<String>,
 }
 
 /// One step of a plan.

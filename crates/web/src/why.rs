@@ -89,6 +89,8 @@ pub fn Why(
                     <ul>{unmet.get().into_iter().map(|u| view! { <UnmetRow lab=lab unmet=u /> }).collect_view()}</ul>
                 })}
                 <p>{move || explanation.with(|e| e.summary.clone())}</p>
+                {move || explanation.with(|e| e.warnings.clone()).into_iter()
+                    .map(|warning| view! { <p class="quiet">{warning}</p> }).collect_view()}
                 {move || held.get().map(|held| view! { <Held lab=lab held=held /> })}
                 {move || (!elsewhere.with(Vec::is_empty)).then(|| view! {
                     <h3>{words::ELSEWHERE}</h3>

@@ -7,6 +7,9 @@ use crate::words;
 use kernel::{ConstraintInstance, Path, SlotId, Step};
 use plan::{Acting, ExplainedKind, Root, RootKind, Source};
 
+/// So many things are named of what is approached.
+const MOST_APPROACHED: usize = 6;
+
 /// Explains the latest plan, or why the value at a path is what it is.
 pub(crate) fn view(open: &Open, about: Option<&Path>) -> Explanation {
     match about {
@@ -38,8 +41,22 @@ fn plan_in_words(open: &Open) -> Explanation {
         [] => summary,
         _ => format!("{summary} Here {}.", enumerated(&acting)),
     };
+    let approached = steps.iter().filter(|s| s.kind.is_approached());
+    let warnings = approached.map(|s| approach(open, s)).collect();
     let steps = steps.iter().map(|s| step(open, s)).collect();
-    Explanation { about, summary, steps }
+    Explanation { about, summary, steps, warnings }
+}
+
+/// Warns of a step that may not converge.
+fn approach(open: &Open, step: &plan::ExplainedStep) -> String {
+    let names = words::slots_listed(&open.state, &step.targets);
+    let told: Vec<String> = names.iter().take(MOST_APPROACHED).cloned().collect();
+    let told = match names.len() - told.len() {
+        0 => words::listed(&told),
+        more => format!("{} and {more} more", told.join(", ")),
+    };
+    let is = if names.len() == 1 { "is" } else { "are" };
+    format!("{told} {is} approached step by step: from far away that may not converge")
 }
 
 /// Says how a constraint acts in the mode that stands.
@@ -60,7 +77,8 @@ fn why(open: &Open, path: &Path) -> Explanation {
     let Subject { opening, slots } = match subject(open, path) {
         Ok(subject) => subject,
         Err(refusal) => {
-            return Explanation { about, summary: refusal.message, steps: Vec::new() };
+            let summary = refusal.message;
+            return Explanation { about, summary, ..Explanation::default() };
         }
     };
     let mut steps: Vec<plan::ExplainedStep> = Vec::new();
@@ -86,8 +104,23 @@ fn why(open: &Open, path: &Path) -> Explanation {
         }
         (_, _) => format!("{opening}, because {}.", enumerated(&reasons(open, &roots))),
     };
+    let warnings = steps.iter().filter(|s| s.kind.is_approached()).map(|s| approach(open, s));
+    let warnings = warnings.collect();
+    let sides = sides(state, &slots);
+    let summary = if sides.is_empty() { summary } else { format!("{summary} {sides}") };
     let steps = steps.iter().map(|s| step(open, s)).collect();
-    Explanation { about, summary, steps }
+    Explanation { about, summary, steps, warnings }
+}
+
+/// Says on which side these slots go on, where their values do not.
+fn sides(state: &State, slots: &[SlotId]) -> String {
+    let told = slots.iter().filter_map(|slot| {
+        let toward = *state.structure.sides.get(slot)?;
+        let (path, way) = state.structure.side_of(&state.lowered.document, *slot, toward);
+        let way = way.word();
+        Some(format!("Two branches meet at {path}: it goes on {way}, as is written (side)."))
+    });
+    told.collect::<Vec<_>>().join(" ")
 }
 
 /// Finds what is at a path: a part, a virtual part or a constraint.

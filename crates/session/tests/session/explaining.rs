@@ -147,3 +147,24 @@ fn what_is_solved_together_is_advised_a_second_view_that_was_tried() {
     assert!(desk.session.explain(desk.id, None).summary.contains("one after the other"));
     assert_eq!(desk.session.analysis(desk.id).advice, []);
 }
+
+#[test]
+fn what_is_approached_step_by_step_is_warned_of_and_a_lighter_view_named() {
+    // linear equations have one answer, and it is found
+    let desk = Desk::of(DIVIDER);
+    assert_eq!(desk.session.explain(desk.id, None).warnings, [""; 0]);
+    assert_eq!(desk.session.advice(desk.id).len(), 1);
+    let desk = Desk::of(
+        "use geometry\nfoot: Point = (0, 0)\nanchor foot\nknee: Point = (10, 0)\ntip: Point = (20, 0)\n\
+        far: Point = (20, 10)\nanchor far\nconstraint foot.distance(to: knee) = 11\n\
+        constraint knee.distance(to: tip) = 9\nconstraint tip.distance(to: far) = 8\n",
+    );
+    let warnings = desk.session.explain(desk.id, None).warnings;
+    assert_eq!(
+        warnings,
+        ["knee, tip are approached step by step: from far away that may not converge"]
+    );
+    let of_knee = desk.session.explain(desk.id, Some(&at("knee")));
+    assert_eq!(of_knee.warnings, warnings);
+    assert_eq!(desk.session.explain(desk.id, Some(&at("foot"))).warnings, [""; 0]);
+}

@@ -110,6 +110,9 @@ fn a_side_stays_while_nothing_moves_what_it_speaks_of() {
     let mut desk = Desk::of(&triangle("(3, 0)", "side c: up\nelse_where: Real = 1\n"));
     desk.set("else_where", 2.0).expect("nothing forbids it");
     assert_eq!(sides(&desk), ["side c: up"]);
+    let why = desk.session.explain(desk.id, Some(&at("c"))).summary;
+    let told = "Two branches meet at c: it goes on up, as is written (side).";
+    assert!(why.ends_with(told), "{why}");
     desk.apply(&Command::Rename { from: at("c"), to: "apex".into() }).expect("a part has a name");
     assert_eq!(sides(&desk), ["side apex: up"]);
 }
