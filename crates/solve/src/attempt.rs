@@ -16,7 +16,7 @@ use crate::square::{Solved, Square, SquareScratch, Trust};
 use crate::strip::Portion;
 use crate::system::{SlotIndex, Stay};
 use crate::test::{Place, TestScratch};
-use std::cell::Cell;
+use std::cell::{Cell, OnceCell};
 
 mod backtrack;
 pub(crate) mod others;
@@ -420,7 +420,7 @@ impl Run<'_> {
             }
             Program::Inverse(inverse) => return self.inverse(step, inverse),
             Program::Square(square) => return self.square(step, square),
-            Program::Least(least) => return self.least(step, &least.0, &least.1),
+            Program::Least(least) => return self.least(step, least),
             Program::Measure(measure) => return self.measure(step, measure),
             Program::Host { source, method } => {
                 let out = &mut self.buffers.out;
@@ -447,7 +447,11 @@ impl Run<'_> {
         }
     }
 
-    fn least(&mut self, step: &Step, least: &Least, measure: &Measure) -> Result<(), Failure> {
+    fn least(
+        &mut self,
+        step: &Step,
+        (least, measure): &(Least, OnceCell<Measure>),
+    ) -> Result<(), Failure> {
         self.start_from_last(&step.targets);
         let (anchor, scales) = (self.frame.anchor(), &self.frame.scales);
         let Buffers { work, least: scratch, .. } = &mut *self.buffers;
@@ -456,7 +460,9 @@ impl Run<'_> {
         match result {
             Measured::Least => Ok(()),
             Measured::Failed if may_compromise && step.targets.len() <= DENSE => {
-                self.measure(step, measure)
+                let scale = |s: SlotIndex| (self.plan.slots[s as usize].scale, false);
+                let make = || Measure::new(&least.block.problem(), &scale);
+                self.measure(step, measure.get_or_init(make))
             }
             Measured::Failed => self.fail(step),
         }

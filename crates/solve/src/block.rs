@@ -5,71 +5,35 @@
 //! on one side alone and not in e) is *defined*: it is computed forward, exactly, and what is
 //! iterated is the core, from where it is. Forces between beams, results of operations are such.
 
-use crate::kernel::{Entry, Kernel, Side};
-use crate::lower::{Definers, Problem};
-use crate::sparse::Pattern;
-use crate::system::{Level, SlotIndex, Span};
-use base::number::Tolerance;
+mod layout;
+
+pub(crate) use layout::{Layout, Layouts};
+
+use crate::kernel::{Kernel, Side};
+use crate::lower::{Definers, Problem, ProblemRow};
+use crate::system::SlotIndex;
 use expr::{Arena, ExprId, LANES, Lanes, Var};
+use layout::{Group, KNOWN, positions};
+use std::ops::Deref;
 use std::rc::Rc;
-use std::sync::OnceLock;
 
 /// Rows over unknowns.
 #[derive(Debug)]
 pub(crate) struct Block {
     /// The unknowns, in order of slots.
     pub(crate) unknowns: Vec<SlotIndex>,
-    /// For every row, the tolerance of its sides.
-    pub(crate) within: Vec<Tolerance>,
-    /// For every row, how strongly it wants to hold.
-    pub(crate) levels: Vec<Level>,
-    /// Where rows depend on unknowns, both by position.
-    pub(crate) pattern: Pattern,
-    /// Rows that define nothing, by position.
-    pub(crate) core_rows: Vec<u32>,
-    /// Unknowns that nothing defines, by position.
-    pub(crate) core: Vec<u32>,
-    /// In the order in which they are computed.
-    pub(crate) definitions: Vec<Definition>,
-    /// True if no derivative depends on an unknown.
-    pub(crate) is_linear: bool,
-    groups: Vec<Group>,
-    /// The rows of all groups.
-    grouped: Vec<u32>,
-    /// The slots of all rows, in the order of `grouped`.
+    /// The slots of all rows, group after group.
     arguments: Vec<SlotIndex>,
-    /// For every row in that order, where each of the kernel's derivatives goes in the Jacobian.
-    entries: Vec<u32>,
-    seconds: OnceLock<Vec<(u32, u32)>>,
-    /// For every row, its group and its place there.
-    place: Vec<(u32, u32)>,
+    /// What it has in common with blocks that differ in their slots alone.
+    layout: Rc<Layout>,
 }
 
-/// An unknown that a row states outright.
-#[derive(Clone, Copy, PartialEq, Eq, Debug)]
-pub(crate) struct Definition {
-    /// The unknown, by position.
-    pub(crate) unknown: u32,
-    /// The row, by position.
-    pub(crate) row: u32,
-    /// The side on which the unknown stands alone.
-    pub(crate) side: Side,
+impl Deref for Block {
+    type Target = Layout;
+    fn deref(&self) -> &Layout {
+        &self.layout
+    }
 }
-
-/// Rows of one kernel.
-#[derive(Debug)]
-struct Group {
-    kernel: Rc<Kernel>,
-    /// The rows, by position, among [`Block::grouped`].
-    rows: Span,
-    /// Where the slots of its rows begin, one row after the other, among [`Block::arguments`].
-    arguments: u32,
-    /// Where its entries begin among [`Block::entries`].
-    entries: u32,
-}
-
-/// The derivative is by something known.
-const KNOWN: u32 = u32::MAX;
 
 /// A block at one state.
 #[derive(Clone, Debug, Default)]
@@ -150,198 +114,46 @@ const WIDE: usize = 3;
 impl Block {
     /// Lays a block out.
     pub(crate) fn new(problem: &Problem, definers: Definers) -> Self {
-        let unknowns = problem.unknowns.clone();
-        let mut groups: Vec<Group> = Vec::new();
-        let mut place: Vec<(u32, u32)> = Vec::with_capacity(problem.rows.len());
-        for row in &problem.rows {
-            let same = |g: &Group| Rc::ptr_eq(&g.kernel, &row.kernel);
-            let at = groups.iter().rposition(same).unwrap_or_else(|| {
-                let kernel = Rc::clone(&row.kernel);
-                groups.push(Group { kernel, rows: Span::default(), arguments: 0, entries: 0 });
-                groups.len() - 1
-            });
-            place.push((at as u32, groups[at].rows.len));
-            groups[at].rows.len += 1;
+        let mut arguments = Vec::new();
+        positions(problem, &mut arguments);
+        let layout = Rc::new(Layout::new(problem, &arguments, definers));
+        Self::over(problem, layout)
+    }
+    /// Lays a block out, as one was before that differs in its slots alone.
+    pub(crate) fn alike(problem: &Problem, definers: Definers, layouts: &mut Layouts) -> Self {
+        Self::over(problem, layouts.find(problem, definers))
+    }
+    fn over(problem: &Problem, layout: Rc<Layout>) -> Self {
+        let mut arguments = vec![0; layout.argument_count()];
+        for (r, row) in problem.rows.iter().enumerate() {
+            arguments[layout.arguments_of_row(r)].copy_from_slice(&row.arguments);
         }
-        let (mut rows, mut arguments, mut entries) = (0, 0, 0);
-        for group in &mut groups {
-            group.rows.start = rows;
-            (group.arguments, group.entries) = (arguments, entries);
-            rows += group.rows.len;
-            arguments += group.rows.len * group.kernel.arity() as u32;
-            entries += group.rows.len * group.kernel.entries.len() as u32;
-        }
-        let mut block = Self {
-            within: problem.rows.iter().map(|r| r.within).collect(),
-            levels: problem.rows.iter().map(|r| r.level).collect(),
-            unknowns,
-            pattern: Pattern::default(),
-            core_rows: Vec::new(),
-            core: Vec::new(),
-            definitions: Vec::new(),
-            is_linear: true,
-            groups,
-            grouped: vec![0; rows as usize],
-            arguments: vec![0; arguments as usize],
-            entries: vec![KNOWN; entries as usize],
-            seconds: OnceLock::new(),
-            place,
-        };
-        block.fill(problem);
-        block.define(definers);
-        block
+        Self { unknowns: problem.unknowns.clone(), arguments, layout }
     }
 
-    /// Puts the slots of every row in, and where its derivatives go.
-    fn fill(&mut self, problem: &Problem) {
-        let mut pattern = Pattern::with_width(self.unknowns.len());
-        // the unknown that each argument of the row is
-        let mut position: Vec<u32> = Vec::new();
-        for (r, row) in problem.rows.iter().enumerate() {
-            let (group, at) = self.place[r];
-            let Group { kernel, rows, arguments, entries } = &self.groups[group as usize];
-            let (arity, count) = (kernel.arity(), kernel.entries.len());
-            self.grouped[(rows.start + at) as usize] = r as u32;
-            let start = *arguments as usize + at as usize * arity;
-            self.arguments[start..start + arity].copy_from_slice(&row.arguments);
-            let unknown = |s| self.unknowns.binary_search(s).map_or(KNOWN, |at| at as u32);
-            position.clear();
-            position.extend(row.arguments.iter().map(unknown));
-            let of = |e: &Entry| position[e.argument as usize];
-            let is_unknown = |&a: &u32| position[a as usize] != KNOWN;
-            self.is_linear &=
-                kernel.entries.iter().all(|e| of(e) == KNOWN || !e.depends.iter().any(is_unknown));
-            pattern.push(kernel.entries.iter().map(of).filter(|&c| c != KNOWN));
-            let places = &mut self.entries[*entries as usize + at as usize * count..][..count];
-            for (place, entry) in places.iter_mut().zip(&kernel.entries) {
-                if of(entry) != KNOWN {
-                    *place = pattern.find(r, of(entry)).map_or(KNOWN, |at| at as u32);
-                }
-            }
-        }
-        self.pattern = pattern;
-    }
-    /// Returns the rows of a group, by position.
-    fn rows_of(&self, group: &Group) -> &[u32] {
-        &self.grouped[group.rows.range()]
-    }
     /// Returns the slots of the rows of a group, one row after the other.
     fn arguments_of(&self, group: &Group) -> &[SlotIndex] {
         let count = group.rows.len as usize * group.kernel.arity();
         &self.arguments[group.arguments as usize..][..count]
     }
 
-    /// Returns the number of rows.
-    pub(crate) fn height(&self) -> usize {
-        self.within.len()
-    }
     /// Returns every slot that the rows speak of, some more than once.
     pub(crate) fn slots(&self) -> impl Iterator<Item = SlotIndex> + '_ {
         self.arguments.iter().chain(&self.unknowns).copied()
     }
     /// Returns a row's kernel and arguments.
     pub(crate) fn row(&self, row: usize) -> (&Rc<Kernel>, &[SlotIndex]) {
-        let (group, at) = self.place[row];
-        let group = &self.groups[group as usize];
-        let arity = group.kernel.arity();
-        let start = group.arguments as usize + at as usize * arity;
-        (&group.kernel, &self.arguments[start..][..arity])
+        (self.kernel_of_row(row), &self.arguments[self.arguments_of_row(row)])
     }
 
-    /// Finds what the rows define, in an order in which it can be computed.
-    fn define(&mut self, definers: Definers) {
-        let mut defined: Vec<Option<Definition>> = vec![None; self.unknowns.len()];
-        let mut count = 0;
-        let mut seen = vec![u32::MAX; self.unknowns.len()];
-        let mut core_rows = Vec::new();
-        for r in 0..self.height() {
-            let may = match definers {
-                Definers::None => false,
-                Definers::Any => true,
-                Definers::Required => self.levels[r] == Level::Required,
-            };
-            if !may || count + 1 >= self.unknowns.len() {
-                core_rows.push(r as u32);
-                continue;
-            }
+    /// Returns the rows and unknowns that it was made of.
+    pub(crate) fn problem(&self) -> Problem {
+        let row = |r: usize| {
             let (kernel, arguments) = self.row(r);
-            let found = kernel.stated().find_map(|(argument, side)| {
-                let slot = arguments[argument as usize];
-                let once = arguments.iter().filter(|&&s| s == slot).count() == 1;
-                let unknown = self.unknowns.binary_search(&slot).ok()?;
-                let is_free = once && defined[unknown].is_none();
-                let definition = Definition { unknown: unknown as u32, row: r as u32, side };
-                (is_free && !self.leads_to(&defined, definition, &mut seen)).then_some(definition)
-            });
-            match found {
-                Some(definition) => {
-                    defined[definition.unknown as usize] = Some(definition);
-                    count += 1;
-                }
-                None => core_rows.push(r as u32),
-            }
-        }
-        self.definitions = self.in_order(&defined);
-        self.core =
-            (0..self.unknowns.len() as u32).filter(|&u| defined[u as usize].is_none()).collect();
-        self.core_rows = core_rows;
-    }
-
-    /// Returns true if what a definition is made of comes from the unknown that it would define, or
-    /// from more than is worth following.
-    fn leads_to(
-        &self,
-        defined: &[Option<Definition>],
-        definition: Definition,
-        seen: &mut [u32],
-    ) -> bool {
-        const FAR: usize = 2000;
-        let mut visits = 0;
-        let mut rows = vec![definition.row];
-        while let Some(r) = rows.pop() {
-            let first = r == definition.row;
-            for &u in self.pattern.row(r as usize) {
-                if first && u == definition.unknown {
-                    continue;
-                }
-                if u == definition.unknown || visits > FAR {
-                    return true;
-                }
-                if seen[u as usize] != definition.row {
-                    seen[u as usize] = definition.row;
-                    visits += 1;
-                    rows.extend(defined[u as usize].map(|d| d.row));
-                }
-            }
-        }
-        false
-    }
-
-    /// Orders definitions so that each is computed after those that it is made of.
-    fn in_order(&self, defined: &[Option<Definition>]) -> Vec<Definition> {
-        let mut order = Vec::new();
-        let mut done = vec![false; self.unknowns.len()];
-        let mut stack: Vec<(u32, usize)> = Vec::new();
-        for u in 0..self.unknowns.len() as u32 {
-            stack.push((u, 0));
-            while let Some((u, next)) = stack.pop() {
-                let Some(definition) = defined[u as usize] else { continue };
-                if done[u as usize] {
-                    continue;
-                }
-                let row = self.pattern.row(definition.row as usize);
-                if let Some(&other) = row.get(next) {
-                    stack.push((u, next + 1));
-                    if other != u && !done[other as usize] {
-                        stack.push((other, 0));
-                    }
-                } else {
-                    done[u as usize] = true;
-                    order.push(definition);
-                }
-            }
-        }
-        order
+            let (level, within) = (self.levels[r], self.within[r]);
+            ProblemRow { kernel: kernel.clone(), arguments: arguments.into(), level, within }
+        };
+        Problem { rows: (0..self.height()).map(row).collect(), unknowns: self.unknowns.clone() }
     }
 
     /// Returns the equation of a row with every definition put in, and the slots that it is then of.
@@ -380,63 +192,6 @@ impl Block {
         }
     }
 
-    /// Computes every unknown's gradient by the core, each unknown of the core in units of its `scale`: one
-    /// row of as many numbers as the core has for every unknown.
-    pub(crate) fn gradients(
-        &self,
-        local: &Local,
-        scale: &dyn Fn(usize) -> f64,
-        gradients: &mut Vec<f64>,
-    ) {
-        let n = self.core.len();
-        gradients.clear();
-        gradients.resize(self.unknowns.len() * n, 0.0);
-        for (i, &u) in self.core.iter().enumerate() {
-            gradients[u as usize * n + i] = scale(i);
-        }
-        for d in &self.definitions {
-            let own = d.unknown as usize;
-            let mut pivot = 1.0;
-            for e in self.pattern.range(d.row as usize) {
-                let c = self.pattern.column(e);
-                let slope = local.jacobian[e];
-                if c == own {
-                    pivot = slope;
-                } else {
-                    for i in 0..n {
-                        gradients[own * n + i] -= slope * gradients[c * n + i];
-                    }
-                }
-            }
-            for gradient in &mut gradients[own * n..][..n] {
-                *gradient /= pivot;
-            }
-        }
-    }
-
-    /// Finds the factors of the defining rows that make a sum of rows, each times its factor, stationary in
-    /// what they define.
-    pub(crate) fn pass_back(&self, local: &Local, factor: &mut [f64]) {
-        if self.definitions.is_empty() {
-            return;
-        }
-        let mut slope = vec![0.0; self.unknowns.len()];
-        let add = |row: usize, factor: f64, slope: &mut [f64]| {
-            for e in self.pattern.range(row) {
-                slope[self.pattern.column(e)] += factor * local.jacobian[e];
-            }
-        };
-        for &r in &self.core_rows {
-            add(r as usize, factor[r as usize], &mut slope);
-        }
-        for d in self.definitions.iter().rev() {
-            let row = d.row as usize;
-            let pivot = self.pattern.find(row, d.unknown).map_or(1.0, |e| local.jacobian[e]);
-            factor[row] = -slope[d.unknown as usize] / pivot;
-            add(row, factor[row], &mut slope);
-        }
-    }
-
     /// Evaluates both sides of every row.
     pub(crate) fn sides(&self, values: &[f64], w: &mut Workspace, local: &mut Local) {
         self.prepare(local);
@@ -462,7 +217,7 @@ impl Block {
             let kernel = &group.kernel;
             let (count, arity) = (kernel.entries.len(), kernel.arity());
             let (rows, arguments) = (self.rows_of(group), self.arguments_of(group));
-            let places = &self.entries[group.entries as usize..][..rows.len() * count];
+            let places = self.entries_of(group);
             let Local { left, right, jacobian, sway } = local;
             self.each(group, &kernel.slopes, 2 + count, values, w, &mut |row, out| {
                 let at = rows[row] as usize;
@@ -623,6 +378,8 @@ mod tests {
     use super::*;
     use crate::kernel::Kernel;
     use crate::lower::ProblemRow;
+    use crate::system::Level;
+    use base::number::Tolerance;
 
     fn row(arena: &Arena, level: Level, left: ExprId, right: ExprId) -> ProblemRow {
         let (kernel, arguments) = Kernel::of_slots(arena, left, right);

@@ -3,7 +3,7 @@
 //! In: the blocks in order. Out: steps, each with a program that runs without looking at the system
 //! again, and the regions, whose soft rows can be approached where they cannot be met.
 
-use crate::block::Block as Laid;
+use crate::block::{Block as Laid, Layouts};
 use crate::few::Few;
 use crate::kernel::Kernel;
 use crate::least::Least;
@@ -33,8 +33,9 @@ pub(crate) enum Program {
     Inverse(Inverse),
     /// As many equations as unknowns.
     Square(Box<Square>),
-    /// Fewer equations than unknowns, and the measure for where they cannot all hold.
-    Least(Box<(Least, Measure)>),
+    /// Fewer equations than unknowns, and the measure for where they cannot all hold, made when it is
+    /// first needed.
+    Least(Box<(Least, OnceCell<Measure>)>),
     /// Anything else.
     Measure(Box<Measure>),
     /// The host computes.
@@ -142,9 +143,10 @@ pub(crate) fn lower(analysis: &Analysis<'_>, blocks: &[Block]) -> Lowered {
         steps.push(alias(told(&equalities, slot), slot, program, Few::default()));
     }
     let region_of = regions_of(analysis, blocks);
+    let mut layouts = Layouts::default();
     for (block, &region) in blocks.iter().zip(&region_of) {
         let first = steps.len();
-        lower_block(analysis, block, &mut steps);
+        lower_block(analysis, block, &mut layouts, &mut steps);
         for step in &mut steps[first..] {
             step.region = region;
         }
@@ -251,7 +253,12 @@ fn reads_of(analysis: &Analysis<'_>, block: &Block) -> Vec<SlotIndex> {
     reads
 }
 
-fn lower_block(analysis: &Analysis<'_>, block: &Block, steps: &mut Vec<Step>) {
+fn lower_block(
+    analysis: &Analysis<'_>,
+    block: &Block,
+    layouts: &mut Layouts,
+    steps: &mut Vec<Step>,
+) {
     let first = analysis.rows[block.rows[0]].relation;
     let one_relation = block.rows.iter().all(|&r| analysis.rows[r].relation == first);
     if one_relation && let Some(step) = by_method(analysis, first, &block.rows) {
@@ -261,7 +268,7 @@ fn lower_block(analysis: &Analysis<'_>, block: &Block, steps: &mut Vec<Step>) {
     let opaque = block.rows.iter().any(|&r| analysis.rows.kernel(r).is_none());
     let writes_more = block.unknowns.iter().any(|s| analysis.direction.is_written(*s));
     if opaque || writes_more {
-        once_round(analysis, block, steps);
+        once_round(analysis, block, layouts, steps);
         return;
     }
     let rows = block.rows.iter();
@@ -270,7 +277,7 @@ fn lower_block(analysis: &Analysis<'_>, block: &Block, steps: &mut Vec<Step>) {
         unknowns: block.unknowns.clone(),
     };
     if problem.rows.len() == problem.unknowns.len() {
-        square_block(analysis, block, &problem, steps);
+        square_block(analysis, block, &problem, layouts, steps);
         return;
     }
     let soft = problem.rows.iter().any(|r| r.level != Level::Required);
@@ -278,13 +285,19 @@ fn lower_block(analysis: &Analysis<'_>, block: &Block, steps: &mut Vec<Step>) {
         || block.rows.iter().any(|&r| analysis.direction.slot_of_row[r].is_none());
     let kind = if soft && over { StepKind::Compromise } else { StepKind::LeastChange };
     let program = measure(analysis, &problem, kind);
-    let (targets, reads) = (block.unknowns.clone().into(), reads_of(analysis, block).into());
+    let (targets, reads) = (block.unknowns[..].into(), reads_of(analysis, block).into());
     steps.push(step(analysis, kind, &block.rows, targets, reads, program));
 }
 
 /// The steps of a square block: by formula where all comes from one unknown that has one, and at once
 /// where not.
-fn square_block(analysis: &Analysis<'_>, block: &Block, problem: &Problem, steps: &mut Vec<Step>) {
+fn square_block(
+    analysis: &Analysis<'_>,
+    block: &Block,
+    problem: &Problem,
+    layouts: &mut Layouts,
+    steps: &mut Vec<Step>,
+) {
     let reads = Few::from(reads_of(analysis, block));
     if let ([row], [slot]) = (&problem.rows[..], &problem.unknowns[..])
         && let Some(inverse) = Inverse::new(row, *slot)
@@ -292,7 +305,7 @@ fn square_block(analysis: &Analysis<'_>, block: &Block, problem: &Problem, steps
         steps.push(inverse_step(analysis, &block.rows, inverse, reads));
         return;
     }
-    let square = Square::new(problem);
+    let square = Square::alike(problem, layouts);
     if let Some(((row, core), rest)) = closed_form(&square.block, problem) {
         let mut step = inverse_step(analysis, &[block.rows[row]], core, reads);
         // it has nothing to do only where the rows that were put into it hold as well
@@ -306,7 +319,7 @@ fn square_block(analysis: &Analysis<'_>, block: &Block, problem: &Problem, steps
         return;
     }
     let kind = if square.block.is_linear { StepKind::Linear } else { StepKind::Newton };
-    let targets = block.unknowns.clone().into();
+    let targets = block.unknowns[..].into();
     steps.push(step(
         analysis,
         kind,
@@ -354,12 +367,11 @@ fn measure(analysis: &Analysis<'_>, problem: &Problem, step: StepKind) -> Progra
         let given = analysis.classes.stay[s as usize] == Stay::Given;
         (analysis.stated.system.slots[s as usize].scale, given)
     };
-    let measure = Measure::new(problem, &kind);
     let alike = problem.unknowns.iter().all(|&u| !kind(u).1);
     if step == StepKind::LeastChange && alike {
-        return Program::Least(Box::new((Least::new(problem), measure)));
+        return Program::Least(Box::new((Least::new(problem), OnceCell::new())));
     }
-    Program::Measure(Box::new(measure))
+    Program::Measure(Box::new(Measure::new(problem, &kind)))
 }
 
 fn step(
@@ -416,7 +428,12 @@ fn by_method(analysis: &Analysis<'_>, relation: u32, rows: &[usize]) -> Option<S
 }
 
 /// Rows that only methods can satisfy, in a cycle: each once, in order of declaration, then tested.
-fn once_round(analysis: &Analysis<'_>, block: &Block, steps: &mut Vec<Step>) {
+fn once_round(
+    analysis: &Analysis<'_>,
+    block: &Block,
+    layouts: &mut Layouts,
+    steps: &mut Vec<Step>,
+) {
     let mut done = BTreeSet::new();
     for &r in &block.rows {
         let relation = analysis.rows[r].relation;
@@ -433,7 +450,7 @@ fn once_round(analysis: &Analysis<'_>, block: &Block, steps: &mut Vec<Step>) {
         {
             let single = Block { rows: vec![r], unknowns: vec![slot] };
             let problem = Problem { rows: vec![one], unknowns: vec![slot] };
-            square_block(analysis, &single, &problem, steps);
+            square_block(analysis, &single, &problem, layouts, steps);
         }
     }
 }

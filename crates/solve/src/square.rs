@@ -8,7 +8,7 @@
 
 mod further;
 
-use crate::block::{Block, Local, Workspace};
+use crate::block::{Block, Layouts, Local, Workspace};
 use crate::dense::{self, Factors};
 use crate::lower::{Definers, Problem};
 use crate::rows::{Point, generic_number};
@@ -94,11 +94,14 @@ const EIGEN: usize = 30;
 impl Square {
     /// Lays a block out.
     pub(crate) fn new(problem: &Problem) -> Self {
-        Self {
-            block: Block::new(problem, Definers::Any),
-            pivots: OnceLock::new(),
-            damped: OnceLock::new(),
-        }
+        Self::of(Block::new(problem, Definers::Any))
+    }
+    /// Lays a block out, as one was before that differs in its slots alone.
+    pub(crate) fn alike(problem: &Problem, layouts: &mut Layouts) -> Self {
+        Self::of(Block::alike(problem, Definers::Any, layouts))
+    }
+    fn of(block: Block) -> Self {
+        Self { block, pivots: OnceLock::new(), damped: OnceLock::new() }
     }
 
     /// Returns true if the rows hold for these values.
