@@ -92,6 +92,10 @@ impl Arena {
     pub fn is_empty(&self) -> bool {
         self.nodes.is_empty()
     }
+    /// Returns every operation, in the order of their ids.
+    pub fn nodes(&self) -> impl Iterator<Item = Node> + '_ {
+        self.nodes.iter().copied()
+    }
     /// Returns the operation that `id` names.
     pub fn node(&self, id: ExprId) -> Node {
         self.nodes[id.index()]
@@ -517,6 +521,34 @@ pub struct Excerpt {
     pub nodes: Vec<Node>,
     /// The expressions that were asked for, as places among the nodes.
     pub roots: Vec<ExprId>,
+}
+
+/// Where nodes stand in an order of reachable nodes.
+pub(crate) struct Places<'o> {
+    order: &'o [ExprId],
+    /// For every node from the first on, its place, anything where it is not reachable; empty where few
+    /// of them are.
+    of: Vec<u32>,
+}
+
+impl<'o> Places<'o> {
+    pub(crate) fn of(order: &'o [ExprId]) -> Self {
+        let reach = order.last().map_or(0, |last| last.index() + 1 - order[0].index());
+        if reach > 8 * order.len() {
+            return Self { order, of: Vec::new() };
+        }
+        let mut of = vec![0; reach];
+        for (id, place) in order.iter().zip(0..) {
+            of[id.index() - order[0].index()] = place;
+        }
+        Self { order, of }
+    }
+    pub(crate) fn place(&self, id: ExprId) -> usize {
+        match self.of.get(id.index() - self.order[0].index()) {
+            Some(&place) => place as usize,
+            None => place(self.order, id),
+        }
+    }
 }
 
 /// Returns where `id` stands in an order that holds it.

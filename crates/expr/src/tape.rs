@@ -9,7 +9,7 @@
 //! Every operation is that of [`Unary::apply`] and [`Binary::apply`]: a tape computes the same bits as
 //! [`Arena::evaluate`].
 
-use crate::arena::{Arena, ExprId, Node, place};
+use crate::arena::{Arena, ExprId, Node, Places};
 use crate::op::{Binary, Unary};
 use base::{Id, number};
 use std::fmt;
@@ -161,6 +161,7 @@ impl Tape {
         if order.len() <= SMALL {
             return in_order(arena, &order, outputs);
         }
+        let places = Places::of(&order);
         let mut lowering =
             Lowering { tape: Self::default(), register: vec![u32::MAX; order.len()] };
         let (mut loads, mut inner) = (Vec::new(), Vec::new());
@@ -186,7 +187,7 @@ impl Tape {
             let mut operands = [0; 3];
             let mut count = 0;
             arena.node(order[i]).each_operand(|a| {
-                operands[count] = place(&order, a);
+                operands[count] = places.place(a);
                 count += 1;
             });
             for &a in operands[..count].iter().rev() {
@@ -205,7 +206,7 @@ impl Tape {
             while let Some(i) = ready.take(queue) {
                 let (mut operands, mut count) = ([0; 3], 0);
                 arena.node(order[i]).each_operand(|a| {
-                    operands[count] = lowering.register[place(&order, a)];
+                    operands[count] = lowering.register[places.place(a)];
                     count += 1;
                 });
                 lowering.emit(Operation::from_place(queue), i, &operands[..count]);
@@ -223,7 +224,7 @@ impl Tape {
         }
         lowering.tape.mix();
         let register = &lowering.register;
-        lowering.tape.outputs = outputs.iter().map(|&id| register[place(&order, id)]).collect();
+        lowering.tape.outputs = outputs.iter().map(|&id| register[places.place(id)]).collect();
         let follow = lowering.tape.outputs.windows(2).all(|pair| pair[0] + 1 == pair[1]);
         lowering.tape.is_straight = follow;
         lowering.tape
@@ -370,6 +371,7 @@ impl Tape {
 /// Lowers nodes in the order in which they stand.
 fn in_order(arena: &Arena, order: &[ExprId], outputs: &[ExprId]) -> Tape {
     let mut tape = Tape::default();
+    let places = Places::of(order);
     let mut register = [0_u32; SMALL];
     let mut loads = Vec::with_capacity(order.len());
     for (i, &id) in order.iter().enumerate() {
@@ -390,7 +392,7 @@ fn in_order(arena: &Arena, order: &[ExprId], outputs: &[ExprId]) -> Tape {
     let first = next;
     tape.mixed.reserve_exact(order.len() - first as usize);
     for (i, &id) in order.iter().enumerate() {
-        let at = |a: ExprId| register[place(order, a)];
+        let at = |a: ExprId| register[places.place(a)];
         let (operation, operands) = match arena.node(id) {
             Node::Constant(_) | Node::Var(_) => continue,
             Node::Unary(op, a) => (Operation::Unary(op), [at(a), 0, 0]),
@@ -407,7 +409,7 @@ fn in_order(arena: &Arena, order: &[ExprId], outputs: &[ExprId]) -> Tape {
         tape.runs.push(Run { kind: Kind::Mixed, first, count: next - first });
     }
     tape.registers = next as usize;
-    tape.outputs.extend(outputs.iter().map(|&id| register[place(order, id)]));
+    tape.outputs.extend(outputs.iter().map(|&id| register[places.place(id)]));
     tape.is_straight = tape.outputs.windows(2).all(|pair| pair[0] + 1 == pair[1]);
     tape
 }

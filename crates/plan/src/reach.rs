@@ -4,14 +4,17 @@
 //! step: the third part of the owner, four members of the set. Another thing of the same class for
 //! which the same steps lead to things of the same classes says the same of those.
 
+use base::Mixer;
+use indexmap::{IndexMap, IndexSet};
 use kernel::{ClassId, DOCUMENT, Path, SlotId, Step as PathStep, Structure, ThingId};
-use std::collections::{BTreeMap, BTreeSet};
+use std::collections::BTreeMap;
+use std::hash::BuildHasherDefault;
 
 /// A thing that was reached, by its number: the owner is the first.
 pub(crate) type Reached = u32;
 
 /// How things are reached from those reached before.
-#[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Debug)]
+#[derive(Clone, Copy, PartialEq, Eq, Hash, Debug)]
 pub(crate) enum Step {
     /// The document itself.
     Document,
@@ -34,9 +37,8 @@ pub(crate) enum Step {
 pub(crate) struct Reach<'a> {
     structure: &'a Structure,
     things: Vec<ThingId>,
-    number: BTreeMap<ThingId, Reached>,
-    steps: Vec<Step>,
-    noted: BTreeSet<Step>,
+    number: IndexMap<ThingId, Reached, BuildHasherDefault<Mixer>>,
+    steps: IndexSet<Step, BuildHasherDefault<Mixer>>,
     stored: Vec<(Reached, SlotId)>,
     is_repeatable: bool,
 }
@@ -59,9 +61,8 @@ impl<'a> Reach<'a> {
         Self {
             structure,
             things: Vec::new(),
-            number: BTreeMap::new(),
-            steps: Vec::new(),
-            noted: BTreeSet::new(),
+            number: IndexMap::default(),
+            steps: IndexSet::default(),
             stored: Vec::new(),
             is_repeatable: true,
         }
@@ -71,7 +72,6 @@ impl<'a> Reach<'a> {
         self.things.clear();
         self.number.clear();
         self.steps.clear();
-        self.noted.clear();
         self.stored.clear();
         self.is_repeatable = true;
         self.found(owner);
@@ -92,14 +92,13 @@ impl<'a> Reach<'a> {
         0
     }
     fn step(&mut self, step: Step, found: impl IntoIterator<Item = ThingId>) {
-        if self.is_repeatable && self.noted.insert(step) {
-            self.steps.push(step);
+        if self.is_repeatable && self.steps.insert(step) {
             for thing in found {
                 let known = self.number.get(&thing).copied();
                 self.found(thing);
                 if let Some(known) = known {
                     let now = self.things.len() as Reached - 1;
-                    self.steps.push(Step::Same(known, now, true));
+                    self.steps.insert(Step::Same(known, now, true));
                 }
             }
         }
@@ -227,7 +226,10 @@ impl<'a> Reach<'a> {
         let classes = self.things.iter().map(class).collect();
         let others = |(n, &t)| self.structure.unlike(t).iter().map(move |t| (n, class(t)));
         let unlike = (0..).zip(&self.things).flat_map(others).collect();
-        Some((Route { classes, unlike, steps: self.steps.clone(), stored, again }, slots))
+        Some((
+            Route { classes, unlike, steps: self.steps.iter().copied().collect(), stored, again },
+            slots,
+        ))
     }
 }
 

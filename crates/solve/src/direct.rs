@@ -96,6 +96,11 @@ pub(crate) fn direct(
 impl Matching<'_> {
     /// Finds a slot for a row, moving other rows to other slots where that is needed.
     fn match_row(&mut self, row: usize) -> bool {
+        let mut columns = self.rows.columns(row).iter().rev().map(|e| e.0);
+        if let Some(free) = columns.find(|&c| self.is_free(c)) {
+            self.give(row, Some(free));
+            return true;
+        }
         self.round += 1;
         // an explicit stack: (row, next column); the path is undone from its end
         let mut stack = vec![(row, 0usize)];

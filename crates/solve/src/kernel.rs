@@ -5,6 +5,7 @@
 //! arguments: two thousand distances are one kernel.
 
 use crate::system::SlotIndex;
+use base::Id;
 use expr::{Arena, Binary, ExprId, Guard, Node, Tape, Unary, Var, gradient};
 use std::rc::Rc;
 use std::sync::OnceLock;
@@ -91,11 +92,13 @@ impl Kernel {
         sides: Rc<Tape>,
     ) -> Self {
         let residual = arena.sub(left, right);
-        let (vars, _) = choices(&arena, residual);
+        let vars = Reads::of(&arena, arity).variables(&arena, residual).0;
+        let gradient = gradient(&mut arena, residual, &vars);
+        let reads = Reads::of(&arena, arity);
         let (mut entries, mut derivatives) = (Vec::new(), Vec::new());
-        for (var, d) in vars.iter().zip(gradient(&mut arena, residual, &vars)) {
+        for (var, d) in vars.iter().zip(gradient) {
             if arena.as_constant(d) != Some(0.0) {
-                let (depends, branches) = choices(&arena, d);
+                let (depends, branches) = reads.variables(&arena, d);
                 let depends = depends.into_iter().map(|v| v.0).collect();
                 entries.push(Entry { argument: var.0, depends, branches });
                 derivatives.push(d);
@@ -233,29 +236,67 @@ fn canonical(
     (left, right, arguments)
 }
 
-/// Returns the variables of an expression, in order, and true if its value depends on a choice.
-fn choices(arena: &Arena, id: ExprId) -> (Vec<Var>, bool) {
-    let (mut vars, mut chooses) = (Vec::new(), false);
-    arena.each_node(id, |node| match node {
-        Node::Constant(_) => {}
-        Node::Var(var) => vars.push(var),
+/// What the nodes of an arena read, where its variables are few: of each the variables as bits, and
+/// whether its value depends on a choice.
+struct Reads(Vec<(u64, bool)>);
+
+impl Reads {
+    fn of(arena: &Arena, arity: u32) -> Self {
+        if arity > u64::BITS {
+            return Self(Vec::new());
+        }
+        let mut reads: Vec<(u64, bool)> = Vec::with_capacity(arena.len());
+        for node in arena.nodes() {
+            let mut own = (0, chooses(node));
+            if let Node::Var(var) = node {
+                own.0 = 1 << var.0;
+            }
+            node.each_operand(|operand| {
+                let (variables, chooses) = reads[operand.index()];
+                own = (own.0 | variables, own.1 | chooses);
+            });
+            reads.push(own);
+        }
+        Self(reads)
+    }
+    /// Returns the variables of an expression, in order, and true if its value depends on a choice.
+    fn variables(&self, arena: &Arena, id: ExprId) -> (Vec<Var>, bool) {
+        if let Some(&(mut variables, chooses)) = self.0.get(id.index()) {
+            let mut vars = Vec::with_capacity(variables.count_ones() as usize);
+            while variables != 0 {
+                vars.push(Var(variables.trailing_zeros()));
+                variables &= variables - 1;
+            }
+            return (vars, chooses);
+        }
+        let (mut vars, mut any) = (Vec::new(), false);
+        arena.each_node(id, |node| {
+            any |= chooses(node);
+            if let Node::Var(var) = node {
+                vars.push(var);
+            }
+        });
+        vars.sort_unstable();
+        (vars, any)
+    }
+}
+
+/// Returns true if an operation is a choice: of a sign, of the larger, of a case.
+fn chooses(node: Node) -> bool {
+    match node {
+        Node::Constant(_) | Node::Var(_) => false,
         Node::Unary(op, _) => {
-            chooses |=
-                matches!(op, Unary::Abs | Unary::Sign | Unary::Floor | Unary::Round | Unary::Not);
+            matches!(op, Unary::Abs | Unary::Sign | Unary::Floor | Unary::Round | Unary::Not)
         }
-        Node::Binary(op, ..) => {
-            chooses |= matches!(
-                op,
-                Binary::Min
-                    | Binary::Max
-                    | Binary::Less
-                    | Binary::LessEqual
-                    | Binary::Equal
-                    | Binary::NotEqual
-            );
-        }
-        Node::Select { .. } => chooses = true,
-    });
-    vars.sort_unstable();
-    (vars, chooses)
+        Node::Binary(op, ..) => matches!(
+            op,
+            Binary::Min
+                | Binary::Max
+                | Binary::Less
+                | Binary::LessEqual
+                | Binary::Equal
+                | Binary::NotEqual
+        ),
+        Node::Select { .. } => true,
+    }
 }

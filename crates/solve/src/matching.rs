@@ -42,6 +42,19 @@ pub(crate) struct Matcher<'a> {
     search: u32,
     /// The slots met in the latest search.
     met: Vec<SlotIndex>,
+    /// The way of a search: each row on it, and how many of its slots were looked at.
+    way: Vec<(u32, usize)>,
+    /// The slots on that way.
+    taken: Vec<SlotIndex>,
+}
+
+/// A block of rows that is being factorised.
+#[derive(Default)]
+struct BlockScratch {
+    rows: Vec<u32>,
+    columns: Vec<SlotIndex>,
+    matrix: Vec<f64>,
+    swaps: Vec<usize>,
 }
 
 /// What a slot may be used for.
@@ -73,6 +86,8 @@ impl<'a> Matcher<'a> {
             seen: vec![0; n],
             search: 0,
             met: Vec::new(),
+            way: Vec::new(),
+            taken: Vec::new(),
         }
     }
 
@@ -129,9 +144,16 @@ impl<'a> Matcher<'a> {
     fn find(&mut self, row: u32) -> bool {
         self.search += 1;
         self.met.clear();
-        // each row on the way, and how many of its slots were looked at
-        let mut way: Vec<(u32, usize)> = vec![(row, 0)];
-        let mut slots: Vec<SlotIndex> = Vec::new();
+        let (mut way, mut slots) = (std::mem::take(&mut self.way), std::mem::take(&mut self.taken));
+        way.clear();
+        way.push((row, 0));
+        slots.clear();
+        let found = self.follow(&mut way, &mut slots);
+        (self.way, self.taken) = (way, slots);
+        found
+    }
+    /// Goes on with a search until a slot is found or no way is left.
+    fn follow(&mut self, way: &mut Vec<(u32, usize)>, slots: &mut Vec<SlotIndex>) -> bool {
         while let Some(&(r, next)) = way.last() {
             let columns = self.rows.columns(r as usize);
             if next == 0 {
@@ -140,7 +162,7 @@ impl<'a> Matcher<'a> {
                 };
                 if let Some(e) = columns.iter().rev().find(|e| is_free(e.0)) {
                     slots.push(e.0);
-                    for (&(r, _), &s) in way.iter().zip(&slots) {
+                    for (&(r, _), &s) in way.iter().zip(&*slots) {
                         self.slot_of_row[r as usize] = s;
                         self.row_of_slot[s as usize] = r;
                     }
@@ -214,10 +236,12 @@ impl<'a> Matcher<'a> {
         }
         let before = Lists::new(rows.len(), edges.iter().copied());
         let mut regular = true;
+        let mut scratch = BlockScratch::default();
         strong_components(&before, &mut |block| {
             if block.len() > 1 && regular {
-                let own: Vec<u32> = block.iter().map(|&i| rows[i as usize]).collect();
-                regular = self.is_regular_block(&own);
+                scratch.rows.clear();
+                scratch.rows.extend(block.iter().map(|&i| rows[i as usize]));
+                regular = self.is_regular_block(&mut scratch);
             }
         });
         regular
@@ -227,9 +251,10 @@ impl<'a> Matcher<'a> {
         (row != NONE && self.state[slot as usize] != Use::Closed).then_some(row)
     }
 
-    fn is_regular_block(&self, block: &[u32]) -> bool {
-        let mut columns: Vec<SlotIndex> =
-            block.iter().map(|&r| self.slot_of_row[r as usize]).collect();
+    fn is_regular_block(&self, scratch: &mut BlockScratch) -> bool {
+        let BlockScratch { rows: block, columns, matrix, swaps } = scratch;
+        columns.clear();
+        columns.extend(block.iter().map(|&r| self.slot_of_row[r as usize]));
         columns.sort_unstable();
         let n = block.len();
         let entries = |r: u32| {
@@ -237,11 +262,12 @@ impl<'a> Matcher<'a> {
             own.filter_map(|e| columns.binary_search(&e.0).ok().map(|c| (c, e.1)))
         };
         let factors = if n <= DENSE {
-            let mut matrix = vec![0.0; n * n];
+            matrix.clear();
+            matrix.resize(n * n, 0.0);
             for (i, &r) in block.iter().enumerate() {
                 entries(r).for_each(|(c, value)| matrix[i * n + c] = value);
             }
-            Some(dense::factorise(&mut matrix, n, &mut Vec::new()))
+            Some(dense::factorise(matrix, n, swaps))
         } else {
             let places = |&r: &u32| entries(r).map(|(c, _)| c as u32).collect();
             let pattern = Pattern::of_rows(n, block.iter().map(places));

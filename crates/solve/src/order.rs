@@ -136,13 +136,16 @@ fn components(incidence: &Incidence<'_>, union: &mut Union) -> Vec<Block> {
     let slots = (0..).zip(&node_of_slot).filter(|(_, n)| **n != NONE);
     let slots_of_node = Lists::new(nodes as usize, slots.map(|(s, &node)| (node, s)));
     let block = |nodes: &[u32]| {
-        let of = |lists: &Lists| -> Vec<u32> {
-            let mut all: Vec<u32> = nodes.iter().flat_map(|&v| lists.of(v)).copied().collect();
-            all.sort_unstable();
-            all
-        };
-        let rows = of(&rows_of_node).into_iter().map(|r| r as usize).collect();
-        Block { rows, unknowns: of(&slots_of_node) }
+        let count = |lists: &Lists| nodes.iter().map(|&v| lists.of(v).len()).sum();
+        let mut rows: Vec<usize> = Vec::with_capacity(count(&rows_of_node));
+        let mut unknowns = Vec::with_capacity(count(&slots_of_node));
+        for &v in nodes {
+            rows.extend(rows_of_node.of(v).iter().map(|&r| r as usize));
+            unknowns.extend_from_slice(slots_of_node.of(v));
+        }
+        rows.sort_unstable();
+        unknowns.sort_unstable();
+        Block { rows, unknowns }
     };
     let mut blocks = Vec::with_capacity(nodes as usize);
     strong_components(&before, &mut |component| blocks.push(block(component)));
