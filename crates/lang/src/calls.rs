@@ -140,6 +140,11 @@ impl Lowerer<'_> {
                 }
                 match self.find_message(*class, &name, None).map(|(c, _)| c) {
                     Some(definer) => self.user_message(scope, (*class, definer), word, args),
+                    None if builtin::find(builtin::THING_MESSAGES, &name).is_none()
+                        && let Some(kin) = self.kin_with(*class, &name) =>
+                    {
+                        self.message(scope, &Kind::Thing(kin), word, args, to)
+                    }
                     None => self.own_message(scope, builtin::THING_MESSAGES, receiver, word, args),
                 }
             }

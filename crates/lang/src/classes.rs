@@ -195,7 +195,7 @@ impl Lowerer<'_> {
     }
 
     /// Returns the class of a list's elements; of lists in it, one that says how long they are.
-    fn class_of_element(&mut self, file: FileId, ty: &ast::Type) -> Option<ClassId> {
+    pub(crate) fn class_of_element(&mut self, file: FileId, ty: &ast::Type) -> Option<ClassId> {
         let class = self.class_of_type(file, ty)?;
         let count = self.declared_count(&Scope::of(file, self.object), ty);
         match (self.document.classes[class].kind.clone(), count) {

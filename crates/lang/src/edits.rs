@@ -16,7 +16,7 @@ mod switch;
 
 use crate::lower::Lowered;
 use crate::uses::{Text, refused};
-use base::Diagnostic;
+use base::{Diagnostic, Span};
 use home::Home;
 use kernel::{ClassId, Command, Path, Step, Structure};
 pub use sides::write_sides;
@@ -241,16 +241,26 @@ impl Text<'_> {
 fn shortened(member: &SyntaxNode, stays: &dyn Fn(&Expr) -> bool) -> Vec<TextEdit> {
     use syntax::ast::AstNode;
     let paths: Vec<Expr> = member.children().filter_map(Expr::cast).collect();
-    let kept: Vec<String> =
-        paths.iter().filter(|e| stays(e)).map(|e| e.syntax().text().to_string()).collect();
-    let (least, between) = if member.kind() == SyntaxKind::Merge { (2, " = ") } else { (1, ", ") };
-    match (paths.first(), paths.last()) {
-        (Some(first), Some(last)) if kept.len() >= least => {
-            let span = first.span().join(last.span());
-            vec![TextEdit { span, insert: kept.join(between) }]
-        }
-        _ => vec![edit::delete_member(member)],
+    let kept: Vec<bool> = paths.iter().map(stays).collect();
+    let least = if member.kind() == SyntaxKind::Merge { 2 } else { 1 };
+    if kept.iter().filter(|k| **k).count() < least {
+        return vec![edit::delete_member(member)];
     }
+    let mut edits = Vec::new();
+    let mut before: Option<&Expr> = None;
+    for (i, path) in paths.iter().enumerate() {
+        // with what divides it from the one before or, at the beginning, from the next
+        let span = match (before, paths.get(i + 1)) {
+            (Some(before), _) => Span::new(before.span().end, path.span().end),
+            (None, Some(next)) => Span::new(path.span().start, next.span().start),
+            (None, None) => path.span(),
+        };
+        match kept[i] {
+            true => before = Some(path),
+            false => edits.push(TextEdit { span, insert: String::new() }),
+        }
+    }
+    edits
 }
 
 fn must_be_name(name: &str) -> Result<(), Diagnostic> {

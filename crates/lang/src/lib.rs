@@ -17,8 +17,8 @@
 //! **Invariants**: lowering never fails; a member with an error is left out, or what it said before
 //! stays in force; reading a number that was written gives its bits.
 //!
-//! Reading order: `origins`, `lower`, `files`, `visible`, `classes`, `scope`, `members`, `rules`,
-//! `switches`, `kept`, `names`, `paths`, `refine`, `terms`, `calls`, `kinds`, `settle`, `restore`, `checks`,
+//! Reading order: `origins`, `lower`, `files`, `visible`, `classes`, `scope`, `members`, `loops`, `rules`,
+//! `switches`, `kept`, `names`, `paths`, `refine`, `terms`, `calls`, `kin`, `kinds`, `settle`, `restore`, `checks`,
 //! `numbers`, `write`, `uses`,
 //! `edits`.
 mod calls;
@@ -28,7 +28,9 @@ mod constraints;
 mod edits;
 mod files;
 mod kept;
+mod kin;
 mod kinds;
+mod loops;
 mod lower;
 mod members;
 mod names;

@@ -7,11 +7,13 @@
 use crate::checks::{self, Check};
 use crate::files::File;
 use crate::kept::Added;
+use crate::kin::Kin;
 use crate::kinds::Kind;
 use crate::members::Pending;
 use crate::origins::Origins;
 use crate::placed::PlacedClasses;
 use crate::references::References;
+use crate::refine::Made;
 use crate::restore::{Grain, Patch};
 use crate::rules::Mask;
 use crate::scope::Scope;
@@ -178,6 +180,14 @@ pub(crate) struct Lowerer<'l> {
     pub(crate) replacements: Vec<(Scope, ast::Replace, OriginId)>,
     /// For every class with `modify`, the classes of the bodies, each below the one it modifies.
     pub(crate) modifications: BTreeMap<ClassId, Vec<ClassId>>,
+    /// The class that each of these bodies is for.
+    pub(crate) modified: BTreeMap<ClassId, ClassId>,
+    /// The narrower classes of parts made so far.
+    pub(crate) narrowed: Made,
+    /// Bodies of `modify`, and classes that get what they say.
+    pub(crate) copies: Vec<(ClassId, ClassId)>,
+    /// What things of classes are merged with.
+    pub(crate) kin: Kin,
     /// How many members `for` has made.
     pub(crate) unrolled: usize,
     /// Classes of lists and sets, by `List of` or `Set of` and what they hold.
@@ -237,6 +247,10 @@ impl<'l> Lowerer<'l> {
             switches: Vec::new(),
             replacements: Vec::new(),
             modifications: BTreeMap::new(),
+            modified: BTreeMap::new(),
+            narrowed: Made::new(),
+            copies: Vec::new(),
+            kin: Kin::default(),
             unrolled: 0,
             silent: 0,
             declared: Vec::new(),

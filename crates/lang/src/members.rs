@@ -10,9 +10,6 @@ use kernel::{
 };
 use syntax::ast::{self, AstNode, Expr, Member, span_without_doc};
 
-/// How many members all `for` of a document may come to.
-const MOST_MEMBERS: usize = 1_000_000;
-
 /// A member whose expressions are still to be lowered.
 #[derive(Clone, Debug)]
 pub(crate) enum Pending {
@@ -124,32 +121,13 @@ impl Lowerer<'_> {
         self.not_yet(file, Span::new(span.start, span.start + line), what);
     }
 
-    fn unroll(&mut self, scope: &Scope, each: &ast::For) {
-        let names: Vec<_> = each.names().collect();
-        let Some(range) = each.range() else { return };
-        if !matches!(range, Expr::Range(_)) {
-            // how long a list is, is known once all parts are declared
-            return self.pending.push(Pending::Each { scope: scope.clone(), each: each.clone() });
-        }
-        let bounds = self.constant_range(scope, &range);
-        let ([name], Some((from, to))) = (names.as_slice(), bounds) else {
-            return self.not_yet(
-                scope.file,
-                range.span(),
-                "`for` over a range that is not of constants is",
-            );
-        };
-        let members: Vec<Member> = each.body().into_iter().flat_map(|b| b.members()).collect();
-        for i in from..=to {
-            if !self.may_unroll(scope, &range, members.len()) {
-                return;
-            }
-            self.declare_body(&scope.with_constant(name.name(), i), members.clone());
-        }
-    }
-
     /// Returns the whole numbers that a part may be; a list's are those of its elements.
-    fn domain(&mut self, scope: &Scope, domain: &Expr, class: ClassId) -> Option<(i64, i64)> {
+    pub(crate) fn domain(
+        &mut self,
+        scope: &Scope,
+        domain: &Expr,
+        class: ClassId,
+    ) -> Option<(i64, i64)> {
         let of = match self.document.classes[class].kind {
             ClassKind::List(element) => element,
             ClassKind::Primitive(_)
@@ -183,73 +161,7 @@ impl Lowerer<'_> {
         None
     }
 
-    /// Counts members that `for` makes; reports once that there are too many.
-    fn may_unroll(&mut self, scope: &Scope, range: &Expr, members: usize) -> bool {
-        let was = self.unrolled;
-        self.unrolled += members.max(1);
-        if was <= MOST_MEMBERS && self.unrolled > MOST_MEMBERS {
-            let message = format!("`for` makes more than {MOST_MEMBERS} members here");
-            self.error("too-many-members", scope.file, range.span(), message);
-        }
-        self.unrolled <= MOST_MEMBERS
-    }
-
-    /// Repeats members for every element of a list, or for every pair of neighbours.
-    pub(crate) fn unroll_list(&mut self, scope: &Scope, each: &ast::For) {
-        let Some(range) = each.range() else { return };
-        let names: Vec<Name> = each.names().map(|w| w.name()).collect();
-        let (list, together) = match &range {
-            Expr::Field(field)
-                if field.args().is_none()
-                    && field.name().is_some_and(|w| w.text() == "neighbours") =>
-            {
-                let Some(list) = field.receiver() else { return };
-                (list, 2)
-            }
-            other => (other.clone(), 1),
-        };
-        if !matches!(list, Expr::Name(_) | Expr::Field(_) | Expr::Index(_) | Expr::Paren(_)) {
-            let what = "`for` over anything but a range or a list that is a part is";
-            return self.not_yet(scope.file, list.span(), what);
-        }
-        if names.len() != together {
-            let message = format!("{} names for {together} elements at a time", names.len());
-            let place = Place { file: scope.file, span: each.span() };
-            let d = Diagnostic::error("wrong-arity", place, message);
-            return self.report(d.hint("`for a in list`, `for a, b in list.neighbours`"));
-        }
-        let Some((path, class)) = self.path(scope, &list) else { return };
-        let Some(element) = class.and_then(|c| self.element(c)) else {
-            let message = format!("{path} is not a list");
-            return self.error("value-of-wrong-class", scope.file, list.span(), message);
-        };
-        let counted = class.and_then(|c| self.document.classes[c].count);
-        let count = counted.or_else(|| self.count_of(scope, &list));
-        let Some(count) = count.or_else(|| self.given_count(scope, &list)) else {
-            let what = "`for` over a list without a count, `List of 3 C` or `= [a, b]`, is";
-            return self.not_yet(scope.file, list.span(), what);
-        };
-        let members: Vec<Member> = each.body().into_iter().flat_map(|b| b.members()).collect();
-        let declares =
-            |m: &&Member| matches!(m, Member::Part(_) | Member::Message(_) | Member::Ref(_));
-        if let Some(member) = members.iter().find(declares) {
-            let span = span_without_doc(member.syntax());
-            return self.not_yet(scope.file, span, "declarations in `for` over a list are");
-        }
-        for first in 0..(count + 1).saturating_sub(together as u32) {
-            if !self.may_unroll(scope, &range, members.len()) {
-                return;
-            }
-            let bind = |scope: Scope, (i, name): (u32, &Name)| {
-                let path = path.then(Step::Index(first + i));
-                scope.with_element(name.clone(), path, Some(element))
-            };
-            let inner = (0..).zip(&names).fold(scope.clone(), bind);
-            self.declare_body(&inner, members.clone());
-        }
-    }
-
-    fn constant_range(&mut self, scope: &Scope, range: &Expr) -> Option<(i64, i64)> {
+    pub(crate) fn constant_range(&mut self, scope: &Scope, range: &Expr) -> Option<(i64, i64)> {
         let Expr::Range(range) = range else { return None };
         let from = self.constant(scope, &range.start()?)?;
         Some((from, self.constant(scope, &range.end()?)?))
@@ -315,15 +227,17 @@ impl Lowerer<'_> {
         let declared = Part { name: name.clone(), doc, class, count: None, range: None, origin };
         let place = Place { file: scope.file, span: word.span() };
         self.add_part(place, scope.class(), declared);
-        if let Some(value) = reference.target() {
-            let prefix = vec![Step::Part(name)];
-            let scope = scope.clone();
-            self.pending.push(if reference.is_absolute() {
-                Pending::Absolute { scope, path: Path(prefix), target: value }
-            } else {
-                Pending::Value { scope, prefix, target: None, value }
-            });
-        }
+        let Some(value) = reference.target() else {
+            let message = format!("{name} names nothing");
+            let d = Diagnostic::error("unknown-reference", place, message);
+            return self.report(d.hint("say what: `ref a: C -> b.c`"));
+        };
+        let (scope, prefix) = (scope.clone(), vec![Step::Part(name)]);
+        self.pending.push(if reference.is_absolute() {
+            Pending::Absolute { scope, path: Path(prefix), target: value }
+        } else {
+            Pending::Value { scope, prefix, target: None, value }
+        });
     }
 
     /// Adds a part to a class.
@@ -336,7 +250,7 @@ impl Lowerer<'_> {
     }
 
     /// Returns true if the class itself has no part or message of this name yet; else it is reported.
-    fn is_new(&mut self, scope: &Scope, word: &ast::Word) -> bool {
+    pub(crate) fn is_new(&mut self, scope: &Scope, word: &ast::Word) -> bool {
         let key = (scope.class(), word.name());
         let Some(&before) = self.named_at.get(&key) else { return true };
         let message = format!("there is a part or message {} already", word.text());
@@ -347,7 +261,7 @@ impl Lowerer<'_> {
     }
 
     /// Returns the class of a part with a body: its class, or a class of one.
-    fn class_for_body(
+    pub(crate) fn class_for_body(
         &mut self,
         scope: &Scope,
         name: &Name,

@@ -5,7 +5,7 @@ use crate::lower::{Lowered, Lowerer};
 use crate::scope::Scope;
 use base::{Diagnostic, Name, Place};
 use kernel::builtin;
-use kernel::{ClassId, ClassKind, Document, Path, Step, Term};
+use kernel::{ClassId, ClassKind, Document, PartRef, PartRole, Path, Step, Term};
 use std::collections::BTreeSet;
 use syntax::ast;
 
@@ -154,10 +154,7 @@ impl Lowerer<'_> {
 
     /// Returns the class of the part of this name, seen from a class.
     pub(crate) fn class_of_part(&self, class: ClassId, name: &Name) -> Option<ClassId> {
-        let own = |c: ClassId| {
-            let index = *self.parts.get(&(c, name.clone()))?;
-            Some(self.document.classes[c].parts[index].class)
-        };
+        let own = |c: ClassId| self.parts.get(&(c, name.clone())).copied();
         find_part(&self.document, class, name, &own)
     }
 
@@ -224,9 +221,7 @@ fn term_of(path: &Path) -> Term {
 
 /// Returns the class of the part of this name, seen from a class.
 pub(crate) fn class_of_part(document: &Document, class: ClassId, name: &str) -> Option<ClassId> {
-    let own = |c: ClassId| {
-        document.classes[c].parts.iter().find(|p| *p.name == *name).map(|part| part.class)
-    };
+    let own = |c: ClassId| document.classes[c].parts.iter().position(|p| *p.name == *name);
     find_part(document, class, name, &own)
 }
 
@@ -235,10 +230,10 @@ impl Lowered {
     pub(crate) fn class_at(&self, class: ClassId, path: &Path) -> Option<ClassId> {
         let document = &self.document;
         path.0.iter().try_fold(class, |class, step| match step {
-            Step::Part(name) => find_part(document, class, name, &|c| {
-                let index = *self.parts.get(&(c, name.clone()))?;
-                document.classes[c].parts.get(index).map(|part| part.class)
-            }),
+            Step::Part(name) => {
+                let own = |c: ClassId| self.parts.get(&(c, name.clone())).copied();
+                find_part(document, class, name, &own)
+            }
             Step::Index(_) | Step::Last | Step::Owner => {
                 class_at(document, class, &Path(vec![step.clone()]))
             }
@@ -248,12 +243,12 @@ impl Lowered {
 
 /// Finds a part: in the primary line, then in each other superclass once, the nearest first.
 ///
-/// `own` returns the class of the part of this name that a class declares itself.
+/// `own` returns the index of the part of this name that a class declares itself.
 fn find_part(
     document: &Document,
     class: ClassId,
     name: &str,
-    own: &dyn Fn(ClassId) -> Option<ClassId>,
+    own: &dyn Fn(ClassId) -> Option<usize>,
 ) -> Option<ClassId> {
     let mut seen = BTreeSet::new();
     let mut waiting = vec![referred(document, class)];
@@ -262,16 +257,40 @@ fn find_part(
         let mut next = Some(class);
         while let Some(c) = next.filter(|&c| seen.insert(c)) {
             let supers = &document.classes[c].supers;
-            let named = supers.iter().find(|s| *s.name == *name);
-            if let Some(found) = own(c).or(named.map(|s| s.class)) {
-                return Some(referred(document, found));
+            if let Some(index) = own(c) {
+                let field = PartRef { class: c, index, role: PartRole::Part };
+                return Some(referred(document, narrowed(document, class, field)));
             }
-            others.extend(supers.iter().skip(1).map(|s| s.class));
+            let above = |index: usize| match index {
+                0 => supers[0].class,
+                _ => {
+                    let field = PartRef { class: c, index, role: PartRole::Superclass };
+                    narrowed(document, class, field)
+                }
+            };
+            if let Some(index) = supers.iter().position(|s| *s.name == *name) {
+                return Some(above(index));
+            }
+            others.extend((1..supers.len()).map(above));
             next = supers.first().map(|s| s.class);
         }
         waiting.extend(others.into_iter().rev());
     }
     None
+}
+
+/// Returns the class of a field of a class's things, where it is refined the narrower one.
+fn narrowed(document: &Document, class: ClassId, field: PartRef) -> ClassId {
+    let mut at = Some(class);
+    while let Some(c) = at {
+        let refined = &document.classes[c].refined;
+        if let Some((_, narrower)) = refined.iter().find(|(f, _)| *f == field) {
+            return *narrower;
+        }
+        // no class above the one that declares it has heard of it
+        at = document.classes[c].supers.first().map(|s| s.class).filter(|_| c != field.class);
+    }
+    document.field_class(field)
 }
 
 /// Returns the class of what a thing of a class names, if it does; else the class itself.

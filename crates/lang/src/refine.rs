@@ -10,13 +10,15 @@ use crate::rules::{Heading, Mask, Written};
 use crate::scope::Scope;
 use base::diagnostic::nearest;
 use base::{Diagnostic, Name, Place, Span};
-use kernel::{ClassId, ClassKind, Constraint, Message, Method, PartRef, Path, Step, Term};
+use kernel::{
+    Class, ClassId, ClassKind, Constraint, Message, Method, OriginId, PartRef, Path, Step, Term,
+};
 use std::collections::{BTreeMap, BTreeSet};
 use syntax::ast::{self, AstNode};
 
 /// What is said of a part: bodies that it gets, and names below it that are masked.
 #[derive(Clone, PartialEq, Eq, PartialOrd, Ord, Default)]
-struct Refinement {
+pub(crate) struct Refinement {
     /// The classes of the bodies of `modify`.
     bodies: Vec<ClassId>,
     /// The parts on the way, and the name of the constraint or merge.
@@ -24,7 +26,7 @@ struct Refinement {
 }
 
 /// The classes of one made so far.
-type Made = BTreeMap<(ClassId, Refinement), ClassId>;
+pub(crate) type Made = BTreeMap<(ClassId, Refinement), ClassId>;
 
 impl Lowerer<'_> {
     /// Declares the body that every part of a kind gets in the things of a class.
@@ -41,8 +43,39 @@ impl Lowerer<'_> {
         let body = self.add_unnamed_class(&name, class, origin);
         self.document.classes[body].is_of_one = true;
         self.modifications.entry(scope.class()).or_default().push(body);
+        self.modified.insert(body, class);
         let members = modify.body().into_iter().flat_map(|b| b.members()).collect();
         self.declare_body(&Scope::of(scope.file, body), members);
+    }
+
+    /// Finds the parts that modifications make narrower, once all parts are declared, so that what bodies
+    /// of `modify` add can be spoken of.
+    pub(crate) fn prepare_modifications(&mut self) {
+        if self.modifications.is_empty() {
+            return;
+        }
+        for (class, bodies) in self.modifications.clone() {
+            let above = self.document.lineage(class);
+            let inherited = collect(&self.modifications, &above[1..]);
+            for body in bodies {
+                // what a class above says of the same parts is there already
+                let of =
+                    |&&b: &&ClassId| self.document.is_a(self.modified[&body], self.modified[&b]);
+                if let Some(&other) = inherited.iter().rev().find(of) {
+                    self.document.classes[body].supers[0].class = other;
+                }
+            }
+        }
+        let mut made = std::mem::take(&mut self.narrowed);
+        for class in self.document.classes.ids().collect::<Vec<_>>() {
+            let bodies = collect(&self.modifications, &self.document.lineage(class));
+            if !bodies.is_empty() {
+                let refinement = Refinement { bodies, masks: Vec::new() };
+                let refined = self.refined_fields(class, &refinement, &mut made);
+                self.document.classes[class].refined = refined;
+            }
+        }
+        self.narrowed = made;
     }
 
     /// Carries out masks, replacements and modifications, once everything is defined.
@@ -61,7 +94,7 @@ impl Lowerer<'_> {
         if masks.is_empty() && self.modifications.is_empty() {
             return;
         }
-        let mut made = Made::new();
+        let mut made = std::mem::take(&mut self.narrowed);
         for class in self.document.classes.ids().collect::<Vec<_>>() {
             let line = self.document.primary_line(class);
             let lineage = self.document.lineage(class);
@@ -73,6 +106,9 @@ impl Lowerer<'_> {
                 let refined = self.refined_fields(class, &refinement, &mut made);
                 self.document.classes[class].refined = refined;
             }
+        }
+        for (body, to) in std::mem::take(&mut self.copies) {
+            self.add_members(body, to);
         }
     }
 
@@ -121,7 +157,7 @@ impl Lowerer<'_> {
             ClassKind::Composite => {}
         }
         let concerns = !refinement.masks.is_empty()
-            || refinement.bodies.iter().any(|&b| self.reaches(class, self.modified(b)));
+            || refinement.bodies.iter().any(|&b| self.reaches(class, self.modified[&b]));
         if !concerns {
             return None;
         }
@@ -133,23 +169,49 @@ impl Lowerer<'_> {
             let c = &self.document.classes[class];
             (c.name.to_string(), c.origin)
         };
-        let one = self.add_unnamed_class(&name, class, origin);
-        self.document.classes[one].is_of_one = true;
-        made.insert(key, one);
+        let mut one = class;
         for &body in &refinement.bodies {
-            if self.document.is_a(class, self.modified(body)) {
-                self.add_members(body, one);
+            if self.document.is_a(class, self.modified[&body]) {
+                one = self.add_narrower(&name, one, origin);
+                self.declare_copy(body, one);
             }
         }
+        if one == class || !refinement.masks.is_empty() {
+            one = self.add_narrower(&name, one, origin);
+        }
+        made.insert(key, one);
         let own = refinement.masks.iter().filter(|(way, _)| way.is_empty());
         self.document.classes[one].without.extend(own.map(|(_, name)| name.clone()));
         self.document.classes[one].refined = self.refined_fields(class, refinement, made);
         Some(one)
     }
 
-    /// Returns the class that a body of `modify` is for.
-    fn modified(&self, body: ClassId) -> ClassId {
-        self.document.classes[body].supers[0].class
+    fn add_narrower(&mut self, name: &str, class: ClassId, origin: OriginId) -> ClassId {
+        let one = self.add_unnamed_class(name, class, origin);
+        self.document.classes[one].is_of_one = true;
+        one
+    }
+
+    /// Declares what a body of `modify` declares in a class that gets it; the rest follows once it is
+    /// defined.
+    fn declare_copy(&mut self, body: ClassId, to: ClassId) {
+        let Class { parts, messages, .. } = self.document.classes[body].clone();
+        for (index, part) in (0..).zip(parts) {
+            self.parts.insert((to, part.name.clone()), index);
+            self.document.classes[to].parts.push(part);
+        }
+        for (index, message) in (0..).zip(messages) {
+            let (from, key) = ((body, message.name.clone()), (to, message.name.clone()));
+            if let Some(known) = self.definitions.get(&from).cloned() {
+                self.definitions.insert(key.clone(), known);
+            }
+            if let Some(known) = self.message_kinds.get(&from).cloned() {
+                self.message_kinds.insert(key.clone(), known);
+            }
+            self.messages.insert(key, index);
+            self.document.classes[to].messages.push(message);
+        }
+        self.copies.push((body, to));
     }
 
     /// Returns true if things of a class are things of another, or have such parts at any depth.
@@ -187,9 +249,8 @@ impl Lowerer<'_> {
             ..c
         };
         let class = &mut self.document.classes[to];
-        class.parts.extend(from.parts);
         class.givens.extend(from.givens);
-        class.messages.extend(from.messages.into_iter().map(message));
+        class.messages = from.messages.into_iter().map(message).collect();
         class.constraints.extend(from.constraints.into_iter().map(constraint));
         class.merges.extend(from.merges);
         class.inserts.extend(from.inserts);
@@ -200,7 +261,7 @@ impl Lowerer<'_> {
     }
 
     /// Puts another rule in the place of an inherited one: its name and strength stay.
-    fn replace(&mut self, scope: &Scope, replace: &ast::Replace, origin: kernel::OriginId) {
+    fn replace(&mut self, scope: &Scope, replace: &ast::Replace, origin: OriginId) {
         let (Some(target), Some(rule)) = (replace.target(), replace.rule()) else { return };
         let Some(path) = loose_path(&target) else { return };
         let place = Place { file: scope.file, span: target.span() };

@@ -47,7 +47,9 @@ pub(crate) struct Heading {
 impl Lowerer<'_> {
     /// Lowers every expression that waits.
     pub(crate) fn define_members(&mut self) {
+        self.declare_repeated();
         self.complete_placed();
+        self.prepare_modifications();
         self.define_pending();
         self.drop_broken_messages();
     }
@@ -66,11 +68,15 @@ impl Lowerer<'_> {
 
     fn define_pending(&mut self) {
         let mut noted = self.so_far();
-        // what speaks of a message whose answer is wrong goes with it, and says no more
-        let (answers, others): (Vec<Pending>, Vec<Pending>) = std::mem::take(&mut self.pending)
-            .into_iter()
-            .partition(|p| matches!(p, Pending::Answer { .. }));
-        for pending in answers.into_iter().chain(others) {
+        let mut pending = std::mem::take(&mut self.pending);
+        // what things are merged with decides which names they know; what speaks of a message whose
+        // answer is wrong goes with it, and says no more
+        pending.sort_by_key(|p| match p {
+            Pending::Member(_, Member::Merge(_)) => 0,
+            Pending::Answer { .. } => 1,
+            _ => 2,
+        });
+        for pending in pending {
             match pending {
                 Pending::Kept { member, part, was, shift } => {
                     self.keep_values(member, part, was, shift);
@@ -178,7 +184,7 @@ impl Lowerer<'_> {
     /// Says of names that were found to be unknown, that a reference names nothing by them.
     fn leads_nowhere(&mut self, before: usize) {
         for d in self.diagnostics.iter_mut().skip(before) {
-            if matches!(d.code, "unknown-name" | "unknown-part") {
+            if matches!(d.code, "unknown-name" | "unknown-part" | "index") {
                 d.code = "unknown-reference";
             }
         }

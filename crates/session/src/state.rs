@@ -13,6 +13,9 @@ use plan::{Model, Planner, Plans, Source, Status, Unmet};
 use solve::Level;
 use std::collections::BTreeSet;
 
+/// The code for a reference that names nothing.
+const LOST: &str = "unknown-reference";
+
 /// A document at one moment.
 pub(crate) struct State {
     /// The text.
@@ -53,13 +56,15 @@ impl State {
         let (mut planner, unplanned) = Planner::new(model, plans);
         let mut diagnostics = lowered.diagnostics.clone();
         diagnostics.extend(lowered.fault_diagnostics(&faults));
-        diagnostics.extend(
-            unplanned.iter().map(|f| {
-                Diagnostic::error(f.kind.code(), lowered.place(f.origin), f.message.clone())
-            }),
-        );
+        // that a reference names nothing is said at its place, and not at all that goes through it
+        let lost = diagnostics.iter().any(|d| d.code == LOST);
         let (given, faults) = eval::given_values(&lowered.document, &structure);
-        diagnostics.extend(given_diagnostics(&lowered, &faults));
+        let through = unplanned
+            .iter()
+            .map(|f| Diagnostic::error(f.kind.code(), lowered.place(f.origin), f.message.clone()))
+            .chain(given_diagnostics(&lowered, &faults))
+            .filter(|d| !(lost && d.code == LOST));
+        diagnostics.extend(through);
         crate::fixes::add_uses(&text, &mut diagnostics, host);
         let unplanned = unplanned.iter().map(|f| f.origin).collect();
         diagnostics.sort_by_key(|d| (d.place.file, d.place.span.start));

@@ -3,7 +3,7 @@
 use super::body::{Body, Member, Waiting};
 use super::merge::merge_pair;
 use super::{FaultKind, Maker};
-use crate::class::{ClassId, Merge};
+use crate::class::{ClassId, ClassKind, Merge};
 use crate::path::Path;
 use crate::structure::{ConstraintInstance, StayInstance, ThingId};
 use crate::term::OriginId;
@@ -131,7 +131,12 @@ fn astray(maker: &mut Maker<'_>, body: &Body, thing: ThingId, paths: &[Path], or
             let class = body.things[astray.at].class;
             let step = Path(vec![path.0[astray.step].clone()]);
             let name = &maker.document.classes[class].name;
-            let message = format!("{name} has no part {step}, in {path}");
+            let message = match maker.document.classes[class].kind {
+                ClassKind::Reference(_) => {
+                    format!("{path} goes through a reference; say where that part is itself")
+                }
+                _ => format!("{name} has no part {step}, in {path}"),
+            };
             maker.fault(origin, FaultKind::UnknownPart, message);
         }
     }

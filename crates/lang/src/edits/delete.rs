@@ -17,18 +17,32 @@ use syntax::edit::{self, TextEdit};
 use syntax::{SyntaxKind, SyntaxNode, SyntaxToken};
 
 /// What is deleted, as far as it is known.
-struct Deletion {
+pub(super) struct Deletion {
     references: References,
     /// Members whose uses are still to be found.
     waiting: Vec<Symbol>,
-    edits: Vec<TextEdit>,
-    along: Vec<String>,
+    pub(super) edits: Vec<TextEdit>,
+    pub(super) along: Vec<String>,
     /// Members that are dealt with.
     seen: BTreeSet<Span>,
     /// Lists of paths, and the words in them that lead to what goes.
     lists: Vec<(SyntaxNode, Vec<Span>)>,
     /// Values by position, those of them that stand for what goes, and what they make.
     values: Vec<(SyntaxNode, Vec<Span>, ClassId)>,
+}
+
+impl Deletion {
+    pub(super) fn new(text: &Text<'_>) -> Self {
+        Self {
+            references: text.lowered.references(),
+            waiting: Vec::new(),
+            edits: Vec::new(),
+            along: Vec::new(),
+            seen: BTreeSet::new(),
+            lists: Vec::new(),
+            values: Vec::new(),
+        }
+    }
 }
 
 impl Text<'_> {
@@ -46,15 +60,8 @@ impl Text<'_> {
     }
 
     fn delete_member(&self, home: &Home, member: &Member, word: &ast::Word) -> Restructuring {
-        let mut deletion = Deletion {
-            references: self.lowered.references(),
-            waiting: vec![self.symbol(home, word)],
-            edits: Vec::new(),
-            along: Vec::new(),
-            seen: BTreeSet::new(),
-            lists: Vec::new(),
-            values: Vec::new(),
-        };
+        let mut deletion = Deletion::new(self);
+        deletion.waiting.push(self.symbol(home, word));
         deletion.edits.push(match edit::delete_name(&word.token) {
             Some(edit) => edit,
             None => {
@@ -62,18 +69,25 @@ impl Text<'_> {
                 edit::delete_member(member.syntax())
             }
         });
+        self.forget_uses(&mut deletion);
+        let class = self.implied_by(home).class;
+        Restructuring { edits: deletion.edits, along: deletion.along, class, class_of_one: None }
+    }
+
+    /// Deletes what speaks of what goes, and what speaks of that.
+    pub(super) fn forget_uses(&self, deletion: &mut Deletion) {
         while let Some(symbol) = deletion.waiting.pop() {
             let speaks = |(_, spoken): &&(Span, Symbol)| *spoken == symbol;
             let spans = |all: &BTreeSet<(Span, Symbol)>| -> Vec<Span> {
                 all.iter().filter(speaks).map(|(span, _)| *span).collect()
             };
             for span in spans(&deletion.references.positions) {
-                self.forget_value(span, symbol.class, &mut deletion);
+                self.forget_value(span, symbol.class, deletion);
             }
             for span in spans(&deletion.references.words) {
                 let Some(word) = self.token_at(span) else { continue };
                 if !is_gone(&deletion.edits, span) && !is_label(&word) {
-                    self.forget(&word, &mut deletion);
+                    self.forget(&word, deletion);
                 }
             }
         }
@@ -88,8 +102,6 @@ impl Text<'_> {
             let edits = shortened(node, &stays);
             deletion.edits.extend(edits);
         }
-        let class = self.implied_by(home).class;
-        Restructuring { edits: deletion.edits, along: deletion.along, class, class_of_one: None }
     }
 
     /// Deletes a value that stands for what goes.
@@ -125,7 +137,7 @@ impl Text<'_> {
     }
 
     /// Deletes what stands around a word, as little as can be.
-    fn forget(&self, word: &SyntaxToken, deletion: &mut Deletion) {
+    pub(super) fn forget(&self, word: &SyntaxToken, deletion: &mut Deletion) {
         let mut members = word.parent_ancestors().filter_map(Member::cast).peekable();
         let Some(mut member) = members.next() else { return };
         while let Some(outer) = members.next_if(|m| matches!(m, Member::Try(_))) {
@@ -289,11 +301,11 @@ fn is_label(word: &SyntaxToken) -> bool {
 }
 
 /// Returns true for a part that names another.
-fn is_reference(part: &ast::Part) -> bool {
+pub(super) fn is_reference(part: &ast::Part) -> bool {
     part.class().is_some_and(|c| matches!(c.shape(), ast::TypeShape::Path(_)))
 }
 
 /// Returns true for a word that stands in what is deleted already.
-fn is_gone(edits: &[TextEdit], word: Span) -> bool {
+pub(super) fn is_gone(edits: &[TextEdit], word: Span) -> bool {
     edits.iter().any(|e| e.span.start <= word.start && word.end <= e.span.end)
 }

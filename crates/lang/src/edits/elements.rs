@@ -1,9 +1,10 @@
 //! Elements of lists deleted: those behind move up.
 
 use super::Restructuring;
+use super::delete::{Deletion, is_gone, is_reference};
 use crate::numbers::constant;
 use crate::uses::{Text, refused};
-use base::{Diagnostic, Name};
+use base::{Diagnostic, Name, Span};
 use kernel::{ClassId, Path, Step};
 use syntax::ast::{self, AstNode, Expr, Member, TypeShape};
 use syntax::edit::{self, TextEdit};
@@ -56,10 +57,11 @@ impl Text<'_> {
         Some((document.lineage(class).into_iter().find(declares)?, name.clone()))
     }
 
-    /// Deletes the members that speak of an element, of whatever thing of the class, and counts those behind it one less.
+    /// Deletes what speaks of an element, of whatever thing of the class, and counts those behind it one less.
+    /// A reference to it stays, and names nothing.
     fn move_up(&self, list: &Path, i: u32, edits: &mut Vec<TextEdit>) -> Vec<String> {
         let whose = self.declared_in(list);
-        let mut gone: Vec<Member> = Vec::new();
+        let mut deletion = Deletion::new(self);
         let mut moved = Vec::new();
         for index in self.file.syntax().descendants().filter_map(ast::IndexExpr::cast) {
             let of = index.receiver().and_then(|r| self.declared_in(&self.path_of(&r)?));
@@ -69,20 +71,34 @@ impl Text<'_> {
                 continue;
             };
             let Some(Step::Index(n)) = at.0.last() else { continue };
-            let mut around = index.syntax().ancestors().filter_map(Member::cast);
-            match around.next() {
-                Some(member) if *n == i && !gone.contains(&member) => gone.push(member),
-                Some(_) if *n > i => moved.push(edit::replace(e.syntax(), &(n - 1).to_string())),
-                Some(_) | None => {}
+            let around = index.syntax().ancestors().find_map(Member::cast);
+            match (around, e.syntax().first_token()) {
+                (Some(member), Some(word)) if *n == i => match target(&member) {
+                    Some(span) => deletion.edits.push(TextEdit { span, insert: String::new() }),
+                    None => self.forget(&word, &mut deletion),
+                },
+                (Some(_), _) if *n > i => {
+                    moved.push(edit::replace(e.syntax(), &(n - 1).to_string()));
+                }
+                _ => {}
             }
         }
-        let deletions: Vec<TextEdit> =
-            gone.iter().map(|m| edit::delete_member(m.syntax())).collect();
-        let is_gone = |e: &TextEdit| {
-            deletions.iter().any(|d| d.span.start <= e.span.start && e.span.end <= d.span.end)
-        };
-        moved.retain(|e| !is_gone(e));
-        edits.extend(deletions.iter().cloned().chain(moved));
-        gone.iter().map(|m| self.source(ast::span_without_doc(m.syntax()))).collect()
+        self.forget_uses(&mut deletion);
+        moved.retain(|e| !is_gone(&deletion.edits, e.span));
+        edits.extend(deletion.edits.into_iter().chain(moved));
+        deletion.along
+    }
+}
+
+/// Returns what a reference says of what it names, if a member is one.
+fn target(member: &Member) -> Option<Span> {
+    match member {
+        Member::Ref(reference) => {
+            Some(Span::new(reference.class()?.span().end, reference.target()?.span().end))
+        }
+        Member::Part(part) if is_reference(part) => {
+            Some(Span::new(part.class()?.span().end, part.value()?.span().end))
+        }
+        _ => None,
     }
 }
