@@ -252,7 +252,7 @@ impl<'a> Evaluator<'a> {
 
     pub(crate) fn owner(&self, me: &Answer<'a>) -> Result<Answer<'a>> {
         match me {
-            Answer::Thing(t) => match self.structure.things[*t].owner {
+            Answer::Thing(t) => match self.structure.owner(*t) {
                 Some(owner) => Ok(Answer::Thing(owner)),
                 None => Err(Fault::wrong("the document is not a part of anything")),
             },

@@ -224,6 +224,15 @@ impl Paths<'_> {
         let first = found.next()?;
         found.all(|t| self.identity(t) == self.identity(first)).then_some(first)
     }
+    /// Returns what a thing belongs to: of an element, what its list is a part of.
+    fn owner(&self, thing: ThingId) -> Option<ThingId> {
+        let mut owner = self.things[thing].owner?;
+        // lists have no layout
+        while self.layouts[self.things[owner].class].is_none() {
+            owner = self.things[owner].owner?;
+        }
+        Some(owner)
+    }
     pub(crate) fn follow(&self, from: ThingId, path: &Path) -> Result<ThingId, Astray> {
         let mut at = from;
         for (i, step) in path.0.iter().enumerate() {
@@ -232,7 +241,7 @@ impl Paths<'_> {
                 Step::Part(name) => self.part_named(at, name),
                 Step::Index(n) => (*n < t.parts).then(|| ThingId(t.first_part.0 + n)),
                 Step::Last => t.parts.checked_sub(1).map(|n| ThingId(t.first_part.0 + n)),
-                Step::Owner => t.owner,
+                Step::Owner => self.owner(at),
             };
             at = self.referent(next.ok_or(Astray { step: i, at })?);
         }
@@ -354,6 +363,11 @@ impl Structure {
     /// A reference is a part like any other: [`Structure::referent`] goes on to what it names.
     pub fn part_named(&self, thing: ThingId, name: &str) -> Option<ThingId> {
         self.paths().part_named(thing, name)
+    }
+    /// Returns what a thing belongs to: of an element, what its list is a part of. `Thing::owner` is what
+    /// it is stored in.
+    pub fn owner(&self, thing: ThingId) -> Option<ThingId> {
+        self.paths().owner(thing)
     }
     /// Returns what a reference names; of any other thing, the thing itself.
     pub fn referent(&self, thing: ThingId) -> ThingId {

@@ -8,7 +8,7 @@ use base::{Diagnostic, FileId, Name, Place, Span};
 use kernel::{
     ClassId, ClassKind, Count, Message, OriginId, Parameter, Part, Path, Primitive, Step, Term,
 };
-use syntax::ast::{self, AstNode, Expr, Member, span_without_doc};
+use syntax::ast::{self, AstNode, Expr, Member, TypeShape, span_without_doc};
 
 /// A member whose expressions are still to be lowered.
 #[derive(Clone, Debug)]
@@ -182,6 +182,8 @@ impl Lowerer<'_> {
             return self.broken.extend(part.names().map(|w| (scope.class(), w.name())));
         };
         let count = self.declared_count(scope, &ty);
+        let body = part.body();
+        let of_elements = body.clone().filter(|_| matches!(ty.shape(), TypeShape::List { .. }));
         let range = part.domain().and_then(|d| self.domain(scope, &d, class));
         self.refuse_block(scope, part.value());
         for word in part.names() {
@@ -191,7 +193,10 @@ impl Lowerer<'_> {
             let span = span_without_doc(part.syntax());
             let origin = self.origin(scope.file, span);
             let name = word.name();
-            let class = self.class_for_body(scope, &name, class, part.body(), origin);
+            let class = match &of_elements {
+                Some(body) => self.list_with_body(scope, &name, class, body, origin),
+                None => self.class_for_body(scope, &name, class, body.clone(), origin),
+            };
             let doc = part.doc().unwrap_or_default();
             let declared = Part { name: name.clone(), doc, class, count, range, origin };
             let place = Place { file: scope.file, span: word.span() };
@@ -280,13 +285,43 @@ impl Lowerer<'_> {
             }
             return class;
         }
+        let one = self.class_of_one(scope, name, class, origin);
+        self.declare_body(&scope.inside(one), members);
+        one
+    }
+
+    /// Returns the class of a list whose elements all have a body.
+    fn list_with_body(
+        &mut self,
+        scope: &Scope,
+        name: &Name,
+        list: ClassId,
+        body: &ast::Body,
+        origin: OriginId,
+    ) -> ClassId {
+        let ClassKind::List(element) = self.document.classes[list].kind else { return list };
+        let members: Vec<Member> = body.members().collect();
+        if members.is_empty() {
+            return list;
+        }
+        let one = self.class_of_one(scope, name, element, origin);
+        self.declare_body(&scope.inside(one), members);
+        self.class_made_of("List of", ClassKind::List(one), one)
+    }
+
+    fn class_of_one(
+        &mut self,
+        scope: &Scope,
+        name: &Name,
+        class: ClassId,
+        origin: OriginId,
+    ) -> ClassId {
         let label = match self.document.classes[scope.class()].name.as_str() {
             "" => name.to_string(),
             owner => format!("{owner}.{name}"),
         };
         let one = self.add_unnamed_class(&label, class, origin);
         self.document.classes[one].is_of_one = true;
-        self.declare_body(&scope.inside(one), members);
         one
     }
 

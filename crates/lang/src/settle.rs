@@ -84,17 +84,49 @@ impl Lowerer<'_> {
                 self.report(d.hint("give it a value, `name = value`, or another name"));
                 continue;
             }
-            let parameters = |m: &kernel::Message| m.parameters.len();
-            let Some(own) = self.defined_message(class, &name).map(parameters) else { continue };
-            let inherited = self.find_message(class, &name, Some(Search::Above(class)));
-            let Some((from, message)) = inherited else { continue };
-            let wanted = parameters(message);
-            if own != wanted {
-                let from = &self.document.classes[from].name;
-                let said = format!("{name} has {wanted} parameters in {from}, here {own}");
-                let d = Diagnostic::error("override-signature", place, said);
-                self.report(d.hint("give it the same parameters, or another name"));
-            }
+            self.report_signature(class, &name, place);
+        }
+    }
+
+    /// What overrides a message takes what that takes, and answers what that answers.
+    fn report_signature(&mut self, class: ClassId, name: &Name, place: Place) {
+        let part = self.parts.contains_key(&(class, name.clone()));
+        let own = self.defined_message(class, name).map(|m| m.parameters.clone());
+        let Some(own) = own.or(part.then(Vec::new)) else { return };
+        let inherited = self.find_message(class, name, Some(Search::Above(class)));
+        let Some((from, message)) = inherited else { return };
+        let wanted = message.parameters.clone();
+        let above = self.document.classes[from].name.clone();
+        let of = |p: &kernel::Parameter| {
+            p.class.map_or(Kind::Unknown, |c| Kind::of_class(&self.document, c))
+        };
+        let labels = |all: &[kernel::Parameter]| {
+            all.iter().map(|p| p.label.to_string()).collect::<Vec<_>>().join(", ")
+        };
+        let said = if own.len() != wanted.len() {
+            let (wanted, own) = (wanted.len(), own.len());
+            Some(format!("{name} has {wanted} parameters in {above}, here {own}"))
+        } else if labels(&own) != labels(&wanted) {
+            let (wanted, own) = (labels(&wanted), labels(&own));
+            Some(format!("{name} takes ({wanted}) in {above}, here ({own})"))
+        } else {
+            let misfit = own.iter().zip(&wanted).find(|(a, b)| !of(a).fits(&of(b), &self.document));
+            misfit.map(|(own, wanted)| {
+                let kinds = (of(wanted).words(&self.document), of(own).words(&self.document));
+                format!("{} of {name} is {} in {above}, here {}", own.label, kinds.0, kinds.1)
+            })
+        };
+        let said = said.or_else(|| {
+            let general = from == self.object;
+            let wanted = self.message_kind(from, name);
+            let found = self.kind_of_part(class, name).unwrap_or(Kind::Unknown);
+            let fits = general || found.fits(&wanted, &self.document);
+            let kinds = (wanted.words(&self.document), found.words(&self.document));
+            (!fits).then(|| format!("{name} is {} in {above}, here {}", kinds.0, kinds.1))
+        });
+        if let Some(said) = said {
+            let d = Diagnostic::error("override-signature", place, said);
+            self.report(d.hint("give it the same parameters and the same class, or another name"));
         }
     }
 

@@ -111,7 +111,7 @@ impl<'a> Reach<'a> {
     }
     /// Returns what a thing is a part of.
     pub(crate) fn owner(&mut self, thing: ThingId) -> Option<ThingId> {
-        let owner = self.structure.things[thing].owner?;
+        let owner = self.structure.owner(thing)?;
         let from = self.number_of(thing);
         self.step(Step::Owner(from), [owner]);
         Some(owner)
@@ -265,9 +265,7 @@ impl Route {
             let of = |n: &Reached| things[*n as usize];
             let holds = match step {
                 Step::Document => found(DOCUMENT, things),
-                Step::Owner(n) => {
-                    structure.things[of(n)].owner.is_some_and(|owner| found(owner, things))
-                }
+                Step::Owner(n) => structure.owner(of(n)).is_some_and(|owner| found(owner, things)),
                 Step::Part(n, place) => {
                     let t = &structure.things[of(n)];
                     *place < t.parts && found(ThingId(t.first_part.0 + place), things)

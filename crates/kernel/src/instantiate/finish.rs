@@ -1,10 +1,12 @@
 //! Finishing: the document's body in, its structure out, with slots and sets.
 
-use super::Maker;
 use super::body::Body;
 use super::refer::refer;
+use super::{FaultKind, Maker};
 use crate::class::{ClassId, ClassKind};
+use crate::document::Document;
 use crate::structure::{DOCUMENT, GivenIn, Slot, Structure, ThingId};
+use crate::term::OriginId;
 use base::IdVec;
 use std::collections::BTreeMap;
 
@@ -99,7 +101,7 @@ fn first_of_each(structure: &Structure, thing: ThingId) -> Vec<ThingId> {
     found
 }
 
-fn give_slots(maker: &Maker<'_>, body: &Body, order: &[ThingId], structure: &mut Structure) {
+fn give_slots(maker: &mut Maker<'_>, body: &Body, order: &[ThingId], structure: &mut Structure) {
     let document = maker.document;
     let mut places: IdVec<ClassId, Option<bool>> = IdVec::filled(None, document.classes.len());
     for &thing in order {
@@ -124,24 +126,33 @@ fn give_slots(maker: &Maker<'_>, body: &Body, order: &[ThingId], structure: &mut
         structure.slot_of[thing] = Some(slot);
         let s = &mut structure.slots[slot];
         s.given = s.given.or(body.givens[thing]);
-        if let Some(range) = declared_range(maker, structure, body, thing) {
+        if let Some((range, origin)) = declared_range(document, structure, body, thing) {
             let known = structure.ranges.entry(slot).or_insert(range);
-            *known = (known.0.max(range.0), known.1.min(range.1));
+            let both = (known.0.max(range.0), known.1.min(range.1));
+            if both.0 <= both.1 {
+                *known = both;
+                continue;
+            }
+            let ((a, b), (c, d)) = (*known, range);
+            let message = format!("no whole number lies in both {a}..{b} and {c}..{d}");
+            maker.fault(origin, FaultKind::UnlikeMerge, message);
         }
     }
 }
 
+/// Returns the numbers that a thing may be, and where that is written.
 fn declared_range(
-    maker: &Maker<'_>,
+    document: &Document,
     structure: &Structure,
     body: &Body,
     thing: ThingId,
-) -> Option<(i64, i64)> {
+) -> Option<((i64, i64), OriginId)> {
     let t = &body.things[thing];
     let owner = body.things[t.owner?].class;
-    if matches!(maker.document.classes[owner].kind, ClassKind::List(_)) {
-        return declared_range(maker, structure, body, t.owner?);
+    if matches!(document.classes[owner].kind, ClassKind::List(_)) {
+        return declared_range(document, structure, body, t.owner?);
     }
     let layout = structure.layouts[owner].as_ref()?;
-    maker.document.declared(*layout.fields.get(t.field as usize)?)?.range
+    let part = document.declared(*layout.fields.get(t.field as usize)?)?;
+    Some((part.range?, part.origin))
 }
