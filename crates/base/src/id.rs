@@ -24,10 +24,12 @@ macro_rules! define_id {
         #[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]
         pub struct $name(pub u32);
         impl $crate::id::Id for $name {
+            #[inline]
             fn from_index(index: usize) -> Self {
                 assert!(index < u32::MAX as usize, "an arena holds fewer than 2^32 - 1 elements");
                 Self(index as u32)
             }
+            #[inline]
             fn index(self) -> usize {
                 self.0 as usize
             }

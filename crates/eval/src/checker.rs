@@ -115,7 +115,7 @@ fn check_rules(evaluator: &Evaluator<'_>, wrong: &mut Vec<String>) {
     let structure = evaluator.structure;
     let on = structure.constraints.iter().filter(|&&c| structure.is_on(c));
     let idle: BTreeSet<ThingId> = on.flat_map(|&c| evaluator.idle(c).unwrap_or_default()).collect();
-    for &constraint in &evaluator.structure.constraints {
+    for &constraint in evaluator.structure.constraints.iter() {
         if !idle.is_empty() && is_inside(structure, constraint.owner, &idle) {
             continue;
         }
@@ -172,7 +172,7 @@ fn connected(document: &Document, structure: &Structure, edit: Edit<'_>) -> BTre
     let before = Evaluator::new(document, structure, edit.before);
     let after = before.in_state(edit.after);
     let mut groups: Vec<BTreeSet<SlotId>> = Vec::new();
-    for &constraint in &structure.constraints {
+    for &constraint in structure.constraints.iter() {
         let class = &document.classes[constraint.class];
         let written = &class.constraints[constraint.index as usize];
         if !structure.is_on(constraint) {

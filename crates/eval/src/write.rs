@@ -218,12 +218,27 @@ pub fn given_values(document: &Document, structure: &Structure) -> (Values, Vec<
         }
     }
     let tables = Rc::new(Tables::new(document));
-    let mut is_open: IdVec<SlotId, bool> =
-        structure.slots.iter().map(|(_, s)| s.given.is_some()).collect();
-    let mut next: VecDeque<SlotId> = is_open.ids().filter(|&slot| is_open[slot]).collect();
+    let mut faults = Vec::new();
+    let nothing = Values::default();
+    let constants = Evaluator::with_tables(document, structure, &nothing, tables.clone());
+    let mut is_open: IdVec<SlotId, bool> = IdVec::filled(false, structure.slots.len());
+    let mut next: VecDeque<SlotId> = VecDeque::new();
+    for slot in structure.slots.ids() {
+        match structure.given(slot).map(|given| &given.term) {
+            None => {}
+            // speaks of nothing, as most values that are given
+            Some(Term::Number { .. }) => match constants.given(slot) {
+                Ok(value) => value.into_iter().for_each(|value| values.put(slot, value)),
+                Err(fault) => faults.push(fault),
+            },
+            Some(_) => {
+                is_open[slot] = true;
+                next.push_back(slot);
+            }
+        }
+    }
     // values that wait for another, by that other
     let mut waiting: BTreeMap<SlotId, Vec<SlotId>> = BTreeMap::new();
-    let mut faults = Vec::new();
     while let Some(slot) = next.pop_front() {
         let evaluator = Evaluator::with_tables(document, structure, &values, tables.clone());
         let (found, reads) = evaluator.listening(|| evaluator.given(slot));

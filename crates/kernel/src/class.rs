@@ -5,6 +5,7 @@ use crate::path::Path;
 use crate::term::{OriginId, Term};
 use base::Name;
 use expr::dimension::Dimension;
+use std::rc::Rc;
 
 base::define_id!(ClassId, "c", "A class.");
 
@@ -96,7 +97,7 @@ pub struct Class {
     /// The stored parts that it adds, in order of declaration.
     pub parts: Vec<Part>,
     /// Given values of its parts and subparts, in order of declaration; later ones win.
-    pub givens: Vec<Given>,
+    pub givens: Vec<Rc<Given>>,
     /// Messages and virtual parts.
     pub messages: Vec<Message>,
     /// The constraints that it adds.

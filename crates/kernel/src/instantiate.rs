@@ -8,7 +8,7 @@
 
 use crate::class::ClassId;
 use crate::document::Document;
-use crate::structure::{GivenId, GivenTerm, Layout, Layouts, Structure};
+use crate::structure::{Givens, Layout, Layouts, Structure};
 use crate::term::OriginId;
 use base::IdVec;
 use std::rc::Rc;
@@ -17,12 +17,15 @@ mod body;
 mod fill;
 mod finish;
 mod givens;
+mod grown;
 mod merge;
 mod refer;
 mod rules;
 mod switches;
 
 use body::Body;
+pub(crate) use grown::Grown;
+use grown::Shared;
 
 /// Something in a document that cannot be made as written.
 #[derive(Clone, PartialEq, Debug)]
@@ -85,20 +88,63 @@ const MOST_COPIES: usize = 2 * MOST_THINGS;
 /// Cost: what the classes say, once for each class; a copy for every thing; the merges between
 /// things, each times the parts that become one.
 pub fn instantiate(document: &Document) -> (Structure, Vec<Fault>) {
-    let mut maker = Maker::new(document);
-    let mut body = fill::make_body(&mut maker, document.root);
+    let classes = document.classes.len();
+    let mut maker = Maker::new(document, IdVec::filled(None, classes));
+    let mut body = Body::new(document.root);
+    let has_grown = fill::grow(&mut maker, &mut body, body::ROOT, &[]);
+    let givens = Rc::new(std::mem::take(&mut maker.givens));
+    let grown = (has_grown && maker.faults.is_empty()).then(|| {
+        let layouts = maker.layouts.clone();
+        Rc::new(Grown { body: body.clone(), layouts, shared: std::mem::take(&mut maker.shared) })
+    });
+    if has_grown {
+        rules::apply(&mut maker, &mut body, body::ROOT, 0);
+    }
+    finished(maker, body, givens, grown)
+}
+
+/// Makes the structure of a document whose text was edited. Gives what [`instantiate`] gives.
+///
+/// What the document's own class says of its parts is read again where the parts are as they were, and
+/// nothing is where constants alone are others. Cost: that of comparing the documents, and linear in
+/// things where anything but constants has changed.
+pub fn instantiate_again(
+    document: &Document,
+    before: (&Document, &Structure),
+) -> (Structure, Vec<Fault>) {
+    let Some((grown, givens)) = grown::kept(document, before) else { return instantiate(document) };
+    let (was, structure) = before;
+    if structure.is_faultless && grown::is_form_kept(document, was, structure, &givens) {
+        return (Structure { form: structure.form.clone(), givens }, Vec::new());
+    }
+    let mut maker = Maker::new(document, grown.layouts.clone());
+    let mut body = grown.body.clone();
+    rules::apply(&mut maker, &mut body, body::ROOT, 0);
+    finished(maker, body, givens, Some(grown))
+}
+
+/// Makes the structure of the document's body, of which its classes have spoken.
+fn finished(
+    mut maker: Maker<'_>,
+    mut body: Body,
+    givens: Rc<Givens>,
+    grown: Option<Rc<Grown>>,
+) -> (Structure, Vec<Fault>) {
+    rules::settle(&mut body);
     rules::give_up(&mut maker, &mut body);
-    let mut structure = finish::finish(&mut maker, body);
-    switches::switch(document, &mut structure);
+    let mut form = finish::finish(&mut maker, body, &givens);
+    switches::switch(maker.document, &mut form);
     maker.faults.dedup();
-    (structure, maker.faults)
+    form.grown = grown;
+    form.is_faultless = maker.faults.is_empty();
+    (Structure { form: Rc::new(form), givens }, maker.faults)
 }
 
 /// Says what could not be made of the things of some classes, were there any.
 ///
 /// What leads out of such a thing is not looked at: that depends on where it is.
 pub fn faults_of(document: &Document, classes: impl IntoIterator<Item = ClassId>) -> Vec<Fault> {
-    let mut maker = Maker::new(document);
+    let mut maker = Maker::new(document, IdVec::filled(None, document.classes.len()));
     for class in classes {
         let origin = document.classes[class].origin;
         fill::body_of(&mut maker, class, origin);
@@ -114,7 +160,9 @@ struct Maker<'d> {
     /// The body of every class that was asked for.
     bodies: IdVec<ClassId, Option<Rc<Body>>>,
     /// Every given value, and what parts get of them.
-    givens: IdVec<GivenId, GivenTerm>,
+    givens: Givens,
+    /// Which given values are what parts get of others.
+    shared: Vec<Shared>,
     /// The classes whose things are being filled, each inside the one before it.
     on_the_way: Vec<ClassId>,
     /// How many things were made so far, those that were only copied from included.
@@ -125,12 +173,13 @@ struct Maker<'d> {
 }
 
 impl<'d> Maker<'d> {
-    fn new(document: &'d Document) -> Self {
+    fn new(document: &'d Document, layouts: Layouts) -> Self {
         Self {
             document,
-            layouts: IdVec::filled(None, document.classes.len()),
+            layouts,
             bodies: IdVec::filled(None, document.classes.len()),
             givens: IdVec::new(),
+            shared: Vec::new(),
             on_the_way: Vec::new(),
             copied: 0,
             is_full: false,

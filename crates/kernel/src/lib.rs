@@ -28,11 +28,11 @@ pub use class::{
 };
 pub use command::{Command, Literal};
 pub use document::{Document, PartRef, PartRole, Side, SideWay, Vertical, Voices};
-pub use instantiate::{Fault, FaultKind, faults_of, instantiate};
+pub use instantiate::{Fault, FaultKind, faults_of, instantiate, instantiate_again};
 pub use path::{Path, Step};
 pub use structure::{
-    Astray, Condition, ConstraintInstance, DOCUMENT, GivenId, GivenIn, GivenTerm, Layout, Slot,
-    SlotId, StayInstance, Structure, Thing, ThingId,
+    Astray, Condition, ConstraintInstance, DOCUMENT, Form, GivenId, GivenIn, GivenTerm, Givens,
+    Layout, Slot, SlotId, StayInstance, Structure, Thing, ThingId,
 };
 pub use term::{Argument, Aspect, BinaryOperator, OriginId, Search, Term, UnaryOperator};
 pub use values::{Value, Values};

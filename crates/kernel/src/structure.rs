@@ -2,11 +2,13 @@
 
 use crate::class::{ClassId, Primitive, Strength, Switch};
 use crate::document::{Document, PartRef, PartRole, SideWay};
+use crate::instantiate::Grown;
 use crate::path::{Path, Step};
 use crate::term::{OriginId, Term};
 use base::number::Toward;
 use base::{IdVec, Name};
 use std::collections::{BTreeMap, BTreeSet};
+use std::ops::Deref;
 use std::rc::Rc;
 
 base::define_id!(ThingId, "t", "A thing: the document, a part, a part of a part, a number.");
@@ -81,13 +83,41 @@ pub struct StayInstance {
     pub strength: Option<Strength>,
 }
 
-/// All things of a document.
+/// All things of a document: their form, and what values they are given.
+///
+/// What the form has is read as the structure's own: `structure.things`.
 #[derive(Clone, Debug, Default)]
 pub struct Structure {
+    /// Everything but the given values. An edit that changes constants alone leaves it as it is.
+    pub form: Rc<Form>,
+    /// The given values of slots.
+    pub givens: Rc<Givens>,
+}
+
+/// The given values of slots, and what coordinates get of them.
+pub type Givens = IdVec<GivenId, GivenTerm>;
+
+impl Deref for Structure {
+    type Target = Form;
+    fn deref(&self) -> &Form {
+        &self.form
+    }
+}
+
+impl Structure {
+    /// Returns the given value of a slot.
+    pub fn given(&self, slot: SlotId) -> Option<&GivenTerm> {
+        self.slots[slot].given.map(|g| &self.givens[g.value])
+    }
+}
+
+/// The form of a document: its things, what they are merged with, their slots, and what constrains them.
+#[derive(Clone, Debug, Default)]
+pub struct Form {
     /// Every thing, the document first; an owner before its parts, in order of declaration.
-    pub things: IdVec<ThingId, Thing>,
+    pub things: Rc<IdVec<ThingId, Thing>>,
     /// For every thing, the first thing that it is merged with (itself where it is not).
-    pub merged: IdVec<ThingId, ThingId>,
+    pub merged: Rc<IdVec<ThingId, ThingId>>,
     /// For every thing, the next that it is merged with, in order of declaration; the first again
     /// after the last.
     pub(crate) next_merged: IdVec<ThingId, ThingId>,
@@ -99,12 +129,10 @@ pub struct Structure {
     pub slot_of: IdVec<ThingId, Option<SlotId>>,
     /// Every slot, in order of declaration of its first thing.
     pub slots: IdVec<SlotId, Slot>,
-    /// The given values of slots.
-    pub givens: IdVec<GivenId, GivenTerm>,
     /// The values that an integer may take, for slots where that is written.
     pub ranges: BTreeMap<SlotId, (i64, i64)>,
     /// Every constraint, in order of declaration, each merged one once.
-    pub constraints: Vec<ConstraintInstance>,
+    pub constraints: Rc<Vec<ConstraintInstance>>,
     /// The constraints that are switched off.
     pub off: BTreeSet<ConstraintInstance>,
     /// The constraints that hold only while something else is true.
@@ -121,6 +149,10 @@ pub struct Structure {
     pub references: BTreeMap<ThingId, ThingId>,
     /// The layout of every class that has things.
     pub(crate) layouts: Layouts,
+    /// The things as they were before the document's own class spoke of them; none where that had faults.
+    pub(crate) grown: Option<Rc<Grown>>,
+    /// True if all could be made as it is written.
+    pub(crate) is_faultless: bool,
 }
 
 /// The layouts of classes, each made when its first thing is.
@@ -267,7 +299,7 @@ impl Condition {
     }
 }
 
-impl Structure {
+impl Form {
     /// Returns how strong a constraint is.
     pub fn strength(&self, document: &Document, constraint: ConstraintInstance) -> Strength {
         let declared =
@@ -315,15 +347,14 @@ impl Structure {
     /// Returns the first thing of each class that `thing` is merged with, in order of declaration;
     /// nothing where all are of its own class.
     pub fn unlike(&self, thing: ThingId) -> &[ThingId] {
+        if self.unlike.is_empty() {
+            return &[];
+        }
         let first = self.merged[thing];
         if self.is_unlike.get(first) != Some(&true) {
             return &[];
         }
         self.unlike.get(&first).map_or(&[], |all| all)
-    }
-    /// Returns the given value of a slot.
-    pub fn given(&self, slot: SlotId) -> Option<&GivenTerm> {
-        self.slots[slot].given.map(|g| &self.givens[g.value])
     }
     /// Returns the slot that is meant where a thing goes some way: a coordinate of a place, or a number.
     pub fn slot_of_side(&self, thing: ThingId, way: SideWay) -> Option<SlotId> {
@@ -360,7 +391,7 @@ impl Structure {
     /// Returns the part of `thing` named `name`, looking at what it is merged with as well.
     ///
     /// A bare name means the primary line's part, else the only other superclass's that has it.
-    /// A reference is a part like any other: [`Structure::referent`] goes on to what it names.
+    /// A reference is a part like any other: [`Form::referent`] goes on to what it names.
     pub fn part_named(&self, thing: ThingId, name: &str) -> Option<ThingId> {
         self.paths().part_named(thing, name)
     }

@@ -65,9 +65,10 @@ impl Values {
     }
     /// Returns the slots whose contents differ in any bit.
     pub fn changed<'a>(&'a self, other: &'a Self) -> impl Iterator<Item = SlotId> + 'a {
+        let has_texts = !self.texts.is_empty() || !other.texts.is_empty();
         self.numbers.ids().filter(move |&s| {
             self.numbers[s].to_bits() != other.numbers[s].to_bits()
-                || self.texts.get(&s) != other.texts.get(&s)
+                || has_texts && self.texts.get(&s) != other.texts.get(&s)
         })
     }
 }

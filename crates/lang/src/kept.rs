@@ -10,6 +10,7 @@ use crate::members::{Pending, is_constant, values_alone};
 use crate::scope::Scope;
 use base::{Id, Place, Span};
 use kernel::{Count, Given, Part};
+use std::rc::Rc;
 use syntax::SyntaxKind;
 use syntax::ast::{Member, Value};
 
@@ -130,7 +131,11 @@ impl<'l> Lowerer<'l> {
             let moved = |at: u32| (i64::from(at) + shift) as u32;
             let span = Span::new(moved(place.span.start), moved(place.span.end));
             let origin = self.origin(OWN, span);
-            self.document.classes[root].givens.push(Given { origin, ..given.clone() });
+            let given = match given.origin == origin {
+                true => given.clone(),
+                false => Rc::new(Given { origin, ..Given::clone(given) }),
+            };
+            self.document.classes[root].givens.push(given);
         }
         self.added[member] = Some(Added { part, first_given, givens: was.givens });
     }

@@ -78,7 +78,7 @@ pub fn lower(
     let mut best: Option<Lowered> = None;
     for grain in [Grain::Inner, Grain::Outer] {
         let (patched, patches) = crate::restore::restore(&first, &before.effective_parse, grain);
-        let mut mended = lower_text(&patched, load, Some(&first));
+        let mut mended = lower_text(&patched, load, Some(before));
         mended.patches = patches;
         if errors(&mended) < best.as_ref().map_or(errors(&first), errors) {
             best = Some(mended);

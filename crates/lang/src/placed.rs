@@ -19,6 +19,7 @@ use kernel::{
     Part, Path, Primitive, Stay, Step, Strength, Term,
 };
 use std::collections::{BTreeMap, BTreeSet};
+use std::rc::Rc;
 use syntax::ast::{self, AstNode, Expr};
 
 /// How many parts of a master are placed, those of its parts included.
@@ -88,7 +89,7 @@ impl Lowerer<'_> {
             ];
             for (name, value) in given {
                 let path = Path::of(&[name]);
-                self.document.classes[class].givens.push(Given { path, value, origin });
+                self.document.classes[class].givens.push(Rc::new(Given { path, value, origin }));
             }
         }
         for (class, _) in waiting {

@@ -6,6 +6,7 @@
 
 use crate::lower::{Lowered, OWN};
 use base::{Name, Severity, Span};
+use std::collections::BTreeMap;
 use syntax::ast::{AstNode, Member};
 use syntax::edit::{apply, body_of};
 use syntax::{Parse, SyntaxKind, SyntaxNode, TextEdit};
@@ -97,6 +98,7 @@ fn is_inside(body: &SyntaxNode, error: Span) -> bool {
 /// Returns every member of a file or body with its key.
 fn keyed(body: &SyntaxNode) -> Vec<(Key, SyntaxNode)> {
     let mut keyed: Vec<(Key, SyntaxNode)> = Vec::new();
+    let mut counts: BTreeMap<(u16, Vec<Name>), usize> = BTreeMap::new();
     for node in body.children() {
         let Some(member) = Member::cast(node.clone()) else { continue };
         let names = match &member {
@@ -111,8 +113,9 @@ fn keyed(body: &SyntaxNode) -> Vec<(Key, SyntaxNode)> {
             _ => Vec::new(),
         };
         let kind = node.kind() as u16;
-        let alike = keyed.iter().filter(|((k, n, _), _)| *k == kind && *n == names).count();
-        keyed.push(((kind, names, alike), node));
+        let count = counts.entry((kind, names.clone())).or_default();
+        keyed.push(((kind, names, *count), node));
+        *count += 1;
     }
     keyed
 }

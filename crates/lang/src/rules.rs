@@ -12,6 +12,7 @@ use kernel::{
     Primitive, Side, SideWay, Stay, Step, Strength, Term,
 };
 use std::collections::BTreeSet;
+use std::rc::Rc;
 use syntax::ast::{self, AstNode, Expr, Member, MethodItem, Rule, span_without_doc};
 
 /// Where a rule stands.
@@ -151,7 +152,11 @@ impl Lowerer<'_> {
             return;
         }
         let origin = self.origin(scope.file, value.span());
-        self.document.classes[scope.class()].givens.push(Given { path, value: term, origin });
+        self.document.classes[scope.class()].givens.push(Rc::new(Given {
+            path,
+            value: term,
+            origin,
+        }));
     }
 
     /// Gives a reference the path that it follows from the document.
@@ -168,7 +173,7 @@ impl Lowerer<'_> {
         }
         let origin = self.origin(scope.file, target.span());
         let value = from_document(term);
-        self.document.classes[scope.class()].givens.push(Given { path, value, origin });
+        self.document.classes[scope.class()].givens.push(Rc::new(Given { path, value, origin }));
     }
 
     fn is_reference(&self, class: ClassId, path: &Path) -> bool {

@@ -66,13 +66,21 @@ impl Lowerer<'_> {
     /// A part is declared once in a line of classes; a message keeps its parameters.
     fn report_overrides(&mut self) {
         let mut line: (Option<ClassId>, Vec<ClassId>) = (None, Vec::new());
-        for ((class, name), place) in self.named_at.clone() {
+        for index in 0..self.named_at.len() {
+            let Some((&(class, ref name), &place)) = self.named_at.get_index(index) else { break };
             if line.0 != Some(class) {
                 // the members of a class stand together, as a rule
                 line = (Some(class), self.document.primary_line(class));
             }
             let above = &line.1[1..];
-            let stored = above.iter().find(|&&c| self.parts.contains_key(&(c, name.clone())));
+            let says = &self.document.classes;
+            let mut declares = above.iter().filter(|c| !says[**c].parts.is_empty());
+            let stored = declares.find(|&&c| self.parts.contains_key(&(c, name.clone())));
+            let has_messages = !says[class].messages.is_empty();
+            if stored.is_none() && !has_messages {
+                continue;
+            }
+            let name = name.clone();
             if let Some(&above) = stored {
                 let before = self.named_at.get(&(above, name.clone())).copied();
                 let what = &self.document.classes[above].name;
@@ -132,7 +140,12 @@ impl Lowerer<'_> {
 
     /// What the lab asks of every thing has to be of a kind that it can show.
     fn report_general(&mut self) {
-        for ((class, name), place) in self.named_at.clone() {
+        for index in 0..self.named_at.len() {
+            let Some((&(class, ref name), &place)) = self.named_at.get_index(index) else { break };
+            if self.document.classes[class].messages.is_empty() {
+                continue;
+            }
+            let name = name.clone();
             let general = self.defined_message(self.object, &name).is_some();
             if class == self.object || !general || self.defined_message(class, &name).is_none() {
                 continue;

@@ -7,14 +7,77 @@ use crate::rule::Rules;
 use base::{IdVec, Mixer};
 use indexmap::IndexSet;
 use kernel::{SlotId, Structure, ThingId};
+use std::fmt;
 use std::hash::BuildHasherDefault;
 use std::rc::Rc;
 
 /// Rules with the slots that they mention, both in order of declaration.
-#[derive(Clone, PartialEq, Eq, Debug, Default)]
+///
+/// Components that are found together stand together: each is a place among them.
+#[derive(Clone)]
 pub(crate) struct Component {
-    pub(crate) rules: Vec<u32>,
-    pub(crate) slots: Vec<SlotId>,
+    all: Rc<Components>,
+    at: u32,
+}
+
+/// The rules and slots of several components, one after the other.
+#[derive(Default)]
+struct Components {
+    rules: Vec<u32>,
+    slots: Vec<SlotId>,
+    /// Where each component ends: among the rules, and among the slots.
+    ends: Vec<(u32, u32)>,
+}
+
+impl Components {
+    fn end(&mut self) {
+        self.ends.push((self.rules.len() as u32, self.slots.len() as u32));
+    }
+    fn split(mut self) -> Vec<Component> {
+        self.rules.shrink_to_fit();
+        self.slots.shrink_to_fit();
+        let count = self.ends.len() as u32;
+        let all = Rc::new(self);
+        (0..count).map(|at| Component { all: all.clone(), at }).collect()
+    }
+}
+
+impl Component {
+    /// Makes a component that stands alone.
+    pub(crate) fn of(rules: Vec<u32>, slots: Vec<SlotId>) -> Self {
+        let mut all = Components { rules, slots, ends: Vec::new() };
+        all.end();
+        Self { all: Rc::new(all), at: 0 }
+    }
+    fn bounds(&self) -> ((u32, u32), (u32, u32)) {
+        let at = self.at as usize;
+        let start = at.checked_sub(1).map_or((0, 0), |before| self.all.ends[before]);
+        (start, self.all.ends[at])
+    }
+    /// Returns its rules.
+    pub(crate) fn rules(&self) -> &[u32] {
+        let ((start, _), (end, _)) = self.bounds();
+        &self.all.rules[start as usize..end as usize]
+    }
+    /// Returns the slots that they mention.
+    pub(crate) fn slots(&self) -> &[SlotId] {
+        let ((_, start), (_, end)) = self.bounds();
+        &self.all.slots[start as usize..end as usize]
+    }
+}
+
+impl PartialEq for Component {
+    fn eq(&self, other: &Self) -> bool {
+        self.rules() == other.rules() && self.slots() == other.slots()
+    }
+}
+impl Eq for Component {}
+
+impl fmt::Debug for Component {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let (rules, slots) = (self.rules(), self.slots());
+        f.debug_struct("Component").field("rules", &rules).field("slots", &slots).finish()
+    }
 }
 
 /// Which rules mention a slot, and which slots are one place.
@@ -106,11 +169,7 @@ impl Net {
     /// Returns every component of the document, in order of their first slot.
     ///
     /// Cost: linear in what the rules mention.
-    pub(crate) fn all(
-        &self,
-        rules: &Rules,
-        is_fixed: &dyn Fn(SlotId) -> bool,
-    ) -> Vec<Rc<Component>> {
+    pub(crate) fn all(&self, rules: &Rules, is_fixed: &dyn Fn(SlotId) -> bool) -> Vec<Component> {
         let fixed: IdVec<SlotId, bool> = self.places.of.ids().map(is_fixed).collect();
         let mut groups = Groups::new(fixed.len());
         for rule in rules.iter() {
@@ -170,39 +229,59 @@ impl Net {
         rules: &Rules,
         fixed: &IdVec<SlotId, bool>,
         numbers: &Numbers,
-    ) -> Vec<Rc<Component>> {
-        let mut sizes = vec![(0, 0); numbers.count as usize];
+    ) -> Vec<Component> {
         let component = |number: u32| (number != NONE).then_some(number as usize);
-        numbers.of_rule.iter().filter_map(|&n| component(n)).for_each(|n| sizes[n].0 += 1);
-        numbers.of_slot.iter().filter_map(|(_, &n)| component(n)).for_each(|n| sizes[n].1 += 1);
-        let sized = |(rules, slots): (usize, usize)| Component {
-            rules: Vec::with_capacity(rules),
-            slots: Vec::with_capacity(slots),
-        };
-        let mut made: Vec<Component> = sizes.into_iter().map(sized).collect();
         // slots that are fixed may be in several
         let mut known: Vec<(usize, SlotId)> = Vec::new();
         for (slot, &n) in numbers.of_slot.iter() {
             let Some(n) = component(n) else { continue };
-            made[n].slots.push(slot);
             let place = self.place_of(slot).iter().copied();
             known.extend(
                 place.filter(|&s| fixed[s] && !self.rules_of(s).is_empty()).map(|s| (n, s)),
             );
         }
-        for ((index, rule), &n) in (0..).zip(rules.iter()).zip(&numbers.of_rule) {
+        for (rule, &n) in rules.iter().zip(&numbers.of_rule) {
             let Some(n) = component(n) else { continue };
-            made[n].rules.push(index);
             known.extend(rule.slots.iter().filter(|s| fixed[**s]).map(|&s| (n, s)));
         }
         known.sort_unstable();
         known.dedup();
-        for fixed_of_one in known.chunk_by(|a, b| a.0 == b.0) {
-            let slots = &mut made[fixed_of_one[0].0].slots;
-            slots.extend(fixed_of_one.iter().map(|k| k.1));
-            slots.sort_unstable();
+        // counted, then put where there is room for them
+        let mut ends = vec![(0, 0); numbers.count as usize];
+        numbers.of_rule.iter().filter_map(|&n| component(n)).for_each(|n| ends[n].0 += 1);
+        numbers.of_slot.iter().filter_map(|(_, &n)| component(n)).for_each(|n| ends[n].1 += 1);
+        known.iter().for_each(|&(n, _)| ends[n].1 += 1);
+        let (mut rule_at, mut slot_at) = (0, 0);
+        for (rules, slots) in &mut ends {
+            // where the component begins, until it is full
+            let count = (*rules, *slots);
+            (*rules, *slots) = (rule_at, slot_at);
+            (rule_at, slot_at) = (rule_at + count.0, slot_at + count.1);
         }
-        made.into_iter().map(Rc::new).collect()
+        let mut all = Components {
+            rules: vec![0; rule_at as usize],
+            slots: vec![SlotId(0); slot_at as usize],
+            ends,
+        };
+        let put_slot = |all: &mut Components, n: usize, slot: SlotId| {
+            all.slots[all.ends[n].1 as usize] = slot;
+            all.ends[n].1 += 1;
+        };
+        for (slot, &n) in numbers.of_slot.iter() {
+            component(n).into_iter().for_each(|n| put_slot(&mut all, n, slot));
+        }
+        known.iter().for_each(|&(n, slot)| put_slot(&mut all, n, slot));
+        for (index, &n) in (0..).zip(&numbers.of_rule) {
+            let Some(n) = component(n) else { continue };
+            all.rules[all.ends[n].0 as usize] = index;
+            all.ends[n].0 += 1;
+        }
+        for fixed_of_one in known.chunk_by(|a, b| a.0 == b.0) {
+            let n = fixed_of_one[0].0;
+            let start = n.checked_sub(1).map_or(0, |before| all.ends[before].1);
+            all.slots[start as usize..all.ends[n].1 as usize].sort_unstable();
+        }
+        all.split()
     }
 
     /// Returns the components of these slots; those of a fixed slot are the components of its rules.
@@ -215,7 +294,7 @@ impl Net {
         rules: &Rules,
         is_fixed: &dyn Fn(SlotId) -> bool,
         tied: &[Vec<SlotId>],
-    ) -> Vec<Rc<Component>> {
+    ) -> Vec<Component> {
         let [rule_seen, slot_seen] = [(); 2].map(|()| Seen::default());
         Walk { net: self, rules, is_fixed, rule_seen, slot_seen, tied }.around(slots)
     }
@@ -265,17 +344,18 @@ struct Walk<'w> {
     tied: &'w [Vec<SlotId>],
 }
 
-/// A component on the way: what was reached and not yet looked at.
+/// A component on the way, and what was reached and not yet looked at.
 #[derive(Default)]
 struct Found {
-    component: Component,
+    /// Its rules and slots.
+    component: (Vec<u32>, Vec<SlotId>),
     fixed: Vec<SlotId>,
     slots: Vec<SlotId>,
     rules: Vec<u32>,
 }
 
 impl Walk<'_> {
-    fn around(mut self, slots: impl IntoIterator<Item = SlotId>) -> Vec<Rc<Component>> {
+    fn around(mut self, slots: impl IntoIterator<Item = SlotId>) -> Vec<Component> {
         let mut components = Vec::new();
         for slot in slots {
             if !(self.is_fixed)(slot) {
@@ -302,17 +382,17 @@ impl Walk<'_> {
         }
     }
 
-    fn complete(&mut self, mut found: Found) -> Option<Rc<Component>> {
+    fn complete(&mut self, mut found: Found) -> Option<Component> {
         let net = self.net;
         loop {
             while let Some(rule) = found.rules.pop() {
-                found.component.rules.push(rule);
+                found.component.0.push(rule);
                 for &s in self.rules.get(rule).slots {
                     self.reach(s, &mut found);
                 }
             }
             let Some(slot) = found.slots.pop() else { break };
-            found.component.slots.push(slot);
+            found.component.1.push(slot);
             for &rule in net.rules_of(slot) {
                 if self.rule_seen.insert(rule) {
                     found.rules.push(rule);
@@ -329,17 +409,15 @@ impl Walk<'_> {
                 }
             }
         }
-        let Found { mut component, fixed, .. } = found;
-        if component.slots.is_empty() && component.rules.is_empty() {
+        let Found { component: (mut rules, mut slots), fixed, .. } = found;
+        if slots.is_empty() && rules.is_empty() {
             return None;
         }
-        component.slots.extend(fixed);
-        component.slots.sort_unstable();
-        component.slots.dedup();
-        component.rules.sort_unstable();
-        component.slots.shrink_to_fit();
-        component.rules.shrink_to_fit();
-        Some(Rc::new(component))
+        slots.extend(fixed);
+        slots.sort_unstable();
+        slots.dedup();
+        rules.sort_unstable();
+        Some(Component::of(rules, slots))
     }
 }
 
@@ -348,7 +426,7 @@ mod tests {
     use super::*;
     use crate::lower::hold;
     use crate::rule::Source;
-    use kernel::{Primitive, Slot, Strength};
+    use kernel::{Form, Primitive, Slot, Strength};
 
     /// Numbers that depend on nothing but the seed.
     struct Dice(u64);
@@ -361,12 +439,12 @@ mod tests {
     }
 
     fn structure(dice: &mut Dice, slots: u32) -> Structure {
-        let mut structure = Structure::default();
+        let (mut form, mut things) = (Form::default(), IdVec::new());
         for i in 0..slots {
             // some slots are the coordinates of one place, not always side by side
             let place = (dice.below(3) == 0).then(|| ThingId(dice.below(slots)));
             let thing = ThingId(i);
-            structure.things.push(kernel::Thing {
+            things.push(kernel::Thing {
                 class: kernel::ClassId(0),
                 owner: None,
                 field: 0,
@@ -374,9 +452,10 @@ mod tests {
                 parts: 0,
             });
             let (primitive, given, anchored) = (Primitive::Integer, None, dice.below(5) == 0);
-            structure.slots.push(Slot { thing, primitive, given, anchored, place });
+            form.slots.push(Slot { thing, primitive, given, anchored, place });
         }
-        structure
+        form.things = Rc::new(things);
+        Structure { form: Rc::new(form), ..Structure::default() }
     }
 
     #[test]

@@ -55,7 +55,7 @@ impl Planner {
         let open: BTreeSet<Source> = self
             .given_up
             .iter()
-            .flat_map(|(component, _)| &component.rules)
+            .flat_map(|(component, _)| component.rules())
             .map(|&r| self.rules.get(r).source)
             .collect();
         let (undecided, conflicting) =

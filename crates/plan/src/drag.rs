@@ -50,7 +50,7 @@ impl Press {
     /// Returns the slots that the drag depends on and cannot move, in order of their component.
     pub fn held(&self) -> Vec<SlotId> {
         let held = |pull: &Pull| {
-            let slots = pull.task.component.slots.iter().zip(&pull.task.system.slots);
+            let slots = pull.task.component.slots().iter().zip(&pull.task.system.slots);
             let held = slots.filter(|(_, s)| s.stay == Stay::Fixed);
             held.map(|(&slot, _)| slot).collect::<Vec<_>>()
         };
@@ -73,7 +73,7 @@ impl Press {
     fn start(&self, values: &Values) -> Values {
         let mut start = values.clone();
         for pull in &self.pulls {
-            for (&slot, &x) in pull.task.component.slots.iter().zip(&pull.x0) {
+            for (&slot, &x) in pull.task.component.slots().iter().zip(&pull.x0) {
                 start.numbers[slot] = x;
             }
             put_texts(&pull.texts, &mut start);
@@ -150,7 +150,7 @@ impl Planner {
         let start = press.start(values);
         let aim = press.aim;
         self.latest.tasks = press.pulls.into_iter().map(|p| p.task).collect();
-        let components: Vec<Rc<Component>> =
+        let components: Vec<Component> =
             self.latest.tasks.iter().map(|t| t.component.clone()).collect();
         if let Some(failure) = self.settle(model, &components, values, host) {
             *values = start;
@@ -158,7 +158,7 @@ impl Planner {
             return report;
         }
         let rules: BTreeSet<u32> =
-            components.iter().flat_map(|c| c.rules.iter().copied()).collect();
+            components.iter().flat_map(|c| c.rules().iter().copied()).collect();
         report.unmet = self.unmet(model, rules.iter().copied(), values, host);
         let was_unmet = self.unmet(model, rules, &start, host);
         if report.unmet.iter().any(|u| u.is_new(&was_unmet)) {
@@ -179,7 +179,7 @@ impl Planner {
         }
         let inputs: Vec<u32> = task.targets().iter().map(|t| t.0).collect();
         let targets = vec![0.0; inputs.len()];
-        let slots = &task.component.slots;
+        let slots = task.component.slots();
         let text = |slot: SlotId| (slot, values.texts.get(&slot).cloned());
         let (way, texts) = match &task.course {
             Course::Plan => {
@@ -252,7 +252,7 @@ impl Pull {
             put_texts(&texts, values);
         }
         let now = drag.values();
-        let slots = &self.task.component.slots;
+        let slots = self.task.component.slots();
         let put = |local: SlotIndex| {
             if let Some(&slot) = slots.get(local as usize) {
                 values.numbers[slot] = now[local as usize] + 0.0;

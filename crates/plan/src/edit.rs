@@ -15,7 +15,6 @@ use base::number::Toward;
 use kernel::{SlotId, Term, ThingId, Value, Values};
 use solve::Level;
 use std::collections::BTreeSet;
-use std::rc::Rc;
 
 /// What an edit is about.
 #[derive(Clone, Copy, Debug)]
@@ -150,10 +149,13 @@ impl Planner {
         self.given_up.clear();
         let mut is_known = vec![false; self.rules.len()];
         let mut came = Vec::with_capacity(tasks.len());
+        let mut local = Vec::new();
         for task in &mut tasks {
-            let known = self.came_before(model, task, &before, values, &mut report, host);
+            let known = self
+                .recalled(task, &before, values, &mut local)
+                .or_else(|| self.came_now(model, task, &before, values, &mut report, host));
             if known.is_some() {
-                task.component.rules.iter().for_each(|&r| is_known[r as usize] = true);
+                task.component.rules().iter().for_each(|&r| is_known[r as usize] = true);
             }
             came.push(known);
         }
@@ -165,9 +167,25 @@ impl Planner {
         report
     }
 
-    /// Runs a task of an opening, unless it is known what comes of it. Returns where that is kept, if
-    /// nothing is to be told of it but its values: all its rules hold.
-    fn came_before(
+    /// Puts into the slots of a task of an opening what came of it before, if that is known, and returns
+    /// where it is kept. What `local` holds is overwritten.
+    fn recalled(
+        &mut self,
+        task: &Task,
+        before: &Values,
+        values: &mut Values,
+        local: &mut Vec<f64>,
+    ) -> Option<CameId> {
+        let plan = task.number()?;
+        task.gather_into(&before.numbers, local);
+        let came = self.plans.past.recall(plan, &task.system.slots, local)?;
+        scatter(task, local, values);
+        Some(came)
+    }
+
+    /// Runs a task of an opening. Returns where is kept what came of it, if nothing is to be told of it
+    /// but its values: all its rules hold.
+    fn came_now(
         &mut self,
         model: Model<'_>,
         task: &mut Task,
@@ -176,22 +194,15 @@ impl Planner {
         report: &mut EditReport,
         host: &mut dyn Host,
     ) -> Option<CameId> {
-        let slots = &task.system.clone().slots;
-        let began = task.number().map(|plan| (plan, task.gather(&before.numbers)));
-        if let Some((plan, began)) = &began {
-            let mut local = began.clone();
-            if let Some(id) = self.plans.past.recall(*plan, slots, &mut local) {
-                scatter(task, &local, values);
-                return Some(id);
-            }
-        }
         let ran = run(self, model, task, &Aim::default(), before, values, host);
         let is_plain = ran.is_solved && ran.is_met && ran.double_roots.is_empty();
         if let Some(bound) = ran.not_decided {
             self.given_up.push((task.component.clone(), bound));
         }
+        let slots = &task.system.clone().slots;
         note(report, task, ran);
-        let (plan, began) = began.filter(|_| is_plain)?;
+        let plan = task.number().filter(|_| is_plain)?;
+        let began = task.gather(&before.numbers);
         let mut local = began.clone();
         local.iter_mut().zip(task.numbers(&values.numbers)).for_each(|(x, now)| *x = now);
         Some(self.plans.past.keep(plan, slots, &began, &local))
@@ -253,7 +264,7 @@ impl Planner {
             note(&mut report, task, ran);
         }
         let rules: BTreeSet<u32> =
-            tasks.iter().flat_map(|t| t.component.rules.iter().copied()).collect();
+            tasks.iter().flat_map(|t| t.component.rules().iter().copied()).collect();
         self.latest = Latest { tasks, edited: Some(aim.slots()) };
         report.unmet = self.unmet(model, rules.iter().copied(), &scratch, host);
         let all_rules = rules.clone();
@@ -312,14 +323,14 @@ impl Planner {
     pub(crate) fn settle(
         &mut self,
         model: Model<'_>,
-        components: &[Rc<Component>],
+        components: &[Component],
         values: &mut Values,
         host: &mut dyn Host,
     ) -> Option<Failure> {
         let is_soft = |&&r: &&u32| self.rules.get(r).shape.level != Level::Required;
         let soft: Vec<SlotId> = components
             .iter()
-            .flat_map(|c| c.rules.iter().filter(is_soft))
+            .flat_map(|c| c.rules().iter().filter(is_soft))
             .flat_map(|&r| self.rules.get(r).slots.iter().copied())
             .collect();
         if soft.is_empty() {
@@ -358,7 +369,7 @@ fn run_or_stay(
 ) -> Ran {
     let ran = run(planner, model, task, aim, start, values, host);
     if !ran.is_solved {
-        for &slot in &task.component.slots {
+        for &slot in task.component.slots() {
             values.put(slot, start.get(slot));
         }
     }

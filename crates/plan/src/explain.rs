@@ -150,7 +150,7 @@ impl Planner {
         for task in self.resting() {
             let Course::Search(puzzle) = &task.course else {
                 let whole = task.whole().and_then(|whole| whole.slots().next());
-                let slot = whole.map(|local| task.component.slots[local as usize]);
+                let slot = whole.map(|local| task.component.slots()[local as usize]);
                 among_reals = among_reals.or(slot);
                 continue;
             };
@@ -222,7 +222,7 @@ impl Planner {
         }
         steps.reverse();
         for local in wanted {
-            if let Some(&slot) = task.component.slots.get(local as usize) {
+            if let Some(&slot) = task.component.slots().get(local as usize) {
                 roots.push(self.root(model, slot));
             }
         }
@@ -320,7 +320,7 @@ impl Planner {
             Course::Search(_) => !is_fixed(i),
             Course::Plan | Course::Modes(..) => looked_for.contains(&(i as u32)),
         };
-        let slots = task.component.slots.iter().enumerate();
+        let slots = task.component.slots().iter().enumerate();
         let slots = slots.filter(|(i, _)| is_target(*i) || is_fixed(*i));
         let (targets, reads): (Vec<_>, Vec<_>) = slots.partition(|(i, _)| is_target(*i));
         let of = |all: Vec<(usize, &SlotId)>| all.into_iter().map(|(_, &s)| s).collect();
@@ -334,7 +334,7 @@ impl Planner {
 
     fn in_words(&self, task: &Task, step: &Step) -> ExplainedStep {
         let known = |slots: &[u32]| -> Vec<SlotId> {
-            slots.iter().filter_map(|&i| task.component.slots.get(i as usize).copied()).collect()
+            slots.iter().filter_map(|&i| task.component.slots().get(i as usize).copied()).collect()
         };
         let mut sources: Vec<Source> = Vec::new();
         for &relation in &step.relations {
@@ -404,7 +404,7 @@ fn kind(system: &System, step: &Step) -> ExplainedKind {
 }
 
 fn local(task: &Task, slot: SlotId) -> Option<u32> {
-    task.component.slots.binary_search(&slot).ok().map(|i| i as u32)
+    task.component.slots().binary_search(&slot).ok().map(|i| i as u32)
 }
 
 fn producer(task: &Task, slot: u32) -> Option<&Step> {

@@ -90,7 +90,7 @@ impl Planner {
             };
             let is_fixed = |slot| holding(slot) == Holding::Fixed;
             let mut components = self.net.around(own.iter().copied(), &self.rules, &is_fixed, &[]);
-            components.retain(|c| c.slots.len() <= LARGEST);
+            components.retain(|c| c.slots().len() <= LARGEST);
             for task in self.tasks(structure, components, &holding, &[]) {
                 self.ghosts_of(model, &task, values, host, &mut found);
             }
@@ -136,7 +136,7 @@ impl Planner {
         let mut adapter = Adapter { planner: self, model, task, values: &mut trial, host };
         for other in solve::others(plan, &x0, MOST, &mut adapter) {
             let reads = plan.steps[other.step as usize].reads.iter();
-            let reads = reads.filter_map(|&r| task.component.slots.get(r as usize).copied());
+            let reads = reads.filter_map(|&r| task.component.slots().get(r as usize).copied());
             let kind = GhostKind::Root { reads: reads.collect() };
             self.add(model, task, &other.values, kind, values, host, found);
         }
@@ -180,7 +180,7 @@ impl Planner {
     ) {
         let mut state = values.clone();
         scatter(task, local, &mut state);
-        let slots = &task.component.slots;
+        let slots = task.component.slots();
         let is_near = |other: &Values| {
             slots.iter().all(|&s| {
                 let (a, b) = (state.numbers[s], other.numbers[s]);
@@ -190,7 +190,7 @@ impl Planner {
         if found.len() == MOST || is_near(values) || found.iter().any(|g| is_near(&g.values)) {
             return;
         }
-        let rules = || task.component.rules.iter().copied();
+        let rules = || task.component.rules().iter().copied();
         let was_unmet = self.unmet(model, rules(), values, host);
         let unmet = self.unmet(model, rules(), &state, host);
         if unmet.iter().all(|u: &Unmet| !u.is_new(&was_unmet)) {

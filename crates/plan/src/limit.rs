@@ -32,7 +32,7 @@ impl Planner {
         host: &mut dyn Host,
     ) -> Option<f64> {
         let is_real = |&s: &_| matches!(model.structure.slots[s].primitive, Primitive::Real(_));
-        let size: usize = tasks.iter().map(|t| t.component.slots.len()).sum();
+        let size: usize = tasks.iter().map(|t| t.component.slots().len()).sum();
         if size > LARGEST || !aim.fixed.keys().all(is_real) {
             return None;
         }
@@ -45,7 +45,7 @@ impl Planner {
             for task in tasks {
                 run(self, model, task, &at, values, &mut trial, host);
             }
-            let rules = tasks.iter().flat_map(|t| t.component.rules.iter().copied());
+            let rules = tasks.iter().flat_map(|t| t.component.rules().iter().copied());
             let unmet = self.unmet(model, rules, &trial, host);
             unmet.iter().all(|u| !u.is_new(was_unmet)) && self.reached(&at, &trial)
         };

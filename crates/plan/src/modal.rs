@@ -100,10 +100,10 @@ impl Task {
     /// Returns the whole numbers that were looked for and are others than before.
     fn stepped(&self, planner: &Planner, before: &Values, after: &Values) -> Vec<ModeChange> {
         let step = |local: SlotIndex| {
-            let slot = self.component.slots[local as usize];
+            let slot = self.component.slots()[local as usize];
             let value = after.numbers[slot];
             let speaks = |r: &&u32| planner.rules.get(**r).slots.contains(&slot);
-            let rule = self.component.rules.iter().find(speaks)?;
+            let rule = self.component.rules().iter().find(speaks)?;
             let source = planner.rules.source(*rule);
             let acting = Acting { source, kind: ActingKind::Whole { slot, value } };
             (value != before.numbers[slot]).then_some(ModeChange { acting, begins: true })

@@ -11,7 +11,7 @@ use crate::recent::Recent;
 use crate::rule::{Rules, Source};
 use crate::task::{Alike, Holding, Locals, Setting, Task, Wish, task};
 use crate::template::lower_all;
-use kernel::{Document, SlotId, Structure, Values};
+use kernel::{Document, Form, SlotId, Structure, Values};
 use solve::{Level, Scratch};
 use std::collections::BTreeSet;
 use std::rc::Rc;
@@ -25,15 +25,17 @@ pub struct Model<'a> {
     pub structure: &'a Structure,
 }
 
-/// Rules, components and plans of one structure. Made anew when the structure changes.
+/// Rules, components and plans of one form. Made anew when the form changes.
 #[derive(Debug)]
 pub struct Planner {
-    pub(crate) rules: Rules,
-    pub(crate) net: Net,
+    form: Rc<Form>,
+    faults: Rc<[Fault]>,
+    pub(crate) rules: Rc<Rules>,
+    pub(crate) net: Rc<Net>,
     pub(crate) plans: Plans,
     pub(crate) alike: Alike,
     /// Every component with nothing edited; found when first asked for.
-    whole: Option<Vec<Rc<Component>>>,
+    whole: Option<Vec<Component>>,
     pub(crate) recent: Recent,
     /// The tasks of the latest edit, and what it changed.
     pub(crate) latest: Latest,
@@ -42,7 +44,20 @@ pub struct Planner {
     /// For every component, what opening the document came to, if that is remembered.
     pub(crate) came: Vec<Option<CameId>>,
     /// The components for which opening found no solution before a search was given up.
-    pub(crate) given_up: Vec<(Rc<Component>, NotDecided)>,
+    pub(crate) given_up: Vec<(Component, NotDecided)>,
+}
+
+/// What was found of a form, for the next planner of the same.
+#[derive(Debug)]
+pub(crate) struct Kept {
+    form: Rc<Form>,
+    faults: Rc<[Fault]>,
+    rules: Rc<Rules>,
+    net: Rc<Net>,
+    alike: Alike,
+    whole: Option<Vec<Component>>,
+    recent: Recent,
+    resting: Option<Vec<Task>>,
 }
 
 /// What the latest edit planned: what an explanation is about.
@@ -57,19 +72,37 @@ impl Planner {
     /// Lowers every constraint and declared stay. What cannot be planned is left out and reported.
     ///
     /// `plans` are those that an earlier planner made; the default is none. Cost: linear in what
-    /// the rules open into.
+    /// the rules open into; nothing where the earlier planner was of the same form.
     pub fn new(model: Model<'_>, mut plans: Plans) -> (Self, Vec<Fault>) {
-        let (rules, faults) = lower_all(model, plans.patterns_mut());
-        let net = Net::new(model.structure, &rules);
+        let form = &model.structure.form;
+        let kept = plans.kept.take().map(|kept| *kept).filter(|kept| Rc::ptr_eq(&kept.form, form));
+        let kept = kept.unwrap_or_else(|| {
+            let (rules, faults) = lower_all(model, plans.patterns_mut());
+            let net = Net::new(model.structure, &rules);
+            Kept {
+                form: form.clone(),
+                faults: faults.into(),
+                rules: Rc::new(rules),
+                net: Rc::new(net),
+                alike: Alike::default(),
+                whole: None,
+                recent: Recent::default(),
+                resting: None,
+            }
+        });
+        let faults = kept.faults.to_vec();
+        let Kept { form, faults: told, rules, net, alike, whole, recent, resting } = kept;
         let planner = Self {
+            form,
+            faults: told,
             rules,
             net,
             plans,
-            alike: Alike::default(),
-            whole: None,
-            recent: Recent::default(),
+            alike,
+            whole,
+            recent,
             latest: Latest::default(),
-            resting: None,
+            resting,
             came: Vec::new(),
             given_up: Vec::new(),
         };
@@ -77,15 +110,30 @@ impl Planner {
     }
 
     /// Returns the plans made so far, to be handed to the next planner.
-    pub fn into_plans(self) -> Plans {
-        self.plans
+    pub fn into_plans(mut self) -> Plans {
+        self.take_plans()
     }
     /// Takes the plans made so far out, to be handed to the next planner.
     pub fn take_plans(&mut self) -> Plans {
-        std::mem::take(&mut self.plans)
+        let mut plans = std::mem::take(&mut self.plans);
+        plans.kept = Some(Box::new(Kept {
+            form: self.form.clone(),
+            faults: self.faults.clone(),
+            rules: self.rules.clone(),
+            net: self.net.clone(),
+            alike: std::mem::take(&mut self.alike),
+            whole: self.whole.take(),
+            recent: std::mem::take(&mut self.recent),
+            resting: self.resting.take(),
+        }));
+        plans
     }
     /// Gives plans back that another planner was tried with.
-    pub fn give_plans(&mut self, plans: Plans) {
+    pub fn give_plans(&mut self, mut plans: Plans) {
+        if let Some(kept) = plans.kept.take().filter(|kept| Rc::ptr_eq(&kept.form, &self.form)) {
+            (self.alike, self.whole) = (kept.alike, kept.whole);
+            (self.recent, self.resting) = (kept.recent, kept.resting);
+        }
         self.plans = plans;
     }
     /// Takes out what the latest edit planned.
@@ -118,7 +166,7 @@ impl Planner {
     pub(crate) fn tasks(
         &mut self,
         structure: &Structure,
-        components: Vec<Rc<Component>>,
+        components: Vec<Component>,
         holding: &dyn Fn(SlotId) -> Holding,
         wishes: &[Wish],
     ) -> Vec<Task> {
@@ -139,7 +187,7 @@ impl Planner {
     }
 
     /// Returns every component, where what is anchored is fixed; found once.
-    pub(crate) fn whole(&mut self, structure: &Structure) -> Vec<Rc<Component>> {
+    pub(crate) fn whole(&mut self, structure: &Structure) -> Vec<Component> {
         let is_fixed = |s: SlotId| structure.slots[s].anchored;
         let whole = &mut self.whole;
         whole.get_or_insert_with(|| self.net.all(&self.rules, &is_fixed)).clone()

@@ -1,6 +1,7 @@
 //! Plans by shape: what is planned once serves every component of the same shape.
 
 use crate::past::Past;
+use crate::planner::Kept;
 use crate::whole::Whole;
 use base::Mixer;
 use indexmap::IndexMap;
@@ -23,6 +24,8 @@ pub struct Plans {
     reused: usize,
     /// What plans came to.
     pub(crate) past: Past,
+    /// What the planner that made them found of its form.
+    pub(crate) kept: Option<Box<Kept>>,
 }
 
 impl Plans {

@@ -135,7 +135,7 @@ pub(crate) fn ground(
         local[known as usize] = aim.wanted[wish as usize][coordinate as usize];
         changed.push(known);
     }
-    for (i, &slot) in (0..).zip(&task.component.slots) {
+    for (i, &slot) in (0..).zip(task.component.slots()) {
         if !start.get(slot).same_bits(&values.get(slot)) {
             changed.push(i);
         }
@@ -149,7 +149,7 @@ pub(crate) fn leans(model: Model<'_>, task: &Task) -> Vec<Lean> {
     if sides.is_empty() {
         return Vec::new();
     }
-    let slots = (0..).zip(&task.component.slots);
+    let slots = (0..).zip(task.component.slots());
     let lean =
         |(slot, id): (SlotIndex, &SlotId)| sides.get(id).map(|&toward| Lean { slot, toward });
     slots.filter_map(lean).collect()
@@ -171,7 +171,7 @@ impl Planner {
             let [x0, now] =
                 [before, after].map(|values| ground(self, task, aim, values, values).x0);
             let slot = |lean: Lean| {
-                let slot = task.component.slots.get(lean.slot as usize)?;
+                let slot = task.component.slots().get(lean.slot as usize)?;
                 Some((*slot, lean.toward))
             };
             let leaning = solve::leaning(&task.plan, &x0, &leans(model, task), &now);
@@ -194,7 +194,7 @@ pub(crate) fn searched(verdict: &Verdict) -> Ran {
 
 /// Puts the numbers of a task's slots into the document's.
 pub(crate) fn scatter(task: &Task, local: &[f64], values: &mut Values) {
-    for (&slot, &x) in task.component.slots.iter().zip(local) {
+    for (&slot, &x) in task.component.slots().iter().zip(local) {
         values.numbers[slot] = x + 0.0;
     }
 }
@@ -222,7 +222,7 @@ pub(crate) fn ran(planner: &Planner, task: &Task, outcome: &Outcome) -> Ran {
         Status::Solved | Status::Stopped(_) => None,
     };
     let double_roots = outcome.notes.iter().filter_map(|n| match n {
-        solve::Note::DoubleRoot { slot } => task.component.slots.get(*slot as usize).copied(),
+        solve::Note::DoubleRoot { slot } => task.component.slots().get(*slot as usize).copied(),
     });
     let is_solved = outcome.is_solved();
     let is_conflict = outcome.status == Status::Stopped(Reason::Conflict);

@@ -49,7 +49,7 @@ impl Planner {
             (0..).zip(&tasks).map(|(i, task)| self.is_quiet(i, task, values)).collect();
         let mut tells = vec![true; self.rules.len()];
         for (task, _) in tasks.iter().zip(&is_quiet).filter(|(_, is_quiet)| **is_quiet) {
-            task.component.rules.iter().for_each(|&r| tells[r as usize] = false);
+            task.component.rules().iter().for_each(|&r| tells[r as usize] = false);
         }
         let rules = (0..self.rules.len() as u32).filter(|&r| tells[r as usize]);
         let unmet = self.unmet(model, rules, values, host);

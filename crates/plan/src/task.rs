@@ -62,7 +62,7 @@ pub(crate) struct Task {
     pub(crate) plan: Rc<Plan>,
     pub(crate) course: Course,
     /// The rules and slots of the document that it is about. Its slots are the system's first.
-    pub(crate) component: Rc<Component>,
+    pub(crate) component: Component,
     /// What the system's slots and relations are in a component, whichever it is.
     stated: Rc<Stated>,
 }
@@ -102,6 +102,8 @@ struct Stated {
 pub(crate) struct Alike {
     known: IndexMap<Box<[u32]>, Known, BuildHasherDefault<Mixer>>,
     signature: Vec<u32>,
+    /// What is stored in slots, each kind once.
+    kinds: Vec<Primitive>,
 }
 
 /// A system, its plan, and how it speaks of a component.
@@ -132,9 +134,9 @@ pub(crate) fn task(
     alike: &mut Alike,
     setting: &Setting<'_>,
     locals: &mut Locals,
-    component: Rc<Component>,
+    component: Component,
 ) -> Task {
-    for (&slot, local) in component.slots.iter().zip(0..) {
+    for (&slot, local) in component.slots().iter().zip(0..) {
         locals.0[slot] = local;
     }
     let remembered = setting.wishes.is_empty();
@@ -163,7 +165,7 @@ fn state(
 ) -> (Rc<System>, Rc<Plan>, Course, Stated) {
     let same = plans.patterns_mut().same();
     let mut making = Making::new(setting, same, locals, component);
-    for (position, &rule) in (0..).zip(&component.rules) {
+    for (position, &rule) in (0..).zip(component.rules()) {
         making.rule(position, rule);
     }
     for (index, wish) in (0..).zip(setting.wishes) {
@@ -239,22 +241,26 @@ impl Alike {
     /// Notes all that a component's system depends on: what holds each slot, what it is and may be,
     /// with whom it is one place; what each rule says, and of which of the slots.
     fn sign(&mut self, setting: &Setting<'_>, locals: &Locals, component: &Component) {
-        let signature = &mut self.signature;
+        let Self { signature, kinds, .. } = self;
         signature.clear();
-        signature.push(component.slots.len() as u32);
-        for &slot in &component.slots {
-            let is_ranged = setting.structure.ranges.contains_key(&slot);
-            signature.push((setting.holding)(slot) as u32 | u32::from(is_ranged) << 8);
-            signature.extend(kind_of(setting.structure.slots[slot].primitive));
-            if let Some((least, most)) = setting.structure.ranges.get(&slot) {
+        signature.push(component.slots().len() as u32);
+        for &slot in component.slots() {
+            let range = setting.structure.ranges.get(&slot);
+            let here = |&&s: &&SlotId| component.slots().get(locals.0[s] as usize) == Some(&s);
+            let place = setting.net.place_of(slot).iter().find(here);
+            let primitive = setting.structure.slots[slot].primitive;
+            let kind = kinds.iter().position(|&k| k == primitive).unwrap_or_else(|| {
+                kinds.push(primitive);
+                kinds.len() - 1
+            }) as u32;
+            let has = u32::from(range.is_some()) | u32::from(place.is_some()) << 1;
+            signature.push((setting.holding)(slot) as u32 | has << 8 | kind << 16);
+            if let Some((least, most)) = range {
                 signature.extend(halves(*least).into_iter().chain(halves(*most)));
             }
-            let place = setting.net.place_of(slot).iter();
-            let here = |&&s: &&SlotId| component.slots.get(locals.0[s] as usize) == Some(&s);
-            let first = place.copied().find(|s| here(&s));
-            signature.push(first.map_or(u32::MAX, |s| locals.0[s]));
+            signature.extend(place.map(|&s| locals.0[s]));
         }
-        for &rule in &component.rules {
+        for &rule in component.rules() {
             signature.push(setting.rules.shape(rule).0);
             let slots = setting.rules.get(rule).slots;
             signature.extend(slots.iter().map(|&s| locals.0[s]));
@@ -265,20 +271,6 @@ impl Alike {
 /// Returns a whole number in two halves.
 fn halves(x: i64) -> [u32; 2] {
     [x as u32, (x >> 32) as u32]
-}
-
-/// Returns what is stored in a slot as three numbers.
-fn kind_of(primitive: Primitive) -> [u32; 3] {
-    match primitive {
-        Primitive::Real(Dimension([a, b, c, d, e, f, g])) => {
-            let bytes = |bytes: [i8; 4]| u32::from_le_bytes(bytes.map(|x| x as u8));
-            [0, bytes([a, b, c, d]), bytes([e, f, g, 0])]
-        }
-        Primitive::Integer => [1, 0, 0],
-        Primitive::Bool => [2, 0, 0],
-        Primitive::Text => [3, 0, 0],
-        Primitive::Color => [4, 0, 0],
-    }
 }
 
 /// Where the slots of the document stand in the component at hand; what is left of another component
@@ -314,8 +306,8 @@ impl<'s> Making<'s> {
         let mut dimensions: Vec<Dimension> = Vec::new();
         let mut groups = 0;
         let mut system = System::default();
-        system.slots.reserve(component.slots.len());
-        for &slot in &component.slots {
+        system.slots.reserve(component.slots().len());
+        for &slot in component.slots() {
             let s = &setting.structure.slots[slot];
             let stay = match (setting.holding)(slot) {
                 Holding::Fixed => Stay::Fixed,
@@ -330,7 +322,7 @@ impl<'s> Making<'s> {
                         .take_while(|&&s| s < slot)
                         .find(|&&s| {
                             (setting.holding)(s) == Holding::Kept
-                                && component.slots.get(locals.0[s] as usize) == Some(&s)
+                                && component.slots().get(locals.0[s] as usize) == Some(&s)
                         })
                         .map(|&s| system.slots[locals.0[s] as usize].stay);
                     first.unwrap_or_else(|| {
@@ -489,7 +481,7 @@ impl<'s> Making<'s> {
         if all.is_empty() {
             return;
         }
-        for (&slot, local) in self.component.slots.iter().zip(0..) {
+        for (&slot, local) in self.component.slots().iter().zip(0..) {
             if let Some(&(low, high)) = all.get(&slot) {
                 self.conditional.ranges.push(SlotRange { slot: local, low, high });
             }
@@ -499,7 +491,7 @@ impl<'s> Making<'s> {
     /// Returns where a slot stands in the component, if it does.
     fn find(&self, slot: SlotId) -> Option<SlotIndex> {
         let local = self.locals.0[slot];
-        (self.component.slots.get(local as usize) == Some(&slot)).then_some(local)
+        (self.component.slots().get(local as usize) == Some(&slot)).then_some(local)
     }
 
     /// Adds a wish if it speaks of this component.
@@ -540,13 +532,13 @@ impl Task {
     /// Returns what a source of the system is.
     pub(crate) fn origin(&self, source: u32) -> Origin {
         match self.stated.relations[source as usize] {
-            Origin::Rule(position) => Origin::Rule(self.component.rules[position as usize]),
+            Origin::Rule(position) => Origin::Rule(self.component.rules()[position as usize]),
             Origin::Wish(wish) => Origin::Wish(wish),
         }
     }
     /// Returns the slots of the system that hold what a slot of the document had when the edit began.
     pub(crate) fn holds(&self) -> impl Iterator<Item = (SlotIndex, SlotId)> {
-        let slots = &self.component.slots;
+        let slots = self.component.slots();
         self.stated.holds.iter().map(|&(known, local)| (known, slots[local as usize]))
     }
     /// Returns the slots of the system that hold coordinates of wishes: wish and coordinate.
@@ -571,13 +563,13 @@ impl Task {
     /// Returns the slots that can move, of a task at rest: those that keep their own value, and those
     /// that follow them.
     pub(crate) fn movable(&self) -> impl Iterator<Item = SlotId> {
-        let find = || movable(&self.system, &self.plan, self.component.slots.len());
+        let find = || movable(&self.system, &self.plan, self.component.slots().len());
         let found = match self.course {
             Course::Plan => Cow::Borrowed(self.stated.movable.get_or_init(find).as_slice()),
             // the mode at hand, which need not be the one that was stated
             Course::Modes(..) | Course::Search(_) => Cow::Owned(find()),
         };
-        (0..found.len()).map(move |i| self.component.slots[found[i] as usize])
+        (0..found.len()).map(move |i| self.component.slots()[found[i] as usize])
     }
     /// Returns the rows that may depend on others at some state, of a task at rest: rule of the
     /// component and equation. `find` finds them.
@@ -590,17 +582,21 @@ impl Task {
     }
     /// Reads the numbers of the component's slots.
     pub(crate) fn numbers(&self, numbers: &IdVec<SlotId, f64>) -> impl Iterator<Item = f64> {
-        self.component.slots.iter().map(|&s| numbers[s])
+        self.component.slots().iter().map(|&s| numbers[s])
     }
     /// Reads the numbers of the document into the system's slots; targets are left at zero.
     pub(crate) fn gather(&self, numbers: &IdVec<SlotId, f64>) -> Vec<f64> {
-        let mut local = vec![0.0; self.system.slots.len()];
-        for (x, &slot) in local.iter_mut().zip(&self.component.slots) {
-            *x = numbers[slot];
-        }
+        let mut local = Vec::new();
+        self.gather_into(numbers, &mut local);
+        local
+    }
+    /// Does the same into a vector that is there already.
+    pub(crate) fn gather_into(&self, numbers: &IdVec<SlotId, f64>, local: &mut Vec<f64>) {
+        local.clear();
+        local.extend(self.numbers(numbers));
+        local.resize(self.system.slots.len(), 0.0);
         for (known, slot) in self.holds() {
             local[known as usize] = numbers[slot];
         }
-        local
     }
 }

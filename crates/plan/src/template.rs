@@ -10,6 +10,7 @@ use crate::lower::{guard, held, hold, lower_constraint};
 use crate::planner::Model;
 use crate::reach::Route;
 use crate::rule::{Position, Rules, ShapeId, Source};
+use base::IdVec;
 use kernel::{ClassId, SlotId, Strength};
 use solve::Patterns;
 use std::collections::BTreeMap;
@@ -31,9 +32,11 @@ pub(crate) fn lower_all(model: Model<'_>, patterns: &mut Patterns) -> (Rules, Ve
     let mut faults = Vec::new();
     let mut guarded = Vec::new();
     let mut opening = Opening::new(model.document, structure);
-    let mut templates: BTreeMap<(ClassId, u32), Vec<Template>> = BTreeMap::new();
+    // by class, and by the constraint's index there
+    let mut templates: IdVec<ClassId, Vec<Vec<Template>>> =
+        model.document.classes.ids().map(|_| Vec::new()).collect();
     let (mut things, mut slots) = (Vec::new(), Vec::new());
-    for (index, &instance) in (0..).zip(&structure.constraints) {
+    for (index, &instance) in (0..).zip(structure.constraints.iter()) {
         if !structure.is_on(instance) {
             continue;
         }
@@ -41,7 +44,11 @@ pub(crate) fn lower_all(model: Model<'_>, patterns: &mut Patterns) -> (Rules, Ve
         // what is set of one constraint alone says nothing of others
         let is_set = structure.conditions.contains_key(&instance)
             || structure.strengths.contains_key(&instance);
-        let known = templates.entry((instance.class, instance.index)).or_default();
+        let (class, at) = (&mut templates[instance.class], instance.index as usize);
+        if class.len() <= at {
+            class.resize_with(at + 1, Vec::new);
+        }
+        let known = &mut class[at];
         let alike = known
             .iter()
             .filter(|_| !is_set)

@@ -41,7 +41,7 @@ impl Whole {
     pub(crate) fn is_whole(&self, task: &Task, values: &Values) -> bool {
         let conditional = self.modes.conditional();
         let value = |slot: SlotIndex| {
-            task.component.slots.get(slot as usize).map_or(0.0, |&s| values.numbers[s])
+            task.component.slots().get(slot as usize).map_or(0.0, |&s| values.numbers[s])
         };
         let mut ranges = conditional.ranges.iter();
         self.slots().all(|s| value(s).fract() == 0.0)

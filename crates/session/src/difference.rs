@@ -12,17 +12,13 @@ const MOST_LINES: usize = 200;
 
 /// Returns the changed stretches of a text, in order; nothing if equal.
 pub(crate) fn difference(before: &str, after: &str) -> Vec<TextChange> {
-    let (a, b): (Vec<&str>, Vec<&str>) =
-        (before.split_inclusive('\n').collect(), after.split_inclusive('\n').collect());
-    let most = a.len().min(b.len());
-    let head = a.iter().zip(&b).take_while(|(x, y)| x == y).count();
-    let tail = a.iter().rev().zip(b.iter().rev()).take(most - head);
-    let tail = tail.take_while(|(x, y)| x == y).count();
-    let (middle_a, middle_b) = (&a[head..a.len() - tail], &b[head..b.len() - tail]);
-    let mut kept = common_lines(middle_a, middle_b);
+    let (head, tail) = common_ends(before, after);
+    let [middle_a, middle_b]: [Vec<&str>; 2] =
+        [before, after].map(|text| text[head..text.len() - tail].split_inclusive('\n').collect());
+    let mut kept = common_lines(&middle_a, &middle_b);
     kept.push((middle_a.len(), middle_b.len()));
     let mut changes = Vec::new();
-    let mut start: usize = a[..head].iter().map(|line| line.len()).sum();
+    let mut start = head;
     let (mut i, mut j) = (0, 0);
     for (next_i, next_j) in kept {
         let (old, new) = (&middle_a[i..next_i], &middle_b[j..next_j]);
@@ -40,6 +36,25 @@ pub(crate) fn difference(before: &str, after: &str) -> Vec<TextChange> {
         (i, j) = (next_i + 1, next_j + 1);
     }
     changes
+}
+
+/// Returns how many bytes two texts have in common in whole lines, at the beginning and at the end.
+fn common_ends(a: &str, b: &str) -> (usize, usize) {
+    let most = a.len().min(b.len());
+    let same = a.bytes().zip(b.bytes()).take_while(|(x, y)| x == y).count();
+    let line = |bytes: &[u8]| bytes.iter().rposition(|&b| b == b'\n').map_or(0, |i| i + 1);
+    let head = if a == b { same } else { line(&a.as_bytes()[..same]) };
+    let tail = a.bytes().rev().zip(b.bytes().rev()).take(most - head);
+    let tail = tail.take_while(|(x, y)| x == y).count();
+    let begins_line = |text: &str| {
+        let at = text.len() - tail;
+        at == head || text.as_bytes()[at - 1] == b'\n'
+    };
+    if begins_line(a) && begins_line(b) {
+        return (head, tail);
+    }
+    let ends = &a.as_bytes()[a.len() - tail..];
+    (head, ends.iter().position(|&b| b == b'\n').map_or(0, |i| tail - i - 1))
 }
 
 /// Returns what differs between two pieces of text, the first of which begins at `start`.

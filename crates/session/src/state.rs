@@ -44,7 +44,11 @@ impl State {
     ) -> (Self, Planner) {
         let load = |name: &str| host.read(name);
         let lowered = lang::lower(&text, &load, before.map(|b| &b.lowered));
-        let (structure, mut faults) = kernel::instantiate(&lowered.document);
+        let known = before.map(|b| (&b.lowered.document, &b.structure));
+        let (structure, mut faults) = match known {
+            Some(before) => kernel::instantiate_again(&lowered.document, before),
+            None => kernel::instantiate(&lowered.document),
+        };
         let idle = lowered.own_classes().filter(|&c| structure.layout(c).is_none());
         for fault in kernel::faults_of(&lowered.document, idle) {
             if !faults.contains(&fault) {
@@ -92,7 +96,7 @@ impl State {
             return status;
         }
         let evaluator = self.evaluator(&self.values);
-        for (index, &instance) in (0..).zip(&self.structure.constraints) {
+        for (index, &instance) in (0..).zip(self.structure.constraints.iter()) {
             let class = &self.lowered.document.classes[instance.class];
             let constraint = &class.constraints[instance.index as usize];
             let required = self.structure.strength(&self.lowered.document, instance)

@@ -6,7 +6,7 @@ use crate::kind::{self, SyntaxElement, SyntaxKind, SyntaxNode, SyntaxToken};
 use crate::lexer::lex;
 use crate::parser::Parser;
 use base::{Diagnostic, FileId, Span};
-use rowan::{GreenNode, GreenNodeData, Language as _, NodeOrToken};
+use rowan::{GreenNode, GreenNodeData, GreenTokenData, Language as _, NodeOrToken};
 use std::fmt::Write;
 
 /// A text as a tree, and what is wrong with it. Cheap to copy, and free to cross threads.
@@ -43,17 +43,16 @@ impl Parse {
             Some((kind::Language::kind_from_raw(node.kind()), Span::new(start, at)))
         })
     }
-    fn members(&self) -> impl DoubleEndedIterator<Item = &GreenNodeData> {
-        self.green.children().filter_map(NodeOrToken::into_node)
-    }
-    /// Returns how many members at the top are the same as in another tree, from the beginning and from
-    /// the end: those that [`crate::reparse`] took from there.
+    /// Returns how many members at the top are the same as in another tree, with all that stands before
+    /// them and with all that stands behind them. Those that [`crate::reparse`] took over are compared by
+    /// identity.
     pub fn shared(&self, other: &Self) -> (usize, usize) {
-        let most = self.members().count().min(other.members().count());
-        let is_same = |(a, b): &(&GreenNodeData, &GreenNodeData)| std::ptr::eq(*a, *b);
-        let head = self.members().zip(other.members()).take_while(is_same).count();
-        let tail = self.members().rev().zip(other.members().rev()).take_while(is_same).count();
-        (head, tail.min(most - head))
+        let both = || self.green.children().zip(other.green.children());
+        let both_back = || self.green.children().rev().zip(other.green.children().rev());
+        let members = |p: &Self| p.green.children().filter(|c| c.as_node().is_some()).count();
+        let head = both().take_while(is_same).filter(|(a, _)| a.as_node().is_some()).count();
+        let tail = both_back().take_while(is_same).filter(|(a, _)| a.as_node().is_some()).count();
+        (head, tail.min(members(self).min(members(other)) - head))
     }
     /// Returns what is wrong, in the order of the text.
     pub fn diagnostics(&self) -> &[Diagnostic] {
@@ -62,6 +61,18 @@ impl Parse {
     /// Returns the text that was parsed, byte for byte.
     pub fn text(&self) -> String {
         self.syntax().text().to_string()
+    }
+}
+
+/// A node or token, as trees share them.
+type Element<'t> = NodeOrToken<&'t GreenNodeData, &'t GreenTokenData>;
+
+fn is_same((a, b): &(Element<'_>, Element<'_>)) -> bool {
+    match (a, b) {
+        (NodeOrToken::Node(a), NodeOrToken::Node(b)) => std::ptr::eq(*a, *b) || a == b,
+        (NodeOrToken::Token(a), NodeOrToken::Token(b)) => a == b,
+        (NodeOrToken::Node(_), NodeOrToken::Token(_))
+        | (NodeOrToken::Token(_), NodeOrToken::Node(_)) => false,
     }
 }
 

@@ -67,7 +67,7 @@ fn plain(
         return None;
     }
     let mut plain = Vec::new();
-    for &constraint in &structure.constraints {
+    for &constraint in structure.constraints.iter() {
         let (is_on, reads) = evaluator.listening(|| {
             let is_on = evaluator.is_on(constraint).unwrap_or(false);
             evaluator.test(constraint).ok();

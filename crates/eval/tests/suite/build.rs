@@ -7,6 +7,7 @@ use kernel::{
     Message, Method, OriginId, Parameter, Part, Path, Primitive, Strength, Structure, Superclass,
     Term, Vertical, instantiate,
 };
+use std::rc::Rc;
 
 /// A document being written.
 pub(crate) struct Build {
@@ -116,7 +117,7 @@ impl Build {
     }
     pub(crate) fn given(&mut self, class: ClassId, at: &str, value: Term) {
         let (path, origin) = (path(at), self.origin());
-        self.document.classes[class].givens.push(Given { path, value, origin });
+        self.document.classes[class].givens.push(Rc::new(Given { path, value, origin }));
     }
     pub(crate) fn message(
         &mut self,

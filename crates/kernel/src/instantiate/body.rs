@@ -4,6 +4,7 @@ use crate::class::ClassId;
 use crate::structure::{ConstraintInstance, GivenIn, Layouts, Paths, StayInstance, Thing, ThingId};
 use base::IdVec;
 use std::collections::BTreeMap;
+use std::rc::Rc;
 
 /// The thing that a body is of.
 pub(super) const ROOT: ThingId = ThingId(0);
@@ -12,18 +13,20 @@ pub(super) const ROOT: ThingId = ThingId(0);
 static NO_REFERENCES: BTreeMap<ThingId, ThingId> = BTreeMap::new();
 
 /// A thing with all that is below it. Ids are those of the body; its own thing is the first.
-#[derive(Default)]
+///
+/// What may be as long as the document is shared with whoever holds a copy of the body, until it is changed.
+#[derive(Clone, Debug, Default)]
 pub(super) struct Body {
-    pub(super) things: IdVec<ThingId, Thing>,
+    pub(super) things: Rc<IdVec<ThingId, Thing>>,
     /// For every thing, one that it is merged with and that is declared before it, or itself.
-    pub(super) merged: IdVec<ThingId, ThingId>,
+    pub(super) merged: Rc<IdVec<ThingId, ThingId>>,
     /// For every first thing of a merge of unlike things, one of each class.
     pub(super) unlike: BTreeMap<ThingId, Vec<ThingId>>,
     /// For every thing, its place in the order of declaration: parts before the next sibling.
-    pub(super) rank: IdVec<ThingId, u32>,
-    pub(super) givens: IdVec<ThingId, Option<GivenIn>>,
+    pub(super) rank: Rc<IdVec<ThingId, u32>>,
+    pub(super) givens: Rc<IdVec<ThingId, Option<GivenIn>>>,
     /// Parts before their owner.
-    pub(super) constraints: Vec<ConstraintInstance>,
+    pub(super) constraints: Rc<Vec<ConstraintInstance>>,
     pub(super) stays: Vec<StayInstance>,
     /// Members of sets: the set, and the part that is in it.
     pub(super) members: Vec<(ThingId, ThingId)>,
@@ -34,7 +37,7 @@ pub(super) struct Body {
 }
 
 /// A member of a class whose paths lead nowhere yet.
-#[derive(Clone, Copy)]
+#[derive(Clone, Copy, Debug)]
 pub(super) struct Waiting {
     pub(super) thing: ThingId,
     pub(super) class: ClassId,
@@ -42,7 +45,7 @@ pub(super) struct Waiting {
 }
 
 /// A member that speaks of parts by paths, by its index among the class's members of its kind.
-#[derive(Clone, Copy, PartialEq, Eq)]
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub(super) enum Member {
     Merge(u32),
     Stay(u32),
@@ -52,12 +55,14 @@ pub(super) enum Member {
 impl Body {
     /// Makes a thing that has no parts yet.
     pub(super) fn new(class: ClassId) -> Self {
-        let mut body = Self::default();
-        body.things.push(Thing { class, owner: None, field: 0, first_part: ROOT, parts: 0 });
-        body.merged.push(ROOT);
-        body.rank.push(0);
-        body.givens.push(None);
-        body
+        let thing = Thing { class, owner: None, field: 0, first_part: ROOT, parts: 0 };
+        Self {
+            things: Rc::new(IdVec::from(vec![thing])),
+            merged: Rc::new(IdVec::from(vec![ROOT])),
+            rank: Rc::new(IdVec::from(vec![0])),
+            givens: Rc::new(IdVec::from(vec![None])),
+            ..Self::default()
+        }
     }
 
     pub(super) fn len(&self) -> usize {
@@ -80,17 +85,18 @@ impl Body {
         owner: ThingId,
         classes: impl ExactSizeIterator<Item = ClassId>,
     ) {
-        let first = self.things.next_id();
-        self.things[owner].first_part = first;
-        self.things[owner].parts = classes.len() as u32;
+        let (things, merged) = (Rc::make_mut(&mut self.things), Rc::make_mut(&mut self.merged));
+        things[owner].first_part = things.next_id();
+        things[owner].parts = classes.len() as u32;
         for (field, class) in (0..).zip(classes) {
-            let id = self.things.next_id();
+            let id = things.next_id();
             let owner = Some(owner);
-            self.things.push(Thing { class, owner, field, first_part: id, parts: 0 });
-            self.merged.push(id);
-            self.rank.push(0);
-            self.givens.push(None);
+            things.push(Thing { class, owner, field, first_part: id, parts: 0 });
+            merged.push(id);
         }
+        let more = things.len() - self.rank.len();
+        Rc::make_mut(&mut self.rank).extend(std::iter::repeat_n(0, more));
+        Rc::make_mut(&mut self.givens).extend(std::iter::repeat_n(None, more));
     }
 
     /// Puts what is below the thing of another body below a thing of the same class in this one.
@@ -105,19 +111,22 @@ impl Body {
             first_part: ThingId(base + t.first_part.0 - 1),
             ..*t
         };
-        self.things.extend(from.things.as_slice()[1..].iter().map(thing));
-        self.merged.extend(from.merged.as_slice()[1..].iter().map(|&t| moved(t)));
-        self.rank.extend(from.rank.as_slice()[1..].iter().map(|&r| rank + r));
-        self.givens.extend(from.givens.as_slice()[1..].iter().map(|g| g.map(given)));
+        let things = Rc::make_mut(&mut self.things);
+        things.extend(from.things.as_slice()[1..].iter().map(thing));
         if from.things[ROOT].parts > 0 {
-            self.things[at].first_part = moved(from.things[ROOT].first_part);
-            self.things[at].parts = from.things[ROOT].parts;
+            things[at].first_part = moved(from.things[ROOT].first_part);
+            things[at].parts = from.things[ROOT].parts;
         }
+        let merged = from.merged.as_slice()[1..].iter().map(|&t| moved(t));
+        Rc::make_mut(&mut self.merged).extend(merged);
+        Rc::make_mut(&mut self.rank).extend(from.rank.as_slice()[1..].iter().map(|&r| rank + r));
+        let givens = from.givens.as_slice()[1..].iter().map(|g| g.map(given));
+        Rc::make_mut(&mut self.givens).extend(givens);
         let unlike = |all: &Vec<ThingId>| all.iter().map(|&t| moved(t)).collect();
         self.unlike.extend(from.unlike.iter().map(|(&t, all)| (moved(t), unlike(all))));
         let constraint =
             |c: &ConstraintInstance| ConstraintInstance { owner: moved(c.owner), ..*c };
-        self.constraints.extend(from.constraints.iter().map(constraint));
+        Rc::make_mut(&mut self.constraints).extend(from.constraints.iter().map(constraint));
         let stay = |s: &StayInstance| StayInstance { thing: moved(s.thing), ..*s };
         self.stays.extend(from.stays.iter().map(stay));
         self.members.extend(from.members.iter().map(|&(set, part)| (moved(set), moved(part))));
@@ -130,7 +139,7 @@ impl Body {
     pub(super) fn settle_merges(&mut self) {
         for thing in self.things.ids() {
             let first = self.identity(thing);
-            self.merged[thing] = first;
+            self.set_merged(thing, first);
         }
     }
 
@@ -139,9 +148,16 @@ impl Body {
         let mut at = thing;
         while self.merged[at] != at {
             let next = self.merged[self.merged[at]];
-            self.merged[at] = next;
+            self.set_merged(at, next);
             at = next;
         }
         at
+    }
+
+    /// Says that a thing is merged with one that stands before it.
+    pub(super) fn set_merged(&mut self, thing: ThingId, with: ThingId) {
+        if self.merged[thing] != with {
+            Rc::make_mut(&mut self.merged)[thing] = with;
+        }
     }
 }

@@ -68,11 +68,10 @@ pub(super) fn body_of(maker: &mut Maker<'_>, class: ClassId, origin: OriginId) -
 }
 
 /// Makes what things of a class have below them.
-pub(super) fn make_body(maker: &mut Maker<'_>, class: ClassId) -> Body {
+fn make_body(maker: &mut Maker<'_>, class: ClassId) -> Body {
     let mut body = Body::new(class);
     fill_fields(maker, &mut body, ROOT, &[]);
-    body.settle_merges();
-    rules::keep_each_once(&mut body);
+    rules::settle(&mut body);
     body
 }
 
@@ -129,21 +128,33 @@ fn fill_fields<'d>(
     thing: ThingId,
     bindings: &[Binding<'d>],
 ) {
+    let waiting = body.waiting.len();
+    if grow(maker, body, thing, bindings) {
+        rules::apply(maker, body, thing, waiting);
+    }
+}
+
+/// Makes the parts of a thing, of which its classes have still to speak; false where it has no room.
+pub(super) fn grow<'d>(
+    maker: &mut Maker<'d>,
+    body: &mut Body,
+    thing: ThingId,
+    bindings: &[Binding<'d>],
+) -> bool {
     let document = maker.document;
     let class = body.things[thing].class;
     let layout = maker.layout(class);
     let origin = document.classes[class].origin;
     if !has_room(maker, body, layout.fields.len(), origin) {
-        return;
+        return false;
     }
     body.add_parts(thing, layout.classes.iter().copied());
     let mut all = own_bindings(maker, thing, class);
     all.extend(bindings);
-    let waiting = body.waiting.len();
     maker.on_the_way.push(class);
     fill_parts(maker, body, thing, &all, |i| field_origin(document, layout.fields[i]));
     maker.on_the_way.pop();
-    rules::apply(maker, body, thing, waiting);
+    true
 }
 
 /// Fills the parts of a thing in order, each with its share of the given values.
@@ -164,7 +175,7 @@ fn fill_parts<'d>(
         of_part.extend(rest[..here].iter().map(|s: &ShareOf<'d>| s.binding));
         rest = &rest[here..];
         let part = body.part(thing, i);
-        body.rank[part] = rank;
+        Rc::make_mut(&mut body.rank)[part] = rank;
         let before = body.len();
         fill(maker, body, part, &of_part, origin(i));
         rank += 1 + (body.len() - before) as u32;

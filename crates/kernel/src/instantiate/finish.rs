@@ -3,22 +3,21 @@
 use super::body::Body;
 use super::refer::refer;
 use super::{FaultKind, Maker};
-use crate::class::{ClassId, ClassKind};
+use crate::class::{Class, ClassId, ClassKind};
 use crate::document::Document;
-use crate::structure::{DOCUMENT, GivenIn, Slot, Structure, ThingId};
+use crate::structure::{DOCUMENT, Form, GivenIn, Givens, Slot, ThingId};
 use crate::term::OriginId;
 use base::IdVec;
 use std::collections::BTreeMap;
 
 /// Gives slots to the primitive things, and members to the sets.
-pub(super) fn finish(maker: &mut Maker<'_>, body: Body) -> Structure {
+pub(super) fn finish(maker: &mut Maker<'_>, body: Body, givens: &Givens) -> Form {
     let order = in_order(&body);
-    let mut structure = Structure {
+    let mut structure = Form {
         slot_of: IdVec::filled(None, body.things.len()),
         next_merged: rings(&body, &order),
-        givens: std::mem::take(&mut maker.givens),
         layouts: std::mem::take(&mut maker.layouts),
-        ..Structure::default()
+        ..Form::default()
     };
     give_slots(maker, &body, &order, &mut structure);
     let references = given_references(maker, &body);
@@ -47,7 +46,7 @@ pub(super) fn finish(maker: &mut Maker<'_>, body: Body) -> Structure {
             }
         }
     }
-    refer(maker, &mut structure, &references);
+    refer(maker, &mut structure, givens, &references);
     for side in &maker.document.sides {
         let thing = structure.follow(DOCUMENT, &side.path).ok();
         if let Some(slot) = thing.and_then(|t| structure.slot_of_side(t, side.way)) {
@@ -59,6 +58,10 @@ pub(super) fn finish(maker: &mut Maker<'_>, body: Body) -> Structure {
 
 /// Returns what is given to references.
 fn given_references(maker: &Maker<'_>, body: &Body) -> BTreeMap<ThingId, GivenIn> {
+    let names = |class: &Class| matches!(class.kind, ClassKind::Reference(_));
+    if !maker.document.classes.iter().any(|(_, class)| names(class)) {
+        return BTreeMap::new();
+    }
     let given = |(thing, given): (ThingId, &Option<GivenIn>)| {
         let kind = &maker.document.classes[body.things[thing].class].kind;
         given.filter(|_| matches!(kind, ClassKind::Reference(_))).map(|g| (thing, g))
@@ -90,7 +93,7 @@ fn rings(body: &Body, order: &[ThingId]) -> IdVec<ThingId, ThingId> {
 }
 
 /// Returns the first thing of each class in a ring.
-fn first_of_each(structure: &Structure, thing: ThingId) -> Vec<ThingId> {
+fn first_of_each(structure: &Form, thing: ThingId) -> Vec<ThingId> {
     let mut found: Vec<ThingId> = Vec::new();
     for t in structure.merged_with(thing) {
         let class = structure.things[t].class;
@@ -101,8 +104,10 @@ fn first_of_each(structure: &Structure, thing: ThingId) -> Vec<ThingId> {
     found
 }
 
-fn give_slots(maker: &mut Maker<'_>, body: &Body, order: &[ThingId], structure: &mut Structure) {
+fn give_slots(maker: &mut Maker<'_>, body: &Body, order: &[ThingId], structure: &mut Form) {
     let document = maker.document;
+    let has_range = |c: &Class| c.parts.iter().any(|p| p.range.is_some());
+    let has_ranges = document.classes.iter().any(|(_, c)| has_range(c));
     let mut places: IdVec<ClassId, Option<bool>> = IdVec::filled(None, document.classes.len());
     for &thing in order {
         let t = &body.things[thing];
@@ -126,6 +131,9 @@ fn give_slots(maker: &mut Maker<'_>, body: &Body, order: &[ThingId], structure: 
         structure.slot_of[thing] = Some(slot);
         let s = &mut structure.slots[slot];
         s.given = s.given.or(body.givens[thing]);
+        if !has_ranges {
+            continue;
+        }
         if let Some((range, origin)) = declared_range(document, structure, body, thing) {
             let known = structure.ranges.entry(slot).or_insert(range);
             let both = (known.0.max(range.0), known.1.min(range.1));
@@ -143,7 +151,7 @@ fn give_slots(maker: &mut Maker<'_>, body: &Body, order: &[ThingId], structure: 
 /// Returns the numbers that a thing may be, and where that is written.
 fn declared_range(
     document: &Document,
-    structure: &Structure,
+    structure: &Form,
     body: &Body,
     thing: ThingId,
 ) -> Option<((i64, i64), OriginId)> {

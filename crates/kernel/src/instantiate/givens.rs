@@ -1,6 +1,7 @@
 //! Given values on their way down: a value for a path in, a value for each primitive part out.
 
 use super::body::Body;
+use super::grown::Shared;
 use super::{FaultKind, Maker};
 use crate::class::{ClassId, ClassKind};
 use crate::document::Document;
@@ -8,6 +9,7 @@ use crate::path::{Path, Step};
 use crate::structure::{GivenId, GivenIn, GivenTerm, ThingId};
 use crate::term::Term;
 use base::Name;
+use std::rc::Rc;
 
 /// A given value on its way to the thing that it is for.
 #[derive(Clone, Copy)]
@@ -62,7 +64,7 @@ pub(super) fn put<'d>(maker: &mut Maker<'d>, body: &mut Body, thing: ThingId, b:
     match maker.document.classes[body.things[thing].class].kind {
         ClassKind::Primitive(_) | ClassKind::Reference(_) | ClassKind::Set(_) => {
             if b.path.is_empty() {
-                body.givens[thing] = Some(b.given);
+                Rc::make_mut(&mut body.givens)[thing] = Some(b.given);
             } else {
                 let path = Path(b.path.to_vec());
                 let message = format!("{path} belongs to another thing, which is only named here");
@@ -194,6 +196,8 @@ fn share_of_whole(
             Term::Index(Box::new(other.clone()), Box::new(Term::number(f64::from(part))))
         }
     };
-    let term = GivenTerm { term, origin: *origin };
-    Some(maker.givens.push(term))
+    let origin = *origin;
+    let value = maker.givens.push(GivenTerm { term, origin });
+    maker.shared.push(Shared { value, whole, part });
+    Some(value)
 }

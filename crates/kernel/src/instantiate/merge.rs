@@ -113,7 +113,7 @@ fn seen_as(maker: &Maker<'_>, body: &Body, thing: ThingId, class: ClassId) -> Op
 fn unite(body: &mut Body, a: ThingId, b: ThingId) {
     let (a, b) = (body.identity(a), body.identity(b));
     let (first, last) = if body.rank[a] < body.rank[b] { (a, b) } else { (b, a) };
-    body.merged[last] = first;
+    body.set_merged(last, first);
     let known = body.unlike.remove(&first);
     let others = body.unlike.remove(&last);
     if known.is_none() && others.is_none() && body.things[a].class == body.things[b].class {

@@ -8,7 +8,7 @@ use super::{FaultKind, Maker};
 use crate::class::{ClassId, ClassKind};
 use crate::document::Document;
 use crate::path::{Path, Step};
-use crate::structure::{DOCUMENT, GivenIn, Structure, ThingId};
+use crate::structure::{DOCUMENT, Form, GivenIn, Givens, ThingId};
 use crate::term::Term;
 use std::collections::BTreeMap;
 
@@ -18,7 +18,8 @@ const DEEPEST: u32 = 100;
 /// Finds what every reference names. One that names nothing is reported, and stays without.
 pub(super) fn refer(
     maker: &mut Maker<'_>,
-    structure: &mut Structure,
+    structure: &mut Form,
+    givens: &Givens,
     given: &BTreeMap<ThingId, GivenIn>,
 ) {
     let document = maker.document;
@@ -27,7 +28,7 @@ pub(super) fn refer(
         else {
             continue;
         };
-        let search = Search { document, structure, given };
+        let search = Search { document, structure, givens, given };
         let found = search.target(value, 0).and_then(|t| search.of_class(t, class));
         match found {
             Ok(target) => {
@@ -35,7 +36,7 @@ pub(super) fn refer(
                 structure.references.extend(all.into_iter().map(|r| (r, target)));
             }
             Err(message) => {
-                let origin = structure.givens[value.value].origin;
+                let origin = givens[value.value].origin;
                 maker.fault(origin, FaultKind::Reference, message);
             }
         }
@@ -45,7 +46,8 @@ pub(super) fn refer(
 /// Things as they are searched for the target of a reference.
 struct Search<'s> {
     document: &'s Document,
-    structure: &'s Structure,
+    structure: &'s Form,
+    givens: &'s Givens,
     given: &'s BTreeMap<ThingId, GivenIn>,
 }
 
@@ -54,7 +56,7 @@ impl Search<'_> {
         if depth > DEEPEST {
             return Err(format!("a reference through more than {DEEPEST} others"));
         }
-        self.follow(&self.structure.givens[value.value].term, value.me, depth)
+        self.follow(&self.givens[value.value].term, value.me, depth)
     }
 
     fn follow(&self, term: &Term, me: ThingId, depth: u32) -> Result<ThingId, String> {

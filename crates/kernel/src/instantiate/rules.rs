@@ -9,6 +9,7 @@ use crate::structure::{ConstraintInstance, StayInstance, ThingId};
 use crate::term::OriginId;
 use base::{IdVec, Name};
 use std::collections::BTreeSet;
+use std::rc::Rc;
 
 /// Applies what a thing's classes say: its merges, then constraints, stays and set members.
 ///
@@ -35,7 +36,8 @@ pub(super) fn apply(maker: &mut Maker<'_>, body: &mut Body, thing: ThingId, wait
         (0..c.inserts.len() as u32).for_each(|i| wait(Member::Insert(i)));
         for (index, constraint) in (0..).zip(&c.constraints) {
             if !masked(&constraint.name) {
-                body.constraints.push(ConstraintInstance { owner: thing, class, index });
+                let constraint = ConstraintInstance { owner: thing, class, index };
+                Rc::make_mut(&mut body.constraints).push(constraint);
             }
         }
     }
@@ -142,18 +144,28 @@ fn astray(maker: &mut Maker<'_>, body: &Body, thing: ThingId, paths: &[Path], or
     }
 }
 
+/// Ends what the classes of a body's own thing say: what is merged names the first of all.
+pub(super) fn settle(body: &mut Body) {
+    body.settle_merges();
+    keep_each_once(body);
+}
+
 /// Keeps of the constraints that merged things have in common the first.
-pub(super) fn keep_each_once(body: &mut Body) {
+fn keep_each_once(body: &mut Body) {
     let mut is_shared = IdVec::filled(false, body.len());
-    for (thing, &first) in body.merged.iter() {
-        if thing != first {
-            is_shared[first] = true;
-        }
+    let mut any = false;
+    for (thing, &first) in body.merged.iter().filter(|(thing, first)| thing != *first) {
+        (is_shared[thing], is_shared[first], any) = (true, true, true);
+    }
+    if !any {
+        return;
     }
     let mut seen = BTreeSet::new();
-    let merged = &body.merged;
-    body.constraints.retain(|c| {
-        let first = merged[c.owner];
-        !is_shared[first] || seen.insert((first, c.class, c.index))
-    });
+    let is_first = |c: &&ConstraintInstance| {
+        !is_shared[c.owner] || seen.insert((body.merged[c.owner], c.class, c.index))
+    };
+    let kept: Vec<ConstraintInstance> = body.constraints.iter().filter(is_first).copied().collect();
+    if kept.len() < body.constraints.len() {
+        body.constraints = Rc::new(kept);
+    }
 }

@@ -5,17 +5,17 @@
 
 use crate::class::{Setting, Switch};
 use crate::document::Document;
-use crate::structure::{Condition, ConstraintInstance, Structure, ThingId};
+use crate::structure::{Condition, ConstraintInstance, Form, ThingId};
 use crate::term::Term;
 use std::collections::BTreeMap;
 
 /// Finds what is set of constraints. A switch of nothing, as where a class masks it, does nothing.
-pub(super) fn switch(document: &Document, structure: &mut Structure) {
+pub(super) fn switch(document: &Document, structure: &mut Form) {
     if document.classes.iter().all(|(_, c)| c.switches.is_empty()) {
         return;
     }
     let mut constraints: BTreeMap<ThingId, Vec<ConstraintInstance>> = BTreeMap::new();
-    for &instance in &structure.constraints {
+    for &instance in structure.constraints.iter() {
         constraints.entry(structure.merged[instance.owner]).or_default().push(instance);
     }
     for thing in structure.things.ids().collect::<Vec<_>>().into_iter().rev() {
@@ -35,7 +35,7 @@ pub(super) fn switch(document: &Document, structure: &mut Structure) {
 }
 
 fn set(
-    structure: &mut Structure,
+    structure: &mut Form,
     instance: ConstraintInstance,
     setting: &Setting,
     condition: Condition,
@@ -64,7 +64,7 @@ fn set(
 /// its other superclasses.
 fn named(
     document: &Document,
-    structure: &Structure,
+    structure: &Form,
     constraints: &BTreeMap<ThingId, Vec<ConstraintInstance>>,
     thing: ThingId,
     switch: &Switch,

@@ -6,6 +6,7 @@ use kernel::{
     Class, ClassId, ClassKind, Constraint, Count, Document, Given, Merge, OriginId, Part, Path,
     Primitive, Strength, Superclass, Term, Vertical,
 };
+use std::rc::Rc;
 
 pub(crate) const ORIGIN: OriginId = OriginId(0);
 
@@ -54,7 +55,7 @@ impl Builder {
         self.0[class].merges.push(Merge { name: None, paths, origin: ORIGIN });
     }
     pub(crate) fn given(&mut self, class: ClassId, path: &[&str], value: Term) {
-        self.0[class].givens.push(Given { path: Path::of(path), value, origin: ORIGIN });
+        self.0[class].givens.push(Rc::new(Given { path: Path::of(path), value, origin: ORIGIN }));
     }
     pub(crate) fn constraint(&mut self, class: ClassId, name: &str) {
         self.0[class].constraints.push(Constraint {

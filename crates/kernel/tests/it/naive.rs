@@ -6,10 +6,11 @@
 use crate::builder::{Builder, ORIGIN};
 use base::Name;
 use kernel::{
-    ClassId, ClassKind, Count, DOCUMENT, Document, Given, Insert, Merge, Path, Step, Structure,
-    Term, check, instantiate,
+    ClassId, ClassKind, Count, DOCUMENT, Document, Given, Insert, Merge, OriginId, Path, Step,
+    Structure, Term, check, instantiate, instantiate_again,
 };
 use std::collections::{BTreeMap, BTreeSet};
+use std::rc::Rc;
 
 /// Numbers that look random, the same in every run.
 struct Dice(u64);
@@ -95,7 +96,11 @@ fn say_something(dice: &mut Dice, b: &mut Builder, class: ClassId) {
     }
     for _ in 0..dice.below(4) {
         let value = Term::number(dice.below(1000) as f64);
-        b.0[class].givens.push(Given { path: dice.pick(&numbers).0, value, origin: ORIGIN });
+        b.0[class].givens.push(Rc::new(Given {
+            path: dice.pick(&numbers).0,
+            value,
+            origin: ORIGIN,
+        }));
     }
     if let (Some((set, _)), 0) = (sets.first().cloned(), dice.below(2)) {
         let part = dice.pick(&numbers).0;
@@ -268,4 +273,77 @@ fn random_documents_are_what_a_naive_reading_says() {
         merged += usize::from(structure.merged.iter().any(|(t, &first)| t != first));
     }
     assert!(merged > 100, "many of the documents merge something: {merged}");
+}
+
+/// Changes one thing that the document's own class says.
+fn say_otherwise(dice: &mut Dice, document: &mut Document) {
+    let mut more = Builder(document.classes.clone());
+    say_something(dice, &mut more, document.root);
+    let more = more.0[document.root].clone();
+    let root = &mut document.classes[document.root];
+    let n = root.givens.len();
+    match dice.below(6) {
+        0 | 1 if n > 0 => {
+            let given = Rc::make_mut(&mut root.givens[dice.below(n)]);
+            given.value = Term::number(dice.below(1000) as f64);
+            given.origin = OriginId(dice.below(9) as u32);
+        }
+        2 if n > 0 => {
+            root.givens.remove(dice.below(n));
+        }
+        3 => root.merges = more.merges,
+        4 => root.inserts = more.inserts,
+        5 => {
+            root.merges.pop();
+        }
+        _ => *root = more,
+    }
+}
+
+#[test]
+fn what_an_edit_left_as_it_was_is_taken_over_and_all_is_as_made_anew() {
+    let mut dice = Dice(2026);
+    let (mut forms, mut things) = (0, 0);
+    for _ in 0..150 {
+        let mut before = random_document(&mut dice);
+        let (mut structure, _) = instantiate(&before);
+        if structure.things.len() > 300 {
+            continue;
+        }
+        for _ in 0..8 {
+            let mut document = before.clone();
+            say_otherwise(&mut dice, &mut document);
+            let (anew, told) = instantiate(&document);
+            let (again, told_again) = instantiate_again(&document, (&before, &structure));
+            assert_eq!(told, told_again);
+            assert_eq!(format!("{anew:?}"), format!("{again:?}"));
+            forms += usize::from(Rc::ptr_eq(&again.form, &structure.form));
+            things += usize::from(Rc::ptr_eq(&again.form.things, &structure.form.things));
+            (before, structure) = (document, again);
+        }
+    }
+    assert!(forms > 100 && things > forms + 100, "{forms} forms and {things} lists of things kept");
+}
+
+#[test]
+fn coordinates_get_of_a_changed_place_what_is_theirs() {
+    let (mut b, object, real) = Builder::new();
+    let point = b.composite("Point", object, &[("x", real), ("y", real)]);
+    let root = b.composite("", object, &[("p", point), ("q", point)]);
+    let place = |x, y| Term::Tuple(vec![Term::number(x), Term::number(y)]);
+    b.given(root, &["p"], place(3.0, 4.0));
+    b.given(root, &["q"], place(5.0, 6.0));
+    let before = b.document(root);
+    let (structure, _) = instantiate(&before);
+    let mut after = before.clone();
+    Rc::make_mut(&mut after.classes[root].givens[0]).value = place(3.5, 4.0);
+    let (again, faults) = instantiate_again(&after, (&before, &structure));
+    assert_eq!(faults, []);
+    assert!(Rc::ptr_eq(&again.form, &structure.form), "constants alone changed");
+    let given =
+        |s: &Structure| s.slots.ids().map(|id| s.given(id).map(|g| g.term.clone())).collect();
+    let numbers = |all: [f64; 4]| all.map(|x| Some(Term::number(x))).to_vec();
+    let (was, is): (Vec<_>, Vec<_>) = (given(&structure), given(&again));
+    assert_eq!(was, numbers([3.0, 4.0, 5.0, 6.0]));
+    assert_eq!(is, numbers([3.5, 4.0, 5.0, 6.0]));
 }

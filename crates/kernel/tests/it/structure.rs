@@ -5,6 +5,7 @@ use kernel::{
     Argument, ClassId, ClassKind, Count, Document, FaultKind, Given, Insert, Path, Primitive,
     SlotId, Stay, Step, Structure, Term, ThingId, check, instantiate,
 };
+use std::rc::Rc;
 
 fn make(document: &Document) -> Structure {
     let (structure, faults) = instantiate(document);
@@ -190,7 +191,11 @@ fn lists_take_their_elements_from_a_given_list() {
     b.part(root, "cells", list, Some(Count::Fixed(4)));
     b.given(root, &["bars"], Term::List(vec![Term::number(3.0), Term::number(7.0)]));
     let last = Path(vec![Step::Part("cells".into()), Step::Last]);
-    b.0[root].givens.push(Given { path: last.clone(), value: Term::number(9.0), origin: ORIGIN });
+    b.0[root].givens.push(Rc::new(Given {
+        path: last.clone(),
+        value: Term::number(9.0),
+        origin: ORIGIN,
+    }));
     let s = make(&b.document(root));
     assert_eq!(s.parts(at(&s, &["bars"])).len(), 2);
     assert_eq!(s.slots.len(), 6);

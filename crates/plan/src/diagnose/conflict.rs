@@ -93,11 +93,11 @@ impl Planner {
         let setup = Setup { model, holding: &holding, aim: &Aim::default() };
         let mut found = Vec::new();
         for component in self.whole(model.structure) {
-            let units = self.units(&component.rules);
+            let units = self.units(component.rules());
             if !units.iter().any(|u| unmet.contains(&u.source)) {
                 continue;
             }
-            let given_up = self.given_up.iter().find(|(c, _)| c.rules == component.rules);
+            let given_up = self.given_up.iter().find(|(c, _)| c.rules() == component.rules());
             if let Some(&(_, bound)) = given_up {
                 // parts of it would be searched as long
                 let constraints = units.iter().map(|u| u.source);

@@ -129,7 +129,7 @@ impl Planner {
             there.numbers[s] += PART * size * v;
         }
         let is_required = |r: &u32| self.rules.get(*r).shape.level == Level::Required;
-        let rules: Vec<u32> = task.component.rules.iter().copied().filter(is_required).collect();
+        let rules: Vec<u32> = task.component.rules().iter().copied().filter(is_required).collect();
         let holding = |s| Self::resting_hold(model.structure, s);
         let setup = Setup { model, holding: &holding, aim: &Aim::default() };
         if self.try_rules(&setup, &rules, &mut there, host) != Trial::Holds {
@@ -170,11 +170,11 @@ impl Space {
             structure.slots[s].primitive.is_number()
                 && matches!(Planner::resting_hold(structure, s), Holding::Kept | Holding::Alone)
         };
-        let columns: Vec<SlotId> = task.component.slots.iter().copied().filter(moves).collect();
+        let columns: Vec<SlotId> = task.component.slots().iter().copied().filter(moves).collect();
         let column = |s: SlotId| columns.binary_search(&s).ok().map(|i| i as u32);
         let patterns = planner.plans.patterns();
         let mut rows: Vec<Row> = Vec::new();
-        for &index in &task.component.rules {
+        for &index in task.component.rules() {
             let rule = planner.rules.get(index);
             let Body::Equations(equations) = &rule.shape.body else { continue };
             if rule.shape.level != Level::Required
@@ -191,7 +191,7 @@ impl Space {
         let echelon = Echelon::new(&rows, columns.len());
         let free = (0..columns.len() as u32).filter(|&c| !echelon.has_pivot(c)).collect();
         let mut held: BTreeMap<ThingId, Vec<f64>> = BTreeMap::new();
-        for &s in task.component.slots.iter().filter(|&&s| column(s).is_none()) {
+        for &s in task.component.slots().iter().filter(|&&s| column(s).is_none()) {
             if let Some(place) = structure.slots[s].place {
                 held.entry(place).or_default().push(values.numbers[s]);
             }

@@ -108,7 +108,7 @@ impl Planner {
         let by_form = surplus(self, task).into_iter().filter(|r| !unmet.contains(&r.source));
         let mut found: Vec<(Redundant, usize)> = by_form.map(|r| (r, 0)).collect();
         let fails = |&r: &u32| unmet.contains(&self.rules.source(r));
-        if unmet.is_empty() || !task.component.rules.iter().any(fails) {
+        if unmet.is_empty() || !task.component.rules().iter().any(fails) {
             let candidates = candidates(self, model, task, values, &mut Scratch::default());
             found.extend(self.theorems(model, task, candidates, values, host));
         }
@@ -131,8 +131,8 @@ impl Planner {
         let is_left = |r: &u32| {
             self.rules.get(*r).shape.level == Level::Required && !candidates.contains_key(r)
         };
-        let rest: Vec<u32> = task.component.rules.iter().copied().filter(is_left).collect();
-        let mut elsewhere = perturbed(model, &task.component.slots, values);
+        let rest: Vec<u32> = task.component.rules().iter().copied().filter(is_left).collect();
+        let mut elsewhere = perturbed(model, task.component.slots(), values);
         let holding = |s| Self::resting_hold(model.structure, s);
         let setup = Setup { model, holding: &holding, aim: &Aim::default() };
         if self.try_rules(&setup, &rest, &mut elsewhere, host) != Trial::Holds {
@@ -178,11 +178,11 @@ fn candidates(
         return found;
     }
     let patterns = planner.plans.patterns();
-    let column = |s: SlotId| task.component.slots.binary_search(&s).ok().map(|i| i as u32);
+    let column = |s: SlotId| task.component.slots().binary_search(&s).ok().map(|i| i as u32);
     let mut rows: Vec<Row> = Vec::with_capacity(core.len());
     let mut rule_of_row: Vec<u32> = Vec::with_capacity(core.len());
     for &(position, e) in core.iter() {
-        let index = task.component.rules[position as usize];
+        let index = task.component.rules()[position as usize];
         let rule = planner.rules.get(index);
         let Body::Equations(equations) = &rule.shape.body else { continue };
         if !counts(patterns, rule, values, scratch) {
@@ -198,7 +198,8 @@ fn candidates(
         rows.push(own.filter_map(|(s, v)| Some((column(s)?, v))).collect());
         rule_of_row.push(index);
     }
-    for Dependent { row, circuit } in Echelon::new(&rows, task.component.slots.len()).dependent() {
+    for Dependent { row, circuit } in Echelon::new(&rows, task.component.slots().len()).dependent()
+    {
         let candidate = found.entry(rule_of_row[row as usize]).or_default();
         candidate.rows += 1;
         candidate.circuit.extend(circuit.iter().map(|&r| rule_of_row[r as usize]));
@@ -213,7 +214,7 @@ fn candidates(
 /// does so everywhere.
 fn core(planner: &Planner, model: Model<'_>, task: &Task) -> Vec<(u32, u32)> {
     let patterns = planner.plans.patterns();
-    let rules = || (0..).zip(&task.component.rules).map(|(i, &r)| (i, r, planner.rules.get(r)));
+    let rules = || (0..).zip(task.component.rules()).map(|(i, &r)| (i, r, planner.rules.get(r)));
     if rules().all(|(_, _, rule)| is_linear(patterns, rule)) {
         return Vec::new();
     }

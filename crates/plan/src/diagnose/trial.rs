@@ -8,7 +8,6 @@ use crate::run::{Ran, run};
 use crate::task::{Holding, Wish};
 use kernel::{SlotId, Values};
 use std::collections::BTreeSet;
-use std::rc::Rc;
 
 /// What a trial is about, besides its rules.
 pub(crate) struct Setup<'t> {
@@ -44,11 +43,11 @@ impl Planner {
             rules.iter().flat_map(|&r| self.rules.get(r).slots.to_vec()).chain(wished).collect();
         let mut rules = rules.to_vec();
         rules.sort_unstable();
-        let component = Component { rules, slots: slots.into_iter().collect() };
+        let component = Component::of(rules, slots.into_iter().collect());
         let mark = self.plans.mark();
         let alike = std::mem::take(&mut self.alike);
         let structure = setup.model.structure;
-        let components = vec![Rc::new(component)];
+        let components = vec![component];
         let tasks = self.tasks(structure, components, setup.holding, &setup.aim.wishes);
         self.alike = alike;
         let start = values.clone();

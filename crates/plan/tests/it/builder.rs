@@ -9,6 +9,7 @@ use kernel::{
     instantiate,
 };
 use plan::{EditKind, EditReport, Fault, Host, Model, Planner, Plans, Target, Way};
+use std::rc::Rc;
 use std::sync::Arc;
 
 pub(crate) const OBJECT: ClassId = ClassId(0);
@@ -75,7 +76,7 @@ impl Builder {
     }
     pub(crate) fn given(&mut self, class: ClassId, path: &str, value: Term) {
         let given = Given { path: to_path(path), value, origin: OriginId(0) };
-        self.document.classes[class].givens.push(given);
+        self.document.classes[class].givens.push(Rc::new(given));
     }
     pub(crate) fn constraint(&mut self, class: ClassId, rule: Term) -> &mut Constraint {
         let constraints = &mut self.document.classes[class].constraints;

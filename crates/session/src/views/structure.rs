@@ -21,7 +21,7 @@ struct Maker<'a> {
 /// Returns every row, the document first.
 pub(crate) fn rows(state: &State, values: &Values, status: &plan::Status) -> Vec<StructureRow> {
     let mut constraints: BTreeMap<ThingId, Vec<ConstraintInstance>> = BTreeMap::new();
-    for &instance in &state.structure.constraints {
+    for &instance in state.structure.constraints.iter() {
         constraints.entry(instance.owner).or_default().push(instance);
     }
     let mut maker = Maker { state, values, status, constraints, rows: Vec::new() };
