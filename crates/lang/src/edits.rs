@@ -175,7 +175,7 @@ impl Text<'_> {
         }
         let rest = Path(target.0[home.path.0.len()..].to_vec());
         let Some(class) = self.class_at(target) else {
-            return Err(refused("unknown-part", format!("the document has no part {target}")));
+            return Err(self.unknown(target));
         };
         match self.carried(members, &rest, class) {
             Some(carried) => Ok(self.said_in(&home, SyntaxKind::Error, &carried)),
@@ -228,11 +228,11 @@ impl Text<'_> {
             let lineage = document.lineage(class);
             lineage.into_iter().find(|&c| document.classes[c].parts.iter().any(|p| p.name == *name))
         });
-        let by = match declares {
-            Some(class) => document.classes[class].name.to_string(),
-            None => "a class".to_string(),
+        let by = declares.map(|class| document.classes[class].name.clone());
+        let message = match by.filter(|name| !name.is_empty()) {
+            Some(class) => format!("{path} is declared by {class}, not by the document"),
+            None => format!("{path} is not the document's own to change"),
         };
-        let message = format!("{path} is declared by {by}, not by the document");
         refused("of-a-class", message).hint("edit the class, or the thing as a whole")
     }
 }

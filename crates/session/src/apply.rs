@@ -89,7 +89,7 @@ fn edit(
     let mut texts = Texts::new(&state.lowered.document, &state.structure);
     let report = open.planner.edit(state.model(), &mut values, kind, &targets, &mut texts);
     if let Some(reason) = &report.refusal {
-        let refusal = words::refusal_for(&state, reason, &report);
+        let refusal = of_computed(words::refusal_for(&state, reason, &report), &aims);
         return Err(match (aims.as_slice(), report.limit) {
             ([(aim, wanted)], Some(part)) => limited(&state, refusal, aim, wanted, part),
             (_, _) => refusal,
@@ -98,6 +98,20 @@ fn edit(
     let label = label(kind, &aims_paths(&state, &aims));
     let edited = aims.iter().flat_map(|(aim, _)| slots_of(&state, aim)).collect();
     keep(open, host, label, edited, &values, &report.undecided)
+}
+
+/// Says in a refusal what of an edit is computed, so that something else would have had to change.
+fn of_computed(refusal: Refusal, aims: &[(Aim, Vec<Value>)]) -> Refusal {
+    let path = |(aim, _): &(Aim, Vec<Value>)| match aim {
+        Aim::Thing(_) => None,
+        Aim::Term(term) => Some(words::term_path(term)),
+    };
+    let computed: Vec<String> = aims.iter().filter_map(path).collect();
+    if computed.is_empty() {
+        return refusal;
+    }
+    let message = format!("{}; {} is computed", refusal.message, words::listed(&computed));
+    Refusal { message, ..refusal }
 }
 
 /// Says in a refusal how far the edit could have gone.

@@ -1,6 +1,7 @@
 //! Homes: the body of the document's own text that has to say what a command says of a thing.
 
 use super::Restructuring;
+use crate::lower::OWN;
 use crate::uses::{Text, refused};
 use base::{Diagnostic, Span};
 use kernel::{ClassId, ClassKind, Path, Step};
@@ -77,7 +78,7 @@ impl Text<'_> {
     /// The path leads nowhere.
     pub(super) fn home(&self, path: &Path) -> Result<Home, Diagnostic> {
         if self.class_at(path).is_none() {
-            return Err(refused("unknown-part", format!("the document has no part {path}")));
+            return Err(self.unknown(path));
         }
         let mut home = Home::document(self);
         for step in &path.0 {
@@ -96,6 +97,24 @@ impl Text<'_> {
             home = Home { path: here, site };
         }
         Ok(home)
+    }
+
+    /// Says that a path leads nowhere in the document's own text, and where it does lead.
+    pub(super) fn unknown(&self, path: &Path) -> Diagnostic {
+        let Some(Step::Part(first)) = path.0.first() else {
+            return refused("unknown-part", format!("the document has no part {path}"));
+        };
+        let document = &self.lowered.document;
+        let class = document.class_named(first).map(|c| document.classes[c].origin);
+        let place = class.map(|origin| self.lowered.origins.place(origin));
+        match place.filter(|p| p.file != OWN) {
+            Some(place) => {
+                let library = &self.lowered.files[place.file].name;
+                let message = format!("{first} is declared in {library}, not in the document");
+                refused("of-a-class", message).hint(format!("open {library} to change it"))
+            }
+            None => refused("unknown-part", format!("the document has no part {path}")),
+        }
     }
 
     fn may_have_members(&self, part: &ast::Part, path: &Path) -> bool {

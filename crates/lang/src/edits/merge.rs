@@ -14,9 +14,8 @@ impl Text<'_> {
     pub(super) fn merge(&self, paths: &[Path]) -> Restructuring {
         let home = self.home(&common_owner(paths)).unwrap_or_else(|_| Home::document(self));
         let n = home.path.0.len();
-        let paths: Vec<String> =
-            paths.iter().map(|p| Path(p.0[n..].to_vec()).to_string()).collect();
-        self.said_in(&home, SyntaxKind::Merge, &format!("merge {}", paths.join(" = ")))
+        let paths: Vec<Path> = paths.iter().map(|p| Path(p.0[n..].to_vec())).collect();
+        self.said_in(&home, SyntaxKind::Merge, &merging(&paths))
     }
 
     /// Takes a path out of the merges that name it; the rest of them all stay merged.
@@ -76,6 +75,10 @@ impl Text<'_> {
 
     /// Says why nothing can be taken out of a merge: by what it is merged, if it is.
     fn not_merged(&self, path: &Path) -> Diagnostic {
+        if self.is_merged(path) {
+            let d = refused("not-merged", format!("the merges of {path} are made by a `for`"));
+            return d.hint("write them out instead, then one can be taken away");
+        }
         let d = refused("not-merged", format!("no merge names {path}"));
         let whole = (1..path.0.len()).rev().map(|n| Path(path.0[..n].to_vec()));
         let mut whole = whole.filter(|p| self.is_merged(p));
@@ -114,11 +117,9 @@ impl Text<'_> {
             let above = document.primary_line(class).into_iter();
             let above =
                 above.skip(usize::from(!own.as_ref().is_some_and(|h| self.is_inherited(h))));
-            let merges: Vec<Merge> = above
-                .flat_map(|c| document.classes[c].merges.iter())
-                .filter(|m| m.paths.contains(&rest))
-                .cloned()
-                .collect();
+            let all: Vec<&Merge> = above.flat_map(|c| document.classes[c].merges.iter()).collect();
+            let merges: Vec<Merge> =
+                all.iter().filter(|m| m.paths.contains(&rest)).map(|&m| m.clone()).collect();
             if merges.is_empty() {
                 continue;
             }
@@ -128,13 +129,21 @@ impl Text<'_> {
             let mut members = Vec::new();
             let mut kept: Vec<&Path> = Vec::new();
             for merge in &merges {
-                members.push(format!("without {}", self.name_of_merge(merge, done)?));
+                let mask = format!("without {}", self.name_of_merge(merge, done)?);
+                if !members.contains(&mask) {
+                    members.push(mask);
+                    // the other turns of a loop have the same name, and go on
+                    let place = self.lowered.origins.place(merge.origin);
+                    let others = all.iter().filter(|m| {
+                        self.lowered.origins.place(m.origin) == place && !merges.contains(m)
+                    });
+                    members.extend(others.map(|m| merging(&m.paths)));
+                }
                 let others = merge.paths.iter().filter(|p| **p != rest);
                 others.for_each(|p| kept.extend((!kept.contains(&p)).then_some(p)));
             }
             if kept.len() > 1 {
-                let kept: Vec<String> = kept.iter().map(ToString::to_string).collect();
-                members.push(format!("merge {}", kept.join(" = ")));
+                members.push(merging(kept.iter().copied()));
             }
             left.extend(kept.first().map(|&p| owner.join(p)));
             let said = self.said_in(&home, SyntaxKind::Merge, &members.join("  "));
@@ -162,4 +171,10 @@ impl Text<'_> {
         let base = last.unwrap_or_else(|| "joint".to_string());
         self.name_given(merge.origin, "merge", &base, done)
     }
+}
+
+/// Writes a merge of some paths.
+fn merging<'p>(paths: impl IntoIterator<Item = &'p Path>) -> String {
+    let paths: Vec<String> = paths.into_iter().map(ToString::to_string).collect();
+    format!("merge {}", paths.join(" = "))
 }

@@ -42,7 +42,7 @@ impl Text<'_> {
             Some((last, owner)) => (last, Path(owner.to_vec())),
             None => return Err(refused("unknown-part", "the document has no name".into())),
         };
-        let unknown = || refused("unknown-part", format!("the document has no part {path}"));
+        let unknown = || self.unknown(path);
         let home = self.home(&owner).map_err(|_| unknown())?;
         if let (true, Step::Part(name)) = (home.path == owner, last)
             && let Some((member, word)) = home.member(name)
