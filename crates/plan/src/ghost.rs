@@ -97,6 +97,10 @@ impl Planner {
         }
         self.alike = alike;
         self.plans.forget_since(mark);
+        let is_elsewhere = |values_of: &Values| {
+            own.iter().any(|&s| values_of.numbers[s].to_bits() != values.numbers[s].to_bits())
+        };
+        found.retain(|ghost| is_elsewhere(&ghost.values));
         found
     }
 

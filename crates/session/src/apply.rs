@@ -9,7 +9,7 @@ use crate::placing::place_new_parts;
 use crate::prototype;
 use crate::state::State;
 use crate::texts::Texts;
-use crate::view::{Change, Choice, Question, Refusal};
+use crate::view::{Change, Choice, Limit, Question, Refusal};
 use crate::words;
 use crate::write_back::{differing, sides_after, write_back, write_sides};
 use base::number::Toward;
@@ -90,9 +90,9 @@ fn edit(
     let report = open.planner.edit(state.model(), &mut values, kind, &targets, &mut texts);
     if let Some(reason) = &report.refusal {
         let refusal = of_computed(words::refusal_for(&state, reason, &report), &aims);
-        return Err(match (aims.as_slice(), report.limit) {
-            ([(aim, wanted)], Some(part)) => limited(&state, refusal, aim, wanted, part),
-            (_, _) => refusal,
+        return Err(match report.limit {
+            Some(part) => limited(&state, refusal, &aims, part),
+            None => refusal,
         });
     }
     let label = label(kind, &aims_paths(&state, &aims));
@@ -115,12 +115,13 @@ fn of_computed(refusal: Refusal, aims: &[(Aim, Vec<Value>)]) -> Refusal {
 }
 
 /// Says in a refusal how far the edit could have gone.
-fn limited(state: &State, refusal: Refusal, aim: &Aim, wanted: &[Value], part: f64) -> Refusal {
-    let limit = match aim {
+fn limited(state: &State, refusal: Refusal, aims: &[(Aim, Vec<Value>)], part: f64) -> Refusal {
+    let limit = |(aim, wanted): &(Aim, Vec<Value>)| match aim {
         Aim::Thing(thing) => limits::of_thing(state, *thing, wanted, part),
         Aim::Term(term) => limits::of_term(state, term, wanted, part),
     };
-    let Some(limit) = limit else { return refusal };
+    let limits: Option<Vec<Limit>> = aims.iter().map(limit).collect();
+    let Some(limit) = limits.and_then(limits::together) else { return refusal };
     let why = refusal.message.strip_prefix("refused: ").unwrap_or(&refusal.message);
     let message = format!("refused: {}; {why}", limits::in_words(&limit));
     Refusal { message, limit: Some(Box::new(limit)), ..refusal }

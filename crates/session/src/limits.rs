@@ -47,6 +47,16 @@ pub(crate) fn of_term(state: &State, term: &Term, wanted: &[Value], part: f64) -
     Some(Limit { path: words::term_path(term), value: joined(&text, &unit) })
 }
 
+/// Returns the limit of several things that go the same part of their ways; nothing of none.
+pub(crate) fn together(limits: Vec<Limit>) -> Option<Limit> {
+    let joined = |a: String, b: String| format!("{a}, {b}");
+    let both = |a: Limit, b: Limit| Limit {
+        path: joined(a.path, b.path),
+        value: joined(a.value, b.value),
+    };
+    limits.into_iter().reduce(both)
+}
+
 /// Says a limit as people say it.
 pub(crate) fn in_words(limit: &Limit) -> String {
     let Limit { path, value } = limit;

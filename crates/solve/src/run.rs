@@ -256,7 +256,13 @@ impl Drag {
         let mut outcome;
         while trust == Trust::Branch && way.take_back(slice, branch, goal) {}
         let anchors = way.frame.anchors.len();
-        match way.direct(branch, goal, trust) {
+        let mut direct = way.direct(branch, goal, trust);
+        // where nothing held, a surplus row may hold on another root
+        let is_rough = trust == Trust::Any && !self.has_branch;
+        if direct.is_ok() && is_rough && way.is_broken() && way.search(branch, goal).is_err() {
+            direct = way.direct(branch, goal, trust);
+        }
+        match direct {
             Ok(()) => {
                 outcome = way.test_trial(&self.upstream);
                 if outcome.is_solved() {
@@ -281,14 +287,20 @@ impl Drag {
                     limit.clone_from(&way.frame.x0);
                 }
                 let approached = fraction < 1.0 && way.approach(&limit, goal, &failure).is_ok();
+                let is_left = fraction < 1.0 && !approached;
+                let searched = is_left && is_rough && way.search(branch, goal).is_ok();
                 // from here on nothing is known to hold because of how it was computed
                 way.part = Part::Whole;
-                if approached {
+                if approached || searched {
                     // the branch is followed from where it was
                     way.frame.anchors.truncate(anchors);
                     outcome = way.test_trial(&[]);
                     if outcome.is_solved() {
                         std::mem::swap(way.trial, now);
+                        if searched {
+                            branch.copy_from_slice(now);
+                            self.has_branch = true;
+                        }
                     }
                 } else {
                     outcome = way.test(&limit, &[]);

@@ -89,6 +89,19 @@ fn every_other_alternative_is_shown_by_its_rule_and_picked_by_values() {
 }
 
 #[test]
+fn a_thing_has_ghosts_where_it_is_elsewhere_itself() {
+    let further = "e: Point = (13, 5)\nconstraint c.distance(to: e) = 8.000637729704143\n\
+        constraint b.distance(to: e) = 5.830951894845301\n";
+    let mut desk = Desk::of(&format!("{TRIANGLE}{further}"));
+    // e has another side too, and goes along
+    let labels = labels(&mut desk, "c");
+    assert_eq!(labels.len(), 1, "{labels:?}");
+    let of_e = ghosts(&mut desk, "e");
+    assert_eq!(of_e.len(), 2, "{of_e:?}");
+    assert!(of_e.iter().all(|g| g.moves.iter().any(|m| m.path == "e")), "{of_e:?}");
+}
+
+#[test]
 fn a_ghost_breaks_no_rule() {
     // the other side is forbidden, and what hangs on it could not follow
     let mut desk = Desk::of(&format!("{TRIANGLE}constraint above_all: c.y >= 0\n"));

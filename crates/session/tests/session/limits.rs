@@ -121,3 +121,15 @@ fn another_alternative_is_told() {
     let told: Vec<String> = change.modes.into_iter().map(|m| m.message).collect();
     assert_eq!(told, ["axis holds by alternative 1 of 2: p.x = 0"]);
 }
+
+#[test]
+fn several_things_that_are_set_have_one_limit_together() {
+    let mut desk = Desk::of("a: Real = 2\nb: Real = 4\nconstraint most: a + b <= 12\n");
+    let to = |path, x| (at(path), Literal::Number(x));
+    let refusal = desk.apply(&Command::Set(vec![to("a", 6.0), to("b", 12.0)]));
+    let refusal = refusal.expect_err("together they are too large");
+    assert!(refusal.message.starts_with("refused: 4, 8 is the limit of a, b; "), "{refusal:?}");
+    let limit = refusal.limit.expect("they can go a part of the way");
+    assert_eq!((limit.path.as_str(), limit.value.as_str()), ("a, b", "4, 8"));
+    desk.apply(&Command::Set(vec![to("a", 4.0), to("b", 8.0)])).expect("what is told can be set");
+}

@@ -49,6 +49,23 @@ fn an_earlier_step_takes_its_other_root_where_a_later_one_finds_none() {
 }
 
 #[test]
+fn a_drag_from_a_state_that_does_not_hold_takes_another_root_too() {
+    let mut s = Sheet::default();
+    let p = knee(&mut s, 0.3);
+    let below = s.anchor(5.0, -3.0);
+    tied(&mut s, [5.1, -1.0], [(p, 1.0), (below, 1.99)]);
+    let plan = s.plan();
+    let mut drag = s.drag(&plan, &below);
+    let height = -base::number::sqrt(5.0001 * 5.0001 - 25.0);
+    // and stays there, where the other one would do as well
+    for to in [-3.001, -3.0, -2.9] {
+        let outcome = drag.follow(&plan, &[5.0, to], &mut NoHost);
+        assert!(outcome.is_solved() && outcome.unmet.is_empty(), "{to}: {outcome:?}");
+        close(drag.values()[p[1] as usize], height, 1e-6);
+    }
+}
+
+#[test]
 fn what_has_no_part_in_a_failure_keeps_the_nearest_root() {
     let mut s = Sheet::default();
     let p = knee(&mut s, 0.3);
