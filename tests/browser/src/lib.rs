@@ -85,12 +85,10 @@ impl Visit {
                 .arg(&folder.0)
                 .args(document.map(|name| folder.0.join("gallery").join(name))),
             "http://",
-        );
+        )
+        .expect("the server says that it runs");
         let address = format!("http://{}", line.split_once("http://").expect("an address").1);
-        let (driver, line) =
-            start(Command::new("chromedriver").args(["--port=0"]), "started successfully on port ");
-        let port = line.rsplit(' ').next().and_then(|word| word.trim_end_matches('.').parse().ok());
-        let port: u16 = port.expect("chromedriver names its port");
+        let (driver, port) = start_driver();
         let client = ClientBuilder::new(HttpConnector::new())
             .capabilities(capabilities(&folder.0))
             .connect(&format!("http://127.0.0.1:{port}"))
@@ -152,15 +150,27 @@ fn named(variable: &str) -> PathBuf {
     }
 }
 
-/// Starts a program and waits for the line of its output that holds a mark; gives that line.
-fn start(command: &mut Command, mark: &str) -> (Process, String) {
+/// Starts chromedriver and gives its port. It takes a port that is free for one kind of address and
+/// ends where another program has it for the other kind: then it is asked again.
+fn start_driver() -> (Process, u16) {
+    let mark = "started successfully on port ";
+    let started = (0..5).find_map(|_| start(Command::new("chromedriver").arg("--port=0"), mark));
+    let (driver, line) = started.expect("chromedriver says that it runs");
+    let port = line.rsplit(' ').next().and_then(|word| word.trim_end_matches('.').parse().ok());
+    (driver, port.expect("chromedriver names its port"))
+}
+
+/// Starts a program and waits for the line of its output that holds a mark; gives that line, or
+/// nothing where the program ended without it.
+fn start(command: &mut Command, mark: &str) -> Option<(Process, String)> {
     let mut child = command.stdout(Stdio::piped()).spawn().expect("the program starts");
     let output = child.stdout.take().expect("piped");
     let mut lines = BufReader::new(output).lines().map_while(Result::ok);
-    let line = lines.find(|line| line.contains(mark));
+    let child = Process(child);
+    let line = lines.find(|line| line.contains(mark))?;
     // What it prints later is read and dropped, so that it never waits for us.
     std::thread::spawn(move || lines.count());
-    (Process(child), line.expect("the program says that it runs"))
+    Some((child, line))
 }
 
 fn copy_of_the_gallery() -> Folder {
