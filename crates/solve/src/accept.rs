@@ -2,8 +2,9 @@
 //!
 //! In: the rows, level by level. Out: the rows that can hold together, the circuits of those that
 //! cannot, and the slots that may move. A given number is a constant unless a row could not be
-//! accepted otherwise; of the rest, a place or lone number stays if the accepted rows can do without
-//! it, asked in order of declaration, all its coordinates at once.
+//! accepted otherwise. Of the rest, a place or lone number stays if the accepted rows can do without
+//! it, asked in order of declaration, all its coordinates at once; but no given number that yields takes
+//! its part in them: it changes least first, and what is computed follows.
 //!
 //! Rows that share no slot that may move, by way of places either, are decided apart. A piece is first tried by
 //! matching, which is linear as a rule and certain where it says yes; else by elimination.

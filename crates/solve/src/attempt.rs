@@ -460,8 +460,11 @@ impl Run<'_> {
         match result {
             Measured::Least => Ok(()),
             Measured::Failed if may_compromise && step.targets.len() <= DENSE => {
-                let scale = |s: SlotIndex| (self.plan.slots[s as usize].scale, false);
-                let make = || Measure::new(&least.block.problem(), &scale);
+                let kind = |s: SlotIndex| {
+                    let slot = &self.plan.slots[s as usize];
+                    (slot.scale, slot.stay == Stay::Given)
+                };
+                let make = || Measure::new(&least.block.problem(), &kind);
                 self.measure(step, measure.get_or_init(make))
             }
             Measured::Failed => self.fail(step),

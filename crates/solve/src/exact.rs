@@ -13,10 +13,12 @@ use std::collections::{BTreeMap, BTreeSet};
 /// What may move a column.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 enum Column {
-    /// A given number that has not yielded.
+    /// A given number: a pivot where nothing else can be one.
     Given,
     /// May be a pivot.
     Open,
+    /// A given number that has to yield.
+    Yields,
     /// Constant in this plan.
     Stays,
 }
@@ -50,12 +52,12 @@ pub(crate) fn accept(
             }
         }
     }
-    hold_given(&mut state, classes);
+    hold_given(&mut state);
     for place in piece.places() {
         hold(&mut state, place);
     }
     for (&slot, &column) in &state.columns {
-        out.unknown[slot as usize] = column == Column::Open;
+        out.unknown[slot as usize] = matches!(column, Column::Open | Column::Yields);
     }
     out.accepted.extend(accepted);
 }
@@ -89,21 +91,15 @@ impl State {
         }
         Self { tableau: Tableau::default(), columns, willing }
     }
-    /// Chooses the pivot of a reduced row, letting given numbers yield where nothing else can.
-    fn pivot(&mut self, row: &SparseRow) -> Option<u32> {
-        if let Some(column) = self.best(row) {
-            return Some(column);
-        }
-        for &(c, _) in row {
-            self.columns.insert(c, Column::Open);
-        }
-        self.best(row)
+    /// Chooses the pivot of a reduced row: a given number where nothing else can be one.
+    fn pivot(&self, row: &SparseRow) -> Option<u32> {
+        self.best(row, Column::Open).or_else(|| self.best(row, Column::Given))
     }
-    /// Returns the most willing open column among those that are not small.
-    fn best(&self, row: &SparseRow) -> Option<u32> {
-        let open = || row.iter().filter(|(c, _)| self.columns.get(c) == Some(&Column::Open));
-        let largest = open().fold(0.0f64, |m, e| m.max(e.1.abs()));
-        open()
+    /// Returns the most willing of these columns among those that are not small.
+    fn best(&self, row: &SparseRow, kind: Column) -> Option<u32> {
+        let own = || row.iter().filter(|(c, _)| self.columns.get(c) == Some(&kind));
+        let largest = own().fold(0.0f64, |m, e| m.max(e.1.abs()));
+        own()
             .filter(|e| e.1.abs() >= 0.05 * largest)
             .max_by_key(|e| (self.willing.get(&e.0), e.0))
             .map(|e| e.0)
@@ -112,10 +108,10 @@ impl State {
 
 /// Holds every given number but those without which the rows would lose rank, each by itself: whether
 /// one yields does not depend on the order of the rows.
-fn hold_given(state: &mut State, classes: &Classes) {
-    let is_given = |c: u32| classes.stay[c as usize] == Stay::Given;
-    let given: Vec<u32> = state.columns.keys().copied().filter(|&c| is_given(c)).collect();
-    let mut yielded: BTreeSet<u32> = BTreeSet::new();
+fn hold_given(state: &mut State) {
+    let given = state.columns.iter().filter(|(_, column)| **column == Column::Given);
+    let given: Vec<u32> = given.map(|(&c, _)| c).collect();
+    let is_given = |c: u32| given.binary_search(&c).is_ok();
     for &c in &given {
         let Some(row) = state.tableau.row_with_pivot(c) else { continue };
         // what is not given yields first, however small
@@ -125,25 +121,29 @@ fn hold_given(state: &mut State, classes: &Classes) {
             state.tableau.exchange(row, other);
         }
     }
+    let mut yielded: BTreeSet<u32> = BTreeSet::new();
     for &c in &given {
         let Some(row) = state.tableau.row_with_pivot(c) else { continue };
         yielded.extend(state.tableau.row(row).iter().map(|e| e.0));
         yielded.insert(c);
     }
     for c in given {
-        let column = if yielded.contains(&c) { Column::Open } else { Column::Stays };
+        let column = if yielded.contains(&c) { Column::Yields } else { Column::Stays };
         state.columns.insert(c, column);
     }
 }
 
-/// Holds the columns if the rows keep their rank without them; else changes nothing.
+/// Holds the columns if the others that are not given leave the rows their rank; else changes nothing.
+///
+/// A given number that yields is no other: how much it changes is decided before what is computed is
+/// asked to stay.
 fn hold(state: &mut State, columns: &[u32]) {
     for &c in columns {
         state.columns.insert(c, Column::Stays);
     }
     for &c in columns {
         let Some(row) = state.tableau.row_with_pivot(c) else { continue };
-        match state.best(state.tableau.row(row)) {
+        match state.best(state.tableau.row(row), Column::Open) {
             Some(other) => state.tableau.exchange(row, other),
             None => {
                 for &c in columns {

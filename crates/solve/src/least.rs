@@ -1,11 +1,13 @@
-//! Least change: fewer rows than unknowns, all to hold, and the distance from x0 to be least.
+//! Least change: fewer rows than unknowns, all to hold, and the distance from x0 to be least; first that
+//! of given numbers, then that of everything else.
 //!
 //! In: the block, the state x0 that distance is measured from, a start. Out: the unknowns, in place.
 //! Newton's method on the Lagrangian with exact second derivatives, `[H Jᵀ; J -δ]`, sparse and
 //! symmetric. Where the Hessian, reduced to what the rows leave free, is not positive (the factors have
 //! other than one negative pivot a row), its diagonal grows until it is. The small `-δ` is that of the
 //! proximal method of multipliers: it keeps the factors tame and disappears with the change of the
-//! multipliers.
+//! multipliers. While given numbers are counted the others are held a little to where they are, which
+//! leaves no trace once they have settled; while the others are counted given numbers are constants.
 //!
 //! **Source:** Nocedal and Wright, *Numerical Optimization*, 2nd ed., §18.1 and §16.3; Friedlander and
 //! Orban, *A primal-dual regularized interior-point method*, Math. Prog. Comp. 4 (2012).
@@ -15,13 +17,15 @@ use crate::lower::{Definers, Problem};
 use crate::measure::Measured;
 use crate::sparse::{Ldl, Symmetric};
 use crate::square::Trust;
-use crate::system::Level;
+use crate::system::{Level, SlotIndex};
 use std::sync::OnceLock;
 
 /// A block of fewer rows than unknowns.
 #[derive(Debug)]
 pub(crate) struct Least {
     pub(crate) block: Block,
+    /// For every unknown: it is a given number that yields. Empty where all are or none is.
+    given: Vec<bool>,
     /// Of unknowns, then rows; made when it is first needed.
     structure: OnceLock<Symmetric>,
 }
@@ -41,6 +45,25 @@ pub(crate) struct LeastScratch {
     start: Vec<f64>,
 }
 
+/// Whose change is counted.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+enum Counted {
+    /// Every unknown's.
+    All,
+    /// That of given numbers; the others go along.
+    Given,
+    /// That of the others; given numbers are constants.
+    Others,
+}
+
+/// What an unknown is while some are counted.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+enum Part {
+    Counted,
+    GoesAlong,
+    Constant,
+}
+
 /// What is known of the rows' curvature.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 enum Curvature {
@@ -53,6 +76,10 @@ enum Curvature {
 const STEPS: usize = 100;
 /// The regularisation of the rows.
 const DELTA: f64 = 1e-6;
+/// How many steps are taken beyond the last where a row does not hold yet.
+const POLISH: usize = 8;
+/// How much what goes along is held to where it is.
+const ALONG: f64 = 1e-6;
 /// Steps below this, in parts of the extent, are no steps.
 const SETTLED: f64 = 1e-13;
 /// A branch of least change is left where the curvature of what is least, one at first, has come down to
@@ -61,9 +88,14 @@ const SETTLED: f64 = 1e-13;
 const FIRM: f64 = 0.125;
 
 impl Least {
-    /// Lays a block out.
-    pub(crate) fn new(problem: &Problem) -> Self {
-        Self { block: Block::new(problem, Definers::None), structure: OnceLock::new() }
+    /// Lays a block out; `is_given` tells which slots are given numbers.
+    pub(crate) fn new(problem: &Problem, is_given: &dyn Fn(SlotIndex) -> bool) -> Self {
+        let block = Block::new(problem, Definers::None);
+        let mut given: Vec<bool> = block.unknowns.iter().map(|&s| is_given(s)).collect();
+        if given.iter().all(|&g| g == given[0]) {
+            given.clear();
+        }
+        Self { block, given, structure: OnceLock::new() }
     }
 
     /// Returns true if a row may give way.
@@ -101,9 +133,36 @@ impl Least {
         w: &mut Workspace,
         s: &mut LeastScratch,
     ) -> Measured {
-        let block = &self.block;
         s.scale.clear();
-        s.scale.extend(block.unknowns.iter().map(|&u| scales[u as usize]));
+        s.scale.extend(self.block.unknowns.iter().map(|&u| scales[u as usize]));
+        if self.given.is_empty() {
+            return self.least(Counted::All, x0, values, trust, w, s);
+        }
+        match self.least(Counted::Given, x0, values, trust, w, s) {
+            Measured::Least => self.least(Counted::Others, x0, values, trust, w, s),
+            Measured::Failed => Measured::Failed,
+        }
+    }
+    fn part(&self, counted: Counted, unknown: usize) -> Part {
+        match (counted, self.given.get(unknown)) {
+            (Counted::All, _) | (_, None) => Part::Counted,
+            (Counted::Given, Some(true)) | (Counted::Others, Some(false)) => Part::Counted,
+            (Counted::Given, Some(false)) => Part::GoesAlong,
+            (Counted::Others, Some(true)) => Part::Constant,
+        }
+    }
+
+    /// Makes the change of those that are counted least.
+    fn least(
+        &self,
+        counted: Counted,
+        x0: &[f64],
+        values: &mut [f64],
+        trust: Trust,
+        w: &mut Workspace,
+        s: &mut LeastScratch,
+    ) -> Measured {
+        let block = &self.block;
         s.multipliers.clear();
         s.multipliers.resize(block.height(), 0.0);
         block.slopes(values, w, &mut s.local);
@@ -111,15 +170,17 @@ impl Least {
         let mut norm = self.norm(s);
         let follows = trust == Trust::Branch && !block.is_linear;
         // on a branch the multipliers are those of the last state, and the first step is Newton's too
-        if follows && self.step(x0, values, Curvature::None, w, s).is_none() {
+        if follows && self.step(counted, x0, values, Curvature::None, w, s).is_none() {
             return Measured::Failed;
         }
         let mut size = f64::INFINITY;
         let mut smallest = (f64::INFINITY, 0);
+        let mut polished = 0;
         for iteration in 0..STEPS {
             let curvature =
                 if follows || iteration > 0 { Curvature::Exact } else { Curvature::None };
-            let Some(shift) = self.step(x0, values, curvature, w, s).filter(|_| norm.is_finite())
+            let Some(shift) =
+                self.step(counted, x0, values, curvature, w, s).filter(|_| norm.is_finite())
             else {
                 return Measured::Failed;
             };
@@ -151,14 +212,19 @@ impl Least {
                 || smallest.1 >= 4 && smallest.0 < 1e-7;
             norm = self.advance(values, size, norm, w, s);
             if last {
-                break;
+                // of what is small beside its scale, a few more steps find the last digits
+                polished += 1;
+                if polished > POLISH || self.holds(values, w, s) {
+                    break;
+                }
             }
             if smallest.1 > 30 {
                 return Measured::Failed;
             }
         }
         let is_found = self.holds(values, w, s) && size < 1e-6;
-        if is_found && (!follows || self.is_firm(s)) { Measured::Least } else { Measured::Failed }
+        let may_bend = follows && counted == Counted::All;
+        if is_found && (!may_bend || self.is_firm(s)) { Measured::Least } else { Measured::Failed }
     }
 
     /// Returns true if what is least is curved by [`FIRM`] in every direction that the rows leave free, by the
@@ -207,6 +273,7 @@ impl Least {
     /// be factorised.
     fn step(
         &self,
+        counted: Counted,
         x0: &[f64],
         values: &[f64],
         curvature: Curvature,
@@ -216,12 +283,15 @@ impl Least {
         let block = &self.block;
         let (n, m) = (block.unknowns.len(), block.height());
         let structure = self.structure();
+        let part = |i: usize| self.part(counted, i);
+        let moves = |i: usize| part(i) != Part::Constant;
         s.entries.clear();
-        s.entries.resize(n, 1.0);
+        s.entries.extend((0..n).map(|i| held(part(i))));
         s.entries.resize(n + m, -DELTA);
         for r in 0..m {
             for e in block.pattern.range(r) {
-                let scale = s.scale[block.pattern.column(e)];
+                let column = block.pattern.column(e);
+                let scale = if moves(column) { s.scale[column] } else { 0.0 };
                 s.entries.push(s.local.jacobian[e] * s.weight[r] * scale);
             }
         }
@@ -231,7 +301,8 @@ impl Least {
             Curvature::Exact => block.each_second(values, w, &mut |row, i, j, second| {
                 let factor = s.multipliers[row] * s.weight[row];
                 let value = factor * second * s.scale[i] * s.scale[j];
-                s.entries.push(if factor != 0.0 && value.is_finite() { value } else { 0.0 });
+                let counts = factor != 0.0 && value.is_finite() && moves(i) && moves(j);
+                s.entries.push(if counts { value } else { 0.0 });
             }),
         }
         let mut shift = 1.0;
@@ -243,20 +314,32 @@ impl Least {
                     if s.entries[first_curved..].iter().all(|&h| h == 0.0) {
                         return None;
                     }
+                    s.entries[..n].iter_mut().for_each(|d| *d += 3.0 * shift);
                     shift *= 4.0;
-                    s.entries[..n].fill(shift);
                 }
             }
         }
         s.right.clear();
-        let away = block.unknowns.iter().zip(&s.scale);
-        s.right.extend(away.map(|(&u, scale)| (x0[u as usize] - values[u as usize]) / scale));
-        s.right.extend((0..m).map(|r| {
-            let residual = (s.local.left[r] - s.local.right[r]) * s.weight[r];
-            -residual - DELTA * s.multipliers[r]
+        s.right.extend(block.unknowns.iter().zip(&s.scale).enumerate().map(|(i, (&u, scale))| {
+            match part(i) {
+                Part::Counted => (x0[u as usize] - values[u as usize]) / scale,
+                Part::GoesAlong | Part::Constant => 0.0,
+            }
         }));
+        // what the multipliers have now is taken off, so that rounding shrinks with the steps
+        let mut entry = n + m;
+        for r in 0..m {
+            for e in block.pattern.range(r) {
+                s.right[block.pattern.column(e)] -= s.entries[entry] * s.multipliers[r];
+                entry += 1;
+            }
+        }
+        let residual = |r: usize| (s.local.left[r] - s.local.right[r]) * s.weight[r];
+        s.right.extend((0..m).map(|r| -residual(r)));
         structure.solve(&mut s.ldl, &mut s.right);
-        s.multipliers.copy_from_slice(&s.right[n..]);
+        for (multiplier, change) in s.multipliers.iter_mut().zip(&s.right[n..]) {
+            *multiplier += change;
+        }
         Some(shift)
     }
 
@@ -285,5 +368,13 @@ impl Least {
             }
             length *= 0.5;
         }
+    }
+}
+
+/// How strongly an unknown is held.
+fn held(part: Part) -> f64 {
+    match part {
+        Part::Counted | Part::Constant => 1.0,
+        Part::GoesAlong => ALONG,
     }
 }

@@ -361,6 +361,10 @@ fn inverse_step(analysis: &Analysis<'_>, rows: &[usize], inverse: Inverse, reads
     step(analysis, kind, rows, [target].into_iter().collect(), reads, Program::Inverse(inverse))
 }
 
+/// Up to this many unknowns, given numbers and others are told apart by what they leave each other free,
+/// densely and exactly.
+const MEASURED: usize = 60;
+
 /// Makes the program that handles rows and unknowns of any number.
 fn measure(analysis: &Analysis<'_>, problem: &Problem, step: StepKind) -> Program {
     let kind = |s: SlotIndex| {
@@ -368,8 +372,9 @@ fn measure(analysis: &Analysis<'_>, problem: &Problem, step: StepKind) -> Progra
         (analysis.stated.system.slots[s as usize].scale, given)
     };
     let alike = problem.unknowns.iter().all(|&u| !kind(u).1);
-    if step == StepKind::LeastChange && alike {
-        return Program::Least(Box::new((Least::new(problem), OnceCell::new())));
+    if step == StepKind::LeastChange && (alike || problem.unknowns.len() > MEASURED) {
+        let least = Least::new(problem, &|s| kind(s).1);
+        return Program::Least(Box::new((least, OnceCell::new())));
     }
     Program::Measure(Box::new(Measure::new(problem, &kind)))
 }

@@ -140,7 +140,8 @@ impl Net {
             self.rank(&accepted, &wider) > others
         };
         let yielding: Vec<u32> = given.iter().copied().filter(helps).collect();
-        open.extend(yielding);
+        // but how much it yields is decided first: what is computed stays where the rest, by itself,
+        // can do as much without it
         for group in 0..self.classes.representative.len() as u32 {
             let slots = &self.stated.system.slots;
             let own: Vec<u32> = (0..slots.len())
@@ -152,10 +153,11 @@ impl Net {
             }
             let without: BTreeSet<u32> =
                 open.iter().copied().filter(|s| !own.contains(s)).collect();
-            if self.rank(&accepted, &without) == accepted.len() {
+            if self.rank(&accepted, &without) == others {
                 open = without;
             }
         }
+        open.extend(yielding);
         (accepted, dependent, open)
     }
 }
