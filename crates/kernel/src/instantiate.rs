@@ -14,6 +14,7 @@ use base::IdVec;
 use std::rc::Rc;
 
 mod body;
+mod copies;
 mod fill;
 mod finish;
 mod givens;

@@ -1,6 +1,7 @@
 //! Finishing: the document's body in, its structure out, with slots and sets.
 
 use super::body::Body;
+use super::copies::forget_computed;
 use super::refer::refer;
 use super::{FaultKind, Maker};
 use crate::class::{Class, ClassId, ClassKind};
@@ -47,6 +48,7 @@ pub(super) fn finish(maker: &mut Maker<'_>, body: Body, givens: &Givens) -> Form
         }
     }
     refer(maker, &mut structure, givens, &references);
+    forget_computed(&mut structure, givens);
     for side in &maker.document.sides {
         let thing = structure.follow(DOCUMENT, &side.path).ok();
         if let Some(slot) = thing.and_then(|t| structure.slot_of_side(t, side.way)) {

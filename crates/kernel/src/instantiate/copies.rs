@@ -1,0 +1,55 @@
+//! Copies: what a part gets of another that is computed is not given.
+//!
+//! A given value is read before anything is solved. Where it is no more than a part of another thing,
+//! `copy of wheel` or `other.size`, and that part is computed, there is nothing to be read yet: the copy
+//! is computed as well, by constraints of its own.
+
+use crate::path::{Path, Step};
+use crate::structure::{DOCUMENT, Form, Givens, Slot, SlotId, ThingId};
+use crate::term::Term;
+
+/// Takes given values away that are those of computed parts, and of copies of such.
+pub(super) fn forget_computed(form: &mut Form, givens: &Givens) {
+    if !givens.iter().any(|(_, given)| matches!(given.term, Term::Send { .. } | Term::Copy(_))) {
+        return;
+    }
+    let from = |(slot, s): (SlotId, &Slot)| {
+        let source = follow(form, &givens[s.given?.value].term, s.given?.me)?;
+        Some((slot, form.slot_of[source]?))
+    };
+    let mut waiting: Vec<(SlotId, SlotId)> = form.slots.iter().filter_map(from).collect();
+    loop {
+        let before = waiting.len();
+        waiting.retain(|&(slot, source)| {
+            let is_known = slot == source || form.slots[source].given.is_some();
+            if !is_known {
+                form.slots[slot].given = None;
+            }
+            is_known
+        });
+        if waiting.len() == before {
+            return;
+        }
+    }
+}
+
+/// Returns the part of another thing that a given value is, if it is no more than that.
+fn follow(form: &Form, term: &Term, me: ThingId) -> Option<ThingId> {
+    let step = |from: ThingId, step: Step| form.follow(from, &Path(vec![step])).ok();
+    match term {
+        Term::Me => Some(me),
+        Term::Document => Some(DOCUMENT),
+        Term::Owner => step(me, Step::Owner),
+        Term::Copy(of) => follow(form, of, me),
+        Term::Send { to, name, arguments, search: None } if arguments.is_empty() => {
+            step(follow(form, to, me)?, Step::Part(name.clone()))
+        }
+        Term::Index(list, at) => match at.as_ref() {
+            Term::Number { value, .. } if value.fract() == 0.0 && *value >= 0.0 => {
+                step(follow(form, list, me)?, Step::Index(*value as u32))
+            }
+            _ => None,
+        },
+        _ => None,
+    }
+}
