@@ -37,6 +37,7 @@ pub enum Node {
 
 impl Node {
     /// Calls `visit` with every operand, first to last.
+    #[inline]
     pub fn each_operand(self, mut visit: impl FnMut(ExprId)) {
         match self {
             Self::Constant(_) | Self::Var(_) => {}
@@ -97,6 +98,7 @@ impl Arena {
         self.nodes.iter().copied()
     }
     /// Returns the operation that `id` names.
+    #[inline]
     pub fn node(&self, id: ExprId) -> Node {
         self.nodes[id.index()]
     }

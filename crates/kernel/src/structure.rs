@@ -346,6 +346,7 @@ impl Form {
     }
     /// Returns the first thing of each class that `thing` is merged with, in order of declaration;
     /// nothing where all are of its own class.
+    #[inline]
     pub fn unlike(&self, thing: ThingId) -> &[ThingId] {
         if self.unlike.is_empty() {
             return &[];

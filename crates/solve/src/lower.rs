@@ -137,7 +137,9 @@ const MOST_TOLD: usize = 64;
 pub(crate) fn lower(analysis: &Analysis<'_>, blocks: &[Block]) -> Lowered {
     let classes = &analysis.classes;
     let equalities = classes.equalities(&analysis.stated.system);
-    let mut steps = Vec::with_capacity(blocks.len());
+    let copies = classes.members().map(|(_, members)| members.len());
+    let count = classes.constants.len() + blocks.len() + copies.sum::<usize>();
+    let mut steps = Vec::with_capacity(count);
     for &(slot, bits) in &classes.constants {
         let program = Program::Constant(f64::from_bits(bits));
         steps.push(alias(told(&equalities, slot), slot, program, Few::default()));
