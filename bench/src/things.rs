@@ -107,6 +107,12 @@ fn edits(
     [one, other]: [&str; 2],
 ) -> std::io::Result<(Session, DocumentId)> {
     let merge = format!("merge {one}.left = {other}.right\n");
+    // what a hand types on the way to another number, right at every key
+    let typed = match text.contains("w17: Widget { left = 17 ") {
+        true => text.replace("w17: Widget { left = 17 ", "w17: Widget { left = 178 "),
+        false => text.replace("width: Real = 30", "width: Real = 301"),
+    };
+    let half = typed.replace("left = 178 ", "left =  ").replace("Real = 301", "Real = ");
     let open_it = || {
         let mut session = Session::new(Box::new(Nothing));
         let id = session.open(name, text);
@@ -123,21 +129,28 @@ fn edits(
     let class = Command::Text(text.replace("width * height", "width * height / 2"));
     let merged = Command::Text(format!("{text}{merge}"));
     let was = Command::Text(text.into());
+    let (typed, half) = (Command::Text(typed), Command::Text(half));
     let (mut classes, mut merges, mut unmerges) = (Vec::new(), Vec::new(), Vec::new());
+    let (mut keys, mut wrong_keys) = (Vec::new(), Vec::new());
     for _ in 0..TIMES {
         classes.push(apply(&class));
         apply(&was);
         merges.push(apply(&merged));
         unmerges.push(apply(&was));
+        keys.push(apply(&typed));
+        wrong_keys.push(apply(&half));
+        apply(&was);
     }
     let of = |times: Vec<f64>| times.into_iter().fold(f64::INFINITY, f64::min);
     writeln!(
         out,
         "{name:8} open {open:.1}  edit of the class {:.1} (goal 200)  merge {:.1}  unmerge {:.1} \
-         (goal 20)  values {:.1}  structure {:.1}  picture {:.1} ms",
+         (goal 20)  key {:.1}  wrong key {:.1}  values {:.1}  structure {:.1}  picture {:.1} ms",
         of(classes),
         of(merges),
         of(unmerges),
+        of(keys),
+        of(wrong_keys),
         least(|| timed(|| session.values(id)).0),
         least(|| timed(|| session.structure(id)).0),
         least(|| timed(|| session.picture(id)).0),

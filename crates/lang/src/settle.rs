@@ -5,7 +5,7 @@ use crate::kinds::Kind;
 use crate::lower::Lowerer;
 use base::{Diagnostic, Name, Place};
 use kernel::{ClassId, Search, Step, builtin};
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 use syntax::ast::AstNode;
 use syntax::edit::{Spot, insert_member};
 
@@ -66,6 +66,8 @@ impl Lowerer<'_> {
     /// A part is declared once in a line of classes; a message keeps its parameters.
     fn report_overrides(&mut self) {
         let mut line: (Option<ClassId>, Vec<ClassId>) = (None, Vec::new());
+        // most names are no message's anywhere
+        let messages: BTreeSet<Name> = self.messages.keys().map(|(_, name)| name.clone()).collect();
         for index in 0..self.named_at.len() {
             let Some((&(class, ref name), &place)) = self.named_at.get_index(index) else { break };
             if line.0 != Some(class) {
@@ -76,8 +78,7 @@ impl Lowerer<'_> {
             let says = &self.document.classes;
             let mut declares = above.iter().filter(|c| !says[**c].parts.is_empty());
             let stored = declares.find(|&&c| self.parts.contains_key(&(c, name.clone())));
-            let has_messages = !says[class].messages.is_empty();
-            if stored.is_none() && !has_messages {
+            if stored.is_none() && !messages.contains(name) {
                 continue;
             }
             let name = name.clone();
