@@ -13,9 +13,11 @@ use crate::exact;
 use crate::lists::Lists;
 use crate::matching::Matcher;
 use crate::rows::Rows;
+use crate::sparse::{Pattern, Symbolic};
 use crate::substitute::Classes;
 use crate::system::{SlotIndex, Stay, System};
 use crate::union::Union;
+use std::rc::Rc;
 
 /// A row that depends on accepted ones.
 #[derive(Clone, PartialEq, Eq, Debug)]
@@ -41,6 +43,30 @@ pub(crate) struct Acceptance {
     pub(crate) freedom: usize,
     /// How many motions required relations take away.
     pub(crate) determined: usize,
+    /// The large blocks that were found regular.
+    pub(crate) factored: Vec<Factored>,
+}
+
+/// A large block whose pivots are chosen.
+#[derive(Clone, PartialEq, Eq, Debug)]
+pub(crate) struct Factored {
+    /// Its rows, in order.
+    pub(crate) rows: Vec<u32>,
+    /// Its unknowns, in order.
+    pub(crate) columns: Vec<SlotIndex>,
+    /// Where the rows depend on the unknowns, both by position.
+    pub(crate) pattern: Pattern,
+    /// The pivots.
+    pub(crate) symbolic: Rc<Symbolic>,
+}
+
+impl Acceptance {
+    /// Returns the pivots that suit a block, where it is one of those that were factorised.
+    pub(crate) fn pivots(&self, rows: &[usize], unknowns: &[SlotIndex]) -> Option<&Factored> {
+        self.factored.iter().find(|f| {
+            f.columns == unknowns && f.rows.iter().map(|&r| r as usize).eq(rows.iter().copied())
+        })
+    }
 }
 
 /// Rows that have to be decided together.

@@ -307,7 +307,10 @@ fn square_block(
         steps.push(inverse_step(analysis, &block.rows, inverse, reads));
         return;
     }
-    let square = Square::alike(problem, layouts);
+    let mut square = Square::alike(problem, layouts);
+    if let Some(known) = analysis.acceptance.pivots(&block.rows, &block.unknowns) {
+        square.take_pivots(&known.pattern, &known.symbolic);
+    }
     if let Some(((row, core), rest)) = closed_form(&square.block, problem) {
         let mut step = inverse_step(analysis, &[block.rows[row]], core, reads);
         // it has nothing to do only where the rows that were put into it hold as well

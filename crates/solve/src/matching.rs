@@ -9,7 +9,7 @@
 //!
 //! **Source:** Dulmage and Mendelsohn, *Coverings of bipartite graphs*, Canadian J. Math. 10 (1958).
 
-use crate::accept::{Acceptance, Piece};
+use crate::accept::{Acceptance, Factored, Piece};
 use crate::dense;
 use crate::lists::Lists;
 use crate::order::strong_components;
@@ -17,6 +17,7 @@ use crate::rows::Rows;
 use crate::sparse::{Lu, Pattern, Symbolic};
 use crate::substitute::Classes;
 use crate::system::{Level, SlotIndex, Stay, System};
+use std::rc::Rc;
 
 /// Up to this many unknowns a block is factorised densely.
 const DENSE: usize = 16;
@@ -108,7 +109,9 @@ impl<'a> Matcher<'a> {
         for place in piece.places() {
             self.hold(place);
         }
-        if !self.is_regular(piece.rows) {
+        let before = out.factored.len();
+        if !self.is_regular(piece.rows, &mut out.factored) {
+            out.factored.truncate(before);
             return false;
         }
         let required =
@@ -219,7 +222,7 @@ impl<'a> Matcher<'a> {
     }
 
     /// Returns true if every block of rows and their slots is regular at the generic point.
-    fn is_regular(&mut self, rows: &[u32]) -> bool {
+    fn is_regular(&mut self, rows: &[u32], factored: &mut Vec<Factored>) -> bool {
         if rows.len() < 2 {
             return true;
         }
@@ -241,7 +244,8 @@ impl<'a> Matcher<'a> {
             if block.len() > 1 && regular {
                 scratch.rows.clear();
                 scratch.rows.extend(block.iter().map(|&i| rows[i as usize]));
-                regular = self.is_regular_block(&mut scratch);
+                scratch.rows.sort_unstable();
+                regular = self.is_regular_block(&mut scratch, factored);
             }
         });
         regular
@@ -251,7 +255,11 @@ impl<'a> Matcher<'a> {
         (row != NONE && self.state[slot as usize] != Use::Closed).then_some(row)
     }
 
-    fn is_regular_block(&self, scratch: &mut BlockScratch) -> bool {
+    fn is_regular_block(
+        &self,
+        scratch: &mut BlockScratch,
+        factored: &mut Vec<Factored>,
+    ) -> bool {
         let BlockScratch { rows: block, columns, matrix, swaps } = scratch;
         columns.clear();
         columns.extend(block.iter().map(|&r| self.slot_of_row[r as usize]));
@@ -261,19 +269,27 @@ impl<'a> Matcher<'a> {
             let own = self.rows.columns(r as usize).iter();
             own.filter_map(|e| columns.binary_search(&e.0).ok().map(|c| (c, e.1)))
         };
-        let factors = if n <= DENSE {
+        if n <= DENSE {
             matrix.clear();
             matrix.resize(n * n, 0.0);
             for (i, &r) in block.iter().enumerate() {
                 entries(r).for_each(|(c, value)| matrix[i * n + c] = value);
             }
-            Some(dense::factorise(matrix, n, swaps))
-        } else {
-            let places = |&r: &u32| entries(r).map(|(c, _)| c as u32).collect();
-            let pattern = Pattern::of_rows(n, block.iter().map(places));
-            let values: Vec<f64> = block.iter().flat_map(|&r| entries(r).map(|e| e.1)).collect();
-            Symbolic::suited(&pattern, &values, &mut Lu::default()).1
-        };
-        factors.is_some_and(|f| f.sign != 0 && f.ratio > REGULAR)
+            let factors = dense::factorise(matrix, n, swaps);
+            return factors.sign != 0 && factors.ratio > REGULAR;
+        }
+        let places = |&r: &u32| entries(r).map(|(c, _)| c as u32).collect();
+        let pattern = Pattern::of_rows(n, block.iter().map(places));
+        let values: Vec<f64> = block.iter().flat_map(|&r| entries(r).map(|e| e.1)).collect();
+        let mut lu = Lu::default();
+        let (symbolic, factors) = Symbolic::suited(&pattern, &values, &mut lu);
+        let is_regular = factors.is_some_and(|f| {
+            f.sign != 0 && (f.ratio > REGULAR || symbolic.gives_back(&pattern, &values, &mut lu))
+        });
+        if is_regular {
+            let (rows, columns) = (block.clone(), columns.clone());
+            factored.push(Factored { rows, columns, pattern, symbolic: Rc::new(symbolic) });
+        }
+        is_regular
     }
 }

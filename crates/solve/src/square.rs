@@ -13,8 +13,9 @@ use crate::dense::{self, Factors};
 use crate::lower::{Definers, Problem};
 use crate::rows::{Point, generic_number};
 use crate::sparse::pivot::{self, How};
-use crate::sparse::{Ldl, Lu, Symbolic, Symmetric};
+use crate::sparse::{Ldl, Lu, Pattern, Symbolic, Symmetric};
 use crate::system::SlotIndex;
+use std::rc::Rc;
 use std::sync::OnceLock;
 
 /// A compiled square block.
@@ -22,7 +23,7 @@ use std::sync::OnceLock;
 pub(crate) struct Square {
     pub(crate) block: Block,
     /// Pivots that suit the block at a generic point; made when they are first needed.
-    pivots: OnceLock<Symbolic>,
+    pivots: OnceLock<Rc<Symbolic>>,
     /// The order for damped steps, of rows then unknowns.
     damped: OnceLock<Symmetric>,
 }
@@ -102,6 +103,13 @@ impl Square {
     }
     fn of(block: Block) -> Self {
         Self { block, pivots: OnceLock::new(), damped: OnceLock::new() }
+    }
+
+    /// Takes over the pivots that were chosen for its pattern.
+    pub(crate) fn take_pivots(&mut self, pattern: &Pattern, pivots: &Rc<Symbolic>) {
+        if !self.is_dense() && *pattern == self.block.pattern {
+            self.pivots = OnceLock::from(Rc::clone(pivots));
+        }
     }
 
     /// Returns true if the rows hold for these values.
@@ -276,7 +284,7 @@ impl Square {
         let pattern = &self.block.pattern;
         let singular = Factors { sign: 0, ratio: 0.0 };
         if s.own.is_none() {
-            let symbolic = self.pivots.get_or_init(|| self.generic_pivots());
+            let symbolic = self.pivots.get_or_init(|| Rc::new(self.generic_pivots()));
             if let Some(factors) = symbolic.factorise(pattern, &s.matrix, &mut s.lu) {
                 return factors;
             }
@@ -314,7 +322,7 @@ impl Square {
             for (v, &r) in weighted {
                 s.right[r as usize] = -v * s.weight[r as usize];
             }
-            let symbolic = s.own.as_ref().or(self.pivots.get());
+            let symbolic = s.own.as_ref().or(self.pivots.get().map(Rc::as_ref));
             let symbolic = symbolic.expect("there are factors");
             symbolic.solve(&mut s.lu, &mut s.right);
             s.step.clear();
@@ -469,7 +477,8 @@ impl Square {
             s.right.clear();
             let residual = s.local.left.iter().zip(&s.local.right);
             s.right.extend(residual.zip(&s.weight).map(|((left, right), w)| (right - left) * w));
-            let symbolic = s.own.as_ref().or(self.pivots.get()).expect("there are factors");
+            let symbolic = s.own.as_ref().or(self.pivots.get().map(Rc::as_ref));
+            let symbolic = symbolic.expect("there are factors");
             symbolic.solve(&mut s.lu, &mut s.right);
             s.start.clear();
             s.start.extend(block.unknowns.iter().map(|&u| values[u as usize]));

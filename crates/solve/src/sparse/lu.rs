@@ -11,7 +11,7 @@ use crate::dense::{self, Factors};
 const WILD: f64 = 1e6;
 
 /// The factors' structure: every index is a place in the order of elimination.
-#[derive(Clone, Debug, Default)]
+#[derive(Clone, PartialEq, Eq, Debug, Default)]
 pub(crate) struct Symbolic {
     rows: Vec<u32>,
     columns: Vec<u32>,
@@ -37,7 +37,7 @@ pub(crate) struct Lu {
     work: Vec<f64>,
 }
 
-/// Pivots of this ratio, ordered as a whole, are not trusted before others were tried.
+/// Pivots of this ratio, ordered as a whole, are not trusted before they were tried.
 const POOR: f64 = 1e-9;
 
 impl Symbolic {
@@ -49,12 +49,25 @@ impl Symbolic {
     ) -> (Self, Option<Factors>) {
         let paired = Self::new(pivot::choose(pattern, values, How::Paired));
         let factors = paired.factorise(pattern, values, lu);
-        if factors.as_ref().is_some_and(|f| f.ratio > POOR) {
+        if factors
+            .as_ref()
+            .is_some_and(|f| f.ratio > POOR || paired.gives_back(pattern, values, lu))
+        {
             return (paired, factors);
         }
         let single = Self::new(pivot::choose(pattern, values, How::Single));
         let factors = single.factorise(pattern, values, lu);
         (single, factors)
+    }
+
+    /// Returns true if a known solution comes back from the factors of these numbers: however unlike their
+    /// pivots are, the matrix is regular then.
+    pub(crate) fn gives_back(&self, pattern: &Pattern, values: &[f64], lu: &mut Lu) -> bool {
+        const OFF: f64 = 1e-6;
+        let sum = |row: usize| values[pattern.range(row)].iter().sum();
+        let mut ones: Vec<f64> = (0..pattern.height()).map(sum).collect();
+        self.solve(lu, &mut ones);
+        ones.iter().all(|x| (x - 1.0).abs() < OFF)
     }
 
     /// Lays the factors out.
