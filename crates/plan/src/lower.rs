@@ -26,7 +26,7 @@ pub(crate) fn held(structure: &Structure, stay: StayInstance) -> Vec<SlotId> {
 /// Returns what a declared stay of so many slots says.
 pub(crate) fn hold(strength: Strength, count: u32) -> Shape {
     Shape {
-        level: level(strength),
+        level: stay_level(strength),
         body: Body::Hold((0..count).collect()),
         methods: Vec::new(),
         derived: true,
@@ -43,6 +43,16 @@ pub(crate) fn level(strength: Strength) -> Level {
         Strength::Strong => Level::Strong,
         Strength::Medium => Level::Medium,
         Strength::Weak => Level::Weak,
+    }
+}
+
+/// Returns the level at which a declared stay of this strength stands: after the constraints.
+fn stay_level(strength: Strength) -> Level {
+    match strength {
+        Strength::Required => Level::Required,
+        Strength::Strong => Level::StrongStay,
+        Strength::Medium => Level::MediumStay,
+        Strength::Weak => Level::WeakStay,
     }
 }
 

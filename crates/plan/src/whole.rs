@@ -119,17 +119,11 @@ fn trial(modes: &Modes, decision: &Decision) -> Trial {
         Ended::Contradiction(_) => return Trial::Fails,
         Ended::NotDecided(_) => return Trial::NotDecided,
     }
-    let mut unmet = [0.0; 4];
+    let mut unmet = [0.0; Level::SOFT.len()];
     for u in &decision.tried.outcome.unmet {
         let relation = &modes.conditional().system.relations[u.relation as usize];
-        let level = match relation.level {
-            Level::Required => return Trial::Fails,
-            Level::Strong => 0,
-            Level::Move => 1,
-            Level::Medium => 2,
-            Level::Weak => 3,
-        };
-        unmet[level] += u.error * u.error;
+        let Some(rank) = relation.level.rank() else { return Trial::Fails };
+        unmet[rank] += u.error * u.error;
     }
     Trial::Holds(unmet)
 }

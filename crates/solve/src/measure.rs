@@ -281,7 +281,7 @@ impl Measure {
         let Spaces { range, null } = dense::spaces(&hard, n);
         let mut step = least_norm(&above, local, &range, n);
         let mut free = null;
-        for level in [Level::Strong, Level::Move, Level::Medium, Level::Weak] {
+        for level in Level::SOFT {
             let own: Vec<usize> = of_level(level).collect();
             if own.is_empty() || free.is_empty() {
                 continue;

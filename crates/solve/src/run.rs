@@ -351,9 +351,9 @@ fn required_rows_held(plan: &Plan, frame: &Frame, buffers: &mut Buffers) -> bool
             return ControlFlow::Continue(());
         }
         frame.held[row as usize].set(Held::No);
-        match plan.relations[relation as usize].level {
-            Level::Required => ControlFlow::Break(()),
-            Level::Strong | Level::Move | Level::Medium | Level::Weak => ControlFlow::Continue(()),
+        match plan.relations[relation as usize].level.rank() {
+            None => ControlFlow::Break(()),
+            Some(_) => ControlFlow::Continue(()),
         }
     };
     if plan.each_differing(plan.tests(), &frame.x0, work, test, &mut differs).is_break() {

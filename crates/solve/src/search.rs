@@ -59,9 +59,9 @@ enum Wish {
 }
 
 /// How far a state is from what is wished: by rank, the first counts most.
-type Distance = [f64; 6];
-const GIVEN: usize = 4;
-const KEPT: usize = 5;
+type Distance = [f64; KEPT + 1];
+const GIVEN: usize = Level::SOFT.len();
+const KEPT: usize = GIVEN + 1;
 
 /// What came of a search.
 #[derive(Clone, PartialEq, Debug)]
@@ -135,7 +135,7 @@ impl Puzzle {
                     row(&arena, &whole, not)
                 })
                 .collect();
-            let rank = rank(relation.level);
+            let rank = relation.level.rank();
             if let (Some(rank), true) = (rank, unless.is_empty()) {
                 let wishes = equal.iter().map(|&(l, r)| Wish::Equal(l, r));
                 soft.extend(
@@ -257,7 +257,7 @@ impl Puzzle {
 
     /// Returns a distance that no solution within the domains comes below.
     fn distance(&self, field: &Field<'_>, near: &[f64]) -> Distance {
-        let mut distance = [0.0; 6];
+        let mut distance = [0.0; KEPT + 1];
         for (i, stay) in self.stays.iter().enumerate() {
             let rank = match stay {
                 Stay::Fixed => continue,
@@ -368,17 +368,6 @@ impl Visitor for Counting {
 fn is_less(a: &Distance, b: &Distance) -> bool {
     let differs = a.iter().zip(b).find(|(x, y)| x != y);
     differs.is_some_and(|(x, y)| x < y)
-}
-
-/// Returns which wishes come first; required relations are no wishes.
-fn rank(level: Level) -> Option<usize> {
-    match level {
-        Level::Required => None,
-        Level::Strong => Some(0),
-        Level::Move => Some(1),
-        Level::Medium => Some(2),
-        Level::Weak => Some(3),
-    }
 }
 
 /// Takes a conjunction apart.

@@ -16,12 +16,39 @@ pub enum Level {
     Required,
     /// `strong`
     Strong,
+    /// What is to stay, strongly.
+    StrongStay,
     /// The wish of a drag.
     Move,
     /// `medium`
     Medium,
+    /// What is to stay, with medium strength.
+    MediumStay,
     /// `weak`
     Weak,
+    /// What is to stay, weakly.
+    WeakStay,
+}
+
+impl Level {
+    /// The levels that may give way, strongest first.
+    ///
+    /// A declared stay comes after the constraints of its strength. It is measured from the state in which
+    /// an edit began: were it balanced against them, each new edit would give way to them a little further.
+    pub const SOFT: [Self; 7] = [
+        Self::Strong,
+        Self::StrongStay,
+        Self::Move,
+        Self::Medium,
+        Self::MediumStay,
+        Self::Weak,
+        Self::WeakStay,
+    ];
+
+    /// Returns where it stands in [`Level::SOFT`]; nothing for what is required.
+    pub fn rank(self) -> Option<usize> {
+        Self::SOFT.iter().position(|&level| level == self)
+    }
 }
 
 /// What holds a slot where no relation moves it.

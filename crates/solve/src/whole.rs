@@ -19,7 +19,7 @@ mod net;
 
 use crate::conditional::Conditional;
 use crate::pattern::Patterns;
-use crate::system::{SlotIndex, Stay};
+use crate::system::{Level, SlotIndex, Stay};
 use expr::Interval;
 use near::{Boxes, Near, Open};
 use net::Net;
@@ -60,11 +60,14 @@ impl Constants {
     }
 }
 
+/// For every level that may give way, the sum of the squares of what is missing.
+pub type Missing = [f64; Level::SOFT.len()];
+
 /// What came of a trial.
 #[derive(Clone, Copy, PartialEq, Debug)]
 pub enum Trial {
     /// Everything required holds; by how much wishes do not, by level.
-    Holds([f64; 4]),
+    Holds(Missing),
     /// Not everything required holds.
     Fails,
     /// It was given up.
@@ -184,7 +187,7 @@ impl Looking<'_> {
         let near = Near::new(&self.wholes.whole, &self.wholes.stays, self.start);
         let most = MOST_BOXES.min(MOST_NUMBERS / whole.len().max(1));
         let mut open = BinaryHeap::from([Open::new(Boxes::from(whole), &near, 0)]);
-        let mut best: Option<([f64; 4], Vec<f64>)> = None;
+        let mut best: Option<(Missing, Vec<f64>)> = None;
         let mut left = MOST_TRIALS;
         let mut is_complete = true;
         let mut made = 0;
@@ -208,7 +211,7 @@ impl Looking<'_> {
                         if is_better {
                             best = Some((unmet, values));
                         }
-                        if unmet == [0.0; 4] {
+                        if unmet == [0.0; Level::SOFT.len()] {
                             break;
                         }
                     }
