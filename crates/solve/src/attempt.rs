@@ -26,9 +26,6 @@ mod strips;
 /// Up to this many unknowns least change is tried by the measure too, whose cost is cubic.
 const DENSE: usize = 60;
 
-/// The largest region that is approached: the cost is cubic.
-pub(crate) const LARGEST_APPROACH: usize = 150;
-
 /// How a slot stands to x0.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub(crate) enum Motion {
@@ -242,9 +239,12 @@ fn approach_region(
     }
     buffers.approached.push(step.region);
     let region = &plan.regions[step.region as usize];
-    if region.problem.unknowns.len() > LARGEST_APPROACH {
+    let refused = || {
         let reason = Reason::NoSolution { step: index as u32 };
-        return Err(Failure { reason, region: step.region });
+        Err(Failure { reason, region: step.region })
+    };
+    if !region.is_within_reach() {
+        return refused();
     }
     let measure = region.approach.get_or_init(|| {
         let kind = |s: SlotIndex| {
@@ -256,8 +256,7 @@ fn approach_region(
     let work = &mut buffers.work;
     let result = measure.solve(&frame.x0, values, &frame.scales, Trust::Any, work);
     if result == Measured::Failed {
-        let reason = Reason::NoSolution { step: index as u32 };
-        return Err(Failure { reason, region: step.region });
+        return refused();
     }
     for &u in measure.targets() {
         buffers.motion[u as usize] = motion(frame, values, u);

@@ -96,6 +96,17 @@ pub(crate) struct Region {
     pub(crate) approach: OnceCell<Measure>,
 }
 
+/// The largest region with curved rows that is approached: where curvature counts, the cost is cubic.
+const LARGEST_CURVED: usize = 150;
+
+impl Region {
+    /// Returns true if it is not too large to be approached.
+    pub(crate) fn is_within_reach(&self) -> bool {
+        let is_linear = |row: &ProblemRow| row.kernel.entries.iter().all(|e| e.depends.is_empty());
+        self.problem.unknowns.len() <= LARGEST_CURVED || self.problem.rows.iter().all(is_linear)
+    }
+}
+
 /// Rows and unknowns before they are laid out.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct Problem {

@@ -255,11 +255,7 @@ impl<'a> Matcher<'a> {
         (row != NONE && self.state[slot as usize] != Use::Closed).then_some(row)
     }
 
-    fn is_regular_block(
-        &self,
-        scratch: &mut BlockScratch,
-        factored: &mut Vec<Factored>,
-    ) -> bool {
+    fn is_regular_block(&self, scratch: &mut BlockScratch, factored: &mut Vec<Factored>) -> bool {
         let BlockScratch { rows: block, columns, matrix, swaps } = scratch;
         columns.clear();
         columns.extend(block.iter().map(|&r| self.slot_of_row[r as usize]));

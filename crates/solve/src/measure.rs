@@ -8,15 +8,19 @@
 //! Newton's method on the Lagrangian of every level, each in the directions that the levels above
 //! leave free. A direction is left free where the level above has no curvature, the curvature of the
 //! stronger rows included (exact second derivatives): an elbow that is stretched to its limit is
-//! held there by curvature alone. Where curvature is negative the step goes downhill.
+//! held there by curvature alone. Where curvature is negative the step goes downhill. A large block's step is
+//! found by sparse factors ([`levels`]).
 //!
 //! **Source:** Nocedal and Wright, *Numerical Optimization*, 2nd ed., §18.1 and §3.4.
+
+mod levels;
 
 use crate::block::{Block, Local, Workspace};
 use crate::dense::{self, Spaces};
 use crate::lower::{Definers, Problem, ProblemRow};
 use crate::square::Trust;
 use crate::system::{Level, SlotIndex};
+use levels::{Asked, Levels};
 
 /// A block of rows and unknowns of any number.
 #[derive(Debug)]
@@ -32,6 +36,8 @@ pub(crate) struct Measure {
     given: Vec<bool>,
     /// True if no second derivative is there.
     is_linear: bool,
+    /// What finds the step of a large block.
+    large: Option<Levels>,
 }
 
 /// What came of it.
@@ -46,13 +52,18 @@ pub(crate) enum Measured {
 /// One evaluation of the core, in scaled unknowns and weighted rows.
 struct Scaled {
     residual: Vec<f64>,
+    /// The core's rows; of a large block none.
     jacobian: Vec<Vec<f64>>,
+    /// Of a large block, the slopes in the order of its pattern.
+    slopes: Vec<f64>,
     local: Local,
     /// Every unknown's gradient by the core.
     gradients: Vec<f64>,
 }
 
 const STEPS: usize = 200;
+/// From how many unknowns on a block's algebra is sparse.
+const LARGE: usize = 120;
 /// Curvature below this, where one is ordinary, leaves a direction to the next level.
 const FLAT: f64 = 1e-9;
 /// A slope above this is one, even where there is no curvature.
@@ -65,7 +76,8 @@ impl Measure {
     pub(crate) fn new(problem: &Problem, kind: &dyn Fn(SlotIndex) -> (u16, bool)) -> Self {
         // Where the rows leave a choice, distance decides, and counts every unknown.
         let has_choice = problem.rows.len() < problem.unknowns.len();
-        let definers = if has_choice { Definers::None } else { Definers::Required };
+        let is_large = problem.unknowns.len() >= LARGE;
+        let definers = if has_choice || is_large { Definers::None } else { Definers::Required };
         let block = Block::new(problem, definers);
         let unknowns: Vec<SlotIndex> =
             block.core.iter().map(|&u| block.unknowns[u as usize]).collect();
@@ -75,6 +87,7 @@ impl Measure {
             classes: rows().map(|r| common_scale(&problem.rows[r], kind)).collect(),
             given: unknowns.iter().map(|&s| kind(s).1).collect(),
             is_linear: block.is_linear,
+            large: is_large.then(|| Levels::new(&block.pattern)),
             unknowns,
             block,
         }
@@ -212,14 +225,14 @@ impl Measure {
         let Some(local) = at_start.or_else(|| self.evaluate(values, scale, &ones, w)) else {
             return ones;
         };
-        let own: Vec<f64> = local
-            .jacobian
-            .iter()
-            .map(|row| {
-                let size = dense::norm(row);
-                if size > 0.0 { 1.0 / size } else { 1.0 }
-            })
-            .collect();
+        let own = (0..self.levels.len()).map(|r| {
+            let size = match self.large {
+                Some(_) => dense::norm(&local.slopes[self.block.pattern.range(r)]),
+                None => dense::norm(&local.jacobian[r]),
+            };
+            if size > 0.0 { 1.0 / size } else { 1.0 }
+        });
+        let own: Vec<f64> = own.collect();
         let alike = |r: usize, q: usize| {
             self.levels[r] == self.levels[q]
                 && self.classes[r].is_some()
@@ -248,6 +261,9 @@ impl Measure {
         block.compute_defined(values, w);
         let mut local = Local::default();
         block.slopes(values, w, &mut local);
+        if self.large.is_some() {
+            return self.evaluated_large(local, scale, weights);
+        }
         let mut gradients = Vec::new();
         block.gradients(&local, &|i| scale[i], &mut gradients);
         let mut jacobian = vec![vec![0.0; n]; block.core_rows.len()];
@@ -261,7 +277,22 @@ impl Measure {
             residual.push((local.left[r] - local.right[r]) * weight);
         }
         let finite = residual.iter().chain(jacobian.iter().flatten()).all(|v| v.is_finite());
-        finite.then_some(Scaled { residual, jacobian, local, gradients })
+        finite.then_some(Scaled { residual, jacobian, slopes: Vec::new(), local, gradients })
+    }
+
+    /// A large block defines nothing: its rows and unknowns are the core.
+    fn evaluated_large(&self, local: Local, scale: &[f64], weights: &[f64]) -> Option<Scaled> {
+        let pattern = &self.block.pattern;
+        let mut slopes = Vec::with_capacity(pattern.len());
+        for (r, weight) in weights.iter().enumerate() {
+            let slope = |e: usize| local.jacobian[e] * weight * scale[pattern.column(e)];
+            slopes.extend(pattern.range(r).map(slope));
+        }
+        let sides = local.left.iter().zip(&local.right).zip(weights);
+        let residual: Vec<f64> = sides.map(|((left, right), w)| (left - right) * w).collect();
+        let finite = residual.iter().chain(&slopes).all(|v| v.is_finite());
+        let (jacobian, gradients) = (Vec::new(), Vec::new());
+        finite.then_some(Scaled { residual, jacobian, slopes, local, gradients })
     }
 
     /// The step that all levels together ask for.
@@ -273,6 +304,16 @@ impl Measure {
         values: &[f64],
         w: &mut Workspace,
     ) -> Vec<f64> {
+        if let Some(large) = &self.large {
+            return large.step(Asked {
+                pattern: &self.block.pattern,
+                slopes: &local.slopes,
+                residual: &local.residual,
+                levels: &self.levels,
+                given: &self.given,
+                away,
+            });
+        }
         let n = self.unknowns.len();
         let of_level =
             |level: Level| (0..self.levels.len()).filter(move |&r| self.levels[r] == level);

@@ -3,7 +3,6 @@
 //! In: a plan and the known slots that move. Out: the steps downstream of them, put together where
 //! they can run together, and what has to be tested after them. Made once for a plan and its inputs.
 
-use crate::attempt::LARGEST_APPROACH;
 use crate::lower::Program;
 use crate::plan::{Plan, Step};
 use crate::strip::{Portion, Writers, portions};
@@ -75,7 +74,7 @@ impl Slice {
             }
             if let Some(region) = plan.regions.get(step.region as usize)
                 && region.can_approach
-                && region.problem.unknowns.len() <= LARGEST_APPROACH
+                && region.is_within_reach()
                 && !std::mem::replace(&mut is_region_reached[step.region as usize], true)
             {
                 for &u in &region.problem.unknowns {

@@ -1,6 +1,6 @@
 //! How much: soft rows, compromises, least change.
 
-use crate::builder::{Sheet, close};
+use crate::builder::{Sheet, bits, close};
 use solve::{Level, NoHost, StepKind};
 
 #[test]
@@ -134,4 +134,35 @@ fn a_crank_follows_a_wish_that_is_a_quarter_turn_away() {
         close(drag.values()[tip[0] as usize], 40.0 * wish[0] / size, 1e-6);
         close(drag.values()[tip[1] as usize], 40.0 * wish[1] / size, 1e-6);
     }
+}
+
+/// 400 widths that want to be 7.5 in a row of 2 000, the first half more strongly: those have it, and the
+/// others share what is left alike.
+#[test]
+fn a_large_compromise_is_made_level_by_level() {
+    const BOXES: usize = 400;
+    let mut s = Sheet::default();
+    let edges: Vec<u32> = (0..=BOXES).map(|i| s.kept(i as f64)).collect();
+    for (edge, at) in [(0, 0.0), (BOXES, 2_000.0)] {
+        let (v, c) = (s.v(edges[edge]), s.c(at));
+        s.require(v, c);
+    }
+    for i in 0..BOXES {
+        let (left, right) = (s.v(edges[i]), s.v(edges[i + 1]));
+        let (width, wanted) = (s.sub(right, left), s.c(7.5));
+        let level = if i < BOXES / 2 { Level::Medium } else { Level::Weak };
+        s.relate(level, &[(width, wanted)]);
+    }
+    let plan = s.plan();
+    let (values, outcome) = s.run(&plan, &[], &mut NoHost);
+    assert!(outcome.is_solved());
+    assert_eq!(outcome.unmet.len(), BOXES / 2);
+    for i in 0..BOXES {
+        let wanted = if i < BOXES / 2 { 7.5 } else { 2.5 };
+        let (left, right) = (edges[i] as usize, edges[i + 1] as usize);
+        close(values[right] - values[left], wanted, 1e-9);
+    }
+    // and solving again changes no bit
+    s.x0 = values.clone();
+    assert_eq!(bits(&s.run(&plan, &[], &mut NoHost).0), bits(&values));
 }
