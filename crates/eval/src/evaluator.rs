@@ -24,6 +24,9 @@ pub const DEEPEST_MESSAGES: u32 = 200;
 const DEEPEST_TERMS: u32 = 1000;
 /// How many terms one question may evaluate: what a mistyped recursion may cost.
 pub const MOST_TERMS: u64 = 20_000_000;
+/// How many terms the rule of a constraint may evaluate: one that opens into more than a million is not
+/// solved anyway.
+const MOST_TERMS_OF_RULE: u64 = 2_000_000;
 /// How many elements a range may have.
 const LONGEST_RANGE: f64 = 1_000_000.0;
 
@@ -136,6 +139,12 @@ impl<'a> Evaluator<'a> {
         self.fuel.set(MOST_TERMS);
     }
 
+    /// Begins the test of a constraint.
+    pub(crate) fn begin_rule(&self) {
+        self.begin();
+        self.fuel.set(MOST_TERMS_OF_RULE);
+    }
+
     /// Computes the value of a term.
     pub(crate) fn term(&self, term: &'a Term, frame: &Frame<'a>) -> Result<Answer<'a>> {
         self.burn()?;
@@ -231,7 +240,7 @@ impl<'a> Evaluator<'a> {
                 Ok(())
             }
             None => {
-                let message = format!("more than {MOST_TERMS} steps without an end");
+                let message = String::from("too many steps without an end");
                 Err(Fault::new(FaultKind::Endless, message))
             }
         }

@@ -43,11 +43,12 @@ impl<'a> Evaluator<'a> {
     pub fn test(&self, constraint: ConstraintInstance) -> Result<Verdict> {
         let class = &self.document.classes[constraint.class];
         let written = &class.constraints[constraint.index as usize];
-        self.begin();
+        self.begin_rule();
         if !self.is_on(constraint)? {
             return Ok(Verdict::of(true));
         }
-        self.test_rule(&written.rule, written.within.as_ref(), constraint.owner)
+        let frame = Frame::of(constraint.owner);
+        self.judge_within(&written.rule, written.within.as_ref(), &frame)
             .map_err(|f| f.within(written.origin))
     }
 
@@ -228,7 +229,7 @@ impl<'a> Evaluator<'a> {
     pub(crate) fn idle(&self, constraint: ConstraintInstance) -> Result<Vec<ThingId>> {
         let class = &self.document.classes[constraint.class];
         let rule = &class.constraints[constraint.index as usize].rule;
-        self.begin();
+        self.begin_rule();
         let mut idle = Vec::new();
         self.collect_idle(rule, &Frame::of(constraint.owner), true, &mut idle)?;
         Ok(idle)

@@ -6,6 +6,7 @@
 //! Rank alone decides nothing: a row that only depends on others *here* is redundant if it still holds
 //! where the others are solved without it from elsewhere ([`redundancy`]). What cannot hold together
 //! is found by solving parts of it ([`conflict`]), and so is what would help ([`repair`]).
+pub mod combination;
 pub mod conflict;
 pub(crate) mod gradient;
 pub mod held;

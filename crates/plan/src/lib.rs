@@ -73,6 +73,7 @@ mod ghost;
 pub mod status;
 
 pub use diagnose::Analysis;
+pub use diagnose::combination::{Combination, Said};
 pub use diagnose::conflict::{Certainty, Contradiction};
 pub use diagnose::held::Held;
 pub use diagnose::motion::{Freedom, Motion, MotionKind};

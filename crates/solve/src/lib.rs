@@ -120,5 +120,5 @@ pub use system::{
     Equation, Level, Method, MethodBody, Relation, RelationBody, Slot, SlotIndex, Span, Stay,
     System,
 };
-pub use truth::Comparing;
+pub use truth::{Comparing, Comparison, comparisons};
 pub use whole::{Constants, Looked, Trial, Wholes};

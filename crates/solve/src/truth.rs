@@ -42,10 +42,28 @@ pub(crate) enum Truth {
 
 /// Two sides and how they shall compare.
 #[derive(Clone, Copy, PartialEq, Debug)]
-pub(crate) struct Comparison {
-    pub(crate) comparing: Comparing,
-    pub(crate) left: ExprId,
-    pub(crate) right: ExprId,
+pub struct Comparison {
+    /// How.
+    pub comparing: Comparing,
+    /// The left side.
+    pub left: ExprId,
+    /// The right side.
+    pub right: ExprId,
+}
+
+/// Returns the comparisons that an expression is true with, all of them; nothing where it leaves a choice.
+pub fn comparisons(arena: &mut Arena, id: ExprId) -> Option<Vec<Comparison>> {
+    fn collect(truth: &Truth, all: &mut Vec<Comparison>) -> Option<()> {
+        match truth {
+            Truth::Holds(comparison) => all.push(*comparison),
+            Truth::All(parts) => parts.iter().try_for_each(|part| collect(part, all))?,
+            Truth::Any(_) => return None,
+        }
+        Some(())
+    }
+    let mut all = Vec::new();
+    collect(&truth(arena, id, true), &mut all)?;
+    Some(all)
 }
 
 /// Writes out what makes an expression true, or false where that is `wanted`.

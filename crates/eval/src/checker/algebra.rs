@@ -81,9 +81,8 @@ fn least_squares(of: &[&Vec<f64>], vector: &[f64]) -> Option<Vec<f64>> {
             return None;
         }
         let row = system[k].clone();
-        for (i, other) in system.iter_mut().enumerate().filter(|(i, _)| *i != k) {
+        for (_, other) in system.iter_mut().enumerate().filter(|(i, _)| *i != k) {
             let factor = other[k] / row[k];
-            debug_assert!(i < n, "the matrix is square");
             other.iter_mut().zip(&row).for_each(|(x, p)| *x -= factor * p);
         }
     }

@@ -8,6 +8,7 @@
 //! problems*, AAAI 2004.
 
 use crate::aim::Aim;
+use crate::diagnose::combination::Combination;
 use crate::diagnose::gradient::is_linear;
 use crate::diagnose::repair::{Repair, Suspects};
 use crate::diagnose::trial::{Setup, Trial, perturbed};
@@ -37,6 +38,8 @@ pub struct Contradiction {
     pub anchors: Vec<SlotId>,
     /// How sure this is.
     pub certainty: Certainty,
+    /// The sum that proves it, where all of it is linear.
+    pub proof: Option<Combination>,
     /// What would work, each tried.
     pub repairs: Vec<Repair>,
 }
@@ -105,6 +108,7 @@ impl Planner {
                     constraints: constraints.filter(|s| unmet.contains(s)).collect(),
                     anchors: Vec::new(),
                     certainty: Certainty::GivenUp(bound),
+                    proof: None,
                     repairs: Vec::new(),
                 });
                 continue;
@@ -124,7 +128,9 @@ impl Planner {
                 let anchors = suspects.anchors(host);
                 let repairs = suspects.repairs(&anchors, host);
                 let constraints = set.iter().map(|u| u.source).collect();
-                found.push(Contradiction { constraints, anchors, certainty, repairs });
+                let proof = self.combination(&setup, &set, values);
+                let certainty = if proof.is_some() { Certainty::Contradiction } else { certainty };
+                found.push(Contradiction { constraints, anchors, certainty, proof, repairs });
             }
         }
         found

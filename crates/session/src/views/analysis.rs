@@ -5,7 +5,10 @@ use crate::texts::Texts;
 use crate::view::{Analysis, ContradictionView, MotionView, RedundantView, Velocity};
 use crate::words;
 use kernel::{SlotId, ThingId};
-use plan::{Certainty, Contradiction, Motion, MotionKind, Redundant, RedundantKind, Repair};
+use plan::{
+    Certainty, Combination, Contradiction, Motion, MotionKind, Redundant, RedundantKind, Repair,
+    Said,
+};
 use std::collections::BTreeMap;
 
 /// Analyses the document as it is; a drag is not looked at.
@@ -108,7 +111,11 @@ fn contradiction(open: &Open, c: &Contradiction) -> ContradictionView {
     let list = words::listed(&all);
     let (decided, message) = match (c.certainty, all.len()) {
         (Certainty::Contradiction, 1) => (true, format!("{list} cannot hold")),
-        (Certainty::Contradiction, _) => (true, format!("{list} contradict each other")),
+        (Certainty::Contradiction, _) => {
+            let proof = c.proof.as_ref().and_then(|p| combination(open, p));
+            let proof = proof.map_or(String::new(), |p| format!(": {p}"));
+            (true, format!("{list} contradict each other{proof}"))
+        }
         (Certainty::NoSolution { starts }, 1) => {
             (true, format!("no solution of {list} was found, from {starts} starts"))
         }
@@ -151,6 +158,34 @@ fn contradiction(open: &Open, c: &Contradiction) -> ContradictionView {
     };
     let repairs = c.repairs.iter().filter_map(repair).collect();
     ContradictionView { constraints, anchors, decided, message, repairs }
+}
+
+/// Says a proof: `2 × a + b says 30, c says 31`.
+fn combination(open: &Open, proof: &Combination) -> Option<String> {
+    let shown = |x: f64| base::number::rounded(x, 6);
+    let mut sum = String::new();
+    for &(source, factor) in &proof.terms {
+        let name = words::source_name(&open.state, source)?;
+        let sign = match (sum.is_empty(), factor < 0.0) {
+            (true, false) => "",
+            (true, true) => "−",
+            (false, false) => " + ",
+            (false, true) => " − ",
+        };
+        sum.push_str(sign);
+        if factor.abs() != 1.0 {
+            sum.push_str(&format!("{} × ", shown(factor.abs())));
+        }
+        sum.push_str(&name);
+    }
+    let says = |said: Said| match said {
+        Said::Is(x) => shown(x),
+        Said::AtMost(x) => format!("at most {}", shown(x)),
+        Said::AtLeast(x) => format!("at least {}", shown(x)),
+    };
+    let against = words::source_name(&open.state, proof.against)?;
+    let (said, denied) = (says(proof.says), says(proof.denies));
+    (!sum.is_empty()).then(|| format!("{sum} says {said}, {against} says {denied}"))
 }
 
 /// Returns the path of the place that a slot is a coordinate of, else its own.

@@ -6,6 +6,7 @@ mod explaining;
 mod fixing;
 mod ghosts;
 mod limits;
+mod proving;
 mod recognising;
 mod refusing;
 mod restructuring;

@@ -111,7 +111,7 @@ impl Counts {
         self.count[i as usize]
     }
     pub(crate) fn of(&self, count: usize) -> impl Iterator<Item = u32> + '_ {
-        let mut at = self.head[count];
+        let mut at = self.head.get(count).copied().unwrap_or(NONE);
         std::iter::from_fn(move || {
             let i = at;
             (i != NONE).then(|| {

@@ -1,0 +1,44 @@
+//! Contradictions of linear constraints, proved by a sum that can be checked by hand.
+
+use crate::desk::Desk;
+
+fn told(text: &str) -> Vec<String> {
+    let mut desk = Desk::of(text);
+    let analysis = desk.session.analysis(desk.id);
+    analysis.contradictions.into_iter().map(|c| c.message).collect()
+}
+
+#[test]
+fn equations_are_added_up() {
+    let text = "a, b, c: Real\nconstraint first: a + b = 10\nconstraint second: a - b = 4\n\
+        constraint other: b + c = 1\nconstraint third: a = 8\n";
+    let proof = "first, second, third contradict each other: \
+        0.5 × first + 0.5 × second says 7, third says 8";
+    assert_eq!(told(text), [proof]);
+}
+
+#[test]
+fn bounds_are_added_up_with_the_right_sign() {
+    let text = "a, b: Real\nconstraint least: a >= 3\nconstraint above: b >= 4 + a\n\
+        constraint most: 2 * a + b <= 12\n";
+    let proof = "least, above, most contradict each other: \
+        3 × least + above says at least 13, most says at most 12";
+    assert_eq!(told(text), [proof]);
+    // the same bounds with room between them
+    assert_eq!(told(&text.replace("<= 12", "<= 13")), [""; 0]);
+}
+
+#[test]
+fn an_anchored_number_counts_as_it_is() {
+    let text = "p, q, r: Real = 1\nanchor p\nconstraint one: q = p + 10\n\
+        constraint two: r = q + 20\nconstraint sum: q + r = 43\n";
+    let proof = "2 × one + two says 42, sum says 43";
+    let found = told(text);
+    assert!(found.len() == 1 && found[0].ends_with(proof), "{found:?}");
+}
+
+#[test]
+fn what_is_not_linear_is_not_proved() {
+    let text = "a, b: Real = 1\nconstraint ring: a^2 + b^2 = 1\nconstraint far: a = 3\n";
+    assert_eq!(told(text), ["no solution of ring, far together was found, from 2 starts"]);
+}
