@@ -132,7 +132,7 @@ pub fn ghosts(list: &mut DisplayList, drawn: &[Drawing]) {
             | Shape::Polyline { .. }
             | Shape::Circle { .. }
             | Shape::Arc { .. } => {
-                begin(list, Hue::Faint as i32, -1, Line::Dashed, USUAL_WIDTH, Space::Screen);
+                begin(list, Hue::Faint as i32, -1, Line::Dashed, USUAL_WIDTH, Space::Sheet);
                 shape(list, &element.shape);
             }
         }
@@ -402,6 +402,17 @@ mod tests {
     #[test]
     fn an_empty_picture_is_an_empty_list() {
         assert_eq!(display_list(&PictureView::default(), &[], &[]), super::DisplayList::default());
+    }
+
+    #[test]
+    fn a_ghost_lies_on_the_sheet_dashed() {
+        let elements = vec![element(segment(1.0), Layer::Lines, Style::default())];
+        let mut list = super::DisplayList::default();
+        super::ghosts(&mut list, &[Drawing { elements, ..Drawing::default() }]);
+        let (begun, drawn) = list.numbers.split_at(6);
+        assert_eq!(begun[3], super::line_number(super::Line::Dashed));
+        assert_eq!(begun[5], 0.0);
+        assert_eq!(drawn, [2.0, 1.0, 0.0, 1.0, 1.0]);
     }
 
     #[test]
