@@ -196,22 +196,8 @@ impl Maker<'_> {
                     None => continue,
                 },
             };
-            let Some((shown, class)) = value.and_then(|v| show_answer(document, &v)) else {
-                continue;
-            };
             append(path, &name);
-            self.rows.push(ValueRow {
-                path: path.clone(),
-                class: class.into(),
-                text: shown.text,
-                unit: shown.unit,
-                number: shown.number,
-                given: false,
-                is_virtual: true,
-                anchored: false,
-                freedom: None,
-                doc: String::new(),
-            });
+            self.rows.extend(value.and_then(|v| answered(document, path, &v, "")));
             path.truncate(end);
         }
     }
@@ -224,23 +210,28 @@ impl Maker<'_> {
         let end = path.len();
         for (name, doc) in parts.clone().iter() {
             let Ok(answer) = self.evaluator.ask(thing, name) else { continue };
-            let Some((shown, class)) = show_answer(document, &answer) else { continue };
             append(path, name);
-            self.rows.push(ValueRow {
-                path: path.clone(),
-                class: class.into(),
-                text: shown.text,
-                unit: shown.unit,
-                number: shown.number,
-                given: false,
-                is_virtual: true,
-                anchored: false,
-                freedom: None,
-                doc: doc.clone(),
-            });
+            self.rows.extend(answered(document, path, &answer, doc));
             path.truncate(end);
         }
     }
+}
+
+/// Returns the row of what a thing answers; nothing where that is no value.
+fn answered(document: &Document, path: &str, answer: &Answer<'_>, doc: &str) -> Option<ValueRow> {
+    let (shown, class) = show_answer(document, answer)?;
+    Some(ValueRow {
+        path: path.into(),
+        class: class.into(),
+        text: shown.text,
+        unit: shown.unit,
+        number: shown.number,
+        given: false,
+        is_virtual: true,
+        anchored: false,
+        freedom: None,
+        doc: doc.into(),
+    })
 }
 
 /// Adds a step to the part of this name.
