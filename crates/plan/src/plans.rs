@@ -5,7 +5,7 @@ use crate::planner::Kept;
 use crate::whole::Whole;
 use base::Mixer;
 use indexmap::IndexMap;
-use solve::{Conditional, Mode, Modes, Patterns, Plan, Puzzle, Stay, System};
+use solve::{Conditional, Mode, Modes, Patterns, Plan, Puzzle, SlotIndex, Stay, System};
 use std::cell::RefCell;
 use std::hash::BuildHasherDefault;
 use std::rc::Rc;
@@ -87,14 +87,25 @@ impl Plans {
     pub(crate) fn in_mode(&self, modes: &Modes, mode: &Mode) -> (Rc<System>, Rc<Plan>) {
         self.plan_later(modes.system(mode))
     }
-    /// Returns the plan in which the given numbers that yield in a plan of numbers alone are constants;
-    /// nothing where none yields.
+    /// Returns the plan in which the given numbers that yield in a plan of numbers alone are constants, or
+    /// all that has a value where a place with a value yields to what has none yet; nothing where none
+    /// yields.
     pub(crate) fn with_given_held(&self, system: &System, plan: &Plan) -> Option<Rc<Plan>> {
-        let is_plain = system.slots.iter().all(|s| s.is_number);
-        if plan.report.yielded.is_empty() || !is_plain {
+        if !system.slots.iter().all(|s| s.is_number) {
+            return None;
+        }
+        let is_kept = |s: &SlotIndex| matches!(system.slots[*s as usize].stay, Stay::Kept { .. });
+        let opens = || system.slots.iter().any(|s| s.stay == Stay::Free);
+        let places_yield = plan.steps.iter().flat_map(|step| &step.targets).any(is_kept) && opens();
+        if !places_yield && plan.report.yielded.is_empty() {
             return None;
         }
         let mut held = system.clone();
+        if places_yield {
+            for slot in held.slots.iter_mut().filter(|s| s.stay != Stay::Free) {
+                slot.stay = Stay::Fixed;
+            }
+        }
         for &slot in &plan.report.yielded {
             held.slots[slot as usize].stay = Stay::Fixed;
         }
