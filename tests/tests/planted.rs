@@ -1,5 +1,5 @@
 //! Sketches that hold, with one contradiction planted: a point is put where the others do not let it be.
-//! What is named cannot hold together, each part of it is needed, and the planted one is among it.
+//! The planted one is among what is named, and nearly always it is decided that this cannot hold together.
 //! `THINGLAB_LONG` makes them many.
 
 use bench::case::Constraint;

@@ -158,7 +158,7 @@ impl Branch {
 }
 
 /// Tells for every node whether the variable occurs in it.
-fn occurrences(arena: &Arena, order: &Vec<ExprId>, var: Var) -> Vec<bool> {
+fn occurrences(arena: &Arena, order: &[ExprId], var: Var) -> Vec<bool> {
     let mut holds: Vec<bool> = Vec::with_capacity(order.len());
     for &id in order {
         let node = arena.node(id);

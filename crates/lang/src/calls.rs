@@ -42,8 +42,11 @@ impl Lowerer<'_> {
         let args = self.arguments(scope, field.args(), element)?;
         let (arguments, answer) = self.message(scope, &kind, &word, args, &to)?;
         let search = match kind {
-            Kind::Thing(class) if self.is_primary_superclass(scope, &receiver) => {
-                self.class_of_part(class, &name).is_none().then_some(Search::As(class))
+            Kind::Thing(class)
+                if self.class_of_part(class, &name).is_none()
+                    && self.is_primary_superclass(scope, &receiver) =>
+            {
+                Some(Search::As(class))
             }
             _ => None,
         };

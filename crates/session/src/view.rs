@@ -186,7 +186,7 @@ pub struct PictureView {
 }
 
 /// Another state that the rules allow.
-#[derive(Clone, Debug, Serialize)]
+#[derive(Clone, PartialEq, Debug, Serialize)]
 pub struct Ghost {
     /// What is otherwise in it, and where that leads: "c on the other side of a and b: c = (5, -4)".
     pub label: String,

@@ -246,13 +246,7 @@ fn approach_region(
     if !region.is_within_reach() {
         return refused();
     }
-    let measure = region.approach.get_or_init(|| {
-        let kind = |s: SlotIndex| {
-            let slot = &plan.slots[s as usize];
-            (slot.scale, slot.stay == Stay::Given)
-        };
-        Measure::new(&region.problem, &kind)
-    });
+    let measure = region.approach.get_or_init(|| Measure::new(&region.problem, &|s| plan.kind(s)));
     let work = &mut buffers.work;
     let result = measure.solve(&frame.x0, values, &frame.scales, Trust::Any, work);
     if result == Measured::Failed {
@@ -459,11 +453,7 @@ impl Run<'_> {
         match result {
             Measured::Least => Ok(()),
             Measured::Failed if may_compromise && step.targets.len() <= DENSE => {
-                let kind = |s: SlotIndex| {
-                    let slot = &self.plan.slots[s as usize];
-                    (slot.scale, slot.stay == Stay::Given)
-                };
-                let make = || Measure::new(&least.block.problem(), &kind);
+                let make = || Measure::new(&least.block.problem(), &|s| self.plan.kind(s));
                 self.measure(step, measure.get_or_init(make))
             }
             Measured::Failed => self.fail(step),

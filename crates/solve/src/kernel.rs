@@ -83,6 +83,10 @@ pub(crate) enum Side {
 }
 
 impl Kernel {
+    /// Returns true if the derivatives are the same everywhere.
+    pub(crate) fn is_linear(&self) -> bool {
+        self.entries.iter().all(|entry| entry.depends.is_empty())
+    }
     /// Compiles an equation whose variables are `Var(0)` to `Var(arity - 1)`; `sides` are its own.
     pub(crate) fn compile(
         mut arena: Arena,

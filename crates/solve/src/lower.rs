@@ -102,8 +102,8 @@ const LARGEST_CURVED: usize = 150;
 impl Region {
     /// Returns true if it is not too large to be approached.
     pub(crate) fn is_within_reach(&self) -> bool {
-        let is_linear = |row: &ProblemRow| row.kernel.entries.iter().all(|e| e.depends.is_empty());
-        self.problem.unknowns.len() <= LARGEST_CURVED || self.problem.rows.iter().all(is_linear)
+        let mut rows = self.problem.rows.iter();
+        self.problem.unknowns.len() <= LARGEST_CURVED || rows.all(|row| row.kernel.is_linear())
     }
 }
 

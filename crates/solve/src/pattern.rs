@@ -103,7 +103,7 @@ impl Pattern {
     /// # Panics
     /// If it has not two expressions.
     pub fn is_linear(&self) -> bool {
-        self.kernel().entries.iter().all(|entry| entry.depends.is_empty())
+        self.kernel().is_linear()
     }
     /// Returns the arguments that an equation depends on, each with whether its derivative by it is the
     /// same everywhere, and so never zero.

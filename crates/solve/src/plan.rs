@@ -426,6 +426,11 @@ fn shared_given(analysis: &Analysis<'_>) -> Vec<(SlotIndex, Vec<SlotIndex>)> {
 }
 
 impl Plan {
+    /// Returns the scale of a slot, and whether it is a given number.
+    pub(crate) fn kind(&self, slot: SlotIndex) -> (u16, bool) {
+        let slot = &self.slots[slot as usize];
+        (slot.scale, slot.stay == Stay::Given)
+    }
     pub(crate) fn system(&self) -> &System {
         &self.stated.system
     }

@@ -83,10 +83,7 @@ pub(crate) fn rows(stated: &Stated, classes: &Classes) -> Rows {
 /// that they and others imply shows that it does. None where no row is linear.
 pub(crate) fn rows_where_linear_hold(stated: &Stated, classes: &Classes) -> Option<Rows> {
     let mut rows = stated_rows(stated, classes);
-    let is_linear = |r: &usize| {
-        let kernel = rows.kernel(*r);
-        kernel.is_some_and(|k| k.entries.iter().all(|e| e.depends.is_empty()))
-    };
+    let is_linear = |r: &usize| rows.kernel(*r).is_some_and(|kernel| kernel.is_linear());
     let linear: Vec<usize> = (0..rows.len()).filter(is_linear).collect();
     let n = stated.system.slots.len();
     let mut values: Vec<f64> = (0..n as u64).map(|i| generic_number(i, Point::Mixed)).collect();

@@ -54,8 +54,8 @@ impl Runner {
 /// Returns which way the state that a run or drag came to leans where two branches meet, so that the
 /// branch on which it came can be gone back.
 ///
-/// `x0` is the state when the edit began, where `leans` said what its values do not. Blocks with more
-/// than a dozen unknowns are not looked at.
+/// `x0` is the state when the edit began, where `leans` said what its values do not. Blocks whose
+/// core is of more than a dozen unknowns are not looked at.
 pub fn leaning(plan: &Plan, x0: &[f64], leans: &[Lean], values: &[f64]) -> Vec<Lean> {
     let mut runner = Runner::new();
     start(plan, &mut runner, x0, &[]);

@@ -26,9 +26,9 @@ use net::Net;
 use std::collections::BinaryHeap;
 
 /// How many trials are made before the matter is left undecided.
-pub const MOST_TRIALS: usize = 1_000;
+const MOST_TRIALS: usize = 1_000;
 /// How many more are made in search of whole numbers that leave less of the wishes unmet.
-pub const IMPROVING: usize = 64;
+const IMPROVING: usize = 64;
 /// How many boxes are looked at, and how many numbers in all of them.
 const MOST_BOXES: usize = 20_000;
 const MOST_NUMBERS: usize = 2_000_000;

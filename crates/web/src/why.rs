@@ -46,19 +46,10 @@ pub fn Why(
         lab.status.track();
         about.with(|about| about.as_ref().and_then(|path| lab.held(path)))
     });
-    // compared by what is said: a drawing follows from it
-    let elsewhere = Memo::new_with_compare(
-        move |_| {
-            lab.status.track();
-            about.with(|about| about.as_ref().map(|path| lab.elsewhere(path))).unwrap_or_default()
-        },
-        |old: Option<&Vec<Ghost>>, new: Option<&Vec<Ghost>>| {
-            let labels = |ghosts: Option<&Vec<Ghost>>| -> Vec<String> {
-                ghosts.into_iter().flatten().map(|g| g.label.clone()).collect()
-            };
-            labels(old) != labels(new)
-        },
-    );
+    let elsewhere = Memo::new(move |_| {
+        lab.status.track();
+        about.with(|about| about.as_ref().map(|path| lab.elsewhere(path))).unwrap_or_default()
+    });
     let analysis = Memo::new(move |_| {
         lab.status.track();
         lab.analysis()

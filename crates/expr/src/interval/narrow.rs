@@ -136,7 +136,7 @@ fn quotient(product: Interval, by: Interval) -> Interval {
         return Interval::NONE;
     }
     if by.low < 0.0 && by.high > 0.0 {
-        // on either side of zero, and no nearer than by the largest divisor
+        // on either side of zero: one interval tells nothing
         return Interval::ALL;
     }
     if !by.contains(0.0) {

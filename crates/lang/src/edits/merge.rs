@@ -4,6 +4,7 @@ use super::Restructuring;
 use super::home::{Home, common_owner};
 use crate::uses::{Text, refused};
 use base::{Diagnostic, Name};
+use indexmap::IndexSet;
 use kernel::{Merge, Path, Step};
 use syntax::ast::{AstNode, Expr};
 use syntax::edit::{self, TextEdit};
@@ -41,8 +42,10 @@ impl Text<'_> {
         if !is_named && left.len() == before {
             return Err(self.not_merged(path));
         }
-        if left.len() > 1 {
-            done.edits.extend(self.merge(&left).edits);
+        let ends: IndexSet<Path> = left.into_iter().collect();
+        if ends.len() > 1 {
+            let ends: Vec<Path> = ends.into_iter().collect();
+            done.edits.extend(self.merge(&ends).edits);
         }
         Ok(done)
     }
@@ -56,7 +59,10 @@ impl Text<'_> {
     ) -> Option<Path> {
         let listed = |m: &SyntaxNode| m.children().filter_map(Expr::cast).collect::<Vec<_>>();
         let mut kept: Vec<Expr> = merges.iter().flat_map(listed).collect();
-        kept.retain(|e| !self.leads_to(e, path));
+        let mut said: IndexSet<Path> = IndexSet::new();
+        kept.retain(|e| {
+            !self.leads_to(e, path) && self.path_of(e).is_none_or(|path| said.insert(path))
+        });
         let first = kept.first().and_then(|e| self.path_of(e));
         let (one, others) = merges.split_first()?;
         edits.extend(others.iter().map(edit::delete_member));

@@ -15,6 +15,8 @@ struct Maker<'a> {
     values: &'a Values,
     status: &'a plan::Status,
     constraints: BTreeMap<ThingId, Vec<ConstraintInstance>>,
+    /// The things whose rows are being added.
+    open: Vec<ThingId>,
     rows: Vec<StructureRow>,
 }
 
@@ -24,7 +26,8 @@ pub(crate) fn rows(state: &State, values: &Values, status: &plan::Status) -> Vec
     for &instance in state.structure.constraints.iter() {
         constraints.entry(instance.owner).or_default().push(instance);
     }
-    let mut maker = Maker { state, values, status, constraints, rows: Vec::new() };
+    let mut maker =
+        Maker { state, values, status, constraints, open: Vec::new(), rows: Vec::new() };
     maker.thing(kernel::DOCUMENT, 0);
     maker.rows
 }
@@ -56,6 +59,11 @@ impl Maker<'_> {
     }
 
     fn thing(&mut self, thing: ThingId, depth: u32) {
+        // what a class says of its structure may lead back to what is being shown
+        if self.open.contains(&thing) {
+            return;
+        }
+        self.open.push(thing);
         let (document, structure) = (&self.state.lowered.document, &self.state.structure);
         let at = self.rows.len();
         let path = structure.path(document, thing);
@@ -99,6 +107,7 @@ impl Maker<'_> {
             | ClassKind::Set(_)
             | ClassKind::Reference(_) => {}
         }
+        self.open.pop();
         self.rows[at].descendants = (self.rows.len() - at - 1) as u32;
     }
 

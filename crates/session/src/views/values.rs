@@ -20,6 +20,7 @@ pub(crate) fn rows(state: &State, values: &Values, status: &plan::Status) -> Vec
         status,
         evaluator,
         virtual_parts: BTreeMap::new(),
+        open: Vec::new(),
         rows: Vec::new(),
     };
     maker.add(kernel::DOCUMENT, &mut String::new());
@@ -120,6 +121,8 @@ struct Maker<'a> {
     evaluator: Evaluator<'a>,
     /// The virtual parts of every class met so far.
     virtual_parts: BTreeMap<ClassId, Rc<[(Name, String)]>>,
+    /// The things whose rows are being added: what a class says may lead back to them.
+    open: Vec<ThingId>,
     rows: Vec<ValueRow>,
 }
 
@@ -148,9 +151,21 @@ impl Maker<'_> {
             });
             return;
         }
-        if crate::general::defines(state, thing, "values") && thing != kernel::DOCUMENT {
-            return self.add_table(thing, path);
+        if self.open.contains(&thing) {
+            return;
         }
+        self.open.push(thing);
+        if crate::general::defines(state, thing, "values") && thing != kernel::DOCUMENT {
+            self.add_table(thing, path);
+        } else {
+            self.add_parts(thing, path);
+        }
+        self.open.pop();
+    }
+
+    /// Adds the rows of a thing's parts and of what it answers.
+    fn add_parts(&mut self, thing: ThingId, path: &mut String) {
+        let (document, structure) = (&self.state.lowered.document, &self.state.structure);
         let end = path.len();
         for part in structure.parts(thing) {
             match structure.field_name(document, part) {

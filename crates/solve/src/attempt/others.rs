@@ -15,7 +15,8 @@ const LARGEST: usize = 12;
 const MOST_STEPS: usize = 24;
 /// How often another root is looked for, each time from farther away, in both directions.
 const TRIES: u32 = 6;
-/// How far from the present root that begins, in parts of the extent; the last times eight times as far.
+/// In parts of the extent, how far from the present root that is: √2 times this first, √2 times farther
+/// each time, eight times this at last.
 const NEAREST: f64 = 0.25;
 
 /// Another state that a plan can come to.
