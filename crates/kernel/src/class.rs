@@ -88,6 +88,8 @@ pub struct Class {
     /// How many elements every list of the class has, where the class itself says so: one that is an
     /// element of another list.
     pub count: Option<u32>,
+    /// For lists whose elements are of different classes, the class of each.
+    pub elements: Vec<ClassId>,
     /// The superclasses, the primary one first. Empty only for `Object`.
     pub supers: Vec<Superclass>,
     /// True for the class of a single thing, or of a part as its owner refines it: no text names it.
@@ -129,6 +131,7 @@ impl Class {
             doc: String::new(),
             kind,
             count: None,
+            elements: Vec::new(),
             supers,
             is_of_one: false,
             is_abstract: false,

@@ -48,6 +48,11 @@ impl Kind {
         }
     }
 
+    /// Returns the kind of lists of lists of these, so deep.
+    pub(crate) fn listed(self, depth: usize) -> Self {
+        (0..depth).fold(self, |kind, _| Self::List(Box::new(kind)))
+    }
+
     /// Returns the kind in words.
     pub(crate) fn words(&self, document: &Document) -> String {
         match self {

@@ -1,56 +1,73 @@
 //! Loops: members that `for` repeats, over a range of constants or over a list.
 //!
-//! A part that is declared in a loop is a list with an element for every turn; in the loop its name
-//! means the element of the turn.
+//! What is declared in a loop is a list with an element for every turn (`loops/declared.rs`); in the
+//! loop its name means the element of the turn.
+
+mod declared;
 
 use crate::lower::Lowerer;
-use crate::members::{Pending, values_alone};
+use crate::members::Pending;
 use crate::scope::Scope;
 use base::{Diagnostic, Name, Place};
-use kernel::{ClassId, ClassKind, Count, Part, Path, Step};
-use syntax::SyntaxKind;
-use syntax::ast::{self, AstNode, Expr, Member, span_without_doc};
+pub(crate) use declared::Repeated;
+use declared::{declared_names, is_declaration, is_of_turns};
+use kernel::{ClassId, Path, Step};
+use syntax::ast::{self, AstNode, Expr, Member};
 
 /// How many members all `for` of a document may come to.
 const MOST_MEMBERS: usize = 1_000_000;
 
-/// A list that a loop goes through.
-struct Through {
-    path: Path,
-    element: ClassId,
-    /// How many elements a turn is about.
-    together: u32,
-    turns: u32,
+/// What a loop goes through.
+pub(crate) struct Turns {
+    pub(crate) count: u32,
+    over: Over,
+}
+
+enum Over {
+    /// Whole numbers from this one on.
+    Numbers(i64),
+    /// Elements of a list, so many at a time.
+    Elements { path: Path, element: ClassId, together: u32 },
 }
 
 impl Lowerer<'_> {
-    /// Repeats members for every number of a range; a loop over a list waits.
+    /// Repeats members for every number of a range; a loop over what is known later waits.
     pub(crate) fn unroll(&mut self, scope: &Scope, each: &ast::For) {
-        let names: Vec<_> = each.names().collect();
-        let Some(range) = each.range() else { return };
-        if !matches!(range, Expr::Range(_)) {
-            // how long a list is, is known once all parts are declared
-            return self.pending.push(Pending::Each { scope: scope.clone(), each: each.clone() });
+        if scope.turns.is_empty() {
+            self.declare_loop(scope, each);
         }
-        let bounds = self.constant_range(scope, &range);
-        let ([name], Some((from, to))) = (names.as_slice(), bounds) else {
-            let what = "`for` over a range that is not of constants is";
-            return self.not_yet(scope.file, range.span(), what);
-        };
-        let turns = u32::try_from(to - from + 1).unwrap_or(0);
-        self.declare_turns(scope, each, turns);
+        match each.range() {
+            None => {}
+            Some(range) if self.constant_range(scope, &range).is_some() => {
+                self.take_turns(scope, each, 0);
+            }
+            // how long a list is, is known once all parts are declared
+            Some(_) => {
+                self.pending.push(Pending::Each {
+                    scope: scope.clone(),
+                    each: each.clone(),
+                    from: 0,
+                });
+            }
+        }
+    }
+
+    /// Declares the members of every turn of a loop, but for so many first ones.
+    pub(crate) fn take_turns(&mut self, scope: &Scope, each: &ast::For, from: u32) {
+        let Some(range) = each.range() else { return };
+        let Some(turns) = self.turns(scope, each) else { return };
         let members = members_of(each);
-        for i in from..=to {
+        for turn in from..turns.count {
             if !self.may_unroll(scope, &range, members.len()) {
                 return;
             }
-            let inner = scope.with_constant(name.name(), i);
-            self.take_turn(&inner, each, &members, (i - from) as u32);
+            let inner = turn_of(scope, each, &turns, turn);
+            self.take_turn(&inner, each, &members);
         }
     }
 
     /// Counts members that `for` makes; reports once that there are too many.
-    fn may_unroll(&mut self, scope: &Scope, range: &Expr, members: usize) -> bool {
+    pub(crate) fn may_unroll(&mut self, scope: &Scope, range: &Expr, members: usize) -> bool {
         let was = self.unrolled;
         self.unrolled += members.max(1);
         if was <= MOST_MEMBERS && self.unrolled > MOST_MEMBERS {
@@ -60,70 +77,45 @@ impl Lowerer<'_> {
         self.unrolled <= MOST_MEMBERS
     }
 
-    /// Declares what loops over lists declare, once the lists are declared.
-    pub(crate) fn declare_repeated(&mut self) {
-        let loops = self.pending.iter().filter_map(|p| match p {
-            Pending::Each { scope, each } => Some((scope.clone(), each.clone())),
-            _ => None,
-        });
-        for (scope, each) in loops.collect::<Vec<_>>() {
-            if !each.body().is_some_and(|b| b.members().any(|m| is_declaration(&m))) {
-                continue;
-            }
-            self.silent += 1;
-            let through = self.through(&scope, &each);
-            self.silent -= 1;
-            if let Some(through) = through {
-                self.declare_turns(&scope, &each, through.turns);
-            }
-        }
-    }
-
-    /// Repeats members for every element of a list, or for every pair of neighbours.
-    pub(crate) fn unroll_list(&mut self, scope: &Scope, each: &ast::For) {
-        let Some(range) = each.range() else { return };
-        let Some(through) = self.through(scope, each) else { return };
-        let names: Vec<Name> = each.names().map(|w| w.name()).collect();
-        let members = members_of(each);
-        if !scope.constants.is_empty() || !scope.elements.is_empty() {
-            self.declare_turns(scope, each, 0);
-        }
-        for turn in 0..through.turns {
-            if !self.may_unroll(scope, &range, members.len()) {
-                return;
-            }
-            let bind = |scope: Scope, (i, name): (u32, &Name)| {
-                let path = through.path.then(Step::Index(turn + i));
-                scope.with_element(name.clone(), path, Some(through.element))
-            };
-            let inner = (0..through.together).zip(&names).fold(scope.clone(), bind);
-            self.take_turn(&inner, each, &members, turn);
-        }
-    }
-
-    /// Finds the list that a loop goes through, and how many turns that takes.
-    fn through(&mut self, scope: &Scope, each: &ast::For) -> Option<Through> {
+    /// Finds what a loop goes through, and how many turns that takes.
+    pub(crate) fn turns(&mut self, scope: &Scope, each: &ast::For) -> Option<Turns> {
         let range = each.range()?;
-        let named = each.names().count();
-        let (list, together) = match &range {
+        let (over, together) = match &range {
+            Expr::Range(_) => (None, 1),
             Expr::Field(field)
                 if field.args().is_none()
                     && field.name().is_some_and(|w| w.text() == "neighbours") =>
             {
-                (field.receiver()?, 2)
+                (Some(field.receiver()?), 2)
             }
-            other => (other.clone(), 1),
+            other => (Some(other.clone()), 1),
         };
-        if !matches!(list, Expr::Name(_) | Expr::Field(_) | Expr::Index(_) | Expr::Paren(_)) {
-            let what = "`for` over anything but a range or a list that is a part is";
-            self.not_yet(scope.file, list.span(), what);
-            return None;
-        }
+        let named = each.names().count();
         if named != together as usize {
-            let message = format!("{named} names for {together} elements at a time");
+            let message = format!("{named} names for {together} at a time");
             let place = Place { file: scope.file, span: each.span() };
             let d = Diagnostic::error("wrong-arity", place, message);
-            self.report(d.hint("`for a in list`, `for a, b in list.neighbours`"));
+            self.report(d.hint("`for a in list`, `for a, b in list.neighbours`, `for i in 0..3`"));
+            return None;
+        }
+        let Some(list) = over else {
+            let Some((from, to)) = self.constant_range(scope, &range) else {
+                let place = Place { file: scope.file, span: range.span() };
+                let message =
+                    "a `for` goes through whole numbers that are known as the text stands";
+                let d = Diagnostic::error("not-a-count", place, message);
+                self.report(d.hint("write `0..3`, or go through a list: `for a in list`"));
+                return None;
+            };
+            let count = to.saturating_sub(from).saturating_add(1).max(0);
+            let count = u32::try_from(count).unwrap_or(u32::MAX);
+            return Some(Turns { count, over: Over::Numbers(from) });
+        };
+        if !matches!(list, Expr::Name(_) | Expr::Field(_) | Expr::Index(_) | Expr::Paren(_)) {
+            let place = Place { file: scope.file, span: list.span() };
+            let message = "a `for` goes through a range of whole numbers or a list that is a part";
+            let d = Diagnostic::error("not-a-path", place, message);
+            self.report(d.hint("declare the list as a part, then go through that"));
             return None;
         }
         let (path, class) = self.path(scope, &list)?;
@@ -132,153 +124,169 @@ impl Lowerer<'_> {
             self.error("value-of-wrong-class", scope.file, list.span(), message);
             return None;
         };
-        let counted = class.and_then(|c| self.document.classes[c].count);
-        let count = counted.or_else(|| self.count_of(scope, &list));
-        let Some(count) = count.or_else(|| self.given_count(scope, &list)) else {
-            let what = "`for` over a list without a count, `List of 3 C` or `= [a, b]`, is";
-            self.not_yet(scope.file, list.span(), what);
+        let Some(elements) = self.known_count(scope, &list, class) else {
+            let place = Place { file: scope.file, span: list.span() };
+            let message = format!("how many elements {path} has is not said where it is declared");
+            let d = Diagnostic::error("not-a-count", place, message);
+            self.report(d.hint("declare it as `List of 3 C`, or with its elements, `= [a, b]`"));
             return None;
         };
-        Some(Through { path, element, together, turns: (count + 1).saturating_sub(together) })
+        let count = (elements + 1).saturating_sub(together);
+        Some(Turns { count, over: Over::Elements { path, element, together } })
     }
 
-    /// Declares the parts of a loop's body: each is a list with an element for every turn.
-    fn declare_turns(&mut self, scope: &Scope, each: &ast::For, turns: u32) {
-        for member in members_of(each).into_iter().filter(is_declaration) {
-            let span = span_without_doc(member.syntax());
-            if !scope.constants.is_empty() || !scope.elements.is_empty() {
-                self.not_yet(scope.file, span, "declarations in a `for` inside of another are");
-                continue;
+    /// Returns how many elements a list has, as far as its class tells.
+    fn known_count(&self, scope: &Scope, list: &Expr, class: Option<ClassId>) -> Option<u32> {
+        let counted = class.and_then(|c| self.document.classes[c].count);
+        let count = counted.or_else(|| self.count_of(scope, list));
+        let count = count.or_else(|| self.given_count(scope, list));
+        // a list of the thing's own that nothing is said of is empty; what gives it elements goes on
+        count.or_else(|| own_list(scope, list).map(|_| 0))
+    }
+
+    /// Loops of a class go on in what gives a list that they go through more elements.
+    pub(crate) fn continue_loops(&mut self) {
+        let waiting = self.pending.iter().filter_map(|p| match p {
+            Pending::Each { scope, each, from: 0 } if scope.turns.is_empty() => {
+                let name = own_list(scope, &through(each)?)?;
+                (scope.classes.len() == 1).then(|| (name, scope.clone(), each.clone()))
             }
-            match &member {
-                Member::Part(part) if part.definition().is_none() => {
-                    self.declare_list(scope, each, part, turns);
+            _ => None,
+        });
+        let loops: Vec<(Name, Scope, ast::For)> = waiting.collect();
+        for (name, scope, each) in loops {
+            let Some(list) = through(&each) else { continue };
+            let giving: Vec<ClassId> = self
+                .given_counts
+                .keys()
+                .filter(|(class, given)| *given == name && *class != scope.class())
+                .map(|&(class, _)| class)
+                .collect();
+            for class in giving {
+                if !self.document.primary_line(class).contains(&scope.class()) {
+                    continue;
                 }
-                Member::Ref(reference) => {
-                    let (Some(word), Some(ty)) = (reference.name(), reference.class()) else {
-                        continue;
-                    };
-                    let Some(to) = self.class_of_type(scope.file, &ty) else {
-                        self.broken.insert((scope.class(), word.name()));
-                        continue;
-                    };
-                    let element = self.reference_to(to);
-                    let doc = reference.doc().unwrap_or_default();
-                    self.add_list(scope, &word, element, turns, (doc, None, span));
+                let above = self.document.classes[class].supers.first().map(|s| s.class);
+                let above = above.map(|c| Scope::of(scope.file, c));
+                let before = above.and_then(|above| self.given_count(&above, &list)).unwrap_or(0);
+                let together = each.names().count() as u32;
+                let from = (before + 1).saturating_sub(together);
+                let scope = Scope::of(scope.file, class);
+                self.pending.push(Pending::Each { scope, each: each.clone(), from });
+            }
+        }
+    }
+
+    /// Returns true for a value that a loop of the class goes through: what has it is a class of one.
+    pub(crate) fn is_looped(&self, class: ClassId, name: &Name) -> bool {
+        self.document.lineage(class).into_iter().any(|c| {
+            let at = self.declared.binary_search_by_key(&c, |(id, _, _)| *id);
+            let body = at.ok().and_then(|i| self.declared[i].2.body());
+            body.into_iter().flat_map(|b| b.members()).any(|m| match &m {
+                Member::For(each) => {
+                    let list = through(each);
+                    matches!(list, Some(Expr::Name(n)) if n.name().is_some_and(|w| w.name() == *name))
                 }
-                _ => self.not_yet(scope.file, span, "messages in `for` are"),
-            }
-        }
-    }
-
-    fn declare_list(&mut self, scope: &Scope, each: &ast::For, part: &ast::Part, turns: u32) {
-        let Some(ty) = part.class() else { return };
-        let Some(element) = self.class_of_element(scope.file, &ty) else {
-            return self.broken.extend(part.names().map(|w| (scope.class(), w.name())));
-        };
-        let range = part.domain().and_then(|d| self.domain(scope, &d, element));
-        let span = span_without_doc(part.syntax());
-        for word in part.names() {
-            let body = part.body().filter(|b| !is_of_turns(each, b));
-            if body.as_ref().is_some_and(|b| varies(each, b)) {
-                let what = "bodies of more than values that speak of what a `for` goes through are";
-                return self.not_yet(scope.file, span, what);
-            }
-            let origin = self.origin(scope.file, span);
-            let element = self.class_for_body(scope, &word.name(), element, body, origin);
-            let doc = part.doc().unwrap_or_default();
-            self.add_list(scope, &word, element, turns, (doc, range, span));
-        }
-    }
-
-    fn add_list(
-        &mut self,
-        scope: &Scope,
-        word: &ast::Word,
-        element: ClassId,
-        turns: u32,
-        (doc, range, span): (String, Option<(i64, i64)>, base::Span),
-    ) {
-        if !self.is_new(scope, word) {
-            return;
-        }
-        let class = self.class_made_of("List of", ClassKind::List(element), element);
-        let origin = self.origin(scope.file, span);
-        let count = Some(Count::Fixed(turns));
-        let part = Part { name: word.name(), doc, class, count, range, origin };
-        self.add_part(Place { file: scope.file, span: word.span() }, scope.class(), part);
+                _ => false,
+            })
+        })
     }
 
     /// Declares the members of one turn, in which the names of its parts mean this turn's elements.
-    fn take_turn(&mut self, scope: &Scope, each: &ast::For, members: &[Member], turn: u32) {
-        let (parts, others): (Vec<Member>, Vec<Member>) =
-            members.iter().cloned().partition(is_declaration);
-        let mut inner = scope.clone();
-        let mut values: Vec<(Name, Option<Expr>, Expr)> = Vec::new();
-        for member in &parts {
-            let words: Vec<ast::Word> = match member {
-                Member::Part(part) => part.names().collect(),
-                Member::Ref(reference) => reference.name().into_iter().collect(),
-                _ => Vec::new(),
-            };
-            for name in words.iter().map(ast::Word::name) {
-                let path = Path(vec![Step::Part(name.clone()), Step::Index(turn)]);
-                let class = self.class_at(scope.class(), &path);
-                inner = inner.with_element(name.clone(), path, class);
-                match member {
-                    Member::Part(part) => {
-                        let whole = part.value().and_then(ast::Value::expr);
-                        values.extend(whole.map(|value| (name.clone(), None, value)));
-                        let body = part.body().filter(|b| is_of_turns(each, b));
-                        for assign in body.iter().flat_map(ast::Body::members) {
-                            let Member::Assign(assign) = assign else { continue };
-                            let value = assign.value().and_then(ast::Value::expr);
-                            let given = assign.target().zip(value);
-                            values.extend(given.map(|(t, v)| (name.clone(), Some(t), v)));
-                        }
+    fn take_turn(&mut self, scope: &Scope, each: &ast::For, members: &[Member]) {
+        for member in members {
+            match member {
+                Member::Part(part) if part.definition().is_none() => {
+                    for name in part.names().map(|w| w.name()) {
+                        self.give_turn(scope, each, part, &name);
                     }
-                    Member::Ref(r) if r.is_absolute() => {
-                        let path = Path(vec![Step::Part(name.clone()), Step::Index(turn)]);
-                        let (scope, target) = (scope.clone(), r.target());
-                        let absolute =
-                            target.map(|target| Pending::Absolute { scope, path, target });
-                        self.pending.extend(absolute);
-                    }
-                    Member::Ref(r) => {
-                        values.extend(r.target().map(|value| (name.clone(), None, value)));
-                    }
-                    _ => {}
                 }
+                Member::Ref(reference) => {
+                    let (Some(word), Some(target)) = (reference.name(), reference.target()) else {
+                        continue;
+                    };
+                    let path = of_turn(scope, word.name());
+                    let scope = scope.clone();
+                    self.pending.push(if reference.is_absolute() {
+                        Pending::Absolute { scope, path, target }
+                    } else {
+                        Pending::Value { scope, prefix: path.0, target: None, value: target }
+                    });
+                }
+                _ => {}
             }
         }
-        for (name, target, value) in values {
-            let prefix = vec![Step::Part(name), Step::Index(turn)];
-            self.pending.push(Pending::Value { scope: inner.clone(), prefix, target, value });
+        let others = members.iter().filter(|m| !is_declaration(m)).cloned().collect();
+        self.declare_body(scope, others);
+    }
+
+    /// Gives the element of a turn its values.
+    fn give_turn(&mut self, scope: &Scope, each: &ast::For, part: &ast::Part, name: &Name) {
+        let prefix = of_turn(scope, name.clone()).0;
+        let whole = part.value().and_then(ast::Value::expr);
+        let whole = whole.map(|value| (None, value));
+        let body = part.body().filter(|b| is_of_turns(each, b));
+        let members = body.iter().flat_map(ast::Body::members).collect::<Vec<_>>();
+        let assigned = members.into_iter().filter_map(|member| match member {
+            Member::Assign(assign) => {
+                let value = assign.value().and_then(ast::Value::expr)?;
+                Some((Some(assign.target()?), value))
+            }
+            _ => None,
+        });
+        for (target, value) in whole.into_iter().chain(assigned) {
+            let (scope, prefix) = (scope.clone(), prefix.clone());
+            self.pending.push(Pending::Value { scope, prefix, target, value });
         }
-        self.declare_body(&inner, others);
     }
 }
 
-fn members_of(each: &ast::For) -> Vec<Member> {
-    each.body().into_iter().flat_map(|b| b.members()).collect()
-}
-
-fn is_declaration(member: &Member) -> bool {
-    matches!(member, Member::Part(_) | Member::Message(_) | Member::Ref(_))
-}
-
-/// Returns true for a body of values that every turn says for itself.
-fn is_of_turns(each: &ast::For, body: &ast::Body) -> bool {
-    let members: Vec<Member> = body.members().collect();
-    let values = members.iter().all(|m| matches!(m, Member::Assign(_)));
-    values && (varies(each, body) || values_alone(&members).is_some())
-}
-
-/// Returns true for a body that speaks of what a loop goes through.
-fn varies(each: &ast::For, body: &ast::Body) -> bool {
-    let is_variable = |node: syntax::SyntaxNode| {
-        let text = node.text().to_string();
-        node.kind() == SyntaxKind::NameExpr && each.names().any(|w| w.text() == text.trim())
+/// Returns the scope of one turn, in which what is declared in the loop means the turn's own.
+pub(crate) fn turn_of(scope: &Scope, each: &ast::For, turns: &Turns, turn: u32) -> Scope {
+    let mut inner = match &turns.over {
+        Over::Numbers(from) => each.names().fold(scope.clone(), |scope, word| {
+            scope.with_constant(word.name(), from + i64::from(turn))
+        }),
+        Over::Elements { path, element, together } => {
+            let bind = |scope: Scope, (i, word): (u32, ast::Word)| {
+                let path = path.then(Step::Index(turn + i));
+                scope.with_element(word.name(), path, Some(*element))
+            };
+            (0..*together).zip(each.names()).fold(scope.clone(), bind)
+        }
     };
-    body.syntax().descendants().any(is_variable)
+    inner.turns.push(turn);
+    for name in declared_names(each) {
+        let path = of_turn(&inner, name.clone());
+        inner = inner.with_element(name, path, None);
+    }
+    inner
+}
+
+/// Returns the path to the element of a turn, of the list of this name.
+fn of_turn(scope: &Scope, name: Name) -> Path {
+    let indices = scope.turns.iter().map(|&i| Step::Index(i));
+    Path(std::iter::once(Step::Part(name)).chain(indices).collect())
+}
+
+/// Returns the list that a loop goes through.
+fn through(each: &ast::For) -> Option<Expr> {
+    match each.range()? {
+        Expr::Range(_) => None,
+        Expr::Field(field) if field.name().is_some_and(|w| w.text() == "neighbours") => {
+            field.receiver()
+        }
+        other => Some(other),
+    }
+}
+
+/// Returns the name of a list that is a part of the scope's own things.
+fn own_list(scope: &Scope, list: &Expr) -> Option<Name> {
+    let Expr::Name(name) = list else { return None };
+    let name = name.name()?.name();
+    scope.element(&name).is_none().then_some(name)
+}
+
+pub(crate) fn members_of(each: &ast::For) -> Vec<Member> {
+    each.body().into_iter().flat_map(|b| b.members()).collect()
 }

@@ -9,7 +9,8 @@ use crate::files::File;
 use crate::kept::Added;
 use crate::kin::Kin;
 use crate::kinds::Kind;
-use crate::members::Pending;
+use crate::loops::Repeated;
+use crate::members::{Definition, Pending};
 use crate::origins::Origins;
 use crate::placed::PlacedClasses;
 use crate::references::References;
@@ -150,12 +151,12 @@ pub(crate) struct Lowerer<'l> {
     pub(crate) origins: Origins,
     pub(crate) diagnostics: Vec<Diagnostic>,
     /// What has been reported, so that it is said once.
-    said: BTreeSet<(Place, String)>,
+    said: BTreeSet<(Place, &'static str)>,
     pub(crate) object: ClassId,
     /// Members whose expressions are still to be lowered.
     pub(crate) pending: Vec<Pending>,
     /// Definitions of messages, by class and name, with the scope they stand in.
-    pub(crate) definitions: BTreeMap<(ClassId, Name), (ast::Expr, Scope)>,
+    pub(crate) definitions: BTreeMap<(ClassId, Name), Definition>,
     /// What messages are worth, once known; nothing while it is being found out.
     pub(crate) message_kinds: BTreeMap<(ClassId, Name), Option<Kind>>,
     /// Every part that a class declares, by its name: its index among the class's parts.
@@ -188,6 +189,8 @@ pub(crate) struct Lowerer<'l> {
     pub(crate) copies: Vec<(ClassId, ClassId)>,
     /// What things of classes are merged with.
     pub(crate) kin: Kin,
+    /// What loops declare over what is not known yet.
+    pub(crate) repeated: Vec<Repeated>,
     /// How many members `for` has made.
     pub(crate) unrolled: usize,
     /// Classes of lists and sets, by `List of` or `Set of` and what they hold.
@@ -251,6 +254,7 @@ impl<'l> Lowerer<'l> {
             narrowed: Made::new(),
             copies: Vec::new(),
             kin: Kin::default(),
+            repeated: Vec::new(),
             unrolled: 0,
             silent: 0,
             declared: Vec::new(),
@@ -288,8 +292,8 @@ impl<'l> Lowerer<'l> {
     }
 
     pub(crate) fn report(&mut self, diagnostic: Diagnostic) {
-        let (place, message) = (diagnostic.place, diagnostic.message.clone());
-        if self.silent == 0 && self.said.insert((place, message)) {
+        // what every turn of a loop would say again is one mistake
+        if self.silent == 0 && self.said.insert((diagnostic.place, diagnostic.code)) {
             self.diagnostics.push(diagnostic);
         }
     }

@@ -24,8 +24,9 @@ pub(crate) enum Pending {
         target: Option<Expr>,
         value: Expr,
     },
-    /// Members that `for` repeats for the elements of a list.
-    Each { scope: Scope, each: ast::For },
+    /// Members that `for` repeats for what is known once all parts are declared; so many first turns
+    /// were taken already.
+    Each { scope: Scope, each: ast::For, from: u32 },
     /// What a reference names, by a path from the document.
     Absolute { scope: Scope, path: Path, target: Expr },
     /// The values of a part of the document that is kept: where it stands, and what it was.
@@ -35,7 +36,17 @@ pub(crate) enum Pending {
     /// They end here: so many values of the part of this index, which is this member.
     Noted { member: usize, part: u32, givens: u32 },
     /// The answer of a message.
-    Answer { scope: Scope, index: usize, answer: Expr },
+    Answer { scope: Scope, index: usize, definition: Definition },
+}
+
+/// The definition of a message.
+#[derive(Clone, Debug)]
+pub(crate) struct Definition {
+    pub(crate) answer: Expr,
+    /// What names mean in it.
+    pub(crate) scope: Scope,
+    /// The loops that repeat it, the outermost first.
+    pub(crate) loops: Vec<ast::For>,
 }
 
 impl Lowerer<'_> {
@@ -46,12 +57,15 @@ impl Lowerer<'_> {
             match &member {
                 Member::Part(part) => self.declare_part(scope, part),
                 Member::Ref(reference) => self.declare_reference(scope, reference),
-                Member::Message(message) => self.declare_message(scope, message),
+                Member::Message(message) => self.declare_message(scope, &[], message),
                 Member::For(each) => self.unroll(scope, each),
                 Member::Modify(modify) => self.declare_modify(scope, modify),
                 Member::Assign(assign) => {
                     self.refuse_block(scope, assign.value());
                     let value = assign.value().and_then(ast::Value::expr);
+                    if let Some((name, count)) = given_list(assign) {
+                        self.given_counts.insert((scope.class(), name), count);
+                    }
                     if let (Some(target), Some(value)) = (assign.target(), value) {
                         let (scope, prefix, target) = (scope.clone(), Vec::new(), Some(target));
                         self.pending.push(Pending::Value { scope, prefix, target, value });
@@ -87,9 +101,7 @@ impl Lowerer<'_> {
 
     /// Returns true at the top level of the document's own text, outside of any `for`.
     fn is_top_level(&self, scope: &Scope) -> bool {
-        scope.class() == self.document.root
-            && scope.constants.is_empty()
-            && scope.elements.is_empty()
+        scope.class() == self.document.root && scope.turns.is_empty()
     }
 
     /// Reports a value that is a block of steps, as only programs have.
@@ -169,14 +181,24 @@ impl Lowerer<'_> {
 
     /// Returns the whole number that an expression of constants is.
     pub(crate) fn constant(&mut self, scope: &Scope, expr: &Expr) -> Option<i64> {
-        let x = crate::numbers::constant(&|name| scope.constant(name), expr)?;
+        let known = |e: &Expr| scope.constant(e).or_else(|| self.constant_count(scope, e));
+        let x = crate::numbers::constant(&known, expr)?;
         (x.fract() == 0.0 && x.abs() < 9e15).then_some(x as i64)
+    }
+
+    /// Returns how many elements a list has, where `list.count` says so and its class tells.
+    fn constant_count(&self, scope: &Scope, e: &Expr) -> Option<f64> {
+        let Expr::Field(field) = e else { return None };
+        let is_count = field.args().is_none() && field.name()?.text() == "count";
+        let list = field.receiver().filter(|_| is_count)?;
+        let count = self.count_of(scope, &list).or_else(|| self.given_count(scope, &list))?;
+        Some(f64::from(count))
     }
 
     fn declare_part(&mut self, scope: &Scope, part: &ast::Part) {
         let Some(ty) = part.class() else { return };
         if let Some(definition) = part.definition() {
-            return self.declare_virtual(scope, part, &ty, &definition);
+            return self.declare_virtual(scope, &[], part, &ty, &definition);
         }
         let Some(class) = self.class_of_type(scope.file, &ty) else {
             return self.broken.extend(part.names().map(|w| (scope.class(), w.name())));
@@ -276,7 +298,12 @@ impl Lowerer<'_> {
     ) -> ClassId {
         let Some(body) = body else { return class };
         let members: Vec<Member> = body.members().collect();
-        if let Some(values) = values_alone(&members) {
+        let gives = |m: &Member| match m {
+            Member::Assign(assign) => given_list(assign).map(|(name, _)| name),
+            _ => None,
+        };
+        let is_looped = members.iter().filter_map(gives).any(|name| self.is_looped(class, &name));
+        if let Some(values) = values_alone(&members).filter(|_| !is_looped) {
             for (target, value) in values {
                 let prefix = vec![Step::Part(name.clone())];
                 let scope = scope.clone();
@@ -325,7 +352,15 @@ impl Lowerer<'_> {
         one
     }
 
-    fn declare_virtual(&mut self, scope: &Scope, part: &ast::Part, ty: &ast::Type, answer: &Expr) {
+    /// Declares a computed part: repeated by loops, a list of them.
+    pub(crate) fn declare_virtual(
+        &mut self,
+        scope: &Scope,
+        loops: &[ast::For],
+        part: &ast::Part,
+        ty: &ast::Type,
+        answer: &Expr,
+    ) {
         let class = self.class_of_type(scope.file, ty);
         for word in part.names() {
             if !self.is_new(scope, &word) {
@@ -334,7 +369,7 @@ impl Lowerer<'_> {
             let doc = part.doc().unwrap_or_default();
             let origin = self.origin(scope.file, span_without_doc(part.syntax()));
             if let Some(class) = class {
-                let kind = Kind::of_class(&self.document, class);
+                let kind = Kind::of_class(&self.document, class).listed(loops.len());
                 self.message_kinds.insert((scope.class(), word.name()), Some(kind));
             }
             let message = Message {
@@ -346,11 +381,17 @@ impl Lowerer<'_> {
                 is_combining: false,
                 origin,
             };
-            self.add_message(scope, &word, answer, message);
+            self.add_message(scope, loops, &word, answer, message);
         }
     }
 
-    fn declare_message(&mut self, scope: &Scope, message: &ast::Message) {
+    /// Declares a message: repeated by loops, it answers a list.
+    pub(crate) fn declare_message(
+        &mut self,
+        scope: &Scope,
+        loops: &[ast::For],
+        message: &ast::Message,
+    ) {
         let (Some(name), Some(answer)) = (message.name(), message.definition()) else { return };
         if !self.is_new(scope, &name) {
             return;
@@ -365,7 +406,7 @@ impl Lowerer<'_> {
             parameters.push(Parameter { label: label.name(), name: name.name(), class });
         }
         if let Some(class) = message.class().and_then(|ty| self.class_of_type(scope.file, &ty)) {
-            let kind = Kind::of_class(&self.document, class);
+            let kind = Kind::of_class(&self.document, class).listed(loops.len());
             self.message_kinds.insert((scope.class(), name.name()), Some(kind));
         }
         let origin = self.origin(scope.file, span_without_doc(message.syntax()));
@@ -379,21 +420,37 @@ impl Lowerer<'_> {
             is_combining: message.is_combining(),
             origin,
         };
-        self.add_message(&inner, &name, &answer, declared);
+        self.add_message(&inner, loops, &name, &answer, declared);
     }
 
     /// Adds a message to the class of the scope; its answer waits until all parts are declared.
-    fn add_message(&mut self, scope: &Scope, word: &ast::Word, answer: &Expr, message: Message) {
+    fn add_message(
+        &mut self,
+        scope: &Scope,
+        loops: &[ast::For],
+        word: &ast::Word,
+        answer: &Expr,
+        message: Message,
+    ) {
         let class = scope.class();
         let key = (class, message.name.clone());
         self.named_at.insert(key.clone(), Place { file: scope.file, span: word.span() });
-        self.definitions.insert(key, (answer.clone(), scope.clone()));
+        let (answer, loops) = (answer.clone(), loops.to_vec());
+        let definition = Definition { answer, scope: scope.clone(), loops };
+        self.definitions.insert(key, definition.clone());
         let index = self.document.classes[class].messages.len();
         self.messages.insert((class, message.name.clone()), index);
         self.document.classes[class].messages.push(message);
-        let (scope, answer) = (scope.clone(), answer.clone());
-        self.pending.push(Pending::Answer { scope, index, answer });
+        let scope = scope.clone();
+        self.pending.push(Pending::Answer { scope, index, definition });
     }
+}
+
+/// Returns the list that elements are given to, and how many.
+fn given_list(assign: &ast::Assign) -> Option<(Name, u32)> {
+    let Some(Expr::List(list)) = assign.value().and_then(ast::Value::expr) else { return None };
+    let Expr::Name(name) = assign.target()? else { return None };
+    Some((name.name()?.name(), list.elements().count() as u32))
 }
 
 /// Returns the values of a body that holds nothing but constants for parts.

@@ -2,7 +2,8 @@
 
 use crate::kinds::Kind;
 use crate::lower::{Lowered, Lowerer};
-use crate::scope::Scope;
+use crate::members::Definition;
+use crate::scope::{Element, Scope};
 use base::{Diagnostic, Name, Place};
 use kernel::builtin;
 use kernel::{ClassId, ClassKind, Document, PartRef, PartRole, Path, Step, Term};
@@ -28,9 +29,9 @@ impl Lowerer<'_> {
         if let Some(kind) = scope.local(&name) {
             return Some((Term::Local(name), kind.clone()));
         }
-        if let Some((path, class)) = scope.element(&name) {
-            let kind = class.map_or(Kind::Unknown, |c| Kind::of_class(&self.document, c));
-            return Some((term_of(&path), kind));
+        if let Some(element) = scope.element(&name) {
+            let kind = self.kind_of_element(scope, element);
+            return Some((term_of(&scope.path_to(element)), kind));
         }
         if let Some(&i) = scope.constants.get(&name) {
             return Some((Term::number(i as f64), Kind::Number(None)));
@@ -54,6 +55,29 @@ impl Lowerer<'_> {
         }
         self.unknown_name(scope, word);
         None
+    }
+
+    /// Returns the class of what a variable of `for` stands for, or of what is declared in a loop.
+    pub(crate) fn class_of_variable(&self, scope: &Scope, element: &Element) -> Option<ClassId> {
+        let home = scope.classes.len().checked_sub(element.depth);
+        element.class.or_else(|| self.class_at(*scope.classes.get(home?)?, &element.path))
+    }
+
+    fn kind_of_element(&mut self, scope: &Scope, element: &Element) -> Kind {
+        if let Some(class) = self.class_of_variable(scope, element) {
+            return Kind::of_class(&self.document, class);
+        }
+        // a message: it answers a list, in which this turn has its place
+        let home = scope.classes.len().checked_sub(element.depth);
+        let home = home.and_then(|at| scope.classes.get(at).copied());
+        let Some((class, Step::Part(name))) = home.zip(element.path.0.first().cloned()) else {
+            return Kind::Unknown;
+        };
+        let mut kind = self.kind_of_part(class, &name).unwrap_or(Kind::Unknown);
+        for _ in 1..element.path.0.len() {
+            kind = if let Kind::List(of) = kind { *of } else { Kind::Unknown };
+        }
+        kind
     }
 
     /// Returns true for a name whose own declaration is wrong, and says so.
@@ -176,12 +200,12 @@ impl Lowerer<'_> {
         if self.depth > DEEPEST {
             return Kind::Unknown;
         }
-        let Some((answer, scope)) = self.definitions.get(&key).cloned() else {
+        let Some(Definition { answer, scope, loops }) = self.definitions.get(&key).cloned() else {
             return Kind::Unknown;
         };
         self.message_kinds.insert(key.clone(), None);
         self.silent += 1;
-        let kind = self.expr(&scope, &answer).map_or(Kind::Unknown, |(_, kind)| kind);
+        let kind = self.kind_of_answer(&scope, &loops, &answer).unwrap_or(Kind::Unknown);
         self.silent -= 1;
         self.message_kinds.insert(key, Some(kind.clone()));
         kind
@@ -308,7 +332,14 @@ pub(crate) fn class_at(document: &Document, class: ClassId, path: &Path) -> Opti
     path.0.iter().try_fold(class, |class, step| match step {
         Step::Part(name) => class_of_part(document, class, name),
         Step::Index(_) | Step::Last => match document.classes[class].kind {
-            ClassKind::List(element) => Some(referred(document, element)),
+            ClassKind::List(element) => {
+                let elements = &document.classes[class].elements;
+                let own = match step {
+                    Step::Index(i) => elements.get(*i as usize),
+                    Step::Last | Step::Part(_) | Step::Owner => elements.last(),
+                };
+                Some(referred(document, own.copied().unwrap_or(element)))
+            }
             ClassKind::Primitive(_)
             | ClassKind::Composite
             | ClassKind::Set(_)

@@ -3,7 +3,7 @@
 use crate::kinds::dimension_in_words;
 use crate::lower::OWN;
 use base::number::{RULE_TOLERANCE, rounded, shortest};
-use base::{Diagnostic, Name, Place, Span};
+use base::{Diagnostic, Place, Span};
 use expr::dimension::Dimension;
 use expr::units;
 use kernel::{ClassId, ClassKind, Document, Literal, Primitive};
@@ -306,18 +306,17 @@ fn quantity(expr: &Expr, document: &Document) -> Option<(f64, Option<Dimension>)
 }
 
 /// Computes an expression of numbers and of names that stand for numbers.
-pub(crate) fn constant(names: &dyn Fn(&Name) -> Option<f64>, expr: &Expr) -> Option<f64> {
+pub(crate) fn constant(known: &dyn Fn(&Expr) -> Option<f64>, expr: &Expr) -> Option<f64> {
     let x = match expr {
         Expr::Number(n) if n.unit().is_none() => n.value()?,
-        Expr::Name(n) => names(&n.name()?.name())?,
-        Expr::Paren(p) => constant(names, &p.inner()?)?,
+        Expr::Paren(p) => constant(known, &p.inner()?)?,
         Expr::Unary(u) => match u.op()? {
-            UnaryOp::Negate => -constant(names, &u.operand()?)?,
-            UnaryOp::Plus => constant(names, &u.operand()?)?,
+            UnaryOp::Negate => -constant(known, &u.operand()?)?,
+            UnaryOp::Plus => constant(known, &u.operand()?)?,
             UnaryOp::Not => return None,
         },
         Expr::Binary(b) => {
-            let (x, y) = (constant(names, &b.left()?)?, constant(names, &b.right()?)?);
+            let (x, y) = (constant(known, &b.left()?)?, constant(known, &b.right()?)?);
             match b.op()? {
                 BinaryOp::Add => x + y,
                 BinaryOp::Subtract => x - y,
@@ -327,7 +326,7 @@ pub(crate) fn constant(names: &dyn Fn(&Name) -> Option<f64>, expr: &Expr) -> Opt
                 _ => return None,
             }
         }
-        _ => return None,
+        other => known(other)?,
     };
     x.is_finite().then_some(x)
 }

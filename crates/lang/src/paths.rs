@@ -23,7 +23,7 @@ impl Lowerer<'_> {
                 let receiver = index.receiver()?;
                 let (path, class) = self.path(scope, &receiver)?;
                 let at = index.index()?;
-                let Some(i) = crate::numbers::constant(&|n| scope.constant(n), &at) else {
+                let Some(i) = crate::numbers::constant(&|e| scope.constant(e), &at) else {
                     let message = "an index in a path is a whole number, from 0".to_string();
                     self.error("index", scope.file, at.span(), message);
                     return None;
@@ -31,7 +31,7 @@ impl Lowerer<'_> {
                 let count = self.count_of(scope, &receiver);
                 let i = self.element_index(scope, i, at.span(), count)?;
                 let element = match class {
-                    Some(list) => Some(self.element(list).or_else(|| {
+                    Some(list) => Some(self.element_at(list, i).or_else(|| {
                         let what = Kind::of_class(&self.document, list).words(&self.document);
                         let message = format!("{what} has no elements");
                         let span = receiver.span();
@@ -57,7 +57,7 @@ impl Lowerer<'_> {
 
     fn first_step(&mut self, scope: &Scope, word: &ast::Word) -> Option<(Path, Option<ClassId>)> {
         if let Some(element) = scope.element(&word.name()) {
-            return Some(element);
+            return Some((scope.path_to(element), self.class_of_variable(scope, element)));
         }
         let mut path = Path::default();
         for &class in &scope.classes {
@@ -132,6 +132,12 @@ impl Lowerer<'_> {
         }
     }
 
+    /// Returns the class of one element of a list.
+    fn element_at(&self, list: ClassId, i: u32) -> Option<ClassId> {
+        let own = self.document.classes[list].elements.get(i as usize);
+        own.map(|&c| referred(&self.document, c)).or_else(|| self.element(list))
+    }
+
     /// Returns how many elements a list that is a part of a class's things always has, if it is told.
     pub(crate) fn count_of(&self, scope: &Scope, list: &Expr) -> Option<u32> {
         let (class, name) = match list {
@@ -154,9 +160,15 @@ impl Lowerer<'_> {
 
     /// Returns how many elements a list of the thing's own has by the value it is declared with.
     pub(crate) fn given_count(&self, scope: &Scope, list: &Expr) -> Option<u32> {
-        let Expr::Name(name) = list else { return None };
-        let name = name.name()?.name();
-        let line = self.document.primary_line(scope.class());
+        let (class, name) = match list {
+            Expr::Name(name) => (scope.class(), name.name()?.name()),
+            Expr::Field(field) => {
+                let path = loose_path(&field.receiver()?)?;
+                (self.class_at(scope.class(), &path)?, field.name()?.name())
+            }
+            _ => return None,
+        };
+        let line = self.document.primary_line(class);
         line.into_iter().find_map(|c| self.given_counts.get(&(c, name.clone())).copied())
     }
 

@@ -138,6 +138,24 @@ impl Lowerer<'_> {
         refined
     }
 
+    /// Returns the class of a list with the elements, each of a class of its own, that concern a
+    /// refinement narrowed.
+    fn narrower_of_own(
+        &mut self,
+        list: ClassId,
+        refinement: &Refinement,
+        made: &mut Made,
+    ) -> Option<ClassId> {
+        let mut own = self.document.classes[list].clone();
+        let mut any = false;
+        for class in &mut own.elements {
+            if let Some(narrower) = self.narrower(*class, refinement, made) {
+                (*class, any) = (narrower, true);
+            }
+        }
+        any.then(|| self.document.classes.push(own))
+    }
+
     /// Returns the class of one that a part of a class gets; none where nothing concerns it.
     fn narrower(
         &mut self,
@@ -147,6 +165,9 @@ impl Lowerer<'_> {
     ) -> Option<ClassId> {
         match self.document.classes[class].kind {
             ClassKind::Primitive(_) | ClassKind::Set(_) | ClassKind::Reference(_) => return None,
+            ClassKind::List(_) if !self.document.classes[class].elements.is_empty() => {
+                return self.narrower_of_own(class, refinement, made);
+            }
             ClassKind::List(element) => {
                 let element = self.narrower(element, refinement, made)?;
                 return Some(match self.document.classes[class].count {

@@ -2,7 +2,7 @@
 
 use crate::kinds::{Kind, measured};
 use crate::lower::Lowerer;
-use crate::members::Pending;
+use crate::members::{Definition, Pending};
 use crate::paths::loose_path;
 use crate::scope::Scope;
 use crate::terms::code_for;
@@ -49,6 +49,7 @@ impl Lowerer<'_> {
     /// Lowers every expression that waits.
     pub(crate) fn define_members(&mut self) {
         self.declare_repeated();
+        self.continue_loops();
         self.complete_placed();
         self.prepare_modifications();
         self.define_pending();
@@ -84,8 +85,8 @@ impl Lowerer<'_> {
                 }
                 Pending::Note => noted = self.so_far(),
                 Pending::Noted { member, part, givens } => self.note(member, part, givens, noted),
-                Pending::Each { scope, each } => {
-                    self.unroll_list(&scope, &each);
+                Pending::Each { scope, each, from } => {
+                    self.take_turns(&scope, &each, from);
                     self.define_pending();
                 }
                 Pending::Member(scope, member) => self.define(&scope, &member),
@@ -95,11 +96,12 @@ impl Lowerer<'_> {
                 Pending::Absolute { scope, path, target } => {
                     self.define_absolute(&scope, path, &target);
                 }
-                Pending::Answer { scope, index, answer } => {
+                Pending::Answer { scope, index, definition } => {
                     let class = scope.class();
                     let name = self.document.classes[class].messages[index].name.clone();
                     let wanted = self.message_kind(class, &name);
-                    match self.expr_of(&scope, &answer, &wanted) {
+                    let Definition { answer, loops, .. } = &definition;
+                    match self.answer_of(&scope, loops, answer, &wanted) {
                         Some(term) => self.document.classes[class].messages[index].answer = term,
                         None => {
                             self.messages.shift_remove(&(class, name.clone()));
@@ -334,6 +336,22 @@ impl Lowerer<'_> {
         let is_set =
             class.is_none_or(|c| matches!(self.document.classes[c].kind, ClassKind::Set(_)));
         match &kind {
+            Kind::List(element) if is_set && matches!(member, Kind::List(_)) => {
+                let place = Place { file: scope.file, span: insert.span() };
+                let (message, hint) = match part == path {
+                    true => {
+                        let hint = "insert a part that is one of its members".to_string();
+                        (format!("{path} cannot be a member of itself"), hint)
+                    }
+                    false => {
+                        let one = element.words(&self.document);
+                        let message = format!("{part} is {}", member.words(&self.document));
+                        let hint = format!("merge the two: `merge {part} = {path}`");
+                        (format!("{message}, wanted one member, {one}"), hint)
+                    }
+                };
+                self.report(Diagnostic::error("value-of-wrong-class", place, message).hint(hint));
+            }
             Kind::List(element) if is_set && !member.fits(element, &self.document) => {
                 self.wrong_kind(scope, insert.span(), &member, element);
             }

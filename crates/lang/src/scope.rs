@@ -4,6 +4,7 @@ use crate::kinds::Kind;
 use base::{FileId, Name};
 use kernel::{ClassId, Path, Step};
 use std::collections::BTreeMap;
+use syntax::ast::Expr;
 
 /// Where an expression stands.
 #[derive(Clone, Debug)]
@@ -18,6 +19,8 @@ pub(crate) struct Scope {
     pub(crate) constants: BTreeMap<Name, i64>,
     /// Names that stand for elements of lists, the innermost last.
     pub(crate) elements: Vec<Element>,
+    /// The turns of the loops around, in the same body, the outermost first.
+    pub(crate) turns: Vec<u32>,
 }
 
 /// An element of a list that `for` goes through.
@@ -26,6 +29,7 @@ pub(crate) struct Element {
     pub(crate) name: Name,
     /// From the thing in whose body `for` stands.
     pub(crate) path: Path,
+    /// None for what is declared in a loop: it is looked up where it is spoken of.
     pub(crate) class: Option<ClassId>,
     /// How many classes there are around that body, its own included.
     pub(crate) depth: usize,
@@ -39,6 +43,7 @@ impl Scope {
             locals: Vec::new(),
             constants: BTreeMap::new(),
             elements: Vec::new(),
+            turns: Vec::new(),
         }
     }
     /// Returns the class whose things are `Me`.
@@ -49,6 +54,7 @@ impl Scope {
     pub(crate) fn inside(&self, class: ClassId) -> Self {
         let mut inner = self.clone();
         inner.classes.insert(0, class);
+        inner.turns.clear();
         inner
     }
     pub(crate) fn with_local(&self, name: Name, kind: Kind) -> Self {
@@ -66,16 +72,19 @@ impl Scope {
         inner.elements.push(Element { name, path, class, depth: self.classes.len() });
         inner
     }
-    /// Returns the path to the element that a variable of `for` stands for, and its class.
-    pub(crate) fn element(&self, name: &str) -> Option<(Path, Option<ClassId>)> {
-        let element = self.elements.iter().rev().find(|e| e.name == *name)?;
+    /// Returns the element that a variable of `for` stands for.
+    pub(crate) fn element(&self, name: &str) -> Option<&Element> {
+        self.elements.iter().rev().find(|e| e.name == *name)
+    }
+    /// Returns the path to an element from here.
+    pub(crate) fn path_to(&self, element: &Element) -> Path {
         let outwards = self.classes.len().saturating_sub(element.depth);
-        let out = Path(vec![Step::Owner; outwards]);
-        Some((out.join(&element.path), element.class))
+        Path(vec![Step::Owner; outwards]).join(&element.path)
     }
     /// Returns the number that a variable of `for` stands for.
-    pub(crate) fn constant(&self, name: &str) -> Option<f64> {
-        self.constants.get(name).map(|&i| i as f64)
+    pub(crate) fn constant(&self, name: &Expr) -> Option<f64> {
+        let Expr::Name(name) = name else { return None };
+        self.constants.get(&name.name()?.name()).map(|&i| i as f64)
     }
     pub(crate) fn local(&self, name: &str) -> Option<&Kind> {
         self.locals.iter().rev().find(|(n, _)| *n == name).map(|(_, kind)| kind)

@@ -179,7 +179,7 @@ impl Lowerer<'_> {
             }
         };
         let place = self.plain(scope, &at)?;
-        if let Some(i) = crate::numbers::constant(&|n| scope.constant(n), &at) {
+        if let Some(i) = crate::numbers::constant(&|e| scope.constant(e), &at) {
             self.element_index(scope, i, at.span(), self.count_of(scope, &list))?;
         }
         Some((Term::Index(Box::new(of), Box::new(place)), element))

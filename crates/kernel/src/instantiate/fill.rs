@@ -110,7 +110,9 @@ fn fill_list<'d>(
     if !has_room(maker, body, count, origin) {
         return;
     }
-    body.add_parts(thing, std::iter::repeat_n(element, count));
+    let elements = &maker.document.classes[body.things[thing].class].elements;
+    let class = |i| elements.get(i).copied().unwrap_or(element);
+    body.add_parts(thing, (0..count).map(class));
     fill_parts(maker, body, thing, bindings, |_| origin);
 }
 

@@ -131,8 +131,8 @@ const WRONG: &[(&str, &str, &str)] = &[
         "wrong-arity",
         "for a in l.neighbours { stay a }",
     ),
-    ("l: List of 3 Real\nfor a in l { b => a }", "not-yet", "b => a"),
-    ("for i in 0..1 { for j in 0..1 { b: Real } }", "not-yet", "b: Real"),
+    ("l: List of 3 Real\nfor a in l { b => c }", "unknown-name", "c"),
+    ("for i in 0..1 { for j in 0..1 { b: Rael } }", "unknown-class", "Rael"),
     ("l: List of 3 Real\nfor a in l { b: Rael }\nb[0] = 3", "unknown-class", "Rael"),
     ("l: List of 3 Real\nfor a in l { stay b }", "unknown-name", "b"),
     // references
@@ -152,7 +152,7 @@ const WRONG: &[(&str, &str, &str)] = &[
         "vacuous-merge",
         "merge a.p1 = b.p1 = a.p1",
     ),
-    ("l: List of Real\nfor a in l { stay a }", "not-yet", "l"),
+    ("n: Integer = 3\nfor i in 0..n { stay n }", "not-a-count", "0..n"),
     ("l: List of 2 Real\nk: List of 3 Real\nmerge l = k", "unlike-merge", "merge l = k"),
     // what every thing answers
     ("class A { picture => 3 }", "override-kind", "picture"),
@@ -187,7 +187,7 @@ const WRONG: &[(&str, &str, &str)] = &[
     ("a: Real\na = repeat 5 times { b = 3 }", "not-yet", "repeat 5 times { b = 3 }"),
     ("for i in 0..0 { class D { } }", "not-yet", "class D { }"),
     ("for i in 0..1 { x, y, x: Real }", "duplicate-name", "x"),
-    ("for a, b in [1, 2] { }", "not-yet", "[1, 2]"),
+    ("for a in [1, 2] { }", "not-a-path", "[1, 2]"),
     ("class C { modify Real { } }", "not-modifiable", "Real"),
     ("class C { modify Lnie { } }", "unknown-class", "Lnie"),
     (
