@@ -35,6 +35,7 @@ pub mod arena;
 
 pub mod derivative;
 
+pub mod conic;
 pub mod isolate;
 mod polynomial;
 
@@ -46,6 +47,7 @@ pub mod dimension;
 pub mod units;
 
 pub use arena::{Arena, Excerpt, ExprId, Node, Var};
+pub use conic::{Conic, conic};
 pub use derivative::{derivative, gradient};
 pub use dimension::Dimension;
 pub use interval::Interval;

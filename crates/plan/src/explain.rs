@@ -44,6 +44,8 @@ pub enum ExplainedKind {
         /// How many unknowns.
         unknowns: u32,
     },
+    /// Two equations solved together by formula, as where two circles meet.
+    Closed,
     /// Equations solved together by Newton's method.
     Newton {
         /// How many unknowns.
@@ -364,6 +366,7 @@ impl ExplainedKind {
                     PlanKind::OnePass
                 }
             }
+            Self::Closed => PlanKind::Block,
             Self::LeastChange { .. } | Self::Compromise { .. } => PlanKind::Relaxation,
             Self::Search { .. } => PlanKind::Search,
         }
@@ -379,6 +382,7 @@ impl ExplainedKind {
             | Self::Method { .. }
             | Self::Isolated { .. }
             | Self::Linear { .. }
+            | Self::Closed
             | Self::Search { .. } => false,
             Self::Newton { unknowns }
             | Self::LeastChange { unknowns }
@@ -397,6 +401,7 @@ fn kind(system: &System, step: &Step) -> ExplainedKind {
         }
         StepKind::Inverse { roots } => ExplainedKind::Isolated { roots },
         StepKind::Linear => ExplainedKind::Linear { unknowns },
+        StepKind::Closed => ExplainedKind::Closed,
         StepKind::Newton => ExplainedKind::Newton { unknowns },
         StepKind::LeastChange => ExplainedKind::LeastChange { unknowns },
         StepKind::Compromise => ExplainedKind::Compromise { unknowns },

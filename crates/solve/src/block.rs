@@ -5,8 +5,10 @@
 //! on one side alone and not in e) is *defined*: it is computed forward, exactly, and what is
 //! iterated is the core, from where it is. Forces between beams, results of operations are such.
 
+mod closed;
 mod layout;
 
+pub(crate) use closed::{Closed, Conic, Conics};
 pub(crate) use layout::{Layout, Layouts};
 
 use crate::kernel::{Kernel, Side};

@@ -6,7 +6,7 @@
 
 use crate::system::SlotIndex;
 use base::Id;
-use expr::{Arena, Binary, ExprId, Guard, Node, Tape, Unary, Var, gradient};
+use expr::{Arena, Binary, Conic, ExprId, Guard, Node, Tape, Unary, Var, gradient};
 use std::rc::Rc;
 use std::sync::OnceLock;
 
@@ -132,6 +132,17 @@ impl Kernel {
     ) -> (ExprId, ExprId) {
         let mut over = |id| arena.import(&self.arena, id, &mut |v: Var| argument(v.0 as usize));
         (over(self.left), over(self.right))
+    }
+
+    /// Returns what it says of two arguments where that is of the second degree in them, in another arena with
+    /// other names.
+    pub(crate) fn conic(
+        &self,
+        arguments: [Var; 2],
+        arena: &mut Arena,
+        name: &dyn Fn(Var) -> Var,
+    ) -> Option<Conic> {
+        expr::conic(&self.arena, [self.left, self.right], arguments, arena, name)
     }
 
     /// Computes how far its sides move apart where every argument moves by its own size.

@@ -334,7 +334,11 @@ fn square_block(
         }
         return;
     }
-    let kind = if square.block.is_linear { StepKind::Linear } else { StepKind::Newton };
+    let kind = match square.block.closed() {
+        _ if square.block.is_linear => StepKind::Linear,
+        Some(_) => StepKind::Closed,
+        None => StepKind::Newton,
+    };
     let targets = block.unknowns[..].into();
     steps.push(step(
         analysis,

@@ -41,6 +41,8 @@ pub enum StepKind {
     },
     /// As many linear equations as unknowns.
     Linear,
+    /// Two equations of the second degree in two unknowns, as where two circles meet: by formula.
+    Closed,
     /// As many equations as unknowns, by damped Newton steps.
     Newton,
     /// Fewer equations than unknowns: they hold, and the distance from the start is least.
@@ -79,7 +81,7 @@ impl Step {
     pub(crate) fn may_branch(&self) -> bool {
         match self.kind {
             StepKind::Inverse { roots } => roots > 1,
-            StepKind::Newton => true,
+            StepKind::Closed | StepKind::Newton => true,
             StepKind::Alias
             | StepKind::Method { .. }
             | StepKind::Linear
@@ -267,7 +269,7 @@ fn plan_stated(stated: Stated) -> Plan {
     let lowered = lower::lower(&analysis, &blocks);
     let has_branches = lowered.steps.iter().any(|s| match s.kind {
         StepKind::Inverse { roots } => roots > 1,
-        StepKind::Newton | StepKind::LeastChange | StepKind::Compromise => true,
+        StepKind::Closed | StepKind::Newton | StepKind::LeastChange | StepKind::Compromise => true,
         StepKind::Alias | StepKind::Method { .. } | StepKind::Linear | StepKind::Opaque { .. } => {
             false
         }
@@ -504,6 +506,7 @@ impl Plan {
                     StepKind::Inverse { roots: 1 } => "inverse".to_owned(),
                     StepKind::Inverse { roots } => format!("inverse of {roots} roots"),
                     StepKind::Linear => "linear".to_owned(),
+                    StepKind::Closed => "closed form".to_owned(),
                     StepKind::Newton => "newton".to_owned(),
                     StepKind::LeastChange => "least change".to_owned(),
                     StepKind::Compromise => "compromise".to_owned(),

@@ -6,6 +6,7 @@
 //! and Marquardt's is. Iteration goes on to stagnation, so that double roots come out as well as the
 //! arithmetic allows. The linear algebra is dense where the core is small, sparse where it is not.
 
+mod closed;
 mod further;
 
 use crate::block::{Block, Layouts, Local, Workspace};
@@ -360,6 +361,9 @@ impl Square {
         w: &mut Workspace,
         s: &mut SquareScratch,
     ) -> Solved {
+        if let Some(solved) = self.solve_closed(last, values, scales, trust, w) {
+            return solved;
+        }
         let is_linear = self.block.is_linear;
         let branch = match trust {
             Trust::Branch if !is_linear => Some(self.orientation(last, scales, w, s)),

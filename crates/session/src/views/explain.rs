@@ -287,6 +287,7 @@ fn method(kind: ExplainedKind) -> String {
         ExplainedKind::Linear { unknowns } => {
             format!("{unknowns} linear equations, solved together")
         }
+        ExplainedKind::Closed => "2 equations, solved together by formula".into(),
         ExplainedKind::Newton { unknowns: 1 } => "an equation, solved by Newton's method".into(),
         ExplainedKind::Newton { unknowns } => {
             format!("{unknowns} equations, solved together by Newton's method")

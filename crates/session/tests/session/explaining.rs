@@ -74,10 +74,21 @@ fn equations_that_are_solved_together() {
         Desk::of("x: Real\ny: Real\nconstraint sum: x + y = 5\nconstraint product: x * y = 6\n");
     let explanation = desk.session.explain(desk.id, None);
     assert_eq!(explanation.about, "opening");
+    assert_eq!(explanation.warnings, [""; 0]);
     let block = &explanation.steps[0];
-    assert_eq!(block.method, "2 equations, solved together by Newton's method");
+    assert_eq!(block.method, "2 equations, solved together by formula");
     assert_eq!(block.formula, "constraint sum: x + y = 5\nconstraint product: x * y = 6");
     assert_eq!(block.reason, "sum and product must hold");
+}
+
+#[test]
+fn equations_without_a_formula_are_approached() {
+    let desk =
+        Desk::of("x: Real\ny: Real\nconstraint sum: x + y = 5\nconstraint cubes: x^3 * y = 24\n");
+    let explanation = desk.session.explain(desk.id, None);
+    assert_eq!(explanation.warnings.len(), 1);
+    let method = &explanation.steps[0].method;
+    assert_eq!(method, "2 equations, solved together by Newton's method");
 }
 
 #[test]

@@ -45,8 +45,11 @@ impl Run<'_> {
         if square.block.is_linear {
             return Vec::new();
         }
-        let mut found: Vec<Vec<f64>> = Vec::new();
-        if reach == Reach::Near {
+        self.start_from_last(&step.targets);
+        let known = square.all_solutions(self.values, &self.frame.scales, &mut self.buffers.work);
+        let is_known = known.is_some();
+        let mut found = known.unwrap_or_default();
+        if reach == Reach::Near && !is_known {
             for way in [Trust::Any, Trust::Leap] {
                 self.start_from_last(&step.targets);
                 self.look(step, square, way, &mut found);
@@ -54,6 +57,7 @@ impl Run<'_> {
             self.look_further(step, square, &mut found);
         }
         let starts = match reach {
+            _ if is_known => 0..0,
             Reach::Near if !found.is_empty() && step.targets.len() <= SMALL => 1..1,
             Reach::Near => 1..7,
             Reach::Far => 7..25,

@@ -4,6 +4,7 @@
 //! everything goes when the rows are evaluated, which unknowns are defined, what is left to be iterated.
 //! Everything is named by position. In a chain of a thousand triangles one layout serves all.
 
+use super::closed::Closed;
 use crate::block::Local;
 use crate::kernel::{Entry, Kernel, Side};
 use crate::lower::{Definers, Problem};
@@ -42,6 +43,7 @@ pub(crate) struct Layout {
     /// For every row in that order, where each of the kernel's derivatives goes in the Jacobian.
     entries: Vec<u32>,
     pub(super) seconds: OnceLock<Vec<(u32, u32)>>,
+    pub(super) closed: OnceLock<Option<Closed>>,
     /// For every row, its group and its place there.
     place: Vec<(u32, u32)>,
 }
@@ -158,6 +160,7 @@ impl Layout {
             grouped: vec![0; rows as usize],
             entries: vec![KNOWN; entries as usize],
             seconds: OnceLock::new(),
+            closed: OnceLock::new(),
             place,
         };
         made.fill(positions);

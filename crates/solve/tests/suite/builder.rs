@@ -1,6 +1,6 @@
 //! A small language for systems in tests: `number` makes slots, operators make equations.
 
-use expr::{Arena, ExprId, Var};
+use expr::{Arena, Binary, ExprId, Var};
 use solve::{
     Drag, Host, Level, Method, MethodBody, NoHost, Outcome, Patterns, Plan, Relation, RelationBody,
     Runner, Slot, SlotIndex, Stay, System,
@@ -67,6 +67,9 @@ impl Sheet {
     }
     pub(crate) fn div(&mut self, a: ExprId, b: ExprId) -> ExprId {
         self.arena.div(a, b)
+    }
+    pub(crate) fn binary(&mut self, op: Binary, a: ExprId, b: ExprId) -> ExprId {
+        self.arena.binary(op, a, b)
     }
     pub(crate) fn distance(&mut self, a: [SlotIndex; 2], b: [SlotIndex; 2]) -> ExprId {
         let mut sum = self.c(0.0);

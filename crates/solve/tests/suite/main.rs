@@ -1,6 +1,7 @@
 //! What the solver answers, by numbers: failures first, then who yields, which way, how much, drags.
 mod bridge;
 mod builder;
+mod closed;
 mod contradictions;
 mod drags;
 mod idle;

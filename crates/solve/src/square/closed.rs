@@ -1,0 +1,237 @@
+//! Blocks in closed form: where two circles meet, a circle and a line, a product and a sum.
+//!
+//! In: a block that has a closed form, a start, the branch to stay on. Out: the two unknowns, in place; or
+//! nothing where Newton's steps have to decide, as where the two solutions nearly meet. The difference of two
+//! circles is a line on which both solutions lie, one on each side of the centres: their determinants have
+//! different signs, which is how the branch is told. What comes out is corrected by one Newton step, and a
+//! start that is a solution to rounding is left as it is.
+
+use super::{Solved, Square, Trust};
+use crate::block::{Closed, Conic, Conics, Workspace};
+use base::number::sqrt;
+
+/// The sine of the angle between two rows in a solution, below which it nearly is two.
+const NEAR: f64 = 1e-3;
+/// The sine of the angle between two rows below which it is not told which side a state is on.
+const FLAT: f64 = 1e-9;
+/// A correction above this, in parts of the extent, is none of rounding.
+const CORRECTION: f64 = 1e-7;
+/// How many roundings of its numbers a row may be off in a solution.
+const ROUNDINGS: f64 = 8.0 * f64::EPSILON;
+
+impl Square {
+    /// Solves by the closed form of the block; nothing where it has none or it does not decide.
+    pub(super) fn solve_closed(
+        &self,
+        last: &[f64],
+        values: &mut [f64],
+        scales: &[f64],
+        trust: Trust,
+        w: &mut Workspace,
+    ) -> Option<Solved> {
+        let closed = self.block.closed()?;
+        let slots = self.pair();
+        let start = slots.map(|s| values[s]);
+        let base = self.block.conics(closed, values, w);
+        let side = match trust {
+            Trust::Branch => side(&self.block.conics(closed, last, w), [0.0; 2])?,
+            Trust::Any | Trust::Leap => side(&base, [0.0; 2])?,
+        };
+        let first = newton(&base)?;
+        if self::side(&base, [0.0; 2]) == Some(side) && base.is_guarded && is_rounding(&base, start)
+        {
+            return Some(Solved::Regular);
+        }
+        let roots = roots(&base)?;
+        let own = |p: &&[f64; 2]| self::side(&base, **p) == Some(side);
+        if trust == Trust::Branch {
+            let root = roots.all().iter().find(own);
+            let Some(root) = root.filter(|p| !bends(first, **p, slots, scales)) else {
+                return Some(Solved::Failed);
+            };
+            let holds = self.put(closed, start, *root, values, scales, w)?;
+            return Some(if holds { Solved::Regular } else { Solved::Failed });
+        }
+        // what lies the wrong way of a direction is no solution: then the other one may be
+        let (own, other) = (roots.all().iter().find(own), roots.all().iter().find(|p| !own(p)));
+        for root in own.into_iter().chain(other) {
+            if self.put(closed, start, *root, values, scales, w)? {
+                return Some(Solved::Regular);
+            }
+        }
+        Some(Solved::Failed)
+    }
+
+    /// Returns all solutions of a block in closed form, as a value for each unknown; nothing where it has no
+    /// closed form or that does not decide. Leaves the unknowns anywhere.
+    pub(crate) fn all_solutions(
+        &self,
+        values: &mut [f64],
+        scales: &[f64],
+        w: &mut Workspace,
+    ) -> Option<Vec<Vec<f64>>> {
+        let closed = self.block.closed()?;
+        let slots = self.pair();
+        let start = slots.map(|s| values[s]);
+        let base = self.block.conics(closed, values, w);
+        let mut found = Vec::new();
+        for p in roots(&base)?.all() {
+            if self.put(closed, start, *p, values, scales, w)? {
+                found.push(slots.map(|s| values[s]).to_vec());
+            }
+        }
+        Some(found)
+    }
+
+    /// The slots of its two unknowns.
+    fn pair(&self) -> [usize; 2] {
+        [0, 1].map(|u| self.block.unknowns[u] as usize)
+    }
+
+    /// Puts the unknowns so far from a start and corrects them by Newton's step; returns true if that is a
+    /// solution, and nothing where the correction is more than that.
+    fn put(
+        &self,
+        closed: &Closed,
+        start: [f64; 2],
+        by: [f64; 2],
+        values: &mut [f64],
+        scales: &[f64],
+        w: &mut Workspace,
+    ) -> Option<bool> {
+        let slots = self.pair();
+        (0..2).for_each(|i| values[slots[i]] = start[i] + by[i]);
+        let there = self.block.conics(closed, values, w);
+        let correction = newton(&there)?;
+        (0..2).for_each(|i| values[slots[i]] += correction[i]);
+        (size(correction, slots, scales) <= CORRECTION).then_some(there.is_guarded)
+    }
+}
+
+/// Where two rows hold.
+enum Roots {
+    None,
+    One([f64; 2]),
+    Two([[f64; 2]; 2]),
+}
+
+impl Roots {
+    fn all(&self) -> &[[f64; 2]] {
+        match self {
+            Self::None => &[],
+            Self::One(root) => std::slice::from_ref(root),
+            Self::Two(roots) => roots,
+        }
+    }
+}
+
+/// Finds where both rows hold, from the state that they are around; nothing where that nearly is one place,
+/// or the rows are nearly one.
+fn roots(conics: &Conics) -> Option<Roots> {
+    let [a, b] = conics.rows;
+    // the line that both solutions lie on, and a curve that does too
+    let largest = |row: &Conic| (0..3).fold(0, |m, i| if larger(row, i, m) { i } else { m });
+    if [a, b].iter().all(|row| row.second == [0.0; 3]) {
+        return newton(conics).map(Roots::One);
+    }
+    let at = if a.second == [0.0; 3] { largest(&b) } else { largest(&a) };
+    let [p, q] = [b.second[at], a.second[at]];
+    let by = |x: f64, y: f64| p * x - q * y;
+    let (line, curve) = match (p == 0.0, q == 0.0) {
+        (_, true) => (a, b),
+        (true, false) => (b, a),
+        (false, false) => {
+            let slope = [0, 1].map(|i| by(a.slope[i], b.slope[i]));
+            (Conic { one: by(a.one, b.one), slope, second: [0.0; 3] }, a)
+        }
+    };
+    let n = norm(line.slope);
+    let whole = norm(a.slope) * p.abs() + norm(b.slope) * q.abs();
+    if n <= FLAT * whole || n == 0.0 || !n.is_finite() {
+        return None;
+    }
+    let normal = line.slope.map(|s| s / n);
+    let (foot, way) = (normal.map(|c| -line.one / n * c), [-normal[1], normal[0]]);
+    let place = |t: f64| [foot[0] + t * way[0], foot[1] + t * way[1]];
+    // along the line, from its foot: square t² + slope t + one
+    let square = second(&curve, way);
+    let along = dot(slope(&curve, foot), way);
+    let one = curve.one + dot(curve.slope, foot) + second(&curve, foot);
+    let middle = -0.5 * along / square;
+    let half = middle * middle - one / square;
+    let steep = norm(slope(&curve, place(middle))) + 2.0 * square.abs() * sqrt(half.abs());
+    if !half.is_finite() || 2.0 * square.abs() * sqrt(half.abs()) <= NEAR * steep {
+        return None;
+    }
+    if half < 0.0 {
+        return Some(Roots::None);
+    }
+    let half = sqrt(half);
+    Some(Roots::Two([place(middle + half), place(middle - half)]))
+}
+
+/// Returns true if one second coefficient of a row is larger than another.
+fn larger(row: &Conic, i: usize, than: usize) -> bool {
+    row.second[i].abs() > row.second[than].abs()
+}
+
+/// Returns what the second coefficients of a row make of a place.
+fn second(row: &Conic, at: [f64; 2]) -> f64 {
+    let [uu, uv, vv] = row.second;
+    uu * at[0] * at[0] + uv * at[0] * at[1] + vv * at[1] * at[1]
+}
+
+/// Returns the slopes of a row at a place.
+fn slope(row: &Conic, at: [f64; 2]) -> [f64; 2] {
+    let [uu, uv, vv] = row.second;
+    [row.slope[0] + 2.0 * uu * at[0] + uv * at[1], row.slope[1] + uv * at[0] + 2.0 * vv * at[1]]
+}
+
+/// Returns the sign of the determinant at a place, where that is told.
+fn side(conics: &Conics, at: [f64; 2]) -> Option<f64> {
+    let [a, b] = conics.rows.map(|row| slope(&row, at));
+    let determinant = cross(a, b);
+    (determinant.abs() > FLAT * norm(a) * norm(b)).then(|| determinant.signum())
+}
+
+/// Returns true if a way to a solution bends so much that it has to be taken in several strides: the second
+/// of Newton's steps would be more than half as long as the `first`.
+fn bends(first: [f64; 2], root: [f64; 2], slots: [usize; 2], scales: &[f64]) -> bool {
+    let off = size([root[0] - first[0], root[1] - first[1]], slots, scales);
+    off > 0.5 * size(first, slots, scales) && off > 1e-7
+}
+
+/// Returns Newton's step from the state that the rows are around.
+fn newton(conics: &Conics) -> Option<[f64; 2]> {
+    let [a, b] = conics.rows;
+    let determinant = cross(a.slope, b.slope);
+    let step = [
+        (b.one * a.slope[1] - a.one * b.slope[1]) / determinant,
+        (a.one * b.slope[0] - b.one * a.slope[0]) / determinant,
+    ];
+    step.iter().all(|d| d.is_finite()).then_some(step)
+}
+
+/// Returns true if no row is off by more than its numbers are rounded.
+fn is_rounding(conics: &Conics, at: [f64; 2]) -> bool {
+    conics.rows.iter().all(|row| {
+        let slope = norm(row.slope);
+        let second = row.second.iter().fold(0.0_f64, |m, c| m.max(c.abs()));
+        let radius = if second == 0.0 { 0.0 } else { 0.5 * slope / second };
+        row.one.abs() <= ROUNDINGS * slope * (radius + at[0].abs() + at[1].abs())
+    })
+}
+
+/// Returns the larger part of a step, in scaled unknowns.
+fn size(step: [f64; 2], slots: [usize; 2], scales: &[f64]) -> f64 {
+    (step[0] / scales[slots[0]]).abs().max((step[1] / scales[slots[1]]).abs())
+}
+fn cross(a: [f64; 2], b: [f64; 2]) -> f64 {
+    a[0] * b[1] - a[1] * b[0]
+}
+fn dot(a: [f64; 2], b: [f64; 2]) -> f64 {
+    a[0] * b[0] + a[1] * b[1]
+}
+fn norm(a: [f64; 2]) -> f64 {
+    sqrt(dot(a, a))
+}
