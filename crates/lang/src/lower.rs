@@ -291,6 +291,15 @@ impl<'l> Lowerer<'l> {
         self.origins.add(Place { file, span })
     }
 
+    /// Notes where what a class says of its parts is written.
+    pub(crate) fn rule_origin(&mut self, scope: &Scope, span: Span) -> OriginId {
+        let place = Place { file: scope.file, span };
+        match scope.class() == self.document.root {
+            true => self.origins.add_rule(place),
+            false => self.origins.add(place),
+        }
+    }
+
     pub(crate) fn report(&mut self, diagnostic: Diagnostic) {
         // what every turn of a loop would say again is one mistake
         if self.silent == 0 && self.said.insert((diagnostic.place, diagnostic.code)) {

@@ -1,20 +1,32 @@
 //! Origins: where every member was written.
 
-use base::{IdVec, Place};
+use base::{Id, IdVec, Place};
 use kernel::OriginId;
 
 /// The table of places.
+///
+/// What the document itself says of its parts is numbered apart, from the last number down: where such a
+/// rule comes or goes, all other origins are as they were, and so are the classes that hold them.
 #[derive(Clone, Debug, Default)]
 pub struct Origins {
     places: IdVec<OriginId, Place>,
+    rules: Vec<Place>,
 }
 
 impl Origins {
     pub(crate) fn add(&mut self, place: Place) -> OriginId {
         self.places.push(place)
     }
+    /// Adds the place of what the document itself says of its parts.
+    pub(crate) fn add_rule(&mut self, place: Place) -> OriginId {
+        self.rules.push(place);
+        OriginId(u32::MAX - self.rules.len() as u32)
+    }
     /// Returns where a member was written.
     pub fn place(&self, origin: OriginId) -> Place {
-        self.places[origin]
+        match self.places.get(origin) {
+            Some(place) => *place,
+            None => self.rules[(u32::MAX - 1) as usize - origin.index()],
+        }
     }
 }

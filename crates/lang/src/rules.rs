@@ -256,7 +256,7 @@ impl Lowerer<'_> {
     }
 
     fn define(&mut self, scope: &Scope, member: &Member) {
-        let origin = self.origin(scope.file, span_without_doc(member.syntax()));
+        let origin = self.rule_origin(scope, span_without_doc(member.syntax()));
         let class = scope.class();
         match member {
             Member::Constraint(c) => self.define_constraint(scope, c, origin),
@@ -521,7 +521,7 @@ impl Lowerer<'_> {
         for (part, kind) in parts.iter().zip(&kinds) {
             values.push(self.expr_of(scope, part, kind)?);
         }
-        let origin = self.origin(scope.file, m.span());
+        let origin = self.rule_origin(scope, m.span());
         Some(Method { targets: paths, values, origin })
     }
 

@@ -53,7 +53,7 @@ impl Lowerer<'_> {
             }
         };
         let Some(setting) = setting else { return true };
-        let origin = self.origin(scope.file, target.span());
+        let origin = self.rule_origin(scope, target.span());
         let class = scope.class();
         let switch = Switch { path: path.clone(), name: name.clone(), setting, origin };
         self.document.classes[class].switches.push(switch);

@@ -49,6 +49,10 @@ impl Component {
         all.end();
         Self { all: Rc::new(all), at: 0 }
     }
+    /// Returns true if the other was found together with this one, and is the same.
+    pub(crate) fn is(&self, other: &Self) -> bool {
+        Rc::ptr_eq(&self.all, &other.all) && self.at == other.at
+    }
     fn bounds(&self) -> ((u32, u32), (u32, u32)) {
         let at = self.at as usize;
         let start = at.checked_sub(1).map_or((0, 0), |before| self.all.ends[before]);

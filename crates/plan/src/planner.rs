@@ -9,7 +9,7 @@ use crate::past::CameId;
 use crate::plans::{PlanCounts, Plans};
 use crate::recent::Recent;
 use crate::rule::{Rules, Source};
-use crate::task::{Alike, Holding, Locals, Setting, Task, Wish, task};
+use crate::task::{Alike, Holding, Locals, Setting, Task, Wish, at_rest, task};
 use crate::template::lower_all;
 use kernel::{Document, Form, SlotId, Structure, Values};
 use solve::{Level, Scratch};
@@ -180,9 +180,14 @@ impl Planner {
     /// Plans every component with nothing edited, unless that was done.
     pub(crate) fn plan_resting(&mut self, structure: &Structure) {
         if self.resting.is_none() {
-            let holding = |s| Self::resting_hold(structure, s);
+            let holding = &|s| Self::resting_hold(structure, s);
             let components = self.whole(structure);
-            self.resting = Some(self.tasks(structure, components, &holding, &[]));
+            let setting =
+                Setting { structure, rules: &self.rules, net: &self.net, holding, wishes: &[] };
+            let (plans, alike, mut locals) = (&mut self.plans, &mut self.alike, None);
+            let opened = self.latest.tasks.iter().map(Some).chain(std::iter::repeat(None));
+            let task = |known| at_rest(plans, alike, &setting, &mut locals, known);
+            self.resting = Some(components.into_iter().zip(opened).map(task).collect());
         }
     }
 

@@ -4,6 +4,7 @@
 //! so that one plan serves all of them.
 
 use crate::component::{Component, Net};
+use crate::planner::Planner;
 use crate::plans::Plans;
 use crate::rule::{Body, Formula, How, Position, Rule, Rules, Source, When};
 use crate::whole::{self, Whole};
@@ -95,6 +96,8 @@ struct Stated {
     movable: OnceCell<Vec<SlotIndex>>,
     /// The rows that may depend on others at some state; found when first asked for.
     core: OnceCell<Vec<(u32, u32)>>,
+    /// Where what such components are at rest is known among all; noted when first asked for.
+    at_rest: OnceCell<u32>,
 }
 
 /// What components without wishes were stated as, by what there is to see of them.
@@ -143,18 +146,39 @@ pub(crate) fn task(
     if remembered {
         alike.sign(setting, locals, &component);
         if let Some(known) = alike.known.get(alike.signature.as_slice()) {
-            let (system, plan, course, stated) = known.clone();
             plans.reuse();
-            return Task { system, plan, course, component, stated };
+            return Task::of(known.clone(), component);
         }
     }
-    let (system, plan, course, stated) = state(plans, setting, locals, &component);
-    let stated = Rc::new(stated);
+    let known = state(plans, setting, locals, &component);
     if remembered {
-        let known = (system.clone(), plan.clone(), course.clone(), stated.clone());
-        alike.known.insert(alike.signature.as_slice().into(), known);
+        alike.known.insert(alike.signature.as_slice().into(), known.clone());
     }
-    Task { system, plan, course, component, stated }
+    Task::of(known, component)
+}
+
+/// Plans a component at rest that opening planned as `opened`: what is alike there is alike at rest.
+pub(crate) fn at_rest<'s>(
+    plans: &mut Plans,
+    alike: &mut Alike,
+    setting: &Setting<'s>,
+    locals: &mut Option<Locals>,
+    (component, opened): (Component, Option<&Task>),
+) -> Task {
+    let opened = opened.filter(|task| task.component.is(&component)).map(|task| &task.stated);
+    let known = opened.and_then(|stated| alike.known.get_index(*stated.at_rest.get()? as usize));
+    if let Some((_, known)) = known {
+        plans.reuse();
+        return Task::of(known.clone(), component);
+    }
+    let locals = locals.get_or_insert_with(|| Locals::new(setting.structure));
+    let task = task(plans, alike, setting, locals, component);
+    if let (Some(stated), Some(index)) =
+        (opened, alike.known.get_index_of(alike.signature.as_slice()))
+    {
+        stated.at_rest.get_or_init(|| index as u32);
+    }
+    task
 }
 
 fn state(
@@ -162,7 +186,7 @@ fn state(
     setting: &Setting<'_>,
     locals: &mut Locals,
     component: &Component,
-) -> (Rc<System>, Rc<Plan>, Course, Stated) {
+) -> Known {
     let same = plans.patterns_mut().same();
     let mut making = Making::new(setting, same, locals, component);
     for (position, &rule) in (0..).zip(component.rules()) {
@@ -176,8 +200,9 @@ fn state(
     let whole = whole::stated(&conditional).then(|| plans.whole(conditional.clone()));
     let (system, plan, course, number) = course(plans, conditional);
     let number = number.filter(|_| whole.is_none() && !has_host(&system));
-    let (movable, core) = Default::default();
-    (system, plan, course, Stated { holds, targets, relations, number, whole, movable, core })
+    let (movable, core, at_rest) = Default::default();
+    let stated = Stated { holds, targets, relations, number, whole, movable, core, at_rest };
+    (system, plan, course, Rc::new(stated))
 }
 
 /// Returns true if the host takes part: in texts, in relations or in methods.
@@ -238,8 +263,8 @@ fn movable(system: &System, plan: &Plan, slots: usize) -> Vec<SlotIndex> {
 }
 
 impl Alike {
-    /// Notes all that a component's system depends on: what holds each slot, what it is and may be,
-    /// with whom it is one place; what each rule says, and of which of the slots.
+    /// Notes all that a component's system depends on, and that of the component at rest: what holds each
+    /// slot, what it is and may be, with whom it is one place; what each rule says, and of which of the slots.
     fn sign(&mut self, setting: &Setting<'_>, locals: &Locals, component: &Component) {
         let Self { signature, kinds, .. } = self;
         signature.clear();
@@ -254,7 +279,9 @@ impl Alike {
                 kinds.len() - 1
             }) as u32;
             let has = u32::from(range.is_some()) | u32::from(place.is_some()) << 1;
-            signature.push((setting.holding)(slot) as u32 | has << 8 | kind << 16);
+            let rests = Planner::resting_hold(setting.structure, slot) as u32;
+            let holding = (setting.holding)(slot) as u32 | rests << 4;
+            signature.push(holding | has << 8 | kind << 16);
             if let Some((least, most)) = range {
                 signature.extend(halves(*least).into_iter().chain(halves(*most)));
             }
@@ -529,6 +556,9 @@ impl<'s> Making<'s> {
 }
 
 impl Task {
+    fn of((system, plan, course, stated): Known, component: Component) -> Self {
+        Self { system, plan, course, component, stated }
+    }
     /// Returns what a source of the system is.
     pub(crate) fn origin(&self, source: u32) -> Origin {
         match self.stated.relations[source as usize] {
