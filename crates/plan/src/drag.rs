@@ -5,7 +5,7 @@ use crate::component::Component;
 use crate::edit::{EditKind, EditReport, RefusalReason, Target, note};
 use crate::host::Host;
 use crate::modal::{Acting, ModalDrag, ModeChange};
-use crate::planner::{Latest, Model, Planner};
+use crate::planner::{Latest, Model, Planner, is_any_new};
 use crate::run::{Adapter, Ground, Ran, leans, or_whole, ran, scatter, searched};
 use crate::task::{Course, Task};
 use kernel::{SlotId, Values};
@@ -161,7 +161,7 @@ impl Planner {
             components.iter().flat_map(|c| c.rules().iter().copied()).collect();
         report.unmet = self.unmet(model, rules.iter().copied(), values, host);
         let was_unmet = self.unmet(model, rules, &start, host);
-        if report.unmet.iter().any(|u| u.is_new(&was_unmet)) {
+        if is_any_new(&report.unmet, &was_unmet) {
             *values = start;
             report.refusal = Some(RefusalReason::Unmet);
             return report;

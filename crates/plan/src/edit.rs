@@ -6,7 +6,7 @@ use crate::diagnose::trial::Setup;
 use crate::drag::move_at_once;
 use crate::host::{Failure, Host};
 use crate::past::CameId;
-use crate::planner::{Latest, Model, Planner, Unmet};
+use crate::planner::{Latest, Model, Planner, Unmet, is_any_new};
 use crate::rule::Source;
 use crate::run::{Ran, run, scatter};
 use crate::task::{Holding, Task, Wish};
@@ -270,7 +270,7 @@ impl Planner {
         let all_rules = rules.clone();
         let was_unmet = self.unmet(model, rules, values, host);
         report.reached = self.reached(aim, &scratch);
-        let broken = report.unmet.iter().any(|u| u.is_new(&was_unmet)) || !report.reached;
+        let broken = is_any_new(&report.unmet, &was_unmet) || !report.reached;
         if report.refusal.is_none() && broken {
             report.refusal =
                 Some(report.not_decided.map_or(RefusalReason::Unmet, RefusalReason::NotDecided));

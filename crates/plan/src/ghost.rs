@@ -7,7 +7,7 @@
 use crate::aim::Aim;
 use crate::host::Host;
 use crate::modal::{Acting, attempt_in_mode};
-use crate::planner::{Model, Planner, Unmet};
+use crate::planner::{Model, Planner, is_any_new};
 use crate::run::{Adapter, ground, leans, scatter};
 use crate::task::{Course, Holding, Task};
 use kernel::{SlotId, ThingId, Values};
@@ -197,7 +197,7 @@ impl Planner {
         let rules = || task.component.rules().iter().copied();
         let was_unmet = self.unmet(model, rules(), values, host);
         let unmet = self.unmet(model, rules(), &state, host);
-        if unmet.iter().all(|u: &Unmet| !u.is_new(&was_unmet)) {
+        if !is_any_new(&unmet, &was_unmet) {
             // what did not move keeps its bits
             for &s in slots {
                 if base::number::close(state.numbers[s], values.numbers[s]) {

@@ -2,7 +2,7 @@
 
 use crate::aim::Aim;
 use crate::host::Host;
-use crate::planner::{Model, Planner, Unmet};
+use crate::planner::{Model, Planner, Unmet, is_any_new};
 use crate::run::run;
 use crate::task::Task;
 use kernel::{Primitive, Value, Values};
@@ -47,7 +47,7 @@ impl Planner {
             }
             let rules = tasks.iter().flat_map(|t| t.component.rules().iter().copied());
             let unmet = self.unmet(model, rules, &trial, host);
-            unmet.iter().all(|u| !u.is_new(was_unmet)) && self.reached(&at, &trial)
+            !is_any_new(&unmet, was_unmet) && self.reached(&at, &trial)
         };
         let (mut gone, mut beyond) = (0.0, 1.0);
         for halving in 0..HALVINGS {

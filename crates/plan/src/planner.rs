@@ -13,7 +13,8 @@ use crate::task::{Alike, Holding, Locals, Setting, Task, Wish, at_rest, task};
 use crate::template::lower_all;
 use kernel::{Document, Form, SlotId, Structure, Values};
 use solve::{Level, Scratch};
-use std::collections::BTreeSet;
+use std::collections::btree_map::Entry;
+use std::collections::{BTreeMap, BTreeSet};
 use std::rc::Rc;
 
 /// A document and its structure: what every question to the planner is about.
@@ -221,6 +222,7 @@ impl Planner {
         host: &mut dyn Host,
     ) -> Vec<Unmet> {
         let mut unmet: Vec<Unmet> = Vec::new();
+        let mut place_of: BTreeMap<Source, usize> = BTreeMap::new();
         let patterns = self.plans.patterns();
         let mut scratch = Scratch::default();
         for index in rules {
@@ -231,9 +233,15 @@ impl Planner {
                 continue;
             };
             // A constraint of several rules is told once.
-            match unmet.iter_mut().find(|u| u.source == rule.source) {
-                Some(known) => known.error = holds::larger(known.error, error),
-                None => unmet.push(Unmet { source: rule.source, level: rule.shape.level, error }),
+            match place_of.entry(rule.source) {
+                Entry::Occupied(place) => {
+                    let known = &mut unmet[*place.get()];
+                    known.error = holds::larger(known.error, error);
+                }
+                Entry::Vacant(place) => {
+                    place.insert(unmet.len());
+                    unmet.push(Unmet { source: rule.source, level: rule.shape.level, error });
+                }
             }
         }
         unmet
@@ -251,9 +259,8 @@ pub struct Unmet {
     pub error: Option<f64>,
 }
 
-impl Unmet {
-    /// Returns true if it is required and held before, when these did not.
-    pub(crate) fn is_new(&self, before: &[Self]) -> bool {
-        self.level == Level::Required && before.iter().all(|b| b.source != self.source)
-    }
+/// Returns true if a required one of these is not among those of before.
+pub(crate) fn is_any_new(unmet: &[Unmet], before: &[Unmet]) -> bool {
+    let before: BTreeSet<Source> = before.iter().map(|b| b.source).collect();
+    unmet.iter().any(|u| u.level == Level::Required && !before.contains(&u.source))
 }

@@ -34,6 +34,15 @@ impl Lists {
         self.items.extend_from_slice(own);
         self.first.push(self.items.len() as u32);
     }
+    /// Adds the list of the next number, item by item.
+    pub(crate) fn push_each(&mut self, own: impl Iterator<Item = u32>) {
+        self.items.extend(own);
+        self.first.push(self.items.len() as u32);
+    }
+    /// Returns where each list starts, and where the last one ends; then all lists, one after the other.
+    pub(crate) fn into_parts(self) -> (Vec<u32>, Vec<u32>) {
+        (self.first, self.items)
+    }
     /// Returns all lists, one after the other.
     pub(crate) fn all(&self) -> &[u32] {
         &self.items

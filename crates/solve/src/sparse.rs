@@ -4,6 +4,8 @@
 //! (pivots, fill) is decided once for a pattern; numbers are put in as often as they change.
 pub(crate) mod pattern;
 
+mod shelves;
+
 pub(crate) mod pivot;
 
 pub(crate) mod degree;

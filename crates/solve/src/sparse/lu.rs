@@ -6,6 +6,7 @@
 use super::pattern::Pattern;
 use super::pivot::{self, How, Pivots};
 use crate::dense::{self, Factors};
+use crate::lists::Lists;
 
 /// An entry this many times its row's pivot means that the pivots do not suit the numbers.
 const WILD: f64 = 1e6;
@@ -73,28 +74,26 @@ impl Symbolic {
     /// Lays the factors out.
     pub(crate) fn new(pivots: Pivots) -> Self {
         let n = pivots.rows.len();
-        let mut place = vec![0; n];
-        for (k, &c) in pivots.columns.iter().enumerate() {
-            place[c as usize] = k as u32;
+        let place = places(&pivots.columns);
+        let place_of_row = places(&pivots.rows);
+        let lower = pivots.lower.iter().map(|&(r, pivot)| (place_of_row[r as usize], pivot));
+        let (lower_starts, lower) = Lists::new(n, lower).into_parts();
+        let (upper_starts, mut upper) = pivots.upper.into_parts();
+        upper.iter_mut().for_each(|c| *c = place[*c as usize]);
+        for row in upper_starts.windows(2) {
+            upper[row[0] as usize..row[1] as usize].sort_unstable();
         }
-        let mut made = Self {
+        Self {
             parity: parity(&pivots.rows) * parity(&pivots.columns),
             sparse: pivots.sparse,
-            lower_starts: vec![0],
-            upper_starts: vec![0],
-            ..Self::default()
-        };
-        for &r in &pivots.rows {
-            made.lower.extend(&pivots.lower[r as usize]);
-            made.lower_starts.push(made.lower.len() as u32);
+            rows: pivots.rows,
+            columns: pivots.columns,
+            place,
+            lower_starts,
+            lower,
+            upper_starts,
+            upper,
         }
-        for row in &pivots.upper {
-            let from = made.upper.len();
-            made.upper.extend(row.iter().map(|&c| place[c as usize]));
-            made.upper[from..].sort_unstable();
-            made.upper_starts.push(made.upper.len() as u32);
-        }
-        Self { rows: pivots.rows, columns: pivots.columns, place, ..made }
     }
 
     fn lower(&self, k: usize) -> std::ops::Range<usize> {
@@ -196,6 +195,15 @@ impl Symbolic {
             b[c as usize] = std::mem::take(&mut work[k]);
         }
     }
+}
+
+/// Returns where each stands in an order.
+fn places(order: &[u32]) -> Vec<u32> {
+    let mut place = vec![0; order.len()];
+    for (&i, k) in order.iter().zip(0..) {
+        place[i as usize] = k;
+    }
+    place
 }
 
 fn parity(order: &[u32]) -> i8 {

@@ -12,6 +12,8 @@
 mod pair;
 
 use super::pattern::Pattern;
+use super::shelves::Shelves;
+use crate::lists::Lists;
 
 /// An entry this much smaller than the largest in its row is no pivot.
 const THRESHOLD: f64 = 0.1;
@@ -29,7 +31,7 @@ const LARGE: usize = 300;
 const SMALL: usize = 8;
 
 /// The order of elimination, and the entries of the factors.
-#[derive(Clone, Debug, Default)]
+#[derive(Debug, Default)]
 pub(crate) struct Pivots {
     /// Rows, in order; those of the tail last.
     pub(crate) rows: Vec<u32>,
@@ -37,10 +39,10 @@ pub(crate) struct Pivots {
     pub(crate) columns: Vec<u32>,
     /// How many are eliminated before the tail.
     pub(crate) sparse: usize,
-    /// For every row, by its number, the earlier pivots that are subtracted from it, in order.
-    pub(crate) lower: Vec<Vec<u32>>,
+    /// Rows, by their number, each with an earlier pivot that is subtracted from it, in order of pivots.
+    pub(crate) lower: Vec<(u32, u32)>,
     /// For every pivot before the tail, the other columns of its row, by their number.
-    pub(crate) upper: Vec<Vec<u32>>,
+    pub(crate) upper: Lists,
 }
 
 /// Numbered things by how many entries each has, to find those with few.
@@ -133,13 +135,26 @@ struct Entry {
 
 /// What is left to be eliminated.
 struct Remainder {
-    rows: Vec<Vec<Entry>>,
+    rows: Shelves<Entry>,
     /// Those that are gone too: nothing is left in them.
-    columns: Vec<Vec<u32>>,
-    by_row: Counts,
-    by_column: Counts,
+    columns: Shelves<u32>,
+    /// For every column, in how many rows that are left it is.
+    count: Vec<u32>,
+    /// Rows and columns by how many entries they have, once that is asked for.
+    ranks: Option<Ranks>,
     entries: usize,
     left: usize,
+    /// For every column, where it stands in the row at hand.
+    at: Vec<u32>,
+    /// The row of the pivot at hand, and the rows that have its column.
+    pivot_row: Vec<Entry>,
+    below: Vec<u32>,
+}
+
+/// Rows and columns by how many entries they have.
+struct Ranks {
+    by_row: Counts,
+    by_column: Counts,
 }
 
 /// How pivots are sought where none is cheap any more.
@@ -155,25 +170,22 @@ pub(crate) enum How {
 pub(crate) fn choose(pattern: &Pattern, values: &[f64], how: How) -> Pivots {
     let n = pattern.height();
     let mut rest = Remainder::new(pattern, values);
-    let mut out = Pivots { lower: vec![Vec::new(); n], ..Pivots::default() };
-    let mut at = vec![NONE; n];
-    let mut is_left = (vec![true; n], vec![true; n]);
-    let mut take = |rest: &mut Remainder, row: u32, column: u32, out: &mut Pivots| {
-        rest.eliminate(row, column, out, &mut at);
-        is_left.0[row as usize] = false;
-        is_left.1[column as usize] = false;
-    };
+    let mut out = Pivots::default();
     if how == How::Paired && n > LARGE {
-        rest.each_cheap(&mut |rest, row, column| take(rest, row, column, &mut out));
+        rest.eliminate_cheap(&mut out);
         if rest.left > LARGE && pair::eliminate(&rest, &mut out) {
             return out;
         }
     }
+    rest.rank();
     while rest.left > SMALL && (rest.entries as f64) < DENSE * (rest.left * rest.left) as f64 {
         let Some((row, column)) = rest.best() else { break };
-        take(&mut rest, row, column, &mut out);
+        rest.eliminate(row, column, &mut out);
     }
     out.sparse = out.rows.len();
+    let mut is_left = (vec![true; n], vec![true; n]);
+    out.rows.iter().for_each(|&r| is_left.0[r as usize] = false);
+    out.columns.iter().for_each(|&c| is_left.1[c as usize] = false);
     out.rows.extend((0..n as u32).filter(|&r| is_left.0[r as usize]));
     out.columns.extend((0..n as u32).filter(|&c| is_left.1[c as usize]));
     out
@@ -191,37 +203,42 @@ fn is_pivot(value: f64, least: f64) -> bool {
 impl Remainder {
     fn new(pattern: &Pattern, values: &[f64]) -> Self {
         let n = pattern.height();
-        let mut columns: Vec<Vec<u32>> = vec![Vec::new(); n];
-        let rows: Vec<Vec<Entry>> = (0..n)
-            .map(|r| {
-                pattern
-                    .range(r)
-                    .map(|e| {
-                        columns[pattern.column(e)].push(r as u32);
-                        Entry {
-                            column: pattern.column(e) as u32,
-                            size: values[e].abs() as f32,
-                            value: values[e],
-                        }
-                    })
-                    .collect()
-            })
-            .collect();
-        let by_row = Counts::new(rows.iter().map(|r| r.len() as u32).collect(), n);
-        let by_column = Counts::new(columns.iter().map(|c| c.len() as u32).collect(), n);
-        Self { rows, columns, by_row, by_column, entries: pattern.len(), left: n }
+        let row_of = |r: usize| pattern.row(r).iter().map(move |&c| (c, r as u32));
+        let columns = Lists::new(pattern.width, (0..n).flat_map(row_of));
+        let length = |starts: &[u32]| starts[1] - starts[0];
+        let count: Vec<u32> = columns.starts().windows(2).map(length).collect();
+        let entry = |e: usize| Entry {
+            column: pattern.column(e) as u32,
+            size: values[e].abs() as f32,
+            value: values[e],
+        };
+        let entries: Vec<Entry> = (0..pattern.len()).map(entry).collect();
+        Self {
+            rows: Shelves::new((0..n).map(|r| pattern.row(r).len() as u32), entries),
+            columns: Shelves::new(count.iter().copied(), columns.into_parts().1),
+            at: vec![NONE; count.len()],
+            count,
+            ranks: None,
+            entries: pattern.len(),
+            left: n,
+            pivot_row: Vec::new(),
+            below: Vec::new(),
+        }
     }
 
-    /// Visits cheap pivots, going through the rows in rounds as long as many are found.
-    fn each_cheap(&mut self, visit: &mut dyn FnMut(&mut Self, u32, u32)) {
+    /// Eliminates by cheap pivots, going through the rows in rounds as long as many are found.
+    fn eliminate_cheap(&mut self, out: &mut Pivots) {
+        let mut rows: Vec<u32> = (0..self.rows.len() as u32).collect();
         for most in CHEAP {
             loop {
                 let before = self.left;
-                for row in 0..self.rows.len() as u32 {
-                    if let Some(column) = self.cheapest(row, most) {
-                        visit(self, row, column);
+                rows.retain(|&row| {
+                    let found = self.cheapest(row, most);
+                    if let Some(column) = found {
+                        self.eliminate(row, column, out);
                     }
-                }
+                    found.is_none()
+                });
                 if (before - self.left) * 16 <= before {
                     break;
                 }
@@ -231,9 +248,9 @@ impl Remainder {
 
     /// The column in which a row has a pivot that costs no more than this.
     fn cheapest(&self, row: u32, most: usize) -> Option<u32> {
-        let entries = &self.rows[row as usize];
+        let entries = self.rows.of(row);
         let others = entries.len().saturating_sub(1);
-        let cost = |c: u32| others * (self.by_column.count(c) as usize - 1);
+        let cost = |c: u32| others * (self.count[c as usize] as usize - 1);
         let &Entry { column, value, .. } = entries.iter().min_by_key(|e| cost(e.column))?;
         if cost(column) > most {
             return None;
@@ -242,12 +259,24 @@ impl Remainder {
         is_pivot(value, CHEAP_THRESHOLD * largest).then_some(column)
     }
 
+    /// Ranks what is left.
+    fn rank(&mut self) {
+        let n = self.rows.len();
+        let lengths = (0..n as u32).map(|r| self.rows.of(r).len() as u32).collect();
+        // what is gone has nothing left, and is not asked for
+        self.ranks = Some(Ranks {
+            by_row: Counts::new(lengths, n),
+            by_column: Counts::new(self.count.clone(), n),
+        });
+    }
+
     /// The pivot that makes the fewest new entries, among a few candidates.
     fn best(&self) -> Option<(u32, u32)> {
+        let Ranks { by_row, by_column } = self.ranks.as_ref()?;
         // what stands alone in its column changes no other row
-        let alone = self.by_column.of(1).take(CANDIDATES).find_map(|column| {
-            let is_left = |r: &&u32| !self.rows[**r as usize].is_empty();
-            let &row = self.columns[column as usize].iter().find(is_left)?;
+        let alone = by_column.of(1).take(CANDIDATES).find_map(|column| {
+            let is_left = |r: &&u32| !self.rows.of(**r).is_empty();
+            let &row = self.columns.of(column).iter().find(is_left)?;
             self.suits(row, column).then_some((row, column))
         });
         if alone.is_some() {
@@ -256,11 +285,11 @@ impl Remainder {
         let mut best: Option<(usize, f64, u32, u32)> = None;
         let mut looked = 0;
         for count in 1..=self.left {
-            for row in self.by_row.of(count) {
-                let entries = &self.rows[row as usize];
+            for row in by_row.of(count) {
+                let entries = self.rows.of(row);
                 let largest = largest(entries);
                 for &Entry { column, value, .. } in entries {
-                    let cost = (count - 1) * (self.by_column.count(column) as usize - 1);
+                    let cost = (count - 1) * (self.count[column as usize] as usize - 1);
                     let size = value.abs();
                     let suits = is_pivot(value, THRESHOLD * largest);
                     let is_better =
@@ -280,66 +309,86 @@ impl Remainder {
 
     /// Returns true if an entry is not much smaller than the largest in its row.
     fn suits(&self, row: u32, column: u32) -> bool {
-        let entries = &self.rows[row as usize];
+        let entries = self.rows.of(row);
         let largest = largest(entries);
         let own = |e: &&Entry| e.column == column;
         entries.iter().find(own).is_some_and(|e| is_pivot(e.value, THRESHOLD * largest))
     }
 
-    fn eliminate(&mut self, row: u32, column: u32, out: &mut Pivots, at: &mut [u32]) {
-        let pivot_row = std::mem::take(&mut self.rows[row as usize]);
+    fn eliminate(&mut self, row: u32, column: u32, out: &mut Pivots) {
         let number = out.rows.len() as u32;
-        let mut pivot = 0.0;
-        let mut pivot_size = 0.0;
-        for e in &pivot_row {
-            self.by_column.set(e.column, self.by_column.count(e.column) as usize - 1);
-            if e.column == column {
-                (pivot, pivot_size) = (e.value, e.value.abs() as f32);
-            }
-        }
-        self.entries -= pivot_row.len();
-        let below = std::mem::take(&mut self.columns[column as usize]);
+        let mut pivot_row = std::mem::take(&mut self.pivot_row);
+        pivot_row.clear();
+        pivot_row.extend_from_slice(self.rows.of(row));
+        self.rows.clear(row);
+        let own = pivot_row.iter().position(|e| e.column == column);
+        let pivot = pivot_row.remove(own.expect("the pivot is in its row"));
+        self.entries -= pivot_row.len() + 1;
+        self.change_count(column, -1);
+        pivot_row.iter().for_each(|e| self.change_count(e.column, -1));
+        let mut below = std::mem::take(&mut self.below);
+        below.clear();
+        below.extend_from_slice(self.columns.of(column));
+        self.columns.clear(column);
         for &r in &below {
-            let target = &mut self.rows[r as usize];
-            if target.is_empty() {
-                continue;
+            if !self.rows.of(r).is_empty() {
+                self.subtract(pivot, &pivot_row, r);
+                out.lower.push((r, number));
             }
-            for (i, e) in target.iter().enumerate() {
-                at[e.column as usize] = i as u32;
-            }
-            let own = at[column as usize] as usize;
-            let factor = target[own].value / pivot;
-            let size_factor = target[own].size / pivot_size;
-            let before = target.len();
-            for &Entry { column: c, size, value } in &pivot_row {
-                if c == column {
-                    continue;
-                }
-                let (size, value) = (size * size_factor, -factor * value);
-                let place = at[c as usize];
-                if place == NONE {
-                    target.push(Entry { column: c, size, value });
-                    self.columns[c as usize].push(r);
-                    self.by_column.set(c, self.by_column.count(c) as usize + 1);
-                } else {
-                    target[place as usize].value += value;
-                    target[place as usize].size += size;
-                }
-            }
-            for e in target.iter() {
-                at[e.column as usize] = NONE;
-            }
-            target.swap_remove(own);
-            self.entries += target.len();
-            self.entries -= before;
-            self.by_row.set(r, target.len());
-            out.lower[r as usize].push(number);
         }
-        self.by_row.unlink(row);
-        self.by_column.unlink(column);
+        self.count[column as usize] = 0;
+        if let Some(ranks) = &mut self.ranks {
+            ranks.by_row.unlink(row);
+            ranks.by_column.unlink(column);
+        }
         self.left -= 1;
         out.rows.push(row);
         out.columns.push(column);
-        out.upper.push(pivot_row.into_iter().map(|e| e.column).filter(|&c| c != column).collect());
+        out.upper.push_each(pivot_row.iter().map(|e| e.column));
+        (self.pivot_row, self.below) = (pivot_row, below);
+    }
+
+    /// Subtracts so much of a pivot's row, of which these are the other entries, that its column is gone.
+    fn subtract(&mut self, pivot: Entry, others: &[Entry], row: u32) {
+        let target = self.rows.of_mut(row);
+        for (e, i) in target.iter().zip(0..) {
+            self.at[e.column as usize] = i;
+        }
+        let own = self.at[pivot.column as usize] as usize;
+        let factor = target[own].value / pivot.value;
+        let size_factor = target[own].size / pivot.size;
+        let before = target.len();
+        for &Entry { column, size, value } in others {
+            let (size, value) = (size * size_factor, -factor * value);
+            match self.at[column as usize] {
+                NONE => {
+                    self.rows.add(row, Entry { column, size, value });
+                    self.columns.add(column, row);
+                    self.change_count(column, 1);
+                }
+                place => {
+                    let entry = &mut self.rows.of_mut(row)[place as usize];
+                    entry.value += value;
+                    entry.size += size;
+                }
+            }
+        }
+        for e in self.rows.of(row) {
+            self.at[e.column as usize] = NONE;
+        }
+        self.rows.take_out(row, own);
+        let after = self.rows.of(row).len();
+        self.entries = self.entries + after - before;
+        if let Some(ranks) = &mut self.ranks {
+            ranks.by_row.set(row, after);
+        }
+    }
+
+    fn change_count(&mut self, column: u32, by: i32) {
+        let count = &mut self.count[column as usize];
+        *count = count.wrapping_add_signed(by);
+        if let Some(ranks) = &mut self.ranks {
+            ranks.by_column.set(column, *count as usize);
+        }
     }
 }

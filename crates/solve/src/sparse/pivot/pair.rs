@@ -13,7 +13,7 @@ use crate::sparse::degree::{self, Elimination};
 /// Eliminates all that remains; returns false where some row finds no column of its own.
 pub(super) fn eliminate(rest: &Remainder, out: &mut Pivots) -> bool {
     // a row that is left has entries: without any, the matrix is singular
-    let is_left = |&r: &u32| !rest.rows[r as usize].is_empty();
+    let is_left = |&r: &u32| !rest.rows.of(r).is_empty();
     let rows: Vec<u32> = (0..rest.rows.len() as u32).filter(is_left).collect();
     if rows.len() < rest.left {
         return false;
@@ -25,7 +25,7 @@ pub(super) fn eliminate(rest: &Remainder, out: &mut Pivots) -> bool {
         number[r as usize] = i as u32;
     }
     let joined = rows.iter().zip(0..).flat_map(|(&r, i)| {
-        let entries = rest.rows[r as usize].iter();
+        let entries = rest.rows.of(r).iter();
         entries.map(move |e| (i, e.column))
     });
     let joined = joined.map(|(i, c)| (i, number[pair_of[c as usize] as usize]));
@@ -46,10 +46,10 @@ pub(super) fn eliminate(rest: &Remainder, out: &mut Pivots) -> bool {
             continue;
         }
         for &j in below {
-            out.lower[row_at(j as usize) as usize].push((before + k) as u32);
+            out.lower.push((row_at(j as usize), (before + k) as u32));
         }
         let upper = below.iter().map(|&j| column_of[row_at(j as usize) as usize]);
-        out.upper.push(upper.collect());
+        out.upper.push_each(upper);
     }
     out.sparse = before + sparse;
     true
@@ -66,7 +66,7 @@ fn pair(rest: &Remainder, rows: &[u32]) -> Option<Pairs> {
     let n = rest.rows.len();
     let mut pairs = Pairs { column_of_row: vec![NONE; n], row_of_column: vec![NONE; n] };
     for &r in rows {
-        let entries = &rest.rows[r as usize];
+        let entries = rest.rows.of(r);
         let least = THRESHOLD * largest(entries);
         let suits = |e: &&Entry| is_pivot(e.value, least);
         let found = entries.iter().filter(suits).max_by(|a, b| a.size.total_cmp(&b.size))?;
@@ -92,7 +92,7 @@ fn exchange(rest: &Remainder, row: u32, pairs: &mut Pairs, seen: &mut [u32]) -> 
     let mut next = 0;
     while let Some(&r) = queue.get(next) {
         next += 1;
-        let entries = &rest.rows[r as usize];
+        let entries = rest.rows.of(r);
         let least = THRESHOLD * largest(entries);
         for &Entry { column: c, value, .. } in entries {
             if !is_pivot(value, least) || seen[c as usize] == row {
