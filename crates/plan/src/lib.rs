@@ -44,7 +44,7 @@ mod meaning;
 mod operator;
 mod reach;
 mod say;
-mod template;
+pub mod template;
 
 pub mod fault;
 pub mod host;
@@ -90,3 +90,4 @@ pub use planner::{Latest, Model, Planner, Unmet};
 pub use plans::{PlanCounts, Plans};
 pub use rule::{Source, Way};
 pub use status::{SlotState, Status};
+pub use template::Templates;

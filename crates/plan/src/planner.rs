@@ -10,7 +10,6 @@ use crate::plans::{PlanCounts, Plans};
 use crate::recent::Recent;
 use crate::rule::{Rules, Source};
 use crate::task::{Alike, Holding, Locals, Setting, Task, Wish, at_rest, task};
-use crate::template::lower_all;
 use kernel::{Document, Form, SlotId, Structure, Values};
 use solve::{Level, Scratch};
 use std::collections::btree_map::Entry;
@@ -78,7 +77,7 @@ impl Planner {
         let form = &model.structure.form;
         let kept = plans.kept.take().map(|kept| *kept).filter(|kept| Rc::ptr_eq(&kept.form, form));
         let kept = kept.unwrap_or_else(|| {
-            let (rules, faults) = lower_all(model, plans.patterns_mut());
+            let (rules, faults) = plans.lower(model);
             let net = Net::new(model.structure, &rules);
             Kept {
                 form: form.clone(),

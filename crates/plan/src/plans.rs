@@ -1,7 +1,10 @@
 //! Plans by shape: what is planned once serves every component of the same shape.
 
+use crate::fault::Fault;
 use crate::past::Past;
-use crate::planner::Kept;
+use crate::planner::{Kept, Model};
+use crate::rule::Rules;
+use crate::template::{Known, Templates, lower_all};
 use crate::whole::Whole;
 use base::Mixer;
 use indexmap::IndexMap;
@@ -14,6 +17,8 @@ use std::rc::Rc;
 #[derive(Debug, Default)]
 pub struct Plans {
     patterns: Patterns,
+    /// What constraints of classes are known to say, until a planner was made.
+    known: Known,
     made: IndexMap<Rc<System>, Rc<Plan>, BuildHasherDefault<Mixer>>,
     modes: IndexMap<Conditional, Rc<Modes>, BuildHasherDefault<Mixer>>,
     puzzles: IndexMap<Conditional, (Rc<System>, Rc<Puzzle>), BuildHasherDefault<Mixer>>,
@@ -29,6 +34,11 @@ pub struct Plans {
 }
 
 impl Plans {
+    /// Makes room for the plans of a document whose classes these are of.
+    pub fn over(templates: Templates) -> Self {
+        let Templates { patterns, known } = templates;
+        Self { patterns, known, ..Self::default() }
+    }
     /// Returns how many systems were planned, and how many found their plan made.
     pub fn counts(&self) -> PlanCounts {
         PlanCounts { planned: self.made.len(), reused: self.reused }
@@ -40,6 +50,10 @@ impl Plans {
     /// Returns what rules say, to be added to.
     pub(crate) fn patterns_mut(&mut self) -> &mut Patterns {
         &mut self.patterns
+    }
+    /// Lowers everything, by what is known of the classes.
+    pub(crate) fn lower(&mut self, model: Model<'_>) -> (Rules, Vec<Fault>) {
+        lower_all(model, &mut self.patterns, &mut std::mem::take(&mut self.known))
     }
     /// Notes that a plan served once more.
     pub(crate) fn reuse(&mut self) {

@@ -7,7 +7,7 @@
 use base::Mixer;
 use indexmap::{IndexMap, IndexSet};
 use kernel::{ClassId, DOCUMENT, Path, SlotId, Step as PathStep, Structure, ThingId};
-use std::collections::BTreeMap;
+use solve::Span;
 use std::hash::BuildHasherDefault;
 
 /// A thing that was reached, by its number: the owner is the first.
@@ -43,17 +43,34 @@ pub(crate) struct Reach<'a> {
     is_repeatable: bool,
 }
 
-/// The way to everything that a rule speaks of, for another thing to go.
-#[derive(Debug)]
-pub(crate) struct Route {
+/// The ways to everything that rules speak of, for other things to go.
+#[derive(Debug, Default)]
+pub(crate) struct Routes {
     classes: Vec<ClassId>,
-    /// The classes of what is merged with things unlike it, which answers messages too.
     unlike: Vec<(Reached, ClassId)>,
     steps: Vec<Step>,
-    /// Where slots were met for the first time.
     stored: Vec<Reached>,
-    /// Where a slot was met again: its place among the stored.
     again: Vec<(Reached, u32)>,
+}
+
+/// One of them.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Route {
+    classes: Span,
+    /// The classes of what is merged with things unlike it, which answers messages too.
+    unlike: Span,
+    steps: Span,
+    /// Where slots were met for the first time.
+    stored: Span,
+    /// Where a slot was met again: its place among the stored.
+    again: Span,
+}
+
+/// Adds a list to others; returns where it is.
+fn put<T>(all: &mut Vec<T>, own: impl IntoIterator<Item = T>) -> Span {
+    let start = all.len() as u32;
+    all.extend(own);
+    Span { start, len: all.len() as u32 - start }
 }
 
 impl<'a> Reach<'a> {
@@ -203,33 +220,34 @@ impl<'a> Reach<'a> {
         self.is_repeatable = false;
     }
 
-    /// Returns the way that was gone, for others of its class, and the slots that it led to.
-    pub(crate) fn route(&self) -> Option<(Route, Vec<SlotId>)> {
+    /// Adds the way that was gone, for others of its class; the slots that it led to are put in `slots`.
+    /// None where it cannot be gone again.
+    pub(crate) fn route(&self, routes: &mut Routes, slots: &mut Vec<SlotId>) -> Option<Route> {
         if !self.is_repeatable {
             return None;
         }
-        let mut place: BTreeMap<SlotId, u32> = BTreeMap::new();
-        let (mut stored, mut again, mut slots) = (Vec::new(), Vec::new(), Vec::new());
+        let mut place: IndexSet<SlotId, BuildHasherDefault<Mixer>> = IndexSet::default();
+        let mut again = Vec::new();
+        let stored = routes.stored.len() as u32;
         for &(number, slot) in &self.stored {
-            match place.get(&slot) {
-                Some(&at) => again.push((number, at)),
-                None => {
-                    place.insert(slot, slots.len() as u32);
-                    stored.push(number);
-                    slots.push(slot);
-                }
+            match place.insert_full(slot) {
+                (at, false) => again.push((number, at as u32)),
+                (_, true) => routes.stored.push(number),
             }
         }
+        slots.clear();
+        slots.extend(place);
         again.sort_unstable();
         again.dedup();
         let class = |t: &ThingId| self.structure.things[*t].class;
-        let classes = self.things.iter().map(class).collect();
         let others = |(n, &t)| self.structure.unlike(t).iter().map(move |t| (n, class(t)));
-        let unlike = (0..).zip(&self.things).flat_map(others).collect();
-        Some((
-            Route { classes, unlike, steps: self.steps.iter().copied().collect(), stored, again },
-            slots,
-        ))
+        Some(Route {
+            classes: put(&mut routes.classes, self.things.iter().map(class)),
+            unlike: put(&mut routes.unlike, (0..).zip(&self.things).flat_map(others)),
+            steps: put(&mut routes.steps, self.steps.iter().copied()),
+            stored: Span { start: stored, len: slots.len() as u32 },
+            again: put(&mut routes.again, again),
+        })
     }
 }
 
@@ -237,11 +255,12 @@ fn members(structure: &Structure, set: ThingId) -> &[ThingId] {
     structure.sets.get(&structure.merged[set]).map_or(&[], |m| m)
 }
 
-impl Route {
-    /// Goes the way from another thing; the slots that it leads to are left in `slots`. False where
+impl Routes {
+    /// Goes a way from another thing; the slots that it leads to are left in `slots`. False where
     /// something on the way is not as it was.
     pub(crate) fn follow(
         &self,
+        route: &Route,
         structure: &Structure,
         owner: ThingId,
         things: &mut Vec<ThingId>,
@@ -250,18 +269,19 @@ impl Route {
         things.clear();
         slots.clear();
         let class = |t: ThingId| structure.things[t].class;
-        let mut unlike = self.unlike.iter();
+        let classes = &self.classes[route.classes.range()];
+        let mut unlike = self.unlike[route.unlike.range()].iter();
         let mut found = |thing: ThingId, things: &mut Vec<ThingId>| {
             let number = things.len();
             things.push(thing);
             let mut others = structure.unlike(thing).iter();
-            class(thing) == self.classes[number]
+            class(thing) == classes[number]
                 && others.all(|&t| unlike.next() == Some(&(number as Reached, class(t))))
         };
         if !found(owner, things) {
             return false;
         }
-        for step in &self.steps {
+        for step in &self.steps[route.steps.range()] {
             let of = |n: &Reached| things[*n as usize];
             let holds = match step {
                 Step::Document => found(DOCUMENT, things),
@@ -293,10 +313,12 @@ impl Route {
             return false;
         }
         let slot = |n: Reached| structure.slot_of[things[n as usize]];
-        slots.extend(self.stored.iter().filter_map(|&n| slot(n)));
-        slots.len() == self.stored.len()
+        let stored = &self.stored[route.stored.range()];
+        slots.extend(stored.iter().filter_map(|&n| slot(n)));
+        let again = &self.again[route.again.range()];
+        slots.len() == stored.len()
             && are_distinct(slots)
-            && self.again.iter().all(|&(n, at)| slot(n) == Some(slots[at as usize]))
+            && again.iter().all(|&(n, at)| slot(n) == Some(slots[at as usize]))
     }
 }
 

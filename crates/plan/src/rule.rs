@@ -227,6 +227,16 @@ pub(crate) struct Rules {
 }
 
 impl Rules {
+    /// Makes room for so many rules of these shapes.
+    pub(crate) fn over(shapes: IdVec<ShapeId, Shape>, count: usize) -> Self {
+        Self { shapes, rules: Vec::with_capacity(count), slots: Vec::with_capacity(4 * count) }
+    }
+    pub(crate) fn shapes(&self) -> impl Iterator<Item = &Shape> {
+        self.shapes.iter().map(|(_, shape)| shape)
+    }
+    pub(crate) fn into_shapes(self) -> IdVec<ShapeId, Shape> {
+        self.shapes
+    }
     pub(crate) fn add_shape(&mut self, shape: Shape) -> ShapeId {
         self.shapes.push(shape)
     }

@@ -15,8 +15,7 @@ use indexmap::IndexMap;
 use kernel::{Primitive, SlotId, Structure};
 use solve::{
     Condition, Conditional, Demand, DemandKind, Guard, Level, Method, MethodBody, Mode, Modes,
-    PatternId, Patterns, Plan, Puzzle, Relation, RelationBody, SlotIndex, SlotRange, Span, Stay,
-    System,
+    Patterns, Plan, Puzzle, Relation, RelationBody, SlotIndex, SlotRange, Span, Stay, System,
 };
 use std::borrow::Cow;
 use std::cell::OnceCell;
@@ -187,8 +186,7 @@ fn state(
     locals: &mut Locals,
     component: &Component,
 ) -> Known {
-    let same = plans.patterns_mut().same();
-    let mut making = Making::new(setting, same, locals, component);
+    let mut making = Making::new(setting, locals, component);
     for (position, &rule) in (0..).zip(component.rules()) {
         making.rule(position, rule);
     }
@@ -315,8 +313,6 @@ struct Making<'s> {
     setting: &'s Setting<'s>,
     component: &'s Component,
     locals: &'s mut Locals,
-    /// What says that two slots are equal.
-    same: PatternId,
     conditional: Conditional,
     holds: Vec<(SlotIndex, SlotIndex)>,
     targets: Vec<(SlotIndex, u32, u32)>,
@@ -324,12 +320,7 @@ struct Making<'s> {
 }
 
 impl<'s> Making<'s> {
-    fn new(
-        setting: &'s Setting<'s>,
-        same: PatternId,
-        locals: &'s mut Locals,
-        component: &'s Component,
-    ) -> Self {
+    fn new(setting: &'s Setting<'s>, locals: &'s mut Locals, component: &'s Component) -> Self {
         let mut dimensions: Vec<Dimension> = Vec::new();
         let mut groups = 0;
         let mut system = System::default();
@@ -379,7 +370,6 @@ impl<'s> Making<'s> {
             setting,
             component,
             locals,
-            same,
             conditional: Conditional { system, ..Conditional::default() },
             holds: Vec::new(),
             targets: Vec::new(),
@@ -433,7 +423,7 @@ impl<'s> Making<'s> {
                     let local = self.local(slot);
                     let known = self.known_like(local);
                     self.holds.push((known, local));
-                    equations.push((self.same, [local, known]));
+                    equations.push((Patterns::SAME, [local, known]));
                 }
                 RelationBody::Equations(self.conditional.system.add_equations(equations))
             }

@@ -2,40 +2,182 @@
 //!
 //! The first time a constraint is opened in a thing, the way to every slot is noted beside the rules
 //! that came of it. For another instance the way is followed; where that leads to things of the same
-//! classes, in lists and sets of the same length, the rules are the same over other slots.
+//! classes, in lists and sets of the same length, the rules are the same over other slots. So templates
+//! belong to the classes: they can be made, and all that they say compiled, when the things are, and
+//! what is left to a planner is which slots they are of.
 
 use crate::evaluate::Opening;
 use crate::fault::Fault;
 use crate::lower::{guard, held, hold, lower_constraint};
 use crate::planner::Model;
-use crate::reach::Route;
-use crate::rule::{Position, Rules, ShapeId, Source};
+use crate::reach::{Route, Routes};
+use crate::rule::{Body, Formula, Position, Rules, Shape, ShapeId, Source};
 use base::IdVec;
-use kernel::{ClassId, SlotId, Strength};
-use solve::Patterns;
-use std::collections::BTreeMap;
+use kernel::{ClassId, ConstraintInstance, Document, SlotId, Strength, Structure};
+use solve::{Patterns, Span};
 
 /// How many ways of being built one constraint is remembered for.
-const REMEMBERED: usize = 16;
+const REMEMBERED: u32 = 16;
+
+/// No template.
+const NONE: u32 = u32::MAX;
+
+/// What the constraints of a document's classes say, of things that are built in so many ways.
+#[derive(Debug, Default)]
+pub struct Templates {
+    /// What their rules say.
+    pub(crate) patterns: Patterns,
+    pub(crate) known: Known,
+}
+
+/// The constraints that were opened.
+#[derive(Debug, Default)]
+pub(crate) struct Known {
+    shapes: IdVec<ShapeId, Shape>,
+    /// For every class, where its constraints begin in `latest`.
+    first: IdVec<ClassId, u32>,
+    /// For every constraint, the template that was made last of it.
+    latest: Vec<u32>,
+    list: Vec<Template>,
+    routes: Routes,
+    rules: Vec<(ShapeId, Span)>,
+    positions: Vec<Position>,
+}
 
 /// A constraint as it was opened in one thing.
+#[derive(Debug)]
 struct Template {
     route: Route,
     /// Its rules: what they say, of which of the slots that the route leads to.
-    rules: Vec<(ShapeId, Vec<Position>)>,
+    rules: Span,
+    /// The one made before of the same constraint, and how many there are so far.
+    before: u32,
+    count: u32,
+}
+
+impl Templates {
+    /// Opens the constraints of all classes in the things that have them, and compiles what they say.
+    ///
+    /// Planners of documents with these classes are quicker made with them. Cost: linear in the things
+    /// that are constrained; every kind of rule is compiled once.
+    pub fn of(model: Model<'_>) -> Self {
+        let Self { mut patterns, mut known } = Self::default();
+        let (rules, _) = lower_all(model, &mut patterns, &mut known);
+        let equations = rules.shapes().filter_map(|shape| match &shape.body {
+            Body::Equations(equations) => Some(equations),
+            Body::True(_) | Body::Different(_) | Body::Opaque(_) | Body::Hold(_) => None,
+        });
+        for Formula { pattern, .. } in equations.flatten() {
+            patterns.get(*pattern).compile();
+        }
+        known.shapes = rules.into_shapes();
+        Self { patterns, known }
+    }
+}
+
+impl Known {
+    fn of(document: &Document) -> Self {
+        let mut count = 0;
+        let begin = |class: &kernel::Class| {
+            let first = count;
+            count += class.constraints.len() as u32;
+            first
+        };
+        let first = document.classes.iter().map(|(_, class)| class).map(begin).collect();
+        Self { first, latest: vec![NONE; count as usize], ..Self::default() }
+    }
+    /// Returns where the templates of a constraint begin.
+    fn place(&self, instance: ConstraintInstance) -> usize {
+        (self.first[instance.class] + instance.index) as usize
+    }
+    fn has_room(&self, instance: ConstraintInstance) -> bool {
+        let latest = self.latest[self.place(instance)];
+        self.list.get(latest as usize).is_none_or(|t| t.count < REMEMBERED)
+    }
+    /// Adds the rules that a template says of an instance, if there is one that was built alike.
+    fn follow(
+        &self,
+        structure: &Structure,
+        instance: ConstraintInstance,
+        source: Source,
+        way: &mut Way,
+        rules: &mut Rules,
+    ) -> bool {
+        let mut at = self.latest[self.place(instance)];
+        while let Some(template) = self.list.get(at as usize) {
+            let Way { things, slots } = way;
+            if self.routes.follow(&template.route, structure, instance.owner, things, slots) {
+                for &(shape, positions) in &self.rules[template.rules.range()] {
+                    let positions = &self.positions[positions.range()];
+                    rules.add(source, shape, positions.iter().map(|&p| slots[p as usize]));
+                }
+                return true;
+            }
+            at = template.before;
+        }
+        false
+    }
+    /// Notes the rules that came of a constraint; nothing where one of their slots is not on the route.
+    fn add(
+        &mut self,
+        instance: ConstraintInstance,
+        (route, slots): (Route, &[SlotId]),
+        made: &[(ShapeId, Vec<SlotId>)],
+    ) {
+        let (first, start) = (self.rules.len(), self.positions.len());
+        let mut place: Vec<(SlotId, Position)> = slots.iter().copied().zip(0..).collect();
+        place.sort_unstable();
+        for (shape, slots) in made {
+            let start = self.positions.len() as u32;
+            for slot in slots {
+                let Ok(at) = place.binary_search_by_key(slot, |p| p.0) else { break };
+                self.positions.push(place[at].1);
+            }
+            let len = self.positions.len() as u32 - start;
+            self.rules.push((*shape, Span { start, len }));
+            if len as usize != slots.len() {
+                break;
+            }
+        }
+        let added = self.rules[first..].iter().map(|r| r.1.len as usize);
+        if !added.eq(made.iter().map(|m| m.1.len())) {
+            self.rules.truncate(first);
+            self.positions.truncate(start);
+            return;
+        }
+        let place = self.place(instance);
+        let before = std::mem::replace(&mut self.latest[place], self.list.len() as u32);
+        let count = self.list.get(before as usize).map_or(0, |t| t.count) + 1;
+        let rules = Span { start: first as u32, len: made.len() as u32 };
+        self.list.push(Template { route, rules, before, count });
+    }
+}
+
+/// The things and slots on a way.
+#[derive(Default)]
+struct Way {
+    things: Vec<kernel::ThingId>,
+    slots: Vec<SlotId>,
 }
 
 /// Lowers every constraint that is not switched off and every declared stay. What cannot be planned is left out and reported.
-pub(crate) fn lower_all(model: Model<'_>, patterns: &mut Patterns) -> (Rules, Vec<Fault>) {
+///
+/// What is known of the classes is not opened again; what is not is added.
+pub(crate) fn lower_all(
+    model: Model<'_>,
+    patterns: &mut Patterns,
+    known: &mut Known,
+) -> (Rules, Vec<Fault>) {
     let structure = model.structure;
-    let mut rules = Rules::default();
+    let shapes = std::mem::take(&mut known.shapes);
+    let mut rules = Rules::over(shapes, structure.constraints.len());
     let mut faults = Vec::new();
     let mut guarded = Vec::new();
     let mut opening = Opening::new(model.document, structure);
-    // by class, and by the constraint's index there
-    let mut templates: IdVec<ClassId, Vec<Vec<Template>>> =
-        model.document.classes.ids().map(|_| Vec::new()).collect();
-    let (mut things, mut slots) = (Vec::new(), Vec::new());
+    if known.first.len() != model.document.classes.len() {
+        *known = Known::of(model.document);
+    }
+    let mut way = Way::default();
     for (index, &instance) in (0..).zip(structure.constraints.iter()) {
         if !structure.is_on(instance) {
             continue;
@@ -44,22 +186,10 @@ pub(crate) fn lower_all(model: Model<'_>, patterns: &mut Patterns) -> (Rules, Ve
         // what is set of one constraint alone says nothing of others
         let is_set = structure.conditions.contains_key(&instance)
             || structure.strengths.contains_key(&instance);
-        let (class, at) = (&mut templates[instance.class], instance.index as usize);
-        if class.len() <= at {
-            class.resize_with(at + 1, Vec::new);
-        }
-        let known = &mut class[at];
-        let alike = known
-            .iter()
-            .filter(|_| !is_set)
-            .find(|t| t.route.follow(structure, instance.owner, &mut things, &mut slots));
-        if let Some(template) = alike {
-            for (shape, positions) in &template.rules {
-                rules.add(source, *shape, positions.iter().map(|&p| slots[p as usize]));
-            }
+        if !is_set && known.follow(structure, instance, source, &mut way, &mut rules) {
             continue;
         }
-        let (shapes, guards) = match lower_constraint(&mut opening, patterns, instance) {
+        let (lowered, guards) = match lower_constraint(&mut opening, patterns, instance) {
             Ok(lowered) => {
                 let guards = !lowered.things.is_empty();
                 guarded.extend(lowered.things);
@@ -70,25 +200,20 @@ pub(crate) fn lower_all(model: Model<'_>, patterns: &mut Patterns) -> (Rules, Ve
                 continue;
             }
         };
-        // what guards the rules of things is opened for each
-        let route =
-            opening.reach.route().filter(|_| known.len() < REMEMBERED && !guards && !is_set);
-        let place: BTreeMap<SlotId, Position> =
-            route.iter().flat_map(|(_, slots)| slots.iter().copied().zip(0..)).collect();
-        let mut made = Some(Vec::new());
-        for shape in shapes {
+        let mut made = Vec::with_capacity(lowered.len());
+        for shape in lowered {
             let (shape, slots) = shape.numbered();
             let shape = rules.add_shape(shape);
-            let positions: Option<Vec<Position>> =
-                slots.iter().map(|s| place.get(s).copied()).collect();
-            made = made.zip(positions).map(|(mut made, positions)| {
-                made.push((shape, positions));
-                made
-            });
-            rules.add(source, shape, slots);
+            rules.add(source, shape, slots.iter().copied());
+            made.push((shape, slots));
         }
-        if let (Some((route, _)), Some(rules)) = (route, made) {
-            known.push(Template { route, rules });
+        // what guards the rules of things is opened for each, and of the document there is one
+        let is_alone = guards || is_set || instance.class == model.document.root;
+        if !is_alone && known.has_room(instance) {
+            let mut slots = Vec::new();
+            if let Some(route) = opening.reach.route(&mut known.routes, &mut slots) {
+                known.add(instance, (route, &slots), &made);
+            }
         }
     }
     guard(structure, &mut rules, &guarded);
@@ -97,14 +222,19 @@ pub(crate) fn lower_all(model: Model<'_>, patterns: &mut Patterns) -> (Rules, Ve
 }
 
 fn lower_stays(model: Model<'_>, rules: &mut Rules) {
-    let mut shapes: BTreeMap<(Strength, u32), ShapeId> = BTreeMap::new();
+    let mut shapes: Vec<((Strength, u32), ShapeId)> = Vec::new();
     for (index, &stay) in (0..).zip(&model.structure.stays) {
         let Some(strength) = stay.strength else { continue };
         let slots = held(model.structure, stay);
-        let count = slots.len() as u32;
-        let shape = *shapes
-            .entry((strength, count))
-            .or_insert_with(|| rules.add_shape(hold(strength, count)));
+        let kind = (strength, slots.len() as u32);
+        let shape = match shapes.iter().find(|known| known.0 == kind) {
+            Some(&(_, shape)) => shape,
+            None => {
+                let shape = rules.add_shape(hold(kind.0, kind.1));
+                shapes.push((kind, shape));
+                shape
+            }
+        };
         rules.add(Source::Stay(index), shape, slots);
     }
 }

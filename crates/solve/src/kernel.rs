@@ -124,6 +124,15 @@ impl Kernel {
         (Self::compile(arena, left, right, arguments.len() as u32, sides), arguments)
     }
 
+    /// Derives all that is otherwise derived when it is first asked for.
+    pub(crate) fn complete(&self) {
+        self.second();
+        self.stated().for_each(drop);
+        for argument in 0..self.arity() as u32 {
+            self.solved(argument);
+        }
+    }
+
     /// Returns both sides in another arena, every argument replaced.
     pub(crate) fn sides_over(
         &self,

@@ -98,6 +98,14 @@ impl Pattern {
         self.values().run(&scratch.arguments, &mut scratch.registers, &mut scratch.out);
         &scratch.out
     }
+    /// Compiles what an equation and its derivatives come to, and its solutions for every argument,
+    /// so that no plan has to.
+    ///
+    /// # Panics
+    /// If it has not two expressions.
+    pub fn compile(&self) {
+        self.kernel().complete();
+    }
     /// Returns true if the derivatives of an equation are the same everywhere.
     ///
     /// # Panics
@@ -227,12 +235,25 @@ impl indexmap::Equivalent<Interned> for Excerpt {
 }
 
 /// Every pattern that was met, each stored once.
-#[derive(Debug, Default)]
+#[derive(Debug)]
 pub struct Patterns {
     all: IndexSet<Interned, BuildHasherDefault<Mixer>>,
 }
 
+impl Default for Patterns {
+    fn default() -> Self {
+        let mut patterns = Self { all: IndexSet::default() };
+        let mut arena = Arena::for_nodes(2);
+        let (a, b) = (arena.var(Var(0)), arena.var(Var(1)));
+        patterns.intern(&arena, &[a, b]);
+        patterns
+    }
+}
+
 impl Patterns {
+    /// The pattern that says that two arguments are equal.
+    pub const SAME: PatternId = PatternId(0);
+
     /// Finds or adds the pattern of these expressions; returns it and the variables that are its
     /// arguments.
     pub fn intern(&mut self, arena: &Arena, roots: &[ExprId]) -> (PatternId, Vec<Var>) {
@@ -242,12 +263,6 @@ impl Patterns {
             None => self.all.insert_full(Interned(Rc::new(Pattern::new(excerpt)))).0,
         };
         (PatternId::from_index(index), variables)
-    }
-    /// Returns the pattern that says that two arguments are equal.
-    pub fn same(&mut self) -> PatternId {
-        let mut arena = Arena::new();
-        let (a, b) = (arena.var(Var(0)), arena.var(Var(1)));
-        self.intern(&arena, &[a, b]).0
     }
     /// Returns the pattern that says that the one expression of a pattern equals one more argument.
     ///

@@ -8,7 +8,7 @@ use kernel::{
     Stay, Step, Strength, Structure, Superclass, Term, ThingId, Value, Values, Vertical,
     instantiate,
 };
-use plan::{EditKind, EditReport, Fault, Host, Model, Planner, Plans, Target, Way};
+use plan::{EditKind, EditReport, Fault, Host, Model, Planner, Plans, Target, Templates, Way};
 use std::rc::Rc;
 use std::sync::Arc;
 
@@ -129,6 +129,11 @@ impl Builder {
         let mut values = Values::default();
         let mut host = Terms { document: &self.document, structure: &structure };
         let opened = planner.open(model, &mut values, &mut host);
+        // what classes say may be known before: nothing comes out otherwise
+        let (mut again, told) = Planner::new(model, Plans::over(Templates::of(model)));
+        let mut came = Values::default();
+        let reopened = again.open(model, &mut came, &mut host);
+        assert_eq!((told, came, reopened), (faults.clone(), values.clone(), opened.clone()));
         Lab { document: self.document, structure, planner, values, faults, opened }
     }
 }
