@@ -132,6 +132,11 @@ impl Document {
         // no line is longer than there are classes, even where superclasses stand in a ring
         std::iter::successors(Some(class), above).take(self.classes.len()).collect()
     }
+    /// Returns true for the name of a constraint or merge that one of the classes nearer to a thing
+    /// masks.
+    pub fn is_masked(&self, nearer: &[ClassId], name: Option<&Name>) -> bool {
+        name.is_some_and(|name| nearer.iter().any(|&c| self.classes[c].without.contains(name)))
+    }
     /// Returns the fields of an instance: inherited parts first, superclass parts where declared.
     pub fn layout(&self, class: ClassId) -> Vec<PartRef> {
         let mut layout = Vec::new();

@@ -4,6 +4,7 @@
 //! equations over slots; `eval` computes their values. Neither sees text.
 
 use crate::class::ClassId;
+use crate::path::{Path, Step};
 use base::Name;
 use expr::dimension::Dimension;
 
@@ -247,6 +248,16 @@ impl Term {
     /// Makes the term for a part of `Me`, step by step.
     pub fn part(names: &[&str]) -> Self {
         names.iter().fold(Self::Me, |to, name| Self::send(to, name))
+    }
+    /// Makes the term that reads what a path leads to from a thing.
+    pub fn at(thing: Self, path: &Path) -> Self {
+        path.0.iter().fold(thing, |to, step| match step {
+            Step::Part(name) => Self::send(to, name),
+            Step::Index(i) => Self::Index(Box::new(to), Box::new(Self::number(f64::from(*i)))),
+            Step::Last => Self::send(to, "last"),
+            Step::Owner if to == Self::Me => Self::Owner,
+            Step::Owner => Self::send(to, "owner"),
+        })
     }
     /// Makes the term that reads `name` of `to`.
     pub fn send(to: Self, name: &str) -> Self {

@@ -32,6 +32,8 @@ use syntax::{Parse, SyntaxKind};
 /// What a text means.
 #[derive(Clone, Debug)]
 pub struct Lowered {
+    /// The part of the document that keeps the masters of placed things, if it has any: nobody wrote it.
+    pub masters: Option<Name>,
     /// The classes, and the document's own.
     pub document: Document,
     /// The `check` blocks of the document's own text.
@@ -118,6 +120,7 @@ pub(crate) fn lower_text(
     let classes = own.members_of(&[SyntaxKind::Class]);
     let (effective, effective_parse) = (own.text.clone(), own.parse.clone());
     Lowered {
+        masters: l.placed.masters.map(|(name, _)| name),
         document: l.document,
         checks,
         origins: l.origins,

@@ -31,7 +31,7 @@ impl Lowerer<'_> {
         }
         if let Some(element) = scope.element(&name) {
             let kind = self.kind_of_element(scope, element);
-            return Some((term_of(&scope.path_to(element)), kind));
+            return Some((Term::at(Term::Me, &scope.path_to(element)), kind));
         }
         if let Some(&i) = scope.constants.get(&name) {
             return Some((Term::number(i as f64), Kind::Number(None)));
@@ -230,17 +230,6 @@ pub(crate) fn owners(scope: &Scope) -> Vec<(ClassId, Term)> {
         owners.push((class, std::mem::replace(&mut me, outer)));
     }
     owners
-}
-
-/// Returns the term that reads what a path leads to.
-fn term_of(path: &Path) -> Term {
-    path.0.iter().fold(Term::Me, |to, step| match step {
-        Step::Part(name) => Term::send(to, name),
-        Step::Index(i) => Term::Index(Box::new(to), Box::new(Term::number(f64::from(*i)))),
-        Step::Last => Term::send(to, "last"),
-        Step::Owner if to == Term::Me => Term::Owner,
-        Step::Owner => Term::send(to, "owner"),
-    })
 }
 
 /// Returns the class of the part of this name, seen from a class.

@@ -33,7 +33,7 @@ pub(crate) struct PlacedClasses {
     /// Those that have no parts yet, with the file that spoke of them first.
     waiting: Vec<(ClassId, FileId)>,
     /// The class of the document's masters.
-    masters: Option<(Name, ClassId)>,
+    pub(crate) masters: Option<(Name, ClassId)>,
 }
 
 impl Lowerer<'_> {

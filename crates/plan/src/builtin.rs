@@ -114,6 +114,11 @@ impl<'a> Opening<'a> {
                         false => given.extend(parts.next().map(|part| (Some(name), part.clone()))),
                     }
                 }
+                if parts.next().is_some() {
+                    let name = &document.classes[class].name;
+                    let message = format!("{name} has {} parts, and here are more", given.len());
+                    return Err(Trouble::wrong(message));
+                }
                 self.make(class, &given)
             }
             ("isPlace", []) => {

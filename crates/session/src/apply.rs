@@ -13,7 +13,7 @@ use crate::view::{Change, Choice, Limit, Question, Refusal};
 use crate::words;
 use crate::write_back::{differing, sides_after, write_back, write_sides};
 use base::number::Toward;
-use kernel::{Command, DOCUMENT, Literal, Path, SlotId, Step, Term, ThingId, Value, Values};
+use kernel::{Command, DOCUMENT, Literal, Path, SlotId, Term, ThingId, Value, Values};
 use plan::{EditKind, Planner, Target};
 use std::sync::Arc;
 
@@ -57,7 +57,7 @@ pub(crate) fn apply(
 }
 
 /// What an edit speaks of: a thing, or a virtual part of one.
-enum Aim {
+pub(crate) enum Aim {
     Thing(ThingId),
     Term(Term),
 }
@@ -155,17 +155,15 @@ fn label(kind: EditKind, paths: &[String]) -> String {
     format!("{verb} {}", paths.join(", "))
 }
 
-fn aim(state: &State, path: &Path) -> Result<Aim, Refusal> {
+/// Finds what a path leads to: a thing, or something computed.
+///
+/// # Errors
+/// It leads nowhere.
+pub(crate) fn aim(state: &State, path: &Path) -> Result<Aim, Refusal> {
     if let Some(thing) = crate::session::thing_at(state, path) {
         return Ok(Aim::Thing(thing));
     }
-    let part = |to: Term, step: &Step| match step {
-        Step::Part(name) => Term::send(to, name),
-        Step::Index(i) => Term::Index(Box::new(to), Box::new(Term::number(f64::from(*i)))),
-        Step::Last => Term::send(to, "last"),
-        Step::Owner => Term::send(to, "owner"),
-    };
-    let term = path.0.iter().fold(Term::Me, part);
+    let term = Term::at(Term::Me, path);
     let evaluator = state.evaluator(&state.values);
     match evaluator.evaluate(&term, DOCUMENT) {
         Ok(_) => Ok(Aim::Term(term)),

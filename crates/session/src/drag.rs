@@ -9,7 +9,8 @@ use crate::state::State;
 use crate::texts::Texts;
 use crate::view::{Change, DragState, Refusal};
 use crate::words;
-use kernel::{Path, SlotId, Structure, ThingId, Values};
+use eval::Answer;
+use kernel::{DOCUMENT, Path, SlotId, Structure, Term, ThingId, Values};
 use plan::{Planner, Press, RefusalReason, Target};
 
 /// A drag between press and release.
@@ -18,9 +19,11 @@ pub(crate) struct Drag {
     pub(crate) path: Path,
     /// The thing and where its first place was at the press, where its class says how it moves.
     moved: Option<(ThingId, (f64, f64))>,
-    /// What holds its numbers.
+    /// The expression, where what is dragged is computed.
+    computed: Option<Term>,
+    /// What holds its numbers; of what is computed, the numbers that it is computed from.
     slots: Vec<SlotId>,
-    /// Where each of them was at the press.
+    /// Where each of its numbers was at the press.
     start: Vec<f64>,
     press: Press,
     /// The values as of the last event.
@@ -67,7 +70,56 @@ pub(crate) fn press(
         (thing, (number(first.first()), number(first.get(1))))
     });
     let wish = [start[0], start.get(1).copied().unwrap_or(0.0)];
-    Ok(Drag { path, moved, slots: dragged, start, press, values: state.values.clone(), wish })
+    let values = state.values.clone();
+    Ok(Drag { path, moved, computed: None, slots: dragged, start, press, values, wish })
+}
+
+/// Begins a drag of a number or a place that is computed.
+///
+/// # Errors
+/// Why it cannot be dragged.
+pub(crate) fn press_computed(
+    state: &State,
+    planner: &mut Planner,
+    term: Term,
+    path: Path,
+) -> Result<Drag, RefusalReason> {
+    general::accept(state, &path).map_err(|r| RefusalReason::Target(r.message))?;
+    let evaluator = state.evaluator(&state.values);
+    let (answer, read) = evaluator.listening(|| evaluator.evaluate(&term, DOCUMENT));
+    let answer = answer.map_err(|fault| RefusalReason::Target(fault.message))?;
+    if let Answer::Thing(thing) = answer {
+        return press(state, planner, thing, path);
+    }
+    let Some(start) = numbers_of(&answer) else {
+        return Err(RefusalReason::Target(format!("{path} is no number and no place")));
+    };
+    let press = planner.press(
+        state.model(),
+        &state.values,
+        &[Target::Term { me: DOCUMENT, term: &term }],
+    )?;
+    let wish = [start[0], start.get(1).copied().unwrap_or(0.0)];
+    let (slots, values) = (read.into_iter().collect(), state.values.clone());
+    Ok(Drag { path, moved: None, computed: Some(term), slots, start, press, values, wish })
+}
+
+/// Returns the number that an answer is, or the two of a place.
+fn numbers_of(answer: &Answer<'_>) -> Option<Vec<f64>> {
+    let number = |answer: &Answer<'_>| match answer {
+        Answer::Number(x, _) => Some(*x),
+        Answer::Bool(_)
+        | Answer::Text(_)
+        | Answer::Thing(_)
+        | Answer::Made(_)
+        | Answer::List(_)
+        | Answer::Picture(_)
+        | Answer::Function(_) => None,
+    };
+    match answer {
+        Answer::Made(made) if made.fields.len() == 2 => made.fields.iter().map(number).collect(),
+        other => number(other).map(|x| vec![x]),
+    }
 }
 
 /// Returns the numbers that move with a thing whose class says itself how it moves.
@@ -114,9 +166,15 @@ impl Drag {
             None => (self.start[0], self.start.get(1).copied().unwrap_or(0.0)),
         }
     }
-    /// Returns the numbers of its handle, each with what it was at the press.
+    /// Returns the numbers of its handle, each with what it was at the press; none of what is computed.
     pub(crate) fn handle_slots(&self) -> impl Iterator<Item = (SlotId, f64)> + '_ {
-        self.slots.iter().copied().zip(self.start.iter().copied()).take(2)
+        let handle = if self.computed.is_some() { 0 } else { 2 };
+        self.slots.iter().copied().zip(self.start.iter().copied()).take(handle)
+    }
+    /// Returns the numbers of what is computed and dragged, as of the last event.
+    pub(crate) fn computed_now(&self, state: &State) -> Option<Vec<f64>> {
+        let evaluator = state.evaluator(&self.values);
+        numbers_of(&evaluator.evaluate(self.computed.as_ref()?, DOCUMENT).ok()?)
     }
     /// Returns the slots that it depends on and cannot move.
     pub(crate) fn held(&self) -> Vec<SlotId> {

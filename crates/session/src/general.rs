@@ -8,7 +8,7 @@ use crate::words;
 use base::Name;
 use eval::Answer;
 use kernel::{
-    Argument, ClassKind, Command, DOCUMENT, Path, Primitive, SlotId, Term, ThingId, Value,
+    Argument, ClassId, ClassKind, Command, Document, Path, Primitive, SlotId, Term, ThingId, Value,
 };
 use std::sync::Arc;
 
@@ -32,7 +32,7 @@ pub(crate) fn accept(state: &State, path: &Path) -> Result<(), Refusal> {
             continue;
         }
         let change = Path(path.0[n..].to_vec()).to_string();
-        let term = sent("accepts", "change", Term::Text(change.clone()));
+        let term = sent(Term::Me, "accepts", "change", Term::Text(change.clone()));
         let evaluator = state.evaluator(&state.values);
         if let Ok(Answer::Bool(false)) = evaluator.evaluate(&term, thing) {
             let who = if owner.is_empty() { "the document".into() } else { owner.to_string() };
@@ -63,23 +63,17 @@ pub(crate) fn changed(command: &Command) -> Vec<&Path> {
 /// Returns what a thing holds when it is moved, where its class says how: of every slot.
 pub(crate) fn moved(state: &State, thing: ThingId, way: (f64, f64)) -> Option<Vec<(SlotId, f64)>> {
     let document = &state.lowered.document;
-    let (place, dimension) = document.classes.ids().find_map(|c| {
-        let fields = document.layout(c);
-        let named = |name: &str, i: usize| {
-            fields.get(i).is_some_and(|&f| **document.field_name(f) == *name)
-        };
-        let kind = &document.classes[document.field_class(*fields.first()?)].kind;
-        match kind {
-            ClassKind::Primitive(Primitive::Real(d)) if named("x", 0) && named("y", 1) => {
-                (fields.len() == 2).then_some((c, *d))
-            }
-            _ => None,
-        }
-    })?;
+    let class = state.structure.things[thing].class;
+    let (_, message) = document.find_message(class, &Name::new("moved"), None)?;
+    // the way is of the class that the message asks for; where it asks for none, any place will do
+    let asked = message.parameters.first().and_then(|p| p.class);
+    let any = || document.classes.ids().find(|&c| measure_of_place(document, c).is_some());
+    let place = asked.or_else(any)?;
+    let Primitive::Real(dimension) = measure_of_place(document, place)? else { return None };
     let length = |value| Term::Number { value, dimension, bare: false };
     let argument = |value| Argument { label: None, value: length(value) };
     let arguments = vec![argument(way.0), argument(way.1)];
-    let term = sent("moved", "by", Term::Make { class: place, arguments });
+    let term = sent(Term::Me, "moved", "by", Term::Make { class: place, arguments });
     let evaluator = state.evaluator(&state.values);
     let answer = evaluator.evaluate(&term, thing).ok()?;
     let number = |(slot, value)| match value {
@@ -89,6 +83,23 @@ pub(crate) fn moved(state: &State, thing: ThingId, way: (f64, f64)) -> Option<Ve
     Some(held(state, thing, &answer).into_iter().filter_map(number).collect())
 }
 
+/// Returns what the coordinates of a place measure: of a class that consists of two numbers x and y.
+fn measure_of_place(document: &Document, class: ClassId) -> Option<Primitive> {
+    let [x, y] = document.layout(class)[..] else { return None };
+    let named = **document.field_name(x) == *"x" && **document.field_name(y) == *"y";
+    let kind = |field| &document.classes[document.field_class(field)].kind;
+    match kind(x) {
+        ClassKind::Primitive(real @ Primitive::Real(_)) if named && kind(y) == kind(x) => {
+            Some(*real)
+        }
+        ClassKind::Primitive(_)
+        | ClassKind::Composite
+        | ClassKind::List(_)
+        | ClassKind::Set(_)
+        | ClassKind::Reference(_) => None,
+    }
+}
+
 /// Returns what the first of things that are to be merged holds then, where its class says so.
 pub(crate) fn merged(state: &State, paths: &[Path]) -> Vec<(Path, Value)> {
     let things: Vec<ThingId> = paths.iter().filter_map(|p| thing_at(state, p)).collect();
@@ -96,36 +107,21 @@ pub(crate) fn merged(state: &State, paths: &[Path]) -> Vec<(Path, Value)> {
     if !defines(state, *first, "merged") {
         return Vec::new();
     }
-    let path = |&thing: &ThingId| {
-        let path = state.structure.path(&state.lowered.document, thing);
-        path.0.iter().fold(Term::Document, |to, step| match step {
-            kernel::Step::Part(name) => Term::send(to, name),
-            kernel::Step::Index(i) => {
-                Term::Index(Box::new(to), Box::new(Term::number(f64::from(*i))))
-            }
-            kernel::Step::Last => Term::send(to, "last"),
-            kernel::Step::Owner => Term::send(to, "owner"),
-        })
+    // what it holds with one of them is asked what it holds with the next
+    let with = |held: Term, other: &ThingId| {
+        let path = state.structure.path(&state.lowered.document, *other);
+        sent(held, "merged", "with", Term::at(Term::Document, &path))
     };
-    let terms: Vec<Term> = others.iter().map(|o| sent("merged", "with", path(o))).collect();
+    let term = others.iter().fold(Term::Me, with);
     let evaluator = state.evaluator(&state.values);
-    let mut holds = Vec::new();
-    for term in &terms {
-        if let Ok(answer) = evaluator.evaluate(term, *first) {
-            holds = held(state, *first, &answer);
-        }
-    }
+    let Ok(answer) = evaluator.evaluate(&term, *first) else { return Vec::new() };
+    let holds = held(state, *first, &answer);
     holds.into_iter().map(|(slot, value)| (state.slot_path(slot), value)).collect()
 }
 
-fn sent(name: &str, label: &str, value: Term) -> Term {
+fn sent(to: Term, name: &str, label: &str, value: Term) -> Term {
     let argument = Argument { label: Some(Name::new(label)), value };
-    Term::Send {
-        to: Box::new(Term::Me),
-        name: Name::new(name),
-        arguments: vec![argument],
-        search: None,
-    }
+    Term::Send { to: Box::new(to), name: Name::new(name), arguments: vec![argument], search: None }
 }
 
 /// Returns what an answer says that is to be in the slots of a thing.
@@ -145,7 +141,13 @@ fn held(state: &State, thing: ThingId, answer: &Answer<'_>) -> Vec<(SlotId, Valu
             let text = Value::Text(Arc::from(&**text));
             return structure.slot_of[thing].map(|s| (s, text)).into_iter().collect();
         }
-        Answer::Thing(_) | Answer::Picture(_) | Answer::Function(_) => return Vec::new(),
+        Answer::Thing(other) => {
+            let (to, from) = (structure.slots_under(thing), structure.slots_under(*other));
+            let same = to.len() == from.len();
+            let both = to.into_iter().zip(from).filter(|_| same);
+            return both.map(|(to, from)| (to, state.values.get(from))).collect();
+        }
+        Answer::Picture(_) | Answer::Function(_) => return Vec::new(),
     };
     let parts = structure.parts(thing).zip(fields);
     parts.flat_map(|(part, field)| held(state, part, field)).collect()
@@ -154,7 +156,7 @@ fn held(state: &State, thing: ThingId, answer: &Answer<'_>) -> Vec<(SlotId, Valu
 /// Returns the parts that a message of a thing's class names, for a view; nothing where its class
 /// says no more than Object.
 pub(crate) fn named(state: &State, thing: ThingId, view: &str) -> Option<Vec<ThingId>> {
-    if thing == DOCUMENT || !defines(state, thing, view) {
+    if !defines(state, thing, view) {
         return None;
     }
     let evaluator = state.evaluator(&state.values);

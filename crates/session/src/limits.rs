@@ -70,6 +70,12 @@ pub(crate) fn in_words(limit: &Limit) -> String {
 /// an anchored place where that is what ends, else how far it is from the pointer.
 pub(crate) fn of_drag(state: &State, drag: &Drag) -> (Limit, String) {
     let path = drag.path.to_string();
+    if let Some(now) = drag.computed_now(state) {
+        let shown: Vec<String> = now.iter().map(|&x| base::number::rounded(x, 6)).collect();
+        let limit = Limit { path, value: tuple(&shown) };
+        let words = in_words(&limit);
+        return (limit, words);
+    }
     let shown: Vec<String> = drag
         .handle_slots()
         .map(|(slot, start)| show(state, slot, drag.values.numbers[slot], start))

@@ -1,7 +1,7 @@
 //! The session: open documents, and what is done to them.
 
 use crate::advice;
-use crate::apply;
+use crate::apply::{self, Aim};
 use crate::check;
 use crate::complaints;
 use crate::document::Open;
@@ -157,9 +157,13 @@ impl Session {
     /// Why the thing cannot be dragged: there is none, it has no place, or an anchor holds it.
     pub fn press(&mut self, id: DocumentId, path: &Path) -> Result<(f64, f64), Refusal> {
         let open = self.document_mut(id);
-        let thing = words::find(&open.state, path)?;
         let state = open.state.clone();
-        let drag = drag::press(&state, &mut open.planner, thing, path.clone())
+        let aim = apply::aim(&state, path);
+        let drag = match aim.map_err(|r| words::find(&state, path).err().unwrap_or(r))? {
+            Aim::Thing(thing) => drag::press(&state, &mut open.planner, thing, path.clone()),
+            Aim::Term(term) => drag::press_computed(&state, &mut open.planner, term, path.clone()),
+        };
+        let drag = drag
             .map_err(|reason| words::refusal_for(&state, &reason, &plan::EditReport::default()))?;
         let handle = drag.handle();
         open.drag = Some(drag);

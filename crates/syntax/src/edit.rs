@@ -67,6 +67,13 @@ pub fn replace(node: &SyntaxNode, text: &str) -> TextEdit {
     TextEdit::new(span.start, span.end, format!("{text}{divider}"))
 }
 
+/// Replaces a member by others, one a line, which begin where it began.
+pub fn replace_member(node: &SyntaxNode, members: &str) -> TextEdit {
+    let first = node.first_token();
+    let indent = first.map_or_else(String::new, |t| indent_of(&line_start(&t)));
+    replace(node, &indented(members, &indent))
+}
+
 /// Replaces a token: a name by another.
 pub fn rename(token: &SyntaxToken, name: &str) -> TextEdit {
     let span = span_of_token(token);

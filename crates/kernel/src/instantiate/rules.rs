@@ -3,7 +3,7 @@
 use super::body::{Body, Member, Waiting};
 use super::merge::merge_pair;
 use super::{FaultKind, Maker};
-use crate::class::{ClassId, ClassKind, Merge};
+use crate::class::{ClassKind, Merge};
 use crate::path::Path;
 use crate::structure::{ConstraintInstance, StayInstance, ThingId};
 use crate::term::OriginId;
@@ -18,13 +18,7 @@ pub(super) fn apply(maker: &mut Maker<'_>, body: &mut Body, thing: ThingId, wait
     let document = maker.document;
     let line = document.primary_line(body.things[thing].class);
     for (above, &class) in line.iter().enumerate().rev() {
-        // a class masks what is said above it
-        let masked = |name: &Option<Name>| {
-            let masks = |&c: &ClassId| {
-                name.as_ref().is_some_and(|n| document.classes[c].without.contains(n))
-            };
-            line[..above].iter().any(masks)
-        };
+        let masked = |name: &Option<Name>| document.is_masked(&line[..above], name.as_ref());
         let c = &document.classes[class];
         let mut wait = |member| body.waiting.push(Waiting { thing, class, member });
         for (index, merge) in (0..).zip(&c.merges) {

@@ -2,12 +2,13 @@
 
 use super::Restructuring;
 use super::home::{Home, common_owner};
+use crate::lower::OWN;
 use crate::uses::{Text, refused};
-use base::{Diagnostic, Name};
+use base::{Diagnostic, Name, Place};
 use indexmap::IndexSet;
 use kernel::{Merge, Path, Step};
-use syntax::ast::{AstNode, Expr};
-use syntax::edit::{self, TextEdit};
+use syntax::ast::{AstNode, Expr, Member, span_without_doc};
+use syntax::edit::{self, Spot, TextEdit};
 use syntax::{SyntaxKind, SyntaxNode};
 
 impl Text<'_> {
@@ -21,7 +22,8 @@ impl Text<'_> {
 
     /// Takes a path out of the merges that name it; the rest of them all stay merged.
     pub(super) fn unmerge(&self, path: &Path) -> Result<Restructuring, Diagnostic> {
-        let members = self.lists(SyntaxKind::Merge, path);
+        let mut members = self.lists(SyntaxKind::Merge, path);
+        members.retain(|m| outermost_loop(m).is_none());
         let mut done = Restructuring::default();
         // what each body says of the path in its merges; of these things one each
         let mut left: Vec<Path> = Vec::new();
@@ -38,6 +40,7 @@ impl Text<'_> {
             done.class = Some(class);
         }
         let before = left.len();
+        self.unmerge_repeated(path, &mut done, &mut left);
         self.unmerge_inherited(path, &mut done, &mut left)?;
         if !is_named && left.len() == before {
             return Err(self.not_merged(path));
@@ -77,6 +80,53 @@ impl Text<'_> {
             _ => edit::delete_member(one),
         });
         first
+    }
+
+    /// Writes out the merges that a `for` makes of a path, where it is in the body of what has them.
+    fn unmerge_repeated(&self, path: &Path, done: &mut Restructuring, left: &mut Vec<Path>) {
+        let document = &self.lowered.document;
+        for n in (0..path.0.len()).rev() {
+            let (owner, rest) = (Path(path.0[..n].to_vec()), Path(path.0[n..].to_vec()));
+            let home = self.home(&owner).ok().filter(|home| home.path == owner);
+            let Some((class, home)) = self.class_at(&owner).zip(home) else { continue };
+            let merges = &document.classes[class].merges;
+            if self.is_inherited(&home) || !merges.iter().any(|m| m.paths.contains(&rest)) {
+                continue;
+            }
+            let members = home.members();
+            let loops = members.iter().filter(|m| matches!(m, Member::For(_)));
+            for each in loops.map(AstNode::syntax) {
+                let written: Vec<SyntaxNode> =
+                    each.descendants().filter(|n| n.kind() == SyntaxKind::Merge).collect();
+                let made_by = |node: &SyntaxNode| {
+                    let place = Place { file: OWN, span: span_without_doc(node) };
+                    let made =
+                        merges.iter().filter(|m| self.lowered.origins.place(m.origin) == place);
+                    made.collect::<Vec<&Merge>>()
+                };
+                let (mut gone, mut said) = (Vec::new(), Vec::new());
+                let mut kept: IndexSet<&Path> = IndexSet::new();
+                for node in written {
+                    let made = made_by(&node);
+                    if !made.iter().any(|m| m.paths.contains(&rest)) {
+                        continue;
+                    }
+                    let (of_path, others): (Vec<&Merge>, Vec<&Merge>) =
+                        made.iter().partition(|m| m.paths.contains(&rest));
+                    said.extend(others.iter().map(|m| merging(&m.paths)));
+                    kept.extend(of_path.iter().flat_map(|m| &m.paths).filter(|p| **p != rest));
+                    gone.push(node);
+                }
+                if gone.is_empty() {
+                    continue;
+                }
+                if kept.len() > 1 {
+                    said.push(merging(kept.iter().copied()));
+                }
+                left.extend(kept.first().map(|&p| owner.join(p)));
+                done.edits.extend(written_out(each, &gone, &said));
+            }
+        }
     }
 
     /// Says why nothing can be taken out of a merge: by what it is merged, if it is.
@@ -177,6 +227,32 @@ impl Text<'_> {
         let base = last.unwrap_or_else(|| "joint".to_string());
         self.name_given(merge.origin, "merge", &base, done)
     }
+}
+
+/// Takes merges out of a loop, which goes if it holds no others, and says members after it.
+fn written_out(each: &SyntaxNode, gone: &[SyntaxNode], said: &[String]) -> Vec<TextEdit> {
+    let mut stands = each.descendants().filter(|n| n.parent().is_some_and(|p| is_loop_body(&p)));
+    let stays = stands.any(|n| n.kind() != SyntaxKind::For && !gone.contains(&n));
+    let said = said.join("\n");
+    match (stays, said.is_empty()) {
+        (true, no_more) => {
+            let after = Spot::After(each.clone());
+            let more = (!no_more).then(|| edit::insert_member(&after, &said));
+            gone.iter().map(edit::delete_member).chain(more).collect()
+        }
+        (false, true) => vec![edit::delete_member(each)],
+        (false, false) => vec![edit::replace_member(each, &said)],
+    }
+}
+
+fn is_loop_body(node: &SyntaxNode) -> bool {
+    node.kind() == SyntaxKind::Body && node.parent().is_some_and(|p| p.kind() == SyntaxKind::For)
+}
+
+/// Returns the loop in whose body a member stands, the outermost of several.
+fn outermost_loop(member: &SyntaxNode) -> Option<SyntaxNode> {
+    let loops = member.ancestors().filter(|a| a.kind() == SyntaxKind::For);
+    loops.last()
 }
 
 /// Writes a merge of some paths.

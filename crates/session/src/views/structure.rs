@@ -89,7 +89,9 @@ impl Maker<'_> {
                 let parts: Vec<ThingId> =
                     match crate::general::named(self.state, thing, "structure") {
                         Some(named) => named,
-                        None => structure.parts(thing).collect(),
+                        None => {
+                            structure.parts(thing).filter(|&p| !self.keeps_masters(p)).collect()
+                        }
                     };
                 let all = parts.len();
                 if all > MOST_ELEMENTS {
@@ -109,6 +111,14 @@ impl Maker<'_> {
         }
         self.open.pop();
         self.rows[at].descendants = (self.rows.len() - at - 1) as u32;
+    }
+
+    /// Returns true for the part that nobody wrote, which keeps the masters of placed things.
+    fn keeps_masters(&self, part: ThingId) -> bool {
+        let State { structure, lowered, .. } = self.state;
+        let name = lowered.masters.as_ref();
+        structure.things[part].owner == Some(kernel::DOCUMENT)
+            && name.is_some_and(|n| structure.field_name(&lowered.document, part) == Some(n))
     }
 
     fn part_origin(&self, thing: ThingId) -> OriginId {
@@ -144,8 +154,12 @@ impl Maker<'_> {
             row.freedom = (!holds).then_some(Freedom::Conflicting);
             self.rows.push(row);
         }
-        for class in document.primary_line(structure.things[thing].class).into_iter().rev() {
+        let line = document.primary_line(structure.things[thing].class);
+        for (nearer, &class) in line.iter().enumerate().rev() {
             for merge in &document.classes[class].merges {
+                if document.is_masked(&line[..nearer], merge.name.as_ref()) {
+                    continue;
+                }
                 let name = merge.name.as_ref().map_or_else(String::new, ToString::to_string);
                 let path = owner.to_string();
                 let mut row = self.row(path, depth, RowKind::Merge, name, merge.origin);

@@ -155,7 +155,7 @@ impl Maker<'_> {
             return;
         }
         self.open.push(thing);
-        if crate::general::defines(state, thing, "values") && thing != kernel::DOCUMENT {
+        if crate::general::defines(state, thing, "values") {
             self.add_table(thing, path);
         } else {
             self.add_parts(thing, path);

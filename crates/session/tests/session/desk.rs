@@ -89,6 +89,12 @@ impl Desk {
     pub(crate) fn number(&self, path: &str) -> f64 {
         self.row(path).number.expect("the value is a number")
     }
+    /// Where a place lies, stored or computed.
+    pub(crate) fn place(&mut self, path: &str) -> (f64, f64) {
+        let from = self.session.press(self.id, &at(path)).expect("it can be dragged");
+        self.session.cancel(self.id);
+        from
+    }
     /// Every stored value, bit for bit.
     pub(crate) fn bits(&self) -> Vec<(String, String, Option<u64>)> {
         let rows = self.session.values(self.id).into_iter().filter(|r| !r.is_virtual);

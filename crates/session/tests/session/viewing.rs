@@ -104,4 +104,81 @@ fn masters_are_seen_where_they_are_placed_alone() {
     let grips = desk.session.picture(desk.id).grips;
     let paths: Vec<&str> = grips.iter().map(|g| g.path.as_str()).collect();
     assert_eq!(paths, ["wheel.at"]);
+    let rows = desk.session.structure(desk.id);
+    assert!(rows.iter().all(|r| !r.path.starts_with("masters")), "{rows:?}");
+}
+
+#[test]
+fn a_document_says_what_its_views_show() {
+    let desk = Desk::of(
+        "structure => [\"a\"]\nvalues => [(\"b\", b), (\"twice\", 2 * b)]\na: Real = 1\nb: Real = 2\n",
+    );
+    let values: Vec<(String, String)> =
+        desk.session.values(desk.id).into_iter().map(|r| (r.path, r.text)).collect();
+    assert_eq!(values, [("b".into(), "2".into()), ("twice".into(), "4".into())]);
+    let rows = desk.session.structure(desk.id);
+    let paths: Vec<&str> = rows.iter().map(|r| r.path.as_str()).collect();
+    assert_eq!(paths, ["", "a"]);
+}
+
+#[test]
+fn a_merge_that_is_masked_is_not_shown() {
+    let desk = Desk::of(
+        "class Pair { a, b: Real  merge one: a = b }\nclass Loose is Pair { without one }\nl: Loose\np: Pair\n",
+    );
+    let rows = desk.session.structure(desk.id);
+    let merges: Vec<&str> =
+        rows.iter().filter(|r| r.kind == RowKind::Merge).map(|r| r.path.as_str()).collect();
+    assert_eq!(merges, ["p"]);
+}
+
+const WHEEL: &str = "use geometry
+class Wheel { hub: Point = (0, 0)  rim: Point = (10, 0) }
+wheel: Placed of Wheel { at = (10, 20)  turn = 0 deg  scale = 1 }
+other: Placed of Wheel { at = (100, 20) }
+";
+
+#[test]
+fn a_placed_thing_is_turned_and_scaled_by_hand() {
+    let mut desk = Desk::of(WHEEL);
+    let rim = |desk: &mut Desk| desk.place("wheel.rim");
+    desk.drag("wheel.turn", &[(0.5, 0.0), (std::f64::consts::FRAC_PI_2, 0.0)]);
+    let (x, y) = rim(&mut desk);
+    assert!((x - 10.0).abs() < 1e-9 && (y - 30.0).abs() < 1e-9, "{x} {y}");
+    desk.undo();
+    desk.drag("wheel.scale", &[(1.5, 0.0), (2.0, 0.0)]);
+    assert_eq!(rim(&mut desk), (30.0, 20.0));
+    assert_eq!(desk.place("other.rim"), (110.0, 20.0));
+}
+
+#[test]
+fn a_computed_place_is_dragged_like_a_stored_one() {
+    let mut desk = Desk::of(WHEEL);
+    let change = desk.drag("wheel.rim", &[(12.0, 25.0), (10.0, 40.0)]);
+    assert_eq!(change.label, "move wheel.rim");
+    assert_eq!((desk.place("wheel.rim"), desk.place("wheel.at")), ((10.0, 40.0), (0.0, 40.0)));
+    assert_eq!(desk.place("other.rim"), (110.0, 20.0));
+    desk.undo();
+    assert_eq!(desk.place("wheel.rim"), (20.0, 20.0));
+    assert_eq!(desk.text(), WHEEL);
+}
+
+#[test]
+fn a_computed_number_is_dragged_as_far_as_it_goes() {
+    let mut desk = Desk::of(
+        "use geometry\nl: Line { p1 = (0, 0)  p2 = (30, 40) }\nanchor l.p1\nconstraint l.length <= 60\nmiddle => Point((l.p1.x + l.p2.x) / 2, (l.p1.y + l.p2.y) / 2)\nname => \"x\"\n",
+    );
+    desk.drag("l.length", &[(52.0, 0.0), (55.0, 0.0)]);
+    assert!((desk.number("l.length") - 55.0).abs() < 1e-9);
+    let short = desk.hold("l.length", &[(80.0, 0.0)]);
+    assert!(!short.reached, "{short:?}");
+    assert_eq!(short.limit.map(|l| (l.path, l.value)), Some(("l.length".into(), "60".into())));
+    desk.session.cancel(desk.id);
+    desk.undo();
+    desk.drag("middle", &[(10.0, 10.0)]);
+    assert_eq!(desk.place("l.p2"), (20.0, 20.0));
+    let press = |path| session::parse_path(path).expect("a path");
+    assert!(desk.session.press(desk.id, &press("name")).is_err());
+    let unknown = desk.session.press(desk.id, &press("l.lenght")).expect_err("there is none");
+    assert!(unknown.message.contains("lenght"), "{}", unknown.message);
 }
