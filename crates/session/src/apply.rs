@@ -13,7 +13,7 @@ use crate::view::{Change, Choice, Limit, Question, Refusal};
 use crate::words;
 use crate::write_back::{differing, sides_after, write_back, write_sides};
 use base::number::Toward;
-use kernel::{Command, DOCUMENT, Literal, Path, SlotId, Term, ThingId, Value, Values};
+use kernel::{Command, DOCUMENT, Literal, Path, SlotId, Step, Term, ThingId, Value, Values};
 use plan::{EditKind, Planner, Target};
 use std::sync::Arc;
 
@@ -70,7 +70,9 @@ fn edit(
 ) -> Result<Change, Refusal> {
     let state = open.state.clone();
     let mut aims: Vec<(Aim, Vec<Value>)> = Vec::new();
-    for (path, literal) in targets {
+    let parts: Vec<(Path, Literal)> =
+        targets.iter().flat_map(|t| as_superclass(&state, t)).collect();
+    for (path, literal) in &parts {
         let mut values = Vec::new();
         flatten(literal, &mut values);
         aims.push((aim(&state, path)?, values));
@@ -98,6 +100,31 @@ fn edit(
     let label = label(kind, &aims_paths(&state, &aims));
     let edited = aims.iter().flat_map(|(aim, _)| slots_of(&state, aim)).collect();
     keep(open, host, label, edited, &values, &report.undecided)
+}
+
+/// Returns what an edit of a thing by the name of a primary superclass says of the parts that it has
+/// from there; any other edit as it is.
+fn as_superclass(state: &State, (path, literal): &(Path, Literal)) -> Vec<(Path, Literal)> {
+    let whole = || vec![(path.clone(), literal.clone())];
+    let (Literal::Tuple(items), Some((Step::Part(name), owner))) = (literal, path.0.split_last())
+    else {
+        return whole();
+    };
+    let owner = crate::session::thing_at(state, &Path(owner.to_vec()));
+    let thing = crate::session::thing_at(state, path);
+    let Some(owner) = owner.filter(|_| owner == thing) else { return whole() };
+    let document = &state.lowered.document;
+    let line = document.primary_line(state.structure.things[owner].class);
+    let above = line.iter().find_map(|&c| {
+        let first = document.classes[c].supers.first()?;
+        (first.name == *name).then_some(first.class)
+    });
+    let fields = above.map(|class| document.layout(class)).unwrap_or_default();
+    if fields.len() != items.len() {
+        return whole();
+    }
+    let part = |field| path.then(Step::Part(document.field_name(field).clone()));
+    fields.into_iter().map(part).zip(items.iter().cloned()).collect()
 }
 
 /// Says in a refusal what of an edit is computed, so that something else would have had to change.

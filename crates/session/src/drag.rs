@@ -12,6 +12,7 @@ use crate::words;
 use eval::Answer;
 use kernel::{DOCUMENT, Path, SlotId, Structure, Term, ThingId, Values};
 use plan::{Planner, Press, RefusalReason, Target};
+use std::collections::BTreeSet;
 
 /// A drag between press and release.
 pub(crate) struct Drag {
@@ -45,18 +46,19 @@ pub(crate) fn press(
     let structure = &state.structure;
     general::accept(state, &path).map_err(|r| RefusalReason::Target(r.message))?;
     let otherwise = otherwise(state, thing);
-    let handles = match (structure.slot_of[thing], &otherwise) {
-        (Some(_), _) => vec![thing],
-        (None, Some(moves)) => moves.iter().map(|&slot| structure.slots[slot].thing).collect(),
+    let handles: Vec<Vec<ThingId>> = match (structure.slot_of[thing], &otherwise) {
+        (Some(_), _) => vec![vec![thing]],
+        (None, Some(moves)) => moves.iter().map(|&s| vec![structure.slots[s].thing]).collect(),
         (None, None) => places(structure, thing),
     };
     let slots = |&t: &ThingId| structure.slots_under(t);
-    let is_held = |t: &ThingId| slots(t).iter().all(|&s| structure.slots[s].anchored);
-    let Some(first) = handles.first().and_then(|t| slots(t).first().copied()) else {
+    let is_held =
+        |handle: &Vec<ThingId>| handle.iter().flat_map(slots).all(|s| structure.slots[s].anchored);
+    let Some(first) = handles.first().and_then(|h| h.iter().flat_map(slots).next()) else {
         return Err(RefusalReason::Target(format!("{path} has no place that could be dragged")));
     };
     // an anchored corner stays where it is while the others are dragged
-    let free: Vec<ThingId> = handles.into_iter().filter(|t| !is_held(t)).collect();
+    let free: Vec<ThingId> = handles.into_iter().filter(|h| !is_held(h)).flatten().collect();
     if free.is_empty() {
         return Err(RefusalReason::Anchored(first));
     }
@@ -66,7 +68,8 @@ pub(crate) fn press(
     let start: Vec<f64> = dragged.iter().map(|&s| state.values.numbers[s]).collect();
     let number = |s: Option<&SlotId>| s.map_or(0.0, |&s| state.values.numbers[s]);
     let moved = otherwise.map(|_| {
-        let first = places(structure, thing).first().map_or_else(Vec::new, slots);
+        let first = places(structure, thing).into_iter().next().unwrap_or_default();
+        let first: Vec<SlotId> = first.iter().flat_map(slots).collect();
         (thing, (number(first.first()), number(first.get(1))))
     });
     let wish = [start[0], start.get(1).copied().unwrap_or(0.0)];
@@ -138,21 +141,27 @@ fn otherwise(state: &State, thing: ThingId) -> Option<Vec<SlotId>> {
     Some(moves).filter(|m| !m.is_empty())
 }
 
-/// Returns the places that a thing is made of, each merged one once: itself, or those of its parts.
-fn places(structure: &Structure, thing: ThingId) -> Vec<ThingId> {
-    let mut places: Vec<ThingId> = Vec::new();
+/// Returns the places that a thing is made of, each merged one once: itself, or those of its parts. A
+/// place that has more than its coordinates is dragged by these.
+fn places(structure: &Structure, thing: ThingId) -> Vec<Vec<ThingId>> {
+    let mut places: Vec<Vec<ThingId>> = Vec::new();
+    let mut known: BTreeSet<[SlotId; 2]> = BTreeSet::new();
     let mut stack = vec![thing];
     while let Some(t) = stack.pop() {
-        let coordinate = |name| structure.slot_of[structure.part_named(t, name)?];
-        let is_place = match (coordinate("x"), coordinate("y")) {
-            (Some(x), Some(y)) => structure.slots_under(t) == [x, y],
-            (_, None) | (None, _) => false,
+        let coordinate = |name| {
+            let part = structure.part_named(t, name)?;
+            Some((part, structure.slot_of[part]?))
         };
-        let known = |&p: &ThingId| structure.identity(p) == structure.identity(t);
-        match is_place {
-            true if places.iter().any(known) => {}
-            true => places.push(t),
-            false => stack.extend(structure.parts(t).rev()),
+        let (Some((x, of_x)), Some((y, of_y))) = (coordinate("x"), coordinate("y")) else {
+            stack.extend(structure.parts(t).rev());
+            continue;
+        };
+        let is_new = known.insert([of_x, of_y]);
+        if structure.slots_under(t) == [of_x, of_y] {
+            places.extend(is_new.then(|| vec![t]));
+        } else {
+            places.extend(is_new.then(|| vec![x, y]));
+            stack.extend(structure.parts(t).filter(|p| ![x, y].contains(p)).rev());
         }
     }
     places

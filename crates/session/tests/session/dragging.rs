@@ -99,3 +99,20 @@ fn a_point_stops_at_a_wall_slides_along_it_and_comes_free_again() {
     desk.session.release(desk.id).expect("nothing forbids it");
     assert_eq!(place(&desk, "p"), [100.0, 40.0]);
 }
+
+#[test]
+fn a_place_that_has_more_than_its_coordinates_is_dragged_by_these() {
+    let mut desk = Desk::of(
+        "use geometry\nclass Joint is Point { load: Real = 3 }\nclass Bar { a, b: Joint { load = 7 } }\nj: Joint { x = 1  y = 2 }\nbar: Bar { b.x = 50 }\n",
+    );
+    assert_eq!(
+        desk.session.pick(desk.id, (1.0, 2.0), 1.0).map(|p| p.to_string()),
+        Some("j".into())
+    );
+    desk.drag("j", &[(3.0, 2.0), (5.0, 6.0)]);
+    assert_eq!((desk.number("j.x"), desk.number("j.y"), desk.number("j.load")), (5.0, 6.0, 3.0));
+    desk.drag("bar", &[(1.0, 1.0), (10.0, 20.0)]);
+    let at = |path: &str| desk.number(path);
+    assert_eq!((at("bar.a.x"), at("bar.a.y")), (10.0, 20.0));
+    assert_eq!((at("bar.b.x"), at("bar.b.y"), at("bar.b.load")), (60.0, 20.0, 7.0));
+}
