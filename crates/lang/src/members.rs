@@ -1,6 +1,6 @@
 //! Members: parts and messages are declared first, then everything that speaks of parts is lowered.
 
-use crate::kept::Added;
+use crate::kept::Run;
 use crate::kinds::Kind;
 use crate::lower::{Lowerer, OWN};
 use crate::scope::Scope;
@@ -29,8 +29,8 @@ pub(crate) enum Pending {
     Each { scope: Scope, each: ast::For, from: u32 },
     /// What a reference names, by a path from the document.
     Absolute { scope: Scope, path: Path, target: Expr },
-    /// The values of a part of the document that is kept: where it stands, and what it was.
-    Kept { member: usize, part: u32, was: Added, shift: i64 },
+    /// The values of parts of the document that are kept.
+    Kept(Run),
     /// The values of one part of the document follow.
     Note,
     /// They end here: so many values of the part of this index, which is this member.

@@ -80,9 +80,7 @@ impl Lowerer<'_> {
         });
         for pending in pending {
             match pending {
-                Pending::Kept { member, part, was, shift } => {
-                    self.keep_values(member, part, was, shift);
-                }
+                Pending::Kept(run) => self.keep_values(run),
                 Pending::Note => noted = self.so_far(),
                 Pending::Noted { member, part, givens } => self.note(member, part, givens, noted),
                 Pending::Each { scope, each, from } => {

@@ -306,7 +306,9 @@ fn restructure(open: &mut Open, host: &dyn Host, command: &Command) -> Result<Ch
         return Err(words::refusal_of_text(&state, &new));
     }
     let class = done.class.map(|c| before.lowered.document.classes[c].name.to_string());
-    let (state, planner) = match (carried_over(command, &before, &state), &class) {
+    let carried = carried_over(command, &before, &state);
+    let carried = carried.filter(|values| values.changed(&state.values).next().is_some());
+    let (state, planner) = match (carried, &class) {
         (Some(values), _) => write_back(&state, &values, &[], host, planner.into_plans()),
         (None, Some(class)) => place_new_parts(&before, state, planner, class, host),
         (None, None) => (state, planner),
@@ -444,8 +446,11 @@ fn carried_over(command: &Command, before: &State, after: &State) -> Option<Valu
         holds.into_iter().for_each(|(slot, value)| values.put(slot, value));
         return any.then_some(values);
     }
-    for slot in after.structure.slots.ids() {
-        let thing = before.structure.follow(DOCUMENT, &after.slot_path(slot)).ok();
+    // things are the same where only what is said of them is another
+    let are_same = after.structure.has_things_of(&before.structure);
+    for (slot, s) in after.structure.slots.iter() {
+        let follow = || before.structure.follow(DOCUMENT, &after.slot_path(slot)).ok();
+        let thing = if are_same { Some(s.thing) } else { follow() };
         if let Some(was) = thing.and_then(|t| before.structure.slot_of[t]) {
             values.put(slot, before.values.get(was));
         }

@@ -20,6 +20,7 @@ pub(super) fn finish(maker: &mut Maker<'_>, body: Body, givens: &Givens) -> Form
         layouts: std::mem::take(&mut maker.layouts),
         ..Form::default()
     };
+    structure.slots.reserve(body.things.len());
     give_slots(maker, &body, &order, &mut structure);
     let references = given_references(maker, &body);
     let first = |t: ThingId| body.merged[t];
