@@ -32,6 +32,20 @@ impl Primitive {
             Self::Text | Self::Color => false,
         }
     }
+    /// Returns true if the slot holds whole numbers alone (truth values included).
+    pub fn is_whole(self) -> bool {
+        match self {
+            Self::Integer | Self::Bool => true,
+            Self::Real(_) | Self::Text | Self::Color => false,
+        }
+    }
+    /// Returns the dimension of its numbers; that of a plain number where it has none.
+    pub fn dimension(self) -> Dimension {
+        match self {
+            Self::Real(dimension) => dimension,
+            Self::Integer | Self::Bool | Self::Text | Self::Color => Dimension::default(),
+        }
+    }
 }
 
 /// What kind of class it is.

@@ -54,7 +54,7 @@ impl Planner {
     /// Finds other states of a thing that the rules allow, at most eight, nearest roots first.
     ///
     /// Nothing where the rules leave the thing free, or hold it by other than real numbers. Cost: two plans
-    /// of its component and a solve for each state that is found; the plans are not kept.
+    /// of its component and a solve for each state that is found. What was planned for this alone is forgotten.
     pub fn ghosts(
         &mut self,
         model: Model<'_>,

@@ -64,17 +64,19 @@ pub(crate) fn run(
     let texts = values.texts.clone();
     let numbers: Vec<f64> = task.numbers(&values.numbers).collect();
     let leans = leans(model, task);
+    let begun = |with: &[f64]| {
+        let changed = changed(&ground.x0, with, &ground.changed);
+        Ground { x0: ground.x0.clone(), local: with.to_vec(), changed }
+    };
+    let mut attempt = |mode: &Mode, ground: &Ground| {
+        values.texts.clone_from(&texts);
+        attempt_in_mode(planner, model, task, modes, mode, ground, &leans, values, host)
+    };
     let mut decided = |constants: Constants, with: &[f64]| -> Decision {
         let mut first = modes.first(&ground.x0, with);
         first.constants = constants;
-        let changed = changed(&ground.x0, with, &ground.changed);
-        let mut attempt = |mode: &Mode| {
-            values.texts.clone_from(&texts);
-            let ground =
-                Ground { x0: ground.x0.clone(), local: with.to_vec(), changed: changed.clone() };
-            attempt_in_mode(planner, model, task, modes, mode, &ground, &leans, values, host)
-        };
-        decide(modes, &first, &mut attempt)
+        let begun = begun(with);
+        decide(modes, &first, &mut |mode: &Mode| attempt(mode, &begun))
     };
     let mut trial = |constants: Constants, with: &[f64]| trial(modes, &decided(constants, with));
     let looked = whole.wholes(planner.plans.patterns()).look(&ground.x0, &ground.local, &mut trial);
@@ -83,7 +85,7 @@ pub(crate) fn run(
             let decision = decided(constants, &with);
             if has_texts(task) {
                 // the host's texts are those of the mode that stands
-                decided(constants, &with);
+                attempt(&decision.mode, &begun(&with));
             }
             scatter(task, &decision.tried.values, values);
             Some(tell(planner, modes, task, decision))

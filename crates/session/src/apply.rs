@@ -73,9 +73,7 @@ fn edit(
     let parts: Vec<(Path, Literal)> =
         targets.iter().flat_map(|t| as_superclass(&state, t)).collect();
     for (path, literal) in &parts {
-        let mut values = Vec::new();
-        flatten(literal, &mut values);
-        aims.push((aim(&state, path)?, values));
+        aims.push((aim(&state, path)?, flat(literal)));
     }
     let targets: Vec<(Target<'_>, Vec<Value>)> = aims
         .iter()
@@ -198,12 +196,13 @@ pub(crate) fn aim(state: &State, path: &Path) -> Result<Aim, Refusal> {
     }
 }
 
-fn flatten(literal: &Literal, values: &mut Vec<Value>) {
+/// Returns the values of a literal, one after the other.
+pub(crate) fn flat(literal: &Literal) -> Vec<Value> {
     match literal {
-        Literal::Number(x) => values.push(Value::Number(*x)),
-        Literal::Bool(b) => values.push(Value::Number(f64::from(u8::from(*b)))),
-        Literal::Text(t) => values.push(Value::Text(Arc::from(t.as_str()))),
-        Literal::Tuple(items) => items.iter().for_each(|i| flatten(i, values)),
+        Literal::Number(x) => vec![Value::Number(*x)],
+        Literal::Bool(b) => vec![Value::Number(f64::from(u8::from(*b)))],
+        Literal::Text(t) => vec![Value::Text(Arc::from(t.as_str()))],
+        Literal::Tuple(items) => items.iter().flat_map(flat).collect(),
     }
 }
 
