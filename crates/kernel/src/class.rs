@@ -1,6 +1,6 @@
 //! Classes: what the things of a kind have in common.
 
-use crate::document::PartRef;
+use crate::document::{PartRef, Side};
 use crate::path::Path;
 use crate::term::{OriginId, Term};
 use base::Name;
@@ -124,6 +124,8 @@ pub struct Class {
     pub inserts: Vec<Insert>,
     /// Declared stays and anchors.
     pub stays: Vec<Stay>,
+    /// Which way places and numbers of its things go from where two branches meet, in order.
+    pub sides: Vec<Side>,
     /// Parts that stick to others when a thing of this class is placed, in order.
     pub attachers: Vec<Path>,
     /// What it sets of constraints of its things and their parts, in order.
@@ -156,6 +158,7 @@ impl Class {
             merges: Vec::new(),
             inserts: Vec::new(),
             stays: Vec::new(),
+            sides: Vec::new(),
             attachers: Vec::new(),
             switches: Vec::new(),
             without: Vec::new(),

@@ -80,16 +80,13 @@ impl Lowerer<'_> {
                 Member::Merge(_)
                 | Member::Stay(_)
                 | Member::Anchor(_)
+                | Member::Side(_)
                 | Member::Insert(_)
                 | Member::Without(_)
                 | Member::Replace(_)
                 | Member::Attachers(_) => {
                     self.pending.push(Pending::Member(scope.clone(), member.clone()));
                 }
-                Member::Side(_) if self.is_top_level(scope) => {
-                    self.pending.push(Pending::Member(scope.clone(), member.clone()));
-                }
-                Member::Side(_) if scope.file != OWN => {}
                 Member::Unit(_) | Member::Y(_) | Member::Use(_) | Member::Error(_) => {}
                 Member::Class(_) | Member::Check(_) if self.is_top_level(scope) => {}
                 Member::Class(_) if scope.file != OWN => {}
@@ -116,7 +113,6 @@ impl Lowerer<'_> {
             Member::If(_) => "members under a condition are",
             Member::When(_) => "events are",
             Member::View(_) => "views of one's own are",
-            Member::Side(_) => "orientations written elsewhere than at the top of a document are",
             Member::Toolbox(_) => "toolboxes are",
             Member::Lesson(_) => "lessons are",
             Member::Program(_) => "programs are",

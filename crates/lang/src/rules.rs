@@ -243,7 +243,9 @@ impl Lowerer<'_> {
                 let message = format!("{path} is neither a place nor a number");
                 self.error("side-of-nothing", scope.file, target.span(), message);
             }
-            Some(way) => self.document.sides.push(Side { path, way, origin }),
+            Some(way) => {
+                self.document.classes[scope.class()].sides.push(Side { path, way, origin });
+            }
             None => {
                 let ways = SideWay::ALL.into_iter().filter(fits).map(SideWay::word);
                 let ways = ways.collect::<Vec<_>>().join(", ");

@@ -84,6 +84,7 @@ fn label(
                 None => places,
             }
         }
+        GhostKind::Whole => places,
         GhostKind::Root { reads } => match other_side(state, about, units, reads, values) {
             Some(side) => format!("{side}: {places}"),
             None => places,
