@@ -1,6 +1,6 @@
 //! Classes: what the things of a kind have in common.
 
-use crate::document::{PartRef, Side};
+use crate::document::PartRef;
 use crate::path::Path;
 use crate::term::{OriginId, Term};
 use base::Name;
@@ -30,20 +30,6 @@ impl Primitive {
         match self {
             Self::Real(_) | Self::Integer | Self::Bool => true,
             Self::Text | Self::Color => false,
-        }
-    }
-    /// Returns true if the slot holds whole numbers alone (truth values included).
-    pub fn is_whole(self) -> bool {
-        match self {
-            Self::Integer | Self::Bool => true,
-            Self::Real(_) | Self::Text | Self::Color => false,
-        }
-    }
-    /// Returns the dimension of its numbers; that of a plain number where it has none.
-    pub fn dimension(self) -> Dimension {
-        match self {
-            Self::Real(dimension) => dimension,
-            Self::Integer | Self::Bool | Self::Text | Self::Color => Dimension::default(),
         }
     }
 }
@@ -108,6 +94,11 @@ pub struct Class {
     pub supers: Vec<Superclass>,
     /// True for the class of a single thing, or of a part as its owner refines it: no text names it.
     pub is_of_one: bool,
+    /// The class that it is, with other counts.
+    pub general: Option<ClassId>,
+    /// Its whole numbers that say how many elements its lists have or how often its loops run, and
+    /// what they are. They are anchored.
+    pub counts: Vec<(Name, i64)>,
     /// True if it has no instances of its own.
     pub is_abstract: bool,
     /// The stored parts that it adds, in order of declaration.
@@ -124,8 +115,6 @@ pub struct Class {
     pub inserts: Vec<Insert>,
     /// Declared stays and anchors.
     pub stays: Vec<Stay>,
-    /// Which way places and numbers of its things go from where two branches meet, in order.
-    pub sides: Vec<Side>,
     /// Parts that stick to others when a thing of this class is placed, in order.
     pub attachers: Vec<Path>,
     /// What it sets of constraints of its things and their parts, in order.
@@ -150,6 +139,8 @@ impl Class {
             elements: Vec::new(),
             supers,
             is_of_one: false,
+            general: None,
+            counts: Vec::new(),
             is_abstract: false,
             parts: Vec::new(),
             givens: Vec::new(),
@@ -158,7 +149,6 @@ impl Class {
             merges: Vec::new(),
             inserts: Vec::new(),
             stays: Vec::new(),
-            sides: Vec::new(),
             attachers: Vec::new(),
             switches: Vec::new(),
             without: Vec::new(),

@@ -27,12 +27,14 @@ pub struct Document {
     pub vertical: Vertical,
     /// How many base units of length are in a metre: 1000 for `unit mm`, 1 without a unit line.
     pub units_per_metre: f64,
+    /// Which way things go that stand where two branches meet.
+    pub sides: Vec<Side>,
 }
 
 /// Which way a place or a number goes from where two branches meet, and its values do not say it.
 #[derive(Clone, PartialEq, Debug)]
 pub struct Side {
-    /// The place or number, from the thing whose class says it.
+    /// The place or number, from the document.
     pub path: Path,
     /// Which way.
     pub way: SideWay,
@@ -201,16 +203,27 @@ impl Document {
     }
     /// Returns true if every thing of `class` is a thing of `ancestor`.
     pub fn is_a(&self, class: ClassId, ancestor: ClassId) -> bool {
-        self.lineage(class).contains(&ancestor)
+        let is = |&c: &ClassId| c == ancestor || self.classes[c].general == Some(ancestor);
+        self.lineage(class).iter().any(is)
+    }
+    /// Returns what a whole number is that says how many parts the things of a class have.
+    pub fn count(&self, class: ClassId, name: &Name) -> Option<i64> {
+        let counts = |c: ClassId| self.classes[c].counts.iter().find(|(n, _)| n == name);
+        self.primary_line(class).into_iter().find_map(counts).map(|(_, count)| *count)
     }
     /// Returns the class of this name, the last declared first.
     pub fn class_named(&self, name: &str) -> Option<ClassId> {
-        self.classes.iter().rev().find(|(_, c)| c.name == name).map(|(id, _)| id)
+        let named = |(_, c): &(ClassId, &Class)| c.name == name && !c.is_of_one;
+        self.classes.iter().rev().find(named).map(|(id, _)| id)
     }
     /// Returns the class that is named in the text: of a class of one, the one that it comes from.
     pub fn named_class(&self, class: ClassId) -> ClassId {
         let line = self.primary_line(class);
-        line.into_iter().find(|&c| !self.classes[c].is_of_one).unwrap_or(class)
+        let named = |c: ClassId| match self.classes[c].general {
+            None => (!self.classes[c].is_of_one).then_some(c),
+            general => general,
+        };
+        line.into_iter().find_map(named).unwrap_or(class)
     }
     /// Finds a message by the thesis's order: the class, its primary line, then all others.
     ///

@@ -120,7 +120,7 @@ fn lower_check(l: &mut Lowerer<'_>, check: &ast::Check) -> Check {
         l.silent += u32::from(restructured);
         let kind = statement(l, &scope, &member).unwrap_or(StatementKind::Unclear);
         l.silent -= u32::from(restructured);
-        restructured |= restructures(&kind);
+        restructured |= restructures(l, scope.class(), &kind);
         lowered.push(Statement { kind, span });
     }
     Check {
@@ -145,14 +145,17 @@ fn class_of_check(l: &mut Lowerer<'_>, own: &[Member]) -> kernel::ClassId {
 }
 
 /// Returns true for an edit after which other names may be known.
-fn restructures(statement: &StatementKind) -> bool {
+fn restructures(l: &Lowerer<'_>, class: kernel::ClassId, statement: &StatementKind) -> bool {
+    let is_count = |path: &Path| {
+        let Some((Step::Part(name), owner)) = path.0.split_last() else { return false };
+        let owner = l.class_at(class, &Path(owner.to_vec()));
+        owner.is_some_and(|owner| l.document.count(owner, name).is_some())
+    };
     match statement {
         StatementKind::Command(_) => true,
-        StatementKind::Try(inner) => restructures(inner),
-        StatementKind::Set(_)
-        | StatementKind::Move(_)
-        | StatementKind::Expect(_)
-        | StatementKind::Unclear => false,
+        StatementKind::Try(inner) => restructures(l, class, inner),
+        StatementKind::Set(targets) => targets.iter().any(|(path, _)| is_count(path)),
+        StatementKind::Move(_) | StatementKind::Expect(_) | StatementKind::Unclear => false,
     }
 }
 

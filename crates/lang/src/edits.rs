@@ -5,6 +5,7 @@
 //! all its things; that of a thing makes the thing a class of one.
 
 mod carry;
+mod counts;
 mod delete;
 mod elements;
 mod home;
@@ -17,6 +18,7 @@ mod switch;
 use crate::lower::Lowered;
 use crate::uses::{Text, refused};
 use base::{Diagnostic, Span};
+pub use counts::is_count;
 use home::Home;
 use kernel::{ClassId, Command, Path, Step, Structure};
 pub use sides::write_sides;
@@ -46,7 +48,7 @@ impl From<Vec<TextEdit>> for Restructuring {
 
 /// Returns the edits of the text that a command is, and what they imply.
 ///
-/// Values that are set are no structure, apart from what is set of a constraint.
+/// Values that are set are no structure, apart from what is set of a constraint and from counts.
 ///
 /// # Errors
 /// Why the text cannot say it: a path that leads nowhere, something that is a class's to say, a
@@ -76,9 +78,12 @@ pub fn edits_for(
         Command::Anchor { path, held: false } => text.let_go(path)?.into(),
         Command::Enable { path, on } => text.switch(path, *on)?,
         Command::Set(targets) => match targets.as_slice() {
+            [(path, value)] if is_count(lowered, path) => text.set_count(path, value)?,
             [(path, value)] => text.set_of_constraint(path, value)?,
             _ => {
-                let message = "what is set of a constraint is an edit of its own".to_string();
+                let message =
+                    "what is set of a constraint, or how many parts there are, is an edit of its own"
+                        .to_string();
                 return Err(refused("not-settable", message));
             }
         },
@@ -210,10 +215,7 @@ impl Text<'_> {
     /// Returns the members of one kind that list a path, those of checks left out.
     fn lists(&self, kind: SyntaxKind, path: &Path) -> Vec<SyntaxNode> {
         use syntax::ast::AstNode;
-        let holding = self.lowered.effective_parse.holding(kind);
-        let holding = holding.filter_map(|span| self.file.member_at(span));
-        let within = holding.flat_map(|m| m.syntax().descendants().collect::<Vec<_>>());
-        let members = within.filter(|n| n.kind() == kind);
+        let members = self.file.syntax().descendants().filter(|n| n.kind() == kind);
         let names = |n: &SyntaxNode| {
             let mut paths = n.children().filter_map(Expr::cast);
             let in_check = n.ancestors().any(|a| a.kind() == SyntaxKind::Check);

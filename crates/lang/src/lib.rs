@@ -25,6 +25,7 @@ mod calls;
 mod checks;
 mod classes;
 mod constraints;
+mod counts;
 mod edits;
 mod files;
 mod kept;
@@ -51,7 +52,7 @@ mod visible;
 mod write;
 
 pub use checks::{Check, Expectation, PlanKind, Statement, StatementKind, without_checks};
-pub use edits::{Restructuring, edits_for, for_every, of_constraint, write_sides};
+pub use edits::{Restructuring, edits_for, for_every, is_count, of_constraint, write_sides};
 pub use files::File;
 pub use lower::{Lowered, lower};
 pub use numbers::{Wanted, read_literal, show_limit, show_number};

@@ -15,7 +15,7 @@ use kernel::{ClassId, Path, Step};
 use syntax::ast::{self, AstNode, Expr, Member};
 
 /// How many members all `for` of a document may come to.
-pub(crate) const MOST_MEMBERS: usize = 1_000_000;
+const MOST_MEMBERS: usize = 1_000_000;
 
 /// What a loop goes through.
 pub(crate) struct Turns {
@@ -23,9 +23,17 @@ pub(crate) struct Turns {
     over: Over,
 }
 
+/// What a loop binds its name to in one turn, where the text lists it.
+enum Written {
+    Number(i64),
+    Thing { path: Path, class: Option<ClassId> },
+}
+
 enum Over {
     /// Whole numbers from this one on.
     Numbers(i64),
+    /// What is written, one after the other.
+    Written(Vec<Written>),
     /// Elements of a list, so many at a time.
     Elements { path: Path, element: ClassId, together: u32 },
 }
@@ -57,20 +65,19 @@ impl Lowerer<'_> {
         let Some(range) = each.range() else { return };
         let Some(turns) = self.turns(scope, each) else { return };
         let members = members_of(each);
-        let most = turns.count.saturating_sub(from) as usize;
-        if !self.may_unroll(scope, &range, most.saturating_mul(members.len().max(1))) {
-            return;
-        }
         for turn in from..turns.count {
+            if !self.may_unroll(scope, &range, members.len()) {
+                return;
+            }
             let inner = turn_of(scope, each, &turns, turn);
             self.take_turn(&inner, each, &members);
         }
     }
 
-    /// Counts members that `for` makes, before they are made; reports once that there are too many.
+    /// Counts members that `for` makes; reports once that there are too many.
     pub(crate) fn may_unroll(&mut self, scope: &Scope, range: &Expr, members: usize) -> bool {
         let was = self.unrolled;
-        self.unrolled = was.saturating_add(members);
+        self.unrolled += members.max(1);
         if was <= MOST_MEMBERS && self.unrolled > MOST_MEMBERS {
             let message = format!("`for` makes more than {MOST_MEMBERS} members here");
             self.error("too-many-members", scope.file, range.span(), message);
@@ -112,11 +119,22 @@ impl Lowerer<'_> {
             let count = u32::try_from(count).unwrap_or(u32::MAX);
             return Some(Turns { count, over: Over::Numbers(from) });
         };
+        let written = match &list {
+            Expr::List(list) => Some(list.elements().collect::<Vec<Expr>>()),
+            Expr::Tuple(tuple) => Some(tuple.elements().collect()),
+            _ => None,
+        };
+        if let Some(written) = written.filter(|_| together == 1) {
+            let over: Option<Vec<Written>> =
+                written.iter().map(|e| self.written(scope, e)).collect();
+            let count = written.len() as u32;
+            return Some(Turns { count, over: Over::Written(over?) });
+        }
         if !matches!(list, Expr::Name(_) | Expr::Field(_) | Expr::Index(_) | Expr::Paren(_)) {
             let place = Place { file: scope.file, span: list.span() };
-            let message = "a `for` goes through a range of whole numbers or a list that is a part";
+            let message = "a `for` goes through a range of whole numbers, a list that is a part, or what is listed";
             let d = Diagnostic::error("not-a-path", place, message);
-            self.report(d.hint("declare the list as a part, then go through that"));
+            self.report(d.hint("declare the list as a part, or write `for a in [b, c]`"));
             return None;
         }
         let (path, class) = self.path(scope, &list)?;
@@ -132,8 +150,19 @@ impl Lowerer<'_> {
             self.report(d.hint("declare it as `List of 3 C`, or with its elements, `= [a, b]`"));
             return None;
         };
-        let count = elements.saturating_sub(together - 1);
+        let count = (elements + 1).saturating_sub(together);
         Some(Turns { count, over: Over::Elements { path, element, together } })
+    }
+
+    /// Finds what a loop binds its name to where it is written: a whole number, or a part.
+    fn written(&mut self, scope: &Scope, e: &Expr) -> Option<Written> {
+        match self.constant(scope, e) {
+            Some(number) if !matches!(e, Expr::Name(_)) => Some(Written::Number(number)),
+            _ => {
+                let (path, class) = self.path(scope, e)?;
+                Some(Written::Thing { path, class })
+            }
+        }
     }
 
     /// Returns how many elements a list has, as far as its class tells.
@@ -171,7 +200,7 @@ impl Lowerer<'_> {
                 let above = above.map(|c| Scope::of(scope.file, c));
                 let before = above.and_then(|above| self.given_count(&above, &list)).unwrap_or(0);
                 let together = each.names().count() as u32;
-                let from = before.saturating_sub(together.saturating_sub(1));
+                let from = (before + 1).saturating_sub(together);
                 let scope = Scope::of(scope.file, class);
                 self.pending.push(Pending::Each { scope, each: each.clone(), from });
             }
@@ -181,6 +210,7 @@ impl Lowerer<'_> {
     /// Returns true for a value that a loop of the class goes through: what has it is a class of one.
     pub(crate) fn is_looped(&self, class: ClassId, name: &Name) -> bool {
         self.document.lineage(class).into_iter().any(|c| {
+            let c = self.document.classes[c].general.unwrap_or(c);
             let at = self.declared.binary_search_by_key(&c, |(id, _, _)| *id);
             let body = at.ok().and_then(|i| self.declared[i].2.body());
             body.into_iter().flat_map(|b| b.members()).any(|m| match &m {
@@ -248,6 +278,14 @@ pub(crate) fn turn_of(scope: &Scope, each: &ast::For, turns: &Turns, turn: u32) 
         Over::Numbers(from) => each.names().fold(scope.clone(), |scope, word| {
             scope.with_constant(word.name(), from + i64::from(turn))
         }),
+        Over::Written(all) => {
+            each.names().fold(scope.clone(), |scope, word| match &all[turn as usize] {
+                Written::Number(number) => scope.with_constant(word.name(), *number),
+                Written::Thing { path, class } => {
+                    scope.with_element(word.name(), path.clone(), *class)
+                }
+            })
+        }
         Over::Elements { path, element, together } => {
             let bind = |scope: Scope, (i, word): (u32, ast::Word)| {
                 let path = path.then(Step::Index(turn + i));

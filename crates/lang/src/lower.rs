@@ -5,6 +5,7 @@
 //! speaks of parts is lowered.
 
 use crate::checks::{self, Check};
+use crate::counts::Counts;
 use crate::files::File;
 use crate::kept::Added;
 use crate::kin::Kin;
@@ -154,7 +155,7 @@ pub(crate) struct Lowerer<'l> {
     pub(crate) origins: Origins,
     pub(crate) diagnostics: Vec<Diagnostic>,
     /// What has been reported, so that it is said once.
-    said: BTreeSet<(Place, &'static str)>,
+    pub(crate) said: BTreeSet<(Place, &'static str)>,
     pub(crate) object: ClassId,
     /// Members whose expressions are still to be lowered.
     pub(crate) pending: Vec<Pending>,
@@ -208,6 +209,9 @@ pub(crate) struct Lowerer<'l> {
     /// While positive, nothing is reported.
     pub(crate) silent: u32,
     pub(crate) declared: Vec<(ClassId, FileId, ast::Class)>,
+    pub(crate) counts: Counts,
+    /// Classes made for other counts, whose members are still to be declared.
+    pub(crate) declared_for_counts: Vec<(ClassId, FileId, ast::Class)>,
     /// What words speak of, where that is asked for.
     pub(crate) references: Option<References>,
 }
@@ -227,6 +231,7 @@ impl<'l> Lowerer<'l> {
                 root: ClassId(0),
                 vertical: Vertical::Up,
                 units_per_metre: 1.0,
+                sides: Vec::new(),
             },
             visible: Visible::default(),
             origins: Origins::default(),
@@ -260,6 +265,8 @@ impl<'l> Lowerer<'l> {
             unrolled: 0,
             silent: 0,
             declared: Vec::new(),
+            counts: Counts::default(),
+            declared_for_counts: Vec::new(),
             references: None,
         };
         l.own_classes();
@@ -270,6 +277,7 @@ impl<'l> Lowerer<'l> {
     fn run(&mut self, text: &str) -> Vec<Check> {
         self.read("", text);
         self.declare_classes();
+        self.declare_counts();
         self.make_root();
         self.declare_members();
         self.define_members();
@@ -335,6 +343,7 @@ impl<'l> Lowerer<'l> {
         self.declare_object();
         let root = self.document.root;
         self.declare_file(OWN, root);
+        self.declare_for_counts();
     }
 
     /// Returns a class's own definition of a message.

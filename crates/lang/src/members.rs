@@ -1,6 +1,7 @@
 //! Members: parts and messages are declared first, then everything that speaks of parts is lowered.
 
-use crate::kept::Run;
+use crate::counts::whole;
+use crate::kept::Added;
 use crate::kinds::Kind;
 use crate::lower::{Lowerer, OWN};
 use crate::scope::Scope;
@@ -8,6 +9,7 @@ use base::{Diagnostic, FileId, Name, Place, Span};
 use kernel::{
     ClassId, ClassKind, Count, Message, OriginId, Parameter, Part, Path, Primitive, Step, Term,
 };
+use std::collections::{BTreeMap, BTreeSet};
 use syntax::ast::{self, AstNode, Expr, Member, TypeShape, span_without_doc};
 
 /// A member whose expressions are still to be lowered.
@@ -29,8 +31,8 @@ pub(crate) enum Pending {
     Each { scope: Scope, each: ast::For, from: u32 },
     /// What a reference names, by a path from the document.
     Absolute { scope: Scope, path: Path, target: Expr },
-    /// The values of parts of the document that are kept.
-    Kept(Run),
+    /// The values of a part of the document that is kept: where it stands, and what it was.
+    Kept { member: usize, part: u32, was: Added, shift: i64 },
     /// The values of one part of the document follow.
     Note,
     /// They end here: so many values of the part of this index, which is this member.
@@ -80,13 +82,16 @@ impl Lowerer<'_> {
                 Member::Merge(_)
                 | Member::Stay(_)
                 | Member::Anchor(_)
-                | Member::Side(_)
                 | Member::Insert(_)
                 | Member::Without(_)
                 | Member::Replace(_)
                 | Member::Attachers(_) => {
                     self.pending.push(Pending::Member(scope.clone(), member.clone()));
                 }
+                Member::Side(_) if self.is_top_level(scope) => {
+                    self.pending.push(Pending::Member(scope.clone(), member.clone()));
+                }
+                Member::Side(_) if scope.file != OWN => {}
                 Member::Unit(_) | Member::Y(_) | Member::Use(_) | Member::Error(_) => {}
                 Member::Class(_) | Member::Check(_) if self.is_top_level(scope) => {}
                 Member::Class(_) if scope.file != OWN => {}
@@ -113,6 +118,7 @@ impl Lowerer<'_> {
             Member::If(_) => "members under a condition are",
             Member::When(_) => "events are",
             Member::View(_) => "views of one's own are",
+            Member::Side(_) => "orientations written elsewhere than at the top of a document are",
             Member::Toolbox(_) => "toolboxes are",
             Member::Lesson(_) => "lessons are",
             Member::Program(_) => "programs are",
@@ -177,9 +183,20 @@ impl Lowerer<'_> {
 
     /// Returns the whole number that an expression of constants is.
     pub(crate) fn constant(&mut self, scope: &Scope, expr: &Expr) -> Option<i64> {
-        let known = |e: &Expr| scope.constant(e).or_else(|| self.constant_count(scope, e));
-        let x = crate::numbers::constant(&known, expr)?;
-        (x.fract() == 0.0 && x.abs() < 9e15).then_some(x as i64)
+        whole(self.constant_number(scope, expr)?)
+    }
+
+    /// Returns the number that an expression of constants is.
+    pub(crate) fn constant_number(&mut self, scope: &Scope, expr: &Expr) -> Option<f64> {
+        let names = expr.syntax().descendants().filter_map(ast::NameExpr::cast);
+        let names: BTreeSet<Name> = names.filter_map(|n| Some(n.name()?.name())).collect();
+        let known = |n: Name| self.constant_named(scope, &n).map(|i| (n, i as f64));
+        let known: BTreeMap<Name, f64> = names.into_iter().filter_map(known).collect();
+        let named = |e: &Expr| match e {
+            Expr::Name(name) => known.get(&name.name()?.name()).copied(),
+            e => self.constant_count(scope, e),
+        };
+        crate::numbers::constant(&named, expr)
     }
 
     /// Returns how many elements a list has, where `list.count` says so and its class tells.
@@ -294,6 +311,7 @@ impl Lowerer<'_> {
     ) -> ClassId {
         let Some(body) = body else { return class };
         let members: Vec<Member> = body.members().collect();
+        let class = self.class_for_counts(scope, class, &members);
         let gives = |m: &Member| match m {
             Member::Assign(assign) => given_list(assign).map(|(name, _)| name),
             _ => None,
@@ -309,6 +327,7 @@ impl Lowerer<'_> {
             return class;
         }
         let one = self.class_of_one(scope, name, class, origin);
+        self.note_counts(one, &members);
         self.declare_body(&scope.inside(one), members);
         one
     }
@@ -327,7 +346,9 @@ impl Lowerer<'_> {
         if members.is_empty() {
             return list;
         }
+        let element = self.class_for_counts(scope, element, &members);
         let one = self.class_of_one(scope, name, element, origin);
+        self.note_counts(one, &members);
         self.declare_body(&scope.inside(one), members);
         self.class_made_of("List of", ClassKind::List(one), one)
     }

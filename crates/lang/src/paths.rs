@@ -23,7 +23,7 @@ impl Lowerer<'_> {
                 let receiver = index.receiver()?;
                 let (path, class) = self.path(scope, &receiver)?;
                 let at = index.index()?;
-                let Some(i) = crate::numbers::constant(&|e| scope.constant(e), &at) else {
+                let Some(i) = self.constant_number(scope, &at) else {
                     let message = "an index in a path is a whole number, from 0".to_string();
                     self.error("index", scope.file, at.span(), message);
                     return None;

@@ -49,6 +49,7 @@ impl Lowerer<'_> {
     /// Lowers every expression that waits.
     pub(crate) fn define_members(&mut self) {
         self.declare_repeated();
+        self.declare_for_counts();
         self.continue_loops();
         self.complete_placed();
         self.prepare_modifications();
@@ -80,7 +81,9 @@ impl Lowerer<'_> {
         });
         for pending in pending {
             match pending {
-                Pending::Kept(run) => self.keep_values(run),
+                Pending::Kept { member, part, was, shift } => {
+                    self.keep_values(member, part, was, shift);
+                }
                 Pending::Note => noted = self.so_far(),
                 Pending::Noted { member, part, givens } => self.note(member, part, givens, noted),
                 Pending::Each { scope, each, from } => {
@@ -148,7 +151,9 @@ impl Lowerer<'_> {
         }
         self.refer_by_position(scope.file, value, &wanted);
         let term = measured(&self.document, term, &kind, &wanted);
-        if self.misfits(scope, &path, class, &term, value) {
+        if self.misfits(scope, &path, class, &term, value)
+            || self.other_count(scope, &path, &term, value)
+        {
             return;
         }
         let origin = self.origin(scope.file, value.span());
@@ -243,9 +248,7 @@ impl Lowerer<'_> {
                 let message = format!("{path} is neither a place nor a number");
                 self.error("side-of-nothing", scope.file, target.span(), message);
             }
-            Some(way) => {
-                self.document.classes[scope.class()].sides.push(Side { path, way, origin });
-            }
+            Some(way) => self.document.sides.push(Side { path, way, origin }),
             None => {
                 let ways = SideWay::ALL.into_iter().filter(fits).map(SideWay::word);
                 let ways = ways.collect::<Vec<_>>().join(", ");

@@ -35,9 +35,7 @@ pub(crate) fn apply(
         return prototype::edit(open, host, command, targets, class);
     }
     match command {
-        Command::Set(targets)
-            if targets.iter().any(|t| lang::of_constraint(&open.state.lowered, &t.0).is_some()) =>
-        {
+        Command::Set(targets) if targets.iter().any(|t| is_structure(&open.state, &t.0)) => {
             restructure(open, host, command)
         }
         Command::Set(targets) => edit(open, host, EditKind::Set, targets),
@@ -54,6 +52,11 @@ pub(crate) fn apply(
         | Command::Anchor { .. }
         | Command::Enable { .. } => restructure(open, host, command),
     }
+}
+
+/// Returns true for what is set by an edit of the structure: what is of a constraint, and counts.
+fn is_structure(state: &State, path: &Path) -> bool {
+    lang::of_constraint(&state.lowered, path).is_some() || lang::is_count(&state.lowered, path)
 }
 
 /// What an edit speaks of: a thing, or a virtual part of one.
@@ -73,7 +76,9 @@ fn edit(
     let parts: Vec<(Path, Literal)> =
         targets.iter().flat_map(|t| as_superclass(&state, t)).collect();
     for (path, literal) in &parts {
-        aims.push((aim(&state, path)?, flat(literal)));
+        let mut values = Vec::new();
+        flatten(literal, &mut values);
+        aims.push((aim(&state, path)?, values));
     }
     let targets: Vec<(Target<'_>, Vec<Value>)> = aims
         .iter()
@@ -196,13 +201,12 @@ pub(crate) fn aim(state: &State, path: &Path) -> Result<Aim, Refusal> {
     }
 }
 
-/// Returns the values of a literal, one after the other.
-pub(crate) fn flat(literal: &Literal) -> Vec<Value> {
+fn flatten(literal: &Literal, values: &mut Vec<Value>) {
     match literal {
-        Literal::Number(x) => vec![Value::Number(*x)],
-        Literal::Bool(b) => vec![Value::Number(f64::from(u8::from(*b)))],
-        Literal::Text(t) => vec![Value::Text(Arc::from(t.as_str()))],
-        Literal::Tuple(items) => items.iter().flat_map(flat).collect(),
+        Literal::Number(x) => values.push(Value::Number(*x)),
+        Literal::Bool(b) => values.push(Value::Number(f64::from(u8::from(*b)))),
+        Literal::Text(t) => values.push(Value::Text(Arc::from(t.as_str()))),
+        Literal::Tuple(items) => items.iter().for_each(|i| flatten(i, values)),
     }
 }
 
@@ -305,9 +309,7 @@ fn restructure(open: &mut Open, host: &dyn Host, command: &Command) -> Result<Ch
         return Err(words::refusal_of_text(&state, &new));
     }
     let class = done.class.map(|c| before.lowered.document.classes[c].name.to_string());
-    let carried = carried_over(command, &before, &state);
-    let carried = carried.filter(|values| values.changed(&state.values).next().is_some());
-    let (state, planner) = match (carried, &class) {
+    let (state, planner) = match (carried_over(command, &before, &state), &class) {
         (Some(values), _) => write_back(&state, &values, &[], host, planner.into_plans()),
         (None, Some(class)) => place_new_parts(&before, state, planner, class, host),
         (None, None) => (state, planner),
@@ -445,16 +447,49 @@ fn carried_over(command: &Command, before: &State, after: &State) -> Option<Valu
         holds.into_iter().for_each(|(slot, value)| values.put(slot, value));
         return any.then_some(values);
     }
-    // things are the same where only what is said of them is another
-    let are_same = after.structure.has_things_of(&before.structure);
-    for (slot, s) in after.structure.slots.iter() {
-        let follow = || before.structure.follow(DOCUMENT, &after.slot_path(slot)).ok();
-        let thing = if are_same { Some(s.thing) } else { follow() };
+    for slot in after.structure.slots.ids() {
+        let path = after.slot_path(slot);
+        if lang::is_count(&after.lowered, &path) {
+            continue;
+        }
+        let path = before_deletion(command, after, path);
+        let thing = before.structure.follow(DOCUMENT, &path).ok();
         if let Some(was) = thing.and_then(|t| before.structure.slot_of[t]) {
             values.put(slot, before.values.get(was));
         }
     }
     Some(values)
+}
+
+/// Returns the path by which something was reached before an element of a list was deleted, of one thing
+/// or of all things of a class.
+fn before_deletion(command: &Command, after: &State, mut path: Path) -> Path {
+    let Command::Delete(deleted) = command else { return path };
+    let Some((Step::Index(gone), list)) = deleted.0.split_last() else { return path };
+    let class = prototype::class_of(after, deleted);
+    let document = &after.lowered.document;
+    let of_class = class.and_then(|name| document.class_named(name));
+    let (starts, list) = match of_class {
+        Some(_) => (path.0.len(), &list[1..]),
+        None => (1, list),
+    };
+    for start in 0..starts {
+        let (owner, rest) = path.0.split_at(start);
+        let is_owner = of_class.is_none_or(|class| {
+            let thing = after.structure.follow(DOCUMENT, &Path(owner.to_vec()));
+            thing.is_ok_and(|t| document.is_a(after.structure.things[t].class, class))
+        });
+        let at = start + list.len();
+        if is_owner
+            && rest.starts_with(list)
+            && let Some(Step::Index(i)) = path.0.get_mut(at)
+            && *i >= *gone
+        {
+            *i += 1;
+            break;
+        }
+    }
+    path
 }
 
 /// Says what is different between two states.

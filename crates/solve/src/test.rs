@@ -6,7 +6,6 @@
 //! somebody wants to know.
 
 use crate::block::Workspace;
-use crate::kernel::WIDE;
 use crate::pattern::{Pattern, Plain};
 use crate::plan::Plan;
 use crate::system::SlotIndex;
@@ -56,6 +55,9 @@ pub(crate) struct TestScratch {
     registers: Vec<Lanes>,
     differing: Vec<Differing>,
 }
+
+/// From how many equations of a pattern on they are evaluated in lanes.
+const WIDE: usize = 3;
 
 impl Tests {
     /// Lays out the equations of these relations.

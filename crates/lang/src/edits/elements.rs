@@ -13,6 +13,15 @@ impl Text<'_> {
     /// Deletes an element of a list that the document's own text declares.
     pub(super) fn delete_element(&self, path: &Path, i: u32) -> Result<Restructuring, Diagnostic> {
         let list = Path(path.0[..path.0.len() - 1].to_vec());
+        if let Some((count, n)) = self.count_of_list(&list) {
+            if f64::from(i) >= n {
+                return Err(refused("index", format!("there is no {path}")));
+            }
+            let mut deletion = Deletion::new(self);
+            let moved = self.move_up(&|of| *of == list, i, &mut deletion);
+            deletion.edits.extend(moved);
+            return Ok(self.with_count(&count, n - 1.0, deletion));
+        }
         let (home, member, _) = self.declaration(&list)?;
         let Member::Part(part) = &member else { return Err(self.of_a_class(path)) };
         let count = part.class().and_then(|ty| match ty.shape() {
@@ -23,7 +32,7 @@ impl Text<'_> {
         });
         let mut edits = Vec::new();
         if let Some(count) = &count {
-            let n = constant(&|_| None, count).filter(|n| f64::from(i) < *n);
+            let n = constant(&|_: &Expr| None, count).filter(|n| f64::from(i) < *n);
             let n = n.ok_or_else(|| refused("index", format!("there is no {path}")))?;
             edits.push(edit::replace(count.syntax(), &format!("{}", n - 1.0)));
         }
@@ -41,8 +50,12 @@ impl Text<'_> {
         if edits.is_empty() {
             return Err(self.of_a_class(path));
         }
-        let along = self.move_up(&list, i, &mut edits);
-        Ok(Restructuring { edits, along, ..self.implied_by(&home) })
+        let whose = self.declared_in(&list);
+        let is_same = |of: &Path| whose.is_some() && self.declared_in(of) == whose;
+        let mut deletion = Deletion::new(self);
+        let moved = self.move_up(&is_same, i, &mut deletion);
+        edits.extend(deletion.edits.into_iter().chain(moved));
+        Ok(Restructuring { edits, along: deletion.along, ..self.implied_by(&home) })
     }
 
     /// Returns the class that declares what a path leads to, and its name there.
@@ -57,36 +70,41 @@ impl Text<'_> {
         Some((document.lineage(class).into_iter().find(declares)?, name.clone()))
     }
 
-    /// Deletes what speaks of an element, of whatever thing of the class, and counts those behind it one less.
-    /// A reference to it stays, and names nothing.
-    fn move_up(&self, list: &Path, i: u32, edits: &mut Vec<TextEdit>) -> Vec<String> {
-        let whose = self.declared_in(list);
-        let mut deletion = Deletion::new(self);
+    /// Deletes what speaks of an element of the lists that are meant, and returns the edits by which
+    /// those behind it are counted one less. A reference to it stays, and names nothing.
+    fn move_up(
+        &self,
+        is_meant: &dyn Fn(&Path) -> bool,
+        i: u32,
+        deletion: &mut Deletion,
+    ) -> Vec<TextEdit> {
         let mut moved = Vec::new();
         for index in self.file.syntax().descendants().filter_map(ast::IndexExpr::cast) {
-            let of = index.receiver().and_then(|r| self.declared_in(&self.path_of(&r)?));
+            let of = index.receiver().and_then(|r| self.path_of(&r)).filter(is_meant);
             let at = self.path_of(&Expr::Index(index.clone()));
-            let (Some(at), Some(e)) = (at.filter(|_| of.is_some() && of == whose), index.index())
-            else {
-                continue;
-            };
-            let Some(Step::Index(n)) = at.0.last() else { continue };
-            let around = index.syntax().ancestors().find_map(Member::cast);
-            match (around, e.syntax().first_token()) {
-                (Some(member), Some(word)) if *n == i => match target(&member) {
-                    Some(span) => deletion.edits.push(TextEdit { span, insert: String::new() }),
-                    None => self.forget(&word, &mut deletion),
-                },
-                (Some(_), _) if *n > i => {
+            let (Some(_), Some(at), Some(e)) = (of, at, index.index()) else { continue };
+            match at.0.last() {
+                Some(Step::Index(n)) if *n == i => self.forget_element(&index, deletion),
+                Some(Step::Index(n)) if *n > i => {
                     moved.push(edit::replace(e.syntax(), &(n - 1).to_string()));
                 }
                 _ => {}
             }
         }
-        self.forget_uses(&mut deletion);
+        self.forget_uses(deletion);
         moved.retain(|e| !is_gone(&deletion.edits, e.span));
-        edits.extend(deletion.edits.into_iter().chain(moved));
-        deletion.along
+        moved
+    }
+
+    /// Deletes what speaks of an element by an index.
+    pub(super) fn forget_element(&self, index: &ast::IndexExpr, deletion: &mut Deletion) {
+        let around = index.syntax().ancestors().find_map(Member::cast);
+        let word = index.index().and_then(|e| e.syntax().first_token());
+        let (Some(member), Some(word)) = (around, word) else { return };
+        match target(&member) {
+            Some(span) => deletion.edits.push(TextEdit { span, insert: String::new() }),
+            None => self.forget(&word, deletion),
+        }
     }
 }
 

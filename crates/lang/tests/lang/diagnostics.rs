@@ -152,7 +152,7 @@ const WRONG: &[(&str, &str, &str)] = &[
         "vacuous-merge",
         "merge a.p1 = b.p1 = a.p1",
     ),
-    ("n: Integer = 3\nfor i in 0..n { stay n }", "not-a-count", "0..n"),
+    ("n: Real = 3\nfor i in 0..n { stay n }", "not-a-count", "0..n"),
     ("l: List of 2 Real\nk: List of 3 Real\nmerge l = k", "unlike-merge", "merge l = k"),
     // what every thing answers
     ("class A { picture => 3 }", "override-kind", "picture"),
@@ -187,7 +187,17 @@ const WRONG: &[(&str, &str, &str)] = &[
     ("a: Real\na = repeat 5 times { b = 3 }", "not-yet", "repeat 5 times { b = 3 }"),
     ("for i in 0..0 { class D { } }", "not-yet", "class D { }"),
     ("for i in 0..1 { x, y, x: Real }", "duplicate-name", "x"),
-    ("for a in [1, 2] { }", "not-a-path", "[1, 2]"),
+    ("l: List of Real\nfor a in l.map(x => x) { }", "not-a-path", "l.map(x => x)"),
+    ("for a in [1, 2.5] { }", "not-a-path", "2.5"),
+    // counts
+    ("class C { n: Real = 3  l: List of n Real }", "not-a-count", "n"),
+    (
+        "class C { n: Integer = 3  l: List of n Real }\nm: Real = 2\nc: C { n = m }",
+        "not-a-count",
+        "m",
+    ),
+    ("class C { n: Integer = 3  l: List of n Real }\nc: C\nc.n = 4", "not-a-count", "4"),
+    ("class C { n: Integer = -3  l: List of n Real }", "not-a-count", "n"),
     ("class C { modify Real { } }", "not-modifiable", "Real"),
     ("class C { modify Lnie { } }", "unknown-class", "Lnie"),
     (
@@ -209,7 +219,7 @@ const WRONG: &[(&str, &str, &str)] = &[
     ("class A { when 1 = 1 { x := 3 } }", "not-yet", "when 1 = 1 { x := 3 }"),
     ("a: Real in 0..1", "not-a-domain", "0..1"),
     ("a: Integer in 0 .. 1.5", "not-a-domain", "0 .. 1.5"),
-    ("n: Integer = 3\na: Integer in 0..n", "not-a-domain", "0..n"),
+    ("n: Real = 3\na: Integer in 0..n", "not-a-domain", "0..n"),
     ("a: Integer in 9..0", "empty-domain", "9..0"),
     ("a: Real\nconstraint if a { a = 1 } else { a = 2 }", "value-of-wrong-class", "a"),
     ("a: Real\nconstraint if a > 0 { a } else { a = 2 }", "not-a-rule", "a"),

@@ -1,0 +1,302 @@
+//! Counts: whole numbers of a class that say how many elements its lists have and how often its loops
+//! run.
+//!
+//! A class with a count is what it is for each number: `Polygon { n = 5 }` has other parts than
+//! `Polygon { n = 6 }`. The class with the numbers that it declares is made as any other; for other
+//! numbers its text is read again, as a class of one that is *general*ly that class. A count is held:
+//! only a new number in the text, or a `set` of it, changes it, and the things with it.
+
+use crate::lower::{Lowerer, OWN};
+use crate::scope::Scope;
+use base::{Diagnostic, FileId, Name, Place};
+use kernel::{ClassId, ClassKind, Path, Stay, Step, Superclass, Term};
+use std::collections::{BTreeMap, BTreeSet};
+use syntax::ast::{self, AstNode, Expr, Member, TypeShape};
+use syntax::{SyntaxKind, SyntaxNode};
+
+/// Numbers for counts, by name.
+pub(crate) type Numbers = BTreeMap<Name, i64>;
+
+/// What is known of the counts of classes.
+#[derive(Default)]
+pub(crate) struct Counts {
+    /// The whole numbers that a class itself gives, as constants, to its own or inherited parts.
+    given: BTreeMap<ClassId, Numbers>,
+    /// The names that the lists and loops of a class itself speak of.
+    spoken: BTreeMap<ClassId, BTreeSet<Name>>,
+    /// The superclasses as they are written.
+    supers: BTreeMap<ClassId, Vec<Superclass>>,
+    /// The classes made for other numbers.
+    made: BTreeMap<(ClassId, Numbers), ClassId>,
+}
+
+impl Counts {
+    fn speak(&mut self, class: ClassId, names: BTreeSet<Name>) {
+        if !names.is_empty() {
+            self.spoken.insert(class, names);
+        }
+    }
+}
+
+impl Lowerer<'_> {
+    /// Finds out what the classes of all files say of counts; superclasses with a count become those
+    /// that their subclasses ask for.
+    pub(crate) fn declare_counts(&mut self) {
+        for (id, _, class) in self.declared.clone() {
+            let members: Vec<Member> = class.body().into_iter().flat_map(|b| b.members()).collect();
+            self.note_counts(id, &members);
+            self.counts.supers.insert(id, self.document.classes[id].supers.clone());
+        }
+        if self.counts.spoken.is_empty() {
+            return;
+        }
+        for (id, _, _) in self.declared.clone() {
+            let own = self.counts.given.get(&id).cloned().unwrap_or_default();
+            self.document.classes[id].supers = self.supers_with(id, &own);
+        }
+    }
+
+    /// Notes what the members of a class say of counts.
+    pub(crate) fn note_counts(&mut self, class: ClassId, members: &[Member]) {
+        let mut given = Numbers::new();
+        for member in members {
+            let (names, value) = match member {
+                Member::Part(part) if is_whole(part) => {
+                    (part.names().map(|w| w.name()).collect(), part.value())
+                }
+                Member::Assign(assign) => (own_name(assign).into_iter().collect(), assign.value()),
+                _ => (Vec::new(), None),
+            };
+            let value = value.and_then(ast::Value::expr).and_then(|e| {
+                let known = |e: &Expr| match e {
+                    Expr::Name(name) => given.get(&name.name()?.name()).map(|&n| n as f64),
+                    _ => None,
+                };
+                whole(crate::numbers::constant(&known, &e)?)
+            });
+            given.extend(
+                names.into_iter().zip(std::iter::repeat(value)).filter_map(|(n, v)| Some((n, v?))),
+            );
+        }
+        let spoken: BTreeSet<Name> =
+            members.iter().flat_map(|m| names_of_counts(m.syntax())).collect();
+        self.counts.given.insert(class, given);
+        self.counts.speak(class, spoken);
+    }
+
+    /// Returns the number of a count of things of a class, and the class of its line that declares it.
+    fn count_of_class(&self, class: ClassId, name: &Name) -> Option<i64> {
+        let line = self.document.primary_line(class);
+        line.iter().find_map(|c| self.counts.given.get(c)?.get(name).copied())
+    }
+
+    /// Returns the number that a name stands for where an expression of constants is wanted: a variable
+    /// of `for`, or a count of the thing or of one around it. A count is held from now on.
+    pub(crate) fn constant_named(&mut self, scope: &Scope, name: &Name) -> Option<i64> {
+        if let Some(&n) = scope.constants.get(name) {
+            return Some(n);
+        }
+        for &class in &scope.classes {
+            self.note_file(scope.file, class);
+            if let Some(n) = self.count_of_class(class, name) {
+                self.hold(class, name, n);
+                return Some(n);
+            }
+        }
+        None
+    }
+
+    /// Notes what the things of a file say of counts, when that is first asked.
+    fn note_file(&mut self, file: FileId, class: ClassId) {
+        if class == self.document.root && file == OWN && !self.counts.given.contains_key(&class) {
+            let members = self.files[OWN].members_of(&[SyntaxKind::Part, SyntaxKind::Assign]);
+            self.note_counts(class, &members);
+        }
+    }
+
+    /// Keeps a count from being changed by anything but a `set` of it.
+    fn hold(&mut self, class: ClassId, name: &Name, count: i64) {
+        if self.document.count(class, name) == Some(count) {
+            return;
+        }
+        let path = Path(vec![Step::Part(name.clone())]);
+        let class = &mut self.document.classes[class];
+        class.counts.push((name.clone(), count));
+        class.stays.push(Stay { path, strength: None, origin: class.origin });
+    }
+
+    /// Returns the counts that a class speaks of, itself or by what it inherits along its primary line,
+    /// with their numbers.
+    fn counts_of(&self, class: ClassId) -> Numbers {
+        let mut numbers = Numbers::new();
+        for c in self.document.primary_line(class) {
+            for name in self.counts.spoken.get(&c).into_iter().flatten() {
+                let number = self.count_of_class(class, name);
+                numbers.extend(number.map(|n| (name.clone(), n)));
+            }
+        }
+        numbers
+    }
+
+    /// Returns the superclasses of a class whose own counts have these numbers.
+    fn supers_with(&mut self, class: ClassId, numbers: &Numbers) -> Vec<Superclass> {
+        let supers = self.counts.supers.get(&class).cloned().unwrap_or_default();
+        let with = |s: Superclass| Superclass { class: self.class_with(s.class, numbers), ..s };
+        supers.into_iter().map(with).collect()
+    }
+
+    /// Returns the class that a class is with these numbers for its counts.
+    pub(crate) fn class_with(&mut self, class: ClassId, numbers: &Numbers) -> ClassId {
+        let usual = self.counts_of(class);
+        let other = |(name, n): (&Name, &i64)| usual.get(name).is_some_and(|usual| usual != n);
+        let other: Numbers =
+            numbers.iter().filter(|&n| other(n)).map(|(name, &n)| (name.clone(), n)).collect();
+        if other.is_empty() {
+            return class;
+        }
+        let general = self.document.classes[class].general.unwrap_or(class);
+        let Some((_, file, text)) = self.declared.iter().find(|(id, _, _)| *id == general).cloned()
+        else {
+            return class;
+        };
+        let numbers: Numbers = usual.into_iter().chain(other).collect();
+        let key = (general, numbers);
+        if let Some(&known) = self.counts.made.get(&key) {
+            return known;
+        }
+        let numbers = key.1.clone();
+        let (name, origin, doc, is_abstract) = {
+            let c = &self.document.classes[general];
+            (c.name.clone(), c.origin, c.doc.clone(), c.is_abstract)
+        };
+        let made = self.add_class(name.as_str(), ClassKind::Composite, &[], origin);
+        self.counts.made.insert(key, made);
+        let c = &mut self.document.classes[made];
+        (c.doc, c.is_abstract, c.is_of_one, c.general) = (doc, is_abstract, true, Some(general));
+        let given = self.counts.given.get(&general).into_iter().flatten();
+        let given = given.map(|(name, &n)| (name.clone(), n)).chain(numbers).collect();
+        let spoken = self.counts.spoken.get(&general).cloned().unwrap_or_default();
+        self.document.classes[made].supers = self.supers_with(general, &given);
+        self.counts.given.insert(made, given);
+        self.counts.speak(made, spoken);
+        self.declared_for_counts.push((made, file, text));
+        made
+    }
+
+    /// Declares the members of the classes that were made for other counts.
+    pub(crate) fn declare_for_counts(&mut self) {
+        while let Some((id, file, class)) = self.declared_for_counts.pop() {
+            let members = class.body().into_iter().flat_map(|b| b.members()).collect();
+            self.declare_body(&Scope::of(file, id), members);
+        }
+    }
+
+    /// Returns the class that a part with a body is of: with the counts that the body gives.
+    pub(crate) fn class_for_counts(
+        &mut self,
+        scope: &Scope,
+        class: ClassId,
+        members: &[Member],
+    ) -> ClassId {
+        if self.counts.spoken.is_empty() {
+            return class;
+        }
+        let usual = self.counts_of(class);
+        let mut numbers = Numbers::new();
+        for member in members {
+            let Member::Assign(assign) = member else { continue };
+            let Some(name) = own_name(assign).filter(|name| usual.contains_key(name)) else {
+                continue;
+            };
+            let Some(value) = assign.value().and_then(ast::Value::expr) else { continue };
+            match self.constant(scope, &value) {
+                Some(n) => numbers.extend([(name, n)]),
+                None => {
+                    let message = format!(
+                        "{name} says how many parts there are: a whole number, known as the text stands"
+                    );
+                    self.error("not-a-count", scope.file, value.span(), message);
+                }
+            }
+        }
+        self.class_with(class, &numbers)
+    }
+
+    /// Reports a number for a count that differs from the one that the thing was made with.
+    pub(crate) fn other_count(
+        &mut self,
+        scope: &Scope,
+        path: &Path,
+        term: &Term,
+        value: &Expr,
+    ) -> bool {
+        let Some((Step::Part(name), owner)) = path.0.split_last() else { return false };
+        if owner.is_empty() {
+            return false;
+        }
+        let Some(class) = self.class_at(scope.class(), &Path(owner.to_vec())) else { return false };
+        let Some(is) = self.document.count(class, name) else { return false };
+        let given = match term {
+            Term::Number { value, .. } => whole(*value),
+            _ => self.constant(scope, value),
+        };
+        if Some(is) == given {
+            return false;
+        }
+        let place = Place { file: scope.file, span: value.span() };
+        if self.said.iter().any(|(said, _)| *said == place) {
+            return true;
+        }
+        let message = format!("{path} says how many parts there are, and is {is} here");
+        let what = &self.document.classes[self.document.named_class(class)].name;
+        let given = self.files[scope.file].text.get(value.span().range()).unwrap_or_default();
+        let hint = match owner.last() {
+            Some(Step::Part(owner)) => format!(
+                "say it where {owner} is declared: `{owner}: {what} {{ {name} = {given} }}`"
+            ),
+            _ => format!("say it where its thing is declared: `{what} {{ {name} = {given} }}`"),
+        };
+        self.report(Diagnostic::error("not-a-count", place, message).hint(hint));
+        true
+    }
+}
+
+/// Returns true if lists of a part's class have a count that is not a number.
+pub(crate) fn has_named_count(part: &ast::Part) -> bool {
+    part.class().is_some_and(|ty| names_of_counts(ty.syntax()).next().is_some())
+}
+
+/// Returns a whole number that is no larger than can be told apart from its neighbours.
+pub(crate) fn whole(x: f64) -> Option<i64> {
+    (x.fract() == 0.0 && x.abs() < 9e15).then_some(x as i64)
+}
+
+fn is_whole(part: &ast::Part) -> bool {
+    let named = part.class().map(|ty| ty.shape());
+    let Some(TypeShape::Named(words)) = named else { return false };
+    part.definition().is_none() && words.last().is_some_and(|w| w.text() == "Integer")
+}
+
+/// Returns the name of a part that an assignment speaks of, where it speaks of one of the thing itself.
+fn own_name(assign: &ast::Assign) -> Option<Name> {
+    match assign.target()? {
+        Expr::Name(name) => Some(name.name()?.name()),
+        _ => None,
+    }
+}
+
+/// Returns the names that the counts of lists and the ranges of loops speak of.
+fn names_of_counts(node: &SyntaxNode) -> impl Iterator<Item = Name> {
+    let counts = node.descendants().filter_map(|n| {
+        if let Some(each) = ast::For::cast(n.clone()) {
+            return each.range().filter(|r| matches!(r, Expr::Range(_)));
+        }
+        match ast::Type::cast(n)?.shape() {
+            TypeShape::List { count, .. } => count,
+            _ => None,
+        }
+    });
+    let names =
+        |e: Expr| e.syntax().descendants().filter_map(ast::NameExpr::cast).collect::<Vec<_>>();
+    counts.flat_map(names).filter_map(|n| Some(n.name()?.name()))
+}
