@@ -78,7 +78,7 @@ const NOBODY: u32 = u32::MAX;
 const SHORT: u32 = 4;
 
 /// Up to this many nodes a tape keeps their order: gathering equal operations would make few runs long.
-const SMALL: usize = 40;
+const SMALL: usize = 64;
 
 /// How many sets of values [`Tape::run_lanes`] takes at once.
 pub const LANES: usize = 8;

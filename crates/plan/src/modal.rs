@@ -211,7 +211,8 @@ pub(crate) fn attempt_in_mode(
     let Ground { x0, local, changed } = ground;
     let mut local = local.clone();
     let mut adapter = Adapter { planner, model, task, values, host };
-    let runner = &mut Runner::leaning(leans.to_vec());
+    let runner = &mut Runner::new();
+    runner.lean(leans.to_vec());
     let outcome = solve::run(&plan, runner, x0, &mut local, changed, &mut adapter);
     Tried { plan, outcome, values: local }
 }

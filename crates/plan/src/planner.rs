@@ -11,7 +11,8 @@ use crate::recent::Recent;
 use crate::rule::{Rules, Source};
 use crate::task::{Alike, Holding, Locals, Setting, Task, Wish, at_rest, task};
 use kernel::{Document, Form, SlotId, Structure, Values};
-use solve::{Level, Scratch};
+use solve::{Level, Runner, Scratch};
+use std::cell::RefCell;
 use std::collections::btree_map::Entry;
 use std::collections::{BTreeMap, BTreeSet};
 use std::rc::Rc;
@@ -45,6 +46,8 @@ pub struct Planner {
     pub(crate) came: Vec<Option<CameId>>,
     /// The components for which opening found no solution before a search was given up.
     pub(crate) given_up: Vec<(Component, NotDecided)>,
+    /// What runs plans, kept for what it has allocated.
+    pub(crate) runner: RefCell<Runner>,
 }
 
 /// What was found of a form, for the next planner of the same.
@@ -105,6 +108,7 @@ impl Planner {
             resting,
             came: Vec::new(),
             given_up: Vec::new(),
+            runner: RefCell::default(),
         };
         (planner, faults)
     }

@@ -11,7 +11,7 @@ use crate::task::{Course, Origin, Task};
 use crate::whole;
 use base::number::Toward;
 use kernel::{SlotId, Value, Values};
-use solve::{Lean, Outcome, Plan, Reason, Runner, Scratch, SlotIndex, Status, Verdict};
+use solve::{Lean, Outcome, Plan, Reason, Scratch, SlotIndex, Status, Verdict};
 use std::collections::BTreeSet;
 
 /// What came of a task.
@@ -90,11 +90,13 @@ fn by_course(
     match &task.course {
         Course::Plan => {
             let Ground { x0, local: began, changed } = ground;
-            let runner = &mut Runner::leaning(leans(model, task));
+            // what a host's method runs has another one
+            let mut runner = planner.runner.take();
+            runner.lean(leans(model, task));
             let mut by_plan = |plan: &Plan| {
                 let mut local = began.clone();
                 let mut adapter = Adapter { planner, model, task, values, host };
-                let outcome = solve::run(plan, runner, x0, &mut local, changed, &mut adapter);
+                let outcome = solve::run(plan, &mut runner, x0, &mut local, changed, &mut adapter);
                 (outcome, local)
             };
             // rows that depend on others here, though not at a generic point, free no given number
@@ -102,6 +104,7 @@ fn by_course(
             let held = held.map(|plan| by_plan(&plan));
             let held = held.filter(|(outcome, _)| outcome.is_solved() && outcome.unmet.is_empty());
             let (outcome, local) = held.unwrap_or_else(|| by_plan(&task.plan));
+            planner.runner.replace(runner);
             scatter(task, &local, values);
             ran(planner, task, &outcome)
         }

@@ -34,8 +34,11 @@ pub(crate) struct Least {
 #[derive(Clone, Debug, Default)]
 pub(crate) struct LeastScratch {
     local: Local,
+    /// By unknown; of constants nothing.
     scale: Vec<f64>,
     weight: Vec<f64>,
+    /// The Jacobian in scaled unknowns and weighted rows.
+    slopes: Vec<f64>,
     /// What the matrix is made of: diagonals, the Jacobian, second derivatives.
     entries: Vec<f64>,
     ldl: Ldl,
@@ -43,6 +46,24 @@ pub(crate) struct LeastScratch {
     right: Vec<f64>,
     multipliers: Vec<f64>,
     start: Vec<f64>,
+    came: Came,
+}
+
+/// The solution that was found last, from where its branch is followed.
+#[derive(Clone, Debug, Default)]
+struct Came {
+    /// The unknowns, what distance was measured from, and the multipliers there.
+    unknowns: Vec<SlotIndex>,
+    values: Vec<f64>,
+    anchor: Vec<f64>,
+    multipliers: Vec<f64>,
+}
+
+impl LeastScratch {
+    /// Forgets what was found, so that what comes depends on what is given alone.
+    pub(crate) fn forget(&mut self) {
+        self.came.unknowns.clear();
+    }
 }
 
 /// Whose change is counted.
@@ -56,6 +77,13 @@ enum Counted {
     Others,
 }
 
+/// What distance is measured from and how, and how far the solution may be.
+struct Asked<'a> {
+    x0: &'a [f64],
+    scales: &'a [f64],
+    trust: Trust,
+}
+
 /// What an unknown is while some are counted.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 enum Part {
@@ -64,13 +92,15 @@ enum Part {
     Constant,
 }
 
-/// What is known of the rows' curvature.
+/// The matrix that a step is found by.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
-enum Curvature {
-    /// Nothing yet: there are no multipliers.
-    None,
-    /// Second derivatives, with the present multipliers.
+enum Matrix {
+    /// Without the rows' curvature: there are no multipliers yet.
+    Flat,
+    /// With second derivatives and the present multipliers.
     Exact,
+    /// That of the step before, whose factors are there.
+    Kept,
 }
 
 const STEPS: usize = 100;
@@ -133,13 +163,12 @@ impl Least {
         w: &mut Workspace,
         s: &mut LeastScratch,
     ) -> Measured {
-        s.scale.clear();
-        s.scale.extend(self.block.unknowns.iter().map(|&u| scales[u as usize]));
+        let asked = Asked { x0, scales, trust };
         if self.given.is_empty() {
-            return self.least(Counted::All, x0, values, trust, w, s);
+            return self.least(Counted::All, &asked, values, w, s);
         }
-        match self.least(Counted::Given, x0, values, trust, w, s) {
-            Measured::Least => self.least(Counted::Others, x0, values, trust, w, s),
+        match self.least(Counted::Given, &asked, values, w, s) {
+            Measured::Least => self.least(Counted::Others, &asked, values, w, s),
             Measured::Failed => Measured::Failed,
         }
     }
@@ -156,31 +185,43 @@ impl Least {
     fn least(
         &self,
         counted: Counted,
-        x0: &[f64],
+        &Asked { x0, scales, trust }: &Asked<'_>,
         values: &mut [f64],
-        trust: Trust,
         w: &mut Workspace,
         s: &mut LeastScratch,
     ) -> Measured {
         let block = &self.block;
-        s.multipliers.clear();
-        s.multipliers.resize(block.height(), 0.0);
+        let moves = |i: usize| self.part(counted, i) != Part::Constant;
+        s.scale.clear();
+        let scale = |(i, &u): (usize, &SlotIndex)| if moves(i) { scales[u as usize] } else { 0.0 };
+        s.scale.extend(block.unknowns.iter().enumerate().map(scale));
         block.slopes(values, w, &mut s.local);
-        self.weigh(s);
+        self.weigh(scales, s);
         let mut norm = self.norm(s);
         let follows = trust == Trust::Branch && !block.is_linear;
         // on a branch the multipliers are those of the last state, and the first step is Newton's too
-        if follows && self.step(counted, x0, values, Curvature::None, w, s).is_none() {
+        s.multipliers.clear();
+        s.multipliers.resize(block.height(), 0.0);
+        if follows
+            && !self.take_multipliers(x0, values, s)
+            && self.step(counted, x0, values, Matrix::Flat, w, s).is_none()
+        {
             return Measured::Failed;
         }
         let mut size = f64::INFINITY;
+        // how the steps before shrank
+        let mut shrank = f64::INFINITY;
         let mut smallest = (f64::INFINITY, 0);
         let mut polished = 0;
         for iteration in 0..STEPS {
-            let curvature =
-                if follows || iteration > 0 { Curvature::Exact } else { Curvature::None };
+            let matrix = match iteration {
+                0 if !follows => Matrix::Flat,
+                // what it is off by is the last step times this one, and how much they shrank by how long
+                _ if size * shrank * shrank * shrank <= SETTLED => Matrix::Kept,
+                _ => Matrix::Exact,
+            };
             let Some(shift) =
-                self.step(counted, x0, values, curvature, w, s).filter(|_| norm.is_finite())
+                self.step(counted, x0, values, matrix, w, s).filter(|_| norm.is_finite())
             else {
                 return Measured::Failed;
             };
@@ -200,13 +241,14 @@ impl Least {
                     return Measured::Failed;
                 }
             }
+            shrank = if iteration > 0 { size / before } else { f64::INFINITY };
             if size < 0.9 * smallest.0 {
                 smallest = (size, 0);
             } else {
                 smallest.1 += 1;
             }
             // what comes after a step that shrank like this is no step
-            let next = if iteration > 0 { size * (size / before) } else { size };
+            let next = if iteration > 0 { size * shrank } else { size };
             let last = size <= SETTLED
                 || iteration > 1 && next <= SETTLED
                 || smallest.1 >= 4 && smallest.0 < 1e-7;
@@ -224,7 +266,41 @@ impl Least {
         }
         let is_found = self.holds(values, w, s) && size < 1e-6;
         let may_bend = follows && counted == Counted::All;
-        if is_found && (!may_bend || self.is_firm(s)) { Measured::Least } else { Measured::Failed }
+        if !is_found || may_bend && !self.is_firm(s) {
+            return Measured::Failed;
+        }
+        if may_bend {
+            self.keep_multipliers(x0, values, s);
+        }
+        Measured::Least
+    }
+
+    /// Takes the multipliers of the state that the values are still in, if they are known: those of the solution
+    /// found last, and none where distance is measured from. Returns true if they are.
+    fn take_multipliers(&self, x0: &[f64], values: &[f64], s: &mut LeastScratch) -> bool {
+        let is_at = |state: &[f64], of: &[f64]| {
+            self.block.unknowns.iter().zip(state).all(|(&u, x)| *x == of[u as usize])
+        };
+        let came = &s.came;
+        if came.unknowns == self.block.unknowns
+            && is_at(&came.values, values)
+            && is_at(&came.anchor, x0)
+        {
+            let known = came.multipliers.iter().zip(&s.weight);
+            s.multipliers.iter_mut().zip(known).for_each(|(own, (known, w))| *own = known / w);
+            return true;
+        }
+        self.block.unknowns.iter().all(|&u| values[u as usize] == x0[u as usize])
+    }
+    fn keep_multipliers(&self, x0: &[f64], values: &[f64], s: &mut LeastScratch) {
+        let LeastScratch { came, multipliers, weight, .. } = s;
+        came.unknowns.clone_from(&self.block.unknowns);
+        for (kept, of) in [(&mut came.values, values), (&mut came.anchor, x0)] {
+            kept.clear();
+            kept.extend(self.block.unknowns.iter().map(|&u| of[u as usize]));
+        }
+        came.multipliers.clear();
+        came.multipliers.extend(multipliers.iter().zip(weight).map(|(own, w)| own * *w));
     }
 
     /// Returns true if what is least is curved by [`FIRM`] in every direction that the rows leave free, by the
@@ -249,12 +325,13 @@ impl Least {
     }
 
     /// Freezes a weight for every row that makes it dimensionless.
-    fn weigh(&self, s: &mut LeastScratch) {
+    fn weigh(&self, scales: &[f64], s: &mut LeastScratch) {
         s.weight.clear();
         for r in 0..self.block.height() {
             let mut sum = 0.0;
             for e in self.block.pattern.range(r) {
-                let d = s.local.jacobian[e] * s.scale[self.block.pattern.column(e)];
+                let unknown = self.block.unknowns[self.block.pattern.column(e)];
+                let d = s.local.jacobian[e] * scales[unknown as usize];
                 sum += d * d;
             }
             let size = base::number::sqrt(sum);
@@ -276,39 +353,72 @@ impl Least {
         counted: Counted,
         x0: &[f64],
         values: &[f64],
-        curvature: Curvature,
+        matrix: Matrix,
+        w: &mut Workspace,
+        s: &mut LeastScratch,
+    ) -> Option<f64> {
+        let block = &self.block;
+        s.slopes.clear();
+        for r in 0..block.height() {
+            let weight = s.weight[r];
+            let slope = |e: usize| s.local.jacobian[e] * weight * s.scale[block.pattern.column(e)];
+            s.slopes.extend(block.pattern.range(r).map(slope));
+        }
+        let shift = match matrix {
+            Matrix::Kept => 1.0,
+            Matrix::Flat | Matrix::Exact => self.factorise(counted, values, matrix, w, s)?,
+        };
+        s.right.clear();
+        s.right.extend(block.unknowns.iter().zip(&s.scale).enumerate().map(|(i, (&u, scale))| {
+            match self.part(counted, i) {
+                Part::Counted => (x0[u as usize] - values[u as usize]) / scale,
+                Part::GoesAlong | Part::Constant => 0.0,
+            }
+        }));
+        // what the multipliers have now is taken off, so that rounding shrinks with the steps
+        for r in 0..block.height() {
+            for e in block.pattern.range(r) {
+                s.right[block.pattern.column(e)] -= s.slopes[e] * s.multipliers[r];
+            }
+        }
+        let sides = s.local.left.iter().zip(&s.local.right).zip(&s.weight);
+        s.right.extend(sides.map(|((left, right), weight)| -(left - right) * weight));
+        self.structure().solve(&mut s.ldl, &mut s.right);
+        for (multiplier, change) in s.multipliers.iter_mut().zip(&s.right[block.unknowns.len()..]) {
+            *multiplier += change;
+        }
+        Some(shift)
+    }
+
+    /// Factorises the matrix, its diagonal larger where it has to be; returns that, or nothing.
+    fn factorise(
+        &self,
+        counted: Counted,
+        values: &[f64],
+        matrix: Matrix,
         w: &mut Workspace,
         s: &mut LeastScratch,
     ) -> Option<f64> {
         let block = &self.block;
         let (n, m) = (block.unknowns.len(), block.height());
-        let structure = self.structure();
-        let part = |i: usize| self.part(counted, i);
-        let moves = |i: usize| part(i) != Part::Constant;
         s.entries.clear();
-        s.entries.extend((0..n).map(|i| held(part(i))));
+        s.entries.extend((0..n).map(|i| held(self.part(counted, i))));
         s.entries.resize(n + m, -DELTA);
-        for r in 0..m {
-            for e in block.pattern.range(r) {
-                let column = block.pattern.column(e);
-                let scale = if moves(column) { s.scale[column] } else { 0.0 };
-                s.entries.push(s.local.jacobian[e] * s.weight[r] * scale);
-            }
-        }
+        s.entries.extend_from_slice(&s.slopes);
         let first_curved = s.entries.len();
-        match curvature {
-            Curvature::None => s.entries.extend(block.second_places().map(|_| 0.0)),
-            Curvature::Exact => block.each_second(values, w, &mut |row, i, j, second| {
-                let factor = s.multipliers[row] * s.weight[row];
-                let value = factor * second * s.scale[i] * s.scale[j];
-                let counts = factor != 0.0 && value.is_finite() && moves(i) && moves(j);
-                s.entries.push(if counts { value } else { 0.0 });
-            }),
+        if matrix == Matrix::Exact {
+            let LeastScratch { entries, multipliers, weight, scale, .. } = &mut *s;
+            block.each_second(values, w, &mut |row, i, j, second| {
+                let value = multipliers[row] * weight[row] * second * scale[i] * scale[j];
+                entries.push(if value.is_finite() { value } else { 0.0 });
+            });
+        } else {
+            s.entries.extend(block.second_places().map(|_| 0.0));
         }
         let mut shift = 1.0;
         loop {
-            match structure.factorise(&s.entries, &mut s.ldl) {
-                Some(negative) if negative == m => break,
+            match self.structure().factorise(&s.entries, &mut s.ldl) {
+                Some(negative) if negative == m => return Some(shift),
                 Some(_) | None if shift > 1e8 => return None,
                 Some(_) | None => {
                     if s.entries[first_curved..].iter().all(|&h| h == 0.0) {
@@ -319,28 +429,6 @@ impl Least {
                 }
             }
         }
-        s.right.clear();
-        s.right.extend(block.unknowns.iter().zip(&s.scale).enumerate().map(|(i, (&u, scale))| {
-            match part(i) {
-                Part::Counted => (x0[u as usize] - values[u as usize]) / scale,
-                Part::GoesAlong | Part::Constant => 0.0,
-            }
-        }));
-        // what the multipliers have now is taken off, so that rounding shrinks with the steps
-        let mut entry = n + m;
-        for r in 0..m {
-            for e in block.pattern.range(r) {
-                s.right[block.pattern.column(e)] -= s.entries[entry] * s.multipliers[r];
-                entry += 1;
-            }
-        }
-        let residual = |r: usize| (s.local.left[r] - s.local.right[r]) * s.weight[r];
-        s.right.extend((0..m).map(|r| -residual(r)));
-        structure.solve(&mut s.ldl, &mut s.right);
-        for (multiplier, change) in s.multipliers.iter_mut().zip(&s.right[n..]) {
-            *multiplier += change;
-        }
-        Some(shift)
     }
 
     /// Goes along the step, shortened until the rows are not torn apart; returns the norm there.

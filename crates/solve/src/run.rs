@@ -45,9 +45,9 @@ impl Runner {
     pub fn new() -> Self {
         Self::default()
     }
-    /// Makes one for a state that leans where two branches meet.
-    pub fn leaning(leans: Vec<Lean>) -> Self {
-        Self { leans, ..Self::default() }
+    /// Says which way the states lean that it starts from from now on, where two branches meet.
+    pub fn lean(&mut self, leans: Vec<Lean>) {
+        self.leans = leans;
     }
 }
 
@@ -329,7 +329,8 @@ impl Drag {
 
 /// Fixes what does not change during the edit.
 fn start(plan: &Plan, runner: &mut Runner, x0: &[f64], changed: &[SlotIndex]) {
-    let Runner { frame, .. } = runner;
+    let Runner { frame, buffers, .. } = runner;
+    buffers.least.forget();
     frame.x0.clear();
     frame.x0.extend(x0.iter().map(|&v| if v.is_finite() { v } else { 0.0 }));
     frame.anchors.clear();
@@ -373,12 +374,12 @@ fn measure_scales(plan: &Plan, frame: &mut Frame) {
             *range = (range.0.min(v), range.1.max(v));
         }
     }
-    let scale = |&(low, high): &(f64, f64)| {
-        let extent = (high - low).max(high.abs()).max(low.abs());
-        if extent.is_finite() && extent > 0.0 { extent } else { 1.0 }
-    };
+    for (low, high) in &mut ranges {
+        let extent = (*high - *low).max(high.abs()).max(low.abs());
+        *low = if extent.is_finite() && extent > 0.0 { extent } else { 1.0 };
+    }
     frame.scales.clear();
-    frame.scales.extend(plan.slots.iter().map(|s| scale(&ranges[s.scale as usize])));
+    frame.scales.extend(plan.slots.iter().map(|s| ranges[s.scale as usize].0));
 }
 
 /// Returns true if a step that runs even where everything holds changes no bit.

@@ -362,6 +362,7 @@ impl Square {
         s: &mut SquareScratch,
     ) -> Solved {
         if let Some(solved) = self.solve_closed(last, values, scales, trust, w) {
+            s.work += self.block.core.len();
             return solved;
         }
         let is_linear = self.block.is_linear;

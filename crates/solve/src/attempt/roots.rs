@@ -48,6 +48,7 @@ impl Run<'_> {
         self.start_from_last(&step.targets);
         let known = square.all_solutions(self.values, &self.frame.scales, &mut self.buffers.work);
         let is_known = known.is_some();
+        self.buffers.square.work += known.iter().flatten().map(Vec::len).sum::<usize>();
         let mut found = known.unwrap_or_default();
         if reach == Reach::Near && !is_known {
             for way in [Trust::Any, Trust::Leap] {

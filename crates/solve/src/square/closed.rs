@@ -33,17 +33,17 @@ impl Square {
         let slots = self.pair();
         let start = slots.map(|s| values[s]);
         let base = self.block.conics(closed, values, w);
+        let here = side(&base)?;
         let side = match trust {
-            Trust::Branch => side(&self.block.conics(closed, last, w), [0.0; 2])?,
-            Trust::Any | Trust::Leap => side(&base, [0.0; 2])?,
+            Trust::Branch => side(&self.block.conics(closed, last, w))?,
+            Trust::Any | Trust::Leap => here,
         };
-        let first = newton(&base)?;
-        if self::side(&base, [0.0; 2]) == Some(side) && base.is_guarded && is_rounding(&base, start)
-        {
+        if here == side && base.is_guarded && is_rounding(&base, start) {
             return Some(Solved::Regular);
         }
+        let first = newton(&base)?;
         let roots = roots(&base)?;
-        let own = |p: &&[f64; 2]| self::side(&base, **p) == Some(side);
+        let own = |p: &&[f64; 2]| determinant(&base, **p) * side > 0.0;
         if trust == Trust::Branch {
             let root = roots.all().iter().find(own);
             let Some(root) = root.filter(|p| !bends(first, **p, slots, scales)) else {
@@ -89,7 +89,7 @@ impl Square {
     }
 
     /// Puts the unknowns so far from a start and corrects them by Newton's step; returns true if that is a
-    /// solution, and nothing where the correction is more than that.
+    /// solution. Where the correction is more than that they are put back.
     fn put(
         &self,
         closed: &Closed,
@@ -102,9 +102,16 @@ impl Square {
         let slots = self.pair();
         (0..2).for_each(|i| values[slots[i]] = start[i] + by[i]);
         let there = self.block.conics(closed, values, w);
-        let correction = newton(&there)?;
-        (0..2).for_each(|i| values[slots[i]] += correction[i]);
-        (size(correction, slots, scales) <= CORRECTION).then_some(there.is_guarded)
+        match newton(&there).filter(|&step| size(step, slots, scales) <= CORRECTION) {
+            Some(step) => {
+                (0..2).for_each(|i| values[slots[i]] += step[i]);
+                Some(there.is_guarded)
+            }
+            None => {
+                (0..2).for_each(|i| values[slots[i]] = start[i]);
+                None
+            }
+        }
     }
 }
 
@@ -146,7 +153,8 @@ fn roots(conics: &Conics) -> Option<Roots> {
         }
     };
     let n = norm(line.slope);
-    let whole = norm(a.slope) * p.abs() + norm(b.slope) * q.abs();
+    let largest = |row: &Conic| row.slope[0].abs().max(row.slope[1].abs());
+    let whole = largest(&a) * p.abs() + largest(&b) * q.abs();
     if n <= FLAT * whole || n == 0.0 || !n.is_finite() {
         return None;
     }
@@ -159,8 +167,10 @@ fn roots(conics: &Conics) -> Option<Roots> {
     let one = curve.one + dot(curve.slope, foot) + second(&curve, foot);
     let middle = -0.5 * along / square;
     let half = middle * middle - one / square;
-    let steep = norm(slope(&curve, place(middle))) + 2.0 * square.abs() * sqrt(half.abs());
-    if !half.is_finite() || 2.0 * square.abs() * sqrt(half.abs()) <= NEAR * steep {
+    // how steep the curve is along the line where they meet, beside how steep it is across
+    let rise = 4.0 * square * square * half;
+    let steep = slope(&curve, place(middle));
+    if !half.is_finite() || rise.abs() <= NEAR * NEAR * (dot(steep, steep) + rise.abs()) {
         return None;
     }
     if half < 0.0 {
@@ -187,11 +197,18 @@ fn slope(row: &Conic, at: [f64; 2]) -> [f64; 2] {
     [row.slope[0] + 2.0 * uu * at[0] + uv * at[1], row.slope[1] + uv * at[0] + 2.0 * vv * at[1]]
 }
 
-/// Returns the sign of the determinant at a place, where that is told.
-fn side(conics: &Conics, at: [f64; 2]) -> Option<f64> {
+/// Returns the determinant at a place.
+fn determinant(conics: &Conics, at: [f64; 2]) -> f64 {
     let [a, b] = conics.rows.map(|row| slope(&row, at));
+    cross(a, b)
+}
+
+/// Returns the sign of the determinant at the state that the rows are around, where that is told.
+fn side(conics: &Conics) -> Option<f64> {
+    let [a, b] = conics.rows.map(|row| row.slope);
     let determinant = cross(a, b);
-    (determinant.abs() > FLAT * norm(a) * norm(b)).then(|| determinant.signum())
+    let told = determinant * determinant > FLAT * FLAT * dot(a, a) * dot(b, b);
+    told.then(|| determinant.signum())
 }
 
 /// Returns true if a way to a solution bends so much that it has to be taken in several strides: the second
