@@ -146,7 +146,6 @@ fn large_changes_end_where_small_steps_do_and_come_back() {
         }
     }
     assert!(wrong.is_empty(), "{count:?}\n{}", wrong.join("\n"));
-    println!("{count:?}");
     assert!(count.reached > 50, "there was something to try: {count:?}");
     let missed = f64::from(count.refused) / f64::from(count.reached + count.refused);
     assert!(missed <= 0.001, "reachable, and yet refused: {count:?}");

@@ -71,6 +71,10 @@ impl<I: Id, T> IdVec<I, T> {
         self.items.push(item);
         I::from_index(self.items.len() - 1)
     }
+    /// Makes room for so many elements more.
+    pub fn reserve(&mut self, more: usize) {
+        self.items.reserve(more);
+    }
     /// Adds elements, in order.
     pub fn extend(&mut self, items: impl IntoIterator<Item = T>) {
         self.items.extend(items);

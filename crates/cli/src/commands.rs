@@ -1,11 +1,11 @@
 //! The subcommands that work on documents: each returns what to print and whether all is well.
 //!
-//! With `--json` each prints one JSON object: `check` {files: [{path, diagnostics}]}, `test` {files:
-//! [{path, checks}], passed, failed}, `run` {path, values, status}, `explain` the explanation, what
-//! holds the thing in `held`, and where else it could be in `ghosts`, `recognise`
-//! {path, classes}, `draw`
-//! {path, svg}, `fmt` {files: [{path, changed}]}. The shapes of their parts are those of
-//! `session::view`.
+//! With `--json` each prints one JSON object: `check` {files: [{path, diagnostics, status}], errors,
+//! warnings}, `test` {files: [{path, checks, diagnostics}], passed, failed}, `run` {path, values, status,
+//! diagnostics}, `explain` the explanation, with what holds the thing in `held`, where else it could be in
+//! `ghosts` and what would make less to be solved together in `advice`, `analyse` the analysis, `recognise`
+//! {path, classes}, `draw` {path, svg}, `fmt` {files: [{path, changed}]}. The shapes of their parts are
+//! those of `session::view`.
 
 use crate::documents::{self, OpenError, Opened, find, open};
 use serde_json::{Value, json};

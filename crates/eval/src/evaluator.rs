@@ -23,7 +23,7 @@ pub const DEEPEST_MESSAGES: u32 = 200;
 /// How deep terms may be nested in each other, those of opened messages included.
 const DEEPEST_TERMS: u32 = 1000;
 /// How many terms one question may evaluate: what a mistyped recursion may cost.
-pub const MOST_TERMS: u64 = 20_000_000;
+const MOST_TERMS: u64 = 20_000_000;
 /// How many terms the rule of a constraint may evaluate: one that opens into more than a million is not
 /// solved anyway.
 const MOST_TERMS_OF_RULE: u64 = 2_000_000;

@@ -43,7 +43,7 @@ mod verdict;
 mod write;
 
 pub use answer::{Answer, Closure, Made};
-pub use evaluator::{DEEPEST_MESSAGES, Evaluator, MOST_TERMS};
+pub use evaluator::{DEEPEST_MESSAGES, Evaluator};
 pub use fault::{Fault, FaultKind};
 pub use picture::{Grip, Picture};
 pub use verdict::Verdict;

@@ -212,26 +212,29 @@ impl<'a> Evaluator<'a> {
 /// Cost: linear; a value that speaks of many later ones is looked at once more for some of them.
 pub fn given_values(document: &Document, structure: &Structure) -> (Values, Vec<Fault>) {
     let mut values = Values::new(structure.slots.len());
-    for (id, slot) in structure.slots.iter() {
-        if !slot.primitive.is_number() {
-            values.put(id, Value::Text("".into()));
-        }
-    }
     let tables = Rc::new(Tables::new(document));
     let mut faults = Vec::new();
     let nothing = Values::default();
     let constants = Evaluator::with_tables(document, structure, &nothing, tables.clone());
     let mut is_open: IdVec<SlotId, bool> = IdVec::filled(false, structure.slots.len());
     let mut next: VecDeque<SlotId> = VecDeque::new();
-    for slot in structure.slots.ids() {
-        match structure.given(slot).map(|given| &given.term) {
-            None => {}
+    for (slot, s) in structure.slots.iter() {
+        if !s.primitive.is_number() {
+            values.put(slot, Value::Text("".into()));
+        }
+        match (structure.given(slot).map(|given| &given.term), s.primitive) {
+            (None, _) => {}
             // speaks of nothing, as most values that are given
-            Some(Term::Number { .. }) => match constants.given(slot) {
+            (Some(Term::Number { value, dimension, .. }), Primitive::Real(wanted))
+                if wanted == *dimension =>
+            {
+                values.put(slot, Value::Number(*value));
+            }
+            (Some(Term::Number { .. }), _) => match constants.given(slot) {
                 Ok(value) => value.into_iter().for_each(|value| values.put(slot, value)),
                 Err(fault) => faults.push(fault),
             },
-            Some(_) => {
+            (Some(_), _) => {
                 is_open[slot] = true;
                 next.push_back(slot);
             }

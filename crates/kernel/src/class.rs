@@ -1,6 +1,6 @@
 //! Classes: what the things of a kind have in common.
 
-use crate::document::PartRef;
+use crate::document::{PartRef, Side};
 use crate::path::Path;
 use crate::term::{OriginId, Term};
 use base::Name;
@@ -30,6 +30,20 @@ impl Primitive {
         match self {
             Self::Real(_) | Self::Integer | Self::Bool => true,
             Self::Text | Self::Color => false,
+        }
+    }
+    /// Returns true if the slot holds whole numbers alone (truth values included).
+    pub fn is_whole(self) -> bool {
+        match self {
+            Self::Integer | Self::Bool => true,
+            Self::Real(_) | Self::Text | Self::Color => false,
+        }
+    }
+    /// Returns the dimension of its numbers; that of a plain number where it has none.
+    pub fn dimension(self) -> Dimension {
+        match self {
+            Self::Real(dimension) => dimension,
+            Self::Integer | Self::Bool | Self::Text | Self::Color => Dimension::default(),
         }
     }
 }
@@ -115,6 +129,8 @@ pub struct Class {
     pub inserts: Vec<Insert>,
     /// Declared stays and anchors.
     pub stays: Vec<Stay>,
+    /// Which way places and numbers of its things go from where two branches meet, in order.
+    pub sides: Vec<Side>,
     /// Parts that stick to others when a thing of this class is placed, in order.
     pub attachers: Vec<Path>,
     /// What it sets of constraints of its things and their parts, in order.
@@ -149,6 +165,7 @@ impl Class {
             merges: Vec::new(),
             inserts: Vec::new(),
             stays: Vec::new(),
+            sides: Vec::new(),
             attachers: Vec::new(),
             switches: Vec::new(),
             without: Vec::new(),

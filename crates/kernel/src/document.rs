@@ -27,14 +27,12 @@ pub struct Document {
     pub vertical: Vertical,
     /// How many base units of length are in a metre: 1000 for `unit mm`, 1 without a unit line.
     pub units_per_metre: f64,
-    /// Which way things go that stand where two branches meet.
-    pub sides: Vec<Side>,
 }
 
 /// Which way a place or a number goes from where two branches meet, and its values do not say it.
 #[derive(Clone, PartialEq, Debug)]
 pub struct Side {
-    /// The place or number, from the document.
+    /// The place or number, from the thing whose class says it.
     pub path: Path,
     /// Which way.
     pub way: SideWay,

@@ -79,7 +79,7 @@ impl FaultKind {
 /// How many things a document may have.
 ///
 /// A thing costs some fifty bytes; the bound keeps a mistyped count from filling the memory.
-const MOST_THINGS: usize = 4_000_000;
+pub const MOST_THINGS: usize = 4_000_000;
 
 /// How many things may be made and copied on the way to a document.
 const MOST_COPIES: usize = 2 * MOST_THINGS;

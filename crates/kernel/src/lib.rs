@@ -28,7 +28,7 @@ pub use class::{
 };
 pub use command::{Command, Literal};
 pub use document::{Document, PartRef, PartRole, Side, SideWay, Vertical, Voices};
-pub use instantiate::{Fault, FaultKind, faults_of, instantiate, instantiate_again};
+pub use instantiate::{Fault, FaultKind, MOST_THINGS, faults_of, instantiate, instantiate_again};
 pub use path::{Path, Step};
 pub use structure::{
     Astray, Condition, ConstraintInstance, DOCUMENT, Form, GivenId, GivenIn, GivenTerm, Givens,

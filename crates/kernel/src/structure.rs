@@ -317,6 +317,10 @@ impl Form {
         let (first, n) = (self.things[thing].first_part.0, self.things[thing].parts);
         fields.into_iter().filter(|&i| i < n).map(|i| ThingId(first + i)).collect()
     }
+    /// Returns true if the things are those of another structure, which was edited: none has come or gone.
+    pub fn has_things_of(&self, other: &Self) -> bool {
+        Rc::ptr_eq(&self.things, &other.things)
+    }
     /// Returns the parts of a thing, in order.
     pub fn parts(
         &self,

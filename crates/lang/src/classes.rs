@@ -4,7 +4,7 @@ use crate::lower::{Lowerer, OWN};
 use crate::scope::Scope;
 use base::{Diagnostic, FileId, Name, Place, Span};
 use expr::dimension::Dimension;
-use kernel::{Class, ClassId, ClassKind, Count, OriginId, Primitive, Superclass};
+use kernel::{Class, ClassId, ClassKind, Count, MOST_THINGS, OriginId, Primitive, Superclass};
 use std::collections::BTreeMap;
 use syntax::SyntaxKind;
 use syntax::ast::{self, AstNode, Member, TypeShape};
@@ -243,8 +243,13 @@ impl Lowerer<'_> {
     pub(crate) fn declared_count(&mut self, scope: &Scope, ty: &ast::Type) -> Option<Count> {
         let TypeShape::List { count, .. } = ty.shape() else { return None };
         let Some(count) = count else { return Some(Count::Given) };
-        match self.constant(scope, &count).and_then(|n| u32::try_from(n).ok()) {
-            Some(n) => Some(Count::Fixed(n)),
+        match self.constant(scope, &count).filter(|n| *n >= 0) {
+            Some(n) if n <= MOST_THINGS as i64 => Some(Count::Fixed(n as u32)),
+            Some(n) => {
+                let message = format!("{n} elements are more things than a document may have");
+                self.error("too-many-things", scope.file, count.span(), message);
+                Some(Count::Fixed(0))
+            }
             None => {
                 let message =
                     "a list's count is a whole number, known as the text stands".to_string();

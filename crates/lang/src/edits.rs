@@ -215,7 +215,10 @@ impl Text<'_> {
     /// Returns the members of one kind that list a path, those of checks left out.
     fn lists(&self, kind: SyntaxKind, path: &Path) -> Vec<SyntaxNode> {
         use syntax::ast::AstNode;
-        let members = self.file.syntax().descendants().filter(|n| n.kind() == kind);
+        let holding = self.lowered.effective_parse.holding(kind);
+        let holding = holding.filter_map(|span| self.file.member_at(span));
+        let within = holding.flat_map(|m| m.syntax().descendants().collect::<Vec<_>>());
+        let members = within.filter(|n| n.kind() == kind);
         let names = |n: &SyntaxNode| {
             let mut paths = n.children().filter_map(Expr::cast);
             let in_check = n.ancestors().any(|a| a.kind() == SyntaxKind::Check);

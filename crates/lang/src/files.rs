@@ -7,7 +7,7 @@ use expr::dimension::Dimension;
 use kernel::{ClassId, OriginId, Part, Vertical};
 use std::rc::Rc;
 use syntax::ast::{self, AstNode, Member};
-use syntax::{Parse, SyntaxElement, SyntaxKind, SyntaxToken};
+use syntax::{Parse, SyntaxKind, SyntaxToken};
 
 /// A text that a document is made of.
 #[derive(Clone, Debug)]
@@ -188,8 +188,11 @@ fn name_of(path: &ast::DottedName) -> String {
 
 /// Returns the word after a number that was to be its unit, where that is what a diagnostic is at.
 fn strange_unit(parse: &Parse, diagnostic: &Diagnostic) -> Option<SyntaxToken> {
-    let mut tokens = parse.syntax().descendants_with_tokens().filter_map(SyntaxElement::into_token);
-    let word = tokens.find(|t| syntax::span_of_token(t) == diagnostic.place.span)?;
+    let span = diagnostic.place.span;
+    let word = syntax::token_from(&parse.syntax(), span.start)?;
+    if syntax::span_of_token(&word) != span {
+        return None;
+    }
     let before = word.prev_token()?;
     let number = if before.kind() == SyntaxKind::Whitespace && !before.text().contains('\n') {
         before.prev_token()?

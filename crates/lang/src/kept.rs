@@ -11,6 +11,7 @@ use crate::members::{Pending, is_constant, values_alone};
 use crate::scope::Scope;
 use base::{Id, Place, Span};
 use kernel::{Count, Given, Part};
+use std::ops::Range;
 use std::rc::Rc;
 use syntax::SyntaxKind;
 use syntax::ast::{Member, Value};
@@ -22,6 +23,17 @@ pub(crate) struct Added {
     part: u32,
     first_given: u32,
     givens: u32,
+}
+
+/// Members at the top of the text, one after the other, that say what they said.
+#[derive(Clone, Debug)]
+pub(crate) struct Run {
+    members: Range<usize>,
+    /// The part that the first of them is, now, and which member it was.
+    part: u32,
+    was: usize,
+    /// How far they have moved.
+    shift: i64,
 }
 
 /// Which members of a text are those of the text before.
@@ -37,14 +49,21 @@ struct Shared<'l> {
 }
 
 impl Shared<'_> {
-    /// Returns what a member added before, and how far it has moved.
-    fn known(&self, member: usize) -> Option<(Added, i64)> {
+    /// Returns which member one was before, where that may be kept, and how far it has moved.
+    fn known(&self, member: usize) -> Option<(usize, i64)> {
         let (was, shift) = match member.checked_sub(self.tail.0) {
             Some(behind) => (self.tail.1 + behind, self.shift),
             None if member < self.head => (member, 0),
             None => return None,
         };
-        Some(((*self.before.added.get(was)?)?, shift))
+        self.before.added.get(was)?.map(|_| (was, shift))
+    }
+}
+
+impl Run {
+    /// Returns true if a member that was another one stands behind these, as it did.
+    fn goes_on(&self, member: usize, was: usize, shift: i64) -> bool {
+        self.members.end == member && self.was + self.members.len() == was && self.shift == shift
     }
 }
 
@@ -77,6 +96,9 @@ impl<'l> Lowerer<'l> {
         let parse = self.files[OWN].parse.clone();
         let file = parse.file();
         self.added = vec![None; parse.outline().count()];
+        if let Some(Shared { before, .. }) = shared {
+            self.reserve(before);
+        }
         let classes = self.document.classes.len();
         for (member, (_, span)) in parse.outline().enumerate() {
             let known = shared.and_then(|s| Some((s.before, s.known(member)?)));
@@ -84,7 +106,15 @@ impl<'l> Lowerer<'l> {
             if let Some((before, (was, shift))) = known
                 && self.keep_part(scope, before, was, span)
             {
-                self.pending.push(Pending::Kept { member, part, was, shift });
+                match self.pending.last_mut() {
+                    Some(Pending::Kept(run)) if run.goes_on(member, was, shift) => {
+                        run.members.end += 1;
+                    }
+                    _ => {
+                        let members = member..member + 1;
+                        self.pending.push(Pending::Kept(Run { members, part, was, shift }));
+                    }
+                }
                 continue;
             }
             let Some(node) = file.member_at(span) else { continue };
@@ -107,8 +137,20 @@ impl<'l> Lowerer<'l> {
         }
     }
 
+    /// Makes room for as many parts and values as there were.
+    fn reserve(&mut self, before: &Lowered) {
+        let class = &mut self.document.classes[self.document.root];
+        let was = &before.document.classes[before.document.root];
+        class.parts.reserve(was.parts.len());
+        class.givens.reserve(was.givens.len());
+        self.parts.reserve(was.parts.len());
+        self.named_at.reserve(was.parts.len());
+        self.origins.reserve(was.parts.len() + was.givens.len());
+    }
+
     /// Declares a part as it was declared before; false where its name is taken now.
-    fn keep_part(&mut self, scope: &Scope, before: &Lowered, added: Added, span: Span) -> bool {
+    fn keep_part(&mut self, scope: &Scope, before: &Lowered, was: usize, span: Span) -> bool {
+        let Some(Some(added)) = before.added.get(was) else { return false };
         let root = before.document.root;
         let part = &before.document.classes[root].parts[added.part as usize];
         if self.named_at.contains_key(&(scope.class(), part.name.clone())) {
@@ -121,24 +163,27 @@ impl<'l> Lowerer<'l> {
         true
     }
 
-    /// Gives a part that was kept the values that it was given before.
-    pub(crate) fn keep_values(&mut self, member: usize, part: u32, was: Added, shift: i64) {
-        let Some(before) = self.before else { return };
-        let (root, first) = (self.document.root, was.first_given as usize);
-        let first_given = self.document.classes[root].givens.len() as u32;
+    /// Gives parts that were kept the values that they were given before.
+    pub(crate) fn keep_values(&mut self, run: Run) {
+        let (Some(before), root) = (self.before, self.document.root) else { return };
         let givens = &before.document.classes[before.document.root].givens;
-        for given in &givens[first..first + was.givens as usize] {
-            let place = before.origins.place(given.origin);
-            let moved = |at: u32| (i64::from(at) + shift) as u32;
-            let span = Span::new(moved(place.span.start), moved(place.span.end));
-            let origin = self.origin(OWN, span);
-            let given = match given.origin == origin {
-                true => given.clone(),
-                false => Rc::new(Given { origin, ..Given::clone(given) }),
-            };
-            self.document.classes[root].givens.push(given);
+        let were = before.added[run.was..].iter().flatten();
+        for ((member, part), was) in run.members.zip(run.part..).zip(were) {
+            let first_given = self.document.classes[root].givens.len() as u32;
+            let first = was.first_given as usize;
+            for given in &givens[first..first + was.givens as usize] {
+                let place = before.origins.place(given.origin);
+                let moved = |at: u32| (i64::from(at) + run.shift) as u32;
+                let span = Span::new(moved(place.span.start), moved(place.span.end));
+                let origin = self.origin(OWN, span);
+                let given = match given.origin == origin {
+                    true => given.clone(),
+                    false => Rc::new(Given { origin, ..Given::clone(given) }),
+                };
+                self.document.classes[root].givens.push(given);
+            }
+            self.added[member] = Some(Added { part, first_given, givens: was.givens });
         }
-        self.added[member] = Some(Added { part, first_given, givens: was.givens });
     }
 
     /// Returns what tells whether values did more than give: givens, classes, diagnostics.

@@ -15,7 +15,7 @@ use kernel::{ClassId, Path, Step};
 use syntax::ast::{self, AstNode, Expr, Member};
 
 /// How many members all `for` of a document may come to.
-const MOST_MEMBERS: usize = 1_000_000;
+pub(crate) const MOST_MEMBERS: usize = 1_000_000;
 
 /// What a loop goes through.
 pub(crate) struct Turns {
@@ -65,19 +65,20 @@ impl Lowerer<'_> {
         let Some(range) = each.range() else { return };
         let Some(turns) = self.turns(scope, each) else { return };
         let members = members_of(each);
+        let most = turns.count.saturating_sub(from) as usize;
+        if !self.may_unroll(scope, &range, most.saturating_mul(members.len().max(1))) {
+            return;
+        }
         for turn in from..turns.count {
-            if !self.may_unroll(scope, &range, members.len()) {
-                return;
-            }
             let inner = turn_of(scope, each, &turns, turn);
             self.take_turn(&inner, each, &members);
         }
     }
 
-    /// Counts members that `for` makes; reports once that there are too many.
+    /// Counts members that `for` makes, before they are made; reports once that there are too many.
     pub(crate) fn may_unroll(&mut self, scope: &Scope, range: &Expr, members: usize) -> bool {
         let was = self.unrolled;
-        self.unrolled += members.max(1);
+        self.unrolled = was.saturating_add(members);
         if was <= MOST_MEMBERS && self.unrolled > MOST_MEMBERS {
             let message = format!("`for` makes more than {MOST_MEMBERS} members here");
             self.error("too-many-members", scope.file, range.span(), message);
@@ -150,7 +151,7 @@ impl Lowerer<'_> {
             self.report(d.hint("declare it as `List of 3 C`, or with its elements, `= [a, b]`"));
             return None;
         };
-        let count = (elements + 1).saturating_sub(together);
+        let count = elements.saturating_sub(together - 1);
         Some(Turns { count, over: Over::Elements { path, element, together } })
     }
 
@@ -200,7 +201,7 @@ impl Lowerer<'_> {
                 let above = above.map(|c| Scope::of(scope.file, c));
                 let before = above.and_then(|above| self.given_count(&above, &list)).unwrap_or(0);
                 let together = each.names().count() as u32;
-                let from = (before + 1).saturating_sub(together);
+                let from = before.saturating_sub(together.saturating_sub(1));
                 let scope = Scope::of(scope.file, class);
                 self.pending.push(Pending::Each { scope, each: each.clone(), from });
             }

@@ -231,7 +231,6 @@ impl<'l> Lowerer<'l> {
                 root: ClassId(0),
                 vertical: Vertical::Up,
                 units_per_metre: 1.0,
-                sides: Vec::new(),
             },
             visible: Visible::default(),
             origins: Origins::default(),

@@ -1,7 +1,7 @@
 //! Members: parts and messages are declared first, then everything that speaks of parts is lowered.
 
 use crate::counts::whole;
-use crate::kept::Added;
+use crate::kept::Run;
 use crate::kinds::Kind;
 use crate::lower::{Lowerer, OWN};
 use crate::scope::Scope;
@@ -31,8 +31,8 @@ pub(crate) enum Pending {
     Each { scope: Scope, each: ast::For, from: u32 },
     /// What a reference names, by a path from the document.
     Absolute { scope: Scope, path: Path, target: Expr },
-    /// The values of a part of the document that is kept: where it stands, and what it was.
-    Kept { member: usize, part: u32, was: Added, shift: i64 },
+    /// The values of parts of the document that are kept.
+    Kept(Run),
     /// The values of one part of the document follow.
     Note,
     /// They end here: so many values of the part of this index, which is this member.
@@ -82,16 +82,13 @@ impl Lowerer<'_> {
                 Member::Merge(_)
                 | Member::Stay(_)
                 | Member::Anchor(_)
+                | Member::Side(_)
                 | Member::Insert(_)
                 | Member::Without(_)
                 | Member::Replace(_)
                 | Member::Attachers(_) => {
                     self.pending.push(Pending::Member(scope.clone(), member.clone()));
                 }
-                Member::Side(_) if self.is_top_level(scope) => {
-                    self.pending.push(Pending::Member(scope.clone(), member.clone()));
-                }
-                Member::Side(_) if scope.file != OWN => {}
                 Member::Unit(_) | Member::Y(_) | Member::Use(_) | Member::Error(_) => {}
                 Member::Class(_) | Member::Check(_) if self.is_top_level(scope) => {}
                 Member::Class(_) if scope.file != OWN => {}
@@ -118,7 +115,6 @@ impl Lowerer<'_> {
             Member::If(_) => "members under a condition are",
             Member::When(_) => "events are",
             Member::View(_) => "views of one's own are",
-            Member::Side(_) => "orientations written elsewhere than at the top of a document are",
             Member::Toolbox(_) => "toolboxes are",
             Member::Lesson(_) => "lessons are",
             Member::Program(_) => "programs are",

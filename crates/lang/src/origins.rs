@@ -14,6 +14,10 @@ pub struct Origins {
 }
 
 impl Origins {
+    /// Makes room for so many places.
+    pub(crate) fn reserve(&mut self, more: usize) {
+        self.places.reserve(more);
+    }
     pub(crate) fn add(&mut self, place: Place) -> OriginId {
         self.places.push(place)
     }

@@ -81,9 +81,7 @@ impl Lowerer<'_> {
         });
         for pending in pending {
             match pending {
-                Pending::Kept { member, part, was, shift } => {
-                    self.keep_values(member, part, was, shift);
-                }
+                Pending::Kept(run) => self.keep_values(run),
                 Pending::Note => noted = self.so_far(),
                 Pending::Noted { member, part, givens } => self.note(member, part, givens, noted),
                 Pending::Each { scope, each, from } => {
@@ -248,7 +246,9 @@ impl Lowerer<'_> {
                 let message = format!("{path} is neither a place nor a number");
                 self.error("side-of-nothing", scope.file, target.span(), message);
             }
-            Some(way) => self.document.sides.push(Side { path, way, origin }),
+            Some(way) => {
+                self.document.classes[scope.class()].sides.push(Side { path, way, origin });
+            }
             None => {
                 let ways = SideWay::ALL.into_iter().filter(fits).map(SideWay::word);
                 let ways = ways.collect::<Vec<_>>().join(", ");

@@ -3,9 +3,11 @@
 use crate::classes::small_first;
 use crate::kinds::Kind;
 use crate::lower::Lowerer;
-use base::{Diagnostic, Name, Place};
+use base::{Diagnostic, Mixer, Name, Place};
+use indexmap::IndexSet;
 use kernel::{ClassId, Search, Step, builtin};
-use std::collections::{BTreeMap, BTreeSet};
+use std::collections::BTreeMap;
+use std::hash::BuildHasherDefault;
 use syntax::ast::AstNode;
 use syntax::edit::{Spot, insert_member};
 
@@ -67,7 +69,8 @@ impl Lowerer<'_> {
     fn report_overrides(&mut self) {
         let mut line: (Option<ClassId>, Vec<ClassId>) = (None, Vec::new());
         // most names are no message's anywhere
-        let messages: BTreeSet<Name> = self.messages.keys().map(|(_, name)| name.clone()).collect();
+        let messages: IndexSet<Name, BuildHasherDefault<Mixer>> =
+            self.messages.keys().map(|(_, name)| name.clone()).collect();
         for index in 0..self.named_at.len() {
             let Some((&(class, ref name), &place)) = self.named_at.get_index(index) else { break };
             if line.0 != Some(class) {

@@ -23,12 +23,7 @@ pub(crate) fn refused(code: &'static str, message: String) -> Diagnostic {
 
 impl<'l> Text<'l> {
     pub(crate) fn of(lowered: &'l Lowered) -> Self {
-        let own = &lowered.files[OWN];
-        let file = if own.text == lowered.effective {
-            own.parse.file()
-        } else {
-            syntax::parse(OWN, &lowered.effective).file()
-        };
+        let file = lowered.effective_parse.file();
         Self { lowered, file }
     }
 
@@ -124,10 +119,19 @@ impl<'l> Text<'l> {
         ends_like(e, path) && self.path_of(e).as_ref() == Some(path)
     }
 
+    /// Returns the members at the top of the text that are of a kind. It costs less than to look at all.
+    pub(crate) fn members_of(
+        &self,
+        kind: SyntaxKind,
+    ) -> impl DoubleEndedIterator<Item = Member> + use<'_, 'l> {
+        let outline = self.lowered.effective_parse.outline();
+        let of_kind: Vec<Span> = outline.filter(|(k, _)| *k == kind).map(|(_, s)| s).collect();
+        of_kind.into_iter().filter_map(|span| self.file.member_at(span))
+    }
     /// Finds the class of this name that the document declares.
     pub(crate) fn class(&self, path: &Path) -> Option<ast::Class> {
         let [Step::Part(name)] = path.0.as_slice() else { return None };
-        self.file.members().find_map(|m| match m {
+        self.members_of(SyntaxKind::Class).find_map(|m| match m {
             Member::Class(c) if c.name().is_some_and(|w| w.name() == *name) => Some(c),
             _ => None,
         })

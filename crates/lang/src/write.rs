@@ -3,16 +3,17 @@
 //! A value that the thing's own text gives is rewritten where it stands, number by number; any other
 //! is added to the thing's own body, never to a class.
 
-use crate::lower::{Lowered, OWN};
+use crate::lower::Lowered;
 use crate::numbers::{from_bare, from_si, write_number};
 use crate::paths::loose_path;
+use base::Span;
 use expr::dimension::Dimension;
 use indexmap::IndexMap;
 use kernel::{ClassId, ClassKind, Document, Literal, Path, Primitive, Step};
-use std::collections::BTreeMap;
-use syntax::SyntaxNode;
+use std::collections::{BTreeMap, BTreeSet};
 use syntax::ast::{self, AstNode, Expr, Member};
 use syntax::edit::{self, Spot, TextEdit};
+use syntax::{SyntaxKind, SyntaxNode};
 
 /// Returns the edits of the text that give these parts, by paths from the document, these values.
 ///
@@ -23,13 +24,8 @@ pub fn write_values(lowered: &Lowered, writes: &[(Path, Literal)]) -> Vec<TextEd
 
 /// Returns the edits of the effective text that give these parts these values.
 pub(crate) fn value_edits(lowered: &Lowered, writes: &[(Path, Literal)]) -> Vec<TextEdit> {
-    let own = &lowered.files[OWN];
-    let file = if own.text == lowered.effective {
-        own.parse.file()
-    } else {
-        syntax::parse(OWN, &lowered.effective).file()
-    };
-    let members = Members::of(file.members());
+    let file = lowered.effective_parse.file();
+    let members = Members::of(about(lowered, &file, writes).into_iter());
     let mut writer =
         Writer { lowered, document: &lowered.document, edits: Vec::new(), added: IndexMap::new() };
     for (path, literal) in writes {
@@ -51,6 +47,26 @@ pub(crate) fn value_edits(lowered: &Lowered, writes: &[(Path, Literal)]) -> Vec<
         edits.push(edit::insert_member(spot, &joined(texts)));
     }
     edits
+}
+
+/// Returns the members of the document that may speak of what is written, in the order of the text.
+fn about(lowered: &Lowered, file: &ast::File, writes: &[(Path, Literal)]) -> Vec<Member> {
+    let root = lowered.document.root;
+    let declared = |(path, _): &(Path, Literal)| {
+        let Some(Step::Part(name)) = path.0.first() else { return None };
+        let part = lowered.parts.get(&(root, name.clone()))?;
+        let origin = lowered.document.classes[root].parts.get(*part)?.origin;
+        Some(lowered.origins.place(origin).span.end)
+    };
+    let ends: BTreeSet<u32> = writes.iter().filter_map(declared).collect();
+    let speaks = |(kind, span): &(SyntaxKind, Span)| match kind {
+        SyntaxKind::Assign => true,
+        // where it begins depends on whether comments count
+        SyntaxKind::Part => ends.contains(&span.end),
+        _ => false,
+    };
+    let outline = lowered.effective_parse.outline().filter(speaks);
+    outline.filter_map(|(_, span)| file.member_at(span)).collect()
 }
 
 /// Finds the class whose prototype a path begins at, where it is declared, and the rest of the path.

@@ -110,6 +110,25 @@ fn a_billion_turns_are_too_many() {
 #[test]
 fn a_list_of_a_billion_is_too_long() {
     assert_eq!(codes("xs: List of 1000000000 Real"), ["too-many-things"]);
+    assert_eq!(codes("xs: List of 5000000 Real"), ["too-many-things"]);
+    assert_eq!(codes("xs: List of 99999999999 Real"), ["too-many-things"]);
+    let twice = "xs: List of 3000000 Real\nys: List of 3000000 Real";
+    assert_eq!(codes(twice), ["too-many-things"]);
+}
+#[test]
+fn turns_are_counted_before_any_is_taken() {
+    for count in [4_294_967_295_u32, 1_000_000_000, 4_000_001] {
+        let text = format!("xs: List of {count} Real\nfor x in xs {{ constraint x = 1 }}");
+        assert_eq!(codes(&text), ["too-many-things"], "{text}");
+        let text = format!("xs: List of {count} Real\nfor a, b in xs.neighbours {{ merge a = b }}");
+        assert_eq!(codes(&text), ["too-many-things"], "{text}");
+    }
+    let text = "xs: List of 4000000 Real\nfor x in xs { constraint x = 1 }";
+    assert!(codes(text).contains(&"too-many-members"));
+    for last in ["4294967295", "8000000000000000", "1000000"] {
+        let text = format!("for i in 0..{last} {{ p: Real = i  constraint p = i }}");
+        assert_eq!(codes(&text), ["too-many-members"], "{text}");
+    }
 }
 #[test]
 fn rings_of_merges_are_one_part() {

@@ -131,6 +131,10 @@ impl Places {
         }
         Self { of, first, slots }
     }
+    /// Returns the coordinates of every place.
+    fn all(&self) -> impl Iterator<Item = &[SlotId]> {
+        self.first.windows(2).map(|ends| &self.slots[ends[0] as usize..ends[1] as usize])
+    }
 }
 
 impl Net {
@@ -177,14 +181,12 @@ impl Net {
         let fixed: IdVec<SlotId, bool> = self.places.of.ids().map(is_fixed).collect();
         let mut groups = Groups::new(fixed.len());
         for rule in rules.iter() {
-            let mut moving = rule.slots.iter().copied().filter(|&s| !fixed[s]);
-            let Some(first) = moving.next() else { continue };
-            moving.for_each(|s| groups.unite(first, s));
+            groups.unite_all(rule.slots.iter().copied().filter(|&s| !fixed[s]));
         }
         let has_rules = |s: SlotId| !self.rules_of(s).is_empty();
-        for slot in fixed.ids().filter(|&s| !fixed[s] && has_rules(s)) {
-            let place = self.place_of(slot).iter().copied().take_while(|&s| s < slot);
-            place.filter(|&s| !fixed[s] && has_rules(s)).for_each(|s| groups.unite(s, slot));
+        let moves = |s: &SlotId| !fixed[*s] && has_rules(*s);
+        for place in self.places.all() {
+            groups.unite_all(place.iter().copied().filter(moves));
         }
         let numbers = self.numbered(rules, &fixed, &mut groups);
         self.gathered(rules, &fixed, &numbers)
@@ -202,13 +204,16 @@ impl Net {
                 *known = numbers.count;
                 numbers.count += 1;
             }
+            *known
         };
-        for (slot, &is_fixed) in fixed.iter().filter(|(s, _)| !self.rules_of(*s).is_empty()) {
-            if !is_fixed {
-                number(&mut numbers.of_slot[groups.first(slot)]);
+        for (slot, &is_fixed) in fixed.iter() {
+            let rules_of = self.rules_of(slot);
+            if !is_fixed && !rules_of.is_empty() {
+                let first = groups.first(slot);
+                numbers.of_slot[slot] = number(&mut numbers.of_slot[first]);
                 continue;
             }
-            for &rule in self.rules_of(slot) {
+            for &rule in rules_of {
                 let moving = rules.get(rule).slots.iter().find(|s| !fixed[**s]);
                 number(match moving {
                     Some(&s) => &mut numbers.of_slot[groups.first(s)],
@@ -216,12 +221,9 @@ impl Net {
                 });
             }
         }
-        for slot in fixed.ids().filter(|&s| !fixed[s]) {
-            numbers.of_slot[slot] = numbers.of_slot[groups.first(slot)];
-        }
-        for (index, rule) in rules.iter().enumerate() {
+        for (rule, of_rule) in rules.iter().zip(&mut numbers.of_rule) {
             if let Some(&s) = rule.slots.iter().find(|s| !fixed[**s]) {
-                numbers.of_rule[index] = numbers.of_slot[s];
+                *of_rule = numbers.of_slot[s];
             }
         }
         numbers
@@ -236,20 +238,10 @@ impl Net {
     ) -> Vec<Component> {
         let component = |number: u32| (number != NONE).then_some(number as usize);
         // slots that are fixed may be in several
-        let mut known: Vec<(usize, SlotId)> = Vec::new();
-        for (slot, &n) in numbers.of_slot.iter() {
-            let Some(n) = component(n) else { continue };
-            let place = self.place_of(slot).iter().copied();
-            known.extend(
-                place.filter(|&s| fixed[s] && !self.rules_of(s).is_empty()).map(|s| (n, s)),
-            );
-        }
-        for (rule, &n) in rules.iter().zip(&numbers.of_rule) {
-            let Some(n) = component(n) else { continue };
-            known.extend(rule.slots.iter().filter(|s| fixed[**s]).map(|&s| (n, s)));
-        }
-        known.sort_unstable();
-        known.dedup();
+        let known = match fixed.iter().any(|(_, is_fixed)| *is_fixed) {
+            true => self.known(rules, fixed, numbers),
+            false => Vec::new(),
+        };
         // counted, then put where there is room for them
         let mut ends = vec![(0, 0); numbers.count as usize];
         numbers.of_rule.iter().filter_map(|&n| component(n)).for_each(|n| ends[n].0 += 1);
@@ -286,6 +278,27 @@ impl Net {
             all.slots[start as usize..all.ends[n].1 as usize].sort_unstable();
         }
         all.split()
+    }
+
+    /// Returns the fixed slots that components mention, each with the number of the component.
+    fn known(
+        &self,
+        rules: &Rules,
+        fixed: &IdVec<SlotId, bool>,
+        numbers: &Numbers,
+    ) -> Vec<(usize, SlotId)> {
+        let mut known: Vec<(usize, SlotId)> = Vec::new();
+        for (slot, &n) in numbers.of_slot.iter().filter(|(_, n)| **n != NONE) {
+            let place = self.place_of(slot).iter().copied();
+            let mentioned = place.filter(|&s| fixed[s] && !self.rules_of(s).is_empty());
+            known.extend(mentioned.map(|s| (n as usize, s)));
+        }
+        for (rule, &n) in rules.iter().zip(&numbers.of_rule).filter(|(_, n)| **n != NONE) {
+            known.extend(rule.slots.iter().filter(|s| fixed[**s]).map(|&s| (n as usize, s)));
+        }
+        known.sort_unstable();
+        known.dedup();
+        known
     }
 
     /// Returns the components of these slots; those of a fixed slot are the components of its rules.
@@ -330,9 +343,15 @@ impl Groups {
         }
         at
     }
-    fn unite(&mut self, a: SlotId, b: SlotId) {
-        let (a, b) = (self.first(a), self.first(b));
-        self.0[a.max(b)] = a.min(b);
+    /// Puts slots into one group.
+    fn unite_all(&mut self, mut slots: impl Iterator<Item = SlotId>) {
+        let Some(first) = slots.next() else { return };
+        let mut all = self.first(first);
+        for slot in slots {
+            let other = self.first(slot);
+            self.0[all.max(other)] = all.min(other);
+            all = all.min(other);
+        }
     }
 }
 

@@ -371,9 +371,6 @@ impl ExplainedKind {
             Self::Search { .. } => PlanKind::Search,
         }
     }
-}
-
-impl ExplainedKind {
     /// Returns true if a step goes towards its answer by steps of its own, without a proof that they converge:
     /// 1979's relaxation. Those of one unknown, of linear equations and of formulas have one.
     pub fn is_approached(self) -> bool {

@@ -1,8 +1,9 @@
 //! Ghosts: other states that the rules allow as well, of a thing that they determine.
 //!
 //! In: a state that holds, and a thing. Out: states in which the thing is elsewhere, because a constraint
-//! holds by another of its alternatives, or because equations have another root. What the thing is made of
-//! is looked for anew; everything else that is given stays, or, where it has to follow, is left to.
+//! holds by another of its alternatives, because equations have another root, or because whole numbers are
+//! others. What the thing is made of is looked for anew; everything else that is given stays, or, where it has
+//! to follow, is left to. Then the same is asked of what constraints tie to it: it may follow that.
 
 use crate::aim::Aim;
 use crate::host::Host;
@@ -10,8 +11,9 @@ use crate::modal::{Acting, attempt_in_mode};
 use crate::planner::{Model, Planner, is_any_new};
 use crate::run::{Adapter, ground, leans, scatter};
 use crate::task::{Course, Holding, Task};
-use kernel::{SlotId, ThingId, Values};
-use solve::{Ended, Modes, Plan, decide};
+use crate::whole;
+use kernel::{SlotId, Structure, ThingId, Values};
+use solve::{Ended, Modes, Plan, SlotIndex, decide};
 use std::collections::BTreeSet;
 use std::rc::Rc;
 
@@ -19,6 +21,10 @@ use std::rc::Rc;
 const MOST: usize = 8;
 /// With more slots than this nothing is looked for: every ghost is a whole solve.
 const LARGEST: usize = 2_000;
+/// With more slots than this nothing around the thing is asked.
+const LARGEST_AROUND: usize = 300;
+/// At most so many places and numbers around it are asked.
+const MOST_AROUND: usize = 12;
 
 /// Another state that the rules allow.
 #[derive(Clone, PartialEq, Debug)]
@@ -39,6 +45,8 @@ pub enum GhostKind {
         /// What they are about, besides what they are solved for.
         reads: Vec<SlotId>,
     },
+    /// Whole numbers are others.
+    Whole,
 }
 
 /// What becomes of everything but the thing.
@@ -51,10 +59,11 @@ enum Rest {
 }
 
 impl Planner {
-    /// Finds other states of a thing that the rules allow, at most eight, nearest roots first.
+    /// Finds other states of a thing that the rules allow, at most eight, nearest roots first: those that it
+    /// can come to itself, then those that it follows into, when something around it is elsewhere.
     ///
-    /// Nothing where the rules leave the thing free, or hold it by other than real numbers. Cost: two plans
-    /// of its component and a solve for each state that is found; the plans are not kept.
+    /// Nothing where the rules leave the thing free. Cost: two plans of its component, one more for each of a
+    /// dozen around it, and a solve for each state that is found. What was planned for this alone is forgotten.
     pub fn ghosts(
         &mut self,
         model: Model<'_>,
@@ -74,34 +83,85 @@ impl Planner {
                 Holding::Kept | Holding::Alone | Holding::Free => true,
             })
             .collect();
+        let is_elsewhere = |ghost: &Ghost| {
+            let values_of = &ghost.values.numbers;
+            own.iter().any(|&s| values_of[s].to_bits() != values.numbers[s].to_bits())
+        };
         let mark = self.plans.mark();
         let alike = std::mem::take(&mut self.alike);
         let mut found: Vec<Ghost> = Vec::new();
         for rest in [Rest::Stays, Rest::Follows] {
-            let holding = |slot: SlotId| {
-                let resting = Self::resting_hold(structure, slot);
-                match (resting, rest) {
-                    (Holding::Fixed, _) => Holding::Fixed,
-                    _ if own.contains(&slot) => Holding::Free,
-                    (_, Rest::Follows) => resting,
-                    (_, Rest::Stays) if structure.slots[slot].given.is_some() => Holding::Fixed,
-                    (_, Rest::Stays) => Holding::Free,
-                }
-            };
-            let is_fixed = |slot| holding(slot) == Holding::Fixed;
-            let mut components = self.net.around(own.iter().copied(), &self.rules, &is_fixed, &[]);
-            components.retain(|c| c.slots().len() <= LARGEST);
-            for task in self.tasks(structure, components, &holding, &[]) {
-                self.ghosts_of(model, &task, values, host, &mut found);
-            }
+            self.lifted(model, values, &own, rest, LARGEST, host, &mut found);
+        }
+        found.retain(is_elsewhere);
+        for unit in self.units_around(structure, &own) {
+            self.lifted(model, values, &unit, Rest::Follows, LARGEST_AROUND, host, &mut found);
+            found.retain(is_elsewhere);
         }
         self.alike = alike;
         self.plans.forget_since(mark);
-        let is_elsewhere = |values_of: &Values| {
-            own.iter().any(|&s| values_of.numbers[s].to_bits() != values.numbers[s].to_bits())
-        };
-        found.retain(|ghost| is_elsewhere(&ghost.values));
         found
+    }
+
+    /// Adds the states that some slots can come to with their own stays lifted, in components of at `most` so
+    /// many slots.
+    #[expect(clippy::too_many_arguments, reason = "a ghost is all of these")]
+    fn lifted(
+        &mut self,
+        model: Model<'_>,
+        values: &Values,
+        own: &BTreeSet<SlotId>,
+        rest: Rest,
+        most: usize,
+        host: &mut dyn Host,
+        found: &mut Vec<Ghost>,
+    ) {
+        let structure = model.structure;
+        let holding = |slot: SlotId| {
+            let resting = Self::resting_hold(structure, slot);
+            match (resting, rest) {
+                (Holding::Fixed, _) => Holding::Fixed,
+                _ if own.contains(&slot) => Holding::Free,
+                (_, Rest::Follows) => resting,
+                (_, Rest::Stays) if structure.slots[slot].given.is_some() => Holding::Fixed,
+                (_, Rest::Stays) => Holding::Free,
+            }
+        };
+        let is_fixed = |slot| holding(slot) == Holding::Fixed;
+        let mut components = self.net.around(own.iter().copied(), &self.rules, &is_fixed, &[]);
+        components.retain(|c| c.slots().len() <= most);
+        for task in self.tasks(structure, components, &holding, &[]) {
+            self.ghosts_of(model, &task, own, values, host, found);
+        }
+    }
+
+    /// Returns places and numbers that constraints tie to these slots, nearest first; no given numbers.
+    fn units_around(&self, structure: &Structure, own: &BTreeSet<SlotId>) -> Vec<BTreeSet<SlotId>> {
+        let mut seen = own.clone();
+        let mut reached: Vec<SlotId> = own.iter().copied().collect();
+        let mut units: Vec<BTreeSet<SlotId>> = Vec::new();
+        let mut at = 0;
+        while at < reached.len() && units.len() < MOST_AROUND {
+            let slot = reached[at];
+            at += 1;
+            let rules = self.net.rules_of(slot).iter();
+            for next in rules.flat_map(|&rule| self.rules.get(rule).slots).copied() {
+                match Self::resting_hold(structure, next) {
+                    Holding::Fixed | Holding::Given => continue,
+                    Holding::Kept | Holding::Alone | Holding::Free => {}
+                }
+                if seen.contains(&next) {
+                    continue;
+                }
+                let mut unit = BTreeSet::from([next]);
+                unit.extend(self.net.place_of(next));
+                seen.extend(&unit);
+                reached.extend(&unit);
+                units.push(unit);
+            }
+        }
+        units.truncate(MOST_AROUND);
+        units
     }
 
     /// Adds the states that one component can come to.
@@ -109,6 +169,7 @@ impl Planner {
         &self,
         model: Model<'_>,
         task: &Task,
+        own: &BTreeSet<SlotId>,
         values: &Values,
         host: &mut dyn Host,
         found: &mut Vec<Ghost>,
@@ -122,7 +183,18 @@ impl Planner {
                 self.other_roots(model, task, &plan, values, host, found);
                 self.other_alternatives(model, task, modes, values, host, found);
             }
-            Course::Search(_) => {}
+            Course::Search(puzzle) => {
+                let local = (0..).zip(task.component.slots());
+                let own: Vec<SlotIndex> =
+                    local.filter(|(_, slot)| own.contains(slot)).map(|(i, _)| i).collect();
+                for other in puzzle.others(&task.gather(&values.numbers), &own, MOST) {
+                    self.add(model, task, &other, GhostKind::Whole, values, host, found);
+                }
+            }
+        }
+        let mut trial = values.clone();
+        for other in whole::others(self, model, task, own, &mut trial, host) {
+            self.add(model, task, &other, GhostKind::Whole, values, host, found);
         }
     }
 

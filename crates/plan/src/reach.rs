@@ -270,22 +270,27 @@ impl Routes {
         slots.clear();
         let class = |t: ThingId| structure.things[t].class;
         let classes = &self.classes[route.classes.range()];
+        let fits = |thing: ThingId, number: usize| class(thing) == classes[number];
         let mut unlike = self.unlike[route.unlike.range()].iter();
         let mut found = |thing: ThingId, things: &mut Vec<ThingId>| {
-            let number = things.len();
+            let number = things.len() as Reached;
             things.push(thing);
             let mut others = structure.unlike(thing).iter();
-            class(thing) == classes[number]
-                && others.all(|&t| unlike.next() == Some(&(number as Reached, class(t))))
+            others.all(|&t| unlike.next() == Some(&(number, class(t))))
         };
-        if !found(owner, things) {
+        if !fits(owner, 0) || !found(owner, things) {
             return false;
         }
         for step in &self.steps[route.steps.range()] {
             let of = |n: &Reached| things[*n as usize];
+            let at = things.len();
             let holds = match step {
-                Step::Document => found(DOCUMENT, things),
-                Step::Owner(n) => structure.owner(of(n)).is_some_and(|owner| found(owner, things)),
+                Step::Document => fits(DOCUMENT, at) && found(DOCUMENT, things),
+                Step::Owner(n) => {
+                    let owner = structure.owner(of(n)).filter(|&owner| fits(owner, at));
+                    owner.is_some_and(|owner| found(owner, things))
+                }
+                // what a thing has for parts, its class says
                 Step::Part(n, place) => {
                     let t = &structure.things[of(n)];
                     *place < t.parts && found(ThingId(t.first_part.0 + place), things)
@@ -296,10 +301,13 @@ impl Routes {
                 }
                 Step::Members(n, count) => {
                     let members = members(structure, of(n));
-                    members.len() == *count as usize && members.iter().all(|&t| found(t, things))
+                    let mut all = members.iter().zip(at..);
+                    members.len() == *count as usize
+                        && all.all(|(&t, number)| fits(t, number) && found(t, things))
                 }
                 Step::Referent(n) => {
-                    structure.references.get(&of(n)).is_some_and(|&target| found(target, things))
+                    let target = structure.references.get(&of(n)).filter(|&&t| fits(t, at));
+                    target.is_some_and(|&target| found(target, things))
                 }
                 Step::Same(a, b, same) => {
                     (structure.merged[of(a)] == structure.merged[of(b)]) == *same

@@ -349,16 +349,8 @@ impl<'s> Making<'s> {
                     })
                 }
             };
-            let dimension = match s.primitive {
-                Primitive::Real(dimension) => dimension,
-                Primitive::Integer | Primitive::Bool | Primitive::Text | Primitive::Color => {
-                    Dimension::default()
-                }
-            };
-            let is_discrete = match s.primitive {
-                Primitive::Integer | Primitive::Bool => true,
-                Primitive::Real(_) | Primitive::Text | Primitive::Color => false,
-            };
+            let dimension = s.primitive.dimension();
+            let is_discrete = s.primitive.is_whole();
             let scale = dimensions.iter().position(|&d| d == dimension).unwrap_or_else(|| {
                 dimensions.push(dimension);
                 dimensions.len() - 1

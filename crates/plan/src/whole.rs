@@ -3,19 +3,22 @@
 //! In: a task that its course could not solve, or solved with a whole number that is none. Out: the
 //! nearest whole numbers with which everything holds. Each trial is a mode in which they are constants.
 
+use crate::aim::Aim;
 use crate::edit::NotDecided;
 use crate::host::Host;
 use crate::modal::{attempt_in_mode, has_texts, tell};
 use crate::planner::{Model, Planner};
-use crate::run::{Ground, Ran, leans, scatter};
+use crate::run::{Ground, Ran, ground, leans, scatter};
 use crate::task::Task;
-use kernel::Values;
+use kernel::{SlotId, Values};
 use solve::{
-    Conditional, Constants, Decision, Ended, Level, Looked, Mode, Modes, Patterns, SlotIndex,
-    Trial, Wholes, decide,
+    Conditional, Constants, Decision, Ended, Lean, Level, Looked, Mode, Modes, Patterns, SlotIndex,
+    Trial, Tried, Wholes, decide,
 };
 use std::cell::OnceCell;
+use std::collections::{BTreeMap, BTreeSet};
 use std::rc::Rc;
+use std::sync::Arc;
 
 /// The whole numbers of a component among its real unknowns.
 #[derive(Debug)]
@@ -44,8 +47,40 @@ impl Whole {
             task.component.slots().get(slot as usize).map_or(0.0, |&s| values.numbers[s])
         };
         let mut ranges = conditional.ranges.iter();
-        self.slots().all(|s| value(s).fract() == 0.0)
-            && ranges.all(|r| (r.low as f64..=r.high as f64).contains(&value(r.slot)))
+        self.slots().all(|s| value(s).fract() == 0.0) && ranges.all(|r| r.holds(value(r.slot)))
+    }
+}
+
+/// Tries modes of a task in which whole numbers are constants.
+struct Trying<'a> {
+    planner: &'a Planner,
+    model: Model<'a>,
+    task: &'a Task,
+    modes: &'a Rc<Modes>,
+    ground: &'a Ground,
+    leans: Vec<Lean>,
+    texts: BTreeMap<SlotId, Arc<str>>,
+    values: &'a mut Values,
+    host: &'a mut dyn Host,
+}
+
+impl Trying<'_> {
+    /// Decides which mode stands with these slots constants, as they are in `with`.
+    fn decided(&mut self, constants: Constants, with: &[f64]) -> Decision {
+        let modes = self.modes;
+        let mut first = modes.first(&self.ground.x0, with);
+        first.constants = constants;
+        let begun = self.begun(with);
+        decide(modes, &first, &mut |mode: &Mode| self.attempt(mode, &begun))
+    }
+    fn begun(&self, with: &[f64]) -> Ground {
+        let Ground { x0, changed: known, .. } = self.ground;
+        Ground { x0: x0.clone(), local: with.to_vec(), changed: changed(x0, with, known) }
+    }
+    fn attempt(&mut self, mode: &Mode, begun: &Ground) -> Tried {
+        self.values.texts.clone_from(&self.texts);
+        let Self { planner, model, task, modes, leans, values, host, .. } = self;
+        attempt_in_mode(planner, *model, task, modes, mode, begun, leans, values, *host)
     }
 }
 
@@ -64,42 +99,64 @@ pub(crate) fn run(
     let texts = values.texts.clone();
     let numbers: Vec<f64> = task.numbers(&values.numbers).collect();
     let leans = leans(model, task);
-    let mut decided = |constants: Constants, with: &[f64]| -> Decision {
-        let mut first = modes.first(&ground.x0, with);
-        first.constants = constants;
-        let changed = changed(&ground.x0, with, &ground.changed);
-        let mut attempt = |mode: &Mode| {
-            values.texts.clone_from(&texts);
-            let ground =
-                Ground { x0: ground.x0.clone(), local: with.to_vec(), changed: changed.clone() };
-            attempt_in_mode(planner, model, task, modes, mode, &ground, &leans, values, host)
-        };
-        decide(modes, &first, &mut attempt)
-    };
-    let mut trial = |constants: Constants, with: &[f64]| trial(modes, &decided(constants, with));
+    let mut trying = Trying { planner, model, task, modes, ground, leans, texts, values, host };
+    let mut trial =
+        |constants: Constants, with: &[f64]| trial(modes, &trying.decided(constants, with));
     let looked = whole.wholes(planner.plans.patterns()).look(&ground.x0, &ground.local, &mut trial);
     match looked {
         Looked::Found(constants, with) => {
-            let decision = decided(constants, &with);
+            let decision = trying.decided(constants, &with);
             if has_texts(task) {
                 // the host's texts are those of the mode that stands
-                decided(constants, &with);
+                let begun = trying.begun(&with);
+                trying.attempt(&decision.mode, &begun);
             }
-            scatter(task, &decision.tried.values, values);
+            scatter(task, &decision.tried.values, trying.values);
             Some(tell(planner, modes, task, decision))
         }
-        Looked::Impossible => {
-            values.texts = texts;
-            scatter(task, &numbers, values);
-            None
-        }
-        Looked::NotDecided(tried) => {
-            values.texts = texts;
-            scatter(task, &numbers, values);
+        looked @ (Looked::Impossible | Looked::NotDecided(_)) => {
+            trying.values.texts = trying.texts;
+            scatter(task, &numbers, trying.values);
+            let Looked::NotDecided(tried) = looked else { return None };
             let not_decided = Some(NotDecided::Whole(tried as u64));
             Some(Ran { not_decided, ..Ran::default() })
         }
     }
+}
+
+/// Finds other states of a task that holds, in which one of its whole numbers among `own` is a little
+/// larger or smaller and everything else follows. `values` are left anywhere.
+pub(crate) fn others(
+    planner: &Planner,
+    model: Model<'_>,
+    task: &Task,
+    own: &BTreeSet<SlotId>,
+    values: &mut Values,
+    host: &mut dyn Host,
+) -> Vec<Vec<f64>> {
+    /// How far from what it is.
+    const STEPS: [f64; 6] = [1.0, -1.0, 2.0, -2.0, 3.0, -3.0];
+    let Some(whole) = task.whole() else { return Vec::new() };
+    let modes = &whole.modes;
+    let ground = ground(planner, task, &Aim::default(), values, values);
+    let (leans, texts) = (leans(model, task), values.texts.clone());
+    let own = whole.slots().filter(|&s| own.contains(&task.component.slots()[s as usize]));
+    let own: Vec<SlotIndex> = own.collect();
+    let ground = &ground;
+    let mut trying = Trying { planner, model, task, modes, ground, leans, texts, values, host };
+    let mut found = Vec::new();
+    for (&slot, step) in own.iter().flat_map(|slot| STEPS.map(|step| (slot, step))) {
+        let mut with = ground.local.clone();
+        with[slot as usize] += step;
+        let mut ranges = modes.conditional().ranges.iter().filter(|r| r.slot == slot);
+        if ranges.all(|r| r.holds(with[slot as usize])) {
+            let decision = trying.decided(Constants::WholeAndGiven, &with);
+            if trial(modes, &decision) == Trial::Holds([0.0; Level::SOFT.len()]) {
+                found.push(decision.tried.values.clone());
+            }
+        }
+    }
+    found
 }
 
 /// Returns the known slots that an edit changes, those of whole numbers included.

@@ -76,9 +76,7 @@ fn edit(
     let parts: Vec<(Path, Literal)> =
         targets.iter().flat_map(|t| as_superclass(&state, t)).collect();
     for (path, literal) in &parts {
-        let mut values = Vec::new();
-        flatten(literal, &mut values);
-        aims.push((aim(&state, path)?, values));
+        aims.push((aim(&state, path)?, flat(literal)));
     }
     let targets: Vec<(Target<'_>, Vec<Value>)> = aims
         .iter()
@@ -201,12 +199,13 @@ pub(crate) fn aim(state: &State, path: &Path) -> Result<Aim, Refusal> {
     }
 }
 
-fn flatten(literal: &Literal, values: &mut Vec<Value>) {
+/// Returns the values of a literal, one after the other.
+pub(crate) fn flat(literal: &Literal) -> Vec<Value> {
     match literal {
-        Literal::Number(x) => values.push(Value::Number(*x)),
-        Literal::Bool(b) => values.push(Value::Number(f64::from(u8::from(*b)))),
-        Literal::Text(t) => values.push(Value::Text(Arc::from(t.as_str()))),
-        Literal::Tuple(items) => items.iter().for_each(|i| flatten(i, values)),
+        Literal::Number(x) => vec![Value::Number(*x)],
+        Literal::Bool(b) => vec![Value::Number(f64::from(u8::from(*b)))],
+        Literal::Text(t) => vec![Value::Text(Arc::from(t.as_str()))],
+        Literal::Tuple(items) => items.iter().flat_map(flat).collect(),
     }
 }
 
@@ -309,7 +308,9 @@ fn restructure(open: &mut Open, host: &dyn Host, command: &Command) -> Result<Ch
         return Err(words::refusal_of_text(&state, &new));
     }
     let class = done.class.map(|c| before.lowered.document.classes[c].name.to_string());
-    let (state, planner) = match (carried_over(command, &before, &state), &class) {
+    let carried = carried_over(command, &before, &state);
+    let carried = carried.filter(|values| values.changed(&state.values).next().is_some());
+    let (state, planner) = match (carried, &class) {
         (Some(values), _) => write_back(&state, &values, &[], host, planner.into_plans()),
         (None, Some(class)) => place_new_parts(&before, state, planner, class, host),
         (None, None) => (state, planner),
@@ -447,13 +448,18 @@ fn carried_over(command: &Command, before: &State, after: &State) -> Option<Valu
         holds.into_iter().for_each(|(slot, value)| values.put(slot, value));
         return any.then_some(values);
     }
-    for slot in after.structure.slots.ids() {
-        let path = after.slot_path(slot);
-        if lang::is_count(&after.lowered, &path) {
-            continue;
+    // things are the same where only what is said of them is another
+    let are_same = after.structure.has_things_of(&before.structure);
+    for (slot, s) in after.structure.slots.iter() {
+        let mut thing = Some(s.thing);
+        if !are_same {
+            let path = after.slot_path(slot);
+            if lang::is_count(&after.lowered, &path) {
+                continue;
+            }
+            let path = before_deletion(command, after, path);
+            thing = before.structure.follow(DOCUMENT, &path).ok();
         }
-        let path = before_deletion(command, after, path);
-        let thing = before.structure.follow(DOCUMENT, &path).ok();
         if let Some(was) = thing.and_then(|t| before.structure.slot_of[t]) {
             values.put(slot, before.values.get(was));
         }

@@ -1,5 +1,6 @@
 //! Ghosts: where else a thing could be, as drawings and in words, each with the command that picks it.
 
+use crate::apply::flat;
 use crate::document::Open;
 use crate::limits;
 use crate::state::State;
@@ -8,7 +9,7 @@ use crate::view::{Ghost, GhostMove, Refusal};
 use crate::views;
 use crate::words;
 use crate::write_back::{literal, unit_of_writing};
-use kernel::{Command, Literal, Path, SlotId, ThingId, Value, Values};
+use kernel::{Command, Path, SlotId, ThingId, Value, Values};
 use plan::{EditKind, GhostKind, ModeChange, Target};
 use std::collections::BTreeSet;
 
@@ -30,7 +31,7 @@ pub(crate) fn view(open: &mut Open, about: &Path) -> Result<Vec<Ghost>, Refusal>
         let units = moved(&state, &ghost.values);
         let value = |t: &ThingId| literal(&state, *t, &ghost.values);
         let targets: Vec<(Target<'_>, Vec<Value>)> =
-            units.iter().map(|t| (Target::Thing(*t), numbers(&value(t)))).collect();
+            units.iter().map(|t| (Target::Thing(*t), flat(&value(t)))).collect();
         // what is shown is what picking it comes to
         let mut values = state.values.clone();
         let kind = EditKind::Set;
@@ -55,15 +56,6 @@ fn moved(state: &State, values: &Values) -> Vec<ThingId> {
     let changed = state.values.changed(values);
     let units: BTreeSet<ThingId> = changed.map(|slot| unit_of_writing(state, slot)).collect();
     units.into_iter().collect()
-}
-
-fn numbers(literal: &Literal) -> Vec<Value> {
-    match literal {
-        Literal::Number(x) => vec![Value::Number(*x)],
-        Literal::Bool(b) => vec![Value::Number(f64::from(u8::from(*b)))],
-        Literal::Text(t) => vec![Value::Text(t.as_str().into())],
-        Literal::Tuple(items) => items.iter().flat_map(numbers).collect(),
-    }
 }
 
 fn told(state: &State, thing: ThingId, values: &Values) -> GhostMove {
@@ -92,6 +84,7 @@ fn label(
                 None => places,
             }
         }
+        GhostKind::Whole => places,
         GhostKind::Root { reads } => match other_side(state, about, units, reads, values) {
             Some(side) => format!("{side}: {places}"),
             None => places,

@@ -265,6 +265,18 @@ pub enum RowKind {
     Constraint,
     /// A merge.
     Merge,
+    /// Which way something goes from where two branches meet.
+    Side,
+}
+
+impl RowKind {
+    /// Returns true if the row's path leads to what it stands for; else it leads to the thing that says it.
+    pub fn has_own_path(self) -> bool {
+        match self {
+            Self::Part | Self::Virtual | Self::Constraint => true,
+            Self::Merge | Self::Side => false,
+        }
+    }
 }
 
 /// One row of the values view.

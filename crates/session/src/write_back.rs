@@ -83,7 +83,8 @@ pub(crate) fn sides_after(
     sides
 }
 
-/// Makes the state whose text says these sides and no others, and its planner.
+/// Makes the state whose text says these sides and, besides what bodies say of their parts, no others, and its
+/// planner.
 pub(crate) fn write_sides(
     state: State,
     planner: Planner,
@@ -94,11 +95,17 @@ pub(crate) fn write_sides(
         return (state, planner);
     }
     let document = &state.lowered.document;
-    let wanted: Vec<(Path, SideWay)> = sides
-        .iter()
-        .map(|(&slot, &toward)| state.structure.side_of(document, slot, toward))
-        .collect();
-    let edits = lang::write_sides(&state.lowered, &wanted);
+    let is_said =
+        |(slot, toward): &(&SlotId, &Toward)| state.structure.sides.get(*slot) == Some(*toward);
+    let (kept, new): (Vec<_>, Vec<_>) = sides.iter().partition(is_said);
+    let [kept, new] = [kept, new].map(|sides: Vec<(&SlotId, &Toward)>| -> Vec<(Path, SideWay)> {
+        let written = sides.into_iter().map(|(&slot, &toward)| (slot, toward));
+        written.map(|(slot, toward)| state.structure.side_of(document, slot, toward)).collect()
+    });
+    let edits = lang::write_sides(&state.lowered, &kept, &new);
+    if edits.is_empty() {
+        return (state, planner);
+    }
     let text = syntax::edit::apply(&state.text, &edits);
     State::of(text, Some(&state), host, planner.into_plans())
 }

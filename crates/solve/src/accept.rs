@@ -61,6 +61,10 @@ pub(crate) struct Factored {
 }
 
 impl Acceptance {
+    /// Returns how many given numbers yield, and how many slots in all: the fewer the better, in this order.
+    pub(crate) fn yields(&self) -> (usize, usize) {
+        (self.yielded.len(), self.unknown.iter().filter(|u| **u).count())
+    }
     /// Returns the pivots that suit a block, where it is one of those that were factorised.
     pub(crate) fn pivots(&self, rows: &[usize], unknowns: &[SlotIndex]) -> Option<&Factored> {
         self.factored.iter().find(|f| {

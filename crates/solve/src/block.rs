@@ -11,7 +11,7 @@ mod layout;
 pub(crate) use closed::{Closed, Conic, Conics};
 pub(crate) use layout::{Layout, Layouts};
 
-use crate::kernel::{Kernel, Side};
+use crate::kernel::{Kernel, Side, WIDE};
 use crate::lower::{Definers, Problem, ProblemRow};
 use crate::system::SlotIndex;
 use expr::{Arena, ExprId, LANES, Lanes, Var};
@@ -109,9 +109,6 @@ impl Workspace {
         out
     }
 }
-
-/// From how many rows of a kernel on they are evaluated in lanes.
-const WIDE: usize = 3;
 
 impl Block {
     /// Lays a block out.

@@ -60,6 +60,13 @@ pub struct SlotRange {
     pub high: i64,
 }
 
+impl SlotRange {
+    /// Returns true if a number is in it.
+    pub fn holds(&self, x: f64) -> bool {
+        (self.low as f64..=self.high as f64).contains(&x)
+    }
+}
+
 /// A system with demands, conditions and ranges.
 #[derive(Clone, PartialEq, Eq, Hash, Debug, Default)]
 pub struct Conditional {

@@ -10,6 +10,9 @@ use expr::{Arena, Binary, Conic, ExprId, Guard, Node, Tape, Unary, Var, gradient
 use std::rc::Rc;
 use std::sync::OnceLock;
 
+/// From how many rows of a kernel on they are evaluated in lanes.
+pub(crate) const WIDE: usize = 3;
+
 /// An equation of numbered arguments, with everything derived from it.
 pub(crate) struct Kernel {
     arena: Arena,

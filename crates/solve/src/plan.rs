@@ -236,13 +236,13 @@ fn plan_stated(stated: Stated) -> Plan {
     let classes = substitute::substitute(&stated);
     let mut rows = rows::rows(&stated, &classes);
     let mut acceptance = accept::accept(system, &classes, &rows);
-    if !acceptance.yielded.is_empty()
+    if (!acceptance.yielded.is_empty() || may_imply(system, &rows))
         && rows.len() <= IMPLIED_ROWS
         && let Some(there) = rows::rows_where_linear_hold(&stated, &classes)
     {
-        // no number yields to a row that says nothing new
+        // nothing yields to a row that says nothing new
         let again = accept::accept(system, &classes, &there);
-        if again.yielded.len() < acceptance.yielded.len() {
+        if again.yields() < acceptance.yields() {
             (rows, acceptance) = (there, again);
         }
     }
@@ -293,6 +293,17 @@ fn plan_stated(stated: Stated) -> Plan {
         tests: OnceCell::new(),
         slice: RefCell::default(),
     }
+}
+
+/// Returns true if places may yield to a row that says nothing new where the linear ones hold: only where some
+/// that tie three slots or more stand among curved ones, and everything has a value to stay at.
+fn may_imply(system: &System, rows: &Rows) -> bool {
+    let is_required = |r: &usize| rows[*r].level == Level::Required;
+    let required = || (0..rows.len()).filter(is_required);
+    let ties = |r: usize| !rows[r].curved && rows.kernel(r).is_some() && rows.columns(r).len() > 2;
+    system.slots.iter().all(|s| s.stay != Stay::Free)
+        && required().any(ties)
+        && required().filter(|&r| rows[r].curved).nth(1).is_some()
 }
 
 fn planned_slots(system: &System) -> Vec<PlannedSlot> {

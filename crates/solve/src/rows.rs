@@ -58,6 +58,17 @@ impl Rows {
     pub(crate) fn columns(&self, row: usize) -> &[Entry] {
         &self.columns[self.list[row].columns.range()]
     }
+    /// Returns true if a row says that a place lies on a line through others: it is linear in these slots while
+    /// the others stay, and these turn it.
+    pub(crate) fn is_line(&self, row: usize, place: &[SlotIndex]) -> bool {
+        let mentions = self.mentions(row);
+        let is_own = |argument: u32| place.contains(&mentions[argument as usize]);
+        self.kernel(row).is_some_and(|kernel| {
+            let own = kernel.entries.iter().filter(|entry| is_own(entry.argument));
+            let mut turned_by = own.flat_map(|entry| &entry.depends).peekable();
+            turned_by.peek().is_some() && !turned_by.any(|&argument| is_own(argument))
+        })
+    }
     /// Returns what a row says; nothing for an opaque one.
     pub(crate) fn kernel(&self, row: usize) -> Option<&Rc<Kernel>> {
         self.kernels.get(self.list[row].kernel as usize)
@@ -79,11 +90,13 @@ pub(crate) fn rows(stated: &Stated, classes: &Classes) -> Rows {
     rows
 }
 
-/// Makes the rows with the derivatives that they have where the linear ones among them hold: there a row
-/// that they and others imply shows that it does. None where no row is linear.
+/// Makes the rows with the derivatives that they have where the required linear ones hold: there a row
+/// that they and others imply shows that it does. None where none is linear.
 pub(crate) fn rows_where_linear_hold(stated: &Stated, classes: &Classes) -> Option<Rows> {
     let mut rows = stated_rows(stated, classes);
-    let is_linear = |r: &usize| rows.kernel(*r).is_some_and(|kernel| kernel.is_linear());
+    let is_linear = |r: &usize| {
+        rows[*r].level == Level::Required && rows.kernel(*r).is_some_and(|k| k.is_linear())
+    };
     let linear: Vec<usize> = (0..rows.len()).filter(is_linear).collect();
     let n = stated.system.slots.len();
     let mut values: Vec<f64> = (0..n as u64).map(|i| generic_number(i, Point::Mixed)).collect();

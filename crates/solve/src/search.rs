@@ -201,6 +201,23 @@ impl Puzzle {
         Count { solutions: counting.solutions, is_complete: end == End::Exhausted }
     }
 
+    /// Finds other solutions, in which some of `own` are otherwise than in `values`: for each thing that they can
+    /// be the nearest, at `most` so many, as far as [`IMPROVING`] states reach.
+    pub fn others(&self, values: &[f64], own: &[SlotIndex], most: usize) -> Vec<Vec<f64>> {
+        let Some(ground) = self.ground(values, values, Given::Held) else { return Vec::new() };
+        let mut field = Field::new(&self.arena, ground.domains, &ground.known);
+        let net = Net::new(self.required.iter().collect(), &mut field);
+        if net.settle_all(&mut field).is_err() {
+            return Vec::new();
+        }
+        let known = &ground.known;
+        let mut visitor = Others { values, known, own, found: Vec::new() };
+        explore(&net, &mut field, values, &mut visitor);
+        let mut found = visitor.found;
+        found.sort_by(|a, b| a.0.total_cmp(&b.0));
+        found.into_iter().take(most).map(|(_, solution)| solution).collect()
+    }
+
     fn nearest_with(&self, start: &[f64], values: &[f64], given: Given) -> Ended {
         let Some(ground) = self.ground(start, values, given) else { return Ended::None };
         let mut field = Field::new(&self.arena, ground.domains, &ground.known);
@@ -343,6 +360,40 @@ impl Visitor for Improving<'_> {
     fn patience(&self, visited: u64) -> u64 {
         let bound = if self.best.is_some() { self.at + IMPROVING } else { PATIENCE };
         bound.saturating_sub(visited)
+    }
+}
+
+/// Collects solutions that are otherwise in some slots.
+struct Others<'a> {
+    values: &'a [f64],
+    known: &'a [Option<f64>],
+    own: &'a [SlotIndex],
+    /// How far each is from the values, and what it is.
+    found: Vec<(f64, Vec<f64>)>,
+}
+
+impl Visitor for Others<'_> {
+    fn enter(&mut self, _: &Field<'_>) -> bool {
+        true
+    }
+    fn found(&mut self, field: &Field<'_>) -> bool {
+        let exact = |(d, known): (&Domain, &Option<f64>)| known.unwrap_or(d.low() as f64);
+        let solution: Vec<f64> = field.domains.iter().zip(self.known).map(exact).collect();
+        let own_alike =
+            |a: &[f64], b: &[f64]| self.own.iter().all(|&s| a[s as usize] == b[s as usize]);
+        if own_alike(&solution, self.values) {
+            return true;
+        }
+        let away: f64 = solution.iter().zip(self.values).map(|(a, b)| (a - b) * (a - b)).sum();
+        match self.found.iter_mut().find(|(_, known)| own_alike(known, &solution)) {
+            Some(known) if away < known.0 => *known = (away, solution),
+            Some(_) => {}
+            None => self.found.push((away, solution)),
+        }
+        true
+    }
+    fn patience(&self, visited: u64) -> u64 {
+        IMPROVING.saturating_sub(visited)
     }
 }
 

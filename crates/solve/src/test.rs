@@ -6,6 +6,7 @@
 //! somebody wants to know.
 
 use crate::block::Workspace;
+use crate::kernel::WIDE;
 use crate::pattern::{Pattern, Plain};
 use crate::plan::Plan;
 use crate::system::SlotIndex;
@@ -55,9 +56,6 @@ pub(crate) struct TestScratch {
     registers: Vec<Lanes>,
     differing: Vec<Differing>,
 }
-
-/// From how many equations of a pattern on they are evaluated in lanes.
-const WIDE: usize = 3;
 
 impl Tests {
     /// Lays out the equations of these relations.

@@ -1,11 +1,12 @@
 //! Ties: places that curved rows tie to one that has no freedom yield with it.
 //!
 //! In: what may yield by acceptance, and which way. Out: the same, with every place to which an accepted
-//! curved row (a length, an angle) ties a place that has no freedom left. Structure lets as few places
+//! curved row (a length) ties a place that has no freedom left. Structure lets as few places
 //! yield as the rows can do with, which in a chain of bars is every other joint: its elbows are soon
 //! stretched, and a wish would be lost to stays that are weaker. Where all of the chain yields, the change is
 //! least. A place with freedom (one end of a bar) reaches as far as it ever will, and so do linear
-//! rows (midpoints, alignments, offsets): they tie nothing; nor does a row that determines a lone number.
+//! rows (midpoints, alignments, offsets), and a place that lies on a line through others, wherever they are:
+//! these tie nothing; nor does a row that determines a lone number.
 
 use crate::accept::{Acceptance, places};
 use crate::direct::Direction;
@@ -43,6 +44,7 @@ pub(crate) fn tie(
         let is_stiff = row.curved
             && !free[slot as usize]
             && !place(slot).is_empty()
+            && !rows.is_line(r, place(slot))
             && system.relations[row.relation as usize].methods.is_empty();
         if !is_stiff || !rows.columns(r).iter().any(stays) {
             continue;

@@ -42,4 +42,6 @@ pub use edit::TextEdit;
 pub use format::format;
 pub use kind::{SyntaxElement, SyntaxKind, SyntaxNode, SyntaxToken};
 pub use reparse::reparse;
-pub use tree::{Parse, dump, parse, parse_expression, parse_statements, span_of, span_of_token};
+pub use tree::{
+    Parse, dump, parse, parse_expression, parse_statements, span_of, span_of_token, token_from,
+};

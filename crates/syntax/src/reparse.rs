@@ -34,9 +34,8 @@ fn spliced(file: FileId, known: &Parse, before: &str, text: &str) -> Option<Pars
     if !known.diagnostics().is_empty() {
         return None;
     }
-    let most = before.len().min(text.len());
-    let head = common(before.bytes(), text.bytes(), most);
-    let tail = common(before.bytes().rev(), text.bytes().rev(), most - head);
+    let head = common_head(before.as_bytes(), text.as_bytes());
+    let tail = common_tail(&before.as_bytes()[head..], &text.as_bytes()[head..]);
     let piece = piece(known, head, before.len() - tail)?;
     let end = piece.bytes.end + text.len() - before.len();
     let part = text.get(piece.bytes.start..end)?;
@@ -56,8 +55,20 @@ fn spliced(file: FileId, known: &Parse, before: &str, text: &str) -> Option<Pars
     Some(Parse::of(green.splice_children(piece.children, children)))
 }
 
-fn common(a: impl Iterator<Item = u8>, b: impl Iterator<Item = u8>, most: usize) -> usize {
-    a.zip(b).take(most).take_while(|(a, b)| a == b).count()
+/// How many bytes are compared at once.
+const BYTES: usize = 64;
+
+fn common_head(a: &[u8], b: &[u8]) -> usize {
+    let same = a.chunks(BYTES).zip(b.chunks(BYTES)).take_while(|(a, b)| a == b).count() * BYTES;
+    let same = same.min(a.len()).min(b.len());
+    same + a[same..].iter().zip(&b[same..]).take_while(|(a, b)| a == b).count()
+}
+
+fn common_tail(a: &[u8], b: &[u8]) -> usize {
+    let same = a.rchunks(BYTES).zip(b.rchunks(BYTES)).take_while(|(a, b)| a == b).count() * BYTES;
+    let same = same.min(a.len()).min(b.len());
+    let (a, b) = (&a[..a.len() - same], &b[..b.len() - same]);
+    same + a.iter().rev().zip(b.iter().rev()).take_while(|(a, b)| a == b).count()
 }
 
 /// Finds the children that a change of the bytes from `from` to `to` may reach: from the beginning of

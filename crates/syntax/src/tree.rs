@@ -43,6 +43,23 @@ impl Parse {
             Some((kind::Language::kind_from_raw(node.kind()), Span::new(start, at)))
         })
     }
+    /// Returns the bytes of every member at the top of the file that is of a kind or holds a node of it, in
+    /// order. It costs less than to look for them.
+    pub fn holding(&self, kind: SyntaxKind) -> impl Iterator<Item = Span> {
+        let raw = rowan::SyntaxKind::from(kind);
+        let children = self.green.children().filter_map(NodeOrToken::into_node);
+        let holds = move |(member, (_, span)): (&GreenNodeData, (SyntaxKind, Span))| {
+            let mut open = vec![member];
+            while let Some(node) = open.pop() {
+                if node.kind() == raw {
+                    return Some(span);
+                }
+                open.extend(node.children().filter_map(NodeOrToken::into_node));
+            }
+            None
+        };
+        children.zip(self.outline()).filter_map(holds)
+    }
     /// Returns how many members at the top are the same as in another tree, with all that stands before
     /// them and with all that stands behind them. Those that [`crate::reparse`] took over are compared by
     /// identity.
@@ -113,6 +130,12 @@ pub fn span_of(node: &SyntaxNode) -> Span {
 pub fn span_of_token(token: &SyntaxToken) -> Span {
     let range = token.text_range();
     Span::new(range.start().into(), range.end().into())
+}
+
+/// Returns the token that begins at a byte, or that the byte lies in.
+pub fn token_from(node: &SyntaxNode, at: u32) -> Option<SyntaxToken> {
+    let is_inside = u32::from(node.text_range().end()) >= at;
+    is_inside.then(|| node.token_at_offset(at.into()).right_biased()).flatten()
 }
 
 /// Shows a tree for tests: each node with its children in brackets, tokens as they are written.

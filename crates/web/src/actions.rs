@@ -74,7 +74,9 @@ pub const ACTIONS: &[Action] = &[
         keys: &["L"],
         enabled: |lab| match selected(lab)?.kind {
             RowKind::Part => Ok(()),
-            RowKind::Virtual | RowKind::Constraint | RowKind::Merge => Err(words::IS_A_CONSTRAINT),
+            RowKind::Virtual | RowKind::Constraint | RowKind::Merge | RowKind::Side => {
+                Err(words::IS_A_CONSTRAINT)
+            }
         },
         run: |lab| {
             if let Some(path) = lab.selected.get_untracked() {
@@ -260,7 +262,7 @@ fn selected(lab: Lab) -> Result<StructureRow, &'static str> {
     document(lab)?;
     let path = lab.selected.get().ok_or(words::NOTHING_SELECTED)?;
     lab.structure
-        .with(|rows| rows.iter().find(|r| r.path == path && r.kind != RowKind::Merge).cloned())
+        .with(|rows| rows.iter().find(|r| r.path == path && r.kind.has_own_path()).cloned())
         .ok_or(words::NOTHING_SELECTED)
 }
 
@@ -278,7 +280,9 @@ fn constraint(lab: Lab, on: bool) -> Result<(), &'static str> {
         RowKind::Constraint if row.enabled == on => Ok(()),
         RowKind::Constraint if on => Err(words::IS_OFF),
         RowKind::Constraint => Err(words::IS_ON),
-        RowKind::Part | RowKind::Virtual | RowKind::Merge => Err(words::NOT_A_CONSTRAINT),
+        RowKind::Part | RowKind::Virtual | RowKind::Merge | RowKind::Side => {
+            Err(words::NOT_A_CONSTRAINT)
+        }
     }
 }
 

@@ -125,7 +125,7 @@ impl Tree {
 
     /// Adds a row's thing to the selection, or takes it out.
     fn choose_also(self, at: usize) {
-        let row = self.row(at).filter(|row| !row.path.is_empty() && row.kind != RowKind::Merge);
+        let row = self.row(at).filter(|row| !row.path.is_empty() && row.kind.has_own_path());
         if let Some(row) = row {
             self.lab.select_also(&row.path);
         }
@@ -247,7 +247,7 @@ fn rule_alone(row: &StructureRow) -> &str {
 fn is_editable(row: &StructureRow) -> bool {
     match row.kind {
         RowKind::Part | RowKind::Virtual => row.value.is_some(),
-        RowKind::Constraint | RowKind::Merge => false,
+        RowKind::Constraint | RowKind::Merge | RowKind::Side => false,
     }
 }
 
@@ -304,7 +304,7 @@ pub fn Structure(
 /// Opens what hides a thing's row, and makes it the tree's present row.
 fn reveal(tree: Tree, path: &str) {
     let found = tree.lab.structure.with_untracked(|rows| {
-        let at = rows.iter().position(|row| row.path == path && row.kind != RowKind::Merge)?;
+        let at = rows.iter().position(|row| row.path == path && row.kind.has_own_path())?;
         let mut depth = rows[at].depth;
         let mut shut = Vec::new();
         for above in rows[..at].iter().rev() {
@@ -350,7 +350,7 @@ fn Row(tree: Tree, place: usize, shown: Shown) -> impl IntoView {
         row.with(|row| row.as_ref().filter(|r| r.descendants > 0).map(|r| tree.is_open(r)))
     });
     let selected = Memo::new(move |_| {
-        kind.with(|kind| kind != "merge")
+        kind.with(|kind| kind != "merge" && kind != "side")
             && path.with(|path| {
                 lab.selected.with(|selected| selected.as_ref() == Some(path))
                     || lab.also.with(|also| also.contains(path))
@@ -359,7 +359,7 @@ fn Row(tree: Tree, place: usize, shown: Shown) -> impl IntoView {
     let hovered = Memo::new(move |_| {
         let first = merged.get().unwrap_or_else(|| path.get());
         !first.is_empty()
-            && kind.with(|kind| kind != "merge")
+            && kind.with(|kind| kind != "merge" && kind != "side")
             && lab.marked.with(|marked| marked.hovered.as_ref() == Some(&first))
     });
     let lockable = Memo::new(move |_| {
@@ -453,6 +453,7 @@ fn kind_class(kind: RowKind) -> &'static str {
         RowKind::Virtual => "virtual",
         RowKind::Constraint => "constraint",
         RowKind::Merge => "merge",
+        RowKind::Side => "side",
     }
 }
 
@@ -460,6 +461,7 @@ fn kind_sign(kind: &str) -> &'static str {
     match kind {
         "constraint" => "=",
         "merge" => "⋈",
+        "side" => "⤴",
         "virtual" => "ƒ",
         _ => "",
     }

@@ -88,3 +88,33 @@ fn least_squares(of: &[&Vec<f64>], vector: &[f64]) -> Option<Vec<f64>> {
     }
     Some((0..n).map(|k| system[k][n] / system[k][k]).collect())
 }
+
+/// Returns the sign of a determinant; nothing where it is nearly nothing.
+pub(crate) fn sign_of_determinant(mut rows: Vec<Vec<f64>>) -> Option<i8> {
+    let n = rows.len();
+    let mut sign = 1;
+    for row in &mut rows {
+        let size = length(row);
+        row.iter_mut().for_each(|x| *x /= size);
+    }
+    for k in 0..n {
+        let pivot = (k..n).max_by(|&a, &b| rows[a][k].abs().total_cmp(&rows[b][k].abs()))?;
+        if rows[pivot][k].abs() < NEARLY {
+            return None;
+        }
+        if pivot != k {
+            rows.swap(pivot, k);
+            sign = -sign;
+        }
+        if rows[k][k] < 0.0 {
+            sign = -sign;
+        }
+        let (above, below) = rows.split_at_mut(k + 1);
+        let row = &above[k];
+        for other in below {
+            let factor = other[k] / row[k];
+            other.iter_mut().zip(row).for_each(|(x, p)| *x -= factor * p);
+        }
+    }
+    Some(sign)
+}

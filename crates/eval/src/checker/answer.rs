@@ -1,10 +1,11 @@
 //! Whether an edit has the right answer: who yields, and how much.
 //!
 //! Only what the rules themselves prove is told, so these are conditions that every answer meets, not
-//! all that there are: to first order, at the state after the edit, where no rule is soft, a written method or
-//! never written by its own constraint. Components of more than [`MOST`] slots are not looked at.
+//! all that there are: to first order, at the state after the edit, where no rule is a written method or
+//! never written by its own constraint. Where rules are soft, only that those that are not met could not be
+//! met better. Components of more than [`MOST`] slots are not looked at.
 
-use super::algebra::{Span, length, rest_of_cone};
+use super::algebra::{Span, length, rest_of_cone, sign_of_determinant};
 use super::slopes::{Row, rows};
 use super::{Edit, shown};
 use crate::evaluator::Evaluator;
@@ -37,9 +38,11 @@ pub(crate) fn complaints(
     }
     let after = Evaluator::new(document, structure, edit.after);
     let before = after.in_state(edit.before);
-    let Some(constraints) = plain(&after, connected) else { return Vec::new() };
+    let Some(Plain { required, soft, stays }) = plain(&after, connected) else {
+        return Vec::new();
+    };
     let held = |c: &ConstraintInstance| before.test(*c).is_ok_and(|verdict| verdict.holds);
-    if !constraints.iter().all(held) {
+    if !required.iter().all(held) {
         return Vec::new();
     }
     let mut own = Answer {
@@ -50,23 +53,34 @@ pub(crate) fn complaints(
     };
     let aside = aside(edit.after, &moved);
     let states = [&after, &after.in_state(&aside)];
-    own.least(states, &constraints, &moved);
-    own.exchange(states, &constraints, &moved, connected);
+    if soft.is_empty() && stays.is_empty() {
+        own.least(states, &required, &moved);
+        own.exchange(states, &required, &moved, connected);
+        own.orientation([&before, &after], &required, &moved);
+    } else {
+        own.compromise(states, &required, &soft, &stays, connected);
+    }
     own.wrong
+}
+
+/// Constraints that are plain equations and inequalities.
+#[derive(Default)]
+struct Plain {
+    required: Vec<ConstraintInstance>,
+    soft: Vec<(Strength, ConstraintInstance)>,
+    /// Slots that are declared to stay, and how strongly.
+    stays: Vec<(Strength, SlotId)>,
 }
 
 /// Returns the constraints around these slots; nothing where some are more than plain equations and
 /// inequalities.
-fn plain(
-    evaluator: &Evaluator<'_>,
-    connected: &BTreeSet<SlotId>,
-) -> Option<Vec<ConstraintInstance>> {
+fn plain(evaluator: &Evaluator<'_>, connected: &BTreeSet<SlotId>) -> Option<Plain> {
     let structure = evaluator.structure;
-    let stays = structure.stays.iter().filter(|s| s.strength.is_some());
-    if stays.flat_map(|s| structure.slots_under(s.thing)).any(|s| connected.contains(&s)) {
-        return None;
+    let mut plain = Plain::default();
+    for (strength, thing) in structure.stays.iter().filter_map(|s| Some((s.strength?, s.thing))) {
+        let own = structure.slots_under(thing).into_iter().filter(|s| connected.contains(s));
+        plain.stays.extend(own.map(|slot| (strength, slot)));
     }
-    let mut plain = Vec::new();
     for &constraint in structure.constraints.iter() {
         let (is_on, reads) = evaluator.listening(|| {
             let is_on = evaluator.is_on(constraint).unwrap_or(false);
@@ -78,12 +92,11 @@ fn plain(
         }
         let class = &evaluator.document.classes[constraint.class];
         let written = &class.constraints[constraint.index as usize];
-        let is_required = structure.strength(evaluator.document, constraint) == Strength::Required;
+        let strength = structure.strength(evaluator.document, constraint);
         let is_conditional = structure.conditions.contains_key(&constraint)
             || evaluator.idle(constraint).is_ok_and(|idle| !idle.is_empty());
         let is_number = reads.iter().all(|s| structure.slots[*s].primitive.is_number());
         if !is_on
-            || !is_required
             || is_conditional
             || !is_number
             || !written.methods.is_empty()
@@ -92,7 +105,12 @@ fn plain(
         {
             return None;
         }
-        plain.push(constraint);
+        match strength {
+            Strength::Required => plain.required.push(constraint),
+            Strength::Strong | Strength::Medium | Strength::Weak => {
+                plain.soft.push((strength, constraint));
+            }
+        }
     }
     Some(plain)
 }
@@ -167,6 +185,90 @@ impl Answer<'_> {
         }
     }
 
+    /// A wish that is not met could not be met better: what is stronger allows no direction in which it would be.
+    /// Told of wishes that are alone at their strength, since how several weigh is not in the rules.
+    fn compromise(
+        &mut self,
+        states: [&Evaluator<'_>; 2],
+        required: &[ConstraintInstance],
+        soft: &[(Strength, ConstraintInstance)],
+        stays: &[(Strength, SlotId)],
+        connected: &BTreeSet<SlotId>,
+    ) {
+        let columns: Vec<SlotId> =
+            connected.iter().copied().filter(|&s| self.is_weaker(s)).collect();
+        let groups = columns.iter().map(|&s| self.structure.slots[s].place.ok_or(s));
+        let groups: Vec<_> = groups.collect();
+        let evaluator = states[0];
+        for strength in [Strength::Strong, Strength::Medium, Strength::Weak] {
+            let unmet = soft.iter().filter(|(own, c)| {
+                *own == strength && evaluator.test(*c).is_ok_and(|verdict| !verdict.holds)
+            });
+            let unmet: Vec<ConstraintInstance> = unmet.map(|(_, c)| *c).collect();
+            let [wish] = unmet[..] else { continue };
+            let own = rows(evaluator, wish, &columns).unwrap_or_default();
+            let [row] = &own[..] else { continue };
+            let stronger = soft.iter().filter(|(own, _)| *own < strength).map(|(_, c)| *c);
+            let stronger: Vec<ConstraintInstance> = stronger.collect();
+            let above = states.map(|state| {
+                let acting = acting(state, required, &columns)?;
+                let wished = all_rows(state, &stronger, &columns)?;
+                let is_plain = wished.iter().all(|r| r.order == Order::Equal);
+                is_plain.then(|| [acting, wished].concat())
+            });
+            let [Some(mut here), Some(aside)] = above else { continue };
+            if row.order != Order::Equal || rank(&here) < rank(&aside) {
+                continue;
+            }
+            let stay = |&(own, slot): &(Strength, SlotId)| {
+                let column = columns.iter().position(|c| *c == slot).filter(|_| own < strength)?;
+                let mut slopes = vec![0.0; columns.len()];
+                slopes[column] = 1.0;
+                Some(Row { order: Order::Equal, difference: 0.0, slopes })
+            };
+            here.extend(stays.iter().filter_map(stay));
+            let gradient: Vec<f64> = row.slopes.iter().map(|s| s * row.difference).collect();
+            let rest = unexplained(&here, &gradient, &groups);
+            if rest > OFF * length(&gradient) {
+                let name = super::name(evaluator, wish);
+                let part = rest / length(&gradient);
+                self.wrong.push(format!("{name} could be met better, by {part:.1e} of its slope"));
+            }
+        }
+    }
+
+    /// Returns true for a number that yields before given ones do.
+    fn is_weaker(&self, slot: SlotId) -> bool {
+        let own = &self.structure.slots[slot];
+        matches!(own.primitive, Primitive::Real(_))
+            && !own.anchored
+            && !self.is_given(slot)
+            && !self.edit.edited.contains(&slot)
+    }
+
+    /// What rules determine lies on the side where it lay: the determinant of their slopes has its sign.
+    fn orientation(
+        &mut self,
+        states: [&Evaluator<'_>; 2],
+        of: &[ConstraintInstance],
+        moved: &[SlotId],
+    ) {
+        let signs = states.map(|state| {
+            let rows = acting(state, of, moved)?;
+            let is_square = rows.len() == moved.len();
+            if !is_square || rows.iter().any(|r| r.order != Order::Equal) {
+                return None;
+            }
+            sign_of_determinant(rows.into_iter().map(|r| r.slopes).collect())
+        });
+        if let [Some(before), Some(after)] = signs
+            && before != after
+        {
+            let paths: Vec<String> = moved.iter().map(|&s| (self.path)(s)).collect();
+            self.wrong.push(format!("{} lie on another side than before", paths.join(", ")));
+        }
+    }
+
     /// A given number yields only where no number that is not given can yield in its place.
     fn exchange(
         &mut self,
@@ -179,14 +281,8 @@ impl Answer<'_> {
         if yielded.is_empty() {
             return;
         }
-        let weaker = |s: &&SlotId| {
-            let slot = &self.structure.slots[**s];
-            matches!(slot.primitive, Primitive::Real(_))
-                && !slot.anchored
-                && !self.is_given(**s)
-                && !self.edit.edited.contains(s)
-        };
-        let weaker: Vec<SlotId> = connected.iter().filter(weaker).copied().collect();
+        let weaker: Vec<SlotId> =
+            connected.iter().copied().filter(|&s| self.is_weaker(s)).collect();
         let columns: Vec<SlotId> = weaker.iter().chain(&yielded).copied().collect();
         let spared = states.map(|state| {
             let rows = acting(state, of, &columns)?;

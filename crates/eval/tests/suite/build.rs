@@ -42,13 +42,7 @@ impl Build {
         let length = primitive("Length", Primitive::Real(Dimension::LENGTH));
         let current = primitive("Current", Primitive::Real(Dimension::CURRENT));
         let root = classes.push(blank("", ClassKind::Composite, up()));
-        let document = Document {
-            classes,
-            root,
-            vertical: Vertical::Up,
-            units_per_metre: 1.0,
-            sides: Vec::new(),
-        };
+        let document = Document { classes, root, vertical: Vertical::Up, units_per_metre: 1.0 };
         let mut b = Self {
             document,
             real,

@@ -5,8 +5,8 @@ use super::copies::forget_computed;
 use super::refer::refer;
 use super::{FaultKind, Maker};
 use crate::class::{Class, ClassId, ClassKind};
-use crate::document::Document;
-use crate::structure::{DOCUMENT, Form, GivenIn, Givens, Slot, ThingId};
+use crate::document::{Document, Side};
+use crate::structure::{Form, GivenIn, Givens, Slot, ThingId};
 use crate::term::OriginId;
 use base::IdVec;
 use std::collections::BTreeMap;
@@ -20,6 +20,7 @@ pub(super) fn finish(maker: &mut Maker<'_>, body: Body, givens: &Givens) -> Form
         layouts: std::mem::take(&mut maker.layouts),
         ..Form::default()
     };
+    structure.slots.reserve(body.things.len());
     give_slots(maker, &body, &order, &mut structure);
     let references = given_references(maker, &body);
     let first = |t: ThingId| body.merged[t];
@@ -49,13 +50,30 @@ pub(super) fn finish(maker: &mut Maker<'_>, body: Body, givens: &Givens) -> Form
     }
     refer(maker, &mut structure, givens, &references);
     forget_computed(&mut structure, givens);
-    for side in &maker.document.sides {
-        let thing = structure.follow(DOCUMENT, &side.path).ok();
-        if let Some(slot) = thing.and_then(|t| structure.slot_of_side(t, side.way)) {
-            structure.sides.insert(slot, side.way.toward(maker.document.vertical));
+    say_sides(maker.document, &order, &mut structure);
+    structure
+}
+
+/// Says which way slots go from where two branches meet: what a whole says counts more than what its parts
+/// say of themselves, a class more than those above it.
+fn say_sides(document: &Document, order: &[ThingId], structure: &mut Form) {
+    if document.classes.iter().all(|(_, class)| class.sides.is_empty()) {
+        return;
+    }
+    let mut said: BTreeMap<ClassId, Vec<&Side>> = BTreeMap::new();
+    for &thing in order.iter().rev() {
+        let class = structure.things[thing].class;
+        let sides = said.entry(class).or_insert_with(|| {
+            let lineage = document.lineage(class).into_iter().rev();
+            lineage.flat_map(|c| &document.classes[c].sides).collect()
+        });
+        for side in sides {
+            let part = structure.follow(thing, &side.path).ok();
+            if let Some(slot) = part.and_then(|t| structure.slot_of_side(t, side.way)) {
+                structure.sides.insert(slot, side.way.toward(document.vertical));
+            }
         }
     }
-    structure
 }
 
 /// Returns what is given to references.

@@ -133,13 +133,13 @@ pub(super) fn is_form_kept(
         && a.messages == b.messages
         && a.inserts == b.inserts
         && a.stays == b.stays
+        && a.sides == b.sides
         && a.switches == b.switches
         && a.without == b.without
         && a.attachers == b.attachers;
     let names_same = structure.references.is_empty() || Rc::ptr_eq(givens, &structure.givens);
     says_same
         && names_same
-        && document.sides == was.sides
         && document.vertical == was.vertical
         && document.units_per_metre.to_bits() == was.units_per_metre.to_bits()
 }

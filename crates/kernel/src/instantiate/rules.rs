@@ -155,11 +155,11 @@ fn keep_each_once(body: &mut Body) {
         return;
     }
     let mut seen = BTreeSet::new();
-    let is_first = |c: &&ConstraintInstance| {
+    let mut is_first = |c: &ConstraintInstance| {
         !is_shared[c.owner] || seen.insert((body.merged[c.owner], c.class, c.index))
     };
-    let kept: Vec<ConstraintInstance> = body.constraints.iter().filter(is_first).copied().collect();
-    if kept.len() < body.constraints.len() {
-        body.constraints = Rc::new(kept);
-    }
+    let Some(again) = body.constraints.iter().position(|c| !is_first(c)) else { return };
+    let (before, behind) = body.constraints.split_at(again);
+    let kept = before.iter().chain(behind.iter().filter(|c| is_first(c))).copied().collect();
+    body.constraints = Rc::new(kept);
 }

@@ -71,12 +71,6 @@ impl Builder {
         });
     }
     pub(crate) fn document(self, root: ClassId) -> Document {
-        Document {
-            classes: self.0,
-            root,
-            vertical: Vertical::Up,
-            units_per_metre: 1.0,
-            sides: Vec::new(),
-        }
+        Document { classes: self.0, root, vertical: Vertical::Up, units_per_metre: 1.0 }
     }
 }

@@ -153,21 +153,20 @@ impl Text<'_> {
     }
 
     fn at_end(&self, home: &Home, member: &str) -> TextEdit {
-        let members = home.members();
-        let is_check = |m: &&Member| matches!(m, Member::Check(_));
+        let has_checks = self.members_of(SyntaxKind::Check).next().is_some();
         let declares_check = member.trim_start().starts_with("check");
-        match members.iter().rfind(|m| !is_check(m)) {
-            Some(last) if members.iter().any(|m| is_check(&m)) && !declares_check => {
-                edit::insert_member(&Spot::After(last.syntax().clone()), member)
-            }
-            Some(_) | None => edit::insert_member(&Spot::EndOf(self.file.syntax().clone()), member),
+        let is_check = |m: &Member| matches!(m, Member::Check(_));
+        let before = (has_checks && !declares_check)
+            .then(|| home.members().into_iter().rfind(|m| !is_check(m)));
+        match before.flatten() {
+            Some(last) => edit::insert_member(&Spot::After(last.syntax().clone()), member),
+            None => edit::insert_member(&Spot::EndOf(self.file.syntax().clone()), member),
         }
     }
 
     /// Adds a member after the last of its kind, or at the end before any checks.
     fn after_its_kind(&self, home: &Home, kind: SyntaxKind, member: &str) -> TextEdit {
-        let last = home.members().into_iter().rfind(|m| m.syntax().kind() == kind);
-        match last {
+        match self.members_of(kind).next_back() {
             Some(last) => edit::insert_member(&Spot::After(last.syntax().clone()), member),
             None => self.at_end(home, member),
         }

@@ -8,14 +8,19 @@ use syntax::SyntaxKind;
 use syntax::ast::{AstNode, Member};
 use syntax::edit::{self, TextEdit};
 
-/// Returns the edits after which the document says these sides and no others.
+/// Returns the edits after which the document's own lines say these new sides, and of the others only those
+/// that are to be kept.
 ///
 /// A line that says what is wanted stays as it is; where a line that has an error would have to be
-/// changed, it stays too.
-pub fn write_sides(lowered: &Lowered, wanted: &[(Path, SideWay)]) -> Vec<TextEdit> {
+/// changed, it stays too. What a body says of its parts is its default, and stays.
+pub fn write_sides(
+    lowered: &Lowered,
+    kept: &[(Path, SideWay)],
+    new: &[(Path, SideWay)],
+) -> Vec<TextEdit> {
     let text = Text::of(lowered);
     let home = Home::document(&text);
-    let mut missing: Vec<&(Path, SideWay)> = wanted.iter().collect();
+    let mut missing: Vec<&(Path, SideWay)> = new.iter().collect();
     let mut edits = Vec::new();
     for member in home.members() {
         let Member::Side(side) = &member else { continue };
@@ -27,6 +32,7 @@ pub fn write_sides(lowered: &Lowered, wanted: &[(Path, SideWay)]) -> Vec<TextEdi
             Some(known) => {
                 missing.remove(known);
             }
+            None if kept.iter().any(says) => {}
             None => edits.push(edit::delete_member(member.syntax())),
         }
     }

@@ -1,7 +1,7 @@
 //! What is declared in loops: a part, reference or message in a `for` is a list with an element for
 //! every turn, a list of lists in a `for` inside of another.
 
-use super::{members_of, turn_of};
+use super::{MOST_MEMBERS, members_of, turn_of};
 use crate::kinds::Kind;
 use crate::lower::Lowerer;
 use crate::members::values_alone;
@@ -78,12 +78,17 @@ impl<'l> Lowerer<'l> {
         self.silent -= 1;
         let turns = turns?;
         if inner.is_empty() {
-            return Some(Shape::Turns(turns.count));
+            // that there are too many is said of the loop
+            let fits = turns.count as usize <= MOST_MEMBERS;
+            return Some(Shape::Turns(if fits { turns.count } else { 0 }));
         }
         let range = each.range()?;
+        if !self.may_unroll(scope, &range, turns.count as usize) {
+            return None;
+        }
         let shapes = (0..turns.count).map(|turn| {
             let here = turn_of(scope, each, &turns, turn);
-            self.may_unroll(scope, &range, 1).then(|| self.shape(&here, inner))?
+            self.shape(&here, inner)
         });
         Some(Shape::Each(shapes.collect::<Option<_>>()?))
     }
@@ -260,11 +265,13 @@ impl<'l> Lowerer<'l> {
         };
         let element = if let Kind::List(element) = wanted { element } else { &Kind::Unknown };
         let (turns, range) = (self.turns(scope, each)?, each.range()?);
+        if !self.may_unroll(scope, &range, turns.count as usize) {
+            return None;
+        }
         let mut answers = Vec::new();
         for turn in 0..turns.count {
             let here = turn_of(scope, each, &turns, turn);
-            let fits = self.may_unroll(scope, &range, 1);
-            answers.push(fits.then(|| self.answer_of(&here, inner, answer, element))??);
+            answers.push(self.answer_of(&here, inner, answer, element)?);
         }
         Some(Term::List(answers))
     }

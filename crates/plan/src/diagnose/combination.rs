@@ -21,7 +21,7 @@ use solve::{Comparing, comparisons};
 use std::collections::{BTreeMap, BTreeSet};
 
 /// How many rows a combination may have.
-const MOST: usize = 40;
+const MOST: usize = 200;
 /// The largest denominator of a factor.
 const LARGEST: i32 = 64;
 /// What of a sum counts as rounding, as a part of its terms.

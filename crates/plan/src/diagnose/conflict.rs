@@ -17,7 +17,7 @@ use crate::host::Host;
 use crate::planner::{Model, Planner, Unmet};
 use crate::rule::Source;
 use crate::task::Holding;
-use kernel::{Primitive, SlotId, Values};
+use kernel::{SlotId, Values};
 use solve::Level;
 use std::collections::{BTreeMap, BTreeSet};
 
@@ -149,10 +149,7 @@ impl Planner {
         const MOST: usize = 400;
         let rules: Vec<u32> = rules.iter().copied().collect();
         let units = self.units(&rules);
-        let is_whole = |s: &SlotId| match setup.model.structure.slots[*s].primitive {
-            Primitive::Integer | Primitive::Bool => true,
-            Primitive::Real(_) | Primitive::Text | Primitive::Color => false,
-        };
+        let is_whole = |s: &SlotId| setup.model.structure.slots[*s].primitive.is_whole();
         // whole numbers are searched: that takes its time
         if units.len() > MOST || rules.iter().any(|&r| self.rules.get(r).slots.iter().any(is_whole))
         {

@@ -87,14 +87,7 @@ pub(crate) fn perturbed(model: Model<'_>, slots: &[SlotId], values: &Values) -> 
     };
     for &s in slots {
         let slot = &model.structure.slots[s];
-        let moves = match slot.primitive {
-            kernel::Primitive::Real(_) => !slot.anchored,
-            kernel::Primitive::Integer
-            | kernel::Primitive::Bool
-            | kernel::Primitive::Text
-            | kernel::Primitive::Color => false,
-        };
-        if moves {
+        if slot.primitive.is_number() && !slot.primitive.is_whole() && !slot.anchored {
             moved.numbers[s] += extent(slot.primitive) * PART * scattered(s.0);
         }
     }

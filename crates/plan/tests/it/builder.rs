@@ -37,13 +37,8 @@ impl Builder {
             primitive("Length", Primitive::Real(Dimension::LENGTH)),
             primitive("Text", Primitive::Text),
         ]);
-        let document = Document {
-            classes,
-            root: OBJECT,
-            vertical: Vertical::Up,
-            units_per_metre: 1.0,
-            sides: Vec::new(),
-        };
+        let document =
+            Document { classes, root: OBJECT, vertical: Vertical::Up, units_per_metre: 1.0 };
         let mut builder = Self { document };
         assert_eq!(builder.class("Point", &[("x", LENGTH), ("y", LENGTH)]), POINT);
         let set = blank("Set of Real", ClassKind::Set(REAL), object);

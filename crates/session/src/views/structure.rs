@@ -1,4 +1,4 @@
-//! The structure view: the tree of parts, constraints and merges, as rows in pre-order.
+//! The structure view: the tree of parts, constraints, merges and sides, as rows in pre-order.
 
 use crate::state::State;
 use crate::view::{Freedom, RowKind, StructureRow};
@@ -131,7 +131,7 @@ impl Maker<'_> {
         declared.map_or(document.classes[t.class].origin, |p| p.origin)
     }
 
-    /// Adds what a thing's classes say of it: virtual parts, constraints, merges.
+    /// Adds what a thing's classes say of it: virtual parts, constraints, merges, sides.
     fn own(&mut self, thing: ThingId, depth: u32) {
         let (document, structure) = (&self.state.lowered.document, &self.state.structure);
         let owner = structure.path(document, thing);
@@ -165,6 +165,14 @@ impl Maker<'_> {
                 let mut row = self.row(path, depth, RowKind::Merge, name, merge.origin);
                 let paths: Vec<String> = merge.paths.iter().map(ToString::to_string).collect();
                 row.detail = paths.join(" = ");
+                self.rows.push(row);
+            }
+        }
+        for class in document.lineage(structure.things[thing].class).into_iter().rev() {
+            for side in &document.classes[class].sides {
+                let path = owner.to_string();
+                let mut row = self.row(path, depth, RowKind::Side, String::new(), side.origin);
+                row.detail = format!("side {}: {}", side.path, side.way.word());
                 self.rows.push(row);
             }
         }

@@ -116,3 +116,35 @@ fn a_place_that_has_more_than_its_coordinates_is_dragged_by_these() {
     assert_eq!((at("bar.a.x"), at("bar.a.y")), (10.0, 20.0));
     assert_eq!((at("bar.b.x"), at("bar.b.y"), at("bar.b.load")), (60.0, 20.0, 7.0));
 }
+
+/// Three medians meet in one point, whichever two say where.
+const MEDIANS: &str = "\
+use geometry
+a: Point = (0, 0)
+b: Point = (90, 10)
+c: Point = (40, 70)
+ma, mb, mc, g: Point
+constraint ma.x = (b.x + c.x) / 2 and ma.y = (b.y + c.y) / 2
+constraint mb.x = (a.x + c.x) / 2 and mb.y = (a.y + c.y) / 2
+constraint mc.x = (a.x + b.x) / 2 and mc.y = (a.y + b.y) / 2
+constraint (g.x - a.x) * (ma.y - a.y) = (g.y - a.y) * (ma.x - a.x)
+constraint (g.x - b.x) * (mb.y - b.y) = (g.y - b.y) * (mb.x - b.x)
+constraint (g.x - c.x) * (mc.y - c.y) = (g.y - c.y) * (mc.x - c.x)
+";
+
+#[test]
+fn what_a_theorem_says_again_moves_no_corner() {
+    for corner in ["a", "b", "c"] {
+        let mut desk = Desk::of(MEDIANS);
+        let before = ["a", "b", "c"].map(|path| place(&desk, path));
+        desk.drag(corner, &[(25.0, -20.0), (30.0, -40.0)]);
+        let after = ["a", "b", "c"].map(|path| place(&desk, path));
+        for (i, path) in ["a", "b", "c"].into_iter().enumerate() {
+            let expected = if path == corner { [30.0, -40.0] } else { before[i] };
+            assert_eq!(after[i], expected, "{path} while {corner} is dragged");
+        }
+        let mean = [0, 1].map(|k| (after[0][k] + after[1][k] + after[2][k]) / 3.0);
+        let g = place(&desk, "g");
+        assert!((0..2).all(|k| (g[k] - mean[k]).abs() < 1e-9), "{g:?} is not {mean:?}");
+    }
+}

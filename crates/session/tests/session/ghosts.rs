@@ -131,3 +131,44 @@ fn a_rocker_has_another_side_and_a_crank_that_is_free_to_turn_one_too() {
     desk.drag("crank.p2", &[(0.0, 40.0), (-40.0, 1.0), (0.0, -40.0), (40.0, 0.0)]);
     assert!((desk.number("coupler.p2.y") + 113.712600689438).abs() < 1e-6, "{}", desk.text());
 }
+
+#[test]
+fn what_hangs_on_a_thing_is_elsewhere_where_that_is() {
+    let mut desk = Desk::of(TRIANGLE);
+    let ghosts = ghosts(&mut desk, "d");
+    let [other] = &ghosts[..] else { panic!("{ghosts:?}") };
+    let moved: Vec<&str> = other.moves.iter().map(|m| m.path.as_str()).collect();
+    assert_eq!(moved, ["c", "d"]);
+    desk.apply(&other.command).expect("what is shown can be picked");
+    assert!((desk.number("d.y") - 5.0 + 24f64.sqrt()).abs() < 1e-9, "{}", desk.text());
+}
+
+#[test]
+fn other_whole_numbers_are_shown_nearest_first() {
+    let text = "x: Integer in 0..9\ny: Integer in 0..9\nconstraint x + y = 5\nconstraint x < y\n";
+    let mut desk = Desk::of(text);
+    let now = desk.number("x");
+    let labels = labels(&mut desk, "x");
+    let all = ["x = 0, y = 5", "x = 1, y = 4", "x = 2, y = 3"];
+    let mut others = all.into_iter().filter(|l| !l.starts_with(&format!("x = {now}")));
+    assert_eq!(labels.len(), 2, "{labels:?}");
+    assert!(others.all(|l| labels.iter().any(|shown| shown == l)), "{labels:?}");
+    let picked = ghosts(&mut desk, "x").swap_remove(1);
+    let wanted = picked.moves[0].value.clone();
+    desk.apply(&picked.command).expect("what is shown can be picked");
+    assert_eq!(desk.row("x").text, wanted);
+}
+
+#[test]
+fn a_whole_number_among_real_ones_could_be_a_step_larger() {
+    let text = "length: Real = 100\nn: Integer in 1..20\npitch: Real\n\
+        constraint pitch = length / n { reads length }\nconstraint pitch <= 30\n";
+    let mut desk = Desk::of(text);
+    assert_eq!(desk.number("n"), 4.0);
+    let labels = labels(&mut desk, "n");
+    assert_eq!(labels.first().map(String::as_str), Some("n = 5, pitch = 20"), "{labels:?}");
+    assert!(!labels.iter().any(|l| l.starts_with("n = 3")), "a bound forbids it: {labels:?}");
+    let five = ghosts(&mut desk, "n").swap_remove(0);
+    desk.apply(&five.command).expect("what is shown can be picked");
+    assert_eq!((desk.number("n"), desk.number("pitch")), (5.0, 20.0));
+}

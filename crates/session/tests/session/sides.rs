@@ -125,3 +125,67 @@ fn a_wrong_side_is_told() {
     assert_eq!(codes("side left: up\n").len(), 1);
     assert_eq!(codes("n: Text\nside n: less\n"), [("side-of-nothing".to_string(), 12)]);
 }
+
+/// A triangle of three lengths that stands on (0, 0) and (10, 0), flat as it is given.
+const FLAT: &str = "use geometry
+class Tent {
+    a: Point = (0, 0)
+    b: Point = (10, 0)
+    c: Point = (3, 0)
+    ra: Length = 3
+    rb: Length = 7
+    constraint left: a.distance(to: c) = ra { reads ra }
+    constraint right: b.distance(to: c) = rb { reads rb }
+    anchor a
+    anchor b
+    side c: up
+}
+";
+
+#[test]
+fn a_class_says_which_way_its_things_open_and_a_body_says_otherwise() {
+    let text =
+        format!("{FLAT}plain: Tent\nturned: Tent {{ side c: down }}\nlast: List of 2 Tent\n");
+    let mut desk = Desk::of(&format!("{text}side last[1].c: down\n"));
+    assert_eq!(desk.wrong(), []);
+    let all = [("plain", 1.0), ("turned", -1.0), ("last[0]", 1.0), ("last[1]", -1.0)];
+    for (path, sign) in all {
+        desk.set(&format!("{path}.ra"), 6.0).expect("it can open");
+        let y = desk.number(&format!("{path}.c.y"));
+        assert!((y - sign * 4.132493194186).abs() < 1e-9, "{path}: {y}\n{}", desk.text());
+    }
+    // the document's own line has done its work, what bodies say of their parts is their default
+    assert_eq!(sides(&desk), [""; 0]);
+    assert!(desk.text().contains("side c: up") && desk.text().contains("side c: down"));
+}
+
+#[test]
+fn a_body_in_which_two_branches_meet_gets_the_line_in_the_document_where_it_says_otherwise() {
+    let mut desk =
+        Desk::of(&format!("{FLAT}t: Tent {{ c = (4.35, -4.132493194186773)  ra = 6 }}\n"));
+    assert_eq!(desk.wrong(), []);
+    desk.set("t.ra", 3.0).expect("it can be flat");
+    assert_eq!(sides(&desk), ["side t.c: down"], "{}", desk.text());
+    desk.set("t.ra", 6.0).expect("it can open again");
+    assert!((desk.number("t.c.y") + 4.132493194186).abs() < 1e-6, "{}", desk.text());
+    assert_eq!(sides(&desk), [""; 0]);
+    // coming the way that the class says, there is nothing to be written
+    let mut desk =
+        Desk::of(&format!("{FLAT}t: Tent {{ c = (4.35, 4.132493194186773)  ra = 6 }}\n"));
+    desk.set("t.ra", 3.0).expect("it can be flat");
+    assert_eq!(sides(&desk), [""; 0], "{}", desk.text());
+    desk.set("t.ra", 6.0).expect("it can open again");
+    assert!(desk.number("t.c.y") > 4.0, "{}", desk.text());
+}
+
+#[test]
+fn what_is_written_of_sides_is_a_row_of_the_structure() {
+    let desk = Desk::of(&format!("{FLAT}t: Tent\n"));
+    let rows = desk.session.structure(desk.id);
+    let told: Vec<(&str, &str)> = rows
+        .iter()
+        .filter(|row| row.kind == session::view::RowKind::Side)
+        .map(|row| (row.path.as_str(), row.detail.as_str()))
+        .collect();
+    assert_eq!(told, [("t", "side c: up")]);
+}

@@ -38,8 +38,9 @@ fn no_row_is_there_twice() {
         let mut seen = BTreeSet::new();
         for row in desk.session.structure(desk.id) {
             // Merges are rows of what they stand in, told apart by what they say.
-            let what = if row.kind == RowKind::Merge { row.detail } else { String::new() };
-            let key = (row.path, row.kind == RowKind::Merge, what);
+            let is_own = row.kind.has_own_path();
+            let what = if is_own { String::new() } else { row.detail };
+            let key = (row.path, is_own, what);
             assert!(seen.insert(key.clone()), "{name}: {key:?} is there twice");
         }
     }

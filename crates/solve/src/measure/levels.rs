@@ -88,18 +88,17 @@ impl Levels {
                 parts[r] = Part::Changes(along(asked, r, &step));
             }
         }
-        let is_given = |weights: [f64; 2]| -> Vec<f64> {
-            asked.given.iter().map(|&given| weights[usize::from(given)]).collect()
-        };
-        if asked.given.contains(&true) {
-            let back: Vec<f64> = asked.away.iter().map(|away| -away).collect();
-            step = self.solve(asked, &parts, &is_given([0.0, 1.0]), &back);
-            let to = step.iter().zip(&back).zip(asked.given);
-            let to: Vec<f64> = to.map(|((s, b), &given)| if given { *s } else { *b }).collect();
-            return self.solve(asked, &parts, &is_given([1.0, 1.0 / EPSILON]), &to);
-        }
         let back: Vec<f64> = asked.away.iter().map(|away| -away).collect();
-        self.solve(asked, &parts, &vec![1.0; n], &back)
+        if !asked.given.contains(&true) {
+            return self.solve(asked, &parts, &vec![1.0; n], &back);
+        }
+        let weights = |computed: f64, given: f64| -> Vec<f64> {
+            asked.given.iter().map(|&is_given| if is_given { given } else { computed }).collect()
+        };
+        step = self.solve(asked, &parts, &weights(0.0, 1.0), &back);
+        let to = step.iter().zip(&back).zip(asked.given);
+        let to: Vec<f64> = to.map(|((s, b), &given)| if given { *s } else { *b }).collect();
+        self.solve(asked, &parts, &weights(1.0, 1.0 / EPSILON), &to)
     }
 
     /// Finds the step of least squares for the rows that tend and for unknowns that are to go so far, each
