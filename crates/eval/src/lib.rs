@@ -24,13 +24,14 @@
 //! the same bits; messages call each other at most [`DEEPEST_MESSAGES`] deep.
 //!
 //! Reading order: `answer`, `evaluator`, `lookup`, `operate`, `measure`, `send`, `make`, `compare`,
-//! `builtin`, `shapes`, `verdict`, `sway`, `write`, `picture`, [`checker`].
+//! `builtin`, `shapes`, `verdict`, `sway`, `write`, `given`, `picture`, [`checker`].
 mod answer;
 mod builtin;
 pub mod checker;
 mod compare;
 mod evaluator;
 mod fault;
+mod given;
 mod lookup;
 mod make;
 mod measure;
@@ -45,6 +46,7 @@ mod write;
 pub use answer::{Answer, Closure, Made};
 pub use evaluator::{DEEPEST_MESSAGES, Evaluator};
 pub use fault::{Fault, FaultKind};
+pub use given::{Given, given_values};
 pub use picture::{Grip, Picture};
 pub use verdict::Verdict;
-pub use write::{Side, given_values};
+pub use write::Side;

@@ -2,16 +2,11 @@
 
 use crate::answer::{Answer, Frame};
 use crate::evaluator::{Evaluator, Result};
-use crate::fault::{Fault, FaultKind};
-use crate::lookup::Tables;
+use crate::fault::Fault;
 use crate::measure;
-use base::IdVec;
 use kernel::{
-    BinaryOperator, ClassKind, ConstraintInstance, Document, GivenIn, Primitive, SlotId, Structure,
-    Term, ThingId, Value, Values,
+    BinaryOperator, ClassKind, ConstraintInstance, GivenIn, Primitive, SlotId, Term, ThingId, Value,
 };
-use std::collections::{BTreeMap, VecDeque};
-use std::rc::Rc;
 
 /// A side of an equation.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
@@ -202,65 +197,4 @@ impl<'a> Evaluator<'a> {
             (Primitive::Color, _) => wrong("a colour"),
         }
     }
-}
-
-/// Computes the given values of all slots, each after those that it speaks of.
-///
-/// What is not given is zero, false or empty; so are values that have a fault, and those given in
-/// terms of each other in a ring.
-///
-/// Cost: linear; a value that speaks of many later ones is looked at once more for some of them.
-pub fn given_values(document: &Document, structure: &Structure) -> (Values, Vec<Fault>) {
-    let mut values = Values::new(structure.slots.len());
-    let tables = Rc::new(Tables::new(document));
-    let mut faults = Vec::new();
-    let nothing = Values::default();
-    let constants = Evaluator::with_tables(document, structure, &nothing, tables.clone());
-    let mut is_open: IdVec<SlotId, bool> = IdVec::filled(false, structure.slots.len());
-    let mut next: VecDeque<SlotId> = VecDeque::new();
-    for (slot, s) in structure.slots.iter() {
-        if !s.primitive.is_number() {
-            values.put(slot, Value::Text("".into()));
-        }
-        match (structure.given(slot).map(|given| &given.term), s.primitive) {
-            (None, _) => {}
-            // speaks of nothing, as most values that are given
-            (Some(Term::Number { value, dimension, .. }), Primitive::Real(wanted))
-                if wanted == *dimension =>
-            {
-                values.put(slot, Value::Number(*value));
-            }
-            (Some(Term::Number { .. }), _) => match constants.given(slot) {
-                Ok(value) => value.into_iter().for_each(|value| values.put(slot, value)),
-                Err(fault) => faults.push(fault),
-            },
-            (Some(_), _) => {
-                is_open[slot] = true;
-                next.push_back(slot);
-            }
-        }
-    }
-    // values that wait for another, by that other
-    let mut waiting: BTreeMap<SlotId, Vec<SlotId>> = BTreeMap::new();
-    while let Some(slot) = next.pop_front() {
-        let evaluator = Evaluator::with_tables(document, structure, &values, tables.clone());
-        let (found, reads) = evaluator.listening(|| evaluator.given(slot));
-        // by the time the last of them is known, so are the others, as a rule
-        if let Some(&other) = reads.iter().rev().find(|&&read| is_open[read]) {
-            waiting.entry(other).or_default().push(slot);
-            continue;
-        }
-        is_open[slot] = false;
-        next.extend(waiting.remove(&slot).into_iter().flatten());
-        match found {
-            Ok(Some(value)) => values.put(slot, value),
-            Ok(None) => {}
-            Err(fault) => faults.push(fault),
-        }
-    }
-    for slot in is_open.ids().filter(|&slot| is_open[slot]) {
-        let fault = Fault::new(FaultKind::Endless, "a given value that depends on itself");
-        faults.push(Fault { origin: structure.given(slot).map(|g| g.origin), ..fault });
-    }
-    (values, faults)
 }

@@ -58,23 +58,22 @@ impl State {
         debug_assert_eq!(kernel::check::structure(&lowered.document, &structure), Ok(()));
         let model = Model { document: &lowered.document, structure: &structure };
         let (mut planner, unplanned) = Planner::new(model, plans);
+        let mut given = eval::Given::of(&lowered.document, &structure);
+        let mut values = Values::new(structure.slots.len());
+        let double_roots = opened(model, &mut planner, &mut given, &mut values);
         let mut diagnostics = lowered.diagnostics.clone();
         diagnostics.extend(lowered.fault_diagnostics(&faults));
         // that a reference names nothing is said at its place, and not at all that goes through it
         let lost = diagnostics.iter().any(|d| d.code == LOST);
-        let (given, faults) = eval::given_values(&lowered.document, &structure);
         let through = unplanned
             .iter()
             .map(|f| Diagnostic::error(f.kind.code(), lowered.place(f.origin), f.message.clone()))
-            .chain(given_diagnostics(&lowered, &faults))
+            .chain(given_diagnostics(&lowered, given.faults()))
             .filter(|d| !(lost && d.code == LOST));
         diagnostics.extend(through);
         crate::fixes::add_uses(&text, &mut diagnostics, host);
         let unplanned = unplanned.iter().map(|f| f.origin).collect();
         diagnostics.sort_by_key(|d| (d.place.file, d.place.span.start));
-        let mut values = Values::new(structure.slots.len());
-        let mut texts = Texts::knowing(&lowered.document, &structure, given);
-        let double_roots = planner.open(model, &mut values, &mut texts).double_roots;
         debug_assert_eq!(kernel::check::values(&structure, &values), Ok(()));
         (Self { text, lowered, structure, values, diagnostics, unplanned, double_roots }, planner)
     }
@@ -126,13 +125,43 @@ impl State {
     }
 }
 
+/// Opens a document: solves it, and again while values that are given in terms of what is computed are
+/// others than what it was solved with. Returns where two solutions coincide.
+fn opened(
+    model: Model<'_>,
+    planner: &mut Planner,
+    given: &mut eval::Given,
+    values: &mut Values,
+) -> Vec<SlotId> {
+    let (document, structure) = (model.document, model.structure);
+    let mut round = 0;
+    loop {
+        let mut texts = Texts::knowing(document, structure, &given.values);
+        let double_roots = planner.open(model, values, &mut texts).double_roots;
+        let others = match round <= given.rounds() {
+            true => given.read_again(document, structure, values),
+            false => Vec::new(),
+        };
+        if others.is_empty() {
+            return double_roots;
+        }
+        if round == given.rounds() {
+            given.give_up(structure, &others);
+        }
+        round += 1;
+    }
+}
+
 /// Says where given values have none; a class's, once for all its things.
-fn given_diagnostics(lowered: &Lowered, faults: &[eval::Fault]) -> Vec<Diagnostic> {
+fn given_diagnostics<'f>(
+    lowered: &Lowered,
+    faults: impl Iterator<Item = &'f eval::Fault>,
+) -> Vec<Diagnostic> {
     let mut said = BTreeSet::new();
     let diagnostic = |fault: &eval::Fault| {
         let place = lowered.place(fault.origin?);
         let is_new = said.insert((place, fault.message.clone()));
         is_new.then(|| Diagnostic::error(fault.kind.code(), place, fault.message.clone()))
     };
-    faults.iter().filter_map(diagnostic).collect()
+    faults.filter_map(diagnostic).collect()
 }

@@ -3,13 +3,14 @@
 use eval::{Evaluator, Side};
 use kernel::{ConstraintInstance, Document, SlotId, Structure, Value, Values};
 use plan::{Host, Way};
+use std::borrow::Cow;
 
 /// Answers the planner's questions about texts and given terms.
 pub(crate) struct Texts<'a> {
     document: &'a Document,
     structure: &'a Structure,
     /// Given values, computed when first asked for.
-    given: Option<Values>,
+    given: Option<Cow<'a, Values>>,
 }
 
 impl<'a> Texts<'a> {
@@ -18,15 +19,19 @@ impl<'a> Texts<'a> {
         Self { document, structure, given: None }
     }
     /// Makes an answerer that knows the given values.
-    pub(crate) fn knowing(document: &'a Document, structure: &'a Structure, given: Values) -> Self {
-        Self { document, structure, given: Some(given) }
+    pub(crate) fn knowing(
+        document: &'a Document,
+        structure: &'a Structure,
+        given: &'a Values,
+    ) -> Self {
+        Self { document, structure, given: Some(Cow::Borrowed(given)) }
     }
 }
 
 impl Host for Texts<'_> {
     fn given(&mut self, slot: SlotId, _: &Values) -> Option<Value> {
         self.structure.slots[slot].given.as_ref()?;
-        let compute = || eval::given_values(self.document, self.structure).0;
+        let compute = || Cow::Owned(eval::given_values(self.document, self.structure).0);
         Some(self.given.get_or_insert_with(compute).get(slot))
     }
     fn compute(

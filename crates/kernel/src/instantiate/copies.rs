@@ -1,8 +1,7 @@
 //! Copies: what a part gets of another that is computed is not given.
 //!
-//! A given value is read before anything is solved. Where it is no more than a part of another thing,
-//! `copy of wheel` or `other.size`, and that part is computed, there is nothing to be read yet: the copy
-//! is computed as well, by constraints of its own.
+//! Where a thing is given another, `copy of wheel`, it has the same constraints as that: what they compute
+//! there they compute here as well. What is given by itself, `z: Real = p.m`, has a value whatever `m` is.
 
 use crate::path::{Path, Step};
 use crate::structure::{DOCUMENT, Form, Givens, Slot, SlotId, ThingId};
@@ -10,11 +9,12 @@ use crate::term::Term;
 
 /// Takes given values away that are those of computed parts, and of copies of such.
 pub(super) fn forget_computed(form: &mut Form, givens: &Givens) {
-    if !givens.iter().any(|(_, given)| matches!(given.term, Term::Send { .. } | Term::Copy(_))) {
+    if !givens.iter().any(|(_, given)| given.of_copy) {
         return;
     }
     let from = |(slot, s): (SlotId, &Slot)| {
-        let source = follow(form, &givens[s.given?.value].term, s.given?.me)?;
+        let given = &givens[s.given?.value];
+        let source = follow(form, &given.term, s.given?.me).filter(|_| given.of_copy)?;
         Some((slot, form.slot_of[source]?))
     };
     let mut waiting: Vec<(SlotId, SlotId)> = form.slots.iter().filter_map(from).collect();

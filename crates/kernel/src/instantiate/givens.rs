@@ -36,7 +36,8 @@ pub(super) fn own_bindings<'d>(
     let mut bindings = Vec::new();
     for class in document.primary_line(class).into_iter().rev() {
         for given in &document.classes[class].givens {
-            let term = GivenTerm { term: given.value.clone(), origin: given.origin };
+            let (term, origin) = (given.value.clone(), given.origin);
+            let term = GivenTerm { term, origin, of_copy: false };
             let value = maker.givens.push(term);
             bindings.push(Binding { path: &given.path.0, given: GivenIn { value, me } });
         }
@@ -182,8 +183,13 @@ fn share_of_whole(
     part: u32,
     name: Option<&Name>,
 ) -> Option<GivenId> {
-    let GivenTerm { term, origin } = &maker.givens[whole];
+    let GivenTerm { term, origin, .. } = &maker.givens[whole];
     let i = part as usize;
+    let mut of_copy = false;
+    let mut copied = |term: Term| {
+        of_copy = true;
+        term
+    };
     let term = match (term, name) {
         (Term::List(items), None) | (Term::Tuple(items), Some(_)) => items.get(i)?.clone(),
         (Term::Make { arguments, .. }, Some(name)) => {
@@ -191,13 +197,14 @@ fn share_of_whole(
             let positional = || arguments.get(i).filter(|a| a.label.is_none());
             labelled.or_else(positional)?.value.clone()
         }
-        (other, Some(name)) => Term::send(other.clone(), name),
+        (other, Some(name)) => copied(Term::send(other.clone(), name)),
         (other, None) => {
-            Term::Index(Box::new(other.clone()), Box::new(Term::number(f64::from(part))))
+            let at = Box::new(Term::number(f64::from(part)));
+            copied(Term::Index(Box::new(other.clone()), at))
         }
     };
     let origin = *origin;
-    let value = maker.givens.push(GivenTerm { term, origin });
+    let value = maker.givens.push(GivenTerm { term, origin, of_copy });
     maker.shared.push(Shared { value, whole, part });
     Some(value)
 }

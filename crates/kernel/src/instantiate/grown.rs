@@ -4,7 +4,7 @@
 //! from what its parts are. Where an edit left these as they were, they are taken over by identity.
 
 use super::body::Body;
-use crate::class::Class;
+use crate::class::{Class, Given};
 use crate::document::Document;
 use crate::structure::{GivenId, GivenTerm, Givens, Layouts, Structure};
 use crate::term::Term;
@@ -90,15 +90,16 @@ fn given_again(
     let mut is_changed = IdVec::<GivenId, bool>::filled(false, again.len());
     for i in changed {
         let id = GivenId::from_index(first + i);
-        again[id] = GivenTerm { term: now[i].value.clone(), origin: now[i].origin };
+        let Given { value, origin, .. } = &*now[i];
+        again[id] = GivenTerm { term: value.clone(), origin: *origin, of_copy: false };
         is_changed[id] = true;
     }
     for shared in &grown.shared {
         if is_changed[shared.whole] {
-            let GivenTerm { term, origin } = &again[shared.whole];
+            let GivenTerm { term, origin, .. } = &again[shared.whole];
             let (Term::Tuple(items) | Term::List(items)) = term else { return None };
             let term = items.get(shared.part as usize)?.clone();
-            again[shared.value] = GivenTerm { term, origin: *origin };
+            again[shared.value] = GivenTerm { term, origin: *origin, of_copy: false };
             is_changed[shared.value] = true;
         }
     }

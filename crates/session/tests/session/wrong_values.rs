@@ -5,6 +5,13 @@ use crate::desk::Desk;
 /// A document, the code of its one diagnostic, what is underlined, and a word of the message.
 const WRONG: &[(&str, &str, &str, &str)] = &[
     ("a: Real = b\nb: Real = 1 + 1 / a", "endless-messages", "b", "depends on itself"),
+    (
+        "m: Real\nz: Real = m\nconstraint m = z + 1",
+        "endless-messages",
+        "m",
+        "in terms of what is computed from it",
+    ),
+    ("p: Real\nconstraint p = 0\nz: Real = 1 / p", "no-answer", "1 / p", "divided by zero"),
     ("a: Real = 1 / 0", "no-answer", "1 / 0", "divided by zero"),
     ("a: Real = sqrt(0 - 1)", "no-answer", "sqrt(0 - 1)", "square root of -1"),
     ("a: Integer = 5 / 2", "wrong-kind", "5 / 2", "whole number"),
@@ -59,4 +66,12 @@ fn thousands_of_equal_numbers_are_one_in_a_moment() {
     let desk = Desk::of(&format!("{numbers}{equal}x4999 = 7\n"));
     assert_eq!(desk.session.text(desk.id).diagnostics, []);
     assert_eq!(desk.number("x0"), 7.0);
+}
+
+/// What is wrong before anything is solved, and right after, is right.
+#[test]
+fn what_is_given_in_terms_of_what_is_computed_is_read_after_that() {
+    let desk = Desk::of("p: Real\nconstraint p = 4\nz: Real = 1 / p\nl: List of Real = [z, p]");
+    assert_eq!(desk.session.text(desk.id).diagnostics, []);
+    assert_eq!([desk.number("z"), desk.number("l[0]"), desk.number("l[1]")], [0.25, 0.25, 4.0]);
 }
