@@ -3,7 +3,7 @@
 //! Messages are lower case, without a full stop, and say what was found and what was wanted; the
 //! hint says what to do. Codes are kebab-case and stable: each has a case in the suite.
 
-use crate::text::Place;
+use crate::text::{Place, Span};
 
 /// How much a diagnostic matters.
 #[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Debug)]
@@ -101,6 +101,18 @@ impl Diagnostic {
         let place = self.place;
         self.hint(format!("did you mean `{near}`?"))
             .fix(format!("write {near}"), [(place, near.to_string())])
+    }
+    /// Says the same of a text that stands so many bytes further on.
+    #[must_use]
+    pub fn moved(mut self, by: u32) -> Self {
+        let own = self.place.file;
+        let edits = self.fixes.iter_mut().flat_map(|f| &mut f.edits).map(|(place, _)| place);
+        let labels = self.labels.iter_mut().map(|label| &mut label.place);
+        let places = std::iter::once(&mut self.place).chain(labels).chain(edits);
+        for place in places.filter(|place| place.file == own) {
+            place.span = Span::new(place.span.start + by, place.span.end + by);
+        }
+        self
     }
     /// Adds a further place.
     #[must_use]

@@ -6,7 +6,7 @@
 
 use crate::lower::{Lowered, OWN};
 use base::{Name, Severity, Span};
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 use syntax::ast::{AstNode, Member};
 use syntax::edit::{apply, body_of};
 use syntax::{Parse, SyntaxKind, SyntaxNode, TextEdit};
@@ -20,8 +20,8 @@ pub(crate) struct Patch {
     pub(crate) effective: Span,
 }
 
-/// What a member is called, and which of several alike.
-type Key = (u16, Vec<Name>, usize);
+/// What a member is called; of several alike the order tells.
+type Key = (u16, Vec<Name>);
 
 /// How much around an error is restored.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
@@ -62,19 +62,29 @@ fn mend(
     grain: Grain,
     edits: &mut Vec<TextEdit>,
 ) {
-    let old = before.map(keyed).unwrap_or_default();
-    for (key, node) in keyed(body) {
-        let span = syntax::span_of(&node);
-        let errors: Vec<Span> =
-            wrong.iter().copied().filter(|s| s.start <= span.end && span.start <= s.end).collect();
+    let around = |node: &SyntaxNode| -> Vec<Span> {
+        let span = syntax::span_of(node);
+        wrong.iter().copied().filter(|s| s.start <= span.end && span.start <= s.end).collect()
+    };
+    let members: Vec<SyntaxNode> = body.children().collect();
+    let wanted: BTreeSet<Key> =
+        members.iter().filter(|n| !around(n).is_empty()).filter_map(key).collect();
+    let old = before.map(|before| alike(before.children(), &wanted)).unwrap_or_default();
+    let alike = alike(members.into_iter(), &wanted);
+    let places =
+        alike.iter().flat_map(|(key, nodes)| nodes.iter().enumerate().map(move |n| (key, n)));
+    let mut places: Vec<(&Key, (usize, &SyntaxNode))> = places.collect();
+    places.sort_by_key(|(_, (_, node))| node.text_range().start());
+    for (key, (index, node)) in places {
+        let (span, errors) = (syntax::span_of(node), around(node));
         if errors.is_empty() {
             continue;
         }
-        let was = old.iter().find(|(k, _)| *k == key).map(|(_, n)| n);
+        let was = old.get(key).and_then(|nodes| nodes.get(index));
         let has_members =
             grain == Grain::Inner && matches!(node.kind(), SyntaxKind::Class | SyntaxKind::Part);
         let inside =
-            body_of(&node).filter(|b| has_members && errors.iter().all(|s| is_inside(b, *s)));
+            body_of(node).filter(|b| has_members && errors.iter().all(|s| is_inside(b, *s)));
         match inside {
             Some(inner) => mend(&inner, was.and_then(body_of).as_ref(), &errors, grain, edits),
             None => {
@@ -95,27 +105,33 @@ fn is_inside(body: &SyntaxNode, error: Span) -> bool {
         })
 }
 
-/// Returns every member of a file or body with its key.
-fn keyed(body: &SyntaxNode) -> Vec<(Key, SyntaxNode)> {
-    let mut keyed: Vec<(Key, SyntaxNode)> = Vec::new();
-    let mut counts: BTreeMap<(u16, Vec<Name>), usize> = BTreeMap::new();
-    for node in body.children() {
-        let Some(member) = Member::cast(node.clone()) else { continue };
-        let names = match &member {
-            Member::Part(part) => part.names().map(|w| w.name()).collect(),
-            Member::Class(class) => class.name().into_iter().map(|w| w.name()).collect(),
-            Member::Constraint(c) => c.name().into_iter().map(|w| w.name()).collect(),
-            Member::Merge(m) => m.name().into_iter().map(|w| w.name()).collect(),
-            Member::Message(m) => m.name().into_iter().map(|w| w.name()).collect(),
-            Member::Assign(a) => {
-                a.target().map(|t| Name::new(&t.syntax().text().to_string())).into_iter().collect()
-            }
-            _ => Vec::new(),
-        };
-        let kind = node.kind() as u16;
-        let count = counts.entry((kind, names.clone())).or_default();
-        keyed.push(((kind, names, *count), node));
-        *count += 1;
+/// Returns the members that are called as some are, in their order.
+fn alike(
+    members: impl Iterator<Item = SyntaxNode>,
+    wanted: &BTreeSet<Key>,
+) -> BTreeMap<Key, Vec<SyntaxNode>> {
+    let kinds: BTreeSet<u16> = wanted.iter().map(|(kind, _)| *kind).collect();
+    let mut alike: BTreeMap<Key, Vec<SyntaxNode>> = BTreeMap::new();
+    for node in members.filter(|n| kinds.contains(&(n.kind() as u16))) {
+        if let Some(key) = key(&node).filter(|key| wanted.contains(key)) {
+            alike.entry(key).or_default().push(node);
+        }
     }
-    keyed
+    alike
+}
+
+/// Returns what a member is called.
+fn key(node: &SyntaxNode) -> Option<Key> {
+    let names = match &Member::cast(node.clone())? {
+        Member::Part(part) => part.names().map(|w| w.name()).collect(),
+        Member::Class(class) => class.name().into_iter().map(|w| w.name()).collect(),
+        Member::Constraint(c) => c.name().into_iter().map(|w| w.name()).collect(),
+        Member::Merge(m) => m.name().into_iter().map(|w| w.name()).collect(),
+        Member::Message(m) => m.name().into_iter().map(|w| w.name()).collect(),
+        Member::Assign(a) => {
+            a.target().map(|t| Name::new(&t.syntax().text().to_string())).into_iter().collect()
+        }
+        _ => Vec::new(),
+    };
+    Some((node.kind() as u16, names))
 }

@@ -2,8 +2,8 @@
 //!
 //! The lines that both texts have at their beginning and end keep their nodes; the members between
 //! them are parsed alone, with two of their neighbours on either side, since a member may look at
-//! what follows it. That is the tree of the whole text where nothing is wrong: then every bracket,
-//! comment and text ends in the member that it begins in. Anything else is parsed as a whole.
+//! what follows it. Where the neighbours behind come out as they were, every bracket, comment and text
+//! before them ended there, and what follows is what it was. Anything else is parsed as a whole.
 
 use crate::grammar::{self, Scope};
 use crate::kind::SyntaxKind;
@@ -45,14 +45,16 @@ fn spliced(file: FileId, known: &Parse, before: &str, text: &str) -> Option<Pars
     let now = made.green().children().rev().filter_map(NodeOrToken::into_node);
     let same = now.zip(was).take(NEIGHBOURS).filter(|(a, b)| a == b).count();
     let is_last = piece.bytes.end == before.len();
-    if !made.diagnostics().is_empty() || !is_last && same < NEIGHBOURS {
+    if !is_last && same < NEIGHBOURS {
         return None;
     }
     let children = made.green().children().map(|c| match c {
         NodeOrToken::Node(node) => NodeOrToken::Node(node.to_owned()),
         NodeOrToken::Token(token) => NodeOrToken::Token(token.to_owned()),
     });
-    Some(Parse::of(green.splice_children(piece.children, children)))
+    let start = piece.bytes.start as u32;
+    let diagnostics = made.diagnostics().iter().map(|d| d.clone().moved(start)).collect();
+    Some(Parse::of(green.splice_children(piece.children, children), diagnostics))
 }
 
 /// How many bytes are compared at once.

@@ -17,9 +17,8 @@ pub struct Parse {
 }
 
 impl Parse {
-    /// A text with which nothing is wrong.
-    pub(crate) fn of(green: GreenNode) -> Self {
-        Self { green, diagnostics: Vec::new() }
+    pub(crate) fn of(green: GreenNode, diagnostics: Vec<Diagnostic>) -> Self {
+        Self { green, diagnostics }
     }
     pub(crate) fn green(&self) -> &GreenNode {
         &self.green
@@ -117,7 +116,7 @@ pub(crate) fn parse_with(file: FileId, text: &str, rule: impl FnOnce(&mut Parser
     let mut parser = Parser::new(file, text, lex(text));
     rule(&mut parser);
     let (green, diagnostics) = parser.finish_parse();
-    Parse { green, diagnostics }
+    Parse::of(green, diagnostics)
 }
 
 /// Returns the bytes of a node.
