@@ -159,7 +159,21 @@ impl Text<'_> {
             };
             let says = |e: &TextEdit| !e.insert.trim().is_empty();
             match (says(last), says(&edit)) {
-                (_, true) => last.insert.push_str(&edit.insert),
+                // what is said where something else goes is divided from its neighbours as that was
+                (false, true) => {
+                    let text = |from: u32, to: u32| {
+                        self.lowered.effective.get(from as usize..to as usize).unwrap_or_default()
+                    };
+                    let behind = text(edit.span.end, last.span.end);
+                    let divides = behind.chars().all(|c| c == ';' || c.is_whitespace());
+                    let begins = text(0, last.span.start).chars().last();
+                    last.insert = match begins.is_none_or(char::is_whitespace) {
+                        true => edit.insert.trim_start().to_string(),
+                        false => edit.insert,
+                    };
+                    last.insert.push_str(if divides { behind } else { "" });
+                }
+                (true, true) => last.insert.push_str(&edit.insert),
                 (false, false) if edit.span.end > last.span.end => {
                     let before = self.lowered.effective.get(..last.span.start as usize);
                     let divided = before.is_some_and(|b| b.ends_with(char::is_whitespace));

@@ -67,6 +67,16 @@ fn unmerging_takes_one_path_out() {
         &unmerge("a.side2.p2"),
         "a: Quad { }\n",
     );
+    // what is left in several bodies stays merged; it is said where the merge stood
+    let body = "a: Quad { merge side1.p1 = side2.p2 }\n";
+    for (before, after) in [("  ", "  c: Point\n"), ("\n", "\nc: Point\n"), ("; ", "; c: Point\n")]
+    {
+        assert_becomes(
+            &format!("{body}b: Line{before}merge a.side2.p2 = b.p1{after}"),
+            &unmerge("a.side2.p2"),
+            &format!("a: Quad {{ }}\nb: Line{before}merge a.side1.p1 = b.p1{after}"),
+        );
+    }
     assert_eq!(apply("use shapes\na: Point\n", &unmerge("a")), Err("not-merged"));
     assert_eq!(apply("use shapes\na: Quad\n", &unmerge("a.side1.p1")), Err("not-merged"));
 }
