@@ -106,6 +106,18 @@ impl Lowerer<'_> {
         None
     }
 
+    /// Returns the number that a name stands for in any expression: a variable of `for`, or what counts
+    /// parts of the thing or of one around it.
+    pub(crate) fn known_number(&self, scope: &Scope, e: &Expr) -> Option<f64> {
+        let held = || {
+            let Expr::Name(name) = e else { return None };
+            let name = name.name()?.name();
+            let count = |&class: &ClassId| self.document.count(class, &name);
+            scope.classes.iter().find_map(count).map(|n| n as f64)
+        };
+        scope.constant(e).or_else(held)
+    }
+
     /// Notes what the things of a file say of counts, when that is first asked.
     fn note_file(&mut self, file: FileId, class: ClassId) {
         if class == self.document.root && file == OWN && !self.counts.given.contains_key(&class) {

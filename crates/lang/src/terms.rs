@@ -178,9 +178,11 @@ impl Lowerer<'_> {
                 return None;
             }
         };
-        let place = self.plain(scope, &at)?;
-        if let Some(i) = crate::numbers::constant(&|e| scope.constant(e), &at) {
+        let mut place = self.plain(scope, &at)?;
+        let known = |e: &Expr| self.known_number(scope, e);
+        if let Some(i) = crate::numbers::constant(&known, &at) {
             self.element_index(scope, i, at.span(), self.count_of(scope, &list))?;
+            place = Term::number(i);
         }
         Some((Term::Index(Box::new(of), Box::new(place)), element))
     }
