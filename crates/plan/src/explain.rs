@@ -167,13 +167,12 @@ impl Planner {
         // what no rule speaks of may be any of its numbers
         let spoken: BTreeSet<SlotId> =
             self.resting().iter().flat_map(|t| t.component.slots().iter().copied()).collect();
-        let is_free = |slot: &SlotId| {
-            !spoken.contains(slot) && model.structure.given(*slot).is_none()
-        };
+        let is_free =
+            |slot: &SlotId| !spoken.contains(slot) && model.structure.given(*slot).is_none();
         let free = model.structure.ranges.iter().filter(|(slot, _)| is_free(slot));
         let ways = free.map(|(_, (low, high))| u64::try_from(high - low + 1).unwrap_or(0));
         if let Some(count) = &mut all {
-            count.solutions = ways.fold(count.solutions, |n, ways| n.saturating_mul(ways));
+            count.solutions = ways.fold(count.solutions, u64::saturating_mul);
         }
         match (all, among_reals) {
             (None, Some(slot)) => Err(Uncountable { slot }),
