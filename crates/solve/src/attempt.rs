@@ -26,6 +26,9 @@ mod strips;
 /// Up to this many unknowns least change is tried by the measure too, whose cost is cubic.
 const DENSE: usize = 60;
 
+/// How far apart what lies at one place is taken to be, in parts of the extent: as little as will do.
+const APART: [f64; 2] = [1e-3, 0.5];
+
 /// How a slot stands to x0.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub(crate) enum Motion {
@@ -470,7 +473,25 @@ impl Run<'_> {
                 return Ok(());
             }
         }
+        if self.trust == Trust::Any && self.measure_apart(step, measure) {
+            return Ok(());
+        }
         self.fail(step)
+    }
+
+    /// Solves what lies at one place: there no direction is nearer than another, and nothing is least. As
+    /// if it had been a little apart, it has one.
+    fn measure_apart(&mut self, step: &Step, measure: &Measure) -> bool {
+        let mut from = self.frame.x0.clone();
+        APART.iter().any(|&reach| {
+            self.start_from_last(&step.targets);
+            self.scatter(&step.targets, 1, reach);
+            for &t in &step.targets {
+                from[t as usize] = self.values[t as usize];
+            }
+            let (scales, work) = (&self.frame.scales, &mut self.buffers.work);
+            measure.solve(&from, self.values, scales, self.trust, work) == Measured::Least
+        })
     }
 
     /// How often a search may begin elsewhere: only where nothing had a value before.
