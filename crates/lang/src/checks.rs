@@ -263,8 +263,13 @@ fn of_prototype(l: &mut Lowerer<'_>, scope: &Scope, target: &ast::Target) -> Opt
     let [Step::Part(first), before @ .., Step::Part(last)] = path.0.as_slice() else { return None };
     let is_part = scope.classes.iter().any(|&c| l.kind_of_part(c, first).is_some());
     let class = l.visible.class(scope.file, first).filter(|_| !is_part)?;
-    let owner = l.class_at(class, &Path(before.to_vec()))?;
-    let kind = l.kind_of_part(owner, last)?;
+    let kind = match l.kind_of_constraint(class, before, last) {
+        Some(kind) => kind,
+        None => {
+            let owner = l.class_at(class, &Path(before.to_vec()))?;
+            l.kind_of_part(owner, last)?
+        }
+    };
     let value = l.expr_of(scope, &target.value()?, &kind)?;
     Some((path.clone(), value))
 }

@@ -5,7 +5,7 @@ use crate::lower::Lowerer;
 use crate::names::owners;
 use crate::scope::Scope;
 use base::{Name, Place};
-use kernel::{Aspect, ClassId, Term};
+use kernel::{Aspect, ClassId, Path, Step, Term};
 use syntax::ast::{self, Expr};
 
 impl Lowerer<'_> {
@@ -46,12 +46,22 @@ impl Lowerer<'_> {
             return None;
         }
         self.refer(Place { file: scope.file, span: word.span() }, &name, class);
-        let kind = match aspect {
-            Aspect::Error => Kind::Unknown,
-            Aspect::Satisfied | Aspect::Enabled => Kind::Bool,
-            Aspect::Strength => Kind::Text,
-        };
+        let kind = kind_of(aspect);
         Some((Term::OfConstraint { of: Box::new(of), name, aspect }, kind))
+    }
+
+    /// Returns what is asked of a constraint of a class's prototype, by the path to the constraint.
+    pub(crate) fn kind_of_constraint(
+        &self,
+        class: ClassId,
+        constraint: &[Step],
+        aspect: &Name,
+    ) -> Option<Kind> {
+        let aspect = Aspect::of_word(aspect)?;
+        let (Step::Part(name), owner) = constraint.split_last()? else { return None };
+        let owner = self.class_at(class, &Path(owner.to_vec()))?;
+        let is_one = !self.has_part(owner, name) && self.has_constraint(owner, name);
+        is_one.then(|| kind_of(aspect))
     }
 
     fn has_part(&self, class: ClassId, name: &Name) -> bool {
@@ -61,5 +71,13 @@ impl Lowerer<'_> {
     fn has_constraint(&self, class: ClassId, name: &Name) -> bool {
         let lineage = self.document.lineage(class);
         lineage.into_iter().any(|c| self.constraints.contains(&(c, name.clone())))
+    }
+}
+
+fn kind_of(aspect: Aspect) -> Kind {
+    match aspect {
+        Aspect::Error => Kind::Unknown,
+        Aspect::Satisfied | Aspect::Enabled => Kind::Bool,
+        Aspect::Strength => Kind::Text,
     }
 }

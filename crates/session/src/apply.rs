@@ -29,6 +29,11 @@ pub(crate) fn apply(
     for path in general::changed(command) {
         general::accept(&open.state, path)?;
     }
+    if let Command::Set(targets) = command
+        && targets.iter().any(|t| lang::of_constraint(&open.state.lowered, &t.0).is_some())
+    {
+        return restructure(open, host, command);
+    }
     if let Command::Set(targets) | Command::Move(targets) = command
         && let Some(class) = targets.first().and_then(|t| prototype::class_of(&open.state, &t.0))
     {

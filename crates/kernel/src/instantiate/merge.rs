@@ -75,6 +75,16 @@ fn common_parts(
             return Err((FaultKind::UnlikeMerge, message));
         }
         _ if ka == kb => return Ok(Vec::new()),
+        (ClassKind::Reference(_), _) | (_, ClassKind::Reference(_)) => {
+            let (names, other) =
+                if matches!(ka, ClassKind::Reference(_)) { (ca, cb) } else { (cb, ca) };
+            let message = format!(
+                "a {} only names a thing and cannot be one with {} itself: merge what it names",
+                name(names),
+                name(other)
+            );
+            return Err((FaultKind::UnlikeMerge, message));
+        }
         _ => {
             let message = format!("{} and {} cannot be one part", name(ca), name(cb));
             return Err((FaultKind::UnlikeMerge, message));
