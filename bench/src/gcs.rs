@@ -2,8 +2,11 @@
 //!
 //! The file is a case of the format `gcs-case/1` ([`bench::case`]). Of the line: `status` is `solved`
 //! where every constraint holds to 1e-8, `not decided` where the search for a solution was given up,
-//! `unsolved` where there is none, or no answer in time, and `invalid` for a file that is no case; times are in milliseconds. `gcs --text FILE` prints the document
-//! that is solved; `gcs --make FAMILY SIZE SEED` prints a case of a family ([`bench::families`]).
+//! `unsolved` where there is none, or no answer in time, and `invalid` for a file that is no case; times
+//! are in milliseconds. `build_ms` leads from the file to things whose classes are compiled; there begins
+//! what `solve_ms` tells, which plans, and `replan_free_ms`, which has the plan. `gcs --text FILE` prints
+//! the document that is solved; `gcs --make FAMILY SIZE SEED` prints a case of a family
+//! ([`bench::families`]).
 
 use bench::case::Case;
 use bench::families::{FAMILIES, generate};

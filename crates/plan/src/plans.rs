@@ -14,7 +14,7 @@ use std::hash::BuildHasherDefault;
 use std::rc::Rc;
 
 /// Patterns of rules, and plans by the systems that they are of.
-#[derive(Debug, Default)]
+#[derive(Debug)]
 pub struct Plans {
     patterns: Patterns,
     /// What constraints of classes are known to say, until a planner was made.
@@ -33,11 +33,28 @@ pub struct Plans {
     pub(crate) kept: Option<Box<Kept>>,
 }
 
+impl Default for Plans {
+    fn default() -> Self {
+        Self::over(Templates::default())
+    }
+}
+
 impl Plans {
     /// Makes room for the plans of a document whose classes these are of.
     pub fn over(templates: Templates) -> Self {
         let Templates { patterns, known } = templates;
-        Self { patterns, known, ..Self::default() }
+        Self {
+            patterns,
+            known,
+            made: IndexMap::default(),
+            modes: IndexMap::default(),
+            puzzles: IndexMap::default(),
+            wholes: IndexMap::default(),
+            in_modes: RefCell::default(),
+            reused: 0,
+            past: Past::default(),
+            kept: None,
+        }
     }
     /// Returns how many systems were planned, and how many found their plan made.
     pub fn counts(&self) -> PlanCounts {

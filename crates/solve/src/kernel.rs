@@ -28,6 +28,55 @@ pub(crate) struct Kernel {
     stated: OnceLock<Vec<(u32, Side)>>,
     second: OnceLock<Second>,
     solved: Vec<OnceLock<Option<Solved>>>,
+    /// What it says of two arguments, or of one and none, the pairs in order.
+    curves: Vec<OnceLock<Option<Box<Curve>>>>,
+}
+
+/// What an equation says of two of its arguments, where that is of the second degree.
+#[derive(Debug)]
+pub(crate) struct Curve {
+    /// The coefficients of a conic around a state, then its guards.
+    pub(crate) tape: Tape,
+    /// How many guards there are: what is not negative where the equation holds.
+    pub(crate) guards: usize,
+    pub(crate) form: Form,
+}
+
+/// What a conic is of, by its terms of the second degree.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub(crate) enum Form {
+    Line,
+    Circle,
+    /// Their coefficients are these numbers, by their bits.
+    Numbers([u64; 3]),
+    Other,
+}
+
+impl Form {
+    fn of(conic: &Conic, arena: &Arena) -> Self {
+        if conic.is_line(arena) {
+            return Self::Line;
+        }
+        if conic.is_round(arena) {
+            return Self::Circle;
+        }
+        let second = [3, 4, 5].map(|i| arena.as_constant(conic.coefficients[i]).map(f64::to_bits));
+        match second {
+            [Some(a), Some(b), Some(c)] => Self::Numbers([a, b, c]),
+            _ => Self::Other,
+        }
+    }
+    /// Returns true if a sum of two such, each with a factor, is a line; the arguments of one may be in the
+    /// other order.
+    pub(crate) fn is_like(self, other: Self, is_swapped: bool) -> bool {
+        match (self, other) {
+            (Self::Line, _) | (_, Self::Line) | (Self::Circle, Self::Circle) => true,
+            (Self::Numbers([a, b, c]), Self::Numbers(second)) => {
+                second == if is_swapped { [c, b, a] } else { [a, b, c] }
+            }
+            (Self::Circle | Self::Numbers(_) | Self::Other, _) => false,
+        }
+    }
 }
 
 /// A derivative that is not zero everywhere.
@@ -85,6 +134,9 @@ pub(crate) enum Side {
     Right,
 }
 
+/// The most arguments of an equation of which it is asked what it says of two.
+const PAIRED: u32 = 24;
+
 impl Kernel {
     /// Returns true if the derivatives are the same everywhere.
     pub(crate) fn is_linear(&self) -> bool {
@@ -115,8 +167,22 @@ impl Kernel {
         outs.extend(&derivatives);
         let slopes = Tape::compile(&arena, &outs);
         let solved = (0..arity).map(|_| OnceLock::new()).collect();
+        let pairs = arity * (arity + 1) / 2;
+        let curves = (0..if arity > PAIRED { 0 } else { pairs }).map(|_| OnceLock::new()).collect();
         let (stated, second) = (OnceLock::new(), OnceLock::new());
-        Self { arena, left, right, entries, sides, slopes, derivatives, stated, second, solved }
+        Self {
+            arena,
+            left,
+            right,
+            entries,
+            sides,
+            slopes,
+            derivatives,
+            stated,
+            second,
+            solved,
+            curves,
+        }
     }
 
     /// Compiles an equation of slots; returns the slots that are its arguments too.
@@ -127,7 +193,16 @@ impl Kernel {
         (Self::compile(arena, left, right, arguments.len() as u32, sides), arguments)
     }
 
-    /// Derives all that is otherwise derived when it is first asked for.
+    /// Derives all that it says of every two arguments.
+    pub(crate) fn complete_curves(&self) {
+        for second in 1..=self.arity() as u32 {
+            (0..second).for_each(|first| {
+                self.curve([first, second]);
+            });
+        }
+    }
+
+    /// Derives all else that is otherwise derived when it is first asked for.
     pub(crate) fn complete(&self) {
         self.second();
         self.stated().for_each(drop);
@@ -146,15 +221,21 @@ impl Kernel {
         (over(self.left), over(self.right))
     }
 
-    /// Returns what it says of two arguments where that is of the second degree in them, in another arena with
-    /// other names.
-    pub(crate) fn conic(
-        &self,
-        arguments: [Var; 2],
-        arena: &mut Arena,
-        name: &dyn Fn(Var) -> Var,
-    ) -> Option<Conic> {
-        expr::conic(&self.arena, [self.left, self.right], arguments, arena, name)
+    /// Returns what it says of two arguments, in order, where that is of the second degree in them; the last
+    /// may be one more than there are, for none.
+    pub(crate) fn curve(&self, [first, second]: [u32; 2]) -> Option<&Curve> {
+        let make = || {
+            let mut arena = Arena::for_nodes(64);
+            let (sides, vars) = ([self.left, self.right], [Var(first), Var(second)]);
+            let conic = expr::conic(&self.arena, sides, vars, &mut arena, &|var| var)?;
+            let form = Form::of(&conic, &arena);
+            let mut outs = conic.coefficients.to_vec();
+            outs.extend(&conic.guards);
+            let (tape, guards) = (Tape::compile(&arena, &outs), conic.guards.len());
+            Some(Box::new(Curve { tape, guards, form }))
+        };
+        let before = second * (second - 1) / 2;
+        self.curves.get((before + first) as usize)?.get_or_init(make).as_deref()
     }
 
     /// Computes how far its sides move apart where every argument moves by its own size.
@@ -325,5 +406,42 @@ fn chooses(node: Node) -> bool {
                 | Binary::NotEqual
         ),
         Node::Select { .. } => true,
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn only_what_differs_by_a_line_is_alike() {
+        // of x and y: x² + y², x² + 2 y², 2 x² + y², x y, x + y, a x² + y²
+        let mut arena = Arena::new();
+        let [x, y, a] = [0, 1, 2].map(|v| arena.var(Var(v)));
+        let two = arena.constant(2.0);
+        let [xx, yy] = [x, y].map(|e| arena.square(e));
+        let [xx2, yy2] = [xx, yy].map(|e| arena.mul(two, e));
+        let (product, scaled) = (arena.mul(x, y), arena.mul(a, xx));
+        let sides = [
+            arena.add(xx, yy),
+            arena.add(xx, yy2),
+            arena.add(xx2, yy),
+            product,
+            arena.add(x, y),
+            arena.add(scaled, yy),
+        ];
+        let five = arena.constant(5.0);
+        let [circle, wide, tall, product, line, scaled] = sides.map(|left| {
+            let (kernel, arguments) = Kernel::of_slots(&arena, left, five);
+            assert_eq!(arguments[..2], [0, 1]);
+            kernel.curve([0, 1]).expect("it is of the second degree").form
+        });
+        let alike = |a: Form, b: Form| a.is_like(b, false);
+        assert!(alike(circle, circle) && alike(wide, wide) && alike(product, product));
+        assert!([circle, wide, tall, product, scaled].iter().all(|&f| alike(f, line)));
+        assert!(!alike(circle, wide) && !alike(wide, tall) && !alike(product, circle));
+        assert!(wide.is_like(tall, true) && product.is_like(product, true));
+        // what the factor is of cannot be seen
+        assert!(!alike(scaled, scaled));
     }
 }

@@ -16,17 +16,19 @@ impl Default for Lists {
 impl Lists {
     /// Sorts pairs by their first number; those of one number stay in order.
     pub(crate) fn new(count: usize, pairs: impl Iterator<Item = (u32, u32)> + Clone) -> Self {
-        let mut first = vec![0; count + 1];
-        pairs.clone().for_each(|(of, _)| first[of as usize + 1] += 1);
-        for i in 0..count {
-            first[i + 1] += first[i];
+        // counted two further on, so that where a list starts can move on to where it ends
+        let mut first = vec![0; count + 2];
+        pairs.clone().for_each(|(of, _)| first[of as usize + 2] += 1);
+        for i in 2..count + 2 {
+            first[i] += first[i - 1];
         }
-        let mut next = first.clone();
-        let mut items = vec![0; first[count] as usize];
+        let mut items = vec![0; first[count + 1] as usize];
         for (of, item) in pairs {
-            items[next[of as usize] as usize] = item;
-            next[of as usize] += 1;
+            let next = &mut first[of as usize + 1];
+            items[*next as usize] = item;
+            *next += 1;
         }
+        first.truncate(count + 1);
         Self { first, items }
     }
     /// Adds the list of the next number.

@@ -60,12 +60,12 @@ pub(crate) struct Inverse {
 
 impl Inverse {
     /// Solves a row by formula, where there is one.
-    pub(crate) fn new(row: &ProblemRow, target: SlotIndex) -> Option<Self> {
-        let mut places = (0..).zip(&row.arguments).filter(|a| *a.1 == target);
+    pub(crate) fn new(row: ProblemRow, target: SlotIndex) -> Option<Self> {
+        let mut places = (0..).zip(&*row.arguments).filter(|a| *a.1 == target);
         let (argument, _) = places.next()?;
         let once = places.next().is_none();
         row.kernel.solved(argument).filter(|_| once)?;
-        Some(Self { row: row.clone(), argument, fallback: OnceCell::new() })
+        Some(Self { row, argument, fallback: OnceCell::new() })
     }
     /// Returns the number of formulas.
     pub(crate) fn roots(&self) -> u32 {
@@ -156,10 +156,10 @@ pub(crate) fn lower(analysis: &Analysis<'_>, blocks: &[Block]) -> Lowered {
         steps.push(alias(told(&equalities, slot), slot, program, Few::default()));
     }
     let region_of = regions_of(analysis, blocks);
-    let mut layouts = Layouts::default();
+    let mut work = Work::default();
     for (block, &region) in blocks.iter().zip(&region_of) {
         let first = steps.len();
-        lower_block(analysis, block, &mut layouts, &mut steps);
+        lower_block(analysis, block, &mut work, &mut steps);
         for step in &mut steps[first..] {
             step.region = region;
         }
@@ -257,21 +257,37 @@ fn regions(analysis: &Analysis<'_>, blocks: &[Block], region_of: &[u32]) -> Vec<
     regions
 }
 
-fn reads_of(analysis: &Analysis<'_>, block: &Block) -> Vec<SlotIndex> {
-    let all = block.rows.iter().flat_map(|&r| analysis.reads_of_row(r));
-    let is_own = |s: &SlotIndex| block.unknowns.binary_search(s).is_ok();
-    let mut reads: Vec<SlotIndex> = all.copied().filter(|s| !is_own(s)).collect();
-    reads.sort_unstable();
-    reads.dedup();
-    reads
+/// What lowering works with: serves any number of blocks, one after the other.
+#[derive(Default)]
+struct Work {
+    layouts: Layouts,
+    problem: Problem,
+    reads: Vec<SlotIndex>,
 }
 
-fn lower_block(
-    analysis: &Analysis<'_>,
-    block: &Block,
-    layouts: &mut Layouts,
-    steps: &mut Vec<Step>,
-) {
+impl Work {
+    /// States the rows and unknowns of a block; none of its rows is opaque.
+    fn state(&mut self, analysis: &Analysis<'_>, block: &Block) -> &Problem {
+        let Problem { rows, unknowns } = &mut self.problem;
+        rows.clear();
+        rows.extend(block.rows.iter().filter_map(|&r| problem_row(analysis, r)));
+        unknowns.clear();
+        unknowns.extend_from_slice(&block.unknowns);
+        &self.problem
+    }
+}
+
+fn reads_of(analysis: &Analysis<'_>, block: &Block, reads: &mut Vec<SlotIndex>) -> Few {
+    let all = block.rows.iter().flat_map(|&r| analysis.reads_of_row(r));
+    let is_own = |s: &SlotIndex| block.unknowns.binary_search(s).is_ok();
+    reads.clear();
+    reads.extend(all.copied().filter(|s| !is_own(s)));
+    reads.sort_unstable();
+    reads.dedup();
+    reads[..].into()
+}
+
+fn lower_block(analysis: &Analysis<'_>, block: &Block, work: &mut Work, steps: &mut Vec<Step>) {
     let first = analysis.rows[block.rows[0]].relation;
     let one_relation = block.rows.iter().all(|&r| analysis.rows[r].relation == first);
     if one_relation && let Some(step) = by_method(analysis, first, &block.rows) {
@@ -281,43 +297,41 @@ fn lower_block(
     let opaque = block.rows.iter().any(|&r| analysis.rows.kernel(r).is_none());
     let writes_more = block.unknowns.iter().any(|s| analysis.direction.is_written(*s));
     if opaque || writes_more {
-        once_round(analysis, block, layouts, steps);
+        once_round(analysis, block, work, steps);
         return;
     }
-    let rows = block.rows.iter();
-    let problem = Problem {
-        rows: rows.filter_map(|&r| problem_row(analysis, r)).collect(),
-        unknowns: block.unknowns.clone(),
-    };
-    if problem.rows.len() == problem.unknowns.len() {
-        square_block(analysis, block, &problem, layouts, steps);
+    if let Some(step) = by_formula(analysis, block, work) {
+        steps.push(step);
         return;
     }
+    if block.rows.len() == block.unknowns.len() {
+        square_block(analysis, block, work, steps);
+        return;
+    }
+    let problem = work.state(analysis, block);
     let soft = problem.rows.iter().any(|r| r.level != Level::Required);
     let over = problem.rows.len() > problem.unknowns.len()
         || block.rows.iter().any(|&r| analysis.direction.slot_of_row[r].is_none());
     let kind = if soft && over { StepKind::Compromise } else { StepKind::LeastChange };
-    let program = measure(analysis, &problem, kind);
-    let (targets, reads) = (block.unknowns[..].into(), reads_of(analysis, block).into());
+    let program = measure(analysis, problem, kind);
+    let (targets, reads) = (block.unknowns[..].into(), reads_of(analysis, block, &mut work.reads));
     steps.push(step(analysis, kind, &block.rows, targets, reads, program));
 }
 
-/// The steps of a square block: by formula where all comes from one unknown that has one, and at once
-/// where not.
-fn square_block(
-    analysis: &Analysis<'_>,
-    block: &Block,
-    problem: &Problem,
-    layouts: &mut Layouts,
-    steps: &mut Vec<Step>,
-) {
-    let reads = Few::from(reads_of(analysis, block));
-    if let ([row], [slot]) = (&problem.rows[..], &problem.unknowns[..])
-        && let Some(inverse) = Inverse::new(row, *slot)
-    {
-        steps.push(inverse_step(analysis, &block.rows, inverse, reads));
-        return;
-    }
+/// The step of a row that has a formula for its one unknown.
+fn by_formula(analysis: &Analysis<'_>, block: &Block, work: &mut Work) -> Option<Step> {
+    let ([row], [slot]) = (&block.rows[..], &block.unknowns[..]) else { return None };
+    let inverse = Inverse::new(problem_row(analysis, *row)?, *slot)?;
+    let reads = reads_of(analysis, block, &mut work.reads);
+    Some(inverse_step(analysis, &block.rows, inverse, reads))
+}
+
+/// The steps of a square block that is no formula: by formula where all comes from one unknown that has
+/// one, and at once where not.
+fn square_block(analysis: &Analysis<'_>, block: &Block, work: &mut Work, steps: &mut Vec<Step>) {
+    let reads = reads_of(analysis, block, &mut work.reads);
+    work.state(analysis, block);
+    let Work { layouts, problem, .. } = work;
     let mut square = Square::alike(problem, layouts);
     if let Some(known) = analysis.acceptance.pivots(&block.rows, &block.unknowns) {
         square.take_pivots(&known.pattern, &known.symbolic);
@@ -366,11 +380,11 @@ fn closed_form(laid: &Laid, problem: &Problem) -> Option<(Formula, Vec<Formula>)
     let (kernel, arguments) = laid.substituted(row);
     let (kernel, arguments) = (Rc::new(kernel), arguments.into());
     let put = ProblemRow { kernel, arguments, ..problem.rows[row].clone() };
-    let inverse = Inverse::new(&put, laid.unknowns[*core as usize])?;
+    let inverse = Inverse::new(put, laid.unknowns[*core as usize])?;
     let rest = laid.definitions.iter().map(|d| {
         let row = d.row as usize;
         let slot = laid.unknowns[d.unknown as usize];
-        Inverse::new(&problem.rows[row], slot).map(|inverse| (row, inverse))
+        Inverse::new(problem.rows[row].clone(), slot).map(|inverse| (row, inverse))
     });
     Some(((row, inverse), rest.collect::<Option<_>>()?))
 }
@@ -407,9 +421,10 @@ fn step(
     reads: Few,
     program: Program,
 ) -> Step {
-    let mut relations: Vec<u32> = rows.iter().map(|&r| analysis.rows[r].relation).collect();
-    relations.dedup();
-    let (relations, rows) = (relations.into(), sides_of(analysis, rows));
+    let mut last = None;
+    let relations = rows.iter().map(|&r| analysis.rows[r].relation);
+    let relations = relations.filter(|&r| last.replace(r) != Some(r)).collect();
+    let rows = sides_of(analysis, rows);
     Step { kind, targets, reads, relations, program, region: u32::MAX, rows }
 }
 
@@ -453,12 +468,7 @@ fn by_method(analysis: &Analysis<'_>, relation: u32, rows: &[usize]) -> Option<S
 }
 
 /// Rows that only methods can satisfy, in a cycle: each once, in order of declaration, then tested.
-fn once_round(
-    analysis: &Analysis<'_>,
-    block: &Block,
-    layouts: &mut Layouts,
-    steps: &mut Vec<Step>,
-) {
+fn once_round(analysis: &Analysis<'_>, block: &Block, work: &mut Work, steps: &mut Vec<Step>) {
     let mut done = BTreeSet::new();
     for &r in &block.rows {
         let relation = analysis.rows[r].relation;
@@ -470,12 +480,14 @@ fn once_round(
             {
                 steps.push(step);
             }
-        } else if let (Some(one), Some(slot)) =
-            (problem_row(analysis, r), analysis.direction.slot_of_row[r])
+        } else if analysis.rows.kernel(r).is_some()
+            && let Some(slot) = analysis.direction.slot_of_row[r]
         {
             let single = Block { rows: vec![r], unknowns: vec![slot] };
-            let problem = Problem { rows: vec![one], unknowns: vec![slot] };
-            square_block(analysis, &single, &problem, layouts, steps);
+            match by_formula(analysis, &single, work) {
+                Some(step) => steps.push(step),
+                None => square_block(analysis, &single, work, steps),
+            }
         }
     }
 }

@@ -155,10 +155,11 @@ fn components(incidence: &Incidence<'_>, union: &mut Union) -> Vec<Block> {
 /// Tarjan's algorithm on `before`: components in an order in which each follows what it needs.
 pub(crate) fn strong_components(before: &Lists, found: &mut dyn FnMut(&[u32])) {
     const UNSEEN: u32 = u32::MAX;
+    const DONE: u32 = u32::MAX - 1;
     let n = before.len();
+    // when a node was met, and the first that leads to it and that it leads to
     let (mut index, mut low) = (vec![UNSEEN; n], vec![0; n]);
-    let mut on_stack = vec![false; n];
-    let (mut stack, mut calls, mut count) = (Vec::new(), Vec::new(), 0);
+    let (mut stack, mut calls, mut count) = (Vec::with_capacity(n), Vec::with_capacity(n), 0);
     for root in 0..n as u32 {
         if index[root as usize] != UNSEEN {
             continue;
@@ -170,13 +171,12 @@ pub(crate) fn strong_components(before: &Lists, found: &mut dyn FnMut(&[u32])) {
                 (index[at], low[at]) = (count, count);
                 count += 1;
                 stack.push(v);
-                on_stack[at] = true;
             }
             if let Some(&w) = before.of(v).get(edge) {
                 calls.last_mut().expect("the call was just seen").1 += 1;
                 if index[w as usize] == UNSEEN {
                     calls.push((w, 0));
-                } else if on_stack[w as usize] {
+                } else if index[w as usize] != DONE {
                     low[at] = low[at].min(index[w as usize]);
                 }
                 continue;
@@ -187,7 +187,7 @@ pub(crate) fn strong_components(before: &Lists, found: &mut dyn FnMut(&[u32])) {
             }
             if low[at] == index[at] {
                 let first = stack.iter().rposition(|&w| w == v).expect("the node is on the stack");
-                stack[first..].iter().for_each(|&w| on_stack[w as usize] = false);
+                stack[first..].iter().for_each(|&w| index[w as usize] = DONE);
                 stack[first..].sort_unstable();
                 found(&stack[first..]);
                 stack.truncate(first);

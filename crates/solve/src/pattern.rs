@@ -17,6 +17,11 @@ use std::rc::Rc;
 
 define_id!(PatternId, "p", "A pattern, by its place among those of one planner.");
 
+/// Up to this many arguments a pattern is compiled as what it says of any two.
+const CURVED: usize = 10;
+/// Up to this many arguments a pattern is compiled with any two of them made one.
+const PAIRED: usize = 6;
+
 /// Expressions over arguments.
 #[derive(Debug)]
 pub struct Pattern {
@@ -91,20 +96,28 @@ impl Pattern {
         arguments: impl IntoIterator<Item = f64>,
         scratch: &'s mut Scratch,
     ) -> &'s [f64] {
-        scratch.arguments.clear();
-        scratch.arguments.extend(arguments);
-        scratch.out.clear();
-        scratch.out.resize(self.roots().len(), 0.0);
-        self.values().run(&scratch.arguments, &mut scratch.registers, &mut scratch.out);
-        &scratch.out
+        scratch.run(self.values(), arguments.into_iter(), self.roots().len())
     }
     /// Compiles what an equation and its derivatives come to, and its solutions for every argument,
-    /// so that no plan has to.
+    /// so that no plan has to; of few arguments, also what it says of any two, and with any two made one.
     ///
     /// # Panics
     /// If it has not two expressions.
     pub fn compile(&self) {
         self.kernel().complete();
+        if self.arity <= CURVED {
+            self.kernel().complete_curves();
+        }
+        if self.arity > PAIRED {
+            return;
+        }
+        for second in 1..self.arity {
+            for first in 0..second {
+                let which: Vec<u32> =
+                    (0..self.arity).map(|i| if i == second { first } else { i } as u32).collect();
+                self.identified(&which).0.kernel().complete();
+            }
+        }
     }
     /// Returns true if the derivatives of an equation are the same everywhere.
     ///
@@ -133,14 +146,10 @@ impl Pattern {
         scratch: &'s mut Scratch,
     ) -> impl Iterator<Item = (usize, f64)> + 's {
         let kernel = self.kernel();
-        scratch.arguments.clear();
-        scratch.arguments.extend(arguments);
-        scratch.out.clear();
         // both sides come first
-        scratch.out.resize(2 + kernel.entries.len(), 0.0);
-        kernel.slopes.run(&scratch.arguments, &mut scratch.registers, &mut scratch.out);
+        let out = scratch.run(&kernel.slopes, arguments.into_iter(), 2 + kernel.entries.len());
         let arguments = kernel.entries.iter().map(|entry| entry.argument as usize);
-        arguments.zip(scratch.out[2..].iter().copied())
+        arguments.zip(out[2..].iter().copied())
     }
     /// Computes the sway of an equation, as [`base::number::Tolerance`] asks for it.
     ///
@@ -211,6 +220,23 @@ pub struct Scratch {
     arguments: Vec<f64>,
     registers: Vec<f64>,
     out: Vec<f64>,
+}
+
+impl Scratch {
+    /// Runs a tape of so many outputs; the outputs are what is returned.
+    pub(crate) fn run(
+        &mut self,
+        tape: &Tape,
+        arguments: impl Iterator<Item = f64>,
+        outs: usize,
+    ) -> &[f64] {
+        self.arguments.clear();
+        self.arguments.extend(arguments);
+        self.out.clear();
+        self.out.resize(outs, 0.0);
+        tape.run(&self.arguments, &mut self.registers, &mut self.out);
+        &self.out
+    }
 }
 
 /// A pattern under which it is found again.

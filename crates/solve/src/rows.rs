@@ -5,6 +5,8 @@
 //! coefficient is zero there only if it is zero everywhere.
 
 use crate::kernel::Kernel;
+use crate::lists::Lists;
+use crate::pattern::Scratch;
 use crate::stated::Stated;
 use crate::substitute::Classes;
 use crate::system::{Level, MethodBody, Relation, RelationBody, SlotIndex, Span, Stay, System};
@@ -176,10 +178,7 @@ fn stated_rows(stated: &Stated, classes: &Classes) -> Rows {
                     let kernel = if are_distinct(&rows.mentions[start..]) {
                         kernels.plain(stated, pattern)
                     } else {
-                        let arguments = rows.mentions.split_off(start);
-                        let (kernel, arguments) = kernels.identified(stated, pattern, &arguments);
-                        rows.mentions.extend(arguments);
-                        kernel
+                        kernels.identified(stated, pattern, &mut rows.mentions, start)
                     };
                     let len = (rows.mentions.len() - start) as u32;
                     let mentions = Span { start: start as u32, len };
@@ -212,6 +211,8 @@ struct Kernels {
     list: Vec<Rc<Kernel>>,
     /// By the place of their pattern.
     of_pattern: Vec<Option<u32>>,
+    /// Which argument each is that is another's too.
+    which: Vec<u32>,
 }
 
 impl Kernels {
@@ -232,23 +233,32 @@ impl Kernels {
             }
         }
     }
-    /// A pattern some of whose arguments are one slot is another pattern.
+    /// A pattern some of whose arguments (the mentions from `start` on) are one slot is another pattern,
+    /// of fewer.
     fn identified(
         &mut self,
         stated: &Stated,
         pattern: usize,
-        arguments: &[SlotIndex],
-    ) -> (u32, Vec<SlotIndex>) {
+        mentions: &mut Vec<SlotIndex>,
+        start: usize,
+    ) -> u32 {
+        let Self { list, which, .. } = self;
+        let arguments = &mentions[start..];
         let first = |s: &SlotIndex| arguments.iter().position(|a| a == s).unwrap_or(0) as u32;
-        let which: Vec<u32> = arguments.iter().map(first).collect();
-        let (pattern, left) = stated.pattern_at(pattern).identified(&which);
+        which.clear();
+        which.extend(arguments.iter().map(first));
+        let (pattern, left) = stated.pattern_at(pattern).identified(which);
+        // what is left stands where it stood, or before
+        for (to, &from) in (start..).zip(&*left) {
+            mentions[to] = mentions[start + from as usize];
+        }
+        mentions.truncate(start + left.len());
         let kernel = pattern.kernel();
-        let known = self.list.iter().position(|k| Rc::ptr_eq(k, kernel));
-        let kernel = match known {
-            Some(known) => known as u32,
-            None => self.add(kernel.clone()),
-        };
-        (kernel, left.iter().map(|&i| arguments[i as usize]).collect())
+        let known = list.iter().position(|k| Rc::ptr_eq(k, kernel));
+        known.unwrap_or_else(|| {
+            list.push(kernel.clone());
+            list.len() - 1
+        }) as u32
     }
 }
 
@@ -284,33 +294,62 @@ fn evaluate(rows: &Rows, values: &[f64]) -> Evaluated {
     // rows of one kernel are evaluated together
     let mut first = Vec::with_capacity(rows.len() + 1);
     let mut count = 0;
-    let mut of_kernel: Vec<Vec<u32>> = vec![Vec::new(); rows.kernels.len()];
     for r in 0..rows.len() {
         first.push(count);
         if let Some(kernel) = rows.kernel(r) {
             count += kernel.entries.len();
-            of_kernel[rows[r].kernel as usize].push(r as u32);
         }
     }
+    let by_kernel = (0..rows.len() as u32).map(|r| (rows[r as usize].kernel, r));
+    let of_kernel = Lists::new(rows.kernels.len(), by_kernel.filter(|&(k, _)| k != OPAQUE));
     let mut out = Evaluated { first, slopes: vec![0.0; count], errors: vec![0.0; rows.len()] };
-    for (kernel, own) in rows.kernels.iter().zip(&of_kernel) {
-        evaluate_kernel(rows, kernel, own, values, &mut out);
+    let mut work = Work::default();
+    for (kernel, k) in rows.kernels.iter().zip(0..) {
+        evaluate_kernel(rows, kernel, of_kernel.of(k), values, &mut work, &mut out);
     }
     out
 }
 
-fn evaluate_kernel(rows: &Rows, kernel: &Kernel, own: &[u32], values: &[f64], out: &mut Evaluated) {
+/// Working space for evaluation, of any content.
+#[derive(Default)]
+struct Work {
+    arguments: Vec<Lanes>,
+    results: Vec<Lanes>,
+    registers: Vec<Lanes>,
+    one: Scratch,
+}
+
+/// From how many rows of a kernel on they are evaluated in lanes.
+const WIDE: usize = 3;
+
+fn evaluate_kernel(
+    rows: &Rows,
+    kernel: &Kernel,
+    own: &[u32],
+    values: &[f64],
+    work: &mut Work,
+    out: &mut Evaluated,
+) {
     let entries = kernel.entries.len();
-    let mut arguments: Vec<Lanes> = vec![[0.0; LANES]; kernel.arity()];
-    let mut results: Vec<Lanes> = vec![[0.0; LANES]; entries + 2];
-    let mut registers = Vec::new();
+    if own.len() < WIDE {
+        for &r in own {
+            let arguments = rows.mentions(r as usize).iter().map(|&slot| values[slot as usize]);
+            let results = work.one.run(&kernel.slopes, arguments, entries + 2);
+            out.errors[r as usize] = results[0] - results[1];
+            out.slopes[out.first[r as usize]..][..entries].copy_from_slice(&results[2..]);
+        }
+        return;
+    }
+    let Work { arguments, results, registers, .. } = work;
+    arguments.resize(kernel.arity(), [0.0; LANES]);
+    results.resize(entries + 2, [0.0; LANES]);
     for some in own.chunks(LANES) {
         for (lane, &r) in some.iter().enumerate() {
             for (argument, &slot) in arguments.iter_mut().zip(rows.mentions(r as usize)) {
                 argument[lane] = values[slot as usize];
             }
         }
-        kernel.slopes.run_lanes(&arguments, &mut registers, &mut results);
+        kernel.slopes.run_lanes(arguments, registers, results);
         for (lane, &r) in some.iter().enumerate() {
             out.errors[r as usize] = results[0][lane] - results[1][lane];
             let own = &mut out.slopes[out.first[r as usize]..][..entries];
@@ -338,10 +377,10 @@ fn set_columns(system: &System, classes: &Classes, rows: &mut Rows, slopes: &[f6
                 let mentions = rows.mentions(next);
                 for (entry, &value) in kernel.entries.iter().zip(slopes.by_ref()) {
                     let slot = mentions[entry.argument as usize];
-                    if !writable.allows(classes, slot) {
+                    if !writable.allows(slot) {
                         continue;
                     }
-                    let may = |&a: &u32| writable.allows(classes, mentions[a as usize]);
+                    let may = |&a: &u32| writable.allows(mentions[a as usize]);
                     curved |= entry.depends.iter().any(may);
                     let by_branch = value == 0.0 && entry.branches;
                     let value = if value.is_finite() && !by_branch {
@@ -364,7 +403,7 @@ fn set_columns(system: &System, classes: &Classes, rows: &mut Rows, slopes: &[f6
             next += 1;
         }
         if !relation.methods.is_empty() {
-            add_written_targets(relation, &writable, classes, rows, first..next, &mut columns);
+            add_written_targets(&writable, rows, first..next, &mut columns);
         }
     }
     rows.columns = columns;
@@ -372,9 +411,7 @@ fn set_columns(system: &System, classes: &Classes, rows: &mut Rows, slopes: &[f6
 
 /// A written target that no derivative shows is one all the same.
 fn add_written_targets(
-    relation: &Relation,
-    writable: &Writable,
-    classes: &Classes,
+    writable: &Writable<'_>,
     rows: &mut Rows,
     own: std::ops::Range<usize>,
     columns: &mut Vec<Entry>,
@@ -382,12 +419,13 @@ fn add_written_targets(
     let shown = |rows: &Rows, columns: &[Entry], slot: SlotIndex| {
         own.clone().any(|r| columns[rows[r].columns.range()].iter().any(|e| e.0 == slot))
     };
+    let Writable { relation, classes, .. } = writable;
     let mut missing: Vec<SlotIndex> = relation
         .methods
         .iter()
         .flat_map(|m| &m.targets)
         .map(|&t| classes.representative[t as usize])
-        .filter(|&s| writable.allows(classes, s) && !shown(rows, columns, s))
+        .filter(|&s| writable.allows(s) && !shown(rows, columns, s))
         .collect();
     missing.sort_unstable();
     missing.dedup();
@@ -408,27 +446,25 @@ fn add_written_targets(
 }
 
 /// Which slots a relation may write.
-struct Writable {
-    never: Vec<SlotIndex>,
-    only: Option<Vec<SlotIndex>>,
+struct Writable<'a> {
+    relation: &'a Relation,
+    classes: &'a Classes,
+    /// True if these are the targets of its methods alone.
+    only_targets: bool,
 }
 
-impl Writable {
-    fn of(relation: &Relation, classes: &Classes) -> Self {
-        let representative = |s: &SlotIndex| classes.representative[*s as usize];
+impl<'a> Writable<'a> {
+    fn of(relation: &'a Relation, classes: &'a Classes) -> Self {
         let written = !relation.derived && !relation.methods.is_empty();
         let opaque = matches!(relation.body, RelationBody::Opaque { .. });
-        Self {
-            never: relation.reads.iter().map(representative).collect(),
-            only: (written || opaque).then(|| {
-                relation.methods.iter().flat_map(|m| m.targets.iter().map(representative)).collect()
-            }),
-        }
+        Self { relation, classes, only_targets: written || opaque }
     }
-    fn allows(&self, classes: &Classes, slot: SlotIndex) -> bool {
-        classes.stay[slot as usize] != Stay::Fixed
-            && !self.never.contains(&slot)
-            && self.only.as_ref().is_none_or(|only| only.contains(&slot))
+    fn allows(&self, slot: SlotIndex) -> bool {
+        let is = |s: &SlotIndex| self.classes.representative[*s as usize] == slot;
+        let mut targets = self.relation.methods.iter().flat_map(|m| &m.targets);
+        self.classes.stay[slot as usize] != Stay::Fixed
+            && !self.relation.reads.iter().any(is)
+            && (!self.only_targets || targets.any(is))
     }
 }
 

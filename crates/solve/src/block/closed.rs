@@ -1,19 +1,25 @@
 //! Closed forms: two rows of the second degree in two unknowns that differ by a line, as two circles do.
 //!
-//! In: a layout. Out: the rows as [`expr::conic`]s, compiled together, and at any state their
-//! coefficients around it. One closed form serves all blocks of a layout.
+//! In: a layout. Out: which arguments of its two rows are the unknowns, and at any state the coefficients
+//! of both around it. What a row says of two of its arguments is its kernel's ([`Kernel::curve`]).
+//!
+//! [`Kernel::curve`]: crate::kernel::Kernel::curve
 
 use super::layout::Layout;
-use super::{Block, Workspace};
+use super::{Block, KNOWN, Workspace};
 use base::number::Tolerance;
-use expr::{Arena, ExprId, Tape, Var};
 
 /// The rows of a layout as conics.
 #[derive(Debug)]
-pub(crate) struct Closed {
-    /// The coefficients of both rows, then the guards; its variables are the arguments of all rows.
-    tape: Tape,
-    outs: usize,
+pub(crate) struct Closed([Pair; 2]);
+
+/// The arguments of a row that are the two unknowns.
+#[derive(Clone, Copy, Debug)]
+struct Pair {
+    /// In order; one more than the last where only one occurs.
+    arguments: [u32; 2],
+    /// True if the first of them is the second unknown.
+    is_swapped: bool,
 }
 
 /// A row around a state: zero is `one + slope · p + second · (p₀², p₀ p₁, p₁²)`.
@@ -39,41 +45,28 @@ impl Closed {
         if layout.height() != 2 || layout.core.len() != 2 || layout.is_linear || !exact {
             return None;
         }
-        let mut arena = Arena::for_nodes(64);
-        // an unknown is the first argument that it is
-        let of = |unknown: u32| arguments.iter().position(|&p| p == unknown);
-        let firsts = [of(0)?, of(1)?];
-        let mut found = Vec::with_capacity(2);
-        for row in 0..2 {
-            let (kernel, own) = (layout.kernel_of_row(row), layout.arguments_of_row(row));
-            let positions = &arguments[own.clone()];
-            let arity = positions.len();
+        let pair = |row: usize| {
+            let positions = &arguments[layout.arguments_of_row(row)];
             let twice = |u: u32| positions.iter().filter(|&&p| p == u).count() > 1;
             if [0, 1].into_iter().any(twice) {
                 return None;
             }
-            let vars =
-                [0, 1].map(|u| Var(positions.iter().position(|&p| p == u).unwrap_or(arity) as u32));
-            let name = |var: Var| match positions[var.0 as usize] {
-                super::KNOWN => Var(own.start as u32 + var.0),
-                unknown => Var(firsts[unknown as usize] as u32),
-            };
-            found.push(kernel.conic(vars, &mut arena, &name)?);
-        }
-        if !found[0].is_like(&found[1], &arena) {
-            return None;
-        }
-        let coefficients = found.iter().flat_map(|conic| conic.coefficients);
-        let guards = found.iter().flat_map(|conic| conic.guards.iter().copied());
-        let outs: Vec<ExprId> = coefficients.chain(guards).collect();
-        Some(Self { tape: Tape::compile(&arena, &outs), outs: outs.len() })
+            let at = |u: u32| positions.iter().position(|&p| p == u).unwrap_or(positions.len());
+            let [a, b] = [0, 1].map(|u| at(u) as u32);
+            Some(Pair { arguments: [a.min(b), a.max(b)], is_swapped: a > b })
+        };
+        let pairs = [pair(0)?, pair(1)?];
+        let curve = |row: usize| layout.kernel_of_row(row).curve(pairs[row].arguments);
+        let [first, second] = [curve(0)?.form, curve(1)?.form];
+        let is_swapped = pairs[0].is_swapped != pairs[1].is_swapped;
+        first.is_like(second, is_swapped).then_some(Self(pairs))
     }
 }
 
 impl Block {
     /// Returns its closed form; made when it is first asked.
     pub(crate) fn closed(&self) -> Option<&Closed> {
-        let unknown = |s: &u32| self.unknowns.binary_search(s).map_or(super::KNOWN, |at| at as u32);
+        let unknown = |s: &u32| self.unknowns.binary_search(s).map_or(KNOWN, |at| at as u32);
         let make = || {
             let arguments: Vec<u32> = self.arguments.iter().map(unknown).collect();
             Closed::new(&self.layout, &arguments)
@@ -83,12 +76,19 @@ impl Block {
 
     /// Computes the coefficients of a closed form of it around a state.
     pub(crate) fn conics(&self, closed: &Closed, values: &[f64], w: &mut Workspace) -> Conics {
-        let out = w.run(&closed.tape, &self.arguments, values, closed.outs);
-        let row = |at: usize| Conic {
-            one: out[at],
-            slope: [out[at + 1], out[at + 2]],
-            second: [out[at + 3], out[at + 4], out[at + 5]],
-        };
-        Conics { rows: [row(0), row(6)], is_guarded: out[12..].iter().all(|&guard| guard >= 0.0) }
+        let mut is_guarded = true;
+        let rows = [0, 1].map(|row| {
+            let Pair { arguments, is_swapped } = closed.0[row];
+            let (kernel, own) = self.row(row);
+            let Some(curve) = kernel.curve(arguments) else { unreachable!("it was found before") };
+            let out = w.run(&curve.tape, own, values, 6 + curve.guards);
+            is_guarded &= out[6..].iter().all(|&guard| guard >= 0.0);
+            if is_swapped {
+                Conic { one: out[0], slope: [out[2], out[1]], second: [out[5], out[4], out[3]] }
+            } else {
+                Conic { one: out[0], slope: [out[1], out[2]], second: [out[3], out[4], out[5]] }
+            }
+        });
+        Conics { rows, is_guarded }
     }
 }
