@@ -7,8 +7,10 @@
 //! its part in them: it changes least first, and what is computed follows.
 //!
 //! Rows that share no slot that may move, by way of places either, are decided apart. A piece is first tried by
-//! matching, which is linear as a rule and certain where it says yes; else by elimination.
+//! matching, which is linear as a rule and certain where it says yes; else by elimination, sparse where it is
+//! large.
 
+use crate::deflate;
 use crate::exact;
 use crate::lists::Lists;
 use crate::matching::Matcher;
@@ -90,11 +92,16 @@ impl<'a> Piece<'a> {
     }
 }
 
+/// What is independent in a piece of more rows is found by sparse elimination first.
+const LARGE: usize = 100;
+
 /// Decides which rows are accepted and which slots stay.
 pub(crate) fn accept(system: &System, classes: &Classes, rows: &Rows) -> Acceptance {
     let mut matcher = Matcher::new(system, classes, rows);
     decide(system, classes, rows, &mut |piece, out| {
-        if !matcher.accept(piece, out) {
+        let is_decided = matcher.accept(piece, out)
+            || piece.rows.len() > LARGE && deflate::accept(classes, rows, &mut matcher, piece, out);
+        if !is_decided {
             exact::accept(system, classes, rows, piece, out);
         }
     })

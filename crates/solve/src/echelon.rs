@@ -49,6 +49,15 @@ pub struct Dependent {
     pub circuit: Vec<u32>,
 }
 
+/// Rows whose sum vanishes, each so many times.
+#[derive(Clone, PartialEq, Debug)]
+pub(crate) struct Vanishing {
+    /// The last of them, there once.
+    pub(crate) last: u32,
+    /// How much of each row there is, in order.
+    pub(crate) sum: Row,
+}
+
 impl Echelon {
     /// Eliminates rows over this many columns.
     pub fn new(rows: &[Row], columns: usize) -> Self {
@@ -69,30 +78,40 @@ impl Echelon {
         self.has_pivot[column as usize]
     }
 
+    /// Returns the rows that are eliminated, each with the column of its pivot.
+    pub(crate) fn pivots(&self) -> impl Iterator<Item = (u32, u32)> + '_ {
+        self.pivots.iter().map(|&(row, column, _)| (row, column))
+    }
+
     /// Returns the rows that depend on earlier ones.
     pub fn dependent(&self) -> Vec<Dependent> {
-        // the combinations that vanish, each of them reduced until its last row is in no other
-        let mut reduced: Vec<(u32, Row)> = Vec::new();
+        let told = self.vanishing().into_iter().map(|Vanishing { last, sum }| {
+            let circuit = sum.iter().map(|e| e.0).filter(|&r| r != last).collect();
+            Dependent { row: last, circuit }
+        });
+        told.collect()
+    }
+
+    /// Returns the sums of rows that vanish, each row scaled so that the largest of its numbers is one, in
+    /// order of their last rows; the last row of each is in no other.
+    pub(crate) fn vanishing(&self) -> Vec<Vanishing> {
+        let mut reduced: Vec<Vanishing> = Vec::new();
         for &row in &self.vanished {
             let mut own = self.combination(row);
-            for (last, other) in &reduced {
-                take_away(&mut own, *last, other);
+            for other in &reduced {
+                take_away(&mut own, other.last, &other.sum);
             }
             let largest = own.iter().fold(0.0f64, |m, e| m.max(e.1.abs()));
             let suits = |e: &&(u32, f64)| e.1.abs() >= SHARE * largest;
             let Some(&(last, value)) = own.iter().rfind(suits) else { continue };
             own.iter_mut().for_each(|e| e.1 /= value);
-            for (_, other) in &mut reduced {
-                take_away(other, last, &own);
+            for other in &mut reduced {
+                take_away(&mut other.sum, last, &own);
             }
-            reduced.push((last, own));
+            reduced.push(Vanishing { last, sum: own });
         }
-        reduced.sort_unstable_by_key(|e| e.0);
-        let told = reduced.into_iter().map(|(row, combination)| {
-            let circuit = combination.iter().map(|e| e.0).filter(|&r| r != row).collect();
-            Dependent { row, circuit }
-        });
-        told.collect()
+        reduced.sort_unstable_by_key(|v| v.last);
+        reduced
     }
 
     /// Returns how much of each row there is in a sum that vanishes, with one of this vanished row.

@@ -61,6 +61,7 @@ mod exact;
 mod matching;
 mod tie;
 
+mod deflate;
 mod direct;
 
 mod order;

@@ -69,13 +69,20 @@ enum Use {
     Rigid,
 }
 
+impl Use {
+    /// What a slot that nobody has asked for yet may be used for.
+    fn by(stay: Stay) -> Self {
+        match stay {
+            Stay::Kept { .. } | Stay::Free => Self::Open,
+            Stay::Fixed | Stay::Given => Self::Closed,
+        }
+    }
+}
+
 impl<'a> Matcher<'a> {
     pub(crate) fn new(system: &'a System, classes: &'a Classes, rows: &'a Rows) -> Self {
         let n = system.slots.len();
-        let state = classes.stay.iter().map(|stay| match stay {
-            Stay::Kept { .. } | Stay::Free => Use::Open,
-            Stay::Fixed | Stay::Given => Use::Closed,
-        });
+        let state = classes.stay.iter().map(|&stay| Use::by(stay));
         Self {
             system,
             classes,
@@ -94,11 +101,7 @@ impl<'a> Matcher<'a> {
 
     /// Decides for a piece; false where only elimination can.
     pub(crate) fn accept(&mut self, piece: Piece<'_>, out: &mut Acceptance) -> bool {
-        let is_number = |r: &u32| {
-            let columns = self.rows.columns(*r as usize);
-            columns.iter().all(|e| self.system.slots[e.0 as usize].is_number)
-        };
-        if !piece.rows.iter().all(is_number) {
+        if !self.is_of_numbers(piece) {
             return false;
         }
         for &row in piece.rows {
@@ -106,18 +109,57 @@ impl<'a> Matcher<'a> {
                 return false;
             }
         }
-        for place in piece.places() {
-            self.hold(place);
-        }
-        let before = out.factored.len();
-        if !self.is_regular(piece.rows, &mut out.factored) {
-            out.factored.truncate(before);
+        if !self.hold_places(piece, piece.rows, out) {
             return false;
         }
         let required =
             piece.rows.iter().filter(|&&r| self.rows[r as usize].level == Level::Required);
         out.determined += required.count();
         out.accepted.extend(piece.rows.iter().map(|&r| r as usize));
+        true
+    }
+
+    /// Returns true if the rows of a piece speak of numbers alone.
+    pub(crate) fn is_of_numbers(&self, piece: Piece<'_>) -> bool {
+        let is_number = |r: &u32| {
+            let columns = self.rows.columns(*r as usize);
+            columns.iter().all(|e| self.system.slots[e.0 as usize].is_number)
+        };
+        piece.rows.iter().all(is_number)
+    }
+
+    /// Holds the places that rows can do without, from a slot for each that leaves all of them independent;
+    /// false where the numbers do not bear it out.
+    pub(crate) fn hold(
+        &mut self,
+        piece: Piece<'_>,
+        pivots: impl Iterator<Item = (u32, SlotIndex)>,
+        out: &mut Acceptance,
+    ) -> bool {
+        let slots = piece.rows.iter().flat_map(|&r| self.rows.columns(r as usize)).map(|e| e.0);
+        for slot in slots.chain(piece.places().flatten().copied()) {
+            self.state[slot as usize] = Use::by(self.classes.stay[slot as usize]);
+            self.row_of_slot[slot as usize] = NONE;
+        }
+        let mut rows: Vec<u32> = Vec::with_capacity(piece.rows.len());
+        for (row, slot) in pivots {
+            self.give(row, slot);
+            rows.push(row);
+        }
+        // what may not be held stays regular as it is
+        piece.places().next().is_none() || self.hold_places(piece, &rows, out)
+    }
+
+    /// Holds every place of a piece that its rows can do without; false where the numbers do not bear it out.
+    fn hold_places(&mut self, piece: Piece<'_>, rows: &[u32], out: &mut Acceptance) -> bool {
+        for place in piece.places() {
+            self.hold_place(place);
+        }
+        let before = out.factored.len();
+        if !self.is_regular(rows, &mut out.factored) {
+            out.factored.truncate(before);
+            return false;
+        }
         for &slot in piece.places().flatten() {
             out.unknown[slot as usize] = self.state[slot as usize] != Use::Closed;
         }
@@ -195,7 +237,7 @@ impl<'a> Matcher<'a> {
     }
 
     /// Holds a place if every row finds a slot without it; else changes nothing that matters.
-    fn hold(&mut self, place: &[SlotIndex]) {
+    fn hold_place(&mut self, place: &[SlotIndex]) {
         if place.iter().any(|&s| self.state[s as usize] == Use::Rigid) {
             return;
         }

@@ -178,6 +178,13 @@ proptest! {
             exact::accept(system, &net.classes, &net.rows, piece, out);
         });
         prop_assert_eq!(&found, &by_elimination);
+        let mut matcher = Matcher::new(system, &net.classes, &net.rows);
+        let sparsely = decide(system, &net.classes, &net.rows, &mut |piece, out| {
+            if !deflate::accept(&net.classes, &net.rows, &mut matcher, piece, out) {
+                exact::accept(system, &net.classes, &net.rows, piece, out);
+            }
+        });
+        prop_assert_eq!(&found, &sparsely);
         let (accepted, dependent, open) = net.by_search();
         prop_assert_eq!(&found.accepted, &accepted);
         prop_assert_eq!(&found.dependent, &dependent);
