@@ -7,10 +7,13 @@
 //! other than one negative pivot a row), its diagonal grows until it is. The small `-δ` is that of the
 //! proximal method of multipliers: it keeps the factors tame and disappears with the change of the
 //! multipliers. While given numbers are counted the others are held a little to where they are, which
-//! leaves no trace once they have settled; while the others are counted given numbers are constants.
+//! leaves no trace once they have settled; while the others are counted given numbers are constants. A large
+//! linear block is solved by elimination.
 //!
 //! **Source:** Nocedal and Wright, *Numerical Optimization*, 2nd ed., §18.1 and §16.3; Friedlander and
 //! Orban, *A primal-dual regularized interior-point method*, Math. Prog. Comp. 4 (2012).
+
+mod linear;
 
 use crate::block::{Block, Local, Workspace};
 use crate::lower::{Definers, Problem};
@@ -103,6 +106,8 @@ enum Matrix {
     Kept,
 }
 
+/// A linear block of more unknowns is solved by elimination.
+const LARGE: usize = 60;
 const STEPS: usize = 100;
 /// The regularisation of the rows.
 const DELTA: f64 = 1e-6;
@@ -164,6 +169,12 @@ impl Least {
         s: &mut LeastScratch,
     ) -> Measured {
         let asked = Asked { x0, scales, trust };
+        if self.block.is_linear
+            && self.block.unknowns.len() > LARGE
+            && self.solve_linear(&asked, values, w, s)
+        {
+            return Measured::Least;
+        }
         if self.given.is_empty() {
             return self.least(Counted::All, &asked, values, w, s);
         }
@@ -171,6 +182,27 @@ impl Least {
             Measured::Least => self.least(Counted::Others, &asked, values, w, s),
             Measured::Failed => Measured::Failed,
         }
+    }
+    /// Solves by elimination; where that is not possible, all is as it was.
+    fn solve_linear(
+        &self,
+        asked: &Asked<'_>,
+        values: &mut [f64],
+        w: &mut Workspace,
+        s: &mut LeastScratch,
+    ) -> bool {
+        let before: Vec<f64> = self.block.unknowns.iter().map(|&u| values[u as usize]).collect();
+        let scale = |&u: &SlotIndex| asked.scales[u as usize];
+        let scale: Vec<f64> = self.block.unknowns.iter().map(scale).collect();
+        let local = &mut s.local;
+        let is_solved = linear::solve(&self.block, &self.given, &scale, asked.x0, values, w, local)
+            && self.holds_at(values, w, s);
+        if !is_solved {
+            for (&u, x) in self.block.unknowns.iter().zip(before) {
+                values[u as usize] = x;
+            }
+        }
+        is_solved
     }
     fn part(&self, counted: Counted, unknown: usize) -> Part {
         match (counted, self.given.get(unknown)) {
