@@ -215,4 +215,46 @@ mod tests {
             assert!(error < 1e-9, "{k}: {corner}");
         }
     }
+
+    /// Without a ground voltages are known but for one sum, which the least distance from zero decides.
+    #[test]
+    fn a_grid_without_a_ground_floats_about_zero() {
+        let text =
+            resistor_grid(10).replace("ground: Ground\n", "").replace("ground.lead.node = ", "");
+        let (opened, values) = solved(&text);
+        let voltage = |i| value(&opened, &values, &format!("nodes.{i}.voltage"));
+        assert!((voltage(0) - voltage(99) - 3.011_669_564_896_55).abs() < 1e-9);
+        assert!((0..100).map(voltage).sum::<f64>().abs() < 1e-9);
+    }
+
+    /// Two sources that say otherwise of the same nodes yield alike: the given numbers of one circuit.
+    #[test]
+    fn sources_in_contradiction_meet_half_way_in_a_large_grid() {
+        let battery =
+            resistor_grid(20).replace("CurrentSource { source = 1 A }", "Battery { emf = 1 V }");
+        let other = "other: Battery { emf = 2 V }
+merge other.a.node = source.a.node
+merge other.b.node = source.b.node
+";
+        let (opened, values) = solved(&(battery + other));
+        for name in ["source.emf", "other.emf"] {
+            assert!((value(&opened, &values, name) - 1.5).abs() < 1e-12, "{name}");
+        }
+    }
+
+    /// Nothing carries the loads: all of them yield, each by the same, until they are in balance.
+    /// **Source:** the least sum of squares under two sums, which symmetry makes one.
+    #[test]
+    fn a_truss_without_supports_has_loads_in_balance() {
+        let n = 60;
+        let text = braced_truss(n);
+        let supported = text.find("pin: PinnedSupport").expect("it has supports");
+        let (opened, values) = solved(&text[..supported]);
+        for i in [0, 7, n] {
+            for (name, load) in [("below", 5e3), ("above", -5e3)] {
+                let found = value(&opened, &values, &format!("{name}.{i}.load"));
+                assert!((found / load - 1.0).abs() < 1e-9, "{name} {i}: {found}");
+            }
+        }
+    }
 }

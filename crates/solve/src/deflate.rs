@@ -3,8 +3,8 @@
 //! In: a piece that matching alone could not decide. Out: the answer of elimination, or nothing. Rows are
 //! eliminated over what is not given. Sums of them that vanish there leave given numbers: those have to
 //! yield, and a sum that leaves none is a circuit. The pivots are a slot for each independent row, and
-//! regular together; from these, matching holds what it can. Cost: that of sparse factors, where few
-//! rows depend on others.
+//! regular together; from these, matching holds what it can. Where the numbers do not bear that out, slots are
+//! eliminated by rows as rows were by slots. Cost: that of sparse factors, where few depend on others.
 
 use crate::accept::{Acceptance, Dependent, Piece};
 use crate::echelon::{Echelon, Row, Vanishing};
@@ -12,10 +12,29 @@ use crate::matching::Matcher;
 use crate::rows::{Entry, Rows};
 use crate::substitute::Classes;
 use crate::system::{Level, SlotIndex, Stay};
+use std::cmp::Reverse;
 use std::collections::BTreeMap;
 
 /// What cancels to this part of its terms is zero.
 const CANCELLED: f64 = 1e-8;
+
+/// The most slots that are held by elimination.
+const HELD: usize = 400;
+
+/// A piece whose rows were eliminated.
+pub(crate) struct Deflated<'a> {
+    classes: &'a Classes,
+    piece: Piece<'a>,
+    /// What is not given, in order of slots.
+    open: Vec<SlotIndex>,
+    /// The rows over it.
+    over_open: Vec<Row>,
+    given: Vec<SlotIndex>,
+    eliminated: Echelon,
+    /// Sums of rows that vanish over what is not given, and what each leaves of given numbers.
+    vanishing: Vec<Vanishing>,
+    left: Vec<Row>,
+}
 
 /// Decides for a piece; false where only full elimination can.
 pub(crate) fn accept(
@@ -28,62 +47,109 @@ pub(crate) fn accept(
     if !matcher.is_of_numbers(piece) {
         return false;
     }
-    let is_open = |s: SlotIndex| match classes.stay[s as usize] {
-        Stay::Kept { .. } | Stay::Free => true,
-        Stay::Fixed | Stay::Given => false,
-    };
-    let own = |r: &u32| rows.columns(*r as usize).iter();
-    let scales: Vec<f64> = piece
-        .rows
-        .iter()
-        .map(|r| match largest(own(r).filter(|e| is_open(e.0))) {
+    let deflated = Deflated::new(classes, rows, piece);
+    let is_held = deflated.hold(matcher, out) || deflated.hold_by_elimination(out);
+    if is_held {
+        deflated.accept(rows, out);
+    }
+    is_held
+}
+
+impl<'a> Deflated<'a> {
+    pub(crate) fn new(classes: &'a Classes, rows: &Rows, piece: Piece<'a>) -> Self {
+        let is_open = |s: SlotIndex| match classes.stay[s as usize] {
+            Stay::Kept { .. } | Stay::Free => true,
+            Stay::Fixed | Stay::Given => false,
+        };
+        let own = |r: &u32| rows.columns(*r as usize).iter();
+        let scale = |r: &u32| match largest(own(r).filter(|e| is_open(e.0))) {
             0.0 => 1.0,
             size => size,
-        })
-        .collect();
-    let part = |kind: &dyn Fn(SlotIndex) -> bool| -> (Vec<SlotIndex>, Vec<Row>) {
-        let mut columns: Vec<SlotIndex> =
-            piece.rows.iter().flat_map(own).map(|e| e.0).filter(|&s| kind(s)).collect();
-        columns.sort_unstable();
-        columns.dedup();
-        let place = |s: SlotIndex| columns.partition_point(|&c| c < s) as u32;
-        let row = |(r, scale): (&u32, &f64)| {
-            own(r).filter(|e| kind(e.0)).map(|&(s, value)| (place(s), value / scale)).collect()
         };
-        let made = piece.rows.iter().zip(&scales).map(row).collect();
-        (columns, made)
-    };
-    let (open, over_open) = part(&is_open);
-    let (given, over_given) = part(&|s| classes.stay[s as usize] == Stay::Given);
-    let eliminated = Echelon::new(&over_open, open.len());
-    let vanishing = eliminated.vanishing();
-    let left: Vec<Row> = vanishing.iter().map(|v| sum(&v.sum, &over_given)).collect();
-    let circuits = circuits(&vanishing, &left, given.len());
+        let scales: Vec<f64> = piece.rows.iter().map(scale).collect();
+        let part = |kind: &dyn Fn(SlotIndex) -> bool| -> (Vec<SlotIndex>, Vec<Row>) {
+            let mut columns: Vec<SlotIndex> =
+                piece.rows.iter().flat_map(own).map(|e| e.0).filter(|&s| kind(s)).collect();
+            columns.sort_unstable();
+            columns.dedup();
+            let place = |s: SlotIndex| columns.partition_point(|&c| c < s) as u32;
+            let row = |(r, scale): (&u32, &f64)| {
+                own(r).filter(|e| kind(e.0)).map(|&(s, value)| (place(s), value / scale)).collect()
+            };
+            let made = piece.rows.iter().zip(&scales).map(row).collect();
+            (columns, made)
+        };
+        let (open, over_open) = part(&is_open);
+        let (given, over_given) = part(&|s| classes.stay[s as usize] == Stay::Given);
+        let eliminated = Echelon::new(&over_open, open.len());
+        let vanishing = eliminated.vanishing();
+        let left = vanishing.iter().map(|v| sum(&v.sum, &over_given)).collect();
+        Self { classes, piece, open, over_open, given, eliminated, vanishing, left }
+    }
 
-    let pivots = eliminated.pivots().map(|(r, c)| (piece.rows[r as usize], open[c as usize]));
-    if !matcher.hold(piece, pivots, out) {
-        return false;
+    /// Holds what the rows can do without, by matching from the pivots; false where the numbers do not bear
+    /// it out.
+    pub(crate) fn hold(&self, matcher: &mut Matcher<'_>, out: &mut Acceptance) -> bool {
+        let slot = |(r, c): (u32, u32)| (self.piece.rows[r as usize], self.open[c as usize]);
+        matcher.hold(self.piece, self.eliminated.pivots().map(slot), out)
     }
-    for &(column, _) in left.iter().flatten() {
-        out.unknown[given[column as usize] as usize] = true;
-    }
-    let needs_given = |r: u32| vanishing.binary_search_by_key(&r, |v| v.last).is_ok();
-    let mut circuits = circuits.into_iter().peekable();
-    for (&row, r) in piece.rows.iter().zip(0..) {
-        match circuits.next_if(|c| c.last == r) {
-            Some(Vanishing { sum, .. }) => {
-                let others = sum.iter().map(|e| e.0).filter(|&o| o != r);
-                let circuit = others.map(|o| piece.rows[o as usize] as usize).collect();
-                out.dependent.push(Dependent { row: row as usize, circuit });
+
+    /// Holds what the rows can do without, by eliminating slots, the first declared last; false where they are
+    /// many, or where several yield as one.
+    pub(crate) fn hold_by_elimination(&self, out: &mut Acceptance) -> bool {
+        let rank = self.eliminated.rank();
+        if self.piece.places().any(|place| place.len() > 1) || self.open.len() > rank + HELD {
+            return false;
+        }
+        let willing = |&c: &u32| match self.classes.stay[self.open[c as usize] as usize] {
+            Stay::Kept { group } => Some(Reverse(group)),
+            Stay::Fixed | Stay::Given | Stay::Free => None,
+        };
+        let mut columns: Vec<u32> = (0..self.open.len() as u32).collect();
+        columns.sort_by_key(willing);
+        let mut number = vec![0; columns.len()];
+        for (&c, i) in columns.iter().zip(0..) {
+            number[c as usize] = i as usize;
+        }
+        let mut by_column = vec![Row::new(); columns.len()];
+        for (row, r) in self.over_open.iter().zip(0..) {
+            row.iter().for_each(|&(c, value)| by_column[number[c as usize]].push((r, value)));
+        }
+        for &slot in self.piece.places().flatten() {
+            out.unknown[slot as usize] = self.open.binary_search(&slot).is_ok();
+        }
+        for held in Echelon::new(&by_column, self.over_open.len()).vanishing() {
+            let column = columns[held.last as usize];
+            if willing(&column).is_some() {
+                out.unknown[self.open[column as usize] as usize] = false;
             }
-            None => {
-                let is_required = rows[row as usize].level == Level::Required;
-                out.determined += usize::from(is_required && !needs_given(r));
-                out.accepted.push(row as usize);
+        }
+        true
+    }
+
+    /// Says which rows are accepted, which depend on others, and which given numbers yield.
+    pub(crate) fn accept(&self, rows: &Rows, out: &mut Acceptance) {
+        for &(column, _) in self.left.iter().flatten() {
+            out.unknown[self.given[column as usize] as usize] = true;
+        }
+        let needs_given = |r: u32| self.vanishing.binary_search_by_key(&r, |v| v.last).is_ok();
+        let circuits = circuits(&self.vanishing, &self.left, self.given.len());
+        let mut circuits = circuits.into_iter().peekable();
+        for (&row, r) in self.piece.rows.iter().zip(0..) {
+            match circuits.next_if(|c| c.last == r) {
+                Some(Vanishing { sum, .. }) => {
+                    let others = sum.iter().map(|e| e.0).filter(|&o| o != r);
+                    let circuit = others.map(|o| self.piece.rows[o as usize] as usize).collect();
+                    out.dependent.push(Dependent { row: row as usize, circuit });
+                }
+                None => {
+                    let is_required = rows[row as usize].level == Level::Required;
+                    out.determined += usize::from(is_required && !needs_given(r));
+                    out.accepted.push(row as usize);
+                }
             }
         }
     }
-    true
 }
 
 /// Finds the sums of rows that vanish over given numbers too, of those that vanish over all else and leave

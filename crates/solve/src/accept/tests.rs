@@ -1,4 +1,5 @@
 use super::*;
+use crate::deflate::Deflated;
 use crate::pattern::{PatternId, Patterns};
 use crate::stated::Stated;
 use crate::system::{Level, Relation, RelationBody, Slot};
@@ -178,13 +179,23 @@ proptest! {
             exact::accept(system, &net.classes, &net.rows, piece, out);
         });
         prop_assert_eq!(&found, &by_elimination);
-        let mut matcher = Matcher::new(system, &net.classes, &net.rows);
-        let sparsely = decide(system, &net.classes, &net.rows, &mut |piece, out| {
-            if !deflate::accept(&net.classes, &net.rows, &mut matcher, piece, out) {
-                exact::accept(system, &net.classes, &net.rows, piece, out);
-            }
-        });
-        prop_assert_eq!(&found, &sparsely);
+        for by_elimination in [false, true] {
+            let mut matcher = Matcher::new(system, &net.classes, &net.rows);
+            let sparsely = decide(system, &net.classes, &net.rows, &mut |piece, out| {
+                let deflated = Deflated::new(&net.classes, &net.rows, piece);
+                let is_held = if by_elimination {
+                    deflated.hold_by_elimination(out)
+                } else {
+                    deflated.hold(&mut matcher, out)
+                };
+                if is_held {
+                    deflated.accept(&net.rows, out);
+                } else {
+                    exact::accept(system, &net.classes, &net.rows, piece, out);
+                }
+            });
+            prop_assert_eq!(&found, &sparsely);
+        }
         let (accepted, dependent, open) = net.by_search();
         prop_assert_eq!(&found.accepted, &accepted);
         prop_assert_eq!(&found.dependent, &dependent);
