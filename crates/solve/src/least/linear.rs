@@ -62,16 +62,21 @@ pub(super) fn solve(
     if free.len() > FREE || free.len() * stated.open.len() > NUMBERS {
         return false;
     }
-    if !stated.give(&eliminated.vanishing(), x0, values, local) {
-        return false;
-    }
     for &c in &free {
         let slot = stated.slot(stated.open[c]);
         values[slot] = x0[slot];
     }
     let Some(mut basic) = stated.basic(&eliminated) else { return false };
-    block.sides(values, w, local);
-    stated.refine(&mut basic, values, w, local);
+    let vanishing = eliminated.vanishing();
+    // once for the numbers, once for what rounding left of the sums
+    for _ in 0..if vanishing.is_empty() { 1 } else { 2 } {
+        block.sides(values, w, local);
+        if !stated.give(&vanishing, x0, values, local) {
+            return false;
+        }
+        block.sides(values, w, local);
+        stated.refine(&mut basic, values, w, local);
+    }
     stated.free(&mut basic, &free, x0, values);
     block.sides(values, w, local);
     stated.refine(&mut basic, values, w, local);
