@@ -139,6 +139,8 @@ pub struct Plan {
     pub(crate) has_branches: bool,
     /// True if a step changes as little as it can.
     pub(crate) has_least: bool,
+    /// True if in some step the least change is sought along rows that are curved.
+    pub(crate) bends: bool,
     stated: Stated,
     relaxed: OnceCell<Option<Box<Plan>>>,
     /// Every equation, laid out to be tested when that is first asked.
@@ -275,8 +277,11 @@ fn plan_stated(stated: Stated) -> Plan {
         }
     });
     let has_least = lowered.steps.iter().any(|s| matches!(s.program, Program::Least(_)));
+    let is_curved = |p: &Program| matches!(p, Program::Least(least) if !least.0.block.is_linear);
+    let bends = lowered.steps.iter().any(|s| is_curved(&s.program));
     Plan {
         has_least,
+        bends,
         steps: lowered.steps,
         report: findings,
         slots: planned_slots(system),

@@ -25,6 +25,10 @@ use std::rc::Rc;
 /// The first stride of a walk, and the shortest, as parts of the whole way.
 const LONGEST: f64 = 0.5;
 const SHORTEST: f64 = 1e-7;
+/// A way longer than this is cut, in parts of the extent, over the number of slots that move.
+const PART: f64 = 0.25;
+/// Into so many ways at most, over the same number.
+const MOST_TARGETS: usize = 20_000;
 /// How many strides are tried before a way is given up.
 const STRIDES: usize = 600;
 
@@ -235,13 +239,47 @@ impl Drag {
     /// Follows the wish: one target for each input, in their order.
     ///
     /// Where the required relations cannot follow, the drag stops at the limit and says so; a wish
-    /// that they do not allow is met as nearly as they do. Later wishes go on from there.
+    /// that they do not allow is met as nearly as they do. Later wishes go on from there. A long way is gone in
+    /// short ones, so that how often the pointer is asked plays no part.
     ///
     /// # Panics
     /// If there are not as many targets as inputs.
     pub fn follow(&mut self, plan: &Plan, targets: &[f64], host: &mut dyn Host) -> Outcome {
+        assert_eq!(targets.len(), self.slice.inputs.len(), "a wish names every input");
+        let parts = self.parts(plan, targets);
+        if parts > 1 {
+            let from: Vec<f64> =
+                self.slice.inputs.iter().map(|&input| self.now[input as usize]).collect();
+            for part in 1..parts {
+                let part = f64::from(part) / f64::from(parts);
+                let on = from.iter().zip(targets).map(|(a, b)| a + part * (b - a));
+                self.follow_on(plan, &on.collect::<Vec<_>>(), host);
+            }
+        }
+        self.follow_on(plan, targets, host)
+    }
+
+    /// Returns into how many ways that to a wish is cut: where least change bends, a stride might pass over the
+    /// end of a branch. The more of a kind moves, the nearer to one another it lies.
+    fn parts(&self, plan: &Plan, targets: &[f64]) -> u32 {
+        if !self.has_branch || !plan.bends {
+            return 1;
+        }
+        let scales = &self.runner.frame.scales;
+        let kind = |slot: SlotIndex| plan.slots[slot as usize].scale;
+        let part = |(&input, to): (&SlotIndex, &f64)| {
+            let alike = self.slice.targets.iter().filter(|&&t| kind(t) == kind(input)).count();
+            let way = (to - self.now[input as usize]).abs() / scales[input as usize];
+            way * alike.max(1) as f64 / PART
+        };
+        let parts = self.slice.inputs.iter().zip(targets).map(part).fold(1.0, f64::max);
+        let most = (MOST_TARGETS / self.slice.targets.len().max(1)).max(1);
+        parts.ceil().min(most as f64) as u32
+    }
+
+    /// Follows a wish that is near.
+    fn follow_on(&mut self, plan: &Plan, targets: &[f64], host: &mut dyn Host) -> Outcome {
         let Self { slice, branch, now, .. } = self;
-        assert_eq!(targets.len(), slice.inputs.len(), "a wish names every input");
         let Runner { frame, buffers, goal, trial, .. } = &mut self.runner;
         goal.clear();
         goal.extend_from_slice(branch);

@@ -1,0 +1,129 @@
+//! Drags in few frames and in many: a wish is followed along the way to it, so that what a drag comes to
+//! does not depend on how often the pointer was asked where it is.
+//!
+//! Chains of bars from a pin, open and closed, bent at random, are dragged by one of their joints along a
+//! straight way of several bar lengths: in one frame, in five, and in hundreds. `THINGLAB_LONG` tries
+//! more of them.
+
+use bench::case::{Case, Constraint};
+use bench::document;
+use bench::opened::Opened;
+use plan::Target;
+
+/// How far two ends may lie apart, of bars of length one: where least change is measured anew on the way, the
+/// place where that is depends a little on the strides.
+const SAME: f64 = 1e-3;
+/// Into how many frames a way is cut.
+const FRAMES: [usize; 3] = [100, 5, 1];
+
+/// A generator of numbers, the same in every run (xorshift).
+struct Dice(u64);
+
+impl Dice {
+    fn new(seed: u64) -> Self {
+        let mut dice = Self(seed.wrapping_mul(0x9e37_79b9_7f4a_7c15) | 1);
+        (0..8).for_each(|_| {
+            dice.between(0.0, 1.0);
+        });
+        dice
+    }
+    fn between(&mut self, low: f64, high: f64) -> f64 {
+        self.0 ^= self.0 << 13;
+        self.0 ^= self.0 >> 7;
+        self.0 ^= self.0 << 17;
+        low + (high - low) * ((self.0 >> 20) % 10_007) as f64 / 10_006.0
+    }
+}
+
+/// Whether the last joint of a chain is pinned too.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+enum End {
+    Open,
+    Pinned,
+}
+
+/// A chain of bars of length one, each bent from the one before.
+fn chain(bars: usize, end: End, dice: &mut Dice) -> Case {
+    let (mut at, mut angle) = ([0.0, 0.0], dice.between(-3.0, 3.0));
+    let mut points = vec![at];
+    for _ in 0..bars {
+        angle += dice.between(-1.4, 1.4);
+        at = [at[0] + base::number::cos(angle), at[1] + base::number::sin(angle)];
+        points.push(at);
+    }
+    let pin = |p: usize| Constraint::Fix { p, x: points[p][0], y: points[p][1] };
+    let mut constraints = vec![pin(0)];
+    constraints.extend((0..bars).map(|p| Constraint::Distance { p, q: p + 1, v: 1.0 }));
+    if end == End::Pinned {
+        constraints.push(pin(bars));
+    }
+    Case {
+        format: "gcs-case/1".into(),
+        name: "chain".into(),
+        well_constrained: false,
+        truth: points.clone(),
+        start: points,
+        lines: Vec::new(),
+        arcs: Vec::new(),
+        constraints,
+        drag: None,
+    }
+}
+
+/// Drags a joint straight to a place; returns where all joints are then, and whether it was reached.
+fn dragged(case: &Case, joint: usize, to: [f64; 2], frames: usize) -> (Vec<[f64; 2]>, bool) {
+    let opened = Opened::new(&document::text(case)).expect("a chain can be said");
+    let (mut planner, mut values, report) = opened.solve();
+    assert!(report.unmet.is_empty(), "its bars are as long as they are");
+    let thing = opened.thing(&format!("p{joint}")).expect("it has this joint");
+    let (model, host) = (opened.model(), &mut opened.host());
+    let press = planner.press(model, &values, &[Target::Thing(thing)]);
+    let mut press = press.expect("a joint can be dragged");
+    let mut reached = false;
+    for frame in 1..=frames {
+        let part = frame as f64 / frames as f64;
+        let wish = [0, 1].map(|k| case.start[joint][k] + part * (to[k] - case.start[joint][k]));
+        reached = planner.drag(model, &mut press, &mut values, &wish, host).reached;
+    }
+    let place = |p: usize| {
+        let slots = opened.slots(&format!("p{p}"));
+        [values.numbers[slots[0]], values.numbers[slots[1]]]
+    };
+    ((0..case.start.len()).map(place).collect(), reached)
+}
+
+#[test]
+fn a_drag_ends_in_the_same_place_in_few_frames_and_in_many() {
+    let seeds = if std::env::var_os("THINGLAB_LONG").is_some() { 400 } else { 14 };
+    let (mut wrong, mut reached) = (Vec::new(), 0);
+    for seed in 0..seeds {
+        let dice = &mut Dice::new(seed);
+        let bars = 3 + seed as usize % 7;
+        let end = if seed % 3 == 0 { End::Pinned } else { End::Open };
+        let case = chain(bars, end, dice);
+        let joint = if end == End::Pinned { bars / 2 } else { bars };
+        let reach = 0.9 * joint as f64;
+        let (far, angle) = (dice.between(0.2, 1.0) * reach, dice.between(-3.2, 3.2));
+        let to = [far * base::number::cos(angle), far * base::number::sin(angle)];
+        let [(many, fine), (five, some), (one, once)] =
+            FRAMES.map(|frames| dragged(&case, joint, to, frames));
+        reached += usize::from(fine);
+        for (ends, arrived, frames) in [(five, some, 5), (one, once, 1)] {
+            let off = |(p, q): (&[f64; 2], &[f64; 2])| (p[0] - q[0]).abs().max((p[1] - q[1]).abs());
+            let apart = many.iter().zip(&ends).map(off).fold(0.0, f64::max);
+            if apart > SAME || arrived != fine {
+                wrong.push(format!(
+                    "seed {seed}, {bars} bars {end:?} to {to:?} in {frames} frames: {apart:.1e} off, \
+                     reached: {arrived}, in many: {fine}"
+                ));
+            }
+        }
+    }
+    assert!(
+        wrong.is_empty(),
+        "{} of {seeds}, {reached} reached\n{}",
+        wrong.len(),
+        wrong.join("\n")
+    );
+    assert!(2 * reached > seeds as usize, "{reached} of {seeds} reached");
+}
