@@ -56,7 +56,7 @@ pub(crate) fn complaints(
     if soft.is_empty() && stays.is_empty() {
         own.least(states, &required, &moved);
         own.exchange(states, &required, &moved, connected);
-        own.orientation([&before, &after], &required, &moved);
+        own.orientation([&before, &after], states[1], &required, &moved);
     } else {
         own.compromise(states, &required, &soft, &stays, connected);
     }
@@ -246,21 +246,28 @@ impl Answer<'_> {
             && !self.edit.edited.contains(&slot)
     }
 
-    /// What rules determine lies on the side where it lay: the determinant of their slopes has its sign.
+    /// What rules determine lies on the side where it lay: the determinant of their slopes has its sign. Where
+    /// they are linear, with the same slopes aside, there is no other side.
     fn orientation(
         &mut self,
         states: [&Evaluator<'_>; 2],
+        aside: &Evaluator<'_>,
         of: &[ConstraintInstance],
         moved: &[SlotId],
     ) {
-        let signs = states.map(|state| {
+        let slopes = |state: &Evaluator<'_>| -> Option<Vec<Vec<f64>>> {
             let rows = acting(state, of, moved)?;
             let is_square = rows.len() == moved.len();
-            if !is_square || rows.iter().any(|r| r.order != Order::Equal) {
-                return None;
-            }
-            sign_of_determinant(rows.into_iter().map(|r| r.slopes).collect())
-        });
+            let is_plain = is_square && rows.iter().all(|r| r.order == Order::Equal);
+            is_plain.then(|| rows.into_iter().map(|r| r.slopes).collect())
+        };
+        let [Some(before), Some(after)] = states.map(slopes) else { return };
+        let Some(aside) = slopes(aside) else { return };
+        let is_same = |(a, b): (&f64, &f64)| (a - b).abs() <= OFF * a.abs().max(b.abs());
+        if after.iter().flatten().zip(aside.iter().flatten()).all(is_same) {
+            return;
+        }
+        let signs = [before, after].map(sign_of_determinant);
         if let [Some(before), Some(after)] = signs
             && before != after
         {
