@@ -63,7 +63,8 @@ impl<'a> Evaluator<'a> {
         }
     }
 
-    /// Makes a thing of another's class with other parts; what that one refers to, it refers to.
+    /// Makes a thing of another's class with other parts; what that one refers to, it refers to, and the
+    /// last parts, where fewer are said, are that one's.
     pub(crate) fn made_of(
         &self,
         model: &Answer<'a>,
@@ -84,14 +85,16 @@ impl<'a> Evaluator<'a> {
         for (i, &field) in layout.fields.iter().enumerate() {
             let field_class = self.document.field_class(field);
             let refers = matches!(self.document.classes[field_class].kind, ClassKind::Reference(_));
+            let own = |t: ThingId| ThingId(self.structure.things[t].first_part.0 + i as u32);
             made.fields.push(match (model, refers) {
                 (Answer::Thing(t), true) => {
-                    let part = ThingId(self.structure.things[*t].first_part.0 + i as u32);
-                    self.part(part).unwrap_or(Answer::List(Rc::from([])))
+                    self.part(own(*t)).unwrap_or(Answer::List(Rc::from([])))
                 }
-                (_, _) => match parts.next() {
-                    Some(part) => self.as_class(part, field_class, nearest)?,
-                    None => self.default_field(&made, field, nearest)?,
+                (_, _) => match (parts.next(), model) {
+                    (Some(part), _) => self.as_class(part, field_class, nearest)?,
+                    (None, Answer::Thing(t)) => self.part(own(*t))?,
+                    (None, Answer::Made(whole)) => whole.fields[i].clone(),
+                    (None, _) => self.default_field(&made, field, nearest)?,
                 },
             });
         }
@@ -107,10 +110,14 @@ impl<'a> Evaluator<'a> {
         }
     }
 
-    /// Returns true for a thing of two lengths `x` and `y`.
+    /// Returns true for a thing that begins with two lengths `x` and `y`, where all else in it are values.
     pub(crate) fn is_place(&self, of: &Answer<'a>) -> bool {
         let Some(class) = self.class_of(of) else { return false };
-        self.coordinates(class).is_some() && self.layout(class).fields.len() == 2
+        let is_value = |&field: &PartRef| {
+            let kind = &self.document.classes[self.document.field_class(field)].kind;
+            matches!(kind, ClassKind::Primitive(_) | ClassKind::Reference(_))
+        };
+        self.coordinates(class) == Some((0, 1)) && self.layout(class).fields.iter().all(is_value)
     }
 
     fn is_reference(&self, thing: ThingId) -> bool {

@@ -212,8 +212,8 @@ table! {
     /// A message that every thing knows.
     ThingMessage, THING_MESSAGES:
     Parts "parts" Any [] List "Its parts, in order; what it only refers to is none.";
-    Made "made" Any [one("of", Kind::List)] Any "A thing of its class that is made of other parts.";
-    IsPlace "isPlace" Any [] Bool "Whether it consists of two lengths x and y.";
+    Made "made" Any [one("of", Kind::List)] Any "A thing of its class that is made of other parts; the last ones, where fewer are said, stay.";
+    IsPlace "isPlace" Any [] Bool "Whether it begins with two lengths x and y, and all else in it are values.";
     Class "class" Any [] Text "The name of its class.";
     Owner "owner" Any [] Any "What it is a part of.";
 }

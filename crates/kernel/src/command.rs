@@ -13,6 +13,8 @@ pub enum Literal {
     Bool(bool),
     /// A thing by position: a place `(x, y)`.
     Tuple(Vec<Literal>),
+    /// What a part shall name, by its path from the document.
+    Path(Path),
 }
 
 /// A change of a document, as its user means it. Each is one undo step with all that it implies.

@@ -42,9 +42,14 @@ impl Lowerer<'_> {
             _ => return None,
         };
         let name = word.name();
-        if self.has_part(class, &name) || !self.has_constraint(class, &name) {
+        if self.has_part(class, &name) {
             return None;
         }
+        // merged things have the constraints of each
+        let class = match self.has_constraint(class, &name) {
+            true => class,
+            false => self.kin_that(class, |l, kin| l.has_constraint(kin, &name))?,
+        };
         self.refer(Place { file: scope.file, span: word.span() }, &name, class);
         let kind = kind_of(aspect);
         Some((Term::OfConstraint { of: Box::new(of), name, aspect }, kind))

@@ -20,7 +20,7 @@ use crate::uses::{Text, refused};
 use base::{Diagnostic, Span};
 pub use counts::is_count;
 use home::Home;
-use kernel::{ClassId, Command, Path, Step, Structure};
+use kernel::{ClassId, Command, Literal, Path, Step, Structure};
 pub use sides::write_sides;
 pub use switch::of_constraint;
 use syntax::ast::Expr;
@@ -79,10 +79,11 @@ pub fn edits_for(
         Command::Enable { path, on } => text.switch(path, *on)?,
         Command::Set(targets) => match targets.as_slice() {
             [(path, value)] if is_count(lowered, path) => text.set_count(path, value)?,
+            [(_, Literal::Path(_))] => crate::write::value_edits(lowered, targets).into(),
             [(path, value)] => text.set_of_constraint(path, value)?,
             _ => {
                 let message =
-                    "what is set of a constraint, or how many parts there are, is an edit of its own"
+                    "what is set of a constraint, how many parts there are, and what a part names are edits of their own"
                         .to_string();
                 return Err(refused("not-settable", message));
             }

@@ -18,9 +18,20 @@ pub(crate) struct Kin {
 
 impl Lowerer<'_> {
     /// Returns the nearest kin of a class that has a part or message of this name.
+    pub(crate) fn kin_with(&mut self, class: ClassId, name: &Name) -> Option<ClassId> {
+        self.kin_that(class, |l, kin| {
+            l.class_of_part(kin, name).is_some() || l.find_message(kin, name, None).is_some()
+        })
+    }
+
+    /// Returns the nearest kin of a class of which something is true.
     ///
     /// Cost: where merges were lowered since it was last asked, a look at all of them.
-    pub(crate) fn kin_with(&mut self, class: ClassId, name: &Name) -> Option<ClassId> {
+    pub(crate) fn kin_that(
+        &mut self,
+        class: ClassId,
+        is_wanted: impl Fn(&Self, ClassId) -> bool,
+    ) -> Option<ClassId> {
         let merges = self.document.classes.iter().map(|(_, c)| c.merges.len()).sum();
         if self.kin.merges != merges {
             self.kin = Kin { merges, of: BTreeMap::new() };
@@ -43,9 +54,7 @@ impl Lowerer<'_> {
                 if !seen.insert(kin) {
                     continue;
                 }
-                if self.class_of_part(kin, name).is_some()
-                    || self.find_message(kin, name, None).is_some()
-                {
+                if is_wanted(self, kin) {
                     return Some(kin);
                 }
                 waiting.push(kin);

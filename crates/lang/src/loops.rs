@@ -202,7 +202,9 @@ impl Lowerer<'_> {
                 let before = above.and_then(|above| self.given_count(&above, &list)).unwrap_or(0);
                 let together = each.names().count() as u32;
                 let from = before.saturating_sub(together.saturating_sub(1));
+                let declared_by = scope.class();
                 let scope = Scope::of(scope.file, class);
+                self.redeclare_loop(declared_by, &scope, &each);
                 self.pending.push(Pending::Each { scope, each: each.clone(), from });
             }
         }

@@ -174,6 +174,10 @@ impl Lowerer<'_> {
 
     /// Returns how many elements the list of this name has, if its class tells.
     pub(crate) fn count_of_part(&self, class: ClassId, name: &Name) -> Option<u32> {
+        let narrowed = self.class_of_part(class, name);
+        if let Some(count) = narrowed.and_then(|list| self.document.classes[list].count) {
+            return Some(count);
+        }
         let line = self.document.primary_line(class);
         let own = |c: ClassId| Some((c, *self.parts.get(&(c, name.clone()))?));
         let (c, part) = line.into_iter().find_map(own)?;

@@ -72,7 +72,7 @@ impl Lowerer<'_> {
             if !bodies.is_empty() {
                 let refinement = Refinement { bodies, masks: Vec::new() };
                 let refined = self.refined_fields(class, &refinement, &mut made);
-                self.document.classes[class].refined = refined;
+                self.refine(class, refined);
             }
         }
         self.narrowed = made;
@@ -104,12 +104,21 @@ impl Lowerer<'_> {
             };
             if refinement != Refinement::default() {
                 let refined = self.refined_fields(class, &refinement, &mut made);
-                self.document.classes[class].refined = refined;
+                self.refine(class, refined);
             }
         }
         for (body, to) in std::mem::take(&mut self.copies) {
             self.add_members(body, to);
         }
+    }
+
+    /// Makes fields of a class narrower; others that were made so stay as they are.
+    fn refine(&mut self, class: ClassId, mut refined: Vec<(PartRef, ClassId)>) {
+        let known = std::mem::take(&mut self.document.classes[class].refined);
+        let others = known.into_iter().filter(|(f, _)| !refined.iter().any(|(g, _)| f == g));
+        let others: Vec<_> = others.collect();
+        refined.extend(others);
+        self.document.classes[class].refined = refined;
     }
 
     /// Returns the fields of a class that a refinement makes narrower.

@@ -249,7 +249,11 @@ impl Writer<'_> {
             Literal::Tuple(items) if part.body().is_some() => {
                 self.write_coordinates(&inner, &members, &rest, value, items);
             }
-            Literal::Tuple(_) | Literal::Number(_) | Literal::Text(_) | Literal::Bool(_) => {
+            Literal::Tuple(_)
+            | Literal::Number(_)
+            | Literal::Text(_)
+            | Literal::Bool(_)
+            | Literal::Path(_) => {
                 let text = self.text(value);
                 self.edits.extend(edit::give_value(part, &text));
             }
@@ -350,6 +354,7 @@ impl Writer<'_> {
             }
             Literal::Bool(b) => b.to_string(),
             Literal::Text(t) => quoted(t),
+            Literal::Path(path) => path.to_string(),
             Literal::Tuple(items) => {
                 let fields = value.class.map(|c| self.document.layout(c)).unwrap_or_default();
                 let item = |(i, literal): (usize, &Literal)| {

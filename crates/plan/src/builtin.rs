@@ -109,10 +109,12 @@ impl<'a> Opening<'a> {
                 let mut parts = parts.iter();
                 let mut given: Vec<Given<'a>> = Vec::new();
                 for (name, class) in fields {
-                    match refers(class) {
-                        true => given.push((Some(name.clone()), self.send(to, &name, &[], None)?)),
-                        false => given.extend(parts.next().map(|part| (Some(name), part.clone()))),
-                    }
+                    let said = if refers(class) { None } else { parts.next() };
+                    let part = match said {
+                        Some(part) => part.clone(),
+                        None => self.send(to, &name, &[], None)?,
+                    };
+                    given.push((Some(name), part));
                 }
                 if parts.next().is_some() {
                     let name = &document.classes[class].name;
@@ -126,8 +128,15 @@ impl<'a> Opening<'a> {
                     let length = ClassKind::Primitive(Primitive::Real(Dimension::LENGTH));
                     document.classes[c].kind == length
                 };
+                let is_value = |(_, c): &(Name, ClassId)| {
+                    let kind = &document.classes[*c].kind;
+                    matches!(kind, ClassKind::Primitive(_) | ClassKind::Reference(_))
+                };
                 let is_place = match fields.as_slice() {
-                    [(x, a), (y, b)] => *x == *"x" && *y == *"y" && is_length(*a) && is_length(*b),
+                    [(x, a), (y, b), rest @ ..] => {
+                        let is_xy = *x == *"x" && *y == *"y" && is_length(*a) && is_length(*b);
+                        is_xy && rest.iter().all(is_value)
+                    }
                     _ => false,
                 };
                 Ok(self.number(f64::from(u8::from(is_place))))

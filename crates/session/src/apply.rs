@@ -40,7 +40,7 @@ pub(crate) fn apply(
         return prototype::edit(open, host, command, targets, class);
     }
     match command {
-        Command::Set(targets) if targets.iter().any(|t| is_structure(&open.state, &t.0)) => {
+        Command::Set(targets) if targets.iter().any(|t| is_structure(&open.state, t)) => {
             restructure(open, host, command)
         }
         Command::Set(targets) => edit(open, host, EditKind::Set, targets),
@@ -59,9 +59,12 @@ pub(crate) fn apply(
     }
 }
 
-/// Returns true for what is set by an edit of the structure: what is of a constraint, and counts.
-fn is_structure(state: &State, path: &Path) -> bool {
-    lang::of_constraint(&state.lowered, path).is_some() || lang::is_count(&state.lowered, path)
+/// Returns true for what is set by an edit of the structure: what is of a constraint, counts, and what a
+/// part names.
+fn is_structure(state: &State, (path, value): &(Path, Literal)) -> bool {
+    matches!(value, Literal::Path(_))
+        || lang::of_constraint(&state.lowered, path).is_some()
+        || lang::is_count(&state.lowered, path)
 }
 
 /// What an edit speaks of: a thing, or a virtual part of one.
@@ -211,6 +214,8 @@ pub(crate) fn flat(literal: &Literal) -> Vec<Value> {
         Literal::Bool(b) => vec![Value::Number(f64::from(u8::from(*b)))],
         Literal::Text(t) => vec![Value::Text(Arc::from(t.as_str()))],
         Literal::Tuple(items) => items.iter().flat_map(flat).collect(),
+        // what a part names is no value of a slot
+        Literal::Path(_) => Vec::new(),
     }
 }
 

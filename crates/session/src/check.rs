@@ -290,7 +290,13 @@ fn literals(state: &State, targets: &[(Path, Term)]) -> Result<Vec<(Path, Litera
     let evaluator = state.evaluator(&state.values);
     let literal = |(path, term): &(Path, Term)| {
         let answer = evaluator.evaluate(term, DOCUMENT).map_err(|f| words::refuse(f.message))?;
-        Ok((path.clone(), literal_of(&answer)?))
+        let literal = match answer {
+            Answer::Thing(thing) if words::names_another(state, path) => {
+                Literal::Path(state.structure.path(&state.lowered.document, thing))
+            }
+            answer => literal_of(&answer)?,
+        };
+        Ok((path.clone(), literal))
     };
     targets.iter().map(literal).collect()
 }

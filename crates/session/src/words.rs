@@ -6,8 +6,8 @@ use crate::view::{Freedom, Refusal};
 use crate::views;
 use base::Diagnostic;
 use kernel::{
-    ClassKind, Command, ConstraintInstance, Document, Literal, Path, Primitive, SlotId, Step,
-    Structure, Term, ThingId, Value, Values,
+    ClassId, ClassKind, Command, ConstraintInstance, Document, Literal, Path, Primitive, SlotId,
+    Step, Structure, Term, ThingId, Value, Values,
 };
 use plan::{Acting, ActingKind, EditReport, NotDecided, RefusalReason, Source};
 
@@ -345,12 +345,37 @@ pub(crate) fn freedom_of(
 /// # Errors
 /// What was found and what was wanted.
 pub(crate) fn read_typed(state: &State, path: &Path, typed: &str) -> Result<Literal, Refusal> {
-    let kind = match crate::session::thing_at(state, path) {
-        Some(thing) => lang::Wanted::Class(state.structure.things[thing].class),
-        None => lang::Wanted::Anything,
+    let class = crate::session::thing_at(state, path).map(|t| state.structure.things[t].class);
+    let is_words = |class: ClassId| {
+        let kind = &state.lowered.document.classes[class].kind;
+        matches!(kind, ClassKind::Primitive(Primitive::Text | Primitive::Color))
     };
+    if names_another(state, path)
+        && !class.is_some_and(is_words)
+        && let Some(other) = crate::parse_path(typed.trim())
+    {
+        find(state, &other)?;
+        return Ok(Literal::Path(other));
+    }
+    let kind = class.map_or(lang::Wanted::Anything, lang::Wanted::Class);
     lang::read_literal(typed, kind, &state.lowered.document)
         .map_err(|d| refuse(d.hint.map_or(d.message.clone(), |h| format!("{}; {h}", d.message))))
+}
+
+/// Returns true for a part that names another: a `Path to C`, or an element of a list of such.
+pub(crate) fn names_another(state: &State, path: &Path) -> bool {
+    let Some((last, owner)) = path.0.split_last() else { return false };
+    let structure = &state.structure;
+    let Ok(owner) = structure.follow(kernel::DOCUMENT, &Path(owner.to_vec())) else { return false };
+    let document = &state.lowered.document;
+    let part = match last {
+        Step::Part(name) => structure.part_named(owner, name),
+        Step::Index(i) => structure.parts(owner).nth(*i as usize),
+        Step::Last => structure.parts(owner).last(),
+        Step::Owner => None,
+    };
+    let class = part.map(|p| &document.classes[structure.things[p].class].kind);
+    matches!(class, Some(ClassKind::Reference(_)))
 }
 
 /// Returns what the undo list calls a command.

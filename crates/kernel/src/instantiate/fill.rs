@@ -99,8 +99,9 @@ fn fill_list<'d>(
         Term::List(items) => items.len(),
         _ => 0,
     });
+    // a narrower list knows better than where it was declared
     let own = maker.document.classes[body.things[thing].class].count.map(Count::Fixed);
-    let count = match declared(maker, body, thing).and_then(|field| field.1).or(own) {
+    let count = match own.or_else(|| declared(maker, body, thing)?.1) {
         Some(Count::Fixed(n)) => n as usize,
         Some(Count::Given) | None => {
             body.counts_givens = true;

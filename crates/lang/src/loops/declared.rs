@@ -7,7 +7,7 @@ use crate::lower::Lowerer;
 use crate::members::values_alone;
 use crate::scope::Scope;
 use base::{Name, Place, Span};
-use kernel::{ClassId, ClassKind, Count, Part, Term};
+use kernel::{ClassId, ClassKind, Count, Part, PartRef, PartRole, Term};
 use syntax::SyntaxKind;
 use syntax::ast::{self, AstNode, Expr, Member, span_without_doc};
 
@@ -15,6 +15,8 @@ use syntax::ast::{self, AstNode, Expr, Member, span_without_doc};
 #[derive(Clone)]
 pub(crate) struct Repeated {
     scope: Scope,
+    /// The class that says the loop; others go on with it.
+    declared_by: ClassId,
     /// The loops around it, the outermost first.
     loops: Vec<ast::For>,
     member: Member,
@@ -41,7 +43,8 @@ impl<'l> Lowerer<'l> {
     /// are declared.
     pub(super) fn declare_loop(&mut self, scope: &Scope, each: &ast::For) {
         for (loops, member) in declarations(each) {
-            let repeated = Repeated { scope: scope.clone(), loops, member };
+            let declared_by = scope.class();
+            let repeated = Repeated { scope: scope.clone(), declared_by, loops, member };
             let over_ranges = |each: &ast::For| matches!(each.range(), Some(Expr::Range(_)));
             let shape = if repeated.loops.iter().all(over_ranges) {
                 self.shape(scope, &repeated.loops)
@@ -94,7 +97,7 @@ impl<'l> Lowerer<'l> {
     }
 
     fn declare_turns(&mut self, repeated: &Repeated, shape: &Shape) {
-        let Repeated { scope, loops, member } = repeated;
+        let Repeated { scope, loops, member, .. } = repeated;
         let span = span_without_doc(member.syntax());
         match member {
             Member::Part(part) => match (part.class(), part.definition()) {
@@ -114,7 +117,7 @@ impl<'l> Lowerer<'l> {
                 let element = self.reference_to(to);
                 let doc = reference.doc().unwrap_or_default();
                 let class = self.lists_of(scope, loops, shape, &mut Leaves::Alike(element));
-                self.add_list(scope, &word, class, shape.len(), (doc, None, span));
+                self.add_list(repeated, &word, class, shape.len(), (doc, None, span));
             }
             _ => {}
         }
@@ -146,13 +149,13 @@ impl<'l> Lowerer<'l> {
                 }
             };
             let doc = part.doc().unwrap_or_default();
-            self.add_list(scope, &word, class, shape.len(), (doc, range, span));
+            self.add_list(repeated, &word, class, shape.len(), (doc, range, span));
         }
     }
 
     fn add_list(
         &mut self,
-        scope: &Scope,
+        Repeated { scope, declared_by, .. }: &Repeated,
         word: &ast::Word,
         class: ClassId,
         turns: u32,
@@ -160,6 +163,12 @@ impl<'l> Lowerer<'l> {
     ) {
         if !self.is_new(scope, word) {
             return;
+        }
+        if scope.class() != *declared_by {
+            let Some(&index) = self.parts.get(&(*declared_by, word.name())) else { return };
+            let field = PartRef { class: *declared_by, index, role: PartRole::Part };
+            let list = self.with_count(class, turns);
+            return self.document.classes[scope.class()].refined.push((field, list));
         }
         let origin = self.origin(scope.file, span);
         let count = Some(Count::Fixed(turns));
@@ -169,6 +178,29 @@ impl<'l> Lowerer<'l> {
 }
 
 impl<'l> Lowerer<'l> {
+    /// Declares the lists of a loop that goes on in a class which gives what it goes through more elements.
+    pub(super) fn redeclare_loop(&mut self, declared_by: ClassId, scope: &Scope, each: &ast::For) {
+        for (loops, member) in declarations(each) {
+            if let Some(shape) = self.shape(scope, &loops) {
+                let scope = scope.clone();
+                self.declare_turns(&Repeated { scope, declared_by, loops, member }, &shape);
+            }
+        }
+    }
+
+    /// Returns the class of a list, of so many elements.
+    fn with_count(&mut self, list: ClassId, count: u32) -> ClassId {
+        match self.document.classes[list].kind {
+            ClassKind::List(element) if self.document.classes[list].elements.is_empty() => {
+                self.counted(element, count)
+            }
+            _ => {
+                self.document.classes[list].count = Some(count);
+                list
+            }
+        }
+    }
+
     /// Returns the class of a list with an element for every turn.
     fn lists_of(
         &mut self,

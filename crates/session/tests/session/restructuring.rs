@@ -130,3 +130,41 @@ fn a_constraint_is_switched_off_and_on_and_values_stay() {
     }
     assert_eq!(desk.moment(), before);
 }
+
+#[test]
+fn a_merge_within_one_of_several_things_asks_first() {
+    let text = "use geometry\nclass Pair { a, b: Line }\np: Pair\nq: Pair\n";
+    let mut desk = Desk::of(text);
+    let merge = Command::Merge(vec![at("p.a.p2"), at("p.b.p1")]);
+    let question = desk.session.preview(desk.id, &merge).unwrap().expect("there is a question");
+    let labels: Vec<&str> = question.choices.iter().map(|c| c.label.as_str()).collect();
+    assert_eq!(labels, ["only p", "every Pair"]);
+    assert_eq!(desk.text(), text);
+    desk.apply(&question.choices[1].command).expect("they can be merged in the class");
+    assert!(!is_of_its_own(&desk, "p.b.p1.x") && !is_of_its_own(&desk, "q.b.p1.x"));
+    desk.undo();
+    // one undo step, with what it implies
+    desk.apply(&question.choices[0].command).expect("they can be merged in the thing");
+    assert!(!is_of_its_own(&desk, "p.b.p1.x") && is_of_its_own(&desk, "q.b.p1.x"));
+    desk.undo();
+    assert_eq!(desk.text(), text);
+}
+
+#[test]
+fn what_a_part_names_is_set_by_its_path() {
+    let text = "class Box { n: Real }\na: Box { n = 1 }\nb: Box { n = 2 }\nq: Path to Box = a\nm: Real\nconstraint m = q.n\nt: Text\n";
+    let mut desk = Desk::of(text);
+    assert_eq!(desk.number("m"), 1.0);
+    let change = desk.type_in("q", "b").expect("it is a box");
+    assert_eq!(change.edits.len(), 1);
+    assert_eq!(desk.text(), text.replace("= a\n", "= b\n"));
+    assert_eq!(desk.number("m"), 2.0);
+    let moment = desk.moment();
+    for wrong in ["c", "t", "a.n", "7"] {
+        assert!(desk.type_in("q", wrong).is_err(), "{wrong}");
+        assert_eq!(desk.moment(), moment);
+    }
+    desk.undo();
+    assert_eq!(desk.text(), text);
+    assert_eq!(desk.number("m"), 1.0);
+}
