@@ -79,7 +79,9 @@ pub fn edits_for(
         Command::Enable { path, on } => text.switch(path, *on)?,
         Command::Set(targets) => match targets.as_slice() {
             [(path, value)] if is_count(lowered, path) => text.set_count(path, value)?,
-            [(_, Literal::Path(_))] => crate::write::value_edits(lowered, targets).into(),
+            all if all.iter().all(|(_, v)| matches!(v, Literal::Path(_))) => {
+                crate::write::value_edits(lowered, targets).into()
+            }
             [(path, value)] => text.set_of_constraint(path, value)?,
             _ => {
                 let message =

@@ -23,7 +23,7 @@ use crate::switches::PendingSwitch;
 use crate::visible::Visible;
 use base::{Diagnostic, FileId, IdVec, Mixer, Name, Place, Severity, Span};
 use indexmap::IndexMap;
-use kernel::{ClassId, Document, Fault, OriginId, Search, Vertical};
+use kernel::{ClassId, Document, Fault, OriginId, PartRef, Search, Vertical};
 use std::collections::{BTreeMap, BTreeSet};
 use std::hash::BuildHasherDefault;
 use std::rc::Rc;
@@ -167,6 +167,8 @@ pub(crate) struct Lowerer<'l> {
     pub(crate) parts: ByName<usize>,
     /// How many elements the value of a list has that is declared without a count.
     pub(crate) given_counts: BTreeMap<(ClassId, Name), u32>,
+    /// Lists that loops declare, in classes that take more turns than where they are declared.
+    pub(crate) longer: Vec<(ClassId, PartRef, ClassId)>,
     /// Every message that a class defines, by its name: the index of the last among its messages.
     pub(crate) messages: ByName<usize>,
     /// The names by which things are reached as their primary superclasses.
@@ -251,6 +253,7 @@ impl<'l> Lowerer<'l> {
             broken: BTreeSet::new(),
             named_at: ByName::default(),
             given_counts: BTreeMap::new(),
+            longer: Vec::new(),
             rule_names: BTreeSet::new(),
             masks: Vec::new(),
             switches: Vec::new(),

@@ -112,6 +112,16 @@ impl Lowerer<'_> {
         }
     }
 
+    /// Returns the class of a field as it was declared, or as a loop that goes on declares it anew.
+    fn longest(&self, class: ClassId, field: PartRef) -> ClassId {
+        if self.longer.is_empty() {
+            return self.document.field_class(field);
+        }
+        let line = self.document.primary_line(class);
+        let own = |c: &ClassId| self.longer.iter().find(|(of, f, _)| (of, *f) == (c, field));
+        line.iter().find_map(own).map_or_else(|| self.document.field_class(field), |l| l.2)
+    }
+
     /// Makes fields of a class narrower; others that were made so stay as they are.
     fn refine(&mut self, class: ClassId, mut refined: Vec<(PartRef, ClassId)>) {
         let known = std::mem::take(&mut self.document.classes[class].refined);
@@ -139,7 +149,7 @@ impl Lowerer<'_> {
                 bodies: refinement.bodies.clone(),
                 masks: refinement.masks.iter().filter_map(below).collect(),
             };
-            let declared = self.document.field_class(field);
+            let declared = self.longest(class, field);
             if let Some(narrower) = self.narrower(declared, &of_field, made) {
                 refined.push((field, narrower));
             }
@@ -241,6 +251,10 @@ impl Lowerer<'_> {
             self.messages.insert(key, index);
             self.document.classes[to].messages.push(message);
         }
+        let rules =
+            self.constraints.range((body, Name::from(""))..).take_while(|(c, _)| *c == body);
+        let rules: Vec<Name> = rules.map(|(_, name)| name.clone()).collect();
+        self.constraints.extend(rules.into_iter().map(|name| (to, name)));
         self.copies.push((body, to));
     }
 
@@ -300,8 +314,9 @@ impl Lowerer<'_> {
         let path = Path(way.into_iter().map(Step::Part).collect());
         let Some(class) = self.class_at(mask.class, &path) else { return };
         let above = self.document.primary_line(class);
-        let replaced = above.iter().flat_map(|&c| &self.document.classes[c].constraints);
-        let replaced = replaced.into_iter().find(|c| c.name.as_ref() == Some(&name));
+        let said = above.iter().flat_map(|&c| self.with_bodies(c)).collect::<Vec<_>>();
+        let rules = said.iter().flat_map(|&c| &self.document.classes[c].constraints);
+        let replaced = rules.into_iter().find(|c| c.name.as_ref() == Some(&name));
         let Some((strength, doc)) = replaced.map(|c| (c.strength, c.doc.clone())) else {
             let message = format!("{name} is a merge, which has no rule to replace");
             let d = Diagnostic::error("not-a-rule", place, message);
@@ -397,12 +412,21 @@ impl Lowerer<'_> {
         below.collect()
     }
 
-    /// Returns true if a class itself has a constraint or merge of this name.
+    /// Returns true if a class itself has a constraint or merge of this name, or gets it from a body of
+    /// `modify`.
     fn says(&self, class: ClassId, name: &Name) -> bool {
-        let c = &self.document.classes[class];
-        let mut names =
-            c.constraints.iter().map(|c| &c.name).chain(c.merges.iter().map(|m| &m.name));
-        names.any(|n| n.as_ref() == Some(name))
+        self.with_bodies(class).any(|c| {
+            let c = &self.document.classes[c];
+            let mut names =
+                c.constraints.iter().map(|c| &c.name).chain(c.merges.iter().map(|m| &m.name));
+            names.any(|n| n.as_ref() == Some(name))
+        })
+    }
+
+    /// Returns a class and the bodies of `modify` that it gets.
+    fn with_bodies(&self, class: ClassId) -> impl Iterator<Item = ClassId> {
+        let bodies = self.copies.iter().filter(move |(_, to)| *to == class).map(|(body, _)| *body);
+        std::iter::once(class).chain(bodies)
     }
 
     fn rule_names_above(&self, class: ClassId, masking: ClassId) -> Vec<Name> {

@@ -180,8 +180,13 @@ impl Run<'_> {
 
     fn edit(&mut self, state: &State, kind: &StatementKind) -> Result<Change, Refusal> {
         let command = match kind {
-            StatementKind::Set(targets) => Command::Set(literals(state, targets)?),
-            StatementKind::Move(targets) => Command::Move(literals(state, targets)?),
+            StatementKind::Set(targets) => {
+                let literal = |path: &Path, answer: &Answer<'_>| to_set(state, path, answer);
+                Command::Set(literals(state, targets, literal)?)
+            }
+            StatementKind::Move(targets) => {
+                Command::Move(literals(state, targets, |_, answer| literal_of(answer))?)
+            }
             StatementKind::Command(command) => command.clone(),
             StatementKind::Expect(_) | StatementKind::Try(_) | StatementKind::Unclear => {
                 return Err(words::refuse("only an edit can be tried".into()));
@@ -286,19 +291,27 @@ fn expect_rule(state: &State, rule: &Term, within: Option<&Term>) -> Result<(), 
 }
 
 /// Evaluates what targets are to be set or moved to.
-fn literals(state: &State, targets: &[(Path, Term)]) -> Result<Vec<(Path, Literal)>, Refusal> {
+fn literals(
+    state: &State,
+    targets: &[(Path, Term)],
+    literal: impl Fn(&Path, &Answer<'_>) -> Result<Literal, Refusal>,
+) -> Result<Vec<(Path, Literal)>, Refusal> {
     let evaluator = state.evaluator(&state.values);
-    let literal = |(path, term): &(Path, Term)| {
+    let each = |(path, term): &(Path, Term)| {
         let answer = evaluator.evaluate(term, DOCUMENT).map_err(|f| words::refuse(f.message))?;
-        let literal = match answer {
-            Answer::Thing(thing) if words::names_another(state, path) => {
-                Literal::Path(state.structure.path(&state.lowered.document, thing))
-            }
-            answer => literal_of(&answer)?,
-        };
-        Ok((path.clone(), literal))
+        Ok((path.clone(), literal(path, &answer)?))
     };
-    targets.iter().map(literal).collect()
+    targets.iter().map(each).collect()
+}
+
+/// Returns what a part is set to: of a part that names another, what it shall name.
+fn to_set(state: &State, path: &Path, answer: &Answer<'_>) -> Result<Literal, Refusal> {
+    match answer {
+        Answer::Thing(thing) if words::names_another(state, path) => {
+            Ok(Literal::Path(state.structure.path(&state.lowered.document, *thing)))
+        }
+        answer => literal_of(answer),
+    }
 }
 
 fn literal_of(answer: &Answer<'_>) -> Result<Literal, Refusal> {

@@ -168,6 +168,7 @@ impl<'l> Lowerer<'l> {
             let Some(&index) = self.parts.get(&(*declared_by, word.name())) else { return };
             let field = PartRef { class: *declared_by, index, role: PartRole::Part };
             let list = self.with_count(class, turns);
+            self.longer.push((scope.class(), field, list));
             return self.document.classes[scope.class()].refined.push((field, list));
         }
         let origin = self.origin(scope.file, span);
