@@ -55,6 +55,9 @@ pub(crate) fn check(arguments: &[PathBuf], form: Form) -> Result<Report, OpenErr
             }
         }
         let status = opened.session.status(opened.id);
+        for note in &status.notes {
+            let _ = writeln!(words, "{}: {note}", path.display());
+        }
         if !status.satisfied {
             errors += status.unmet.len();
             for unmet in &status.unmet {

@@ -32,6 +32,8 @@ pub(crate) struct State {
     unplanned: BTreeSet<OriginId>,
     /// Where two solutions coincide.
     pub(crate) double_roots: Vec<SlotId>,
+    /// Numbers that the text gives and that could not stay, with what they are given.
+    pub(crate) yielded: Vec<(SlotId, f64)>,
 }
 
 impl State {
@@ -61,6 +63,7 @@ impl State {
         let mut given = eval::Given::of(&lowered.document, &structure);
         let mut values = Values::new(structure.slots.len());
         let double_roots = opened(model, &mut planner, &mut given, &mut values);
+        let yielded = yielded(&lowered, &structure, &given.values, &values);
         let mut diagnostics = lowered.diagnostics.clone();
         diagnostics.extend(lowered.fault_diagnostics(&faults));
         // that a reference names nothing is said at its place, and not at all that goes through it
@@ -75,7 +78,17 @@ impl State {
         let unplanned = unplanned.iter().map(|f| f.origin).collect();
         diagnostics.sort_by_key(|d| (d.place.file, d.place.span.start));
         debug_assert_eq!(kernel::check::values(&structure, &values), Ok(()));
-        (Self { text, lowered, structure, values, diagnostics, unplanned, double_roots }, planner)
+        let state = Self {
+            text,
+            lowered,
+            structure,
+            values,
+            diagnostics,
+            unplanned,
+            double_roots,
+            yielded,
+        };
+        (state, planner)
     }
     /// Returns true if what the document uses is still as it was read.
     pub(crate) fn is_up_to_date(&self, host: &dyn Host) -> bool {
@@ -150,6 +163,25 @@ fn opened(
         }
         round += 1;
     }
+}
+
+/// Returns the numbers that the text itself gives things and that are others now; not of places, which
+/// yield as a matter of course.
+fn yielded(
+    lowered: &Lowered,
+    structure: &Structure,
+    given: &Values,
+    values: &Values,
+) -> Vec<(SlotId, f64)> {
+    let moved = values.changed(given).filter(|&slot| {
+        let s = &structure.slots[slot];
+        let (was, is) = (given.numbers[slot], values.numbers[slot]);
+        s.primitive.is_number() && s.place.is_none() && !base::number::close(was, is)
+    });
+    let own = |slot: &SlotId| {
+        structure.given(*slot).is_some_and(|given| lowered.is_own_given(given.origin))
+    };
+    moved.filter(own).map(|slot| (slot, given.numbers[slot])).collect()
 }
 
 /// Says where given values have none; a class's, once for all its things.

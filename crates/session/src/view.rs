@@ -337,7 +337,7 @@ pub struct Status {
     pub unmet: Vec<Unmet>,
     /// Constraints that say nothing new.
     pub redundant: Vec<String>,
-    /// What else is worth knowing of the solution: a double root.
+    /// What else is worth knowing of the solution: a double root, given numbers that gave way.
     pub notes: Vec<String>,
     /// One sentence: "all constraints hold; 8 degrees of freedom".
     pub message: String,

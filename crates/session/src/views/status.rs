@@ -1,10 +1,15 @@
 //! The status line: whether all holds, and how much is free.
 
 use crate::document::Open;
+use crate::state::State;
 use crate::view::{Status, Unmet};
 use crate::words;
+use kernel::{SlotId, Values};
 use plan::Source;
 use solve::Level;
+
+/// How many numbers that gave way are named.
+const MOST_NAMED: usize = 3;
 
 /// Returns what the status line says.
 pub(crate) fn view(open: &Open) -> Status {
@@ -15,13 +20,10 @@ pub(crate) fn view(open: &Open) -> Status {
         status.redundant.iter().filter_map(|r| words::source_name(state, r.source)).collect();
     let satisfied = status.unmet.iter().all(|u| u.level != Level::Required);
     let errors = state.diagnostics.iter().filter(|d| d.severity == base::Severity::Error).count();
-    let notes: Vec<String> = state
-        .double_roots
-        .iter()
-        .map(|&slot| {
-            format!("{} is a double root: two solutions coincide there", state.slot_path(slot))
-        })
-        .collect();
+    let double_roots = state.double_roots.iter().map(|&slot| {
+        format!("{} is a double root: two solutions coincide there", state.slot_path(slot))
+    });
+    let notes: Vec<String> = double_roots.chain(yielded(state)).collect();
     let mut message = sentence(satisfied, &unmet, status.freedom, errors);
     for note in &notes {
         message = format!("{message}; {note}");
@@ -36,6 +38,26 @@ pub(crate) fn view(open: &Open) -> Status {
         undo: open.done.last().map(|s| s.label.clone()),
         redo: open.undone.last().map(|s| s.label.clone()),
     }
+}
+
+/// Says which numbers are others than the text gives them, because something had to give way.
+fn yielded(state: &State) -> Option<String> {
+    let shown = |values: &Values, slot: SlotId| {
+        let (text, unit) = words::show_slot(state, slot, values);
+        if unit.is_empty() { text } else { format!("{text} {unit}") }
+    };
+    let mut given = state.values.clone();
+    let named = state.yielded.iter().take(MOST_NAMED).map(|&(slot, was)| {
+        given.numbers[slot] = was;
+        let (is, was) = (shown(&state.values, slot), shown(&given, slot));
+        format!("{} is {is}, given as {was}", state.slot_path(slot))
+    });
+    let named: Vec<String> = named.collect();
+    let more = match state.yielded.len().saturating_sub(named.len()) {
+        0 => String::new(),
+        n => format!(", and {n} more"),
+    };
+    (!named.is_empty()).then(|| format!("given numbers gave way: {}{more}", named.join(", ")))
 }
 
 fn unmet(open: &Open, u: &plan::Unmet) -> Option<Unmet> {

@@ -183,3 +183,18 @@ fn a_computed_number_is_dragged_as_far_as_it_goes() {
     let unknown = desk.session.press(desk.id, &press("l.lenght")).expect_err("there is none");
     assert!(unknown.message.contains("lenght"), "{}", unknown.message);
 }
+
+#[test]
+fn the_status_says_which_given_numbers_gave_way() {
+    let text = "v1, v2, v: Real\nv1 = 1\nv2 = 2\nconstraint v1 = v\nconstraint v2 = v\n";
+    let mut desk = Desk::of(text);
+    let status = desk.session.status(desk.id);
+    assert!(status.satisfied);
+    assert_eq!(
+        status.notes,
+        ["given numbers gave way: v1 is 1.5, given as 1, v2 is 1.5, given as 2"]
+    );
+    // what an edit comes to is what the text gives from then on
+    desk.set("v", 4.0).expect("both follow");
+    assert!(desk.session.status(desk.id).notes.is_empty());
+}
