@@ -159,6 +159,9 @@ const RELAXED_SLOTS: usize = 300;
 pub(crate) struct PlannedSlot {
     pub(crate) stay: Stay,
     pub(crate) scale: u16,
+    /// By what its scale is multiplied, so that its changes count for all slots that it stands for: one,
+    /// or less where they are several.
+    pub(crate) share: f64,
     pub(crate) is_number: bool,
     pub(crate) is_discrete: bool,
 }
@@ -284,7 +287,7 @@ fn plan_stated(stated: Stated) -> Plan {
         bends,
         steps: lowered.steps,
         report: findings,
-        slots: planned_slots(system),
+        slots: planned_slots(&analysis),
         opaque: (0..relations.len() as u32)
             .filter(|&r| relations[r as usize].opaque.is_some())
             .collect(),
@@ -311,14 +314,25 @@ fn may_imply(system: &System, rows: &Rows) -> bool {
         && required().filter(|&r| rows[r].curved).nth(1).is_some()
 }
 
-fn planned_slots(system: &System) -> Vec<PlannedSlot> {
+fn planned_slots(analysis: &Analysis<'_>) -> Vec<PlannedSlot> {
+    let system = &analysis.stated.system;
     let one = |s: &Slot| PlannedSlot {
         stay: s.stay,
         scale: s.scale,
+        share: 1.0,
         is_number: s.is_number,
         is_discrete: s.is_discrete,
     };
-    system.slots.iter().map(one).collect()
+    let mut slots: Vec<PlannedSlot> = system.slots.iter().map(one).collect();
+    for (root, members) in analysis.classes.members() {
+        let stay = std::mem::discriminant(&analysis.classes.stay[root as usize]);
+        let of = |s: SlotIndex| std::mem::discriminant(&system.slots[s as usize].stay);
+        let alike = members.iter().filter(|&&s| of(s) == stay).count();
+        if alike > 1 {
+            slots[root as usize].share = 1.0 / (alike as f64).sqrt();
+        }
+    }
+    slots
 }
 
 fn tests_of_relations(system: &System) -> Vec<PlannedRelation> {

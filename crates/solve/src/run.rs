@@ -417,7 +417,7 @@ fn measure_scales(plan: &Plan, frame: &mut Frame) {
         *low = if extent.is_finite() && extent > 0.0 { extent } else { 1.0 };
     }
     frame.scales.clear();
-    frame.scales.extend(plan.slots.iter().map(|s| ranges[s.scale as usize].0));
+    frame.scales.extend(plan.slots.iter().map(|s| ranges[s.scale as usize].0 * s.share));
 }
 
 /// Returns true if a step that runs even where everything holds changes no bit.
