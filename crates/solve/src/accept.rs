@@ -92,17 +92,22 @@ impl<'a> Piece<'a> {
     }
 }
 
-/// What is independent in a piece of more rows is found by sparse elimination first.
+/// Up to this many rows a piece is decided by the tableau, whatever that takes.
 const LARGE: usize = 100;
+
+/// For larger ones it may write so many times what the rows hold before sparse elimination is asked.
+const MOST_WORK: usize = 64;
 
 /// Decides which rows are accepted and which slots stay.
 pub(crate) fn accept(system: &System, classes: &Classes, rows: &Rows) -> Acceptance {
     let mut matcher = Matcher::new(system, classes, rows);
     decide(system, classes, rows, &mut |piece, out| {
+        let most = (piece.rows.len() > LARGE).then_some(MOST_WORK);
         let is_decided = matcher.accept(piece, out)
-            || piece.rows.len() > LARGE && deflate::accept(classes, rows, &mut matcher, piece, out);
+            || exact::accept(system, classes, rows, piece, most, out)
+            || deflate::accept(classes, rows, &mut matcher, piece, out);
         if !is_decided {
-            exact::accept(system, classes, rows, piece, out);
+            exact::accept(system, classes, rows, piece, None, out);
         }
     })
 }

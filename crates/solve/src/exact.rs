@@ -23,16 +23,20 @@ enum Column {
     Stays,
 }
 
-/// Decides for one piece.
+/// Decides for one piece; false, with nothing decided, where that takes more work than some times what the
+/// rows hold.
 pub(crate) fn accept(
     system: &System,
     classes: &Classes,
     rows: &Rows,
     piece: Piece<'_>,
+    most: Option<usize>,
     out: &mut Acceptance,
-) {
+) -> bool {
+    let size: usize = piece.rows.iter().map(|&r| rows.columns(r as usize).len()).sum();
+    let most = most.map_or(usize::MAX, |times| times * size);
     let mut state = State::new(classes, rows, piece);
-    let mut accepted = Vec::new();
+    let (mut accepted, mut dependent, mut determined) = (Vec::new(), Vec::new(), 0);
     for r in piece.rows.iter().map(|&r| r as usize) {
         let reduced = state.tableau.reduce(rows.columns(r));
         match state.pivot(&reduced.row) {
@@ -41,25 +45,34 @@ pub(crate) fn accept(
                     && classes.stay[column as usize] != Stay::Given
                     && system.slots[column as usize].is_number
                 {
-                    out.determined += 1;
+                    determined += 1;
                 }
                 state.tableau.accept(reduced, column);
                 accepted.push(r);
+                if state.tableau.work() > most {
+                    return false;
+                }
             }
             None => {
                 let circuit = circuit(&state, &reduced, &accepted);
-                out.dependent.push(Dependent { row: r, circuit });
+                dependent.push(Dependent { row: r, circuit });
             }
         }
     }
     hold_given(&mut state);
     for place in piece.places() {
         hold(&mut state, place);
+        if state.tableau.work() > most {
+            return false;
+        }
     }
     for (&slot, &column) in &state.columns {
         out.unknown[slot as usize] = matches!(column, Column::Open | Column::Yields);
     }
     out.accepted.extend(accepted);
+    out.dependent.extend(dependent);
+    out.determined += determined;
+    true
 }
 
 fn circuit(state: &State, reduced: &Reduced, accepted: &[usize]) -> Vec<usize> {

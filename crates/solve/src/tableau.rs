@@ -39,6 +39,8 @@ pub(crate) struct Tableau {
     row_of_pivot: BTreeMap<u32, u32>,
     /// For every column, the rows that may contain it.
     occurrences: BTreeMap<u32, Vec<u32>>,
+    /// How many coefficients have been written so far.
+    work: usize,
 }
 
 impl Tableau {
@@ -49,6 +51,10 @@ impl Tableau {
     /// Returns an accepted row as it stands, its pivot scaled to one.
     pub(crate) fn row(&self, row: u32) -> &SparseRow {
         &self.rows[row as usize]
+    }
+    /// Returns how many coefficients of accepted rows have been written so far.
+    pub(crate) fn work(&self) -> usize {
+        self.work
     }
     /// Subtracts from a row whatever accepted rows can take away.
     pub(crate) fn reduce(&self, row: &[(u32, f64)]) -> Reduced {
@@ -146,6 +152,7 @@ impl Tableau {
                     self.occurrences.entry(c).or_default().push(r);
                 }
             }
+            self.work += merged.len();
             self.rows[r as usize] = merged;
             back.push((r, factor));
         }

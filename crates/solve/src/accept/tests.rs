@@ -176,7 +176,7 @@ proptest! {
         let system = &net.stated.system;
         let found = accept(system, &net.classes, &net.rows);
         let by_elimination = decide(system, &net.classes, &net.rows, &mut |piece, out| {
-            exact::accept(system, &net.classes, &net.rows, piece, out);
+            exact::accept(system, &net.classes, &net.rows, piece, None, out);
         });
         prop_assert_eq!(&found, &by_elimination);
         for by_elimination in [false, true] {
@@ -191,7 +191,7 @@ proptest! {
                 if is_held {
                     deflated.accept(&net.rows, out);
                 } else {
-                    exact::accept(system, &net.classes, &net.rows, piece, out);
+                    exact::accept(system, &net.classes, &net.rows, piece, None, out);
                 }
             });
             prop_assert_eq!(&found, &sparsely);
