@@ -184,6 +184,10 @@ impl Lowerer<'_> {
 
     /// Returns the number that an expression of constants is.
     pub(crate) fn constant_number(&mut self, scope: &Scope, expr: &Expr) -> Option<f64> {
+        let turn = crate::numbers::constant(&|e| scope.constant(e), expr);
+        if turn.is_some() {
+            return turn;
+        }
         let names = expr.syntax().descendants().filter_map(ast::NameExpr::cast);
         let names: BTreeSet<Name> = names.filter_map(|n| Some(n.name()?.name())).collect();
         let known = |n: Name| self.constant_named(scope, &n).map(|i| (n, i as f64));
