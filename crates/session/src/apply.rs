@@ -121,7 +121,9 @@ fn as_superclass(state: &State, (path, literal): &(Path, Literal)) -> Vec<(Path,
     };
     let owner = crate::session::thing_at(state, &Path(owner.to_vec()));
     let thing = crate::session::thing_at(state, path);
-    let Some(owner) = owner.filter(|_| owner == thing) else { return whole() };
+    let Some(owner) = owner.filter(|_| owner == thing) else {
+        return of_coordinates(state, path, items).unwrap_or_else(whole);
+    };
     let document = &state.lowered.document;
     let line = document.primary_line(state.structure.things[owner].class);
     let above = line.iter().find_map(|&c| {
@@ -134,6 +136,17 @@ fn as_superclass(state: &State, (path, literal): &(Path, Literal)) -> Vec<(Path,
     }
     let part = |field| path.then(Step::Part(document.field_name(field).clone()));
     fields.into_iter().map(part).zip(items.iter().cloned()).collect()
+}
+
+/// Returns what two numbers for a place that has more than its coordinates say of these.
+fn of_coordinates(state: &State, path: &Path, items: &[Literal]) -> Option<Vec<(Path, Literal)>> {
+    let thing = crate::session::thing_at(state, path)?;
+    let [x, y] = items else { return None };
+    let has = |name| state.structure.part_named(thing, name).is_some();
+    let has_more = state.structure.slots_under(thing).len() > items.len();
+    let coordinate = |name| path.then(Step::Part(base::Name::new(name)));
+    (has_more && has("x") && has("y"))
+        .then(|| vec![(coordinate("x"), x.clone()), (coordinate("y"), y.clone())])
 }
 
 /// Says in a refusal what of an edit is computed, so that something else would have had to change.

@@ -6,7 +6,7 @@ use crate::lower::Lowered;
 use crate::numbers::constant;
 use crate::uses::{Text, refused};
 use crate::write::value_edits;
-use base::{Diagnostic, Name};
+use base::Diagnostic;
 use kernel::{ClassId, Literal, Path, Step};
 use syntax::ast::{self, AstNode, Expr, TypeShape, span_without_doc};
 use syntax::edit::TextEdit;
@@ -72,7 +72,7 @@ impl Text<'_> {
     fn count_with(&self, list: &[Step], path: &Path, number: f64) -> Option<f64> {
         let (Step::Part(of), owner) = path.0.split_last()? else { return None };
         let (Step::Part(_), around) = list.split_last()? else { return None };
-        let class = (owner == around).then(|| self.class_or_document(owner))??;
+        let class = (owner == around).then(|| self.class_at(&Path(owner.to_vec())))??;
         let named = |e: &Expr| {
             let Expr::Name(name) = e else { return None };
             let name = name.name()?.name();
@@ -82,20 +82,15 @@ impl Text<'_> {
         constant(&named, &self.declared_count(&Path(list.to_vec()))?)
     }
 
-    fn class_or_document(&self, owner: &[Step]) -> Option<ClassId> {
-        self.class_at(&Path(owner.to_vec()))
-    }
-
     /// Returns what is written for how many elements a list has.
     fn declared_count(&self, list: &Path) -> Option<Expr> {
         let (Step::Part(name), owner) = list.0.split_last()? else { return None };
         let document = &self.lowered.document;
         let declared = |c: ClassId| {
-            let part =
-                document.classes[c].parts.iter().find(|p: &&kernel::Part| part_is(p, name))?;
+            let part = document.classes[c].parts.iter().find(|p| p.name == *name)?;
             Some(self.lowered.origins.place(part.origin))
         };
-        let line = document.primary_line(self.class_or_document(owner)?);
+        let line = document.primary_line(self.class_at(&Path(owner.to_vec()))?);
         let place = line.into_iter().find_map(declared)?;
         let own = place.file == crate::lower::OWN;
         let file =
@@ -109,8 +104,4 @@ impl Text<'_> {
             }
         }
     }
-}
-
-fn part_is(part: &kernel::Part, name: &Name) -> bool {
-    part.name == *name
 }

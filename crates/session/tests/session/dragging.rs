@@ -148,3 +148,11 @@ fn what_a_theorem_says_again_moves_no_corner() {
         assert!((0..2).all(|k| (g[k] - mean[k]).abs() < 1e-9), "{g:?} is not {mean:?}");
     }
 }
+
+#[test]
+fn a_place_with_more_than_its_coordinates_is_moved_by_two_numbers() {
+    let mut desk = Desk::of(&gallery("polar-point"));
+    desk.move_to("point", 63.0, 80.0).expect("it is dragged so, too");
+    assert_eq!((desk.number("point.x"), desk.number("point.y")), (63.0, 80.0));
+    assert!((desk.number("point.p.r") - base::number::hypot(63.0, 80.0)).abs() < 1e-9);
+}
