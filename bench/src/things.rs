@@ -50,7 +50,7 @@ pub(crate) fn table(out: &mut impl Write) -> std::io::Result<()> {
     for (name, (text, things)) in [("listed", listed), ("written", (written, ["w17", "w4711"]))] {
         stages(out, name, &text)?;
         let (mut session, id) = edits(out, name, &text, things)?;
-        hands(out, name, &mut session, id, things[0])?;
+        hands(out, name, &mut session, id, things)?;
     }
     Ok(())
 }
@@ -158,16 +158,18 @@ fn edits(
     Ok((session, id))
 }
 
-/// Measures what a hand does to one number, and taking it back.
+/// Measures what a hand does to one number, and taking it back; to two, and parting them.
 fn hands(
     out: &mut impl Write,
     name: &str,
     session: &mut Session,
     id: DocumentId,
-    thing: &str,
+    [thing, other]: [&str; 2],
 ) -> std::io::Result<()> {
-    let path = session::parse_path(&format!("{thing}.left")).expect("the path is well formed");
-    let mut times: Vec<[f64; 6]> = Vec::new();
+    let at = |path: String| session::parse_path(&path).expect("the path is well formed");
+    let (path, to) = (at(format!("{thing}.left")), at(format!("{other}.right")));
+    let (merge, unmerge) = (Command::Merge(vec![path.clone(), to.clone()]), Command::Unmerge(to));
+    let mut times: Vec<[f64; 8]> = Vec::new();
     for i in 0..TIMES {
         let x = 50.0 + i as f64;
         let set = Command::Set(vec![(path.clone(), Literal::Number(x))]);
@@ -182,18 +184,27 @@ fn hands(
         let (release, change) = timed(|| session.release(id));
         assert!(change.is_ok(), "the drag is kept: {change:?}");
         let (again, _) = timed(|| session.apply(id, &Command::Undo));
-        times.push([set, undo, press, drag, release, again]);
+        let (merged, change) = timed(|| session.apply(id, &merge));
+        assert!(change.is_ok(), "the numbers can be one: {change:?}");
+        let (parted, change) = timed(|| session.apply(id, &unmerge));
+        assert!(change.is_ok(), "they can be parted: {change:?}");
+        session.apply(id, &Command::Undo).expect("there is a step");
+        session.apply(id, &Command::Undo).expect("there is another");
+        times.push([set, undo, press, drag, release, again, merged, parted]);
     }
     let least = |i: usize| times.iter().map(|t| t[i]).fold(f64::INFINITY, f64::min);
     writeln!(
         out,
-        "{name:8} set {:.1}  undo {:.1}  press {:.2}  drag {:.4}  release {:.1}  undo {:.1} ms",
+        "{name:8} set {:.1}  undo {:.1}  press {:.2}  drag {:.4}  release {:.1}  undo {:.1}  merge {:.1}  \
+         unmerge {:.1} (goal 20) ms",
         least(0),
         least(1),
         least(2),
         least(3),
         least(4),
         least(5),
+        least(6),
+        least(7),
     )
 }
 
