@@ -167,7 +167,7 @@ fn hands(
     [thing, other]: [&str; 2],
 ) -> std::io::Result<()> {
     let at = |path: String| session::parse_path(&path).expect("the path is well formed");
-    let (path, to) = (at(format!("{thing}.left")), at(format!("{other}.right")));
+    let (path, to) = (at(format!("{thing}.left")), at(format!("{other}.left")));
     let (merge, unmerge) = (Command::Merge(vec![path.clone(), to.clone()]), Command::Unmerge(to));
     let mut times: Vec<[f64; 8]> = Vec::new();
     for i in 0..TIMES {
