@@ -8,11 +8,17 @@
 
 use crate::lower::{Lowerer, OWN};
 use crate::scope::Scope;
-use base::{Diagnostic, FileId, Name, Place};
+use base::{Diagnostic, FileId, Name, Place, Span};
 use kernel::{ClassId, ClassKind, Path, Stay, Step, Superclass, Term};
 use std::collections::{BTreeMap, BTreeSet};
 use syntax::ast::{self, AstNode, Expr, Member, TypeShape};
 use syntax::{SyntaxKind, SyntaxNode};
+
+/// How many classes may be made for other counts; beyond, a thing is of the class as it is.
+const MOST_MADE: usize = 10_000;
+
+/// How many classes with counts may be asked for inside one another.
+const MOST_NESTED: u32 = 64;
 
 /// Numbers for counts, by name.
 pub(crate) type Numbers = BTreeMap<Name, i64>;
@@ -28,6 +34,10 @@ pub(crate) struct Counts {
     supers: BTreeMap<ClassId, Vec<Superclass>>,
     /// The classes made for other numbers.
     made: BTreeMap<(ClassId, Numbers), ClassId>,
+    /// The numbers that each of these has otherwise than its text says.
+    others: BTreeMap<ClassId, Numbers>,
+    /// How many of these each was asked for inside of.
+    depth: BTreeMap<ClassId, u32>,
 }
 
 impl Counts {
@@ -44,7 +54,7 @@ impl Lowerer<'_> {
     pub(crate) fn declare_counts(&mut self) {
         for (id, _, class) in self.declared.clone() {
             let members: Vec<Member> = class.body().into_iter().flat_map(|b| b.members()).collect();
-            self.note_counts(id, &members);
+            self.note_counts(id, &members, &Numbers::new());
             self.counts.supers.insert(id, self.document.classes[id].supers.clone());
         }
         if self.counts.spoken.is_empty() {
@@ -56,8 +66,8 @@ impl Lowerer<'_> {
         }
     }
 
-    /// Notes what the members of a class say of counts.
-    pub(crate) fn note_counts(&mut self, class: ClassId, members: &[Member]) {
+    /// Notes what the members of a class say of counts, some of which have other numbers.
+    pub(crate) fn note_counts(&mut self, class: ClassId, members: &[Member], others: &Numbers) {
         let mut given = Numbers::new();
         for member in members {
             let (names, value) = match member {
@@ -74,12 +84,22 @@ impl Lowerer<'_> {
                 };
                 whole(crate::numbers::constant(&known, &e)?)
             });
-            given.extend(
-                names.into_iter().zip(std::iter::repeat(value)).filter_map(|(n, v)| Some((n, v?))),
-            );
+            for name in names {
+                let value = others.get(&name).copied().or(value);
+                given.extend(value.map(|v| (name, v)));
+            }
         }
-        let spoken: BTreeSet<Name> =
+        given.extend(others.iter().map(|(name, &n)| (name.clone(), n)));
+        let mut spoken: BTreeSet<Name> =
             members.iter().flat_map(|m| names_of_counts(m.syntax())).collect();
+        // what a count is computed from counts as well
+        for member in members.iter().rev() {
+            let Member::Part(part) = member else { continue };
+            let value = part.value().and_then(ast::Value::expr);
+            if is_whole(part) && part.names().any(|w| spoken.contains(&w.name())) {
+                spoken.extend(value.iter().flat_map(names_in));
+            }
+        }
         self.counts.given.insert(class, given);
         self.counts.speak(class, spoken);
     }
@@ -99,7 +119,9 @@ impl Lowerer<'_> {
         for &class in &scope.classes {
             self.note_file(scope.file, class);
             if let Some(n) = self.count_of_class(class, name) {
-                self.hold(class, name, n);
+                // what a count is computed from is held with it
+                let all = self.counts_of(class).into_iter().chain([(name.clone(), n)]);
+                all.for_each(|(name, n)| self.hold(class, &name, n));
                 return Some(n);
             }
         }
@@ -122,7 +144,7 @@ impl Lowerer<'_> {
     fn note_file(&mut self, file: FileId, class: ClassId) {
         if class == self.document.root && file == OWN && !self.counts.given.contains_key(&class) {
             let members = self.files[OWN].members_of(&[SyntaxKind::Part, SyntaxKind::Assign]);
-            self.note_counts(class, &members);
+            self.note_counts(class, &members, &Numbers::new());
         }
     }
 
@@ -166,17 +188,16 @@ impl Lowerer<'_> {
         if other.is_empty() {
             return class;
         }
-        let general = self.document.classes[class].general.unwrap_or(class);
-        let Some((_, file, text)) = self.declared.iter().find(|(id, _, _)| *id == general).cloned()
-        else {
-            return class;
-        };
-        let numbers: Numbers = usual.into_iter().chain(other).collect();
-        let key = (general, numbers);
+        let Some((general, file, text)) = self.text_of(class).cloned() else { return class };
+        let before = self.counts.others.get(&class).cloned().unwrap_or_default();
+        let key = (general, before.into_iter().chain(other).collect::<Numbers>());
         if let Some(&known) = self.counts.made.get(&key) {
             return known;
         }
-        let numbers = key.1.clone();
+        if self.counts.made.len() >= MOST_MADE {
+            return class;
+        }
+        let others = key.1.clone();
         let (name, origin, doc, is_abstract) = {
             let c = &self.document.classes[general];
             (c.name.clone(), c.origin, c.doc.clone(), c.is_abstract)
@@ -185,14 +206,20 @@ impl Lowerer<'_> {
         self.counts.made.insert(key, made);
         let c = &mut self.document.classes[made];
         (c.doc, c.is_abstract, c.is_of_one, c.general) = (doc, is_abstract, true, Some(general));
-        let given = self.counts.given.get(&general).into_iter().flatten();
-        let given = given.map(|(name, &n)| (name.clone(), n)).chain(numbers).collect();
-        let spoken = self.counts.spoken.get(&general).cloned().unwrap_or_default();
+        let members: Vec<Member> = text.body().into_iter().flat_map(|b| b.members()).collect();
+        self.note_counts(made, &members, &others);
+        let given = self.counts.given.get(&made).cloned().unwrap_or_default();
         self.document.classes[made].supers = self.supers_with(general, &given);
-        self.counts.given.insert(made, given);
-        self.counts.speak(made, spoken);
+        self.counts.others.insert(made, others);
         self.declared_for_counts.push((made, file, text));
         made
+    }
+
+    /// Returns where a class is declared: one made for other counts, as the class that it generally is.
+    pub(crate) fn text_of(&self, class: ClassId) -> Option<&(ClassId, FileId, ast::Class)> {
+        let general = self.document.classes[class].general.unwrap_or(class);
+        let at = self.declared.binary_search_by_key(&general, |(id, _, _)| *id).ok()?;
+        Some(&self.declared[at])
     }
 
     /// Declares the members of the classes that were made for other counts.
@@ -201,6 +228,19 @@ impl Lowerer<'_> {
             let members = class.body().into_iter().flat_map(|b| b.members()).collect();
             self.declare_body(&Scope::of(file, id), members);
         }
+    }
+
+    /// Returns true if some of the members of a part's body give a count of its class a number.
+    pub(crate) fn gives_count(&self, class: ClassId, members: &[Member]) -> bool {
+        if self.counts.spoken.is_empty() {
+            return false;
+        }
+        let counts = self.counts_of(class);
+        let name = |m: &Member| match m {
+            Member::Assign(assign) => own_name(assign),
+            _ => None,
+        };
+        members.iter().filter_map(name).any(|name| counts.contains_key(&name))
     }
 
     /// Returns the class that a part with a body is of: with the counts that the body gives.
@@ -221,7 +261,7 @@ impl Lowerer<'_> {
                 continue;
             };
             let Some(value) = assign.value().and_then(ast::Value::expr) else { continue };
-            match self.constant(scope, &value) {
+            match self.constant_in_body(scope, class, &value) {
                 Some(n) => numbers.extend([(name, n)]),
                 None => {
                     let message = format!(
@@ -231,7 +271,49 @@ impl Lowerer<'_> {
                 }
             }
         }
-        self.class_with(class, &numbers)
+        let around = scope.classes.iter().filter_map(|c| self.counts.depth.get(c)).max();
+        let depth = around.map_or(0, |depth| depth + 1);
+        if depth > MOST_NESTED {
+            let message = "things with counts stand inside one another without end".to_string();
+            let span = members.first().map_or_else(Span::default, AstNode::span);
+            self.error("endless-parts", scope.file, span, message);
+            return class;
+        }
+        let made = self.class_with(class, &numbers);
+        if made != class {
+            self.counts.depth.entry(made).or_insert(depth);
+        }
+        made
+    }
+
+    /// Returns the whole number that a value in the body of a part is, known as the text stands: it may speak
+    /// of counts of what the part stands in, as `owner.n` or by a name that the part itself does not have.
+    fn constant_in_body(&mut self, scope: &Scope, class: ClassId, value: &Expr) -> Option<i64> {
+        let mut known: BTreeMap<(Of, Name), f64> = BTreeMap::new();
+        for e in value.syntax().descendants().filter_map(Expr::cast) {
+            let Some((of, name)) = named(&e) else { continue };
+            if of == Of::Any && self.count_of_class(class, &name).is_some() {
+                continue;
+            }
+            let n = self.constant_named(scope, &name);
+            known.extend(n.map(|n| ((of, name), n as f64)));
+        }
+        let number = |e: &Expr| match named(e) {
+            Some(name) => known.get(&name).copied(),
+            None => self.constant_count(scope, e),
+        };
+        whole(crate::numbers::constant(&number, value)?)
+    }
+
+    /// Returns a count that things of two classes have different numbers for, if there is one.
+    pub(crate) fn counts_apart(&self, a: ClassId, b: ClassId) -> Option<(Name, i64, i64)> {
+        let counts = self.document.primary_line(a).into_iter();
+        let counts = counts.flat_map(|c| &self.document.classes[c].counts);
+        let apart = |(name, _): &(Name, i64)| {
+            let (a, b) = (self.document.count(a, name)?, self.document.count(b, name)?);
+            (a != b).then(|| (name.clone(), a, b))
+        };
+        counts.filter_map(apart).next()
     }
 
     /// Reports a number for a count that differs from the one that the thing was made with.
@@ -256,7 +338,7 @@ impl Lowerer<'_> {
             return false;
         }
         let place = Place { file: scope.file, span: value.span() };
-        if self.said.iter().any(|(said, _)| *said == place) {
+        if self.said.range((place, "")..).next().is_some_and(|(said, _)| *said == place) {
             return true;
         }
         let message = format!("{path} says how many parts there are, and is {is} here");
@@ -270,6 +352,26 @@ impl Lowerer<'_> {
         };
         self.report(Diagnostic::error("not-a-count", place, message).hint(hint));
         true
+    }
+}
+
+/// Whose a name is, as far as it is written.
+#[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
+enum Of {
+    /// The first thing's outwards that has it.
+    Any,
+    /// That of the owner.
+    Owner,
+}
+
+/// Returns the name that an expression is, alone or of the owner.
+fn named(e: &Expr) -> Option<(Of, Name)> {
+    match e {
+        Expr::Name(name) => Some((Of::Any, name.name()?.name())),
+        Expr::Field(field) if matches!(field.receiver()?, Expr::Owner(_)) => {
+            Some((Of::Owner, field.name()?.name()))
+        }
+        _ => None,
     }
 }
 
@@ -308,7 +410,11 @@ fn names_of_counts(node: &SyntaxNode) -> impl Iterator<Item = Name> {
             _ => None,
         }
     });
-    let names =
-        |e: Expr| e.syntax().descendants().filter_map(ast::NameExpr::cast).collect::<Vec<_>>();
-    counts.flat_map(names).filter_map(|n| Some(n.name()?.name()))
+    counts.flat_map(|e| names_in(&e))
+}
+
+/// Returns the names that an expression speaks of.
+fn names_in(e: &Expr) -> Vec<Name> {
+    let names = e.syntax().descendants().filter_map(ast::NameExpr::cast);
+    names.filter_map(|n| Some(n.name()?.name())).collect()
 }

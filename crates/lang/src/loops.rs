@@ -10,7 +10,7 @@ use crate::members::Pending;
 use crate::scope::Scope;
 use base::{Diagnostic, Name, Place};
 pub(crate) use declared::Repeated;
-use declared::{declared_names, is_declaration, is_of_turns};
+use declared::{declared_names, is_declaration};
 use kernel::{ClassId, Path, Step};
 use syntax::ast::{self, AstNode, Expr, Member};
 
@@ -158,7 +158,9 @@ impl Lowerer<'_> {
     /// Finds what a loop binds its name to where it is written: a whole number, or a part.
     fn written(&mut self, scope: &Scope, e: &Expr) -> Option<Written> {
         match self.constant(scope, e) {
-            Some(number) if !matches!(e, Expr::Name(_)) => Some(Written::Number(number)),
+            Some(number) if !matches!(e, Expr::Name(_)) || scope.constant(e).is_some() => {
+                Some(Written::Number(number))
+            }
             _ => {
                 let (path, class) = self.path(scope, e)?;
                 Some(Written::Thing { path, class })
@@ -213,9 +215,7 @@ impl Lowerer<'_> {
     /// Returns true for a value that a loop of the class goes through: what has it is a class of one.
     pub(crate) fn is_looped(&self, class: ClassId, name: &Name) -> bool {
         self.document.lineage(class).into_iter().any(|c| {
-            let c = self.document.classes[c].general.unwrap_or(c);
-            let at = self.declared.binary_search_by_key(&c, |(id, _, _)| *id);
-            let body = at.ok().and_then(|i| self.declared[i].2.body());
+            let body = self.text_of(c).and_then(|(_, _, text)| text.body());
             body.into_iter().flat_map(|b| b.members()).any(|m| match &m {
                 Member::For(each) => {
                     let list = through(each);
@@ -259,7 +259,9 @@ impl Lowerer<'_> {
         let prefix = of_turn(scope, name.clone()).0;
         let whole = part.value().and_then(ast::Value::expr);
         let whole = whole.map(|value| (None, value));
-        let body = part.body().filter(|b| is_of_turns(each, b));
+        let element = part.class().and_then(|ty| self.class_of_element(scope.file, &ty));
+        let is_of_turns = |b: &ast::Body| element.is_some_and(|e| self.is_of_turns(e, each, b));
+        let body = part.body().filter(is_of_turns);
         let members = body.iter().flat_map(ast::Body::members).collect::<Vec<_>>();
         let assigned = members.into_iter().filter_map(|member| match member {
             Member::Assign(assign) => {

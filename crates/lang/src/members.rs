@@ -1,6 +1,6 @@
 //! Members: parts and messages are declared first, then everything that speaks of parts is lowered.
 
-use crate::counts::whole;
+use crate::counts::{Numbers, has_named_count, whole};
 use crate::kept::Run;
 use crate::kinds::Kind;
 use crate::lower::{Lowerer, OWN};
@@ -200,7 +200,7 @@ impl Lowerer<'_> {
     }
 
     /// Returns how many elements a list has, where `list.count` says so and its class tells.
-    fn constant_count(&self, scope: &Scope, e: &Expr) -> Option<f64> {
+    pub(crate) fn constant_count(&self, scope: &Scope, e: &Expr) -> Option<f64> {
         let Expr::Field(field) = e else { return None };
         let is_count = field.args().is_none() && field.name()?.text() == "count";
         let list = field.receiver().filter(|_| is_count)?;
@@ -229,6 +229,8 @@ impl Lowerer<'_> {
             let origin = self.origin(scope.file, span);
             let name = word.name();
             let class = match &of_elements {
+                // a class may have things of itself with other counts, down to none
+                Some(_) if count == Some(Count::Fixed(0)) && has_named_count(part) => class,
                 Some(body) => self.list_with_body(scope, &name, class, body, origin),
                 None => self.class_for_body(scope, &name, class, body.clone(), origin),
             };
@@ -327,7 +329,7 @@ impl Lowerer<'_> {
             return class;
         }
         let one = self.class_of_one(scope, name, class, origin);
-        self.note_counts(one, &members);
+        self.note_counts(one, &members, &Numbers::new());
         self.declare_body(&scope.inside(one), members);
         one
     }
@@ -348,7 +350,7 @@ impl Lowerer<'_> {
         }
         let element = self.class_for_counts(scope, element, &members);
         let one = self.class_of_one(scope, name, element, origin);
-        self.note_counts(one, &members);
+        self.note_counts(one, &members, &Numbers::new());
         self.declare_body(&scope.inside(one), members);
         self.class_made_of("List of", ClassKind::List(one), one)
     }

@@ -147,6 +147,12 @@ impl Lowerer<'_> {
             let message = format!("{path} is {is}, and is given {given}");
             return self.error(code_for(&kind, &wanted), scope.file, value.span(), message);
         }
+        if let (Kind::Thing(given), Some(wanted)) = (&kind, class)
+            && let Some((name, is, other)) = self.counts_apart(wanted, *given)
+        {
+            let message = format!("{path} has {name} = {is}, and is given a thing with {other}");
+            return self.error("not-a-count", scope.file, value.span(), message);
+        }
         self.refer_by_position(scope.file, value, &wanted);
         let term = measured(&self.document, term, &kind, &wanted);
         if self.misfits(scope, &path, class, &term, value)

@@ -192,8 +192,7 @@ impl Planner {
                 }
             }
         }
-        let mut trial = values.clone();
-        for other in whole::others(self, model, task, own, &mut trial, host) {
+        for other in whole::others(self, model, task, own, values, host) {
             self.add(model, task, &other, GhostKind::Whole, values, host, found);
         }
     }

@@ -44,7 +44,7 @@ mod meaning;
 mod operator;
 mod reach;
 mod say;
-pub mod template;
+mod template;
 
 pub mod fault;
 pub mod host;

@@ -131,7 +131,7 @@ pub(crate) fn others(
     model: Model<'_>,
     task: &Task,
     own: &BTreeSet<SlotId>,
-    values: &mut Values,
+    values: &Values,
     host: &mut dyn Host,
 ) -> Vec<Vec<f64>> {
     /// How far from what it is.
@@ -142,7 +142,7 @@ pub(crate) fn others(
     let (leans, texts) = (leans(model, task), values.texts.clone());
     let own = whole.slots().filter(|&s| own.contains(&task.component.slots()[s as usize]));
     let own: Vec<SlotIndex> = own.collect();
-    let ground = &ground;
+    let (ground, values) = (&ground, &mut values.clone());
     let mut trying = Trying { planner, model, task, modes, ground, leans, texts, values, host };
     let mut found = Vec::new();
     for (&slot, step) in own.iter().flat_map(|slot| STEPS.map(|step| (slot, step))) {

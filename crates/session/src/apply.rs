@@ -2,6 +2,7 @@
 
 use crate::difference::difference;
 use crate::document::{Direction, Open};
+use crate::drag::coordinates;
 use crate::general;
 use crate::host::Host;
 use crate::limits;
@@ -29,6 +30,7 @@ pub(crate) fn apply(
     for path in general::changed(command) {
         general::accept(&open.state, path)?;
     }
+    // of a class, too: its prototype has values, constraints are said in its text
     if let Command::Set(targets) = command
         && targets.iter().any(|t| lang::of_constraint(&open.state.lowered, &t.0).is_some())
     {
@@ -59,12 +61,9 @@ pub(crate) fn apply(
     }
 }
 
-/// Returns true for what is set by an edit of the structure: what is of a constraint, counts, and what a
-/// part names.
+/// Returns true for what is set by an edit of the structure: counts, and what a part names.
 fn is_structure(state: &State, (path, value): &(Path, Literal)) -> bool {
-    matches!(value, Literal::Path(_))
-        || lang::of_constraint(&state.lowered, path).is_some()
-        || lang::is_count(&state.lowered, path)
+    matches!(value, Literal::Path(_)) || lang::is_count(&state.lowered, path)
 }
 
 /// What an edit speaks of: a thing, or a virtual part of one.
@@ -81,8 +80,7 @@ fn edit(
 ) -> Result<Change, Refusal> {
     let state = open.state.clone();
     let mut aims: Vec<(Aim, Vec<Value>)> = Vec::new();
-    let parts: Vec<(Path, Literal)> =
-        targets.iter().flat_map(|t| as_superclass(&state, t)).collect();
+    let parts: Vec<(Path, Literal)> = targets.iter().flat_map(|t| in_parts(&state, t)).collect();
     for (path, literal) in &parts {
         aims.push((aim(&state, path)?, flat(literal)));
     }
@@ -111,9 +109,9 @@ fn edit(
     keep(open, host, label, edited, &values, &report.undecided)
 }
 
-/// Returns what an edit of a thing by the name of a primary superclass says of the parts that it has
-/// from there; any other edit as it is.
-fn as_superclass(state: &State, (path, literal): &(Path, Literal)) -> Vec<(Path, Literal)> {
+/// Returns what an edit of a whole says of its parts: by the name of a primary superclass, of those that come
+/// from there; of a place by two numbers, of its coordinates. Any other edit is returned as it is.
+fn in_parts(state: &State, (path, literal): &(Path, Literal)) -> Vec<(Path, Literal)> {
     let whole = || vec![(path.clone(), literal.clone())];
     let (Literal::Tuple(items), Some((Step::Part(name), owner))) = (literal, path.0.split_last())
     else {
@@ -142,11 +140,10 @@ fn as_superclass(state: &State, (path, literal): &(Path, Literal)) -> Vec<(Path,
 fn of_coordinates(state: &State, path: &Path, items: &[Literal]) -> Option<Vec<(Path, Literal)>> {
     let thing = crate::session::thing_at(state, path)?;
     let [x, y] = items else { return None };
-    let has = |name| state.structure.part_named(thing, name).is_some();
+    let [of_x, of_y] = coordinates(&state.structure, thing)?;
     let has_more = state.structure.slots_under(thing).len() > items.len();
-    let coordinate = |name| path.then(Step::Part(base::Name::new(name)));
-    (has_more && has("x") && has("y"))
-        .then(|| vec![(coordinate("x"), x.clone()), (coordinate("y"), y.clone())])
+    let path = |(thing, _)| state.structure.path(&state.lowered.document, thing);
+    has_more.then(|| vec![(path(of_x), x.clone()), (path(of_y), y.clone())])
 }
 
 /// Says in a refusal what of an edit is computed, so that something else would have had to change.

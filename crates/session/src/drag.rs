@@ -10,6 +10,7 @@ use crate::texts::Texts;
 use crate::view::{Change, DragState, Refusal};
 use crate::words;
 use eval::Answer;
+use expr::Dimension;
 use kernel::{DOCUMENT, Path, SlotId, Structure, Term, ThingId, Values};
 use plan::{Planner, Press, RefusalReason, Target};
 use std::collections::BTreeSet;
@@ -97,6 +98,7 @@ pub(crate) fn press_computed(
     let Some(start) = numbers_of(&answer) else {
         return Err(RefusalReason::Target(format!("{path} is no number and no place")));
     };
+    let start: Vec<f64> = start.into_iter().map(|(x, _)| x).collect();
     let press = planner.press(
         state.model(),
         &state.values,
@@ -108,9 +110,9 @@ pub(crate) fn press_computed(
 }
 
 /// Returns the number that an answer is, or the two of a place.
-fn numbers_of(answer: &Answer<'_>) -> Option<Vec<f64>> {
+fn numbers_of(answer: &Answer<'_>) -> Option<Vec<(f64, Dimension)>> {
     let number = |answer: &Answer<'_>| match answer {
-        Answer::Number(x, _) => Some(*x),
+        Answer::Number(x, dimension) => Some((*x, *dimension)),
         Answer::Bool(_)
         | Answer::Text(_)
         | Answer::Thing(_)
@@ -141,18 +143,23 @@ fn otherwise(state: &State, thing: ThingId) -> Option<Vec<SlotId>> {
     Some(moves).filter(|m| !m.is_empty())
 }
 
+/// Returns the numbers x and y of a thing that has such parts, with their slots.
+pub(crate) fn coordinates(structure: &Structure, thing: ThingId) -> Option<[(ThingId, SlotId); 2]> {
+    let coordinate = |name| {
+        let part = structure.part_named(thing, name)?;
+        Some((part, structure.slot_of[part]?))
+    };
+    Some([coordinate("x")?, coordinate("y")?])
+}
+
 /// Returns the places that a thing is made of, each merged one once: itself, or those of its parts. A
-/// place that has more than its coordinates is dragged by these.
+/// place that has more than its coordinates, two numbers x and y, is dragged by these.
 fn places(structure: &Structure, thing: ThingId) -> Vec<Vec<ThingId>> {
     let mut places: Vec<Vec<ThingId>> = Vec::new();
     let mut known: BTreeSet<[SlotId; 2]> = BTreeSet::new();
     let mut stack = vec![thing];
     while let Some(t) = stack.pop() {
-        let coordinate = |name| {
-            let part = structure.part_named(t, name)?;
-            Some((part, structure.slot_of[part]?))
-        };
-        let (Some((x, of_x)), Some((y, of_y))) = (coordinate("x"), coordinate("y")) else {
+        let Some([(x, of_x), (y, of_y)]) = coordinates(structure, t) else {
             stack.extend(structure.parts(t).rev());
             continue;
         };
@@ -175,13 +182,17 @@ impl Drag {
             None => (self.start[0], self.start.get(1).copied().unwrap_or(0.0)),
         }
     }
+    /// Returns the numbers that are dragged, as they were at the press.
+    pub(crate) fn start(&self) -> &[f64] {
+        &self.start
+    }
     /// Returns the numbers of its handle, each with what it was at the press; none of what is computed.
     pub(crate) fn handle_slots(&self) -> impl Iterator<Item = (SlotId, f64)> + '_ {
         let handle = if self.computed.is_some() { 0 } else { 2 };
         self.slots.iter().copied().zip(self.start.iter().copied()).take(handle)
     }
     /// Returns the numbers of what is computed and dragged, as of the last event.
-    pub(crate) fn computed_now(&self, state: &State) -> Option<Vec<f64>> {
+    pub(crate) fn computed_now(&self, state: &State) -> Option<Vec<(f64, Dimension)>> {
         let evaluator = state.evaluator(&self.values);
         numbers_of(&evaluator.evaluate(self.computed.as_ref()?, DOCUMENT).ok()?)
     }

@@ -7,6 +7,7 @@ use crate::view::Refusal;
 use crate::words;
 use base::Name;
 use eval::Answer;
+use expr::Dimension;
 use kernel::{
     Argument, ClassId, ClassKind, Command, Document, Path, Primitive, SlotId, Term, ThingId, Value,
 };
@@ -69,7 +70,7 @@ pub(crate) fn moved(state: &State, thing: ThingId, way: (f64, f64)) -> Option<Ve
     let asked = message.parameters.first().and_then(|p| p.class);
     let any = || document.classes.ids().find(|&c| measure_of_place(document, c).is_some());
     let place = asked.or_else(any)?;
-    let Primitive::Real(dimension) = measure_of_place(document, place)? else { return None };
+    let dimension = measure_of_place(document, place)?;
     let length = |value| Term::Number { value, dimension, bare: false };
     let argument = |value| Argument { label: None, value: length(value) };
     let arguments = vec![argument(way.0), argument(way.1)];
@@ -84,13 +85,13 @@ pub(crate) fn moved(state: &State, thing: ThingId, way: (f64, f64)) -> Option<Ve
 }
 
 /// Returns what the coordinates of a place measure: of a class that consists of two numbers x and y.
-fn measure_of_place(document: &Document, class: ClassId) -> Option<Primitive> {
+fn measure_of_place(document: &Document, class: ClassId) -> Option<Dimension> {
     let [x, y] = document.layout(class)[..] else { return None };
     let named = **document.field_name(x) == *"x" && **document.field_name(y) == *"y";
     let kind = |field| &document.classes[document.field_class(field)].kind;
     match kind(x) {
-        ClassKind::Primitive(real @ Primitive::Real(_)) if named && kind(y) == kind(x) => {
-            Some(*real)
+        ClassKind::Primitive(Primitive::Real(dimension)) if named && kind(y) == kind(x) => {
+            Some(*dimension)
         }
         ClassKind::Primitive(_)
         | ClassKind::Composite

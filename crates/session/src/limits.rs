@@ -5,6 +5,7 @@ use crate::state::State;
 use crate::view::{Limit, ModeView};
 use crate::words;
 use base::number::Toward;
+use expr::Dimension;
 use kernel::{DOCUMENT, Primitive, SlotId, Term, ThingId, Value};
 use plan::{ActingKind, ModeChange, Source};
 
@@ -44,7 +45,7 @@ pub(crate) fn of_term(state: &State, term: &Term, wanted: &[Value], part: f64) -
     let limit = from + (wanted - from) * part;
     let document = &state.lowered.document;
     let (text, unit) = lang::show_limit(limit, from, "", dimension, document);
-    Some(Limit { path: words::term_path(term), value: joined(&text, &unit) })
+    Some(Limit { path: words::term_path(term), value: words::with_unit(text, &unit) })
 }
 
 /// Returns the limit of several things that go the same part of their ways; nothing of none.
@@ -71,7 +72,12 @@ pub(crate) fn in_words(limit: &Limit) -> String {
 pub(crate) fn of_drag(state: &State, drag: &Drag) -> (Limit, String) {
     let path = drag.path.to_string();
     if let Some(now) = drag.computed_now(state) {
-        let shown: Vec<String> = now.iter().map(|&x| base::number::rounded(x, 6)).collect();
+        let show = |(&(x, dimension), &from): (&(f64, Dimension), &f64)| {
+            let document = &state.lowered.document;
+            let (text, unit) = lang::show_limit(x, from, "", dimension, document);
+            words::with_unit(text, &unit)
+        };
+        let shown: Vec<String> = now.iter().zip(drag.start()).map(show).collect();
         let limit = Limit { path, value: tuple(&shown) };
         let words = in_words(&limit);
         return (limit, words);
@@ -143,11 +149,7 @@ fn show(state: &State, slot: SlotId, limit: f64, from: f64) -> String {
     };
     let document = &state.lowered.document;
     let (text, unit) = lang::show_limit(limit, from, &written, dimension, document);
-    joined(&text, &unit)
-}
-
-fn joined(text: &str, unit: &str) -> String {
-    if unit.is_empty() { text.into() } else { format!("{text} {unit}") }
+    words::with_unit(text, &unit)
 }
 
 fn tuple(numbers: &[String]) -> String {

@@ -271,11 +271,16 @@ pub(crate) fn show_slot(state: &State, slot: SlotId, values: &Values) -> (String
     }
 }
 
+/// Puts a number and its unit together, where it has one.
+pub(crate) fn with_unit(text: String, unit: &str) -> String {
+    if unit.is_empty() { text } else { format!("{text} {unit}") }
+}
+
 /// Returns the value of a thing, if it is primitive or a place.
 pub(crate) fn show_thing(state: &State, thing: ThingId, values: &Values) -> Option<String> {
     let joined = |slot| {
         let (text, unit) = show_slot(state, slot, values);
-        if unit.is_empty() { text } else { format!("{text} {unit}") }
+        with_unit(text, &unit)
     };
     match state.structure.slot_of[thing] {
         Some(slot) => Some(joined(slot)),

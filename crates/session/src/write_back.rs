@@ -43,6 +43,10 @@ pub(crate) fn write_back(
         let edits = lang::write_values(&state.lowered, &writes);
         let text = syntax::edit::apply(&state.text, &edits);
         let (next, planner) = State::of(text, Some(state), host, plans);
+        if next.structure.slots.len() != state.structure.slots.len() {
+            // what was written decides how many things there are: these are others
+            return (next, planner);
+        }
         let rank = |slot: &SlotId| match state.structure.slots[*slot].given {
             Some(_) => 0,
             None if edited.contains(slot) => 1,

@@ -349,8 +349,10 @@ fn Row(tree: Tree, place: usize, shown: Shown) -> impl IntoView {
     let open = Memo::new(move |_| {
         row.with(|row| row.as_ref().filter(|r| r.descendants > 0).map(|r| tree.is_open(r)))
     });
+    let has_own_path =
+        Memo::new(move |_| row.with(|r| r.as_ref().is_some_and(|r| r.kind.has_own_path())));
     let selected = Memo::new(move |_| {
-        kind.with(|kind| kind != "merge" && kind != "side")
+        has_own_path.get()
             && path.with(|path| {
                 lab.selected.with(|selected| selected.as_ref() == Some(path))
                     || lab.also.with(|also| also.contains(path))
@@ -359,7 +361,7 @@ fn Row(tree: Tree, place: usize, shown: Shown) -> impl IntoView {
     let hovered = Memo::new(move |_| {
         let first = merged.get().unwrap_or_else(|| path.get());
         !first.is_empty()
-            && kind.with(|kind| kind != "merge" && kind != "side")
+            && has_own_path.get()
             && lab.marked.with(|marked| marked.hovered.as_ref() == Some(&first))
     });
     let lockable = Memo::new(move |_| {

@@ -95,6 +95,9 @@ pub(crate) fn sign_of_determinant(mut rows: Vec<Vec<f64>>) -> Option<i8> {
     let mut sign = 1;
     for row in &mut rows {
         let size = length(row);
+        if size == 0.0 {
+            return None;
+        }
         row.iter_mut().for_each(|x| *x /= size);
     }
     for k in 0..n {

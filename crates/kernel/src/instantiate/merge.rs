@@ -3,6 +3,7 @@
 use super::body::Body;
 use super::{FaultKind, Maker};
 use crate::class::{ClassId, ClassKind};
+use crate::document::Document;
 use crate::structure::ThingId;
 use crate::term::OriginId;
 
@@ -96,6 +97,18 @@ fn common_parts(
     let views = ancestor.and_then(|c| Some((seen(a, c)?, seen(b, c)?, c)));
     let pairs =
         views.map_or_else(Vec::new, |(a, b, c)| pairs(a, b, document.layout(c).len() as u32));
+    let general = |c| {
+        let line = document.primary_line(c).into_iter();
+        line.map(|c| document.classes[c].general.unwrap_or(c)).find(|&c| has_counts(document, c))
+    };
+    if named && pairs.is_empty() && general(ca).is_some() && general(ca) == general(cb) {
+        let message = format!(
+            "this {} and this {} have different numbers of parts and cannot be one",
+            name(ca),
+            name(cb)
+        );
+        return Err((FaultKind::UnlikeMerge, message));
+    }
     if named && pairs.is_empty() {
         let message = format!(
             "{} and {} have no parts in common: merging them would say nothing",
@@ -105,6 +118,11 @@ fn common_parts(
         return Err((FaultKind::VacuousMerge, message));
     }
     Ok(pairs)
+}
+
+/// Returns true if some whole number of a class says how many parts its things have.
+fn has_counts(document: &Document, class: ClassId) -> bool {
+    !document.classes[class].counts.is_empty()
 }
 
 /// Finds the thing or superclass part that is `thing` seen as a `class`.

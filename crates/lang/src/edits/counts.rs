@@ -95,7 +95,8 @@ impl Text<'_> {
         let own = place.file == crate::lower::OWN;
         let file =
             if own { self.file.clone() } else { self.lowered.files[place.file].parse.file() };
-        let parts = file.syntax().descendants().filter_map(ast::Part::cast);
+        let word = syntax::token_from(file.syntax(), place.span.start)?;
+        let parts = word.parent_ancestors().filter_map(ast::Part::cast);
         let mut at = parts.filter(|p| span_without_doc(p.syntax()) == place.span);
         match at.next()?.class()?.shape() {
             TypeShape::List { count, .. } => count,

@@ -132,7 +132,8 @@ impl<'l> Lowerer<'l> {
         let range = part.domain().and_then(|d| self.domain(scope, &d, element));
         let span = span_without_doc(part.syntax());
         for word in part.names() {
-            let body = part.body().filter(|b| !loops.iter().any(|l| is_of_turns(l, b)));
+            let is_of_turns = |b: &ast::Body| loops.iter().any(|l| self.is_of_turns(element, l, b));
+            let body = part.body().filter(|b| !is_of_turns(b));
             let origin = self.origin(scope.file, span);
             let name = word.name();
             let class = match body {
@@ -189,16 +190,23 @@ impl<'l> Lowerer<'l> {
         }
     }
 
+    /// Returns true for a body of values that every turn says for itself; not where one is a count, which
+    /// decides of what class the element is.
+    pub(super) fn is_of_turns(&self, element: ClassId, each: &ast::For, body: &ast::Body) -> bool {
+        let members: Vec<Member> = body.members().collect();
+        let values = members.iter().all(|m| matches!(m, Member::Assign(_)));
+        values
+            && (varies(each, body) || values_alone(&members).is_some())
+            && !self.gives_count(element, &members)
+    }
+
     /// Returns the class of a list, of so many elements.
     fn with_count(&mut self, list: ClassId, count: u32) -> ClassId {
         match self.document.classes[list].kind {
             ClassKind::List(element) if self.document.classes[list].elements.is_empty() => {
                 self.counted(element, count)
             }
-            _ => {
-                self.document.classes[list].count = Some(count);
-                list
-            }
+            _ => list,
         }
     }
 
@@ -246,11 +254,7 @@ impl<'l> Lowerer<'l> {
                     let (element, own) = self.elements_of(&here, inner, within, leaves);
                     match own.is_empty() {
                         true => self.counted(element, within.len()),
-                        false => {
-                            let list = self.list_of_own(element, own);
-                            self.document.classes[list].count = Some(within.len());
-                            list
-                        }
+                        false => self.list_of_own(element, own),
                     }
                 }
             });
@@ -281,6 +285,7 @@ impl<'l> Lowerer<'l> {
         let object = self.object;
         let origin = self.document.classes[object].origin;
         let class = self.add_class(&name, ClassKind::List(element), &[object], origin);
+        self.document.classes[class].count = Some(elements.len() as u32);
         self.document.classes[class].elements = elements;
         class
     }
@@ -374,13 +379,6 @@ fn names_of(member: &Member) -> Vec<ast::Word> {
 
 pub(super) fn is_declaration(member: &Member) -> bool {
     matches!(member, Member::Part(_) | Member::Message(_) | Member::Ref(_))
-}
-
-/// Returns true for a body of values that every turn says for itself.
-pub(super) fn is_of_turns(each: &ast::For, body: &ast::Body) -> bool {
-    let members: Vec<Member> = body.members().collect();
-    let values = members.iter().all(|m| matches!(m, Member::Assign(_)));
-    values && (varies(each, body) || values_alone(&members).is_some())
 }
 
 /// Returns true for a body that speaks of what a loop goes through, or of what else is declared in it.

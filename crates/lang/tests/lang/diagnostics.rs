@@ -198,6 +198,17 @@ const WRONG: &[(&str, &str, &str)] = &[
     ),
     ("class C { n: Integer = 3  l: List of n Real }\nc: C\nc.n = 4", "not-a-count", "4"),
     ("class C { n: Integer = -3  l: List of n Real }", "not-a-count", "n"),
+    (
+        "class C { n: Integer = 3  l: List of n Real }\nx: C { n = 5 }\ny: C\ny = x",
+        "not-a-count",
+        "x",
+    ),
+    ("class C { n: Integer = 3  l: List of n C { n = n - 1 } }", "not-a-count", "n - 1"),
+    (
+        "class C { n: Integer = 3  l: List of n C { n = owner.n + 1 } }",
+        "endless-parts",
+        "n = owner.n + 1",
+    ),
     ("class C { modify Real { } }", "not-modifiable", "Real"),
     ("class C { modify Lnie { } }", "unknown-class", "Lnie"),
     (

@@ -44,7 +44,7 @@ pub(crate) fn view(open: &Open) -> Status {
 fn yielded(state: &State) -> Option<String> {
     let shown = |values: &Values, slot: SlotId| {
         let (text, unit) = words::show_slot(state, slot, values);
-        if unit.is_empty() { text } else { format!("{text} {unit}") }
+        words::with_unit(text, &unit)
     };
     let mut given = state.values.clone();
     let named = state.yielded.iter().take(MOST_NAMED).map(|&(slot, was)| {

@@ -111,7 +111,7 @@ fn show_answer<'d>(document: &Document, answer: &Answer<'d>) -> Option<(Shown, &
 /// Returns an answer with its unit, as a person reads it; nothing where it is no value.
 pub(crate) fn in_words(document: &Document, answer: &Answer<'_>) -> Option<String> {
     let (Shown { text, unit, .. }, _) = show_answer(document, answer)?;
-    Some(if unit.is_empty() { text } else { format!("{text} {unit}") })
+    Some(words::with_unit(text, &unit))
 }
 
 struct Maker<'a> {
