@@ -149,7 +149,6 @@ impl Reading<'_> {
             (None, None) => return self.both(left, right),
         };
         let mut guards = Vec::new();
-        let mut along = None;
         loop {
             let next = match self.from.node(open) {
                 Node::Unary(Unary::Neg, a) => Some((a, self.into.neg(free))),
@@ -165,7 +164,7 @@ impl Reading<'_> {
                     let minus = self.into.neg(sin);
                     let terms = [(a, cos), (b, minus), (a, sin), (b, cos)];
                     let [up, across, rise, run] = terms.map(|(node, factor)| Term { node, factor });
-                    along = Some([rise, run]);
+                    let along = Some([rise, run]);
                     return Peeled { terms: [up, across], free: self.zero, guards, along };
                 }
                 // zero where what is divided is
@@ -179,7 +178,7 @@ impl Reading<'_> {
             };
             match next {
                 Some(next) => (open, free) = next,
-                None => return Peeled { terms: self.one_term(open), free, guards, along },
+                None => return Peeled { terms: self.one_term(open), free, guards, along: None },
             }
         }
     }

@@ -7,8 +7,8 @@
 //! its part in them: it changes least first, and what is computed follows.
 //!
 //! Rows that share no slot that may move, by way of places either, are decided apart. A piece is first tried by
-//! matching, which is linear as a rule and certain where it says yes; else by elimination, sparse where it is
-//! large.
+//! matching, which is linear as a rule and certain where it says yes; else by elimination: in a tableau and, where
+//! that fills up in a large piece, sparse.
 
 use crate::deflate;
 use crate::exact;

@@ -1,6 +1,6 @@
 //! Acceptance of large pieces: by sparse elimination what depends on what, by matching what may stay.
 //!
-//! In: a piece that matching alone could not decide. Out: the answer of elimination, or nothing. Rows are
+//! In: a piece that neither matching nor a tableau that stays small could decide. Out: the answer of elimination, or nothing. Rows are
 //! eliminated over what is not given. Sums of them that vanish there leave given numbers: those have to
 //! yield, and a sum that leaves none is a circuit. The pivots are a slot for each independent row, and
 //! regular together; from these, matching holds what it can. Where the numbers do not bear that out, slots are
@@ -62,10 +62,7 @@ impl<'a> Deflated<'a> {
             Stay::Fixed | Stay::Given => false,
         };
         let own = |r: &u32| rows.columns(*r as usize).iter();
-        let scale = |r: &u32| match largest(own(r).filter(|e| is_open(e.0))) {
-            0.0 => 1.0,
-            size => size,
-        };
+        let scale = |r: &u32| size_of(own(r).filter(|e| is_open(e.0)));
         let scales: Vec<f64> = piece.rows.iter().map(scale).collect();
         let part = |kind: &dyn Fn(SlotIndex) -> bool| -> (Vec<SlotIndex>, Vec<Row>) {
             let mut columns: Vec<SlotIndex> =
@@ -156,11 +153,7 @@ impl<'a> Deflated<'a> {
 /// so much of given numbers.
 fn circuits(vanishing: &[Vanishing], left: &[Row], given: usize) -> Vec<Vanishing> {
     let sums: Vec<Row> = vanishing.iter().map(|v| v.sum.clone()).collect();
-    let scaled = |row: &Row| match largest(row.iter()) {
-        0.0 => 1.0,
-        size => size,
-    };
-    let scales: Vec<f64> = left.iter().map(scaled).collect();
+    let scales: Vec<f64> = left.iter().map(|row| size_of(row.iter())).collect();
     let again = Echelon::new(left, given).vanishing().into_iter().map(|v| {
         let parts: Row = v.sum.iter().map(|&(k, w)| (k, w / scales[k as usize])).collect();
         Vanishing { last: vanishing[v.last as usize].last, sum: sum(&parts, &sums) }
@@ -168,8 +161,11 @@ fn circuits(vanishing: &[Vanishing], left: &[Row], given: usize) -> Vec<Vanishin
     again.collect()
 }
 
-fn largest<'e>(entries: impl Iterator<Item = &'e Entry>) -> f64 {
-    entries.fold(0.0, |most, e| most.max(e.1.abs()))
+fn size_of<'e>(entries: impl Iterator<Item = &'e Entry>) -> f64 {
+    match entries.fold(0.0f64, |most, e| most.max(e.1.abs())) {
+        0.0 => 1.0,
+        size => size,
+    }
 }
 
 /// Adds rows up, each so many times.

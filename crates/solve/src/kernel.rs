@@ -167,8 +167,8 @@ impl Kernel {
         outs.extend(&derivatives);
         let slopes = Tape::compile(&arena, &outs);
         let solved = (0..arity).map(|_| OnceLock::new()).collect();
-        let pairs = arity * (arity + 1) / 2;
-        let curves = (0..if arity > PAIRED { 0 } else { pairs }).map(|_| OnceLock::new()).collect();
+        let pairs = if arity > PAIRED { 0 } else { arity * (arity + 1) / 2 };
+        let curves = (0..pairs).map(|_| OnceLock::new()).collect();
         let (stated, second) = (OnceLock::new(), OnceLock::new());
         Self {
             arena,

@@ -96,7 +96,8 @@ pub(crate) struct Region {
     pub(crate) approach: OnceCell<Measure>,
 }
 
-/// The largest region with curved rows that is approached: where curvature counts, the cost is cubic.
+/// The largest region with curved rows that is approached: of larger ones steps without curvature are not
+/// to be relied on.
 const LARGEST_CURVED: usize = 150;
 
 impl Region {

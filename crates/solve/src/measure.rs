@@ -9,7 +9,7 @@
 //! leave free. A direction is left free where the level above has no curvature, the curvature of the
 //! stronger rows included (exact second derivatives): an elbow that is stretched to its limit is
 //! held there by curvature alone. Where curvature is negative the step goes downhill. A large block's step is
-//! found by sparse factors ([`levels`]).
+//! found by sparse factors and without curvature ([`levels`]).
 //!
 //! **Source:** Nocedal and Wright, *Numerical Optimization*, 2nd ed., §18.1 and §3.4.
 
@@ -21,6 +21,7 @@ use crate::lower::{Definers, Problem, ProblemRow};
 use crate::square::Trust;
 use crate::system::{Level, SlotIndex};
 use levels::{Asked, Levels};
+use std::collections::BTreeMap;
 
 /// A block of rows and unknowns of any number.
 #[derive(Debug)]
@@ -233,18 +234,23 @@ impl Measure {
             if size > 0.0 { 1.0 / size } else { 1.0 }
         });
         let own: Vec<f64> = own.collect();
-        let alike = |r: usize, q: usize| {
-            self.levels[r] == self.levels[q]
-                && self.classes[r].is_some()
-                && self.classes[r] == self.classes[q]
-                && own[q] * 3.0 >= own[r]
+        // rows of one level and class count alike, but for what is three times another
+        let group = |r: usize| {
+            let class = self.classes[r].filter(|_| self.levels[r] != Level::Required)?;
+            Some((self.levels[r], class))
         };
+        let mut groups: BTreeMap<_, Vec<f64>> = BTreeMap::new();
+        for (r, &weight) in own.iter().enumerate() {
+            if let Some(group) = group(r) {
+                groups.entry(group).or_default().push(weight);
+            }
+        }
+        groups.values_mut().for_each(|weights| weights.sort_by(f64::total_cmp));
         let least = |r: usize| {
-            (0..own.len()).filter(|&q| alike(r, q)).fold(own[r], |least, q| least.min(own[q]))
+            let weights = groups.get(&group(r)?)?;
+            weights.get(weights.partition_point(|&q| q * 3.0 < own[r])).copied()
         };
-        (0..own.len())
-            .map(|r| if self.levels[r] == Level::Required { own[r] } else { least(r) })
-            .collect()
+        (0..own.len()).map(|r| least(r).unwrap_or(own[r])).collect()
     }
 
     /// Computes what is defined, then evaluates in scaled unknowns and weighted rows; nothing where

@@ -47,7 +47,8 @@ pub enum Status {
 /// Why a run stopped.
 #[derive(Clone, PartialEq, Debug)]
 pub enum Reason {
-    /// The branch ends on the way: this part of the way was gone.
+    /// The branch ends on the way: this part of the way was gone; of a long way that is gone in short ones,
+    /// of the last of these.
     Limit {
         /// From 0 (nothing) to 1.
         fraction: f64,

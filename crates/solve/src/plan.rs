@@ -272,13 +272,8 @@ fn plan_stated(stated: Stated) -> Plan {
         }
     }
     let lowered = lower::lower(&analysis, &blocks);
-    let has_branches = lowered.steps.iter().any(|s| match s.kind {
-        StepKind::Inverse { roots } => roots > 1,
-        StepKind::Closed | StepKind::Newton | StepKind::LeastChange | StepKind::Compromise => true,
-        StepKind::Alias | StepKind::Method { .. } | StepKind::Linear | StepKind::Opaque { .. } => {
-            false
-        }
-    });
+    let is_measured = |s: &Step| matches!(s.kind, StepKind::LeastChange | StepKind::Compromise);
+    let has_branches = lowered.steps.iter().any(|s| s.may_branch() || is_measured(s));
     let has_least = lowered.steps.iter().any(|s| matches!(s.program, Program::Least(_)));
     let is_curved = |p: &Program| matches!(p, Program::Least(least) if !least.0.block.is_linear);
     let bends = lowered.steps.iter().any(|s| is_curved(&s.program));

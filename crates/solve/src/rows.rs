@@ -4,7 +4,7 @@
 //! an opaque relation). The point is the same for every row, so no value is consulted: a
 //! coefficient is zero there only if it is zero everywhere.
 
-use crate::kernel::Kernel;
+use crate::kernel::{Kernel, WIDE};
 use crate::lists::Lists;
 use crate::pattern::Scratch;
 use crate::stated::Stated;
@@ -318,9 +318,6 @@ struct Work {
     registers: Vec<Lanes>,
     one: Scratch,
 }
-
-/// From how many rows of a kernel on they are evaluated in lanes.
-const WIDE: usize = 3;
 
 fn evaluate_kernel(
     rows: &Rows,

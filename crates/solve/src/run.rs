@@ -28,7 +28,7 @@ const SHORTEST: f64 = 1e-7;
 /// A way longer than this is cut, in parts of the extent, over the number of slots that move.
 const PART: f64 = 0.25;
 /// Into so many ways at most, over the same number.
-const MOST_TARGETS: usize = 20_000;
+const MOST_WORK: usize = 20_000;
 /// How many strides are tried before a way is given up.
 const STRIDES: usize = 600;
 
@@ -273,7 +273,7 @@ impl Drag {
             way * alike.max(1) as f64 / PART
         };
         let parts = self.slice.inputs.iter().zip(targets).map(part).fold(1.0, f64::max);
-        let most = (MOST_TARGETS / self.slice.targets.len().max(1)).max(1);
+        let most = (MOST_WORK / self.slice.targets.len().max(1)).max(1);
         parts.ceil().min(most as f64) as u32
     }
 

@@ -69,8 +69,8 @@ pub(super) fn solve(
     let Some(mut basic) = stated.basic(&eliminated) else { return false };
     let vanishing = eliminated.vanishing();
     // once for the numbers, once for what rounding left of the sums
+    block.sides(values, w, local);
     for _ in 0..if vanishing.is_empty() { 1 } else { 2 } {
-        block.sides(values, w, local);
         if !stated.give(&vanishing, x0, values, local) {
             return false;
         }

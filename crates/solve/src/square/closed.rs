@@ -137,7 +137,10 @@ impl Roots {
 fn roots(conics: &Conics) -> Option<Roots> {
     let [a, b] = conics.rows;
     // the line that both solutions lie on, and a curve that does too
-    let largest = |row: &Conic| (0..3).fold(0, |m, i| if larger(row, i, m) { i } else { m });
+    let largest = |row: &Conic| {
+        let larger = |i: usize, than: usize| row.second[i].abs() > row.second[than].abs();
+        (0..3).fold(0, |most, i| if larger(i, most) { i } else { most })
+    };
     if [a, b].iter().all(|row| row.second == [0.0; 3]) {
         return newton(conics).map(Roots::One);
     }
@@ -153,8 +156,8 @@ fn roots(conics: &Conics) -> Option<Roots> {
         }
     };
     let n = norm(line.slope);
-    let largest = |row: &Conic| row.slope[0].abs().max(row.slope[1].abs());
-    let whole = largest(&a) * p.abs() + largest(&b) * q.abs();
+    let steepness = |row: &Conic| row.slope[0].abs().max(row.slope[1].abs());
+    let whole = steepness(&a) * p.abs() + steepness(&b) * q.abs();
     if n <= FLAT * whole || n == 0.0 || !n.is_finite() {
         return None;
     }
@@ -178,11 +181,6 @@ fn roots(conics: &Conics) -> Option<Roots> {
     }
     let half = sqrt(half);
     Some(Roots::Two([place(middle + half), place(middle - half)]))
-}
-
-/// Returns true if one second coefficient of a row is larger than another.
-fn larger(row: &Conic, i: usize, than: usize) -> bool {
-    row.second[i].abs() > row.second[than].abs()
 }
 
 /// Returns what the second coefficients of a row make of a place.
