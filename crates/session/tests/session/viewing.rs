@@ -185,6 +185,15 @@ fn a_computed_number_is_dragged_as_far_as_it_goes() {
 }
 
 #[test]
+fn the_limit_of_what_is_computed_has_its_unit() {
+    let text =
+        "a: Force = 1 N\nconstraint a <= 2 N\nanchor b\nb: Force = 3 N\nboth: Force => a + b\n";
+    let mut desk = Desk::of(text);
+    let state = desk.hold("both", &[(9.0, 0.0)]);
+    assert_eq!(state.limit.map(|l| l.value).as_deref(), Some("5 N"));
+}
+
+#[test]
 fn the_status_says_which_given_numbers_gave_way() {
     let text = "v1, v2, v: Real\nv1 = 1\nv2 = 2\nconstraint v1 = v\nconstraint v2 = v\n";
     let mut desk = Desk::of(text);
