@@ -122,3 +122,18 @@ fn sketches_of_every_family_are_solved_whatever_their_seed() {
     }
     assert!(failures.is_empty(), "\n{failures}");
 }
+
+/// Frameworks whose triangles, solved one after the other, magnify how rough the start is until two
+/// circles do not meet; damped Newton steps of everything at once end a third of a bar from the start.
+const ROUGH: [(usize, u64); 3] = [(200, 12), (300, 1), (300, 4)];
+
+#[test]
+fn a_large_framework_is_found_near_its_rough_start() {
+    for (size, seed) in ROUGH {
+        let case = generate(Family::Henneberg2, size, seed);
+        let figures = measure_case(&case, Repeat::Once).expect("a case is one");
+        assert!(figures.is_solved(), "{size} of seed {seed}: {}", figures.residual);
+        let away = furthest(&figures.points, &case.start);
+        assert!(away < 0.5, "{size} of seed {seed}: a point is {away} away from its start");
+    }
+}

@@ -21,6 +21,7 @@ use std::cell::{Cell, OnceCell};
 mod backtrack;
 pub(crate) mod others;
 mod roots;
+mod rough;
 mod strips;
 
 /// Up to this many unknowns least change is tried by the measure too, whose cost is cubic.
@@ -280,16 +281,24 @@ struct Run<'a> {
 impl Run<'_> {
     fn step(&mut self, step: &Step) -> Result<(), Failure> {
         let inputs = self.inputs(step);
-        let valued = step.targets.iter().all(|&t| self.plan.slots[t as usize].stay != Stay::Free);
-        if inputs != Motion::Moved && valued && self.holds_in_x0(step, inputs) {
-            for &t in &step.targets {
-                self.values[t as usize] = self.frame.x0[t as usize];
-                self.buffers.motion[t as usize] = Motion::Still;
-            }
+        if self.keeps(step, inputs) {
             return Ok(());
         }
         self.compute(step)?;
         self.settle(step, inputs)
+    }
+
+    /// Gives the targets of a step that has nothing to do the bits of x0; returns whether it is such a one.
+    fn keeps(&mut self, step: &Step, inputs: Motion) -> bool {
+        let valued = step.targets.iter().all(|&t| self.plan.slots[t as usize].stay != Stay::Free);
+        let keeps = inputs != Motion::Moved && valued && self.holds_in_x0(step, inputs);
+        if keeps {
+            for &t in &step.targets {
+                self.values[t as usize] = self.frame.x0[t as usize];
+                self.buffers.motion[t as usize] = Motion::Still;
+            }
+        }
+        keeps
     }
 
     /// How what a step reads stands to x0.

@@ -83,6 +83,8 @@ mod square;
 mod least;
 mod measure;
 
+mod joint;
+
 pub mod outcome;
 
 mod strip;

@@ -11,7 +11,7 @@ use crate::measure::Measure;
 use crate::order::Block;
 use crate::pattern::Pattern;
 use crate::plan::{Analysis, Step, StepKind};
-use crate::rows::Row;
+use crate::rows::{Row, Rows};
 use crate::square::Square;
 use crate::system::{Level, MethodBody, RelationBody, SlotIndex, Stay};
 use crate::union::Union;
@@ -194,10 +194,10 @@ fn alias(relations: Few, target: SlotIndex, program: Program, reads: Few) -> Ste
     }
 }
 
-pub(crate) fn problem_row(analysis: &Analysis<'_>, row: usize) -> Option<ProblemRow> {
-    let kernel = analysis.rows.kernel(row)?.clone();
-    let arguments = analysis.rows.mentions(row).into();
-    let Row { level, within, .. } = analysis.rows[row];
+pub(crate) fn problem_row(rows: &Rows, row: usize) -> Option<ProblemRow> {
+    let kernel = rows.kernel(row)?.clone();
+    let arguments = rows.mentions(row).into();
+    let Row { level, within, .. } = rows[row];
     Some(ProblemRow { kernel, arguments, level, within })
 }
 
@@ -250,7 +250,7 @@ fn regions(analysis: &Analysis<'_>, blocks: &[Block], region_of: &[u32]) -> Vec<
         let region = &mut regions[region as usize];
         if region.can_approach {
             region.problem.unknowns.extend(&block.unknowns);
-            let rows = block.rows.iter().filter_map(|&r| problem_row(analysis, r));
+            let rows = block.rows.iter().filter_map(|&r| problem_row(&analysis.rows, r));
             region.problem.rows.extend(rows);
         }
     }
@@ -271,7 +271,7 @@ impl Work {
     fn state(&mut self, analysis: &Analysis<'_>, block: &Block) -> &Problem {
         let Problem { rows, unknowns } = &mut self.problem;
         rows.clear();
-        rows.extend(block.rows.iter().filter_map(|&r| problem_row(analysis, r)));
+        rows.extend(block.rows.iter().filter_map(|&r| problem_row(&analysis.rows, r)));
         unknowns.clear();
         unknowns.extend_from_slice(&block.unknowns);
         &self.problem
@@ -322,7 +322,7 @@ fn lower_block(analysis: &Analysis<'_>, block: &Block, work: &mut Work, steps: &
 /// The step of a row that has a formula for its one unknown.
 fn by_formula(analysis: &Analysis<'_>, block: &Block, work: &mut Work) -> Option<Step> {
     let ([row], [slot]) = (&block.rows[..], &block.unknowns[..]) else { return None };
-    let inverse = Inverse::new(problem_row(analysis, *row)?, *slot)?;
+    let inverse = Inverse::new(problem_row(&analysis.rows, *row)?, *slot)?;
     let reads = reads_of(analysis, block, &mut work.reads);
     Some(inverse_step(analysis, &block.rows, inverse, reads))
 }

@@ -6,7 +6,7 @@
 use crate::accept::{self, Acceptance};
 use crate::direct::{self, Direction};
 use crate::few::Few;
-use crate::lower::{self, Program, Region};
+use crate::lower::{self, Problem, Program, Region};
 use crate::order::{self, Block, Incidence};
 use crate::pattern::{Pattern, Patterns};
 use crate::rows::{self, Rows};
@@ -489,6 +489,21 @@ impl Plan {
         let made = Rc::new(Slice::new(self, inputs));
         *known = Some(made.clone());
         made
+    }
+    /// Returns these equations, by their places in the system, as rows over these unknowns; those that
+    /// substitution makes hold, that are opaque or that speak of none of these are left out.
+    pub(crate) fn problem(&self, mut equations: Vec<u32>, mut unknowns: Vec<SlotIndex>) -> Problem {
+        equations.sort_unstable();
+        unknowns.sort_unstable();
+        let classes = substitute::substitute(&self.stated);
+        let rows = rows::stated_rows(&self.stated, &classes);
+        let is_unknown = |slot: &SlotIndex| unknowns.binary_search(slot).is_ok();
+        let row = |r: usize| {
+            let place = self.relations[rows[r].relation as usize].first_row + rows[r].equation;
+            equations.binary_search(&place).ok()?;
+            rows.mentions(r).iter().any(is_unknown).then(|| lower::problem_row(&rows, r))?
+        };
+        Problem { rows: (0..rows.len()).filter_map(row).collect(), unknowns }
     }
     /// Returns every slot that a relation speaks of.
     pub(crate) fn mentions(&self, relation: u32) -> impl Iterator<Item = SlotIndex> + '_ {

@@ -147,7 +147,7 @@ fn move_onto(mut system: Vec<Vec<f64>>, may_move: &dyn Fn(usize) -> bool, values
 }
 
 /// Makes the rows without their columns.
-fn stated_rows(stated: &Stated, classes: &Classes) -> Rows {
+pub(crate) fn stated_rows(stated: &Stated, classes: &Classes) -> Rows {
     let system = &*stated.system;
     let mut rows = Rows::default();
     rows.list.reserve(system.equations.len());

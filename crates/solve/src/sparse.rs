@@ -1,4 +1,4 @@
-//! Sparse kernels: patterns, pivots, LU and LDLᵀ.
+//! Sparse kernels: patterns, pivots, LU, LDLᵀ and damped least squares.
 //!
 //! Scalar, every sum in one written order: the same bits everywhere. What is decided by structure
 //! (pivots, fill) is decided once for a pattern; numbers are put in as often as they change.
@@ -13,6 +13,8 @@ pub(crate) mod degree;
 pub(crate) mod lu;
 
 pub(crate) mod ldl;
+
+pub(crate) mod damped;
 
 pub(crate) use ldl::{Ldl, Symmetric};
 pub(crate) use lu::{Lu, Symbolic};

@@ -13,8 +13,9 @@ use crate::block::{Block, Layouts, Local, Workspace};
 use crate::dense::{self, Factors};
 use crate::lower::{Definers, Problem};
 use crate::rows::{Point, generic_number};
+use crate::sparse::damped::{Damped, DampedScratch};
 use crate::sparse::pivot::{self, How};
-use crate::sparse::{Ldl, Lu, Pattern, Symbolic, Symmetric};
+use crate::sparse::{Lu, Pattern, Symbolic};
 use crate::system::SlotIndex;
 use std::rc::Rc;
 use std::sync::OnceLock;
@@ -25,8 +26,8 @@ pub(crate) struct Square {
     pub(crate) block: Block,
     /// Pivots that suit the block at a generic point; made when they are first needed.
     pivots: OnceLock<Rc<Symbolic>>,
-    /// The order for damped steps, of rows then unknowns.
-    damped: OnceLock<Symmetric>,
+    /// What finds damped steps of a large core.
+    damped: OnceLock<Damped>,
 }
 
 /// Buffers that a block needs while it is solved.
@@ -41,9 +42,7 @@ pub(crate) struct SquareScratch {
     factors: Vec<f64>,
     swaps: Vec<usize>,
     lu: Lu,
-    ldl: Ldl,
-    /// The matrix of a damped step.
-    saddle: Vec<f64>,
+    damped: DampedScratch,
     /// Pivots for numbers that the generic ones do not suit.
     own: Option<Symbolic>,
     /// Gradients of what is defined, by the core.
@@ -574,30 +573,21 @@ impl Square {
         }
     }
 
-    /// The damped step of all unknowns, by the residuals that it leaves: `[I A; Aᵀ -damping]`.
+    /// The damped step of all unknowns; no step where there is none.
     fn damped_sparse(&self, damping: f64, s: &mut SquareScratch) {
-        let (block, n) = (&self.block, self.block.height() as u32);
-        let symmetric = self.damped.get_or_init(|| {
-            let mut entries: Vec<(u32, u32)> = (0..2 * n).map(|i| (i, i)).collect();
-            for r in 0..n {
-                entries.extend(block.pattern.row(r as usize).iter().map(|c| (r, n + c)));
-            }
-            Symmetric::new(2 * n as usize, &entries)
-        });
-        s.saddle.clear();
-        s.saddle.resize(n as usize, 1.0);
-        s.saddle.resize(2 * n as usize, -damping);
-        s.saddle.extend_from_slice(&s.matrix);
+        let block = &self.block;
+        let made = self.damped.get_or_init(|| Damped::new(&block.pattern));
         s.right.clear();
-        s.right.resize(2 * n as usize, 0.0);
+        s.right.resize(block.height(), 0.0);
         for (v, &r) in s.residual.iter().zip(&block.core_rows) {
             s.right[r as usize] = -v * s.weight[r as usize];
         }
+        let found = made.step(&s.matrix, s.right.iter().copied(), damping, &mut s.damped);
         s.step.clear();
-        if symmetric.factorise(&s.saddle, &mut s.ldl).is_some() {
-            symmetric.solve(&mut s.ldl, &mut s.right);
+        match found {
+            Some(step) => s.step.extend(block.core.iter().map(|&u| step[u as usize])),
+            None => s.step.resize(block.core.len(), 0.0),
         }
-        s.step.extend(block.core.iter().map(|&u| s.right[(n + u) as usize]));
     }
 
     /// The unknown whose column the others come nearest to replacing; in a large core, the one that

@@ -4,7 +4,9 @@
 //! none were found. A step with several roots is a choice. Where something fails, it or a step that it
 //! comes from has to be chosen otherwise: such choices are laid by, each with how much farther from
 //! the start it lies, and the nearest of all is tried next. So the answer is near, what has no part in a
-//! failure is left as it is, and the search ends after an amount of work that the plan fixes.
+//! failure is left as it is, and the search ends after an amount of work that the plan fixes. Where it is
+//! long, everything is moved at once as well ([`super::rough`]): where each of many steps hands on how rough
+//! the start is, hardly one root is wrong, and no other one right.
 
 use super::roots::{Reach, Root};
 use super::{Approach, Attempt, Buffers, Failure, Motion, Run, begin};
@@ -16,6 +18,9 @@ use std::rc::Rc;
 /// How often, at most, equations are solved for every unknown, and for all of them together.
 const ROUNDS: usize = 5000;
 const WORK: usize = 3_000_000;
+/// After how much of either everything is moved at once.
+const SOON: usize = 20;
+const SOON_WORK: usize = 2000;
 /// How many choices are laid by.
 const CHOICES: usize = 400;
 /// How many steps with several roots, the nearest before a failure, are asked for others.
@@ -89,6 +94,7 @@ impl Attempt<'_> {
         let mut from = 0;
         let mut first = None;
         let mut tried = 0;
+        let mut is_early = !plan.has_whole_unknowns();
         loop {
             let Err((fault, failure)) = search.run(from, values, buffers, host) else {
                 return Ok(());
@@ -98,6 +104,12 @@ impl Attempt<'_> {
             let (values_then, motion_then) = (values.to_vec(), buffers.motion.clone());
             let (fault, failure, begun, motion) =
                 first.get_or_insert((fault, failure, values_then, motion_then));
+            if is_early && buffers.square.work > (SOON * branching).max(SOON_WORK) {
+                is_early = false;
+                if self.run_from_near(values, buffers, host) {
+                    return Ok(());
+                }
+            }
             if buffers.square.work > (ROUNDS * branching).min(WORK) {
                 let reason = Reason::NotDecided { tried };
                 return Err(Failure { reason, region: failure.region });

@@ -1,0 +1,78 @@
+//! From a rough start: everything that does not hold is moved at once, so that the steps begin near.
+//!
+//! In: an attempt. Out: values for which everything holds, or none. What holds in x0, and comes from nothing else, keeps its bits.
+
+use super::{Approach, Attempt, Buffers, Motion, Run, begin};
+use crate::joint::Joint;
+use crate::lower::Program;
+use crate::outcome::Host;
+use crate::plan::Step;
+use crate::system::{Level, SlotIndex, Stay};
+
+impl Attempt<'_> {
+    /// Runs the steps from where all rows together err least, near the last state; returns true if everything
+    /// then holds. Of `values` the known slots count; what they are afterwards counts only then.
+    pub(super) fn run_from_near(
+        self,
+        values: &mut [f64],
+        buffers: &mut Buffers,
+        host: &mut dyn Host,
+    ) -> bool {
+        for (i, slot) in self.plan.slots.iter().enumerate() {
+            if slot.stay != Stay::Fixed {
+                values[i] = self.last[i];
+            }
+        }
+        self.gather(values, buffers, host);
+        let near = values.to_vec();
+        let attempt = Attempt { last: &near, ..self };
+        attempt.run(values, &Approach::Nowhere, buffers, host).is_ok()
+            && self.broken(values, buffers).is_none()
+    }
+
+    /// Moves all unknowns of steps that do not hold to where the errors of all rows together are least near
+    /// by. `values` comes with the last state in it, and the known slots set.
+    fn gather(self, values: &mut [f64], buffers: &mut Buffers, host: &mut dyn Host) {
+        let Self { plan, frame, last, trust, part: _ } = self;
+        begin(plan, frame, values, buffers);
+        let mut unknowns: Vec<SlotIndex> = Vec::new();
+        let mut equations: Vec<u32> = Vec::new();
+        for (index, step) in plan.steps.iter().enumerate() {
+            let mut run = Run { plan, frame, last, values, trust, buffers, host, index };
+            match &step.program {
+                // what is no number there is found out when the steps run
+                Program::Constant(_) | Program::Copy => _ = run.step(step),
+                Program::Host { .. } => run.mark(step, Motion::Moved),
+                Program::Formulas(..)
+                | Program::Inverse(_)
+                | Program::Square(_)
+                | Program::Least(_)
+                | Program::Measure(_) => {
+                    let inputs = run.inputs(step);
+                    if !run.keeps(step, inputs) {
+                        run.start_from_last(&step.targets);
+                        run.mark(step, Motion::Moved);
+                        unknowns.extend(&*step.targets);
+                        equations.extend(&*step.rows);
+                    }
+                }
+            }
+        }
+        let surplus = plan.report.rejected.iter().filter_map(|rejected| {
+            let relation = &plan.relations[rejected.relation as usize];
+            let is_required = relation.level == Level::Required && rejected.row < relation.rows;
+            is_required.then_some(relation.first_row + rejected.row)
+        });
+        equations.extend(surplus);
+        let joint = Joint::new(&plan.problem(equations, unknowns));
+        joint.settle(values, &frame.scales, &mut buffers.work);
+    }
+}
+
+impl Run<'_> {
+    fn mark(&mut self, step: &Step, motion: Motion) {
+        for &t in &step.targets {
+            self.buffers.motion[t as usize] = motion;
+        }
+    }
+}
