@@ -111,6 +111,11 @@ impl Structure {
     pub fn given(&self, slot: SlotId) -> Option<&GivenTerm> {
         self.slots[slot].given.map(|g| &self.givens[g.value])
     }
+    /// Returns what a thing is given by itself, the document's own merges of it left aside.
+    pub fn given_apart(&self, thing: ThingId) -> Option<&GivenTerm> {
+        let given = self.grown.as_ref()?.given(thing)?;
+        Some(&self.givens[given.value])
+    }
 }
 
 /// The form of a document: its things, what they are merged with, their slots, and what constrains them.

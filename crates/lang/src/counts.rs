@@ -6,6 +6,8 @@
 //! numbers its text is read again, as a class of one that is *general*ly that class. A count is held:
 //! only a new number in the text, or a `set` of it, changes it, and the things with it.
 
+mod outside;
+
 use crate::lower::{Lowerer, OWN};
 use crate::scope::Scope;
 use base::{Diagnostic, FileId, Name, Place, Span};
@@ -38,6 +40,8 @@ pub(crate) struct Counts {
     others: BTreeMap<ClassId, Numbers>,
     /// How many of these each was asked for inside of.
     depth: BTreeMap<ClassId, u32>,
+    /// The document's parts to which a count is given from further out, by index.
+    pub(crate) from_outside: BTreeSet<u32>,
 }
 
 impl Counts {
@@ -289,20 +293,16 @@ impl Lowerer<'_> {
     /// Returns the whole number that a value in the body of a part is, known as the text stands: it may speak
     /// of counts of what the part stands in, as `owner.n` or by a name that the part itself does not have.
     fn constant_in_body(&mut self, scope: &Scope, class: ClassId, value: &Expr) -> Option<i64> {
-        let mut known: BTreeMap<(Of, Name), f64> = BTreeMap::new();
+        let mut known: BTreeMap<Span, f64> = BTreeMap::new();
         for e in value.syntax().descendants().filter_map(Expr::cast) {
-            let Some((of, name)) = named(&e) else { continue };
-            if of == Of::Any && self.count_of_class(class, &name).is_some() {
-                continue;
-            }
-            let n = self.constant_named(scope, &name);
-            known.extend(n.map(|n| ((of, name), n as f64)));
+            let number = match named(&e) {
+                Some((Of::Any, name)) if self.count_of_class(class, &name).is_some() => None,
+                Some((_, name)) => self.constant_named(scope, &name),
+                None => self.constant_count(scope, &e),
+            };
+            known.extend(number.map(|n| (e.span(), n as f64)));
         }
-        let number = |e: &Expr| match named(e) {
-            Some(name) => known.get(&name).copied(),
-            None => self.constant_count(scope, e),
-        };
-        whole(crate::numbers::constant(&number, value)?)
+        whole(crate::numbers::constant(&|e| known.get(&e.span()).copied(), value)?)
     }
 
     /// Returns a count that things of two classes have different numbers for, if there is one.

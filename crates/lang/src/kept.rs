@@ -201,7 +201,8 @@ impl<'l> Lowerer<'l> {
         before: (usize, usize, usize),
     ) {
         let first_given = before.0 as u32;
-        if self.so_far() == (before.0 + givens as usize, before.1, before.2) {
+        let is_as_declared = !self.counts.from_outside.contains(&part);
+        if is_as_declared && self.so_far() == (before.0 + givens as usize, before.1, before.2) {
             self.added[member] = Some(Added { part, first_given, givens });
         }
     }

@@ -144,7 +144,9 @@ impl Lowerer<'_> {
             self.error("value-of-wrong-class", scope.file, list.span(), message);
             return None;
         };
-        let Some(elements) = self.known_count(scope, &list, class) else {
+        // a list of the thing's own that nothing is said of is empty; what gives it elements goes on
+        let empty = || own_list(scope, &list).map(|_| 0);
+        let Some(elements) = self.length_at(scope, &path).or_else(empty) else {
             let place = Place { file: scope.file, span: list.span() };
             let message = format!("how many elements {path} has is not said where it is declared");
             let d = Diagnostic::error("not-a-count", place, message);
@@ -168,15 +170,6 @@ impl Lowerer<'_> {
         }
     }
 
-    /// Returns how many elements a list has, as far as its class tells.
-    fn known_count(&self, scope: &Scope, list: &Expr, class: Option<ClassId>) -> Option<u32> {
-        let counted = class.and_then(|c| self.document.classes[c].count);
-        let count = counted.or_else(|| self.count_of(scope, list));
-        let count = count.or_else(|| self.given_count(scope, list));
-        // a list of the thing's own that nothing is said of is empty; what gives it elements goes on
-        count.or_else(|| own_list(scope, list).map(|_| 0))
-    }
-
     /// Loops of a class go on in what gives a list that they go through more elements.
     pub(crate) fn continue_loops(&mut self) {
         let waiting = self.pending.iter().filter_map(|p| match p {
@@ -188,7 +181,6 @@ impl Lowerer<'_> {
         });
         let loops: Vec<(Name, Scope, ast::For)> = waiting.collect();
         for (name, scope, each) in loops {
-            let Some(list) = through(&each) else { continue };
             let giving: Vec<ClassId> = self
                 .given_counts
                 .keys()
@@ -200,8 +192,7 @@ impl Lowerer<'_> {
                     continue;
                 }
                 let above = self.document.classes[class].supers.first().map(|s| s.class);
-                let above = above.map(|c| Scope::of(scope.file, c));
-                let before = above.and_then(|above| self.given_count(&above, &list)).unwrap_or(0);
+                let before = above.and_then(|c| self.given_count(c, &name)).unwrap_or(0);
                 let together = each.names().count() as u32;
                 let from = before.saturating_sub(together.saturating_sub(1));
                 let declared_by = scope.class();

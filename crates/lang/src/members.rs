@@ -9,7 +9,7 @@ use base::{Diagnostic, FileId, Name, Place, Span};
 use kernel::{
     ClassId, ClassKind, Count, Message, OriginId, Parameter, Part, Path, Primitive, Step, Term,
 };
-use std::collections::{BTreeMap, BTreeSet};
+use std::collections::BTreeMap;
 use syntax::ast::{self, AstNode, Expr, Member, TypeShape, span_without_doc};
 
 /// A member whose expressions are still to be lowered.
@@ -188,24 +188,23 @@ impl Lowerer<'_> {
         if turn.is_some() {
             return turn;
         }
-        let names = expr.syntax().descendants().filter_map(ast::NameExpr::cast);
-        let names: BTreeSet<Name> = names.filter_map(|n| Some(n.name()?.name())).collect();
-        let known = |n: Name| self.constant_named(scope, &n).map(|i| (n, i as f64));
-        let known: BTreeMap<Name, f64> = names.into_iter().filter_map(known).collect();
-        let named = |e: &Expr| match e {
-            Expr::Name(name) => known.get(&name.name()?.name()).copied(),
-            e => self.constant_count(scope, e),
-        };
-        crate::numbers::constant(&named, expr)
+        let mut known: BTreeMap<Span, f64> = BTreeMap::new();
+        for e in expr.syntax().descendants().filter_map(Expr::cast) {
+            let number = match &e {
+                Expr::Name(name) => name.name().and_then(|w| self.constant_named(scope, &w.name())),
+                e => self.constant_count(scope, e),
+            };
+            known.extend(number.map(|n| (e.span(), n as f64)));
+        }
+        crate::numbers::constant(&|e| known.get(&e.span()).copied(), expr)
     }
 
-    /// Returns how many elements a list has, where `list.count` says so and its class tells.
-    pub(crate) fn constant_count(&self, scope: &Scope, e: &Expr) -> Option<f64> {
+    /// Returns how many elements a list has, where `list.count` says so and that is known.
+    pub(crate) fn constant_count(&mut self, scope: &Scope, e: &Expr) -> Option<i64> {
         let Expr::Field(field) = e else { return None };
         let is_count = field.args().is_none() && field.name()?.text() == "count";
         let list = field.receiver().filter(|_| is_count)?;
-        let count = self.count_of(scope, &list).or_else(|| self.given_count(scope, &list))?;
-        Some(f64::from(count))
+        self.length_of(scope, &list).map(i64::from)
     }
 
     fn declare_part(&mut self, scope: &Scope, part: &ast::Part) {

@@ -28,7 +28,7 @@ impl Lowerer<'_> {
                     self.error("index", scope.file, at.span(), message);
                     return None;
                 };
-                let count = self.count_of(scope, &receiver);
+                let count = self.count_at(scope, &path);
                 let i = self.element_index(scope, i, at.span(), count)?;
                 let element = match class {
                     Some(list) => Some(self.element_at(list, i).or_else(|| {
@@ -138,36 +138,62 @@ impl Lowerer<'_> {
         own.map(|&c| referred(&self.document, c)).or_else(|| self.element(list))
     }
 
-    /// Returns how many elements a list that is a part of a class's things always has, if it is told.
-    pub(crate) fn count_of(&self, scope: &Scope, list: &Expr) -> Option<u32> {
-        let (class, name) = match list {
-            Expr::Name(name) => (scope.class(), name.name()?.name()),
-            Expr::Field(field) => {
-                let path = loose_path(&field.receiver()?)?;
-                (self.class_at(scope.class(), &path)?, field.name()?.name())
-            }
-            Expr::Index(_) => {
-                let class = self.class_at(scope.class(), &loose_path(list)?)?;
-                return self.document.classes[class].count;
-            }
-            _ => return None,
-        };
-        if scope.local(&name).is_some() {
+    /// Returns the path that an expression is, if it is one; what is wrong with it is said elsewhere.
+    fn silent_path(&mut self, scope: &Scope, e: &Expr) -> Option<Path> {
+        let mut names = e.syntax().descendants().filter_map(ast::NameExpr::cast);
+        if names.any(|n| n.name().is_some_and(|w| scope.local(w.text()).is_some())) {
             return None;
         }
-        self.count_of_part(class, &name)
+        self.silent += 1;
+        let found = self.path(scope, e);
+        self.silent -= 1;
+        found.map(|(path, _)| path)
     }
 
-    /// Returns how many elements a list of the thing's own has by the value it is declared with.
-    pub(crate) fn given_count(&self, scope: &Scope, list: &Expr) -> Option<u32> {
-        let (class, name) = match list {
-            Expr::Name(name) => (scope.class(), name.name()?.name()),
-            Expr::Field(field) => {
-                let path = loose_path(&field.receiver()?)?;
-                (self.class_at(scope.class(), &path)?, field.name()?.name())
-            }
-            _ => return None,
+    /// Returns how many elements a list always has, if its declaration tells.
+    pub(crate) fn count_of(&mut self, scope: &Scope, list: &Expr) -> Option<u32> {
+        let path = self.silent_path(scope, list)?;
+        self.count_at(scope, &path)
+    }
+
+    /// Returns how many elements a list has: as its declaration tells, or what it is given.
+    pub(crate) fn length_of(&mut self, scope: &Scope, list: &Expr) -> Option<u32> {
+        let path = self.silent_path(scope, list)?;
+        self.length_at(scope, &path)
+    }
+
+    /// Returns how many elements the list at a path has: as its declaration tells, or what it is given.
+    pub(crate) fn length_at(&self, scope: &Scope, path: &Path) -> Option<u32> {
+        let given = || match self.owner_at(scope, path)? {
+            (owner, Step::Part(name)) => self.given_count(owner, name),
+            (_, Step::Index(_) | Step::Last | Step::Owner) => None,
         };
+        self.count_at(scope, path).or_else(given)
+    }
+
+    /// Returns how many elements the list at a path always has, if its declaration tells.
+    fn count_at(&self, scope: &Scope, path: &Path) -> Option<u32> {
+        let (owner, step) = self.owner_at(scope, path)?;
+        match step {
+            Step::Part(name) => self.count_of_part(owner, name),
+            Step::Index(_) | Step::Last => {
+                let list = self.class_at(owner, &Path(vec![step.clone()]))?;
+                self.document.classes[list].count
+            }
+            Step::Owner => None,
+        }
+    }
+
+    /// Returns the class of what owns the thing at a path, and the last step to it.
+    fn owner_at<'p>(&self, scope: &Scope, path: &'p Path) -> Option<(ClassId, &'p Step)> {
+        let outwards = path.0.iter().take_while(|step| **step == Step::Owner).count();
+        let class = *scope.classes.get(outwards)?;
+        let (step, owner) = path.0[outwards..].split_last()?;
+        Some((self.class_at(class, &Path(owner.to_vec()))?, step))
+    }
+
+    /// Returns how many elements the list of this name is given, by the class or the nearest above it.
+    pub(crate) fn given_count(&self, class: ClassId, name: &Name) -> Option<u32> {
         let line = self.document.primary_line(class);
         line.into_iter().find_map(|c| self.given_counts.get(&(c, name.clone())).copied())
     }

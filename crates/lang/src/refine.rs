@@ -226,7 +226,7 @@ impl Lowerer<'_> {
         Some(one)
     }
 
-    fn add_narrower(&mut self, name: &str, class: ClassId, origin: OriginId) -> ClassId {
+    pub(crate) fn add_narrower(&mut self, name: &str, class: ClassId, origin: OriginId) -> ClassId {
         let one = self.add_unnamed_class(name, class, origin);
         self.document.classes[one].is_of_one = true;
         one
@@ -351,7 +351,8 @@ impl Lowerer<'_> {
                 return None;
             };
             way.push(part.clone());
-            at = next;
+            // what is said of a list's parts is said of every element
+            at = std::iter::successors(Some(next), |&list| self.element(list)).last()?;
         }
         let start = place.span.end.saturating_sub(name.len() as u32);
         let word = Place { file: place.file, span: Span::new(start, place.span.end) };

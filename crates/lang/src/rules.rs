@@ -49,7 +49,7 @@ impl Lowerer<'_> {
     /// Lowers every expression that waits.
     pub(crate) fn define_members(&mut self) {
         self.declare_repeated();
-        self.declare_for_counts();
+        self.declare_for_counts_from_outside();
         self.continue_loops();
         self.complete_placed();
         self.prepare_modifications();

@@ -181,7 +181,8 @@ impl Lowerer<'_> {
         let mut place = self.plain(scope, &at)?;
         let known = |e: &Expr| self.known_number(scope, e);
         if let Some(i) = crate::numbers::constant(&known, &at) {
-            self.element_index(scope, i, at.span(), self.count_of(scope, &list))?;
+            let count = self.count_of(scope, &list);
+            self.element_index(scope, i, at.span(), count)?;
             place = Term::number(i);
         }
         Some((Term::Index(Box::new(of), Box::new(place)), element))

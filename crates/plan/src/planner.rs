@@ -113,6 +113,13 @@ impl Planner {
         (planner, faults)
     }
 
+    /// Returns the slots that rules tie to these, and these themselves.
+    pub fn tied_to(&self, slots: impl IntoIterator<Item = SlotId>) -> BTreeSet<SlotId> {
+        let start: BTreeSet<SlotId> = slots.into_iter().collect();
+        let components = self.net.around(start.iter().copied(), &self.rules, &|_| false, &[]);
+        let tied = components.iter().flat_map(|c| c.slots().iter().copied());
+        start.iter().copied().chain(tied).collect()
+    }
     /// Returns the plans made so far, to be handed to the next planner.
     pub fn into_plans(mut self) -> Plans {
         self.take_plans()

@@ -6,6 +6,7 @@ use crate::drag::coordinates;
 use crate::general;
 use crate::host::Host;
 use crate::limits;
+use crate::parting;
 use crate::placing::place_new_parts;
 use crate::prototype;
 use crate::state::State;
@@ -79,6 +80,7 @@ fn edit(
     targets: &[(Path, Literal)],
 ) -> Result<Change, Refusal> {
     let state = open.state.clone();
+    let label = label(kind, &state, targets);
     let mut aims: Vec<(Aim, Vec<Value>)> = Vec::new();
     let parts: Vec<(Path, Literal)> = targets.iter().flat_map(|t| in_parts(&state, t)).collect();
     for (path, literal) in &parts {
@@ -104,7 +106,6 @@ fn edit(
             None => refusal,
         });
     }
-    let label = label(kind, &aims_paths(&state, &aims));
     let edited = aims.iter().flat_map(|(aim, _)| slots_of(&state, aim)).collect();
     keep(open, host, label, edited, &values, &report.undecided)
 }
@@ -185,19 +186,17 @@ fn slots_of(state: &State, aim: &Aim) -> Vec<SlotId> {
     }
 }
 
-fn aims_paths(state: &State, aims: &[(Aim, Vec<Value>)]) -> Vec<String> {
-    let path = |(aim, _): &(Aim, Vec<Value>)| match aim {
-        Aim::Thing(thing) => state.structure.path(&state.lowered.document, *thing).to_string(),
-        Aim::Term(term) => words::term_path(term),
-    };
-    aims.iter().map(path).collect()
-}
-
-fn label(kind: EditKind, paths: &[String]) -> String {
+/// Returns what the undo list calls an edit of values.
+fn label(kind: EditKind, state: &State, targets: &[(Path, Literal)]) -> String {
     let verb = match kind {
         EditKind::Set => "set",
         EditKind::Move => "move",
     };
+    let path = |(path, _): &(Path, Literal)| match crate::session::thing_at(state, path) {
+        Some(thing) => state.structure.path(&state.lowered.document, thing).to_string(),
+        None => path.to_string(),
+    };
+    let paths: Vec<String> = targets.iter().map(path).collect();
     format!("{verb} {}", paths.join(", "))
 }
 
@@ -308,7 +307,11 @@ fn travel(open: &mut Open, host: &dyn Host, direction: Direction) -> Result<Chan
 fn restructure(open: &mut Open, host: &dyn Host, command: &Command) -> Result<Change, Refusal> {
     let before = open.state.clone();
     let done = restructuring(&before, command)?;
-    let text = syntax::edit::apply(&before.text, &done.edits);
+    let mut edits = done.edits;
+    if let Command::Unmerge(path) = command {
+        edits.extend(parting::edits(open, path, &edits));
+    }
+    let text = syntax::edit::apply(&before.text, &edits);
     let plans = open.planner.take_plans();
     let (state, planner) = State::of(text, Some(&before), host, plans);
     // what a reference names may be deleted: that it names nothing is said at its place
@@ -329,7 +332,7 @@ fn restructure(open: &mut Open, host: &dyn Host, command: &Command) -> Result<Ch
     }
     let class = done.class.map(|c| before.lowered.document.classes[c].name.to_string());
     let carried = carried_over(command, &before, &state);
-    let carried = carried.filter(|values| values.changed(&state.values).next().is_some());
+    let carried = carried.filter(|values| differing(&state, values).next().is_some());
     let (state, planner) = match (carried, &class) {
         (Some(values), _) => write_back(&state, &values, &[], host, planner.into_plans()),
         (None, Some(class)) => place_new_parts(&before, state, planner, class, host),

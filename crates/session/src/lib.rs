@@ -24,6 +24,7 @@ mod fixes;
 mod general;
 mod ghosts;
 mod limits;
+mod parting;
 mod placing;
 mod prototype;
 mod recognise;

@@ -32,7 +32,8 @@ pub(crate) struct State {
     unplanned: BTreeSet<OriginId>,
     /// Where two solutions coincide.
     pub(crate) double_roots: Vec<SlotId>,
-    /// Numbers that the text gives and that could not stay, with what they are given.
+    /// Numbers that are given, by the text itself or by a class, and that could not stay, with what they are
+    /// given.
     pub(crate) yielded: Vec<(SlotId, f64)>,
 }
 
@@ -63,7 +64,7 @@ impl State {
         let mut given = eval::Given::of(&lowered.document, &structure);
         let mut values = Values::new(structure.slots.len());
         let double_roots = opened(model, &mut planner, &mut given, &mut values);
-        let yielded = yielded(&lowered, &structure, &given.values, &values);
+        let yielded = yielded(&structure, &given.values, &values);
         let mut diagnostics = lowered.diagnostics.clone();
         diagnostics.extend(lowered.fault_diagnostics(&faults));
         // that a reference names nothing is said at its place, and not at all that goes through it
@@ -165,23 +166,16 @@ fn opened(
     }
 }
 
-/// Returns the numbers that the text itself gives things and that are others now; not of places, which
-/// yield as a matter of course.
-fn yielded(
-    lowered: &Lowered,
-    structure: &Structure,
-    given: &Values,
-    values: &Values,
-) -> Vec<(SlotId, f64)> {
+/// Returns the numbers that are given and that are others now; not of places, which yield as a matter of
+/// course.
+fn yielded(structure: &Structure, given: &Values, values: &Values) -> Vec<(SlotId, f64)> {
     let moved = values.changed(given).filter(|&slot| {
         let s = &structure.slots[slot];
         let (was, is) = (given.numbers[slot], values.numbers[slot]);
-        s.primitive.is_number() && s.place.is_none() && !base::number::close(was, is)
+        let is_lone = s.primitive.is_number() && s.place.is_none();
+        is_lone && s.given.is_some() && !base::number::close(was, is)
     });
-    let own = |slot: &SlotId| {
-        structure.given(*slot).is_some_and(|given| lowered.is_own_given(given.origin))
-    };
-    moved.filter(own).map(|slot| (slot, given.numbers[slot])).collect()
+    moved.map(|slot| (slot, given.numbers[slot])).collect()
 }
 
 /// Says where given values have none; a class's, once for all its things.

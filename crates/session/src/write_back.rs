@@ -29,7 +29,9 @@ pub(crate) fn write_back(
         .ids()
         .filter(|&slot| {
             let given = state.structure.given(slot);
-            given.is_some_and(|g| state.lowered.is_own_given(g.origin))
+            // a lone number that is given would hold, whoever gives it
+            let is_lone = state.structure.slots[slot].place.is_none();
+            given.is_some_and(|g| is_lone || state.lowered.is_own_given(g.origin))
                 && !wanted.get(slot).same_bits(&state.values.get(slot))
         })
         .map(|slot| unit_of_writing(state, slot))

@@ -6,7 +6,7 @@
 use super::body::Body;
 use crate::class::{Class, Given};
 use crate::document::Document;
-use crate::structure::{GivenId, GivenTerm, Givens, Layouts, Structure};
+use crate::structure::{GivenId, GivenIn, GivenTerm, Givens, Layouts, Structure, ThingId};
 use crate::term::Term;
 use base::{Id, IdVec};
 use std::rc::Rc;
@@ -17,6 +17,13 @@ pub(crate) struct Grown {
     pub(super) body: Body,
     pub(super) layouts: Layouts,
     pub(super) shared: Vec<Shared>,
+}
+
+impl Grown {
+    /// Returns what a thing is given, whatever it will be merged with.
+    pub(crate) fn given(&self, thing: ThingId) -> Option<GivenIn> {
+        self.body.givens[thing]
+    }
 }
 
 /// A value that a part gets of a value for the whole: a coordinate of `(3, 4)`.

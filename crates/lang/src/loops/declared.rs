@@ -280,7 +280,7 @@ impl<'l> Lowerer<'l> {
         (element, classes)
     }
 
-    fn list_of_own(&mut self, element: ClassId, elements: Vec<ClassId>) -> ClassId {
+    pub(crate) fn list_of_own(&mut self, element: ClassId, elements: Vec<ClassId>) -> ClassId {
         let name = format!("List of {}", self.document.classes[element].name);
         let object = self.object;
         let origin = self.document.classes[object].origin;

@@ -196,7 +196,21 @@ const WRONG: &[(&str, &str, &str)] = &[
         "not-a-count",
         "m",
     ),
-    ("class C { n: Integer = 3  l: List of n Real }\nc: C\nc.n = 4", "not-a-count", "4"),
+    (
+        "class C { n: Integer = 3  l: List of n Real }\nc: C { constraint l[0] = 1 }\nc.n = 4",
+        "not-a-count",
+        "4",
+    ),
+    (
+        "class C { n: Integer = 3  l: List of n Real }\nc: C\nc.n = 2.5",
+        "value-of-wrong-class",
+        "2.5",
+    ),
+    (
+        "class C { n: Integer = 3  l: List of n Real }\nx: Real\nc: C\nc.n = x",
+        "value-of-wrong-class",
+        "x",
+    ),
     ("class C { n: Integer = -3  l: List of n Real }", "not-a-count", "n"),
     (
         "class C { n: Integer = 3  l: List of n Real }\nx: C { n = 5 }\ny: C\ny = x",

@@ -111,3 +111,32 @@ fn a_new_step_ends_what_could_be_redone() {
     desk.undo();
     assert_eq!(desk.text(), "a: Real = 1\n");
 }
+
+#[test]
+fn what_gave_way_to_a_merge_keeps_its_value_when_it_is_parted() {
+    let sum = "class Sum { a: Real = 1  b: Real = 2  c: Real  constraint c = a + b }\n";
+    let mut desk = Desk::of(&format!("{sum}p: Sum {{ a = 10 }}\nq: Sum {{ a = 1 }}\nfree: Sum\n"));
+    desk.apply(&Command::Merge(vec![at("p.c"), at("q.a")])).expect("both are numbers");
+    let merged: Vec<f64> = ["p.a", "p.b", "p.c"].iter().map(|path| desk.number(path)).collect();
+    assert_ne!(merged[..2], [10.0, 2.0], "something has to give way");
+    let change = desk.apply(&Command::Unmerge(at("q.a"))).expect("it is merged");
+    assert_eq!([desk.number("p.a"), desk.number("p.b"), desk.number("q.a")], merged[..]);
+    assert!((desk.number("p.c") - merged[2]).abs() < 1e-12, "it is computed from what stays");
+    assert_eq!(change.label, "unmerge q.a");
+    // what is given by a class is written for the thing, and what had no part in it is not
+    let [a, b, c] = merged[..] else { unreachable!() };
+    let text = format!("{sum}p: Sum {{ a = {a}  b = {b} }}\nq: Sum {{ a = {c} }}\nfree: Sum\n");
+    let plain =
+        |text: &str| text.replace(';', " ").split_whitespace().collect::<Vec<_>>().join(" ");
+    assert_eq!(plain(&desk.text()), plain(&text));
+    desk.undo();
+    assert_eq!(desk.number("p.c"), merged[2]);
+}
+
+#[test]
+fn the_undo_list_calls_a_place_by_its_name() {
+    let mut desk = Desk::of("class Spot { x, y: Length = 0  size: Length = 3 }\ns: Spot\n");
+    let change = desk.move_to("s", 4.0, 5.0).expect("nothing holds it");
+    assert_eq!(change.label, "move s");
+    assert_eq!((desk.number("s.x"), desk.number("s.size")), (4.0, 3.0));
+}

@@ -1,0 +1,70 @@
+//! Parting: what the text has to give once a path is taken out of its merges.
+//!
+//! Every path keeps its present value. What the structure before tells of that is written with the same
+//! edit, so that the text is opened once: what the path is given by itself, and the numbers that gave way
+//! as long as it was merged. What is left is found by opening.
+
+use crate::document::Open;
+use crate::state::State;
+use crate::write_back::literal;
+use kernel::{DOCUMENT, Literal, Path, SlotId, Term, ThingId, Value};
+use std::collections::BTreeSet;
+use syntax::edit::TextEdit;
+
+/// Returns the edits that give what a path leads to, and what gave way for it, the present values; none
+/// where they would touch others.
+pub(crate) fn edits(open: &Open, path: &Path, others: &[TextEdit]) -> Vec<TextEdit> {
+    let state = &open.state;
+    let Ok(thing) = state.structure.follow(DOCUMENT, path) else { return Vec::new() };
+    let document = &state.lowered.document;
+    let write = |t: ThingId| (state.structure.path(document, t), literal(state, t, &state.values));
+    let apart =
+        leaves(state, thing).into_iter().flat_map(|leaf| [Some(leaf), next_given(state, leaf)]);
+    let own = apart.flatten().filter(|&t| is_given_another(state, t));
+    let mut writes: Vec<(Path, Literal)> = own.map(write).collect();
+    if !state.yielded.is_empty() {
+        let slots = state.structure.slots_under(thing);
+        let apart: BTreeSet<SlotId> = slots.iter().copied().collect();
+        let tied = open.planner.tied_to(slots);
+        let gave_way = state.yielded.iter().map(|(slot, _)| *slot);
+        let gave_way = gave_way.filter(|s| tied.contains(s) && !apart.contains(s));
+        writes.extend(gave_way.map(|slot| write(state.structure.slots[slot].thing)));
+    }
+    let edits = lang::write_values(&state.lowered, &writes);
+    let touches =
+        |a: &TextEdit, b: &TextEdit| a.span.start <= b.span.end && b.span.start <= a.span.end;
+    let are_apart = !edits.iter().any(|e| others.iter().any(|other| touches(e, other)));
+    if are_apart { edits } else { Vec::new() }
+}
+
+/// Returns true for a number that the text gives by itself and that is another as it is merged.
+fn is_given_another(state: &State, thing: ThingId) -> bool {
+    let Some(given) = state.structure.given_apart(thing) else { return false };
+    let is = state.structure.slot_of[thing].map(|slot| state.values.get(slot));
+    match (&given.term, is) {
+        (Term::Number { value, .. }, Some(Value::Number(is))) => {
+            value.to_bits() != is.to_bits() && state.lowered.is_own_given(given.origin)
+        }
+        _ => false,
+    }
+}
+
+/// Returns what decides the value of those that a thing is merged with, once it is none of them.
+fn next_given(state: &State, thing: ThingId) -> Option<ThingId> {
+    let others = state.structure.merged_with(thing).into_iter().filter(|&t| t != thing);
+    let mut given = others.filter(|&t| state.structure.given_apart(t).is_some());
+    given.next()
+}
+
+/// Returns the primitive things of a thing.
+fn leaves(state: &State, thing: ThingId) -> Vec<ThingId> {
+    let mut leaves = Vec::new();
+    let mut stack = vec![thing];
+    while let Some(t) = stack.pop() {
+        match state.structure.slot_of[t] {
+            Some(_) => leaves.push(t),
+            None => stack.extend(state.structure.parts(t).rev()),
+        }
+    }
+    leaves
+}
