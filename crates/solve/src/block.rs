@@ -259,15 +259,19 @@ impl Block {
     /// [`Block::each_second`], which leaves out those by what is known; found once.
     fn seconds(&self) -> &[(u32, u32)] {
         self.seconds.get_or_init(|| {
-            let at = |slot: SlotIndex| self.unknowns.binary_search(&slot).ok();
-            let mut seconds = Vec::new();
+            let at = |slot| self.unknowns.binary_search(slot).map_or(KNOWN, |at| at as u32);
+            let count = |g: &Group| g.rows.len as usize * g.kernel.second().entries.len();
+            let mut seconds = Vec::with_capacity(self.groups.iter().map(count).sum());
+            let mut unknowns: Vec<u32> = Vec::new();
             for group in &self.groups {
+                let entries = &group.kernel.second().entries;
                 for arguments in self.arguments_of(group).chunks_exact(group.kernel.arity()) {
-                    let entries = group.kernel.second().entries.iter();
-                    seconds.extend(entries.map(|&(a, b)| {
-                        match (at(arguments[a as usize]), at(arguments[b as usize])) {
-                            (Some(i), Some(j)) => (i as u32, j as u32),
-                            (None, _) | (_, None) => (KNOWN, KNOWN),
+                    unknowns.clear();
+                    unknowns.extend(arguments.iter().map(at));
+                    seconds.extend(entries.iter().map(|&(a, b)| {
+                        match (unknowns[a as usize], unknowns[b as usize]) {
+                            (KNOWN, _) | (_, KNOWN) => (KNOWN, KNOWN),
+                            both => both,
                         }
                     }));
                 }

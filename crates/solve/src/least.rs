@@ -149,11 +149,15 @@ impl Least {
     fn structure(&self) -> &Symmetric {
         self.structure.get_or_init(|| {
             let (n, m) = (self.block.unknowns.len() as u32, self.block.height() as u32);
-            let mut entries: Vec<(u32, u32)> = (0..n + m).map(|i| (i, i)).collect();
+            let seconds = self.block.second_places();
+            let most =
+                (n + m) as usize + self.block.pattern.len() + seconds.size_hint().1.unwrap_or(0);
+            let mut entries: Vec<(u32, u32)> = Vec::with_capacity(most);
+            entries.extend((0..n + m).map(|i| (i, i)));
             for r in 0..m {
                 entries.extend(self.block.pattern.row(r as usize).iter().map(|&c| (c, n + r)));
             }
-            entries.extend(self.block.second_places());
+            entries.extend(seconds);
             Symmetric::new((n + m) as usize, &entries)
         })
     }
@@ -391,6 +395,7 @@ impl Least {
     ) -> Option<f64> {
         let block = &self.block;
         s.slopes.clear();
+        s.slopes.reserve(block.pattern.len());
         for r in 0..block.height() {
             let weight = s.weight[r];
             let slope = |e: usize| s.local.jacobian[e] * weight * s.scale[block.pattern.column(e)];
@@ -401,6 +406,7 @@ impl Least {
             Matrix::Flat | Matrix::Exact => self.factorise(counted, values, matrix, w, s)?,
         };
         s.right.clear();
+        s.right.reserve(block.unknowns.len() + block.height());
         s.right.extend(block.unknowns.iter().zip(&s.scale).enumerate().map(|(i, (&u, scale))| {
             match self.part(counted, i) {
                 Part::Counted => (x0[u as usize] - values[u as usize]) / scale,
@@ -434,6 +440,8 @@ impl Least {
         let block = &self.block;
         let (n, m) = (block.unknowns.len(), block.height());
         s.entries.clear();
+        s.entries
+            .reserve(n + m + s.slopes.len() + block.second_places().size_hint().1.unwrap_or(0));
         s.entries.extend((0..n).map(|i| held(self.part(counted, i))));
         s.entries.resize(n + m, -DELTA);
         s.entries.extend_from_slice(&s.slopes);

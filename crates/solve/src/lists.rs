@@ -31,6 +31,19 @@ impl Lists {
         first.truncate(count + 1);
         Self { first, items }
     }
+    /// Makes room for the lists of so many numbers, of so many items in all.
+    pub(crate) fn with_room(count: usize, items: usize) -> Self {
+        let mut first = Vec::with_capacity(count + 1);
+        first.push(0);
+        Self { first, items: Vec::with_capacity(items) }
+    }
+    /// Adds the list of the next number, its items in order of size.
+    pub(crate) fn push_sorted(&mut self, own: impl Iterator<Item = u32>) {
+        let start = self.items.len();
+        self.items.extend(own);
+        self.items[start..].sort_unstable();
+        self.first.push(self.items.len() as u32);
+    }
     /// Adds the list of the next number.
     pub(crate) fn push(&mut self, own: &[u32]) {
         self.items.extend_from_slice(own);

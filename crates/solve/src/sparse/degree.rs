@@ -2,10 +2,13 @@
 //!
 //! In: which places are joined. Out: an order, and what the factors look like in it. What was eliminated is
 //! kept as *elements*, cliques that stand for the entries that they made; degrees are bounds from
-//! above; places joined to the same are one from then on, and go together.
+//! above; places joined to the same are one from then on, and go together. A few places are ordered by
+//! degrees as they are.
 //!
 //! **Source:** Amestoy, Davis and Duff, *An approximate minimum degree ordering algorithm*, SIAM J. Matrix
 //! Anal. Appl. 17 (1996).
+
+mod few;
 
 use super::pivot::Counts;
 use crate::lists::Lists;
@@ -21,6 +24,9 @@ pub(crate) struct Elimination {
 
 /// Orders `n` places of which these are joined; a pair may come twice, either way round.
 pub(crate) fn eliminate(n: usize, joined: impl Iterator<Item = (u32, u32)> + Clone) -> Elimination {
+    if n <= few::MOST {
+        return few::eliminate(n, joined);
+    }
     let both = joined.filter(|e| e.0 != e.1).flat_map(|(i, j)| [(i, j), (j, i)]);
     let near = Lists::new(n, both);
     let distinct = |i: u32| {
@@ -275,22 +281,28 @@ mod tests {
         assert_eq!(entries(&tree), joined.len());
     }
 
-    /// Every place once, and every column what elimination by hand leaves of it.
+    /// Every place once, and every column what elimination by hand leaves of it: of few and of many.
     #[test]
     fn columns_are_those_of_elimination() {
-        let joined = grid(9);
-        let found = eliminate(81, joined.iter().copied());
+        are_those_of_elimination(9);
+        are_those_of_elimination(12);
+    }
+    fn are_those_of_elimination(side: u32) {
+        let n = (side * side) as usize;
+        assert_eq!(n > few::MOST, side == 12);
+        let joined = grid(side);
+        let found = eliminate(n, joined.iter().copied());
         let mut seen = found.order.clone();
         seen.sort_unstable();
-        assert_eq!(seen, (0..81).collect::<Vec<u32>>());
-        let mut matrix = vec![[false; 81]; 81];
+        assert_eq!(seen, (0..n as u32).collect::<Vec<u32>>());
+        let mut matrix = vec![vec![false; n]; n];
         let place = |i: u32| found.order.iter().position(|&o| o == i).expect("each has a place");
         for &(i, j) in &joined {
             matrix[place(i)][place(j)] = true;
             matrix[place(j)][place(i)] = true;
         }
-        for k in 0..81 {
-            let own: Vec<u32> = (k + 1..81).filter(|&j| matrix[k][j]).map(|j| j as u32).collect();
+        for k in 0..n {
+            let own: Vec<u32> = (k + 1..n).filter(|&j| matrix[k][j]).map(|j| j as u32).collect();
             assert_eq!(found.columns.of(k as u32), own);
             for &i in &own {
                 for &j in &own {
