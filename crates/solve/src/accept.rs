@@ -6,14 +6,15 @@
 //! it, asked in order of declaration, all its coordinates at once; but no given number that yields takes
 //! its part in them: it changes least first, and what is computed follows.
 //!
-//! Rows that share no slot that may move, by way of places either, are decided apart. A piece is first tried by
-//! matching, which is linear as a rule and certain where it says yes; else by elimination: in a tableau and, where
-//! that fills up in a large piece, sparse.
+//! All rows are first tried by matching, which is linear as a rule and certain where it says yes. Where it does
+//! not, rows that share no slot that may move, by way of places either, are decided apart: a piece by matching
+//! again, else by elimination: in a tableau and, where that fills up in a large piece, sparse.
 
 use crate::deflate;
 use crate::exact;
 use crate::lists::Lists;
 use crate::matching::Matcher;
+use crate::order::Blocks;
 use crate::rows::Rows;
 use crate::sparse::{Pattern, Symbolic};
 use crate::substitute::Classes;
@@ -47,6 +48,19 @@ pub(crate) struct Acceptance {
     pub(crate) determined: usize,
     /// The large blocks that were found regular.
     pub(crate) factored: Vec<Factored>,
+    /// A slot for every row, where all were accepted by matching at once.
+    pub(crate) matched: Option<Matched>,
+}
+
+/// A slot of its own for every row, among those that may move.
+#[derive(Clone, PartialEq, Eq, Debug)]
+pub(crate) struct Matched {
+    /// For every row, its slot.
+    pub(crate) slot_of_row: Vec<Option<SlotIndex>>,
+    /// For every slot, its row.
+    pub(crate) row_of_slot: Vec<Option<usize>>,
+    /// The blocks that rows and their slots fall into.
+    pub(crate) blocks: Blocks,
 }
 
 /// A large block whose pivots are chosen.
@@ -98,49 +112,93 @@ const LARGE: usize = 100;
 /// For larger ones it may write so many times what the rows hold before sparse elimination is asked.
 const MOST_WORK: usize = 64;
 
+/// All rows in order of acceptance, and all places.
+struct Asked {
+    order: Vec<u32>,
+    all_places: Lists,
+    /// The places that may be held.
+    places: Vec<u32>,
+}
+
+impl Asked {
+    fn new(system: &System, classes: &Classes, rows: &Rows) -> Self {
+        let mut order: Vec<u32> = (0..rows.len() as u32).collect();
+        order.sort_by_key(|&r| rows[r as usize].level);
+        let all_places = places(system, classes);
+        let may_hold = |&p: &u32| !all_places.of(p).is_empty();
+        let places = (0..all_places.len() as u32).filter(may_hold).collect();
+        Self { order, all_places, places }
+    }
+    fn all(&self) -> Piece<'_> {
+        Piece { rows: &self.order, places: &self.places, all_places: &self.all_places }
+    }
+}
+
 /// Decides which rows are accepted and which slots stay.
 pub(crate) fn accept(system: &System, classes: &Classes, rows: &Rows) -> Acceptance {
+    let asked = Asked::new(system, classes, rows);
+    let mut out = undecided(classes);
     let mut matcher = Matcher::new(system, classes, rows);
-    decide(system, classes, rows, &mut |piece, out| {
-        let most = (piece.rows.len() > LARGE).then_some(MOST_WORK);
-        let is_decided = matcher.accept(piece, out)
-            || exact::accept(system, classes, rows, piece, most, out)
-            || deflate::accept(classes, rows, &mut matcher, piece, out);
-        if !is_decided {
-            exact::accept(system, classes, rows, piece, None, out);
-        }
-    })
+    if matcher.accept(asked.all(), &mut out) {
+        out.matched = Some(matcher.into_matched());
+    } else {
+        matcher.forget();
+        apart(classes, rows, asked.all(), &mut out, &mut |piece, out| {
+            let most = (piece.rows.len() > LARGE).then_some(MOST_WORK);
+            let is_decided = matcher.accept(piece, out)
+                || exact::accept(system, classes, rows, piece, most, out)
+                || deflate::accept(classes, rows, &mut matcher, piece, out);
+            if !is_decided {
+                exact::accept(system, classes, rows, piece, None, out);
+            }
+        });
+    }
+    count(system, classes, &mut out);
+    out
+}
+
+/// Returns true if a slot stands for itself, and may move without a given number's yielding.
+fn is_open(classes: &Classes, slot: usize) -> bool {
+    classes.representative[slot] == slot as u32
+        && matches!(classes.stay[slot], Stay::Kept { .. } | Stay::Free)
+}
+
+/// Nothing is accepted yet, and all may move.
+fn undecided(classes: &Classes) -> Acceptance {
+    let unknown = (0..classes.stay.len()).map(|s| is_open(classes, s)).collect();
+    Acceptance { unknown, ..Acceptance::default() }
+}
+
+/// Counts what is left free, and who yields.
+fn count(system: &System, classes: &Classes, out: &mut Acceptance) {
+    let n = system.slots.len();
+    let movable = (0..n).filter(|&s| is_open(classes, s) && system.slots[s].is_number).count();
+    out.freedom = movable.saturating_sub(out.determined);
+    let is_given = |s: u32| classes.stay[s as usize] == Stay::Given;
+    out.yielded = (0..n as u32).filter(|&s| is_given(s) && out.unknown[s as usize]).collect();
 }
 
 /// Splits the rows into pieces and puts together what is decided for each.
-fn decide(
-    system: &System,
+fn apart(
     classes: &Classes,
     rows: &Rows,
+    all: Piece<'_>,
+    out: &mut Acceptance,
     decide_piece: &mut dyn FnMut(Piece<'_>, &mut Acceptance),
-) -> Acceptance {
+) {
     const NONE: u32 = u32::MAX;
-    let n = system.slots.len();
-    let is_open = |s: usize| {
-        classes.representative[s] == s as u32
-            && matches!(classes.stay[s], Stay::Kept { .. } | Stay::Free)
-    };
-    let mut out = Acceptance { unknown: (0..n).map(is_open).collect(), ..Acceptance::default() };
-    let places = places(system, classes);
-    let mut order: Vec<u32> = (0..rows.len() as u32).collect();
-    order.sort_by_key(|&r| rows[r as usize].level);
+    let n = classes.stay.len();
     let mut union = Union::new(n + rows.len());
     for r in 0..rows.len() {
         rows.columns(r).iter().for_each(|e| union.unite(e.0 as usize, n + r));
     }
-    for place in 0..places.len() as u32 {
-        let slots = places.of(place);
+    for slots in all.places() {
         slots.iter().for_each(|&s| union.unite(slots[0] as usize, s as usize));
     }
     let mut piece_of_root = vec![NONE; n + rows.len()];
     let mut pieces = 0;
     let mut rows_of = Vec::with_capacity(rows.len());
-    for &r in &order {
+    for &r in all.rows {
         let piece = &mut piece_of_root[union.find(n + r as usize)];
         if *piece == NONE {
             *piece = pieces;
@@ -149,25 +207,19 @@ fn decide(
         rows_of.push((*piece, r));
     }
     let mut places_of = Vec::new();
-    for place in (0..places.len() as u32).filter(|&p| !places.of(p).is_empty()) {
-        match piece_of_root[union.find(places.of(place)[0] as usize)] {
-            NONE => places.of(place).iter().for_each(|&s| out.unknown[s as usize] = false),
+    for (&place, slots) in all.places.iter().zip(all.places()) {
+        match piece_of_root[union.find(slots[0] as usize)] {
+            NONE => slots.iter().for_each(|&s| out.unknown[s as usize] = false),
             piece => places_of.push((piece, place)),
         }
     }
     let rows_of = Lists::new(pieces as usize, rows_of.iter().copied());
     let places_of = Lists::new(pieces as usize, places_of.iter().copied());
     for piece in 0..pieces {
-        let (rows, own) = (rows_of.of(piece), places_of.of(piece));
-        decide_piece(Piece { rows, places: own, all_places: &places }, &mut out);
+        decide_piece(Piece { rows: rows_of.of(piece), places: places_of.of(piece), ..all }, out);
     }
     out.accepted.sort_by_key(|&r| (rows[r].level, r));
     out.dependent.sort_by_key(|d| (rows[d.row].level, d.row));
-    let movable = (0..n).filter(|&s| is_open(s) && system.slots[s].is_number).count();
-    out.freedom = movable.saturating_sub(out.determined);
-    let is_given = |s: u32| classes.stay[s as usize] == Stay::Given;
-    out.yielded = (0..n as u32).filter(|&s| is_given(s) && out.unknown[s as usize]).collect();
-    out
 }
 
 /// Returns the slots of every place that may be held, by its group, over representatives.

@@ -54,20 +54,7 @@ pub(crate) fn direct(
     rows: &Rows,
     acceptance: &Acceptance,
 ) -> Direction {
-    let n = system.slots.len();
-    let mut m = Matching {
-        rows,
-        open: acceptance.unknown.clone(),
-        fixed_row: vec![false; rows.len()],
-        slot_of_row: vec![None; rows.len()],
-        row_of_slot: vec![None; n],
-        seen: vec![0; n],
-        round: 0,
-        changed: Vec::new(),
-    };
-    for &r in &acceptance.accepted {
-        m.match_row(r);
-    }
+    let mut m = Matching::new(rows, acceptance);
     let mut with_methods: Vec<usize> = acceptance
         .accepted
         .iter()
@@ -93,7 +80,30 @@ pub(crate) fn direct(
     Direction { slot_of_row: m.slot_of_row, row_of_slot: m.row_of_slot, methods, written_by }
 }
 
-impl Matching<'_> {
+impl<'a> Matching<'a> {
+    /// Matches the accepted rows, unless acceptance has.
+    fn new(rows: &'a Rows, acceptance: &Acceptance) -> Self {
+        let n = acceptance.unknown.len();
+        let known = acceptance.matched.as_ref();
+        let slot_of_row = known.map_or_else(|| vec![None; rows.len()], |m| m.slot_of_row.clone());
+        let row_of_slot = known.map_or_else(|| vec![None; n], |m| m.row_of_slot.clone());
+        let mut matching = Self {
+            rows,
+            open: acceptance.unknown.clone(),
+            fixed_row: vec![false; rows.len()],
+            slot_of_row,
+            row_of_slot,
+            seen: vec![0; n],
+            round: 0,
+            changed: Vec::new(),
+        };
+        if known.is_none() {
+            acceptance.accepted.iter().for_each(|&r| {
+                matching.match_row(r);
+            });
+        }
+        matching
+    }
     /// Finds a slot for a row, moving other rows to other slots where that is needed.
     fn match_row(&mut self, row: usize) -> bool {
         let mut columns = self.rows.columns(row).iter().rev().map(|e| e.0);

@@ -7,8 +7,9 @@ use crate::block::{Block as Laid, Layouts};
 use crate::few::Few;
 use crate::kernel::Kernel;
 use crate::least::Least;
+use crate::lists::Lists;
 use crate::measure::Measure;
-use crate::order::Block;
+use crate::order::{Block, Blocks};
 use crate::pattern::Pattern;
 use crate::plan::{Analysis, Step, StepKind};
 use crate::rows::{Row, Rows};
@@ -146,7 +147,7 @@ pub(crate) struct Lowered {
 const MOST_TOLD: usize = 64;
 
 /// Lowers every block, then the slots that equal others.
-pub(crate) fn lower(analysis: &Analysis<'_>, blocks: &[Block]) -> Lowered {
+pub(crate) fn lower(analysis: &Analysis<'_>, blocks: &Blocks) -> Lowered {
     let classes = &analysis.classes;
     let equalities = classes.equalities(&analysis.stated.system);
     let copies = classes.members().map(|(_, members)| members.len());
@@ -176,10 +177,10 @@ pub(crate) fn lower(analysis: &Analysis<'_>, blocks: &[Block]) -> Lowered {
 }
 
 /// Returns the first of the relations that make a class of slots one.
-fn told(equalities: &[(SlotIndex, u32)], root: SlotIndex) -> Few {
-    let first = equalities.partition_point(|e| e.0 < root);
-    let own = equalities[first..].iter().take_while(|e| e.0 == root).take(MOST_TOLD);
-    own.map(|e| e.1).collect()
+fn told(equalities: &Lists, root: SlotIndex) -> Few {
+    let mut last = None;
+    let own = equalities.of(root).iter().copied();
+    own.filter(|&r| last.replace(r) != Some(r)).take(MOST_TOLD).collect()
 }
 
 fn alias(relations: Few, target: SlotIndex, program: Program, reads: Few) -> Step {
@@ -202,15 +203,15 @@ pub(crate) fn problem_row(rows: &Rows, row: usize) -> Option<ProblemRow> {
 }
 
 /// Numbers the regions by their first block.
-fn regions_of(analysis: &Analysis<'_>, blocks: &[Block]) -> Vec<u32> {
+fn regions_of(analysis: &Analysis<'_>, blocks: &Blocks) -> Vec<u32> {
     const NONE: u32 = u32::MAX;
     let mut block_of_slot = vec![NONE; analysis.stated.system.slots.len()];
-    for (b, block) in (0..).zip(blocks) {
+    for (b, block) in (0..).zip(blocks.iter()) {
         block.unknowns.iter().for_each(|&s| block_of_slot[s as usize] = b);
     }
     let mut union = Union::new(blocks.len());
     for (b, block) in blocks.iter().enumerate() {
-        for &r in &block.rows {
+        for &r in block.rows {
             for &s in analysis.reads_of_row(r) {
                 let other = block_of_slot[s as usize];
                 if other != NONE {
@@ -232,12 +233,12 @@ fn regions_of(analysis: &Analysis<'_>, blocks: &[Block]) -> Vec<u32> {
 }
 
 /// States the problems of regions that may have to be approached.
-fn regions(analysis: &Analysis<'_>, blocks: &[Block], region_of: &[u32]) -> Vec<Region> {
+fn regions(analysis: &Analysis<'_>, blocks: &Blocks, region_of: &[u32]) -> Vec<Region> {
     let count = region_of.iter().max().map_or(0, |&last| last as usize + 1);
     let mut regions: Vec<Region> = (0..count).map(|_| Region::default()).collect();
     let mut is_opaque = vec![false; count];
     for (block, &region) in blocks.iter().zip(region_of) {
-        for &r in &block.rows {
+        for &r in block.rows {
             let soft = analysis.rows[r].level != Level::Required;
             regions[region as usize].can_approach |= soft;
             is_opaque[region as usize] |= analysis.rows.kernel(r).is_none();
@@ -249,7 +250,7 @@ fn regions(analysis: &Analysis<'_>, blocks: &[Block], region_of: &[u32]) -> Vec<
     for (block, &region) in blocks.iter().zip(region_of) {
         let region = &mut regions[region as usize];
         if region.can_approach {
-            region.problem.unknowns.extend(&block.unknowns);
+            region.problem.unknowns.extend(block.unknowns);
             let rows = block.rows.iter().filter_map(|&r| problem_row(&analysis.rows, r));
             region.problem.rows.extend(rows);
         }
@@ -268,17 +269,17 @@ struct Work {
 
 impl Work {
     /// States the rows and unknowns of a block; none of its rows is opaque.
-    fn state(&mut self, analysis: &Analysis<'_>, block: &Block) -> &Problem {
+    fn state(&mut self, analysis: &Analysis<'_>, block: Block<'_>) -> &Problem {
         let Problem { rows, unknowns } = &mut self.problem;
         rows.clear();
         rows.extend(block.rows.iter().filter_map(|&r| problem_row(&analysis.rows, r)));
         unknowns.clear();
-        unknowns.extend_from_slice(&block.unknowns);
+        unknowns.extend_from_slice(block.unknowns);
         &self.problem
     }
 }
 
-fn reads_of(analysis: &Analysis<'_>, block: &Block, reads: &mut Vec<SlotIndex>) -> Few {
+fn reads_of(analysis: &Analysis<'_>, block: Block<'_>, reads: &mut Vec<SlotIndex>) -> Few {
     let all = block.rows.iter().flat_map(|&r| analysis.reads_of_row(r));
     let is_own = |s: &SlotIndex| block.unknowns.binary_search(s).is_ok();
     reads.clear();
@@ -288,10 +289,10 @@ fn reads_of(analysis: &Analysis<'_>, block: &Block, reads: &mut Vec<SlotIndex>) 
     reads[..].into()
 }
 
-fn lower_block(analysis: &Analysis<'_>, block: &Block, work: &mut Work, steps: &mut Vec<Step>) {
+fn lower_block(analysis: &Analysis<'_>, block: Block<'_>, work: &mut Work, steps: &mut Vec<Step>) {
     let first = analysis.rows[block.rows[0]].relation;
     let one_relation = block.rows.iter().all(|&r| analysis.rows[r].relation == first);
-    if one_relation && let Some(step) = by_method(analysis, first, &block.rows) {
+    if one_relation && let Some(step) = by_method(analysis, first, block.rows) {
         steps.push(step);
         return;
     }
@@ -316,31 +317,31 @@ fn lower_block(analysis: &Analysis<'_>, block: &Block, work: &mut Work, steps: &
     let kind = if soft && over { StepKind::Compromise } else { StepKind::LeastChange };
     let program = measure(analysis, problem, kind);
     let (targets, reads) = (block.unknowns[..].into(), reads_of(analysis, block, &mut work.reads));
-    steps.push(step(analysis, kind, &block.rows, targets, reads, program));
+    steps.push(step(analysis, kind, block.rows, targets, reads, program));
 }
 
 /// The step of a row that has a formula for its one unknown.
-fn by_formula(analysis: &Analysis<'_>, block: &Block, work: &mut Work) -> Option<Step> {
-    let ([row], [slot]) = (&block.rows[..], &block.unknowns[..]) else { return None };
+fn by_formula(analysis: &Analysis<'_>, block: Block<'_>, work: &mut Work) -> Option<Step> {
+    let ([row], [slot]) = (block.rows, block.unknowns) else { return None };
     let inverse = Inverse::new(problem_row(&analysis.rows, *row)?, *slot)?;
     let reads = reads_of(analysis, block, &mut work.reads);
-    Some(inverse_step(analysis, &block.rows, inverse, reads))
+    Some(inverse_step(analysis, block.rows, inverse, reads))
 }
 
 /// The steps of a square block that is no formula: by formula where all comes from one unknown that has
 /// one, and at once where not.
-fn square_block(analysis: &Analysis<'_>, block: &Block, work: &mut Work, steps: &mut Vec<Step>) {
+fn square_block(analysis: &Analysis<'_>, block: Block<'_>, work: &mut Work, steps: &mut Vec<Step>) {
     let reads = reads_of(analysis, block, &mut work.reads);
     work.state(analysis, block);
     let Work { layouts, problem, .. } = work;
     let mut square = Square::alike(problem, layouts);
-    if let Some(known) = analysis.acceptance.pivots(&block.rows, &block.unknowns) {
+    if let Some(known) = analysis.acceptance.pivots(block.rows, block.unknowns) {
         square.take_pivots(&known.pattern, &known.symbolic);
     }
     if let Some(((row, core), rest)) = closed_form(&square.block, problem) {
         let mut step = inverse_step(analysis, &[block.rows[row]], core, reads);
         // it has nothing to do only where the rows that were put into it hold as well
-        step.rows = sides_of(analysis, &block.rows);
+        step.rows = sides_of(analysis, block.rows);
         steps.push(step);
         for (row, inverse) in rest {
             let target = inverse.row.arguments[inverse.argument as usize];
@@ -355,14 +356,7 @@ fn square_block(analysis: &Analysis<'_>, block: &Block, work: &mut Work, steps: 
         None => StepKind::Newton,
     };
     let targets = block.unknowns[..].into();
-    steps.push(step(
-        analysis,
-        kind,
-        &block.rows,
-        targets,
-        reads,
-        Program::Square(Box::new(square)),
-    ));
+    steps.push(step(analysis, kind, block.rows, targets, reads, Program::Square(Box::new(square))));
 }
 
 /// The largest block that is looked at for a closed form.
@@ -469,9 +463,9 @@ fn by_method(analysis: &Analysis<'_>, relation: u32, rows: &[usize]) -> Option<S
 }
 
 /// Rows that only methods can satisfy, in a cycle: each once, in order of declaration, then tested.
-fn once_round(analysis: &Analysis<'_>, block: &Block, work: &mut Work, steps: &mut Vec<Step>) {
+fn once_round(analysis: &Analysis<'_>, block: Block<'_>, work: &mut Work, steps: &mut Vec<Step>) {
     let mut done = BTreeSet::new();
-    for &r in &block.rows {
+    for &r in block.rows {
         let relation = analysis.rows[r].relation;
         let own = block.rows.iter().copied().filter(|&o| analysis.rows[o].relation == relation);
         if analysis.direction.method_of(relation).is_some() {
@@ -484,10 +478,10 @@ fn once_round(analysis: &Analysis<'_>, block: &Block, work: &mut Work, steps: &m
         } else if analysis.rows.kernel(r).is_some()
             && let Some(slot) = analysis.direction.slot_of_row[r]
         {
-            let single = Block { rows: vec![r], unknowns: vec![slot] };
-            match by_formula(analysis, &single, work) {
+            let single = Block { rows: &[r], unknowns: &[slot] };
+            match by_formula(analysis, single, work) {
                 Some(step) => steps.push(step),
-                None => square_block(analysis, &single, work, steps),
+                None => square_block(analysis, single, work, steps),
             }
         }
     }

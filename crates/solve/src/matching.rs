@@ -9,14 +9,15 @@
 //!
 //! **Source:** Dulmage and Mendelsohn, *Coverings of bipartite graphs*, Canadian J. Math. 10 (1958).
 
-use crate::accept::{Acceptance, Factored, Piece};
+use crate::accept::{Acceptance, Factored, Matched, Piece};
 use crate::dense;
 use crate::lists::Lists;
-use crate::order::strong_components;
+use crate::order::{Blocks, strong_components};
 use crate::rows::Rows;
 use crate::sparse::{Lu, Pattern, Symbolic};
 use crate::substitute::Classes;
 use crate::system::{Level, SlotIndex, Stay, System};
+use std::borrow::Cow;
 use std::rc::Rc;
 
 /// Up to this many unknowns a block is factorised densely.
@@ -47,6 +48,8 @@ pub(crate) struct Matcher<'a> {
     way: Vec<(u32, usize)>,
     /// The slots on that way.
     taken: Vec<SlotIndex>,
+    /// The blocks of the latest rows that were found regular.
+    blocks: Blocks,
 }
 
 /// A block of rows that is being factorised.
@@ -96,6 +99,29 @@ impl<'a> Matcher<'a> {
             met: Vec::new(),
             way: Vec::new(),
             taken: Vec::new(),
+            blocks: Blocks::default(),
+        }
+    }
+
+    /// Takes back everything that was decided.
+    pub(crate) fn forget(&mut self) {
+        self.slot_of_row.fill(NONE);
+        self.row_of_slot.fill(NONE);
+        for (state, &stay) in self.state.iter_mut().zip(&self.classes.stay) {
+            *state = Use::by(stay);
+        }
+    }
+
+    /// Returns the slots that were found for all rows of one piece that was accepted.
+    pub(crate) fn into_matched(self) -> Matched {
+        Matched {
+            slot_of_row: self.slot_of_row.iter().map(|&s| (s != NONE).then_some(s)).collect(),
+            row_of_slot: self
+                .row_of_slot
+                .iter()
+                .map(|&r| (r != NONE).then_some(r as usize))
+                .collect(),
+            blocks: self.blocks,
         }
     }
 
@@ -265,31 +291,39 @@ impl<'a> Matcher<'a> {
 
     /// Returns true if every block of rows and their slots is regular at the generic point.
     fn is_regular(&mut self, rows: &[u32], factored: &mut Vec<Factored>) -> bool {
-        if rows.len() < 2 {
-            return true;
+        // numbered in order of declaration, as blocks are
+        let mut rows = Cow::Borrowed(rows);
+        if !rows.is_sorted() {
+            rows.to_mut().sort_unstable();
         }
-        for (i, &r) in (0..).zip(rows) {
+        for (i, &r) in (0..).zip(&*rows) {
             self.position[r as usize] = i;
         }
-        let mut edges: Vec<(u32, u32)> = Vec::new();
-        for (i, &r) in (0..).zip(rows) {
-            for &(slot, _) in self.rows.columns(r as usize) {
-                if let Some(owner) = self.taken_by(slot).filter(|&owner| owner != r) {
-                    edges.push((i, self.position[owner as usize]));
-                }
-            }
-        }
-        let before = Lists::new(rows.len(), edges.iter().copied());
+        // a row may mention what a row of another piece takes
+        let place = |owner: u32| {
+            let at = self.position[owner as usize];
+            (rows.get(at as usize) == Some(&owner)).then_some(at)
+        };
+        let owners = |&r: &u32| {
+            let owners = self.rows.mentions(r as usize).iter().filter_map(|&s| self.taken_by(s));
+            owners.filter(move |&owner| owner != r).filter_map(place)
+        };
+        let mut before = Lists::with_room(rows.len(), 4 * rows.len());
+        rows.iter().for_each(|r| before.push_each(owners(r)));
+        let mut blocks = Blocks::with_room(rows.len(), rows.len(), rows.len());
         let mut regular = true;
         let mut scratch = BlockScratch::default();
         strong_components(&before, &mut |block| {
+            let own = || block.iter().map(|&i| rows[i as usize]);
             if block.len() > 1 && regular {
                 scratch.rows.clear();
-                scratch.rows.extend(block.iter().map(|&i| rows[i as usize]));
+                scratch.rows.extend(own());
                 scratch.rows.sort_unstable();
                 regular = self.is_regular_block(&mut scratch, factored);
             }
+            blocks.add(own().map(|r| r as usize), own().map(|r| self.slot_of_row[r as usize]));
         });
+        self.blocks = blocks;
         regular
     }
     fn taken_by(&self, slot: SlotIndex) -> Option<u32> {

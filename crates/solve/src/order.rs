@@ -13,12 +13,60 @@ use crate::union::Union;
 use std::collections::BTreeMap;
 
 /// Rows that are solved together, with the slots that they determine.
-#[derive(Clone, PartialEq, Eq, Debug)]
-pub(crate) struct Block {
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub(crate) struct Block<'a> {
     /// Its rows, in order.
-    pub(crate) rows: Vec<usize>,
+    pub(crate) rows: &'a [usize],
     /// Its unknowns, in order; more than rows where it is under-determined.
-    pub(crate) unknowns: Vec<SlotIndex>,
+    pub(crate) unknowns: &'a [SlotIndex],
+}
+
+/// Blocks, each after those that it reads.
+#[derive(Clone, PartialEq, Eq, Debug, Default)]
+pub(crate) struct Blocks {
+    rows: Vec<usize>,
+    unknowns: Vec<SlotIndex>,
+    /// Where each ends: among the rows, and among the unknowns.
+    ends: Vec<(u32, u32)>,
+}
+
+impl Blocks {
+    /// Makes room for so many rows and unknowns, in so many blocks.
+    pub(crate) fn with_room(rows: usize, unknowns: usize, blocks: usize) -> Self {
+        Self {
+            rows: Vec::with_capacity(rows),
+            unknowns: Vec::with_capacity(unknowns),
+            ends: Vec::with_capacity(blocks),
+        }
+    }
+    /// Adds a block of these rows and unknowns, in any order.
+    pub(crate) fn add(
+        &mut self,
+        rows: impl Iterator<Item = usize>,
+        unknowns: impl Iterator<Item = SlotIndex>,
+    ) {
+        let (first_row, first_unknown) = (self.rows.len(), self.unknowns.len());
+        self.rows.extend(rows);
+        self.unknowns.extend(unknowns);
+        self.rows[first_row..].sort_unstable();
+        self.unknowns[first_unknown..].sort_unstable();
+        self.ends.push((self.rows.len() as u32, self.unknowns.len() as u32));
+    }
+    /// Returns how many there are.
+    pub(crate) fn len(&self) -> usize {
+        self.ends.len()
+    }
+    /// Returns every block, in order.
+    pub(crate) fn iter(&self) -> impl Iterator<Item = Block<'_>> {
+        let mut start = (0, 0);
+        self.ends.iter().map(move |&end| {
+            let (first, last) = (std::mem::replace(&mut start, end), end);
+            Block {
+                rows: &self.rows[first.0 as usize..last.0 as usize],
+                unknowns: &self.unknowns[first.1 as usize..last.1 as usize],
+            }
+        })
+    }
 }
 
 /// What the order is made of.
@@ -38,7 +86,7 @@ pub(crate) struct Incidence<'a> {
 }
 
 /// Splits and orders. Unknown slots that no row reaches are in no block.
-pub(crate) fn order(incidence: &Incidence<'_>) -> Vec<Block> {
+pub(crate) fn order(incidence: &Incidence<'_>) -> Blocks {
     let n = incidence.rows.len();
     let slots = incidence.unknown.len();
     let mut union = Union::new(n + slots);
@@ -100,7 +148,7 @@ fn unite_free(incidence: &Incidence<'_>, union: &mut Union) {
 }
 
 /// Strongly connected components of the united rows, each after what it reads.
-fn components(incidence: &Incidence<'_>, union: &mut Union) -> Vec<Block> {
+fn components(incidence: &Incidence<'_>, union: &mut Union) -> Blocks {
     const NONE: u32 = u32::MAX;
     let n = incidence.rows.len();
     // nodes are numbered by their first row, so that the order is that of declaration
@@ -135,20 +183,12 @@ fn components(incidence: &Incidence<'_>, union: &mut Union) -> Vec<Block> {
     let rows_of_node = Lists::new(nodes as usize, rows.iter().map(|&(node, r)| (node, r as u32)));
     let slots = (0..).zip(&node_of_slot).filter(|(_, n)| **n != NONE);
     let slots_of_node = Lists::new(nodes as usize, slots.map(|(s, &node)| (node, s)));
-    let block = |nodes: &[u32]| {
-        let count = |lists: &Lists| nodes.iter().map(|&v| lists.of(v).len()).sum();
-        let mut rows: Vec<usize> = Vec::with_capacity(count(&rows_of_node));
-        let mut unknowns = Vec::with_capacity(count(&slots_of_node));
-        for &v in nodes {
-            rows.extend(rows_of_node.of(v).iter().map(|&r| r as usize));
-            unknowns.extend_from_slice(slots_of_node.of(v));
-        }
-        rows.sort_unstable();
-        unknowns.sort_unstable();
-        Block { rows, unknowns }
-    };
-    let mut blocks = Vec::with_capacity(nodes as usize);
-    strong_components(&before, &mut |component| blocks.push(block(component)));
+    let (all_rows, all_slots) = (rows_of_node.all().len(), slots_of_node.all().len());
+    let mut blocks = Blocks::with_room(all_rows, all_slots, nodes as usize);
+    strong_components(&before, &mut |nodes| {
+        let rows = nodes.iter().flat_map(|&v| rows_of_node.of(v)).map(|&r| r as usize);
+        blocks.add(rows, nodes.iter().flat_map(|&v| slots_of_node.of(v)).copied());
+    });
     blocks
 }
 
@@ -158,36 +198,36 @@ pub(crate) fn strong_components(before: &Lists, found: &mut dyn FnMut(&[u32])) {
     const DONE: u32 = u32::MAX - 1;
     let n = before.len();
     // when a node was met, and the first that leads to it and that it leads to
-    let (mut index, mut low) = (vec![UNSEEN; n], vec![0; n]);
+    let mut met = vec![(UNSEEN, 0); n];
     let (mut stack, mut calls, mut count) = (Vec::with_capacity(n), Vec::with_capacity(n), 0);
     for root in 0..n as u32 {
-        if index[root as usize] != UNSEEN {
+        if met[root as usize].0 != UNSEEN {
             continue;
         }
         calls.push((root, 0));
         while let Some(&(v, edge)) = calls.last() {
             let at = v as usize;
             if edge == 0 {
-                (index[at], low[at]) = (count, count);
+                met[at] = (count, count);
                 count += 1;
                 stack.push(v);
             }
             if let Some(&w) = before.of(v).get(edge) {
                 calls.last_mut().expect("the call was just seen").1 += 1;
-                if index[w as usize] == UNSEEN {
-                    calls.push((w, 0));
-                } else if index[w as usize] != DONE {
-                    low[at] = low[at].min(index[w as usize]);
+                match met[w as usize].0 {
+                    UNSEEN => calls.push((w, 0)),
+                    DONE => {}
+                    index => met[at].1 = met[at].1.min(index),
                 }
                 continue;
             }
             calls.pop();
             if let Some(&(parent, _)) = calls.last() {
-                low[parent as usize] = low[parent as usize].min(low[at]);
+                met[parent as usize].1 = met[parent as usize].1.min(met[at].1);
             }
-            if low[at] == index[at] {
+            if met[at].1 == met[at].0 {
                 let first = stack.iter().rposition(|&w| w == v).expect("the node is on the stack");
-                stack[first..].iter().for_each(|&w| index[w as usize] = DONE);
+                stack[first..].iter().for_each(|&w| met[w as usize].0 = DONE);
                 stack[first..].sort_unstable();
                 found(&stack[first..]);
                 stack.truncate(first);

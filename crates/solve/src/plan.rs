@@ -7,7 +7,7 @@ use crate::accept::{self, Acceptance};
 use crate::direct::{self, Direction};
 use crate::few::Few;
 use crate::lower::{self, Problem, Program, Region};
-use crate::order::{self, Block, Incidence};
+use crate::order::{self, Blocks, Incidence};
 use crate::pattern::{Pattern, Patterns};
 use crate::rows::{self, Rows};
 use crate::slice::Slice;
@@ -212,6 +212,7 @@ impl Analysis<'_> {
         let accepted = self.acceptance.accepted.iter_mut().chain(&mut exchanged.circuit);
         accepted.filter(|r| **r == row).for_each(|r| *r = now);
         let system = &self.stated.system;
+        self.acceptance.matched = None;
         self.direction = direct::direct(system, &self.classes, &self.rows, &self.acceptance);
         self.method_reads = method_reads(system, &self.classes, &self.direction);
         Exchange { dependent, row: now }
@@ -420,7 +421,15 @@ fn report(analysis: &Analysis<'_>) -> (Report, Vec<Vec<usize>>) {
     (Report { rejected, freedom: analysis.acceptance.freedom, yielded, free_slots }, together)
 }
 
-fn blocks_of(analysis: &Analysis<'_>, together: &[Vec<usize>]) -> Vec<Block> {
+fn blocks_of(analysis: &Analysis<'_>, together: &[Vec<usize>]) -> Blocks {
+    let Analysis { acceptance, direction, .. } = analysis;
+    if let Some(matched) = &acceptance.matched {
+        // where every slot that may move has its row, what acceptance found are the blocks
+        let unknown = acceptance.unknown.iter().filter(|u| **u).count();
+        if unknown == acceptance.accepted.len() && direction.methods.is_empty() {
+            return matched.blocks.clone();
+        }
+    }
     let mut taking_part = analysis.acceptance.accepted.clone();
     taking_part.extend(together.iter().map(|set| set[0]));
     taking_part.sort_unstable();
@@ -463,7 +472,7 @@ impl Plan {
     }
     /// Returns the pattern of an equation, by its place among those that the system uses.
     pub(crate) fn pattern_place(&self, row: u32) -> usize {
-        self.stated.place(self.system().equations[row as usize].pattern)
+        self.stated.place_of(row as usize)
     }
     /// Returns an equation with the relation that it is of.
     pub(crate) fn place_of(&self, row: u32) -> Place {

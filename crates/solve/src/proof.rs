@@ -5,7 +5,7 @@
 
 use crate::pattern::Patterns;
 use crate::stated::Stated;
-use crate::substitute::{Classes, Edge, Forest, Key, substitute};
+use crate::substitute::{Classes, Forest, Key, substitute};
 use crate::system::{RelationBody, Stay, System};
 use std::collections::BTreeMap;
 use std::rc::Rc;
@@ -22,17 +22,7 @@ impl Proofs {
     /// Finds the equalities of a system over its patterns.
     pub fn new(system: &Rc<System>, patterns: &Patterns) -> Self {
         let classes = substitute(&Stated::new(system, patterns));
-        let n = system.slots.len();
-        let mut edges = Vec::new();
-        for (r, relation) in (0..).zip(&system.relations) {
-            let RelationBody::Equations(span) = relation.body else { continue };
-            for (e, at) in (0..).zip(span.range()).filter(|&(_, at)| classes.is_used(at)) {
-                let arguments = system.arguments(system.equations[at].arguments);
-                let end = |i: usize| arguments.get(i).map_or(n, |&slot| slot as usize);
-                edges.push(Edge { ends: [end(0), end(1)], equation: (r, e) });
-            }
-        }
-        let forest = Forest::new(n + 1, &edges);
+        let forest = Forest::new(&classes, system);
         Self { system: system.clone(), classes, forest }
     }
 

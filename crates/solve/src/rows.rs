@@ -174,7 +174,7 @@ pub(crate) fn stated_rows(stated: &Stated, classes: &Classes) -> Rows {
                     let start = rows.mentions.len();
                     let over = system.arguments(equation.arguments).iter();
                     rows.mentions.extend(over.map(|&s| classes.representative[s as usize]));
-                    let pattern = stated.place(equation.pattern);
+                    let pattern = stated.place_of(at);
                     let kernel = if are_distinct(&rows.mentions[start..]) {
                         kernels.plain(stated, pattern)
                     } else {

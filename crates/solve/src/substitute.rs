@@ -4,9 +4,10 @@
 //! which equations were used up. Only `a = b` and `a = number` between slots that the relation may
 //! write are taken; a relation with written methods is never substituted.
 
+use crate::lists::Lists;
 use crate::pattern::Plain;
 use crate::stated::Stated;
-use crate::system::{Equation, Level, Relation, RelationBody, SlotIndex, Span, Stay, System};
+use crate::system::{Level, Relation, RelationBody, SlotIndex, Span, Stay, System};
 
 /// Slots by representative.
 #[derive(Clone, Debug, Default)]
@@ -45,36 +46,30 @@ impl Classes {
     pub(crate) fn is_settled(&self, equation: usize) -> bool {
         self.fates[equation] != Fate::Row
     }
-    /// Returns true if an equation, by its place in the system, holds by substitution.
-    pub(crate) fn is_used(&self, equation: usize) -> bool {
-        self.fates[equation] == Fate::Used
-    }
     /// Returns every class of several slots: its representative and all of them, in order.
     pub(crate) fn members(&self) -> impl Iterator<Item = (SlotIndex, &[SlotIndex])> {
         self.members.iter().map(|&(root, span)| (root, &self.grouped[span.range()]))
     }
-    /// Returns the relations that substitution makes hold, each with the representative of what it
-    /// makes equal, in order.
-    pub(crate) fn equalities(&self, system: &System) -> Vec<(SlotIndex, u32)> {
-        let mut equalities = Vec::new();
-        for (r, relation) in (0..).zip(&system.relations) {
-            let RelationBody::Equations(span) = relation.body else { continue };
-            for at in span.range().filter(|&at| self.fates[at] == Fate::Used) {
-                let arguments = system.arguments(system.equations[at].arguments);
-                equalities.push((self.representative[arguments[0] as usize], r));
-            }
-        }
-        equalities.sort_unstable();
-        equalities.dedup();
-        equalities
+    /// Returns the relations that substitution makes hold, by the representative of what they make equal,
+    /// in order; one of several equations may come several times.
+    pub(crate) fn equalities(&self, system: &System) -> Lists {
+        let all = self.used(system).map(|(at, (r, _))| {
+            let arguments = system.arguments(system.equations[at].arguments);
+            (self.representative[arguments[0] as usize], r)
+        });
+        Lists::new(self.representative.len(), all)
     }
-}
-
-/// An equation that says that two slots are equal, or that one is a number (the node after the last).
-#[derive(Clone, Copy, Debug)]
-pub(crate) struct Edge {
-    pub(crate) ends: [usize; 2],
-    pub(crate) equation: Key,
+    /// Returns the equations that hold by substitution, each by its place in the system and its key.
+    fn used(&self, system: &System) -> impl Iterator<Item = (usize, Key)> + Clone {
+        (0..).zip(&system.relations).flat_map(|(r, relation)| {
+            let span = match relation.body {
+                RelationBody::Equations(span) => span,
+                RelationBody::Opaque { .. } => Span::default(),
+            };
+            let equations = span.range().zip(0..).map(move |(at, e)| (at, (r, e)));
+            equations.filter(|&(at, _)| self.fates[at] == Fate::Used)
+        })
+    }
 }
 
 /// The equations used, as a forest of slots, and all numbers as one more node.
@@ -86,9 +81,15 @@ pub(crate) struct Forest {
 }
 
 impl Forest {
-    pub(crate) fn new(nodes: usize, edges: &[Edge]) -> Self {
+    /// Makes it of the equations that hold by substitution.
+    pub(crate) fn new(classes: &Classes, system: &System) -> Self {
+        let numbers = system.slots.len();
+        let nodes = numbers + 1;
         let mut at: Vec<Vec<(usize, Key)>> = vec![Vec::new(); nodes];
-        for &Edge { ends: [a, b], equation } in edges {
+        for (place, equation) in classes.used(system) {
+            let arguments = system.arguments(system.equations[place].arguments);
+            let end = |i: usize| arguments.get(i).map_or(numbers, |&slot| slot as usize);
+            let [a, b] = [0, 1].map(end);
             at[a].push((b, equation));
             at[b].push((a, equation));
         }
@@ -144,7 +145,6 @@ pub(crate) fn substitute(stated: &Stated) -> Classes {
     let mut constants: Vec<(SlotIndex, u64)> = Vec::new();
     let mut is_constant = vec![false; n];
     let mut fates = vec![Fate::Row; system.equations.len()];
-    let mut edges = Vec::new();
     // what is said again, and between which slots the way is that says it already
     let mut again: Vec<(Key, Vec<[usize; 2]>)> = Vec::new();
     for (r, relation) in (0..).zip(&system.relations) {
@@ -153,7 +153,7 @@ pub(crate) fn substitute(stated: &Stated) -> Classes {
             continue;
         }
         for (e, at) in (0..).zip(span.range()) {
-            let Some(simple) = simple(stated, relation, system.equations[at]) else { continue };
+            let Some(simple) = simple(stated, relation, at) else { continue };
             let equation = (r, e);
             let united = match simple {
                 Simple::Same(a, b) => unite(system, &mut parent, &stay, a, b),
@@ -173,10 +173,7 @@ pub(crate) fn substitute(stated: &Stated) -> Classes {
                 Simple::Number(a, _) => [a as usize, n],
             };
             match united {
-                United::Now => {
-                    fates[at] = Fate::Used;
-                    edges.push(Edge { ends, equation });
-                }
+                United::Now => fates[at] = Fate::Used,
                 United::Before => {
                     fates[at] = Fate::Repeated;
                     again.push((equation, vec![ends]));
@@ -193,20 +190,15 @@ pub(crate) fn substitute(stated: &Stated) -> Classes {
             }
         }
     }
-    let repeated = circuits(n + 1, &edges, again);
-    Classes { repeated, ..collect(parent, stay, constants, fates) }
+    let mut classes = collect(parent, stay, constants, fates);
+    if !again.is_empty() {
+        classes.repeated = circuits(&Forest::new(&classes, system), again);
+    }
+    classes
 }
 
 /// Finds what every equation that was said again repeats.
-fn circuits(
-    nodes: usize,
-    edges: &[Edge],
-    again: Vec<(Key, Vec<[usize; 2]>)>,
-) -> Vec<(Key, Vec<Key>)> {
-    if again.is_empty() {
-        return Vec::new();
-    }
-    let forest = Forest::new(nodes, edges);
+fn circuits(forest: &Forest, again: Vec<(Key, Vec<[usize; 2]>)>) -> Vec<(Key, Vec<Key>)> {
     let circuit = |ways: Vec<[usize; 2]>| {
         let mut circuit = Vec::new();
         ways.into_iter().for_each(|[a, b]| forest.way(a, b, &mut circuit));
@@ -220,33 +212,41 @@ fn circuits(
 fn collect(
     mut parent: Vec<SlotIndex>,
     stay: Vec<Stay>,
-    constants: Vec<(SlotIndex, u64)>,
+    mut constants: Vec<(SlotIndex, u64)>,
     fates: Vec<Fate>,
 ) -> Classes {
     let n = parent.len() as u32;
-    let representative: Vec<SlotIndex> = (0..n).map(|i| find(&mut parent, i)).collect();
-    let mut size = vec![0u32; n as usize];
-    representative.iter().for_each(|&root| size[root as usize] += 1);
-    let mut members = Vec::new();
-    let mut next = vec![0; n as usize];
-    let mut start = 0;
-    for root in 0..n {
-        let len = size[root as usize];
-        if len > 1 {
-            members.push((root, Span { start, len }));
-            next[root as usize] = start as usize;
-            start += len;
+    let mut is_alone = true;
+    for i in 0..n {
+        parent[i as usize] = find(&mut parent, i);
+        is_alone &= parent[i as usize] == i;
+    }
+    let representative = parent;
+    let (mut members, mut grouped) = (Vec::new(), Vec::new());
+    if !is_alone {
+        // how many a class has, then where the next of them goes
+        let mut next = vec![0u32; n as usize];
+        representative.iter().for_each(|&root| next[root as usize] += 1);
+        let mut start = 0;
+        for (root, next) in (0..).zip(&mut next) {
+            let len = std::mem::replace(next, start);
+            if len > 1 {
+                members.push((root, Span { start, len }));
+                start += len;
+            } else {
+                *next = u32::MAX;
+            }
+        }
+        grouped.resize(start as usize, 0);
+        for (slot, &root) in (0..).zip(&representative) {
+            let next = &mut next[root as usize];
+            if *next != u32::MAX {
+                grouped[*next as usize] = slot;
+                *next += 1;
+            }
         }
     }
-    let mut grouped = vec![0; start as usize];
-    for (slot, &root) in (0..).zip(&representative) {
-        if size[root as usize] > 1 {
-            grouped[next[root as usize]] = slot;
-            next[root as usize] += 1;
-        }
-    }
-    let of_root = |(slot, bits): (SlotIndex, u64)| (representative[slot as usize], bits);
-    let mut constants: Vec<(SlotIndex, u64)> = constants.into_iter().map(of_root).collect();
+    constants.iter_mut().for_each(|c| c.0 = representative[c.0 as usize]);
     constants.sort_unstable();
     Classes { representative, members, grouped, constants, stay, fates, repeated: Vec::new() }
 }
@@ -258,10 +258,10 @@ enum Simple {
 }
 
 /// Finds out whether an equation only says that two slots that it may write are equal, or what one is.
-fn simple(stated: &Stated, relation: &Relation, equation: Equation) -> Option<Simple> {
+fn simple(stated: &Stated, relation: &Relation, equation: usize) -> Option<Simple> {
+    let says = stated.pattern_at(stated.place_of(equation)).plain()?;
     let system = &*stated.system;
-    let arguments = system.arguments(equation.arguments);
-    let says = stated.pattern_at(stated.place(equation.pattern)).plain()?;
+    let arguments = system.arguments(system.equations[equation].arguments);
     let may = |s: &SlotIndex| system.slots[*s as usize].is_number && !relation.reads.contains(s);
     if !arguments.iter().all(may) {
         return None;

@@ -23,7 +23,12 @@ pub(crate) fn tie(
     direction: &Direction,
     acceptance: &mut Acceptance,
 ) -> bool {
-    if acceptance.accepted.iter().all(|&r| !rows[r].curved) {
+    let is_kept = |slot: SlotIndex| {
+        let stay = classes.stay[slot as usize];
+        !acceptance.unknown[slot as usize] && matches!(stay, Stay::Kept { .. })
+    };
+    let may_tie = |&r: &usize| rows[r].curved && rows.columns(r).iter().any(|e| is_kept(e.0));
+    if !acceptance.accepted.iter().any(may_tie) {
         return false;
     }
     let places = places(system, classes);

@@ -7,7 +7,7 @@
 //! tested. A row that has no formula of one solution is left where it is: it could choose a branch.
 
 use crate::lower::Inverse;
-use crate::order::Block;
+use crate::order::{Block, Blocks};
 use crate::plan::Analysis;
 use crate::system::{Level, SlotIndex};
 
@@ -24,16 +24,16 @@ pub(crate) struct Exchange {
 }
 
 /// Returns how many rows are solved together with others and determine as many unknowns.
-pub(crate) fn together(blocks: &[Block]) -> usize {
+pub(crate) fn together(blocks: &Blocks) -> usize {
     blocks.iter().filter(|block| is_joint(block)).map(|block| block.rows.len()).sum()
 }
 
-fn is_joint(block: &Block) -> bool {
+fn is_joint(block: &Block<'_>) -> bool {
     block.unknowns.len() > 1 && block.rows.len() == block.unknowns.len()
 }
 
 /// Returns the exchanges that may make less to be solved together, in order; at most a few.
-pub(crate) fn exchanges(analysis: &Analysis<'_>, blocks: &[Block]) -> Vec<Exchange> {
+pub(crate) fn exchanges(analysis: &Analysis<'_>, blocks: &Blocks) -> Vec<Exchange> {
     let dependent = &analysis.acceptance.dependent;
     if dependent.is_empty() || together(blocks) == 0 {
         return Vec::new();
