@@ -176,7 +176,7 @@ impl Planner {
         values: &mut Values,
         local: &mut Vec<f64>,
     ) -> Option<CameId> {
-        let plan = task.number()?;
+        let plan = task.number().filter(|_| !self.plans.past.is_empty())?;
         task.gather_into(&before.numbers, local);
         let came = self.plans.past.recall(plan, &task.system.slots, local)?;
         scatter(task, local, values);
@@ -199,13 +199,12 @@ impl Planner {
         if let Some(bound) = ran.not_decided {
             self.given_up.push((task.component.clone(), bound));
         }
-        let slots = &task.system.clone().slots;
         note(report, task, ran);
         let plan = task.number().filter(|_| is_plain)?;
         let began = task.gather(&before.numbers);
         let mut local = began.clone();
         local.iter_mut().zip(task.numbers(&values.numbers)).for_each(|(x, now)| *x = now);
-        Some(self.plans.past.keep(plan, slots, &began, &local))
+        Some(self.plans.past.keep(plan, &task.system.slots, &began, &local))
     }
 
     /// Makes the constraints hold from these values, with nothing edited: given numbers hold, places

@@ -67,6 +67,11 @@ impl Past {
         self.used = 0;
     }
 
+    /// Returns true if nothing is remembered.
+    pub(crate) fn is_empty(&self) -> bool {
+        self.known.is_empty()
+    }
+
     /// Puts what a plan came to from these numbers in their place, if that is known.
     pub(crate) fn recall(
         &mut self,

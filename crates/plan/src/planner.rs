@@ -183,8 +183,10 @@ impl Planner {
     ) -> Vec<Task> {
         let setting = Setting { structure, rules: &self.rules, net: &self.net, holding, wishes };
         let mut locals = Locals::new(structure);
-        let (plans, alike) = (&mut self.plans, &mut self.alike);
-        let task = |c| task(plans, alike, &setting, &mut locals, c);
+        // what is planned first and alone is like nothing else
+        let is_first = components.len() == 1 && self.plans.mark() == 0;
+        let (plans, mut alike) = (&mut self.plans, Some(&mut self.alike).filter(|_| !is_first));
+        let task = |c| task(plans, alike.as_deref_mut(), &setting, &mut locals, c);
         components.into_iter().map(task).collect()
     }
 

@@ -331,6 +331,9 @@ impl Routes {
 }
 
 fn are_distinct(slots: &[SlotId]) -> bool {
+    if slots.windows(2).all(|pair| pair[0] < pair[1]) {
+        return true;
+    }
     if slots.len() > 16 {
         let mut sorted = slots.to_vec();
         sorted.sort_unstable();

@@ -130,10 +130,10 @@ pub(crate) struct Setting<'s> {
     pub(crate) wishes: &'s [Wish],
 }
 
-/// States a component as a system and plans it.
+/// States a component as a system and plans it, unless one was that is alike.
 pub(crate) fn task(
     plans: &mut Plans,
-    alike: &mut Alike,
+    alike: Option<&mut Alike>,
     setting: &Setting<'_>,
     locals: &mut Locals,
     component: Component,
@@ -141,18 +141,16 @@ pub(crate) fn task(
     for (&slot, local) in component.slots().iter().zip(0..) {
         locals.0[slot] = local;
     }
-    let remembered = setting.wishes.is_empty();
-    if remembered {
-        alike.sign(setting, locals, &component);
-        if let Some(known) = alike.known.get(alike.signature.as_slice()) {
-            plans.reuse();
-            return Task::of(known.clone(), component);
-        }
+    let Some(alike) = alike.filter(|_| setting.wishes.is_empty()) else {
+        return Task::of(state(plans, setting, locals, &component), component);
+    };
+    alike.sign(setting, locals, &component);
+    if let Some(known) = alike.known.get(alike.signature.as_slice()) {
+        plans.reuse();
+        return Task::of(known.clone(), component);
     }
     let known = state(plans, setting, locals, &component);
-    if remembered {
-        alike.known.insert(alike.signature.as_slice().into(), known.clone());
-    }
+    alike.known.insert(alike.signature.as_slice().into(), known.clone());
     Task::of(known, component)
 }
 
@@ -171,7 +169,7 @@ pub(crate) fn at_rest<'s>(
         return Task::of(known.clone(), component);
     }
     let locals = locals.get_or_insert_with(|| Locals::new(setting.structure));
-    let task = task(plans, alike, setting, locals, component);
+    let task = task(plans, Some(alike), setting, locals, component);
     if let (Some(stated), Some(index)) =
         (opened, alike.known.get_index_of(alike.signature.as_slice()))
     {
@@ -325,6 +323,11 @@ impl<'s> Making<'s> {
         let mut groups = 0;
         let mut system = System::default();
         system.slots.reserve(component.slots().len());
+        let rules = component.rules();
+        system.relations.reserve(rules.len());
+        system.equations.reserve(rules.len());
+        let mentioned = rules.iter().map(|&r| setting.rules.get(r).slots.len()).sum();
+        system.arguments.reserve(mentioned);
         for &slot in component.slots() {
             let s = &setting.structure.slots[slot];
             let stay = match (setting.holding)(slot) {
@@ -365,7 +368,7 @@ impl<'s> Making<'s> {
             conditional: Conditional { system, ..Conditional::default() },
             holds: Vec::new(),
             targets: Vec::new(),
-            relations: Vec::new(),
+            relations: Vec::with_capacity(rules.len()),
         }
     }
 
