@@ -296,6 +296,23 @@ impl Tape {
         self.run_on(values, registers, out);
     }
 
+    /// Computes every output, where variable `v` has the value that stands at place `places[v]`; the outputs take
+    /// the place of what is in `out`.
+    ///
+    /// # Panics
+    /// If a variable has no place, or a place no value.
+    pub fn run_at(
+        &self,
+        places: &[u32],
+        values: &[f64],
+        registers: &mut Vec<f64>,
+        out: &mut Vec<f64>,
+    ) {
+        let registers = self.compute(|v| values[places[v] as usize], registers);
+        out.clear();
+        out.extend(self.outputs.iter().map(|&register| registers[register as usize]));
+    }
+
     /// Computes every output for [`LANES`] sets of values at once, to the bits of [`Tape::run`].
     ///
     /// `values[v][lane]` is variable `v` of one set. Working space is as for [`Tape::run`].
@@ -308,12 +325,33 @@ impl Tape {
 
     fn run_on<W: Word>(&self, values: &[W], registers: &mut Vec<W>, out: &mut [W]) {
         assert_eq!(out.len(), self.outputs.len(), "there is a place for every output");
+        let registers = self.compute(|v| values[v], registers);
+        match self.outputs[..] {
+            [] => {}
+            [first, ..] if self.is_straight => {
+                out.copy_from_slice(&registers[first as usize..][..out.len()]);
+            }
+            [..] => {
+                for (out, &register) in out.iter_mut().zip(&self.outputs) {
+                    *out = registers[register as usize];
+                }
+            }
+        }
+    }
+
+    /// Computes every register.
+    fn compute<'r, W: Word>(
+        &self,
+        value: impl Fn(usize) -> W,
+        registers: &'r mut Vec<W>,
+    ) -> &'r mut [W] {
         if registers.len() < self.registers {
             registers.resize(self.registers, W::of(0.0));
         }
         let registers = &mut registers[..self.registers];
-        for (register, &constant) in registers.iter_mut().zip(&self.constants) {
-            *register = W::of(constant);
+        // not as a copy of the whole: they are few
+        for i in 0..self.constants.len() {
+            registers[i] = W::of(self.constants[i]);
         }
         let mut operands = self.operands.as_slice();
         let mut mixed = self.mixed.as_slice();
@@ -322,10 +360,10 @@ impl Tape {
             let operation = match run.kind {
                 Kind::Alike(operation) => operation,
                 Kind::Values => {
-                    let count = run.count as usize;
                     let from = operands[0] as usize;
                     operands = &operands[1..];
-                    registers[first..first + count].copy_from_slice(&values[from..from + count]);
+                    let own = &mut registers[first..first + run.count as usize];
+                    own.iter_mut().zip(from..).for_each(|(register, v)| *register = value(v));
                     continue;
                 }
                 Kind::Mixed => {
@@ -349,17 +387,7 @@ impl Tape {
                 }
             }
         }
-        match self.outputs[..] {
-            [] => {}
-            [first, ..] if self.is_straight => {
-                out.copy_from_slice(&registers[first as usize..][..out.len()]);
-            }
-            [..] => {
-                for (out, &register) in out.iter_mut().zip(&self.outputs) {
-                    *out = registers[register as usize];
-                }
-            }
-        }
+        registers
     }
 
     /// Returns the tape as text: one line an operation, with its meaning.

@@ -12,7 +12,7 @@ use crate::outcome::{Host, Note, Reason};
 use crate::plan::{Plan, Step};
 use crate::rows::{Point, generic_number};
 use crate::slice::Slice;
-use crate::square::{Solved, Square, SquareScratch, Trust};
+use crate::square::{Course, Side, Solved, Square, SquareScratch, Trust};
 use crate::strip::Portion;
 use crate::system::{SlotIndex, Stay};
 use crate::test::{Place, TestScratch};
@@ -49,6 +49,8 @@ pub(crate) struct Buffers {
     pub(crate) square: SquareScratch,
     pub(crate) least: LeastScratch,
     pub(crate) motion: Vec<Motion>,
+    /// For every step, the side on which the branch is followed.
+    pub(crate) sides: Vec<Side>,
     pub(crate) test: TestScratch,
     /// The regions that were approached.
     pub(crate) approached: Vec<u32>,
@@ -516,10 +518,14 @@ impl Run<'_> {
         };
         for &way in ways {
             self.start_from_last(&step.targets);
-            let buffers = &mut *self.buffers;
-            let (work, scratch) = (&mut buffers.work, &mut buffers.square);
-            let (last, scales) = (self.last, &self.frame.scales);
-            match square.solve(last, self.values, scales, way, work, scratch) {
+            let Buffers { work, square: scratch, sides, .. } = &mut *self.buffers;
+            let mut no_side = Side::default();
+            let side = match way {
+                Trust::Branch => &mut sides[self.index],
+                Trust::Any | Trust::Leap => &mut no_side,
+            };
+            let course = Course { last: self.last, trust: way, side };
+            match square.solve(course, self.values, &self.frame.scales, work, scratch) {
                 Solved::Regular => return Ok(()),
                 Solved::Double(slot) => {
                     self.buffers.notes.push(Note::DoubleRoot { slot });

@@ -46,8 +46,27 @@ pub(crate) struct Local {
     pub(crate) right: Vec<f64>,
     /// The entries of the Jacobian of `left - right`, in the order of the pattern.
     pub(crate) jacobian: Vec<f64>,
-    /// The sway of every row, where it was computed.
-    sway: Vec<f64>,
+    /// Every derivative of every row by its arguments, where the Jacobian was computed.
+    slopes: Vec<f64>,
+}
+
+/// A second derivative of a row by two unknowns.
+#[derive(Clone, Copy, PartialEq, Debug)]
+pub(crate) struct SecondPlace {
+    /// The unknowns, by position.
+    pub(crate) i: u32,
+    pub(crate) j: u32,
+    /// Which of the kernel's it is.
+    out: u32,
+    /// How often it counts.
+    times: f64,
+}
+
+impl SecondPlace {
+    /// Returns its value, of those of the kernel.
+    pub(crate) fn of(&self, out: &[f64]) -> f64 {
+        self.times * out[self.out as usize]
+    }
 }
 
 /// Working space for evaluation; serves any number of blocks.
@@ -70,11 +89,8 @@ impl Workspace {
         values: &[f64],
         outs: usize,
     ) -> &mut [f64] {
-        self.arguments.clear();
-        self.arguments.extend(arguments.iter().map(|&s| values[s as usize]));
-        self.out.clear();
-        self.out.resize(outs, 0.0);
-        tape.run(&self.arguments, &mut self.registers, &mut self.out);
+        tape.run_at(arguments, values, &mut self.registers, &mut self.out);
+        debug_assert_eq!(self.out.len(), outs, "the outputs are as many as are asked for");
         &mut self.out
     }
 
@@ -194,7 +210,7 @@ impl Block {
     /// Evaluates both sides of every row.
     pub(crate) fn sides(&self, values: &[f64], w: &mut Workspace, local: &mut Local) {
         self.prepare(local);
-        local.sway.clear();
+        local.slopes.clear();
         for group in &self.groups {
             let Local { left, right, .. } = local;
             let rows = self.rows_of(group);
@@ -210,27 +226,20 @@ impl Block {
         self.prepare(local);
         local.jacobian.clear();
         local.jacobian.resize(self.pattern.len(), 0.0);
-        local.sway.clear();
-        local.sway.resize(self.height(), 0.0);
+        local.slopes.clear();
         for group in &self.groups {
-            let kernel = &group.kernel;
-            let (count, arity) = (kernel.entries.len(), kernel.arity());
-            let (rows, arguments) = (self.rows_of(group), self.arguments_of(group));
-            let places = self.entries_of(group);
-            let Local { left, right, jacobian, sway } = local;
-            self.each(group, &kernel.slopes, 2 + count, values, w, &mut |row, out| {
+            let count = group.kernel.entries.len();
+            let (rows, places) = (self.rows_of(group), self.entries_of(group));
+            let Local { left, right, jacobian, slopes } = local;
+            self.each(group, &group.kernel.slopes, 2 + count, values, w, &mut |row, out| {
                 let at = rows[row] as usize;
                 (left[at], right[at]) = (out[0], out[1]);
-                let arguments = &arguments[row * arity..][..arity];
-                let places = &places[row * count..][..count];
-                let mut moved = 0.0;
-                for ((entry, &place), &slope) in kernel.entries.iter().zip(places).zip(&out[2..]) {
-                    moved += (values[arguments[entry.argument as usize] as usize] * slope).abs();
+                slopes.extend_from_slice(&out[2..]);
+                for (&place, &slope) in places[row * count..][..count].iter().zip(&out[2..]) {
                     if place != KNOWN {
                         jacobian[place as usize] += slope;
                     }
                 }
-                sway[at] = moved;
             });
         }
     }
@@ -255,61 +264,61 @@ impl Block {
         if worst.is_nan() { f64::INFINITY } else { worst }
     }
 
-    /// Returns the unknowns of every second derivative of every row, in the order of
-    /// [`Block::each_second`], which leaves out those by what is known; found once.
-    fn seconds(&self) -> &[(u32, u32)] {
+    /// Returns every second derivative by unknowns that is not zero everywhere, in the order of
+    /// [`Block::each_second`]; found once.
+    pub(crate) fn seconds(&self) -> &[SecondPlace] {
+        &self.all_seconds().0
+    }
+    fn all_seconds(&self) -> &(Vec<SecondPlace>, Vec<u32>) {
         self.seconds.get_or_init(|| {
             let at = |slot| self.unknowns.binary_search(slot).map_or(KNOWN, |at| at as u32);
             let count = |g: &Group| g.rows.len as usize * g.kernel.second().entries.len();
             let mut seconds = Vec::with_capacity(self.groups.iter().map(count).sum());
+            let mut ends = Vec::with_capacity(self.height());
             let mut unknowns: Vec<u32> = Vec::new();
             for group in &self.groups {
                 let entries = &group.kernel.second().entries;
                 for arguments in self.arguments_of(group).chunks_exact(group.kernel.arity()) {
                     unknowns.clear();
                     unknowns.extend(arguments.iter().map(at));
-                    seconds.extend(entries.iter().map(|&(a, b)| {
-                        match (unknowns[a as usize], unknowns[b as usize]) {
-                            (KNOWN, _) | (_, KNOWN) => (KNOWN, KNOWN),
-                            both => both,
+                    for (out, &(a, b)) in (0..).zip(entries) {
+                        let (i, j) = (unknowns[a as usize], unknowns[b as usize]);
+                        if i != KNOWN && j != KNOWN {
+                            // two arguments that are one unknown are their own mirror
+                            let times = if a != b && i == j { 2.0 } else { 1.0 };
+                            seconds.push(SecondPlace { i, j, out, times });
                         }
-                    }));
+                    }
+                    ends.push(seconds.len() as u32);
                 }
             }
-            seconds
+            (seconds, ends)
         })
     }
 
-    /// Returns the unknowns of every second derivative that is not zero everywhere, in the order of
-    /// [`Block::each_second`].
-    pub(crate) fn second_places(&self) -> impl Iterator<Item = (u32, u32)> + '_ {
-        self.seconds().iter().copied().filter(|&(i, _)| i != KNOWN)
-    }
-
-    /// Calls `visit` with row, unknowns and value of every second derivative that is not zero
-    /// everywhere; one by two unknowns stands for its mirror too.
+    /// Calls `visit` for every row with its second derivatives and what they are made of; one by two unknowns
+    /// stands for its mirror too.
     pub(crate) fn each_second(
         &self,
         values: &[f64],
         w: &mut Workspace,
-        visit: &mut impl FnMut(usize, usize, usize, f64),
+        visit: &mut impl FnMut(usize, &[SecondPlace], &[f64]),
     ) {
-        let mut places = self.seconds();
+        let (seconds, ends) = self.all_seconds();
+        let mut first = 0;
+        let mut ends = ends.iter();
         for group in &self.groups {
             let second = group.kernel.second();
-            let count = second.entries.len();
             let rows = self.rows_of(group);
-            let (own, rest) = places.split_at(rows.len() * count);
-            places = rest;
+            let count = second.entries.len();
+            if count == 0 {
+                ends.by_ref().take(rows.len()).for_each(drop);
+                continue;
+            }
             self.each(group, &second.tape, count, values, w, &mut |row, out| {
-                let places = &own[row * count..][..count];
-                for ((&(i, j), &(a, b)), &value) in places.iter().zip(&second.entries).zip(out) {
-                    if i != KNOWN {
-                        // two arguments that are one unknown are their own mirror
-                        let both = if a != b && i == j { 2.0 } else { 1.0 };
-                        visit(rows[row] as usize, i as usize, j as usize, both * value);
-                    }
-                }
+                let end = ends.next().map_or(first, |&end| end as usize);
+                visit(rows[row] as usize, &seconds[first..end], out);
+                first = end;
             });
         }
     }
@@ -328,11 +337,13 @@ impl Block {
         w: &mut Workspace,
     ) -> bool {
         let (left, right) = (local.left[row], local.right[row]);
-        self.within[row].is_met_with(left, right, || match local.sway.get(row) {
-            Some(&sway) => sway,
-            None => {
-                let (kernel, arguments) = self.row(row);
-                w.sway(kernel, arguments, values)
+        self.within[row].is_met_with(left, right, || {
+            let (kernel, arguments) = self.row(row);
+            match local.slopes.get(self.slopes_of_row(row)) {
+                Some(slopes) => {
+                    kernel.sway_of(slopes, |argument| values[arguments[argument] as usize])
+                }
+                None => w.sway(kernel, arguments, values),
             }
         })
     }
@@ -418,8 +429,11 @@ mod tests {
         let mut factors = [0.0, 0.0, 1.0];
         block.pass_back(&local, &mut factors);
         let mut second = 0.0;
-        block.each_second(&values, &mut w, &mut |row, i, j, value| {
-            second += factors[row] * value * gradients[i] * gradients[j];
+        block.each_second(&values, &mut w, &mut |row, places, out| {
+            for place in places {
+                let both = gradients[place.i as usize] * gradients[place.j as usize];
+                second += factors[row] * place.of(out) * both;
+            }
         });
         assert_eq!(second, -2.0);
     }

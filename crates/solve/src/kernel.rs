@@ -39,6 +39,8 @@ pub(crate) struct Curve {
     pub(crate) tape: Tape,
     /// How many guards there are: what is not negative where the equation holds.
     pub(crate) guards: usize,
+    /// True if some of them depend on the two arguments.
+    pub(crate) guards_move: bool,
     pub(crate) form: Form,
 }
 
@@ -232,7 +234,9 @@ impl Kernel {
             let mut outs = conic.coefficients.to_vec();
             outs.extend(&conic.guards);
             let (tape, guards) = (Tape::compile(&arena, &outs), conic.guards.len());
-            Some(Box::new(Curve { tape, guards, form }))
+            let reads = |&guard| arena.variables(guard).iter().any(|var| vars.contains(var));
+            let guards_move = conic.guards.iter().any(reads);
+            Some(Box::new(Curve { tape, guards, guards_move, form }))
         };
         let before = second * (second - 1) / 2;
         self.curves.get((before + first) as usize)?.get_or_init(make).as_deref()
@@ -248,8 +252,12 @@ impl Kernel {
         out.clear();
         out.resize(2 + self.entries.len(), 0.0);
         self.slopes.run(arguments, registers, out);
-        let moves = self.entries.iter().zip(&out[2..]);
-        moves.map(|(e, slope)| (arguments[e.argument as usize] * slope).abs()).sum()
+        self.sway_of(&out[2..], |argument| arguments[argument])
+    }
+    /// Computes the same from its derivatives.
+    pub(crate) fn sway_of(&self, slopes: &[f64], argument: impl Fn(usize) -> f64) -> f64 {
+        let moves = self.entries.iter().zip(slopes);
+        moves.map(|(e, slope)| (argument(e.argument as usize) * slope).abs()).sum()
     }
 
     /// Returns how many arguments it has.

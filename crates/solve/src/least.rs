@@ -36,16 +36,19 @@ pub(crate) struct Least {
 /// Buffers that a block needs while it is solved.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct LeastScratch {
+    /// The slopes by constants are nothing.
     local: Local,
-    /// By unknown; of constants nothing.
+    /// By unknown: what a change is measured in, and one over its square.
     scale: Vec<f64>,
-    weight: Vec<f64>,
-    /// The Jacobian in scaled unknowns and weighted rows.
-    slopes: Vec<f64>,
+    pull: Vec<f64>,
+    /// By row: the square of its slopes, in units of the scales.
+    steepness: Vec<f64>,
     /// What the matrix is made of: diagonals, the Jacobian, second derivatives.
     entries: Vec<f64>,
     ldl: Ldl,
-    /// The right side, then the step and the new multipliers.
+    /// The factors that tell whether a branch is left.
+    firm: Ldl,
+    /// The right side, then the step and the change of the multipliers.
     right: Vec<f64>,
     multipliers: Vec<f64>,
     start: Vec<f64>,
@@ -60,6 +63,8 @@ struct Came {
     values: Vec<f64>,
     anchor: Vec<f64>,
     multipliers: Vec<f64>,
+    /// True while the factors are those of its last step.
+    has_factors: bool,
 }
 
 impl LeastScratch {
@@ -85,6 +90,15 @@ struct Asked<'a> {
     x0: &'a [f64],
     scales: &'a [f64],
     trust: Trust,
+}
+
+/// A state whose multipliers are known.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+enum Known {
+    /// The solution found last.
+    Came,
+    /// That from which distance is measured, where there are none.
+    None,
 }
 
 /// What an unknown is while some are counted.
@@ -149,15 +163,14 @@ impl Least {
     fn structure(&self) -> &Symmetric {
         self.structure.get_or_init(|| {
             let (n, m) = (self.block.unknowns.len() as u32, self.block.height() as u32);
-            let seconds = self.block.second_places();
-            let most =
-                (n + m) as usize + self.block.pattern.len() + seconds.size_hint().1.unwrap_or(0);
+            let seconds = self.block.seconds();
+            let most = (n + m) as usize + self.block.pattern.len() + seconds.len();
             let mut entries: Vec<(u32, u32)> = Vec::with_capacity(most);
             entries.extend((0..n + m).map(|i| (i, i)));
             for r in 0..m {
                 entries.extend(self.block.pattern.row(r as usize).iter().map(|&c| (c, n + r)));
             }
-            entries.extend(seconds);
+            entries.extend(seconds.iter().map(|place| (place.i, place.j)));
             Symmetric::new((n + m) as usize, &entries)
         })
     }
@@ -227,22 +240,30 @@ impl Least {
         s: &mut LeastScratch,
     ) -> Measured {
         let block = &self.block;
-        let moves = |i: usize| self.part(counted, i) != Part::Constant;
         s.scale.clear();
-        let scale = |(i, &u): (usize, &SlotIndex)| if moves(i) { scales[u as usize] } else { 0.0 };
-        s.scale.extend(block.unknowns.iter().enumerate().map(scale));
-        block.slopes(values, w, &mut s.local);
-        self.weigh(scales, s);
-        let mut norm = self.norm(s);
+        s.scale.extend(block.unknowns.iter().map(|&u| scales[u as usize]));
+        s.pull.clear();
+        s.pull.extend(s.scale.iter().map(|scale| 1.0 / (scale * scale)));
+        self.evaluate(counted, values, w, s);
+        self.weigh(s);
+        let mut norm = norm(s);
         let follows = trust == Trust::Branch && !block.is_linear;
         // on a branch the multipliers are those of the last state, and the first step is Newton's too
         s.multipliers.clear();
         s.multipliers.resize(block.height(), 0.0);
-        if follows
-            && !self.take_multipliers(x0, values, s)
-            && self.step(counted, x0, values, Matrix::Flat, w, s).is_none()
-        {
-            return Measured::Failed;
+        let had_factors = std::mem::take(&mut s.came.has_factors);
+        let mut first = if follows { Matrix::Exact } else { Matrix::Flat };
+        if follows {
+            match self.take_multipliers(x0, values, s) {
+                Some(Known::Came) if had_factors && counted == Counted::All => first = Matrix::Kept,
+                Some(Known::Came | Known::None) => {}
+                None => {
+                    if self.step(counted, x0, values, Matrix::Flat, w, s).is_none() {
+                        return Measured::Failed;
+                    }
+                    take_on(s);
+                }
+            }
         }
         let mut size = f64::INFINITY;
         // how the steps before shrank
@@ -251,7 +272,7 @@ impl Least {
         let mut polished = 0;
         for iteration in 0..STEPS {
             let matrix = match iteration {
-                0 if !follows => Matrix::Flat,
+                0 => first,
                 // what it is off by is the last step times this one, and how much they shrank by how long
                 _ if size * shrank * shrank * shrank <= SETTLED => Matrix::Kept,
                 _ => Matrix::Exact,
@@ -262,7 +283,7 @@ impl Least {
                 return Measured::Failed;
             };
             let before = size;
-            size = s.right[..block.unknowns.len()].iter().fold(0.0, |m: f64, d| m.max(d.abs()));
+            size = s.right.iter().zip(&s.scale).fold(0.0, |m: f64, (d, by)| m.max((d / by).abs()));
             if !size.is_finite() {
                 return Measured::Failed;
             }
@@ -288,7 +309,8 @@ impl Least {
             let last = size <= SETTLED
                 || iteration > 1 && next <= SETTLED
                 || smallest.1 >= 4 && smallest.0 < 1e-7;
-            norm = self.advance(values, size, norm, w, s);
+            take_on(s);
+            norm = self.advance(counted, values, size, norm, w, s);
             if last {
                 // of what is small beside its scale, a few more steps find the last digits
                 polished += 1;
@@ -306,14 +328,32 @@ impl Least {
             return Measured::Failed;
         }
         if may_bend {
-            self.keep_multipliers(x0, values, s);
+            self.keep(x0, values, s);
         }
         Measured::Least
     }
 
+    /// Evaluates the rows; what is constant has no slopes.
+    fn evaluate(&self, counted: Counted, values: &[f64], w: &mut Workspace, s: &mut LeastScratch) {
+        let block = &self.block;
+        block.slopes(values, w, &mut s.local);
+        if self.has_constants(counted) {
+            for r in 0..block.height() {
+                for e in block.pattern.range(r) {
+                    if self.part(counted, block.pattern.column(e)) == Part::Constant {
+                        s.local.jacobian[e] = 0.0;
+                    }
+                }
+            }
+        }
+    }
+    fn has_constants(&self, counted: Counted) -> bool {
+        counted == Counted::Others && !self.given.is_empty()
+    }
+
     /// Takes the multipliers of the state that the values are still in, if they are known: those of the solution
-    /// found last, and none where distance is measured from. Returns true if they are.
-    fn take_multipliers(&self, x0: &[f64], values: &[f64], s: &mut LeastScratch) -> bool {
+    /// found last, and none where distance is measured from.
+    fn take_multipliers(&self, x0: &[f64], values: &[f64], s: &mut LeastScratch) -> Option<Known> {
         let is_at = |state: &[f64], of: &[f64]| {
             self.block.unknowns.iter().zip(state).all(|(&u, x)| *x == of[u as usize])
         };
@@ -322,68 +362,64 @@ impl Least {
             && is_at(&came.values, values)
             && is_at(&came.anchor, x0)
         {
-            let known = came.multipliers.iter().zip(&s.weight);
-            s.multipliers.iter_mut().zip(known).for_each(|(own, (known, w))| *own = known / w);
-            return true;
+            s.multipliers.clone_from(&came.multipliers);
+            return Some(Known::Came);
         }
-        self.block.unknowns.iter().all(|&u| values[u as usize] == x0[u as usize])
+        let is_start = self.block.unknowns.iter().all(|&u| values[u as usize] == x0[u as usize]);
+        is_start.then_some(Known::None)
     }
-    fn keep_multipliers(&self, x0: &[f64], values: &[f64], s: &mut LeastScratch) {
-        let LeastScratch { came, multipliers, weight, .. } = s;
+    /// Keeps the solution, whose last factors are there.
+    fn keep(&self, x0: &[f64], values: &[f64], s: &mut LeastScratch) {
+        let LeastScratch { came, multipliers, .. } = s;
         came.unknowns.clone_from(&self.block.unknowns);
         for (kept, of) in [(&mut came.values, values), (&mut came.anchor, x0)] {
             kept.clear();
             kept.extend(self.block.unknowns.iter().map(|&u| of[u as usize]));
         }
-        came.multipliers.clear();
-        came.multipliers.extend(multipliers.iter().zip(weight).map(|(own, w)| own * *w));
+        came.multipliers.clone_from(multipliers);
+        came.has_factors = true;
     }
 
     /// Returns true if what is least is curved by [`FIRM`] in every direction that the rows leave free, by the
     /// matrix of the last step.
     fn is_firm(&self, s: &mut LeastScratch) -> bool {
         let (n, m) = (self.block.unknowns.len(), self.block.height());
-        let seconds = s.entries.len() - self.block.second_places().count();
+        let places = self.block.seconds();
+        let seconds = s.entries.len() - places.len();
         // rows of small sums cannot bring it down so far
         s.start.clear();
         s.start.resize(n, 0.0);
-        for ((i, j), h) in self.block.second_places().zip(&s.entries[seconds..]) {
-            s.start[i as usize] += h.abs();
+        for (place, h) in places.iter().zip(&s.entries[seconds..]) {
+            let (i, j) = (place.i as usize, place.j as usize);
+            let size = (h * s.scale[i] * s.scale[j]).abs();
+            s.start[i] += size;
             if i != j {
-                s.start[j as usize] += h.abs();
+                s.start[j] += size;
             }
         }
         if s.start.iter().all(|&sum| sum < 1.0 - FIRM) {
             return true;
         }
-        s.entries[..n].fill(1.0 - FIRM);
-        self.structure().factorise(&s.entries, &mut s.ldl) == Some(m)
+        s.entries[..n].iter_mut().zip(&s.pull).for_each(|(d, pull)| *d = (1.0 - FIRM) * pull);
+        self.structure().factorise(&s.entries, &mut s.firm) == Some(m)
     }
 
-    /// Freezes a weight for every row that makes it dimensionless.
-    fn weigh(&self, scales: &[f64], s: &mut LeastScratch) {
-        s.weight.clear();
+    /// Freezes for every row how steep it is, so that its error is dimensionless.
+    fn weigh(&self, s: &mut LeastScratch) {
+        let pattern = &self.block.pattern;
+        s.steepness.clear();
         for r in 0..self.block.height() {
             let mut sum = 0.0;
-            for e in self.block.pattern.range(r) {
-                let unknown = self.block.unknowns[self.block.pattern.column(e)];
-                let d = s.local.jacobian[e] * scales[unknown as usize];
+            for e in pattern.range(r) {
+                let d = s.local.jacobian[e] * s.scale[pattern.column(e)];
                 sum += d * d;
             }
-            let size = base::number::sqrt(sum);
-            s.weight.push(if size > 0.0 && size.is_finite() { 1.0 / size } else { 1.0 });
+            s.steepness.push(if sum > 0.0 && sum.is_finite() { sum } else { 1.0 });
         }
-    }
-    fn norm(&self, s: &LeastScratch) -> f64 {
-        let mut sum = 0.0;
-        for ((left, right), w) in s.local.left.iter().zip(&s.local.right).zip(&s.weight) {
-            sum += (left - right) * w * ((left - right) * w);
-        }
-        base::number::sqrt(sum)
     }
 
-    /// Finds step and multipliers; returns the diagonal that it took, or nothing where the matrix cannot
-    /// be factorised.
+    /// Finds step and change of the multipliers; returns the diagonal that it took, or nothing where the matrix
+    /// cannot be factorised.
     fn step(
         &self,
         counted: Counted,
@@ -394,37 +430,26 @@ impl Least {
         s: &mut LeastScratch,
     ) -> Option<f64> {
         let block = &self.block;
-        s.slopes.clear();
-        s.slopes.reserve(block.pattern.len());
-        for r in 0..block.height() {
-            let weight = s.weight[r];
-            let slope = |e: usize| s.local.jacobian[e] * weight * s.scale[block.pattern.column(e)];
-            s.slopes.extend(block.pattern.range(r).map(slope));
-        }
         let shift = match matrix {
             Matrix::Kept => 1.0,
             Matrix::Flat | Matrix::Exact => self.factorise(counted, values, matrix, w, s)?,
         };
         s.right.clear();
         s.right.reserve(block.unknowns.len() + block.height());
-        s.right.extend(block.unknowns.iter().zip(&s.scale).enumerate().map(|(i, (&u, scale))| {
+        s.right.extend(block.unknowns.iter().zip(&s.pull).enumerate().map(|(i, (&u, pull))| {
             match self.part(counted, i) {
-                Part::Counted => (x0[u as usize] - values[u as usize]) / scale,
+                Part::Counted => (x0[u as usize] - values[u as usize]) * pull,
                 Part::GoesAlong | Part::Constant => 0.0,
             }
         }));
         // what the multipliers have now is taken off, so that rounding shrinks with the steps
-        for r in 0..block.height() {
+        for (r, multiplier) in s.multipliers.iter().enumerate() {
             for e in block.pattern.range(r) {
-                s.right[block.pattern.column(e)] -= s.slopes[e] * s.multipliers[r];
+                s.right[block.pattern.column(e)] -= s.local.jacobian[e] * multiplier;
             }
         }
-        let sides = s.local.left.iter().zip(&s.local.right).zip(&s.weight);
-        s.right.extend(sides.map(|((left, right), weight)| -(left - right) * weight));
+        s.right.extend(s.local.left.iter().zip(&s.local.right).map(|(left, right)| right - left));
         self.structure().solve(&mut s.ldl, &mut s.right);
-        for (multiplier, change) in s.multipliers.iter_mut().zip(&s.right[block.unknowns.len()..]) {
-            *multiplier += change;
-        }
         Some(shift)
     }
 
@@ -440,20 +465,31 @@ impl Least {
         let block = &self.block;
         let (n, m) = (block.unknowns.len(), block.height());
         s.entries.clear();
-        s.entries
-            .reserve(n + m + s.slopes.len() + block.second_places().size_hint().1.unwrap_or(0));
-        s.entries.extend((0..n).map(|i| held(self.part(counted, i))));
-        s.entries.resize(n + m, -DELTA);
-        s.entries.extend_from_slice(&s.slopes);
+        s.entries.reserve(n + m + s.local.jacobian.len() + block.seconds().len());
+        let pulls = s.pull.iter().enumerate();
+        s.entries.extend(pulls.map(|(i, pull)| held(self.part(counted, i)) * pull));
+        s.entries.extend(s.steepness.iter().map(|steepness| -DELTA * steepness));
+        s.entries.extend_from_slice(&s.local.jacobian);
         let first_curved = s.entries.len();
+        let places = block.seconds();
         if matrix == Matrix::Exact {
-            let LeastScratch { entries, multipliers, weight, scale, .. } = &mut *s;
-            block.each_second(values, w, &mut |row, i, j, second| {
-                let value = multipliers[row] * weight[row] * second * scale[i] * scale[j];
-                entries.push(if value.is_finite() { value } else { 0.0 });
+            let LeastScratch { entries, multipliers, .. } = &mut *s;
+            block.each_second(values, w, &mut |row, own, out| {
+                let multiplier = multipliers[row];
+                entries.extend(own.iter().map(|place| multiplier * place.of(out)));
             });
+            let curved = &mut s.entries[first_curved..];
+            curved.iter_mut().filter(|h| !h.is_finite()).for_each(|h| *h = 0.0);
+            if self.has_constants(counted) {
+                let is_constant = |i: u32| self.part(counted, i as usize) == Part::Constant;
+                for (place, h) in places.iter().zip(curved) {
+                    if is_constant(place.i) || is_constant(place.j) {
+                        *h = 0.0;
+                    }
+                }
+            }
         } else {
-            s.entries.extend(block.second_places().map(|_| 0.0));
+            s.entries.resize(first_curved + places.len(), 0.0);
         }
         let mut shift = 1.0;
         loop {
@@ -464,7 +500,8 @@ impl Least {
                     if s.entries[first_curved..].iter().all(|&h| h == 0.0) {
                         return None;
                     }
-                    s.entries[..n].iter_mut().for_each(|d| *d += 3.0 * shift);
+                    let diagonal = s.entries[..n].iter_mut().zip(&s.pull);
+                    diagonal.for_each(|(d, pull)| *d += 3.0 * shift * pull);
                     shift *= 4.0;
                 }
             }
@@ -474,9 +511,10 @@ impl Least {
     /// Goes along the step, shortened until the rows are not torn apart; returns the norm there.
     fn advance(
         &self,
+        counted: Counted,
         values: &mut [f64],
         size: f64,
-        norm: f64,
+        before: f64,
         w: &mut Workspace,
         s: &mut LeastScratch,
     ) -> f64 {
@@ -486,17 +524,32 @@ impl Least {
         s.start.clear();
         s.start.extend(block.unknowns.iter().map(|&u| values[u as usize]));
         loop {
-            for (i, &u) in block.unknowns.iter().enumerate() {
-                values[u as usize] = s.start[i] + length * s.right[i] * s.scale[i];
+            for ((&u, start), d) in block.unknowns.iter().zip(&s.start).zip(&s.right) {
+                values[u as usize] = start + length * d;
             }
-            block.slopes(values, w, &mut s.local);
-            let now = self.norm(s);
-            if now <= 0.1f64.max(2.0 * norm) || length < 1e-6 {
+            self.evaluate(counted, values, w, s);
+            let now = norm(s);
+            if now <= 0.1f64.max(2.0 * before) || length < 1e-6 {
                 return now;
             }
             length *= 0.5;
         }
     }
+}
+
+/// Returns the dimensionless norm of what the rows are off by.
+fn norm(s: &LeastScratch) -> f64 {
+    let mut sum = 0.0;
+    for ((left, right), steepness) in s.local.left.iter().zip(&s.local.right).zip(&s.steepness) {
+        sum += (left - right) * (left - right) / steepness;
+    }
+    base::number::sqrt(sum)
+}
+
+/// Takes on the multipliers of a step.
+fn take_on(s: &mut LeastScratch) {
+    let changes = &s.right[s.scale.len()..];
+    s.multipliers.iter_mut().zip(changes).for_each(|(multiplier, change)| *multiplier += change);
 }
 
 /// How strongly an unknown is held.

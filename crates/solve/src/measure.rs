@@ -418,9 +418,13 @@ impl Measure {
             by_row[r as usize] = f * weight;
         }
         block.pass_back(&local.local, &mut by_row);
-        block.each_second(values, w, &mut |row, i, j, second| {
-            let value = by_row[row] * second;
-            if value.is_finite() && value != 0.0 {
+        block.each_second(values, w, &mut |row, places, out| {
+            for place in places {
+                let value = by_row[row] * place.of(out);
+                if !value.is_finite() || value == 0.0 {
+                    continue;
+                }
+                let (i, j) = (place.i as usize, place.j as usize);
                 let mirror = if i == j { 1 } else { 2 };
                 for (i, j) in [(i, j), (j, i)].into_iter().take(mirror) {
                     let (from, to) =

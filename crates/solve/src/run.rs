@@ -15,7 +15,7 @@ use crate::lower::Program;
 use crate::outcome::{Host, Outcome, Reason, Status, Unmet};
 use crate::plan::Plan;
 use crate::slice::Slice;
-use crate::square::Trust;
+use crate::square::{Side, Trust};
 use crate::system::{Level, SlotIndex, Stay};
 use crate::test::{Differing, Failing, Place, Tests};
 use std::cell::Cell;
@@ -202,6 +202,7 @@ impl Drag {
         }
         let Runner { frame, buffers, .. } = &mut self.runner;
         fork::lean(plan, frame, buffers, leans, &mut self.branch);
+        buffers.sides.fill(Side::default());
         self.leans = true;
         // what is not downstream is to have its bits back
         self.has_run = false;
@@ -288,6 +289,9 @@ impl Drag {
         }
         let is_safe = self.has_branch && plan.has_branches;
         let trust = if is_safe { Trust::Branch } else { Trust::Any };
+        if !is_safe {
+            buffers.sides.fill(Side::default());
+        }
         let part = if self.has_run { Part::Downstream(slice) } else { Part::Whole };
         self.moved_slice = self.has_run;
         let mut way = Way { plan, frame, buffers, host, trial, part };
@@ -377,6 +381,8 @@ fn start(plan: &Plan, runner: &mut Runner, x0: &[f64], changed: &[SlotIndex]) {
     frame
         .changed_texts
         .extend(changed.iter().copied().filter(|&c| !plan.slots[c as usize].is_number));
+    buffers.sides.clear();
+    buffers.sides.resize(plan.steps.len(), Side::default());
     frame.held.clear();
     frame.held.resize(plan.system().equations.len(), Cell::new(Held::Unknown));
 }

@@ -71,6 +71,25 @@ pub(crate) enum Trust {
     Leap,
 }
 
+/// On which side of where branches meet a block lies in the state that a branch is followed from: the sign of
+/// its determinant, as the closed form tells it and as Newton's steps do; zero where that is not known yet. On
+/// a branch it stays.
+#[derive(Clone, Copy, PartialEq, Eq, Debug, Default)]
+pub(crate) struct Side {
+    closed: i8,
+    newton: i8,
+}
+
+/// Which solution is looked for.
+#[derive(Debug)]
+pub(crate) struct Course<'a> {
+    /// The state that a branch is followed from.
+    pub(crate) last: &'a [f64],
+    pub(crate) trust: Trust,
+    /// On which side that state lies.
+    pub(crate) side: &'a mut Side,
+}
+
 /// What came of it.
 #[derive(Clone, Copy, PartialEq, Debug)]
 pub(crate) enum Solved {
@@ -349,25 +368,26 @@ impl Square {
         size
     }
 
-    /// Solves from the values that the unknowns have now, one scale for every slot; `last` is the
-    /// state whose orientation is kept.
+    /// Solves from the values that the unknowns have now, one scale for every slot.
     pub(crate) fn solve(
         &self,
-        last: &[f64],
+        mut course: Course<'_>,
         values: &mut [f64],
         scales: &[f64],
-        trust: Trust,
         w: &mut Workspace,
         s: &mut SquareScratch,
     ) -> Solved {
-        if let Some(solved) = self.solve_closed(last, values, scales, trust, w) {
+        if let Some(solved) = self.solve_closed(&mut course, values, scales, w) {
             s.work += self.block.core.len();
             return solved;
         }
+        let Course { last, trust, side } = course;
         let is_linear = self.block.is_linear;
         let branch = match trust {
-            Trust::Branch if !is_linear => Some(self.orientation(last, scales, w, s)),
-            Trust::Branch | Trust::Any | Trust::Leap => None,
+            Trust::Branch if is_linear => None,
+            Trust::Branch if side.newton != 0 => Some(side.newton),
+            Trust::Branch => Some(self.orientation(last, scales, w, s)),
+            Trust::Any | Trust::Leap => None,
         };
         s.own = None;
         if is_linear && !self.is_dense() {
@@ -453,6 +473,7 @@ impl Square {
         if !self.holds(values, w, s) {
             return Solved::Failed;
         }
+        side.newton = branch.unwrap_or(side.newton);
         if factors.ratio < 1e-6 { self.least_determined(s) } else { Solved::Regular }
     }
 

@@ -3,7 +3,7 @@
 use super::Run;
 use crate::lower::Program;
 use crate::plan::Step;
-use crate::square::{Solved, Square, Trust};
+use crate::square::{Course, Side, Solved, Square, Trust};
 
 /// A solution of a step.
 #[derive(Clone, Debug)]
@@ -104,7 +104,8 @@ impl Run<'_> {
     ) {
         let (work, scratch) = (&mut self.buffers.work, &mut self.buffers.square);
         let scales = &self.frame.scales;
-        let end = square.solve(self.last, self.values, scales, way, work, scratch);
+        let course = Course { last: self.last, trust: way, side: &mut Side::default() };
+        let end = square.solve(course, self.values, scales, work, scratch);
         if end != Solved::Failed && square.is_apart(found, self.values, scales) {
             found.push(self.targets(step));
         }

@@ -11,7 +11,10 @@ use base::number::Tolerance;
 
 /// The rows of a layout as conics.
 #[derive(Debug)]
-pub(crate) struct Closed([Pair; 2]);
+pub(crate) struct Closed {
+    pairs: [Pair; 2],
+    guards_move: bool,
+}
 
 /// The arguments of a row that are the two unknowns.
 #[derive(Clone, Copy, Debug)]
@@ -57,9 +60,15 @@ impl Closed {
         };
         let pairs = [pair(0)?, pair(1)?];
         let curve = |row: usize| layout.kernel_of_row(row).curve(pairs[row].arguments);
-        let [first, second] = [curve(0)?.form, curve(1)?.form];
+        let [first, second] = [curve(0)?, curve(1)?];
         let is_swapped = pairs[0].is_swapped != pairs[1].is_swapped;
-        first.is_like(second, is_swapped).then_some(Self(pairs))
+        let guards_move = first.guards_move || second.guards_move;
+        first.form.is_like(second.form, is_swapped).then_some(Self { pairs, guards_move })
+    }
+
+    /// Returns true if what the equations ask for besides depends on the unknowns.
+    pub(crate) fn guards_move(&self) -> bool {
+        self.guards_move
     }
 }
 
@@ -77,8 +86,8 @@ impl Block {
     /// Computes the coefficients of a closed form of it around a state.
     pub(crate) fn conics(&self, closed: &Closed, values: &[f64], w: &mut Workspace) -> Conics {
         let mut is_guarded = true;
-        let rows = [0, 1].map(|row| {
-            let Pair { arguments, is_swapped } = closed.0[row];
+        let mut conic = |row: usize| {
+            let Pair { arguments, is_swapped } = closed.pairs[row];
             let (kernel, own) = self.row(row);
             let Some(curve) = kernel.curve(arguments) else { unreachable!("it was found before") };
             let out = w.run(&curve.tape, own, values, 6 + curve.guards);
@@ -88,7 +97,8 @@ impl Block {
             } else {
                 Conic { one: out[0], slope: [out[1], out[2]], second: [out[3], out[4], out[5]] }
             }
-        });
+        };
+        let rows = [conic(0), conic(1)];
         Conics { rows, is_guarded }
     }
 }

@@ -5,7 +5,7 @@
 //! Everything is named by position. In a chain of a thousand triangles one layout serves all.
 
 use super::closed::Closed;
-use crate::block::Local;
+use crate::block::{Local, SecondPlace};
 use crate::kernel::{Entry, Kernel, Side};
 use crate::lower::{Definers, Problem};
 use crate::sparse::Pattern;
@@ -42,7 +42,8 @@ pub(crate) struct Layout {
     grouped: Vec<u32>,
     /// For every row in that order, where each of the kernel's derivatives goes in the Jacobian.
     entries: Vec<u32>,
-    pub(super) seconds: OnceLock<Vec<(u32, u32)>>,
+    /// Second derivatives, row after row of all groups, and where those of each row end.
+    pub(super) seconds: OnceLock<(Vec<SecondPlace>, Vec<u32>)>,
     pub(super) closed: OnceLock<Option<Closed>>,
     /// For every row, its group and its place there.
     place: Vec<(u32, u32)>,
@@ -218,6 +219,14 @@ impl Layout {
         let arity = group.kernel.arity();
         let start = group.arguments as usize + at as usize * arity;
         start..start + arity
+    }
+    /// Returns where the derivatives of a row stand among those of all groups.
+    pub(super) fn slopes_of_row(&self, row: usize) -> Range<usize> {
+        let (group, at) = self.place[row];
+        let group = &self.groups[group as usize];
+        let count = group.kernel.entries.len();
+        let start = group.entries as usize + at as usize * count;
+        start..start + count
     }
     pub(super) fn kernel_of_row(&self, row: usize) -> &Rc<Kernel> {
         &self.groups[self.place[row].0 as usize].kernel

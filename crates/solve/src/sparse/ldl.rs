@@ -28,7 +28,8 @@ pub(crate) struct Symmetric {
 /// Factors with their numbers, and working space.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct Ldl {
-    pivots: Vec<f64>,
+    /// One over every pivot.
+    inverses: Vec<f64>,
     /// Columns of L: rows and values.
     below: Vec<(u32, f64)>,
     filled: Vec<u32>,
@@ -73,8 +74,8 @@ impl Symmetric {
     /// nothing where one vanished.
     pub(crate) fn factorise(&self, values: &[f64], ldl: &mut Ldl) -> Option<usize> {
         let n = self.order.len();
-        ldl.pivots.clear();
-        ldl.pivots.resize(n, 0.0);
+        ldl.inverses.clear();
+        ldl.inverses.resize(n, 0.0);
         ldl.below.resize(self.rows.len(), (0, 0.0));
         ldl.filled.clear();
         ldl.filled.extend_from_slice(&self.column_starts[..n]);
@@ -95,16 +96,17 @@ impl Symmetric {
                 for &(i, l) in &ldl.below[start..end] {
                     work[i as usize] -= l * value;
                 }
-                let l = value / ldl.pivots[j];
+                let l = value * ldl.inverses[j];
                 pivot -= l * value;
                 ldl.below[end] = (k as u32, l);
                 ldl.filled[j] += 1;
             }
-            if pivot == 0.0 || !pivot.is_finite() {
+            let inverse = 1.0 / pivot;
+            if !pivot.is_finite() || !inverse.is_finite() {
                 return None;
             }
             negative += usize::from(pivot < 0.0);
-            ldl.pivots[k] = pivot;
+            ldl.inverses[k] = inverse;
         }
         Some(negative)
     }
@@ -124,7 +126,7 @@ impl Symmetric {
             }
         }
         for k in (0..n).rev() {
-            let mut value = work[k] / ldl.pivots[k];
+            let mut value = work[k] * ldl.inverses[k];
             for &(i, l) in &ldl.below[column(k)] {
                 value -= l * work[i as usize];
             }

@@ -6,7 +6,7 @@
 //! different signs, which is how the branch is told. What comes out is corrected by one Newton step, and a
 //! start that is a solution to rounding is left as it is.
 
-use super::{Solved, Square, Trust};
+use super::{Course, Solved, Square, Trust};
 use crate::block::{Closed, Conic, Conics, Workspace};
 use base::number::sqrt;
 
@@ -23,39 +23,43 @@ impl Square {
     /// Solves by the closed form of the block; nothing where it has none or it does not decide.
     pub(super) fn solve_closed(
         &self,
-        last: &[f64],
+        course: &mut Course<'_>,
         values: &mut [f64],
         scales: &[f64],
-        trust: Trust,
         w: &mut Workspace,
     ) -> Option<Solved> {
-        let closed = self.block.closed()?;
+        let base = self.base(values, w)?;
+        let Base { closed, conics, start } = &base;
         let slots = self.pair();
-        let start = slots.map(|s| values[s]);
-        let base = self.block.conics(closed, values, w);
-        let here = side(&base)?;
-        let side = match trust {
-            Trust::Branch => side(&self.block.conics(closed, last, w))?,
-            Trust::Any | Trust::Leap => here,
+        let here = side(conics)?;
+        let is_branch = course.trust == Trust::Branch;
+        let side = match course.side.closed {
+            _ if !is_branch => here,
+            0 => side(&self.block.conics(closed, course.last, w))?,
+            known => f64::from(known),
         };
-        if here == side && base.is_guarded && is_rounding(&base, start) {
+        if here == side && conics.is_guarded && is_rounding(conics, *start) {
             return Some(Solved::Regular);
         }
-        let first = newton(&base)?;
-        let roots = roots(&base)?;
-        let own = |p: &&[f64; 2]| determinant(&base, **p) * side > 0.0;
-        if trust == Trust::Branch {
+        let first = newton(conics)?;
+        let roots = roots(conics)?;
+        let own = |p: &&[f64; 2]| determinant(conics, **p) * side > 0.0;
+        if is_branch {
             let root = roots.all().iter().find(own);
             let Some(root) = root.filter(|p| !bends(first, **p, slots, scales)) else {
                 return Some(Solved::Failed);
             };
-            let holds = self.put(closed, start, *root, values, scales, w)?;
-            return Some(if holds { Solved::Regular } else { Solved::Failed });
+            let put = self.put(&base, *root, values, scales, w)?;
+            if !put.is_guarded {
+                return Some(Solved::Failed);
+            }
+            course.side.closed = put.side;
+            return Some(Solved::Regular);
         }
         // what lies the wrong way of a direction is no solution: then the other one may be
         let (own, other) = (roots.all().iter().find(own), roots.all().iter().find(|p| !own(p)));
         for root in own.into_iter().chain(other) {
-            if self.put(closed, start, *root, values, scales, w)? {
+            if self.put(&base, *root, values, scales, w)?.is_guarded {
                 return Some(Solved::Regular);
             }
         }
@@ -70,17 +74,21 @@ impl Square {
         scales: &[f64],
         w: &mut Workspace,
     ) -> Option<Vec<Vec<f64>>> {
-        let closed = self.block.closed()?;
-        let slots = self.pair();
-        let start = slots.map(|s| values[s]);
-        let base = self.block.conics(closed, values, w);
+        let base = self.base(values, w)?;
         let mut found = Vec::new();
-        for p in roots(&base)?.all() {
-            if self.put(closed, start, *p, values, scales, w)? {
-                found.push(slots.map(|s| values[s]).to_vec());
+        for p in roots(&base.conics)?.all() {
+            if self.put(&base, *p, values, scales, w)?.is_guarded {
+                found.push(self.pair().map(|s| values[s]).to_vec());
             }
         }
         Some(found)
+    }
+
+    /// Returns its rows around where the unknowns are, if it has a closed form.
+    fn base(&self, values: &[f64], w: &mut Workspace) -> Option<Base<'_>> {
+        let closed = self.block.closed()?;
+        let start = self.pair().map(|s| values[s]);
+        Some(Base { closed, conics: self.block.conics(closed, values, w), start })
     }
 
     /// The slots of its two unknowns.
@@ -88,31 +96,67 @@ impl Square {
         [0, 1].map(|u| self.block.unknowns[u] as usize)
     }
 
-    /// Puts the unknowns so far from a start and corrects them by Newton's step; returns true if that is a
-    /// solution. Where the correction is more than that they are put back.
+    /// Puts the unknowns so far from a start and corrects them by Newton's step. Where the correction is more
+    /// than that they are put back.
     fn put(
         &self,
-        closed: &Closed,
-        start: [f64; 2],
+        base: &Base<'_>,
         by: [f64; 2],
         values: &mut [f64],
         scales: &[f64],
         w: &mut Workspace,
-    ) -> Option<bool> {
+    ) -> Option<Put> {
+        let Base { closed, conics, start } = *base;
         let slots = self.pair();
-        (0..2).for_each(|i| values[slots[i]] = start[i] + by[i]);
-        let there = self.block.conics(closed, values, w);
-        match newton(&there).filter(|&step| size(step, slots, scales) <= CORRECTION) {
-            Some(step) => {
-                (0..2).for_each(|i| values[slots[i]] += step[i]);
-                Some(there.is_guarded)
-            }
-            None => {
-                (0..2).for_each(|i| values[slots[i]] = start[i]);
-                None
-            }
+        let to = [start[0] + by[0], start[1] + by[1]];
+        let rows = conics.rows.map(|row| around(&row, by));
+        let says = |r: usize| says_enough(&conics.rows[r], &rows[r], by, to);
+        let (there, from, by) = if says(0) && says(1) && !closed.guards_move() {
+            (Conics { rows, is_guarded: conics.is_guarded }, start, by)
+        } else {
+            (0..2).for_each(|i| values[slots[i]] = to[i]);
+            (self.block.conics(closed, values, w), to, [0.0; 2])
+        };
+        let step = newton(&there).filter(|&step| size(step, slots, scales) <= CORRECTION);
+        for i in 0..2 {
+            values[slots[i]] = step.map_or(start[i], |step| from[i] + (by[i] + step[i]));
         }
+        step.map(|_| Put {
+            is_guarded: there.is_guarded,
+            side: side(&there).map_or(0, |side| side as i8),
+        })
     }
+}
+
+/// Both rows around a start.
+struct Base<'a> {
+    closed: &'a Closed,
+    conics: Conics,
+    start: [f64; 2],
+}
+
+/// A solution that was put in.
+struct Put {
+    /// True if it is one.
+    is_guarded: bool,
+    /// The sign of the determinant there; zero where it is not told.
+    side: i8,
+}
+
+/// Returns a row around another place.
+fn around(row: &Conic, by: [f64; 2]) -> Conic {
+    let one = row.one + dot(row.slope, by) + second(row, by);
+    Conic { one, slope: slope(row, by), second: row.second }
+}
+
+/// Returns true if a row around a start tells as much of a place that is so far from there as one around that
+/// place would: no part of the sum is larger than what its own numbers are rounded by.
+fn says_enough(row: &Conic, there: &Conic, by: [f64; 2], at: [f64; 2]) -> bool {
+    let [u, v] = by.map(f64::abs);
+    let [uu, uv, vv] = row.second.map(f64::abs);
+    let along = row.slope[0].abs() * u + row.slope[1].abs() * v;
+    let parts = row.one.abs() + along + uu * u * u + uv * u * v + vv * v * v;
+    parts <= size_of_numbers(there, at)
 }
 
 /// Where two rows hold.
@@ -229,12 +273,15 @@ fn newton(conics: &Conics) -> Option<[f64; 2]> {
 
 /// Returns true if no row is off by more than its numbers are rounded.
 fn is_rounding(conics: &Conics, at: [f64; 2]) -> bool {
-    conics.rows.iter().all(|row| {
-        let slope = norm(row.slope);
-        let second = row.second.iter().fold(0.0_f64, |m, c| m.max(c.abs()));
-        let radius = if second == 0.0 { 0.0 } else { 0.5 * slope / second };
-        row.one.abs() <= ROUNDINGS * slope * (radius + at[0].abs() + at[1].abs())
-    })
+    conics.rows.iter().all(|row| row.one.abs() <= ROUNDINGS * size_of_numbers(row, at))
+}
+
+/// Returns how large the numbers are that a row is a sum of, at the place that it is around.
+fn size_of_numbers(row: &Conic, at: [f64; 2]) -> f64 {
+    let slope = norm(row.slope);
+    let second = row.second.iter().fold(0.0_f64, |m, c| m.max(c.abs()));
+    let radius = if second == 0.0 { 0.0 } else { 0.5 * slope / second };
+    slope * (radius + at[0].abs() + at[1].abs())
 }
 
 /// Returns the larger part of a step, in scaled unknowns.

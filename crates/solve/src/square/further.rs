@@ -7,7 +7,7 @@
 //! **Source:** Farrell, Birkisson, Funke, *Deflation techniques for finding distinct solutions of
 //! nonlinear partial differential equations*, SIAM J. Sci. Comput. 37, 2015.
 
-use super::{Solved, Square, SquareScratch, Trust};
+use super::{Course, Side, Solved, Square, SquareScratch, Trust};
 use crate::block::Workspace;
 
 /// How many steps are taken.
@@ -36,7 +36,9 @@ impl Square {
         self.weigh(scales, s);
         for _ in 0..STEPS {
             if self.holds(values, w, s) {
-                let end = self.solve(values.to_vec().as_slice(), values, scales, Trust::Any, w, s);
+                let side = &mut Side::default();
+                let course = Course { last: &[], trust: Trust::Any, side };
+                let end = self.solve(course, values, scales, w, s);
                 return end != Solved::Failed && self.is_apart(known, values, scales);
             }
             self.fill(scales, s);
