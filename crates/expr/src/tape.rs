@@ -349,9 +349,8 @@ impl Tape {
             registers.resize(self.registers, W::of(0.0));
         }
         let registers = &mut registers[..self.registers];
-        // not as a copy of the whole: they are few
-        for i in 0..self.constants.len() {
-            registers[i] = W::of(self.constants[i]);
+        for (register, &constant) in self.constants.iter().enumerate() {
+            registers[register] = W::of(constant);
         }
         let mut operands = self.operands.as_slice();
         let mut mixed = self.mixed.as_slice();
@@ -559,15 +558,22 @@ fn run_mixed<W: Word>(registers: &mut [W], first: usize, operations: &[Mixed]) {
             }
         };
     }
-    for (i, Mixed { operation, operands }) in operations.iter().enumerate() {
-        let at = |operand: usize| registers[operands[operand] as usize];
-        registers[first + i] = each!(
+    // what came out last need not be stored before it is read
+    let (mut last, mut last_at) = (W::of(0.0), usize::MAX);
+    for (register, Mixed { operation, operands }) in (first..).zip(operations) {
+        let at = |operand: usize| {
+            let operand = operands[operand] as usize;
+            if operand == last_at { last } else { registers[operand] }
+        };
+        last = each!(
             *operation,
             at,
             [Neg Abs Sqrt Sin Cos Tan Asin Acos Atan Exp Ln Floor Round Sign Not],
             [Add Sub Mul Div Pow Atan2 Min Max Remainder Less LessEqual Equal NotEqual And Or],
             at(0).choose(at(1), at(2))
         );
+        last_at = register;
+        registers[register] = last;
     }
 }
 

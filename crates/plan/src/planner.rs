@@ -47,7 +47,7 @@ pub struct Planner {
     /// The components for which opening found no solution before a search was given up.
     pub(crate) given_up: Vec<(Component, NotDecided)>,
     /// What runs plans, kept for what it has allocated.
-    pub(crate) runner: RefCell<Runner>,
+    pub(crate) runner: RefCell<Option<Box<Runner>>>,
 }
 
 /// What was found of a form, for the next planner of the same.

@@ -91,7 +91,7 @@ fn by_course(
         Course::Plan => {
             let Ground { x0, local: began, changed } = ground;
             // what a host's method runs has another one
-            let mut runner = planner.runner.take();
+            let mut runner = planner.runner.take().unwrap_or_default();
             runner.lean(leans(model, task));
             let mut by_plan = |plan: &Plan| {
                 let mut local = began.clone();
@@ -104,7 +104,7 @@ fn by_course(
             let held = held.map(|plan| by_plan(&plan));
             let held = held.filter(|(outcome, _)| outcome.is_solved() && outcome.unmet.is_empty());
             let (outcome, local) = held.unwrap_or_else(|| by_plan(&task.plan));
-            planner.runner.replace(runner);
+            planner.runner.replace(Some(runner));
             scatter(task, &local, values);
             ran(planner, task, &outcome)
         }
@@ -138,8 +138,10 @@ pub(crate) fn ground(
         local[known as usize] = aim.wanted[wish as usize][coordinate as usize];
         changed.push(known);
     }
+    let has_texts = !start.texts.is_empty() || !values.texts.is_empty();
     for (i, &slot) in (0..).zip(task.component.slots()) {
-        if !start.get(slot).same_bits(&values.get(slot)) {
+        let is_same = start.numbers[slot].to_bits() == values.numbers[slot].to_bits();
+        if !is_same || has_texts && start.texts.get(&slot) != values.texts.get(&slot) {
             changed.push(i);
         }
     }

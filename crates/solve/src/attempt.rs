@@ -264,6 +264,12 @@ fn approach_region(
     Ok(())
 }
 
+/// Returns true if a number is not whole. Few slots ask.
+#[cold]
+fn is_broken(value: f64) -> bool {
+    value.fract() != 0.0
+}
+
 fn motion(frame: &Frame, values: &[f64], slot: SlotIndex) -> Motion {
     let same = values[slot as usize].to_bits() == frame.x0[slot as usize].to_bits();
     if same { Motion::Still } else { Motion::Moved }
@@ -325,7 +331,7 @@ impl Run<'_> {
         for &t in &step.targets {
             let slot = &self.plan.slots[t as usize];
             let value = self.values[t as usize];
-            if slot.is_number && (!value.is_finite() || slot.is_discrete && value.fract() != 0.0) {
+            if slot.is_number && (!value.is_finite() || slot.is_discrete && is_broken(value)) {
                 return self.fail(step);
             }
             self.buffers.motion[t as usize] = match slot.stay {
@@ -557,28 +563,24 @@ impl Run<'_> {
         let target = step.targets[0] as usize;
         let count = roots.guards.len();
         let size = count + roots.guards.iter().map(Vec::len).sum::<usize>();
-        let buffers = &mut *self.buffers;
-        buffers.out.clear();
-        let now = buffers.work.run(&roots.tape, &row.arguments, self.values, size);
-        buffers.out.extend_from_slice(now);
+        let Buffers { work, out: now, notes, .. } = &mut *self.buffers;
+        work.run(&roots.tape, &row.arguments, self.values, size);
+        work.swap_out(now);
         let at = |i: usize| roots.guards[..=i].iter().map(Vec::len).sum::<usize>() + i;
-        let now = &buffers.out;
-        let previous = self.last[target];
-        let mut chosen = None;
-        if count == 1 {
-            chosen = Some(0);
-        } else {
-            let before = buffers.work.run(&roots.tape, &row.arguments, self.last, size);
+        let mut chosen = Some(0);
+        if count > 1 {
+            let previous = self.last[target];
+            let before = work.run(&roots.tape, &row.arguments, self.last, size);
             let off = |out: &[f64], i: usize| (out[at(i)] - previous).abs();
             let near = 1e-6 * previous.abs().max(self.frame.scales[target]);
-            let on_branch: Vec<usize> = (0..count).filter(|&i| off(before, i) <= near).collect();
-            if let [one] = on_branch[..] {
-                chosen = Some(one);
-            } else if self.trust == Trust::Any || on_branch.len() > 1 {
-                chosen = (0..count)
+            let mut on_branch = (0..count).filter(|&i| off(before, i) <= near);
+            chosen = match (on_branch.next(), on_branch.next()) {
+                (Some(one), None) => Some(one),
+                (None, _) if self.trust != Trust::Any => None,
+                (None | Some(_), _) => (0..count)
                     .filter(|&i| now[at(i)].is_finite())
-                    .min_by(|&a, &b| off(now, a).total_cmp(&off(now, b)));
-            }
+                    .min_by(|&a, &b| off(now, a).total_cmp(&off(now, b))),
+            };
         }
         if let Some(i) = chosen {
             let end = at(i);
@@ -591,7 +593,7 @@ impl Run<'_> {
                     (now[at(j)] - value).abs() <= 1e-6 * value.abs().max(self.frame.scales[target])
                 };
                 if (0..count).any(|j| j != i && close(j)) {
-                    buffers.notes.push(Note::DoubleRoot { slot: step.targets[0] });
+                    notes.push(Note::DoubleRoot { slot: step.targets[0] });
                 }
                 return Ok(());
             }

@@ -94,6 +94,11 @@ impl Workspace {
         &mut self.out
     }
 
+    /// Exchanges what came out last for another vector.
+    pub(crate) fn swap_out(&mut self, other: &mut Vec<f64>) {
+        std::mem::swap(&mut self.out, other);
+    }
+
     /// Computes the sway of one row.
     pub(crate) fn sway(&mut self, kernel: &Kernel, arguments: &[SlotIndex], values: &[f64]) -> f64 {
         self.arguments.clear();

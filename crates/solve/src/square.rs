@@ -152,13 +152,7 @@ impl Square {
     ) -> i8 {
         self.block.slopes(values, w, &mut s.local);
         s.own = None;
-        s.weight.clear();
-        s.weight.resize(self.block.height(), 1.0);
-        self.fill(scales, s);
-        if !self.is_dense() {
-            self.weigh(scales, s);
-            self.fill(scales, s);
-        }
+        self.weigh(scales, s);
         self.factorise(s).sign
     }
 
@@ -180,14 +174,11 @@ impl Square {
             return None;
         }
         let n = self.block.core.len();
-        s.weight.clear();
-        s.weight.resize(self.block.height(), 1.0);
         self.block.slopes(values, w, &mut s.local);
         // a distance has no slope where it is nothing
         s.local.jacobian.iter_mut().filter(|d| !d.is_finite()).for_each(|d| *d = 0.0);
         s.own = None;
         self.weigh(scales, s);
-        self.fill(scales, s);
         if self.factorise(s).ratio > 1e-2 {
             return None;
         }
@@ -271,11 +262,13 @@ impl Square {
         }
     }
 
-    /// Freezes a weight for every row that makes it dimensionless; the matrix is filled with none.
+    /// Freezes a weight for every row that makes it dimensionless, and puts the matrix together.
     fn weigh(&self, scales: &[f64], s: &mut SquareScratch) {
-        let weight = |sizes: &[f64]| {
-            let size = sizes.iter().fold(0.0f64, |m, v| m.max(v.abs()));
-            if size > 0.0 && size.is_finite() { 1.0 / size } else { 1.0 }
+        let weigh = |row: &mut [f64]| {
+            let size = row.iter().fold(0.0f64, |m, v| m.max(v.abs()));
+            let weight = if size > 0.0 && size.is_finite() { 1.0 / size } else { 1.0 };
+            row.iter_mut().for_each(|v| *v *= weight);
+            weight
         };
         s.weight.clear();
         s.weight.resize(self.block.height(), 1.0);
@@ -283,11 +276,11 @@ impl Square {
         if self.is_dense() {
             let n = self.block.core.len();
             for (i, &r) in self.block.core_rows.iter().enumerate() {
-                s.weight[r as usize] = weight(&s.matrix[i * n..][..n]);
+                s.weight[r as usize] = weigh(&mut s.matrix[i * n..][..n]);
             }
         } else {
             for r in 0..self.block.height() {
-                s.weight[r] = weight(&s.matrix[self.block.pattern.range(r)]);
+                s.weight[r] = weigh(&mut s.matrix[self.block.pattern.range(r)]);
             }
         }
     }
@@ -408,8 +401,10 @@ impl Square {
             if norm == 0.0 && iteration > 0 {
                 break;
             }
-            if iteration == 0 || !is_linear {
+            if iteration > 0 && !is_linear {
                 self.fill(scales, s);
+            }
+            if iteration == 0 || !is_linear {
                 factors = self.factorise(s);
             }
             if branch.is_some_and(|sign| sign != factors.sign || sign == 0) && norm > 0.0 {
@@ -493,7 +488,6 @@ impl Square {
         let block = &self.block;
         block.slopes(values, w, &mut s.local);
         self.weigh(scales, s);
-        self.fill(scales, s);
         if self.factorise(s).ratio == 0.0 {
             return Solved::Failed;
         }
