@@ -15,23 +15,24 @@ pub(crate) struct Factors {
 /// Factorises `a` (`n` by `n`) in place; `swaps[k]` is the row that was exchanged with row `k`.
 pub(crate) fn factorise(a: &mut [f64], n: usize, swaps: &mut Vec<usize>) -> Factors {
     swaps.clear();
+    let a = &mut a[..n * n];
     let mut sign = 1i8;
     let (mut least, mut most) = (f64::INFINITY, 0.0f64);
     for k in 0..n {
-        let mut best = k;
-        for i in k + 1..n {
-            if a[i * n + k].abs() > a[best * n + k].abs() {
-                best = i;
+        let (mut best, mut size) = (k, a[k * n + k].abs());
+        for (i, value) in (k + 1..n).zip(a[k * n + k..].iter().skip(n).step_by(n)) {
+            if value.abs() > size {
+                (best, size) = (i, value.abs());
             }
         }
         swaps.push(best);
+        let (above, below) = a.split_at_mut((k + 1) * n);
+        let first = &mut above[k * n..];
         if best != k {
-            for j in 0..n {
-                a.swap(best * n + j, k * n + j);
-            }
+            first.swap_with_slice(&mut below[(best - k - 1) * n..][..n]);
             sign = -sign;
         }
-        let pivot = a[k * n + k];
+        let pivot = first[k];
         least = least.min(pivot.abs());
         most = most.max(pivot.abs());
         if pivot == 0.0 || !pivot.is_finite() {
@@ -40,13 +41,11 @@ pub(crate) fn factorise(a: &mut [f64], n: usize, swaps: &mut Vec<usize>) -> Fact
         if pivot < 0.0 {
             sign = -sign;
         }
-        for i in k + 1..n {
-            let factor = a[i * n + k] / pivot;
-            a[i * n + k] = factor;
+        for row in below.chunks_exact_mut(n) {
+            let factor = row[k] / pivot;
+            row[k] = factor;
             if factor != 0.0 {
-                for j in k + 1..n {
-                    a[i * n + j] -= factor * a[k * n + j];
-                }
+                add(&mut row[k + 1..], -factor, &first[k + 1..]);
             }
         }
     }
@@ -59,18 +58,22 @@ pub(crate) fn substitute_back(a: &[f64], n: usize, swaps: &[usize], b: &mut [f64
     for (k, &other) in swaps.iter().enumerate() {
         b.swap(k, other);
     }
-    for k in 0..n {
-        let value = b[k];
-        for i in k + 1..n {
-            b[i] -= a[i * n + k] * value;
-        }
+    let rows = || a[..n * n].chunks_exact(n.max(1)).enumerate();
+    for (i, row) in rows() {
+        let (known, rest) = b.split_at_mut(i);
+        take_off(&mut rest[0], &row[..i], known);
     }
-    for k in (0..n).rev() {
-        let mut value = b[k];
-        for j in k + 1..n {
-            value -= a[k * n + j] * b[j];
-        }
-        b[k] = value / a[k * n + k];
+    for (k, row) in rows().rev() {
+        let (rest, known) = b.split_at_mut(k + 1);
+        take_off(&mut rest[k], &row[k + 1..], known);
+        rest[k] /= row[k];
+    }
+}
+
+/// Takes products off a value, one after the other.
+fn take_off(value: &mut f64, factors: &[f64], of: &[f64]) {
+    for (factor, x) in factors.iter().zip(of) {
+        *value -= factor * x;
     }
 }
 
