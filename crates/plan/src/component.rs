@@ -110,7 +110,8 @@ impl Places {
     fn new(structure: &Structure) -> Self {
         let mut of = IdVec::filled(NO_PLACE, structure.slots.len());
         let mut number: IdVec<ThingId, u32> = IdVec::filled(NO_PLACE, structure.things.len());
-        let mut first = vec![0];
+        let mut first = Vec::with_capacity(structure.slots.len() + 1);
+        first.push(0);
         for (slot, s) in structure.slots.iter() {
             let Some(thing) = s.place else { continue };
             if number[thing] == NO_PLACE {

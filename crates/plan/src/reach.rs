@@ -271,43 +271,45 @@ impl Routes {
         let class = |t: ThingId| structure.things[t].class;
         let classes = &self.classes[route.classes.range()];
         let fits = |thing: ThingId, number: usize| class(thing) == classes[number];
-        let mut unlike = self.unlike[route.unlike.range()].iter();
-        let mut found = |thing: ThingId, things: &mut Vec<ThingId>| {
-            let number = things.len() as Reached;
-            things.push(thing);
-            let mut others = structure.unlike(thing).iter();
-            others.all(|&t| unlike.next() == Some(&(number, class(t))))
-        };
-        if !fits(owner, 0) || !found(owner, things) {
+        if !fits(owner, 0) {
             return false;
         }
+        things.push(owner);
         for step in &self.steps[route.steps.range()] {
             let of = |n: &Reached| things[*n as usize];
             let at = things.len();
             let holds = match step {
-                Step::Document => fits(DOCUMENT, at) && found(DOCUMENT, things),
+                Step::Document => {
+                    things.push(DOCUMENT);
+                    fits(DOCUMENT, at)
+                }
                 Step::Owner(n) => {
                     let owner = structure.owner(of(n)).filter(|&owner| fits(owner, at));
-                    owner.is_some_and(|owner| found(owner, things))
+                    things.extend(owner);
+                    owner.is_some()
                 }
                 // what a thing has for parts, its class says
                 Step::Part(n, place) => {
                     let t = &structure.things[of(n)];
-                    *place < t.parts && found(ThingId(t.first_part.0 + place), things)
+                    things.push(ThingId(t.first_part.0 + place));
+                    *place < t.parts
                 }
                 Step::Parts(n, count) => {
-                    let mut parts = structure.parts(of(n));
-                    parts.len() == *count as usize && parts.all(|t| found(t, things))
+                    let parts = structure.parts(of(n));
+                    let is_like = parts.len() == *count as usize;
+                    things.extend(parts);
+                    is_like
                 }
                 Step::Members(n, count) => {
                     let members = members(structure, of(n));
-                    let mut all = members.iter().zip(at..);
+                    things.extend_from_slice(members);
                     members.len() == *count as usize
-                        && all.all(|(&t, number)| fits(t, number) && found(t, things))
+                        && members.iter().zip(at..).all(|(&t, number)| fits(t, number))
                 }
                 Step::Referent(n) => {
                     let target = structure.references.get(&of(n)).filter(|&&t| fits(t, at));
-                    target.is_some_and(|&target| found(target, things))
+                    things.extend(target);
+                    target.is_some()
                 }
                 Step::Same(a, b, same) => {
                     (structure.merged[of(a)] == structure.merged[of(b)]) == *same
@@ -317,7 +319,11 @@ impl Routes {
                 return false;
             }
         }
-        if unlike.next().is_some() {
+        let mut unlike = self.unlike[route.unlike.range()].iter();
+        let mut others = (0..).zip(&*things).flat_map(|(number, &thing)| {
+            structure.unlike(thing).iter().map(move |&t| (number, class(t)))
+        });
+        if !others.all(|other| unlike.next() == Some(&other)) || unlike.next().is_some() {
             return false;
         }
         let slot = |n: Reached| structure.slot_of[things[n as usize]];

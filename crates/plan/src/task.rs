@@ -320,6 +320,7 @@ struct Making<'s> {
 impl<'s> Making<'s> {
     fn new(setting: &'s Setting<'s>, locals: &'s mut Locals, component: &'s Component) -> Self {
         let mut dimensions: Vec<Dimension> = Vec::new();
+        let mut latest: (Option<Primitive>, u16) = (None, 0);
         let mut groups = 0;
         let mut system = System::default();
         system.slots.reserve(component.slots().len());
@@ -352,13 +353,18 @@ impl<'s> Making<'s> {
                     })
                 }
             };
-            let dimension = s.primitive.dimension();
             let is_discrete = s.primitive.is_whole();
-            let scale = dimensions.iter().position(|&d| d == dimension).unwrap_or_else(|| {
-                dimensions.push(dimension);
-                dimensions.len() - 1
-            }) as u16;
             let is_number = s.primitive.is_number();
+            // of a kind there are many, as a rule
+            if latest.0 != Some(s.primitive) {
+                let dimension = s.primitive.dimension();
+                let scale = dimensions.iter().position(|&d| d == dimension).unwrap_or_else(|| {
+                    dimensions.push(dimension);
+                    dimensions.len() - 1
+                }) as u16;
+                latest = (Some(s.primitive), scale);
+            }
+            let scale = latest.1;
             system.slots.push(solve::Slot { stay, scale, is_number, is_discrete });
         }
         Self {

@@ -154,7 +154,6 @@ impl Known {
 }
 
 /// The things and slots on a way.
-#[derive(Default)]
 struct Way {
     things: Vec<kernel::ThingId>,
     slots: Vec<SlotId>,
@@ -177,7 +176,8 @@ pub(crate) fn lower_all(
     if known.first.len() != model.document.classes.len() {
         *known = Known::of(model.document);
     }
-    let mut way = Way::default();
+    // a rule speaks of a handful of things, as a rule
+    let mut way = Way { things: Vec::with_capacity(32), slots: Vec::with_capacity(32) };
     for (index, &instance) in (0..).zip(structure.constraints.iter()) {
         if !structure.is_on(instance) {
             continue;

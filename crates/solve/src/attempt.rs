@@ -252,7 +252,8 @@ fn approach_region(
     if !region.is_within_reach() {
         return refused();
     }
-    let measure = region.approach.get_or_init(|| Measure::new(&region.problem, &|s| plan.kind(s)));
+    let make = || Box::new(Measure::new(&region.problem, &|s| plan.kind(s)));
+    let measure = region.approach.get_or_init(make);
     let work = &mut buffers.work;
     let result = measure.solve(&frame.x0, values, &frame.scales, Trust::Any, work);
     if result == Measured::Failed {

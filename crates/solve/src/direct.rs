@@ -54,6 +54,11 @@ pub(crate) fn direct(
     rows: &Rows,
     acceptance: &Acceptance,
 ) -> Direction {
+    let has_methods = || system.relations.iter().any(|r| !r.methods.is_empty());
+    if let Some(known) = acceptance.matched.as_ref().filter(|_| !has_methods()) {
+        let (slot_of_row, row_of_slot) = (known.slot_of_row.clone(), known.row_of_slot.clone());
+        return Direction { slot_of_row, row_of_slot, ..Direction::default() };
+    }
     let mut m = Matching::new(rows, acceptance);
     let mut with_methods: Vec<usize> = acceptance
         .accepted

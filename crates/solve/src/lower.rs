@@ -94,7 +94,7 @@ pub(crate) struct Region {
     /// The rows of the whole region.
     pub(crate) problem: Problem,
     /// Made when it is first needed.
-    pub(crate) approach: OnceCell<Measure>,
+    pub(crate) approach: OnceCell<Box<Measure>>,
 }
 
 /// The largest region with curved rows that is approached: of larger ones steps without curvature are not
@@ -149,10 +149,12 @@ const MOST_TOLD: usize = 64;
 /// Lowers every block, then the slots that equal others.
 pub(crate) fn lower(analysis: &Analysis<'_>, blocks: &Blocks) -> Lowered {
     let classes = &analysis.classes;
-    let equalities = classes.equalities(&analysis.stated.system);
-    let copies = classes.members().map(|(_, members)| members.len());
-    let count = classes.constants.len() + blocks.len() + copies.sum::<usize>();
+    let copies: usize = classes.members().map(|(_, members)| members.len()).sum();
+    let count = classes.constants.len() + blocks.len() + copies;
     let mut steps = Vec::with_capacity(count);
+    let has_equalities = copies + classes.constants.len() > 0;
+    let equalities = has_equalities.then(|| classes.equalities(&analysis.stated.system));
+    let equalities = equalities.unwrap_or_default();
     for &(slot, bits) in &classes.constants {
         let program = Program::Constant(f64::from_bits(bits));
         steps.push(alias(told(&equalities, slot), slot, program, Few::default()));

@@ -185,16 +185,8 @@ impl Pattern {
         if let Some(known) = self.identified.borrow().get(which) {
             return known.clone();
         }
-        let mut arena = Arena::new();
-        let roots: Vec<ExprId> = self
-            .roots()
-            .iter()
-            .map(|&root| {
-                let mut vars: Vec<ExprId> = Vec::new();
-                vars.extend((0..self.arity).map(|i| arena.var(Var::from_index(i))));
-                arena.import(self.arena(), root, &mut |v| vars[which[v.index()] as usize])
-            })
-            .collect();
+        let mut arena = Arena::for_nodes(self.excerpt.nodes.len());
+        let roots = self.write_out(&mut arena, which);
         let (excerpt, left) = arena.excerpt(&roots);
         let left = left.into_iter().map(|v| v.0).collect();
         let made = (Rc::new(Self::new(excerpt)), left);

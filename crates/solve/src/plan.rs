@@ -487,7 +487,7 @@ impl Plan {
     }
     /// Returns every equation, laid out to be tested.
     pub(crate) fn tests(&self) -> &Tests {
-        self.tests.get_or_init(|| Tests::new(self, 0..self.relations.len() as u32))
+        self.tests.get_or_init(|| Tests::new(self, &(0..self.relations.len() as u32)))
     }
     /// Returns what moving these known slots can change; made once.
     pub(crate) fn slice(&self, inputs: &[SlotIndex]) -> Rc<Slice> {

@@ -97,7 +97,7 @@ impl Slice {
                 tests.push(r);
             }
         }
-        made.tests = Tests::new(plan, tests.into_iter());
+        made.tests = Tests::new(plan, &tests.iter().copied());
         made
     }
 }

@@ -45,8 +45,10 @@ pub(crate) struct Place {
 /// Equations to be tested, those of one pattern together.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct Tests {
-    /// Each with the place of its pattern among those that the system uses.
-    groups: Vec<(u32, Vec<Place>)>,
+    /// Those of one pattern, then those of the next.
+    places: Vec<Place>,
+    /// The place of every pattern among those that the system uses, and where its equations end.
+    groups: Vec<(u32, u32)>,
 }
 
 /// Working space for tests.
@@ -59,22 +61,32 @@ pub(crate) struct TestScratch {
 
 impl Tests {
     /// Lays out the equations of these relations.
-    pub(crate) fn new(plan: &Plan, relations: impl Iterator<Item = u32>) -> Self {
-        const NONE: u32 = u32::MAX;
-        let mut group_of: Vec<u32> = vec![NONE; plan.pattern_count()];
-        let mut groups: Vec<(u32, Vec<Place>)> = Vec::new();
-        for relation in relations {
-            for place in plan.relations[relation as usize].places(relation) {
-                let pattern = plan.pattern_place(place.row);
-                let group = &mut group_of[pattern];
-                if *group == NONE {
-                    *group = groups.len() as u32;
-                    groups.push((pattern as u32, Vec::new()));
-                }
-                groups[*group as usize].1.push(place);
-            }
+    pub(crate) fn new(plan: &Plan, relations: &(impl Iterator<Item = u32> + Clone)) -> Self {
+        let all = || relations.clone().flat_map(|r| plan.relations[r as usize].places(r));
+        let mut groups: Vec<(u32, u32)> =
+            (0..plan.pattern_count() as u32).map(|p| (p, 0)).collect();
+        all().for_each(|place| groups[plan.pattern_place(place.row)].1 += 1);
+        // where they begin, until they are put there
+        let mut count = 0;
+        for (_, end) in &mut groups {
+            count += std::mem::replace(end, count);
         }
-        Self { groups }
+        let mut places = vec![Place { relation: 0, row: 0 }; count as usize];
+        for place in all() {
+            let (_, next) = &mut groups[plan.pattern_place(place.row)];
+            places[*next as usize] = place;
+            *next += 1;
+        }
+        // of a pattern that has none nothing is asked
+        groups.dedup_by_key(|group| group.1);
+        Self { places, groups }
+    }
+    /// Returns the equations of every pattern, by its place among those that the system uses.
+    fn by_pattern(&self) -> impl Iterator<Item = (u32, &[Place])> {
+        let mut start = 0;
+        self.groups.iter().map(move |&(pattern, end)| {
+            (pattern, &self.places[std::mem::replace(&mut start, end as usize)..end as usize])
+        })
     }
 }
 
@@ -88,8 +100,8 @@ impl Plan {
         scratch: &mut TestScratch,
         differs: &mut impl FnMut(Differing, &mut Workspace) -> ControlFlow<()>,
     ) -> ControlFlow<()> {
-        for (pattern, places) in &tests.groups {
-            let pattern = self.pattern_at(*pattern as usize);
+        for (pattern, places) in tests.by_pattern() {
+            let pattern = self.pattern_at(pattern as usize);
             let mut compare = |place: Place, [left, right]: [f64; 2], work: &mut Workspace| {
                 let within = self.relations[place.relation as usize].within;
                 if within.is_met(left, right) {
