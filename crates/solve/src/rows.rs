@@ -4,7 +4,7 @@
 //! an opaque relation). The point is the same for every row, so no value is consulted: a
 //! coefficient is zero there only if it is zero everywhere.
 
-use crate::kernel::{Kernel, WIDE};
+use crate::kernel::{Form, Kernel, WIDE};
 use crate::lists::Lists;
 use crate::pattern::Scratch;
 use crate::stated::Stated;
@@ -60,15 +60,17 @@ impl Rows {
     pub(crate) fn columns(&self, row: usize) -> &[Entry] {
         &self.columns[self.list[row].columns.range()]
     }
-    /// Returns true if a row says that a place lies on a line through others: it is linear in these slots while
-    /// the others stay, and these turn it.
+    /// Returns true if a row says that a place lies on a line, wherever others are: as an equation for its
+    /// coordinates it is of the first degree, as that of a point at equal distances from two others is.
     pub(crate) fn is_line(&self, row: usize, place: &[SlotIndex]) -> bool {
         let mentions = self.mentions(row);
-        let is_own = |argument: u32| place.contains(&mentions[argument as usize]);
+        let own: Vec<u32> =
+            (0..mentions.len() as u32).filter(|&a| place.contains(&mentions[a as usize])).collect();
         self.kernel(row).is_some_and(|kernel| {
-            let own = kernel.entries.iter().filter(|entry| is_own(entry.argument));
-            let mut turned_by = own.flat_map(|entry| &entry.depends).peekable();
-            turned_by.peek().is_some() && !turned_by.any(|&argument| is_own(argument))
+            let of_own = kernel.entries.iter().filter(|entry| own.contains(&entry.argument));
+            !of_own.flat_map(|entry| &entry.depends).any(|argument| own.contains(argument))
+                || <[u32; 2]>::try_from(&own[..])
+                    .is_ok_and(|pair| kernel.curve(pair).is_some_and(|c| c.form == Form::Line))
         })
     }
     /// Returns what a row says; nothing for an opaque one.
