@@ -194,7 +194,11 @@ pub(crate) fn run(
     tell(planner, modes, task, decision)
 }
 
-/// Runs the plan of a mode from where an edit began.
+/// How many other states are looked at where the first breaks an inequality.
+const MOST_OTHERS: usize = 16;
+
+/// Runs the plan of a mode from where an edit began. What opens takes the roots with which the inequalities hold
+/// without acting, where there are such.
 #[expect(clippy::too_many_arguments, reason = "an attempt is all of these")]
 pub(crate) fn attempt_in_mode(
     planner: &Planner,
@@ -214,6 +218,13 @@ pub(crate) fn attempt_in_mode(
     let runner = &mut Runner::new();
     runner.lean(leans.to_vec());
     let outcome = solve::run(&plan, runner, x0, &mut local, changed, &mut adapter);
+    let breaks = |values: &[f64]| !modes.broken(mode, values).is_empty();
+    if outcome.is_solved() && plan.opens() && changed.is_empty() && breaks(&local) {
+        let mut others = solve::others(&plan, &local, MOST_OTHERS, &mut adapter).into_iter();
+        if let Some(other) = others.find(|other| !breaks(&other.values)) {
+            local = other.values;
+        }
+    }
     Tried { plan, outcome, values: local }
 }
 

@@ -522,6 +522,10 @@ impl Plan {
         let stated = system.equations[rows].iter().flat_map(|e| system.arguments(e.arguments));
         stated.chain(planned.opaque.iter().flatten()).copied()
     }
+    /// Returns true if something has no value yet that it could keep.
+    pub fn opens(&self) -> bool {
+        self.slots.iter().any(|s| s.stay == Stay::Free)
+    }
     /// Returns true if a whole number is unknown.
     pub(crate) fn has_whole_unknowns(&self) -> bool {
         self.slots.iter().any(|s| s.is_number && s.is_discrete && s.stay != Stay::Fixed)

@@ -98,7 +98,7 @@ pub fn run(
     start(plan, runner, x0, changed);
     let Runner { frame, buffers, last, goal, came, trial, leans } = runner;
     let solved_before = frame.changed_texts.is_empty()
-        && plan.slots.iter().all(|s| s.stay != Stay::Free)
+        && !plan.opens()
         && required_rows_held(plan, frame, buffers);
     last.clear();
     last.extend_from_slice(&frame.x0);
@@ -136,8 +136,7 @@ pub fn run(
     };
     outcome.notes.append(&mut buffers.notes);
     // On opening there is nothing to go back to: what could be accepted stands.
-    let opening = plan.slots.iter().any(|s| s.stay == Stay::Free);
-    let stands = opening && matches!(outcome.status, Status::Stopped(Reason::Conflict));
+    let stands = plan.opens() && matches!(outcome.status, Status::Stopped(Reason::Conflict));
     if !outcome.is_solved() && !stands {
         values.copy_from_slice(came);
     }
