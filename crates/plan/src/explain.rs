@@ -55,11 +55,15 @@ pub enum ExplainedKind {
     LeastChange {
         /// How many unknowns.
         unknowns: u32,
+        /// Whether the equations are curved; what linear ones allow is found without fail.
+        curved: bool,
     },
     /// Wishes that cannot all be had, met as nearly as they can be.
     Compromise {
         /// How many unknowns.
         unknowns: u32,
+        /// Whether the equations are curved.
+        curved: bool,
     },
     /// Whole numbers, searched.
     Search {
@@ -391,9 +395,10 @@ impl ExplainedKind {
             | Self::Linear { .. }
             | Self::Closed
             | Self::Search { .. } => false,
-            Self::Newton { unknowns }
-            | Self::LeastChange { unknowns }
-            | Self::Compromise { unknowns } => unknowns > 1,
+            Self::Newton { unknowns } => unknowns > 1,
+            Self::LeastChange { unknowns, curved } | Self::Compromise { unknowns, curved } => {
+                curved && unknowns > 1
+            }
         }
     }
 }
@@ -410,8 +415,8 @@ fn kind(system: &System, step: &Step) -> ExplainedKind {
         StepKind::Linear => ExplainedKind::Linear { unknowns },
         StepKind::Closed => ExplainedKind::Closed,
         StepKind::Newton => ExplainedKind::Newton { unknowns },
-        StepKind::LeastChange => ExplainedKind::LeastChange { unknowns },
-        StepKind::Compromise => ExplainedKind::Compromise { unknowns },
+        StepKind::LeastChange => ExplainedKind::LeastChange { unknowns, curved: step.is_curved() },
+        StepKind::Compromise => ExplainedKind::Compromise { unknowns, curved: step.is_curved() },
     }
 }
 

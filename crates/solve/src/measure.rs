@@ -36,7 +36,7 @@ pub(crate) struct Measure {
     /// For every unknown of the core: it is a given number that yields.
     given: Vec<bool>,
     /// True if no second derivative is there.
-    is_linear: bool,
+    pub(crate) is_linear: bool,
     /// What finds the step of a large block.
     large: Option<Levels>,
 }

@@ -77,6 +77,19 @@ pub struct Step {
 }
 
 impl Step {
+    /// Returns true if least change or a compromise is sought among equations that are curved.
+    pub fn is_curved(&self) -> bool {
+        match &self.program {
+            Program::Least(least) => !least.0.block.is_linear,
+            Program::Measure(measure) => !measure.is_linear,
+            Program::Constant(_)
+            | Program::Copy
+            | Program::Formulas(..)
+            | Program::Inverse(_)
+            | Program::Square(_)
+            | Program::Host { .. } => false,
+        }
+    }
     /// Returns true if it may have several solutions for what it reads.
     pub(crate) fn may_branch(&self) -> bool {
         match self.kind {

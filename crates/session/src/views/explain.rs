@@ -292,10 +292,12 @@ fn method(kind: ExplainedKind) -> String {
         ExplainedKind::Newton { unknowns } => {
             format!("{unknowns} equations, solved together by Newton's method")
         }
-        ExplainedKind::LeastChange { unknowns: 1 } => "least change".into(),
-        ExplainedKind::LeastChange { unknowns } => format!("least change of {unknowns} numbers"),
-        ExplainedKind::Compromise { unknowns: 1 } => "compromise".into(),
-        ExplainedKind::Compromise { unknowns } => format!("compromise of {unknowns} numbers"),
+        ExplainedKind::LeastChange { unknowns: 1, .. } => "least change".into(),
+        ExplainedKind::LeastChange { unknowns, .. } => {
+            format!("least change of {unknowns} numbers")
+        }
+        ExplainedKind::Compromise { unknowns: 1, .. } => "compromise".into(),
+        ExplainedKind::Compromise { unknowns, .. } => format!("compromise of {unknowns} numbers"),
         ExplainedKind::Search { unknowns: 1 } => "search for a whole number".into(),
         ExplainedKind::Search { unknowns } => format!("search for {unknowns} whole numbers"),
     }

@@ -165,6 +165,10 @@ fn what_is_approached_step_by_step_is_warned_of_and_a_lighter_view_named() {
     let desk = Desk::of(DIVIDER);
     assert_eq!(desk.session.explain(desk.id, None).warnings, [""; 0]);
     assert_eq!(desk.session.advice(desk.id).len(), 1);
+    let desk = Desk::of("total: Real = 900\nanchor total\na, b, c: Real\nconstraint a + b + c = total\n");
+    let told = desk.session.explain(desk.id, None);
+    assert_eq!(told.steps[0].method, "least change of 3 numbers");
+    assert_eq!(told.warnings, [""; 0]);
     let desk = Desk::of(
         "use geometry\nfoot: Point = (0, 0)\nanchor foot\nknee: Point = (10, 0)\ntip: Point = (20, 0)\n\
         far: Point = (20, 10)\nanchor far\nconstraint foot.distance(to: knee) = 11\n\
