@@ -212,11 +212,35 @@ impl Planner {
     ///
     /// Plans what was not planned yet; after that it is numbers only.
     pub fn satisfy(&mut self, model: Model<'_>, values: &mut Values, host: &mut dyn Host) -> bool {
+        self.satisfy_where(model, |_| true, values, host)
+    }
+
+    /// Makes the constraints hold from these values as [`Self::satisfy`] does, but only in components in which
+    /// some are others than in a state that is `known`.
+    pub fn satisfy_since(
+        &mut self,
+        model: Model<'_>,
+        known: &Values,
+        values: &mut Values,
+        host: &mut dyn Host,
+    ) -> bool {
+        let changed: BTreeSet<SlotId> = values.changed(known).collect();
+        let is_other = |task: &Task| task.component.slots().iter().any(|s| changed.contains(s));
+        self.satisfy_where(model, is_other, values, host)
+    }
+
+    fn satisfy_where(
+        &mut self,
+        model: Model<'_>,
+        counts: impl Fn(&Task) -> bool,
+        values: &mut Values,
+        host: &mut dyn Host,
+    ) -> bool {
         self.plan_resting(model.structure);
         let start = values.clone();
         let aim = Aim::default();
         let mut is_solved = true;
-        for task in self.resting() {
+        for task in self.resting().iter().filter(|task| counts(task)) {
             is_solved &= run_or_stay(self, model, task, &aim, &start, values, host).is_solved;
         }
         is_solved

@@ -313,7 +313,7 @@ fn restructure(open: &mut Open, host: &dyn Host, command: &Command) -> Result<Ch
     }
     let text = syntax::edit::apply(&before.text, &edits);
     let plans = open.planner.take_plans();
-    let (state, planner) = State::of(text, Some(&before), host, plans);
+    let (state, mut planner) = State::of(text, Some(&before), host, plans);
     // what a reference names may be deleted: that it names nothing is said at its place
     let may_be_wrong = |d: &base::Diagnostic| {
         matches!(command, Command::Delete(_)) && d.code == "unknown-reference"
@@ -334,7 +334,12 @@ fn restructure(open: &mut Open, host: &dyn Host, command: &Command) -> Result<Ch
     let carried = carried_over(command, &before, &state);
     let carried = carried.filter(|values| differing(&state, values).next().is_some());
     let (state, planner) = match (carried, &class) {
-        (Some(values), _) => write_back(&state, &values, &[], host, planner.into_plans()),
+        (Some(mut values), _) => {
+            // what holds no more is computed anew, so that no given number has to yield to what is kept
+            let mut texts = Texts::new(&state.lowered.document, &state.structure);
+            planner.satisfy_since(state.model(), &state.values, &mut values, &mut texts);
+            write_back(&state, &values, &[], host, planner.into_plans())
+        }
         (None, Some(class)) => place_new_parts(&before, state, planner, class, host),
         (None, None) => (state, planner),
     };
