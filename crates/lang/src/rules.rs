@@ -13,7 +13,7 @@ use kernel::{
 };
 use std::collections::BTreeSet;
 use std::rc::Rc;
-use syntax::ast::{self, AstNode, Expr, Member, MethodItem, Rule, span_without_doc};
+use syntax::ast::{self, AstNode, BinaryOp, Expr, Member, MethodItem, Rule, span_without_doc};
 
 /// Where a rule stands.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
@@ -145,7 +145,12 @@ impl Lowerer<'_> {
         if !kind.fits(&wanted, &self.document) {
             let (is, given) = (wanted.words(&self.document), kind.words(&self.document));
             let message = format!("{path} is {is}, and is given {given}");
-            return self.error(code_for(&kind, &wanted), scope.file, value.span(), message);
+            let place = Place { file: scope.file, span: value.span() };
+            let d = Diagnostic::error(code_for(&kind, &wanted), place, message);
+            return self.report(match unit_before_equals(value) {
+                Some(unit) => d.hint(format!("`{unit}` is a unit here: write `;` before it")),
+                None => d,
+            });
         }
         if let (Kind::Thing(given), Some(wanted)) = (&kind, class)
             && let Some((name, is, other)) = self.counts_apart(wanted, *given)
@@ -618,5 +623,14 @@ fn strength(s: ast::Strength) -> Strength {
         ast::Strength::Strong => Strength::Strong,
         ast::Strength::Medium => Strength::Medium,
         ast::Strength::Weak => Strength::Weak,
+    }
+}
+
+/// Returns the unit in `5 h = 6`, which somebody may have meant for the name of the next part.
+fn unit_before_equals(value: &Expr) -> Option<String> {
+    let Expr::Binary(comparison) = value else { return None };
+    match (comparison.op()?, comparison.left()?) {
+        (BinaryOp::Equal, Expr::Number(number)) => Some(number.unit()?.text().to_owned()),
+        _ => None,
     }
 }

@@ -118,6 +118,16 @@ impl Lowerer<'_> {
         if (left, right) == (&Kind::Picture, &Kind::Picture) {
             d = d.hint("`picture(a, b)` draws both");
         }
+        let is_plain = |k: &Kind| *k == Kind::PLAIN;
+        if matches!((left, right), (Kind::Number(_), Kind::Number(_)))
+            && is_plain(left) != is_plain(right)
+        {
+            let measures = if is_plain(left) { b } else { a };
+            let quantity = measures.split(" (").next().unwrap_or_default();
+            d = d.hint(format!(
+                "a product measures what its factors do: declare one as {quantity}, or give it a unit"
+            ));
+        }
         self.report(d);
     }
 
