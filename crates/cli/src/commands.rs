@@ -81,19 +81,38 @@ pub(crate) fn check(arguments: &[PathBuf], form: Form) -> Result<Report, OpenErr
     ))
 }
 
+/// So many characters of a line are shown.
+const WIDEST: usize = 120;
+
+/// Returns what is shown of the line around a byte of a text, and how many characters stand before it there.
+fn around(text: &str, at: usize) -> (String, usize) {
+    let (before, after) = text.split_at_checked(at).unwrap_or((text, ""));
+    let before = &before[before.rfind('\n').map_or(0, |n| n + 1)..];
+    let after = after.lines().next().unwrap_or_default();
+    let is_short = before.len() + after.len() <= WIDEST;
+    // of a long line, half the width comes before
+    let most = if is_short { WIDEST } else { WIDEST / 2 };
+    let mut shown: Vec<char> = before.chars().rev().take(most).collect();
+    shown.reverse();
+    let count = shown.len();
+    let shown = shown.into_iter().chain(after.chars()).take(WIDEST);
+    // what would move the terminal's cursor is left out
+    (shown.map(|c| if c.is_control() { ' ' } else { c }).collect(), count)
+}
+
 fn show_diagnostic(opened: &Opened, d: &DiagnosticView) -> String {
     let mut words = String::new();
     let file = if d.file.is_empty() { opened.path.display().to_string() } else { d.file.clone() };
     let _ = writeln!(words, "{}[{}]: {}", d.severity, d.code, d.message);
     let _ = writeln!(words, "  --> {file}:{}:{}", d.line, d.column);
     if d.file.is_empty() {
-        let line = opened.text.lines().nth(d.line as usize - 1).unwrap_or_default();
-        let before: String = line.chars().take(d.column as usize - 1).collect();
+        let (line, before) = around(&opened.text, d.start as usize);
         let marked = opened.text.get(d.start as usize..d.end as usize).unwrap_or_default();
-        let width = marked.lines().next().unwrap_or_default().chars().count().max(1);
+        let marked = marked.lines().next().unwrap_or_default();
+        let width = marked.chars().take(WIDEST - before).count().max(1);
         let gutter = d.line.to_string();
         let blank = " ".repeat(gutter.len());
-        let indent = " ".repeat(before.chars().count());
+        let indent = " ".repeat(before);
         let _ = writeln!(
             words,
             "{blank} |\n{gutter} | {line}\n{blank} | {indent}{}",
@@ -351,4 +370,19 @@ pub(crate) enum FormatMode {
     Write,
     /// Only says so.
     Check,
+}
+
+#[cfg(test)]
+mod tests {
+    use super::around;
+
+    #[test]
+    fn of_a_long_line_what_is_around_is_shown() {
+        assert_eq!(around("a\nx: Real = y\nb", 12), ("x: Real = y".into(), 10));
+        let long = format!("a\n{}\u{1b}y{}\nb", "x".repeat(1000), "z".repeat(1000));
+        let (shown, before) = around(&long, 1003);
+        assert_eq!((shown.len(), before), (120, 60));
+        assert!(shown.starts_with("xxx") && shown.ends_with("zzz"));
+        assert_eq!(&shown[58..62], "x yz");
+    }
 }

@@ -8,6 +8,9 @@ use base::number::{close, pow};
 use expr::dimension::Dimension;
 use kernel::{BinaryOperator, UnaryOperator};
 
+/// Longer texts are not made: each of a row of parts may join the one before to itself.
+const LONGEST_TEXT: usize = 1_000_000;
+
 impl<'a> Evaluator<'a> {
     /// Returns the answer of `and` and `or` where the left side alone decides it.
     pub(crate) fn decided(
@@ -82,6 +85,10 @@ impl<'a> Evaluator<'a> {
     /// Adds numbers, or joins texts.
     fn sum(&self, a: &Answer<'a>, b: &Answer<'a>) -> Result<Answer<'a>> {
         if let (Answer::Text(a), Answer::Text(b)) = (a, b) {
+            if a.len() + b.len() > LONGEST_TEXT {
+                let message = format!("joined, the texts have more than {LONGEST_TEXT} letters");
+                return Err(Fault::no_answer(message));
+            }
             return Ok(Answer::text(&format!("{a}{b}")));
         }
         if let (Answer::Text(_), Answer::Number(..)) | (Answer::Number(..), Answer::Text(_)) =

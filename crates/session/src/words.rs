@@ -22,7 +22,7 @@ pub(crate) fn refusal_of_text(state: &State, diagnostics: &[Diagnostic]) -> Refu
         Some(hint) => format!("{}: {hint}", d.message),
         None => d.message.clone(),
     });
-    let diagnostics = diagnostics.iter().map(|d| views::text::diagnostic(state, d)).collect();
+    let diagnostics = views::text::diagnostics(state, diagnostics);
     Refusal { message, diagnostics, ..Refusal::default() }
 }
 

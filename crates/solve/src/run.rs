@@ -97,9 +97,8 @@ pub fn run(
     runner.came.extend_from_slice(values);
     start(plan, runner, x0, changed);
     let Runner { frame, buffers, last, goal, came, trial, leans } = runner;
-    let solved_before = frame.changed_texts.is_empty()
-        && !plan.opens()
-        && required_rows_held(plan, frame, buffers);
+    let solved_before =
+        frame.changed_texts.is_empty() && !plan.opens() && required_rows_held(plan, frame, buffers);
     last.clear();
     last.extend_from_slice(&frame.x0);
     fork::lean(plan, frame, buffers, leans, last);

@@ -98,7 +98,10 @@ fn token(text: &str) -> (SyntaxKind, usize) {
             let length = ident_length(text);
             (SyntaxKind::reserved(&text[..length]).unwrap_or(SyntaxKind::Ident), length)
         }
-        0..=127 => punctuation(next(0), next(1), next(2)),
+        0..=127 => match punctuation(next(0), next(1), next(2)) {
+            (SyntaxKind::Unknown, _) => (SyntaxKind::Unknown, unknown_length(text)),
+            known => known,
+        },
         _ => {
             let first = text.chars().next().expect("the text is not empty");
             if first.is_alphabetic() {
@@ -106,10 +109,22 @@ fn token(text: &str) -> (SyntaxKind, usize) {
             } else if first.is_whitespace() || first == '\u{feff}' {
                 (SyntaxKind::Whitespace, space_length(text))
             } else {
-                (SyntaxKind::Unknown, first.len_utf8())
+                (SyntaxKind::Unknown, unknown_length(text))
             }
         }
     }
+}
+
+/// The length of what begins nothing: a character, and those after it that no keyboard has.
+fn unknown_length(text: &str) -> usize {
+    let mut rest = text.chars();
+    rest.next();
+    let is_strange = |c: char| {
+        let begins = c.is_alphabetic() || c.is_whitespace() || c == '\u{feff}';
+        !begins && (c.is_control() || !c.is_ascii())
+    };
+    let rest = rest.as_str();
+    text.len() - rest.trim_start_matches(is_strange).len()
 }
 
 fn punctuation(first: u8, second: u8, third: u8) -> (SyntaxKind, usize) {

@@ -432,11 +432,13 @@ fn token_fault(file: FileId, text: &str, span: Span, fault: Fault) -> Diagnostic
             )
             .hint("close the comment with `*/`")
         }
-        Fault::UnknownCharacter => Diagnostic::error(
-            "unknown-character",
-            place,
-            format!("found `{}`, which begins nothing", text[span.range()].escape_debug()),
-        ),
+        Fault::UnknownCharacter => {
+            let all = &text[span.range()];
+            let first: String = all.chars().take(8).collect();
+            let more = if first.len() < all.len() { "…" } else { "" };
+            let message = format!("found `{}{more}`, which begins nothing", first.escape_debug());
+            Diagnostic::error("unknown-character", place, message)
+        }
     }
 }
 

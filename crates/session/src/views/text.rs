@@ -2,17 +2,18 @@
 
 use crate::state::State;
 use crate::view::{DiagnosticView, FixView, TextChange, TextView, TokenView};
-use base::{Diagnostic, LineIndex, Severity};
+use base::{Diagnostic, FileId, LineIndex, Severity};
+use std::collections::BTreeMap;
 use syntax::{SyntaxKind, SyntaxToken};
 
 /// Returns the source with its colours and diagnostics.
 pub(crate) fn view(state: &State) -> TextView {
-    let tree = syntax::parse(base::FileId(0), &state.text).syntax();
+    let tree = syntax::parse(FileId(0), &state.text).syntax();
     let tokens = tree.descendants_with_tokens().filter_map(syntax::SyntaxElement::into_token);
     TextView {
         source: state.text.clone(),
         tokens: tokens.filter_map(|t| token(&t)).collect(),
-        diagnostics: state.diagnostics.iter().map(|d| diagnostic(state, d)).collect(),
+        diagnostics: diagnostics(state, &state.diagnostics),
     }
 }
 
@@ -38,17 +39,27 @@ fn token(token: &SyntaxToken) -> Option<TokenView> {
 fn fix(fix: &base::Fix) -> Option<FixView> {
     let change = |(place, insert): &(base::Place, String)| {
         let (start, end) = (place.span.start, place.span.end);
-        let own = place.file == base::FileId(0);
+        let own = place.file == FileId(0);
         own.then(|| TextChange { start, end, insert: insert.clone() })
     };
     let edits: Option<Vec<TextChange>> = fix.edits.iter().map(change).collect();
     Some(FixView { title: fix.title.clone(), edits: edits? })
 }
 
-/// Returns a diagnostic as an editor shows it.
-pub(crate) fn diagnostic(state: &State, d: &Diagnostic) -> DiagnosticView {
+/// Returns diagnostics as an editor shows them.
+pub(crate) fn diagnostics(state: &State, all: &[Diagnostic]) -> Vec<DiagnosticView> {
+    let mut lines: BTreeMap<FileId, LineIndex> = BTreeMap::new();
+    let view = |d: &Diagnostic| {
+        let text = &state.lowered.files[d.place.file].text;
+        let lines = lines.entry(d.place.file).or_insert_with(|| LineIndex::new(text));
+        diagnostic(state, d, lines)
+    };
+    all.iter().map(view).collect()
+}
+
+fn diagnostic(state: &State, d: &Diagnostic, lines: &LineIndex) -> DiagnosticView {
     let file = &state.lowered.files[d.place.file];
-    let (line, column) = LineIndex::new(&file.text).line_column(&file.text, d.place.span.start);
+    let (line, column) = lines.line_column(&file.text, d.place.span.start);
     let severity = match d.severity {
         Severity::Error => "error",
         Severity::Warning => "warning",
@@ -59,7 +70,7 @@ pub(crate) fn diagnostic(state: &State, d: &Diagnostic) -> DiagnosticView {
         code: d.code.into(),
         message: d.message.clone(),
         hint: d.hint.clone(),
-        file: if d.place.file == base::FileId(0) { String::new() } else { file.name.clone() },
+        file: if d.place.file == FileId(0) { String::new() } else { file.name.clone() },
         start: d.place.span.start,
         end: d.place.span.end,
         line,

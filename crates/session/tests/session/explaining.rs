@@ -165,7 +165,8 @@ fn what_is_approached_step_by_step_is_warned_of_and_a_lighter_view_named() {
     let desk = Desk::of(DIVIDER);
     assert_eq!(desk.session.explain(desk.id, None).warnings, [""; 0]);
     assert_eq!(desk.session.advice(desk.id).len(), 1);
-    let desk = Desk::of("total: Real = 900\nanchor total\na, b, c: Real\nconstraint a + b + c = total\n");
+    let desk =
+        Desk::of("total: Real = 900\nanchor total\na, b, c: Real\nconstraint a + b + c = total\n");
     let told = desk.session.explain(desk.id, None);
     assert_eq!(told.steps[0].method, "least change of 3 numbers");
     assert_eq!(told.warnings, [""; 0]);
