@@ -1,12 +1,11 @@
 //! Whether an edit has the right answer: who yields, and how much.
 //!
 //! Only what the rules themselves prove is told, so these are conditions that every answer meets, not
-//! all that there are: to first order, at the state after the edit, where no rule is a written method or
-//! never written by its own constraint. Where rules are soft, only that those that are not met could not be
+//! all that there are: to first order, at the state after the edit, where no rule is a written method. Where rules are soft, only that those that are not met could not be
 //! met better. Components of more than [`MOST`] slots are not looked at.
 
 use super::algebra::{Span, length, rest_of_cone, sign_of_determinant};
-use super::slopes::{Row, rows};
+use super::slopes::{Row, only_read, rows};
 use super::{Edit, shown};
 use crate::evaluator::Evaluator;
 use crate::sway::Order;
@@ -42,7 +41,9 @@ pub(crate) fn complaints(
         return Vec::new();
     };
     let held = |c: &ConstraintInstance| before.test(*c).is_ok_and(|verdict| verdict.holds);
-    if !required.iter().all(held) {
+    // what a rule reads and never writes is found before the rest, by a measure of its own
+    let follows = |c: &ConstraintInstance| moved.iter().any(|s| only_read(&after, *c).contains(s));
+    if !required.iter().all(held) || required.iter().any(follows) {
         return Vec::new();
     }
     let mut own = Answer {
@@ -100,7 +101,6 @@ fn plain(evaluator: &Evaluator<'_>, connected: &BTreeSet<SlotId>) -> Option<Plai
             || is_conditional
             || !is_number
             || !written.methods.is_empty()
-            || !written.reads.is_empty()
             || written.within.is_some()
         {
             return None;

@@ -4,6 +4,7 @@ use crate::answer::Frame;
 use crate::evaluator::Evaluator;
 use crate::sway::{Compared, Order};
 use kernel::{ConstraintInstance, SlotId};
+use std::collections::BTreeSet;
 
 /// How far a number is moved, as a part of it, and of the unit at least.
 const NUDGE: f64 = 1.0 / 1_048_576.0;
@@ -31,8 +32,20 @@ impl Row {
     }
 }
 
+/// Returns the slots that a constraint reads and, as is written, never writes.
+pub(crate) fn only_read(
+    evaluator: &Evaluator<'_>,
+    constraint: ConstraintInstance,
+) -> BTreeSet<SlotId> {
+    let structure = evaluator.structure;
+    let class = &evaluator.document.classes[constraint.class];
+    let paths = class.constraints[constraint.index as usize].reads.iter();
+    let things = paths.filter_map(|path| structure.follow(constraint.owner, path).ok());
+    things.flat_map(|thing| structure.slots_under(thing)).collect()
+}
+
 /// Returns the rows of a constraint, with their slopes by some slots; nothing where it compares no
-/// numbers, or others where they move.
+/// numbers, or others where they move. By what the constraint never writes it has none.
 pub(crate) fn rows(
     evaluator: &Evaluator<'_>,
     constraint: ConstraintInstance,
@@ -40,6 +53,7 @@ pub(crate) fn rows(
 ) -> Option<Vec<Row>> {
     let class = &evaluator.document.classes[constraint.class];
     let rule = &class.constraints[constraint.index as usize].rule;
+    let held = only_read(evaluator, constraint);
     let compared = || -> Option<Compared> {
         evaluator.compared.take();
         evaluator.begin();
@@ -55,7 +69,8 @@ pub(crate) fn rows(
         slopes: vec![0.0; columns.len()],
     };
     let mut rows: Vec<Row> = here.differences.iter().zip(&here.orders).map(row).collect();
-    for (column, slot) in columns.iter().enumerate().filter(|(_, slot)| reads.contains(slot)) {
+    let writes = |slot: &SlotId| reads.contains(slot) && !held.contains(slot);
+    for (column, slot) in columns.iter().enumerate().filter(|(_, slot)| writes(slot)) {
         let x = evaluator.values.numbers[*slot];
         let step = NUDGE * x.abs().max(1.0);
         let (above, below) = (x + step, x - step);
