@@ -234,7 +234,9 @@ fn run(seed: u64, edits: usize) -> Result<usize, String> {
 fn the_checker_has_no_complaint_and_order_plays_no_part() {
     const EDITS: usize = 6;
     let long = std::env::var("THINGLAB_LONG").ok();
-    let seeds: u64 = long.map_or(60, |n| n.parse().unwrap_or(5_000));
+    // a number of one's own, or what `cargo verify --long` says, which is 1
+    let own = |n: String| n.parse().ok().filter(|&n| n > 1).unwrap_or(5_000);
+    let seeds: u64 = long.map_or(60, own);
     let (mut made, mut wrong) = (0, Vec::new());
     for seed in 0..seeds {
         match run(seed, EDITS) {

@@ -241,7 +241,7 @@ fn pick(dice: &mut Dice, model: &Model) -> Picked {
     }
 }
 
-/// Takes a path out of the merges that name it.
+/// Takes a path out of the merges that name it; the rest of them all stay merged.
 fn unmerge(dice: &mut Dice, model: &Model, mut next: Model) -> Picked {
     let in_class = |p: &Names| {
         model.class_merges.iter().any(|(_, paths)| paths.iter().any(|m| p.ends_with(m)))
@@ -255,10 +255,14 @@ fn unmerge(dice: &mut Dice, model: &Model, mut next: Model) -> Picked {
     if !listed.contains(&p) {
         return Some((Command::Unmerge(path(&p)), None));
     }
-    for merge in &mut next.merges {
-        merge.retain(|q| *q != p);
+    // what was one with it in any of them stays one
+    let (of_it, others): (Vec<_>, Vec<_>) = next.merges.drain(..).partition(|m| m.contains(&p));
+    let mut rest: Vec<Names> = of_it.concat();
+    rest.retain(|q| *q != p);
+    next.merges = others;
+    if rest.len() > 1 {
+        next.merges.push(rest);
     }
-    next.merges.retain(|m| m.len() > 1);
     Some((Command::Unmerge(path(&p)), Some(next)))
 }
 
