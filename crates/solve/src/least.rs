@@ -16,6 +16,7 @@
 mod linear;
 
 use crate::block::{Block, Local, Workspace};
+use crate::lists::Lists;
 use crate::lower::{Definers, Problem};
 use crate::measure::Measured;
 use crate::sparse::{Ldl, Symmetric};
@@ -171,8 +172,20 @@ impl Least {
                 entries.extend(self.block.pattern.row(r as usize).iter().map(|&c| (c, n + r)));
             }
             entries.extend(seconds.iter().map(|place| (place.i, place.j)));
-            Symmetric::new((n + m) as usize, &entries)
+            Symmetric::of_chain(self.chain(), &entries)
         })
+    }
+
+    /// Returns unknowns, then rows, as they stand in a chain: the unknowns in order, each row where half of
+    /// its unknowns have come.
+    fn chain(&self) -> Vec<u32> {
+        let (n, m) = (self.block.unknowns.len() as u32, self.block.height() as u32);
+        let middle = |r: u32| {
+            let own = self.block.pattern.row(r as usize);
+            own.get(own.len().saturating_sub(1) / 2).copied().unwrap_or(0)
+        };
+        let rows_at = Lists::new(n as usize, (0..m).map(|r| (middle(r), n + r)));
+        (0..n).flat_map(|u| std::iter::once(u).chain(rows_at.of(u).iter().copied())).collect()
     }
 
     /// Solves from the values that the unknowns have now; distance is measured from `x0`.

@@ -1,8 +1,9 @@
 //! LDLᵀ: factors of a symmetric matrix, without exchanges.
 //!
 //! In: the places of a symmetric matrix's entries; then numbers. Out: factors, how many pivots are
-//! negative (the inertia), solutions. The order has minimum degree and is chosen by structure alone, so the
-//! matrix has to be quasi-definite, or its failure to be so has to be what the caller asks.
+//! negative (the inertia), solutions. The order has minimum degree, or is that of a chain, and is chosen by
+//! structure alone, so the matrix has to be quasi-definite, or its failure to be so has to be what the
+//! caller asks.
 //!
 //! **Source:** Davis, *Algorithm 849: a concise sparse Cholesky factorization package*, ACM TOMS 31
 //! (2005); Vanderbei, *Symmetric quasidefinite matrices*, SIAM J. Optim. 5 (1995).
@@ -40,7 +41,14 @@ impl Symmetric {
     /// Lays the factors out for a matrix of `n` rows; each entry stands for its mirror too, and
     /// those at one place are summed.
     pub(crate) fn new(n: usize, entries: &[(u32, u32)]) -> Self {
-        let Elimination { order, columns } = degree::eliminate(n, entries.iter().copied());
+        Self::by(degree::eliminate(n, entries.iter().copied()), entries)
+    }
+    /// Does the same for rows that may be a chain in this order.
+    pub(crate) fn of_chain(chain: Vec<u32>, entries: &[(u32, u32)]) -> Self {
+        Self::by(degree::eliminate_in(chain, entries.iter().copied()), entries)
+    }
+    fn by(Elimination { order, columns }: Elimination, entries: &[(u32, u32)]) -> Self {
+        let n = order.len();
         let mut place = vec![0u32; n];
         for (k, &i) in order.iter().enumerate() {
             place[i as usize] = k as u32;
