@@ -5,8 +5,8 @@
 //! comes from has to be chosen otherwise: such choices are laid by, each with how much farther from
 //! the start it lies, and the nearest of all is tried next. So the answer is near, what has no part in a
 //! failure is left as it is, and the search ends after an amount of work that the plan fixes. Where it is
-//! long, everything is moved at once as well ([`super::rough`]): where each of many steps hands on how rough
-//! the start is, hardly one root is wrong, and no other one right.
+//! long, or finds nothing, everything is moved at once as well ([`super::rough`]): each of many steps hands on
+//! how rough the start is, so that hardly one root is wrong, and no other one right.
 
 use super::roots::{Reach, Root};
 use super::{Approach, Attempt, Buffers, Failure, Motion, Run, begin};
@@ -18,8 +18,8 @@ use std::rc::Rc;
 /// How often, at most, equations are solved for every unknown, and for all of them together.
 const ROUNDS: usize = 5000;
 const WORK: usize = 3_000_000;
-/// After how much of either everything is moved at once.
-const SOON: usize = 20;
+/// After how much of either everything is moved at once, at the latest.
+const SOON: usize = 10;
 const SOON_WORK: usize = 2000;
 /// How many choices are laid by.
 const CHOICES: usize = 400;
@@ -50,6 +50,8 @@ enum Fault {
 /// A search under way.
 struct Search<'a> {
     attempt: Attempt<'a>,
+    /// After how much work everything is moved at once.
+    soon: usize,
     /// The step that writes a slot.
     writer: Vec<Option<usize>>,
     /// The nearest comes last.
@@ -81,8 +83,10 @@ impl Attempt<'_> {
             step.targets.iter().for_each(|&t| writer[t as usize] = Some(i));
             branching += if step.may_branch() { step.targets.len() } else { 0 };
         }
+        let soon = (SOON * branching).max(SOON_WORK);
         let mut search = Search {
             attempt: self,
+            soon: if plan.has_whole_unknowns() { usize::MAX } else { soon },
             writer,
             choices: Vec::new(),
             seen: BTreeSet::new(),
@@ -94,22 +98,24 @@ impl Attempt<'_> {
         let mut from = 0;
         let mut first = None;
         let mut tried = 0;
-        let mut is_early = !plan.has_whole_unknowns();
         loop {
             let Err((fault, failure)) = search.run(from, values, buffers, host) else {
                 return Ok(());
             };
             tried += 1;
-            search.lay_by(&fault, Reach::Near, values, buffers, host);
             let (values_then, motion_then) = (values.to_vec(), buffers.motion.clone());
-            let (fault, failure, begun, motion) =
-                first.get_or_insert((fault, failure, values_then, motion_then));
-            if is_early && buffers.square.work > (SOON * branching).max(SOON_WORK) {
-                is_early = false;
+            search.lay_by(&fault, Reach::Near, values, buffers, host);
+            if buffers.square.work > search.soon {
+                search.soon = usize::MAX;
                 if self.run_from_near(values, buffers, host) {
                     return Ok(());
                 }
+                values.copy_from_slice(&values_then);
+                buffers.motion.clone_from(&motion_then);
+                search.lay_by(&fault, Reach::Near, values, buffers, host);
             }
+            let (fault, failure, begun, motion) =
+                first.get_or_insert((fault, failure, values_then, motion_then));
             if buffers.square.work > (ROUNDS * branching).min(WORK) {
                 let reason = Reason::NotDecided { tried };
                 return Err(Failure { reason, region: failure.region });
@@ -121,7 +127,11 @@ impl Attempt<'_> {
                 (search.cost, search.taken) = (0.0, Taken::new());
                 search.lay_by(fault, Reach::Far, values, buffers, host);
             }
-            let Some(next) = search.choices.pop() else { return Err(failure.clone()) };
+            let Some(next) = search.choices.pop() else {
+                let is_left = search.soon < usize::MAX;
+                let is_found = is_left && self.run_from_near(values, buffers, host);
+                return if is_found { Ok(()) } else { Err(failure.clone()) };
+            };
             values.copy_from_slice(&next.values);
             buffers.motion.copy_from_slice(&next.motion);
             (search.cost, search.taken) = (next.cost, next.taken);
@@ -164,7 +174,8 @@ impl Search<'_> {
         }
     }
 
-    /// Lays by the other roots of what has a part in a fault. The values are left as they are.
+    /// Lays by the other roots of what has a part in a fault, until everything is to be moved at once. The
+    /// values are left as they are.
     fn lay_by(
         &mut self,
         fault: &Fault,
@@ -183,6 +194,9 @@ impl Search<'_> {
             }
         };
         for suspect in suspects {
+            if buffers.square.work > self.soon {
+                break;
+            }
             let step = &plan.steps[suspect];
             let index = suspect;
             let mut run = Run { plan, frame, last, values, trust, buffers, host, index };
