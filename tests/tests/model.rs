@@ -50,6 +50,8 @@ struct Model {
     merges: Vec<Vec<Names>>,
     /// What classes merge, from a thing of the class.
     class_merges: Vec<(&'static str, Vec<Names>)>,
+    /// The numbers that the document itself gives.
+    written: BTreeMap<Names, f64>,
     /// The number at every path.
     values: BTreeMap<Names, f64>,
     made: u32,
@@ -72,7 +74,8 @@ impl Model {
         ]);
         let (parts, merges) = (Vec::new(), Vec::new());
         let (class_merges, values) = (Vec::new(), BTreeMap::new());
-        Self { classes, parts, merges, class_merges, values, made: 0 }
+        let written = BTreeMap::new();
+        Self { classes, parts, merges, class_merges, written, values, made: 0 }
     }
 
     /// Every path below a thing, its own included, in order of declaration, with its class.
@@ -139,29 +142,58 @@ impl Model {
         }
         first
     }
-    /// Gives every leaf the value of the first that it is one with.
-    fn settle(&mut self) {
-        let groups = self.groups();
-        self.values.retain(|path, _| groups.contains_key(path));
-        for (leaf, first) in groups {
-            let value = self.values[&first];
-            self.values.insert(leaf, value);
+    /// What a leaf is given by itself, and how deep that stands: the document's own word stands furthest out.
+    fn given(&self, path: &Names, default: f64) -> (usize, f64) {
+        if let Some(&x) = self.written.get(path) {
+            return (0, x);
+        }
+        // the far end of a bar has a value of its own, which Bar says
+        let far = path.len() >= 2 && path[path.len() - 2] == "q";
+        match (far, path.last().map(String::as_str)) {
+            (true, Some("x")) => (path.len() - 2, 5.0),
+            (true, Some("y")) => (path.len() - 2, 6.0),
+            _ => (path.len() - 1, default),
         }
     }
-    /// Gives new leaves the values of their classes.
-    fn fill(&mut self) {
-        let all = self.all();
-        for (path, shape) in &all {
+    /// For every leaf that is the first of those it is one with: the one that counts, and what it gives.
+    fn counting(&self) -> BTreeMap<Names, (Names, f64)> {
+        let groups = self.groups();
+        let mut counting: BTreeMap<Names, (usize, Names, f64)> = BTreeMap::new();
+        for (path, shape) in self.all() {
             let Shape::Number(default) = shape else { continue };
-            // the far end of a bar has a value of its own
-            let far = path.len() >= 2 && path[path.len() - 2] == "q";
-            let x = match (far, path.last().map(String::as_str)) {
-                (true, Some("x")) => 5.0,
-                (true, Some("y")) => 6.0,
-                _ => *default,
-            };
-            self.values.entry(path.clone()).or_insert(x);
+            let (depth, x) = self.given(&path, default);
+            let first = &groups[&path];
+            if counting.get(first).is_none_or(|(least, ..)| depth < *least) {
+                counting.insert(first.clone(), (depth, path, x));
+            }
         }
+        counting.into_iter().map(|(first, (_, path, x))| (first, (path, x))).collect()
+    }
+    /// Gives every leaf the value that counts.
+    fn settle(&mut self) {
+        let (counting, groups) = (self.counting(), self.groups());
+        self.written.retain(|path, _| groups.contains_key(path));
+        let values = groups.into_iter().map(|(leaf, first)| (leaf, counting[&first].1));
+        self.values = values.collect();
+    }
+    /// Writes what keeps the values as they are: where it is written already, else at the first path; a spot
+    /// as a whole.
+    fn hold(&mut self) {
+        let wanted = self.values.clone();
+        for (first, (counts, x)) in self.counting() {
+            if wanted[&first] == x {
+                continue;
+            }
+            let at = if self.written.contains_key(&counts) { counts } else { first };
+            let (name, owner) = at.split_last().expect("a leaf has a name");
+            let is_place = ["x", "y"].contains(&name.as_str());
+            for name in if is_place { vec!["x", "y"] } else { vec![name.as_str()] } {
+                let leaf: Names =
+                    owner.iter().map(String::as_str).chain([name]).map(str::to_string).collect();
+                self.written.insert(leaf.clone(), wanted[&leaf]);
+            }
+        }
+        self.settle();
     }
     /// What the values view has to show.
     fn shown(&self) -> BTreeMap<String, u64> {
@@ -201,7 +233,6 @@ fn pick(dice: &mut Dice, model: &Model) -> Picked {
         0 | 1 => {
             let class = dice.one(&["Spot", "Bar", "Node", "Frame"])?;
             next.parts.push((fresh.clone(), class));
-            next.fill();
             next.settle();
             let members = format!("{fresh}: {class}");
             Some((Command::Edit { target: Path::default(), members }, Some(next)))
@@ -209,9 +240,10 @@ fn pick(dice: &mut Dice, model: &Model) -> Picked {
         2 | 3 => {
             let leaf = dice.one(&model.leaves())?;
             let x = dice.below(400) as f64 / 4.0;
-            let first = model.groups()[&leaf].clone();
-            next.values.insert(first, x);
-            next.settle();
+            let groups = model.groups();
+            let alike = groups.iter().filter(|(_, first)| **first == groups[&leaf]);
+            next.values.extend(alike.map(|(path, _)| (path.clone(), x)));
+            next.hold();
             Some((Command::Set(vec![(path(&leaf), Literal::Number(x))]), Some(next)))
         }
         4 | 5 => {
@@ -232,7 +264,6 @@ fn pick(dice: &mut Dice, model: &Model) -> Picked {
             let x = dice.below(40) as f64;
             let members = format!("{fresh}: Real = {x}");
             next.classes.get_mut("Node")?.push((fresh, Shape::Number(x)));
-            next.fill();
             next.settle();
             Some((Command::Edit { target: path(&names("Node")), members }, Some(next)))
         }
@@ -263,6 +294,7 @@ fn unmerge(dice: &mut Dice, model: &Model, mut next: Model) -> Picked {
     if rest.len() > 1 {
         next.merges.push(rest);
     }
+    next.hold();
     Some((Command::Unmerge(path(&p)), Some(next)))
 }
 
@@ -274,8 +306,7 @@ fn delete(dice: &mut Dice, model: &Model, mut next: Model) -> Picked {
         merge.retain(|p| p[0] != name);
     }
     next.merges.retain(|m| m.len() > 1);
-    let leaves = next.leaves();
-    next.values.retain(|p, _| leaves.contains(p));
+    next.hold();
     Some((Command::Delete(path(&vec![name])), Some(next)))
 }
 
@@ -285,8 +316,7 @@ fn change_class(dice: &mut Dice, model: &Model, mut next: Model) -> Picked {
         let fields = model.classes["Node"].clone();
         let (name, _) = dice.one(&fields[4..])?;
         next.classes.get_mut("Node")?.retain(|(n, _)| *n != name);
-        let leaves = next.leaves();
-        next.values.retain(|p, _| leaves.contains(p));
+        next.hold();
         return Some((Command::Delete(path(&names(&format!("Node.{name}")))), Some(next)));
     }
     if !model.class_merges.is_empty() {
@@ -314,13 +344,14 @@ fn rename(dice: &mut Dice, model: &Model, mut next: Model, fresh: String) -> Pic
     };
     next.parts.iter_mut().filter(|(n, _)| *n == name).for_each(|p| p.0 = other.clone());
     next.merges.iter_mut().flatten().for_each(renamed);
-    next.values = std::mem::take(&mut next.values)
+    next.written = std::mem::take(&mut next.written)
         .into_iter()
         .map(|(mut p, x)| {
             renamed(&mut p);
             (p, x)
         })
         .collect();
+    next.settle();
     Some((rename, Some(next)))
 }
 

@@ -291,6 +291,13 @@ impl Document {
         let others = (0..).zip(self.layout(class)).filter(|(_, f)| adds(f)).map(|(i, _)| i);
         Some(Voices { own: nearest.and_then(|i| own(line[i])), others: others.collect() })
     }
+    /// Returns how many of the first fields of a class's things are one place: all where they are a place
+    /// themselves, else those of the nearest primary superclass whose things are. A superclass's things are a
+    /// part of it, whatever it adds and asks of them.
+    pub fn place_in(&self, class: ClassId) -> Option<usize> {
+        let places = self.primary_line(class).into_iter().find(|&c| self.is_place(c));
+        places.map(|c| self.layout(c).len())
+    }
     /// Returns true if things of the class are a *place*: two or three stored parts, all real
     /// numbers, no constraints. A place yields as one. A document is none, whatever it consists of.
     pub fn is_place(&self, class: ClassId) -> bool {

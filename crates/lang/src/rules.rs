@@ -245,7 +245,7 @@ impl Lowerer<'_> {
         let (Some(target), Some(word)) = (side.target(), side.side()) else { return };
         let Some(path) = self.paths(scope, std::iter::once(target.clone())).pop() else { return };
         let class = self.class_at(scope.class(), &path);
-        let is_place = class.is_some_and(|c| self.document.is_place(c));
+        let is_place = class.is_some_and(|c| self.document.place_in(c).is_some());
         let is_number = class.is_some_and(|c| match &self.document.classes[c].kind {
             ClassKind::Primitive(primitive) => primitive.is_number(),
             _ => false,

@@ -117,7 +117,8 @@ impl Lowerer<'_> {
         };
         let said = if own.len() != wanted.len() {
             let (wanted, own) = (wanted.len(), own.len());
-            Some(format!("{name} has {wanted} parameters in {above}, here {own}"))
+            let s = if wanted == 1 { "" } else { "s" };
+            Some(format!("{name} takes {wanted} argument{s} in {above}, here {own}"))
         } else if labels(&own) != labels(&wanted) {
             let (wanted, own) = (labels(&wanted), labels(&own));
             Some(format!("{name} takes ({wanted}) in {above}, here ({own})"))

@@ -3,7 +3,7 @@
 //! A value that the thing's own text gives is rewritten where it stands, number by number; any other
 //! is added to the thing's own body, never to a class.
 
-use crate::lower::Lowered;
+use crate::lower::{Lowered, OWN};
 use crate::numbers::{from_bare, from_si, write_number};
 use crate::paths::loose_path;
 use base::Span;
@@ -25,7 +25,8 @@ pub fn write_values(lowered: &Lowered, writes: &[(Path, Literal)]) -> Vec<TextEd
 /// Returns the edits of the effective text that give these parts these values.
 pub(crate) fn value_edits(lowered: &Lowered, writes: &[(Path, Literal)]) -> Vec<TextEdit> {
     let file = lowered.effective_parse.file();
-    let members = Members::of(about(lowered, &file, writes).into_iter());
+    let own = Some(lowered.document.root);
+    let members = Members::of(about(lowered, &file, writes).into_iter(), lowered, own);
     let mut writer =
         Writer { lowered, document: &lowered.document, edits: Vec::new(), added: IndexMap::new() };
     for (path, literal) in writes {
@@ -34,7 +35,8 @@ pub(crate) fn value_edits(lowered: &Lowered, writes: &[(Path, Literal)]) -> Vec<
             let part = Value { literal, class: lowered.class_at(class, &rest) };
             let end = Spot::EndOf(declared.syntax().clone());
             let members = declared.body().into_iter().flat_map(|b| b.members());
-            writer.write(&Body { owner: Some(class), end }, &Members::of(members), &rest, part);
+            let members = Members::of(members, lowered, Some(class));
+            writer.write(&Body { owner: Some(class), end }, &members, &rest, part);
             continue;
         }
         let class = lowered.class_at(root, path);
@@ -60,7 +62,7 @@ fn about(lowered: &Lowered, file: &ast::File, writes: &[(Path, Literal)]) -> Vec
     };
     let ends: BTreeSet<u32> = writes.iter().filter_map(declared).collect();
     let speaks = |(kind, span): &(SyntaxKind, Span)| match kind {
-        SyntaxKind::Assign => true,
+        SyntaxKind::Assign | SyntaxKind::For => true,
         // where it begins depends on whether comments count
         SyntaxKind::Part => ends.contains(&span.end),
         _ => false,
@@ -107,13 +109,28 @@ struct Body {
     end: Spot,
 }
 
-/// The members of a body that speak of values, by the first step to what they speak of.
-struct Members(BTreeMap<Step, Vec<Member>>);
+/// The members of a body that speak of values.
+struct Members {
+    /// Those that say what they speak of, by the first step to it.
+    by_first: BTreeMap<Step, Vec<Member>>,
+    /// What loops give, and the last loop that does.
+    repeated: BTreeMap<Path, Member>,
+}
 
 impl Members {
-    fn of(members: impl Iterator<Item = Member>) -> Self {
+    /// Sorts the members of a body whose thing is of a class, if that is known.
+    fn of(
+        members: impl Iterator<Item = Member>,
+        lowered: &Lowered,
+        owner: Option<ClassId>,
+    ) -> Self {
         let mut by_first: BTreeMap<Step, Vec<Member>> = BTreeMap::new();
+        let mut loops: Vec<Member> = Vec::new();
         for member in members {
+            if matches!(member, Member::For(_)) {
+                loops.push(member);
+                continue;
+            }
             let first: Vec<Step> = match &member {
                 Member::Assign(assign) => {
                     let target = assign.target().and_then(|t| loose_path(&t));
@@ -126,11 +143,31 @@ impl Members {
                 by_first.entry(step).or_default().push(member.clone());
             }
         }
-        Self(by_first)
+        let gives = |n: SyntaxNode| matches!(n.kind(), SyntaxKind::Assign);
+        loops.retain(|each| each.syntax().descendants().any(gives));
+        let repeated = if loops.is_empty() { None } else { owner };
+        let givens = repeated.map(|class| &lowered.document.classes[class].givens);
+        let repeated = givens.into_iter().flatten().filter_map(|given| {
+            let place = lowered.origins.place(given.origin);
+            let at = Some(place.span.start).filter(|_| place.file == OWN)?;
+            let each = loops.iter().find(|each| each.span().range().contains(&(at as usize)))?;
+            Some((given.path.clone(), each.clone()))
+        });
+        Self { by_first, repeated: repeated.collect() }
+    }
+    /// Returns the loop that gives what a path leads to, or a part of it.
+    fn repeated(&self, path: &Path) -> Option<&Member> {
+        let around = (1..=path.0.len()).rev().map(|n| Path(path.0[..n].to_vec()));
+        let mut around = around.filter_map(|path| self.repeated.get(&path));
+        let below = || {
+            let next = self.repeated.range(path.clone()..).next();
+            next.filter(|(p, _)| p.0.starts_with(&path.0)).map(|(_, each)| each)
+        };
+        around.next().or_else(below)
     }
     /// Returns the members that may speak of what a path leads to, in the order of the text.
     fn about(&self, path: &Path) -> &[Member] {
-        path.0.first().and_then(|step| self.0.get(step)).map_or(&[], |members| members)
+        path.0.first().and_then(|step| self.by_first.get(step)).map_or(&[], |members| members)
     }
 }
 
@@ -146,7 +183,12 @@ impl Writer<'_> {
     /// Writes the value of the part at `path` from the thing that has these members.
     fn write(&mut self, body: &Body, members: &Members, path: &Path, value: Value<'_>) {
         // later values win, so the last that speaks of the part counts
+        let repeated = members.repeated(path);
+        let after = |each: &Member| Spot::After(each.syntax().clone());
         for member in members.about(path).iter().rev() {
+            if let Some(each) = repeated.filter(|e| e.span().start > member.span().start) {
+                return self.add(after(each), path, value);
+            }
             match member {
                 Member::Assign(assign) => {
                     let Some(target) = assign.target().and_then(|t| loose_path(&t)) else {
@@ -176,7 +218,7 @@ impl Writer<'_> {
                 _ => {}
             }
         }
-        self.add(body.end.clone(), path, value);
+        self.add(repeated.map_or_else(|| body.end.clone(), after), path, value);
     }
 
     /// Writes a value that is all or a coordinate of what an expression says, if that can be told.
@@ -241,7 +283,8 @@ impl Writer<'_> {
             return self.add(body.end.clone(), path, value);
         }
         let inner = Body { owner: class, end: Spot::EndOf(part.syntax().clone()) };
-        let members = Members::of(part.body().into_iter().flat_map(|b| b.members()));
+        let members = part.body().into_iter().flat_map(|b| b.members());
+        let members = Members::of(members, self.lowered, class);
         if !rest.is_empty() {
             return self.write(&inner, &members, &rest, value);
         }

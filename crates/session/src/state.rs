@@ -61,6 +61,10 @@ impl State {
         debug_assert_eq!(kernel::check::structure(&lowered.document, &structure), Ok(()));
         let model = Model { document: &lowered.document, structure: &structure };
         let (mut planner, unplanned) = Planner::new(model, plans);
+        // what is not there because its text is wrong is said of that text, and not of what speaks of it
+        let is_wrong = lowered.diagnostics.iter().any(|d| d.severity == base::Severity::Error);
+        let follows = |f: &plan::Fault| is_wrong && f.kind == plan::FaultKind::WrongKind;
+        let unplanned: Vec<plan::Fault> = unplanned.into_iter().filter(|f| !follows(f)).collect();
         let mut given = eval::Given::of(&lowered.document, &structure);
         let mut values = Values::new(structure.slots.len());
         let double_roots = opened(model, &mut planner, &mut given, &mut values);

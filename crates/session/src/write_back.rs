@@ -40,7 +40,10 @@ pub(crate) fn write_back(
     loop {
         let writes: Vec<(Path, Literal)> = written
             .iter()
-            .map(|&t| (state.structure.path(&state.lowered.document, t), literal(state, t, wanted)))
+            .map(|&t| {
+                let at = written_at(state, t);
+                (state.structure.path(&state.lowered.document, at), literal(state, t, wanted))
+            })
             .collect();
         let edits = lang::write_values(&state.lowered, &writes);
         let text = syntax::edit::apply(&state.text, &edits);
@@ -127,10 +130,36 @@ pub(crate) fn differing<'a>(
     })
 }
 
-/// Returns the place that a slot is a coordinate of, else its own thing.
+/// Returns the place that a slot is a coordinate of, where that is nothing else, else its own thing.
 pub(crate) fn unit_of_writing(state: &State, slot: SlotId) -> ThingId {
-    let s = &state.structure.slots[slot];
-    s.place.unwrap_or(s.thing)
+    let slots = &state.structure.slots;
+    let is_all = |&place: &ThingId| {
+        let of_place = |&s: &SlotId| slots[s].place == Some(place);
+        state.structure.slots_under(place).iter().all(of_place)
+    };
+    slots[slot].place.filter(is_all).unwrap_or(slots[slot].thing)
+}
+
+/// Returns the thing by whose path a thing's value is written: of merged ones the one that gives it, if the
+/// text itself does, else the first.
+fn written_at(state: &State, unit: ThingId) -> ThingId {
+    let structure = &state.structure;
+    let class = |t: ThingId| structure.things[t].class;
+    let mut others = structure.merged_with(unit);
+    others.retain(|&t| class(t) == class(unit));
+    if others.len() < 2 {
+        return unit;
+    }
+    let gives = |&t: &ThingId| {
+        let leaves =
+            if structure.slot_of[t].is_some() { vec![t] } else { structure.parts(t).collect() };
+        leaves.iter().any(|&leaf| {
+            let Some(slot) = structure.slot_of[leaf] else { return false };
+            let (given, own) = (structure.given(slot), structure.given_apart(leaf));
+            given.is_some_and(|g| Some(g) == own && state.lowered.is_own_given(g.origin))
+        })
+    };
+    others.into_iter().find(gives).unwrap_or(unit)
 }
 
 /// Returns what a thing is worth, as the language writes it.

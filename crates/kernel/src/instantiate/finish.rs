@@ -21,7 +21,7 @@ pub(super) fn finish(maker: &mut Maker<'_>, body: Body, givens: &Givens) -> Form
         ..Form::default()
     };
     structure.slots.reserve(body.things.len());
-    give_slots(maker, &body, &order, &mut structure);
+    give_slots(maker, &body, &order, givens, &mut structure);
     let references = given_references(maker, &body);
     let first = |t: ThingId| body.merged[t];
     let mut members: Vec<(ThingId, ThingId)> =
@@ -124,11 +124,17 @@ fn first_of_each(structure: &Form, thing: ThingId) -> Vec<ThingId> {
     found
 }
 
-fn give_slots(maker: &mut Maker<'_>, body: &Body, order: &[ThingId], structure: &mut Form) {
+fn give_slots(
+    maker: &mut Maker<'_>,
+    body: &Body,
+    order: &[ThingId],
+    givens: &Givens,
+    structure: &mut Form,
+) {
     let document = maker.document;
     let has_range = |c: &Class| c.parts.iter().any(|p| p.range.is_some());
     let has_ranges = document.classes.iter().any(|(_, c)| has_range(c));
-    let mut places: IdVec<ClassId, Option<bool>> = IdVec::filled(None, document.classes.len());
+    let mut places: IdVec<ClassId, Option<usize>> = IdVec::filled(None, document.classes.len());
     for &thing in order {
         let t = &body.things[thing];
         let ClassKind::Primitive(primitive) = document.classes[t.class].kind else { continue };
@@ -136,7 +142,8 @@ fn give_slots(maker: &mut Maker<'_>, body: &Body, order: &[ThingId], structure: 
         let slot = structure.slot_of[first].unwrap_or_else(|| {
             let place = t.owner.filter(|&owner| {
                 let class = body.things[owner].class;
-                *places[class].get_or_insert_with(|| document.is_place(class))
+                let count = || document.place_in(class).unwrap_or(0);
+                (t.field as usize) < *places[class].get_or_insert_with(count)
             });
             let place = place.map(|owner| body.merged[owner]);
             structure.slots.push(Slot {
@@ -149,8 +156,17 @@ fn give_slots(maker: &mut Maker<'_>, body: &Body, order: &[ThingId], structure: 
         });
         structure.slot_of[first] = Some(slot);
         structure.slot_of[thing] = Some(slot);
-        let s = &mut structure.slots[slot];
-        s.given = s.given.or(body.givens[thing]);
+        if let Some(given) = body.givens[thing] {
+            // what stands further out is nearer to whoever wrote it; of equals the first declared
+            let known = structure.slots[slot].given;
+            let outer = |known: GivenIn| {
+                let depth = |given| depth_of(document, structure, body, givens, given);
+                depth(known) <= depth(given)
+            };
+            if !known.is_some_and(outer) {
+                structure.slots[slot].given = Some(given);
+            }
+        }
         if !has_ranges {
             continue;
         }
@@ -166,6 +182,40 @@ fn give_slots(maker: &mut Maker<'_>, body: &Body, order: &[ThingId], structure: 
             maker.fault(origin, FaultKind::UnlikeMerge, message);
         }
     }
+}
+
+/// Returns how deep in the document the text stands that gives a value: 0 for what the document itself says, in
+/// the bodies of its parts as well; for what a class says, how deep its thing lies.
+fn depth_of(
+    document: &Document,
+    structure: &Form,
+    body: &Body,
+    givens: &Givens,
+    given: GivenIn,
+) -> usize {
+    let depth = |thing: ThingId| {
+        std::iter::successors(body.things[thing].owner, |&t| body.things[t].owner).count()
+    };
+    let origin = givens[given.value].origin;
+    let mut thing = given.me;
+    let line = document.primary_line(body.things[thing].class).into_iter();
+    let mut own = line.filter(|&c| document.classes[c].is_of_one);
+    let mut says = own.find(|&c| document.classes[c].givens.iter().any(|g| g.origin == origin));
+    // the body of a part stands in the text of the class that declares the part
+    while let Some(class) = says.filter(|&c| document.classes[c].general.is_none()) {
+        let Some(owner) = body.things[thing].owner else { break };
+        let field = structure.layouts[body.things[owner].class]
+            .as_ref()
+            .and_then(|layout| layout.fields.get(body.things[thing].field as usize));
+        let declares = match field {
+            Some(field) => field.class,
+            // the element of a list is declared with it
+            None => class,
+        };
+        thing = owner;
+        says = document.classes[declares].is_of_one.then_some(declares);
+    }
+    depth(thing)
 }
 
 /// Returns the numbers that a thing may be, and where that is written.

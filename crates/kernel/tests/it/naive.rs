@@ -171,8 +171,9 @@ impl<'d> Naive<'d> {
             }
         }
     }
-    /// Finds what a number is given: by its outermost owner that says something, the last time.
-    fn given(&self, path: &Path) -> Option<&'d Term> {
+    /// Finds what a number is given: by its outermost owner that says something, the last time. Tells how
+    /// deep that lies.
+    fn given(&self, path: &Path) -> Option<(usize, &'d Term)> {
         for (owner, class) in &self.things {
             if !path.0.starts_with(&owner.0) {
                 continue;
@@ -181,7 +182,7 @@ impl<'d> Naive<'d> {
             for class in self.document.primary_line(*class) {
                 let mut givens = self.document.classes[class].givens.iter().rev();
                 if let Some(given) = givens.find(|g| g.path == rest) {
-                    return Some(&given.value);
+                    return Some((owner.0.len(), &given.value));
                 }
             }
         }
@@ -191,16 +192,20 @@ impl<'d> Naive<'d> {
     fn slots(&self) -> Vec<(Path, Option<Term>)> {
         let is_number =
             |c: ClassId| matches!(self.document.classes[c].kind, ClassKind::Primitive(_));
-        let mut slots: Vec<(Path, Option<Term>)> = Vec::new();
+        let mut slots: Vec<(Path, Option<(usize, Term)>)> = Vec::new();
         for (path, _) in self.things.iter().filter(|t| is_number(t.1)) {
             let first = &self.same[path];
             let known = slots.iter().position(|s| s.0 == *first).unwrap_or_else(|| {
                 slots.push((first.clone(), None));
                 slots.len() - 1
             });
-            slots[known].1 = slots[known].1.take().or_else(|| self.given(path).cloned());
+            let Some((depth, term)) = self.given(path) else { continue };
+            // of merged ones, what is said furthest out counts, the first time
+            if slots[known].1.as_ref().is_none_or(|(d, _)| depth < *d) {
+                slots[known].1 = Some((depth, term.clone()));
+            }
         }
-        slots
+        slots.into_iter().map(|(path, given)| (path, given.map(|(_, term)| term))).collect()
     }
     /// Returns which constraints there are, by the thing that they are about first of all.
     fn constraints(&self) -> BTreeSet<(Path, ClassId, u32)> {

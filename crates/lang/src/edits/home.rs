@@ -126,7 +126,11 @@ impl Text<'_> {
     fn is_plain(&self, home: &Home) -> bool {
         let class = self.class_at(&home.path);
         matches!(home.site, Site::Part(..))
-            && class.is_some_and(|c| !self.lowered.is_class_of_one(c))
+            && class.is_some_and(|c| {
+                // one with other counts is a named class all the same
+                let general = self.lowered.document.classes[c].general;
+                general.is_some() || !self.lowered.is_class_of_one(c)
+            })
     }
 
     /// Says a member in a body, after the last of its kind, and what that implies.
@@ -211,8 +215,7 @@ impl Text<'_> {
     /// Returns the first class of a line that the document's own text declares.
     fn named_class(&self, class: ClassId) -> Option<ClassId> {
         let document = &self.lowered.document;
-        let line = document.primary_line(class);
-        let first = line.into_iter().find(|&c| !self.lowered.is_class_of_one(c))?;
+        let first = document.named_class(class);
         self.class(&Path(vec![Step::Part(document.classes[first].name.clone())])).map(|_| first)
     }
 

@@ -206,11 +206,7 @@ const WRONG: &[(&str, &str, &str)] = &[
         "value-of-wrong-class",
         "2.5",
     ),
-    (
-        "class C { n: Integer = 3  l: List of n Real }\nx: Real\nc: C\nc.n = x",
-        "value-of-wrong-class",
-        "x",
-    ),
+    ("class C { n: Integer = 3  l: List of n Real }\nx: Real\nc: C\nc.n = x", "not-a-count", "x"),
     ("class C { n: Integer = -3  l: List of n Real }", "not-a-count", "n"),
     (
         "class C { n: Integer = 3  l: List of n Real }\nx: C { n = 5 }\ny: C\ny = x",
