@@ -13,12 +13,14 @@ const HALVINGS: u32 = 34;
 const NOTHING: u32 = 14;
 /// A step back, as a part of the way: it can be gone where the edit began at its limit.
 const BACK: f64 = -1.0 / 1024.0;
+/// After so many multiplications, roughly, it is given up: a refusal is wanted at once.
+const WORK: u64 = 100_000_000;
 /// With more slots than this a limit is not looked for: every trial is a whole edit.
 const LARGEST: usize = 20_000;
 
 impl Planner {
     /// Returns how far towards its values a refused edit could go, as a part of the way; nothing
-    /// where it cannot move at all, or speaks of more than real numbers.
+    /// where it cannot move at all, speaks of more than real numbers, or would take too long.
     ///
     /// By bisection; each trial is a whole edit from the present values, so that what is told can be
     /// set. `was_unmet` are the constraints that do not hold now. Cost: up to 35 such edits.
@@ -50,7 +52,11 @@ impl Planner {
             !is_any_new(&unmet, was_unmet) && self.reached(&at, &trial)
         };
         let (mut gone, mut beyond) = (0.0, 1.0);
+        let until = self.spent() + WORK;
         for halving in 0..HALVINGS {
+            if self.spent() > until {
+                return None;
+            }
             if halving == NOTHING && gone == 0.0 {
                 return can_go(BACK).then_some(0.0);
             }

@@ -11,8 +11,7 @@ use crate::run::{Adapter, Ground, Ran, leans, ran, scatter};
 use crate::task::{Course, Task};
 use kernel::{SlotId, Values};
 use solve::{
-    Constants, Decision, Ended, Lean, Mode, Modes, Plan, Runner, SlotIndex, Standing, System,
-    Tried, decide,
+    Constants, Decision, Ended, Lean, Mode, Modes, Plan, SlotIndex, Standing, System, Tried, decide,
 };
 use std::collections::BTreeMap;
 use std::rc::Rc;
@@ -215,9 +214,9 @@ pub(crate) fn attempt_in_mode(
     let Ground { x0, local, changed } = ground;
     let mut local = local.clone();
     let mut adapter = Adapter { planner, model, task, values, host };
-    let runner = &mut Runner::new();
-    runner.lean(leans.to_vec());
-    let outcome = solve::run(&plan, runner, x0, &mut local, changed, &mut adapter);
+    let mut runner = planner.take_runner(leans.to_vec());
+    let outcome = solve::run(&plan, &mut runner, x0, &mut local, changed, &mut adapter);
+    planner.put_back(runner);
     let breaks = |values: &[f64]| !modes.broken(mode, values).is_empty();
     if outcome.is_solved() && plan.opens() && changed.is_empty() && breaks(&local) {
         let mut others = solve::others(&plan, &local, MOST_OTHERS, &mut adapter).into_iter();

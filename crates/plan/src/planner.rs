@@ -11,7 +11,7 @@ use crate::recent::Recent;
 use crate::rule::{Rules, Source};
 use crate::task::{Alike, Holding, Locals, Setting, Task, Wish, at_rest, task};
 use kernel::{Document, Form, SlotId, Structure, Values};
-use solve::{Level, Runner, Scratch};
+use solve::{Lean, Level, Runner, Scratch};
 use std::cell::RefCell;
 use std::collections::btree_map::Entry;
 use std::collections::{BTreeMap, BTreeSet};
@@ -46,8 +46,8 @@ pub struct Planner {
     pub(crate) came: Vec<Option<CameId>>,
     /// The components for which opening found no solution before a search was given up.
     pub(crate) given_up: Vec<(Component, NotDecided)>,
-    /// What runs plans, kept for what it has allocated.
-    pub(crate) runner: RefCell<Option<Box<Runner>>>,
+    /// What runs plans, kept for what it has allocated; not here while it runs.
+    runner: RefCell<Option<Box<Runner>>>,
 }
 
 /// What was found of a form, for the next planner of the same.
@@ -111,6 +111,22 @@ impl Planner {
             runner: RefCell::default(),
         };
         (planner, faults)
+    }
+
+    /// Takes what runs plans, and says how the states lean that it starts from; what a host's method runs
+    /// in the meantime has another one.
+    pub(crate) fn take_runner(&self, leans: Vec<Lean>) -> Box<Runner> {
+        let mut runner = self.runner.take().unwrap_or_default();
+        runner.lean(leans);
+        runner
+    }
+    /// Puts back what was taken.
+    pub(crate) fn put_back(&self, runner: Box<Runner>) {
+        self.runner.replace(Some(runner));
+    }
+    /// Returns what runs have cost so far, in multiplications, roughly.
+    pub(crate) fn spent(&self) -> u64 {
+        self.runner.borrow().as_ref().map_or(0, |runner| runner.spent())
     }
 
     /// Returns the slots that rules tie to these, and these themselves.

@@ -90,9 +90,7 @@ fn by_course(
     match &task.course {
         Course::Plan => {
             let Ground { x0, local: began, changed } = ground;
-            // what a host's method runs has another one
-            let mut runner = planner.runner.take().unwrap_or_default();
-            runner.lean(leans(model, task));
+            let mut runner = planner.take_runner(leans(model, task));
             let mut by_plan = |plan: &Plan| {
                 let mut local = began.clone();
                 let mut adapter = Adapter { planner, model, task, values, host };
@@ -104,7 +102,7 @@ fn by_course(
             let held = held.map(|plan| by_plan(&plan));
             let held = held.filter(|(outcome, _)| outcome.is_solved() && outcome.unmet.is_empty());
             let (outcome, local) = held.unwrap_or_else(|| by_plan(&task.plan));
-            planner.runner.replace(Some(runner));
+            planner.put_back(runner);
             scatter(task, &local, values);
             ran(planner, task, &outcome)
         }

@@ -78,9 +78,19 @@ pub(crate) struct Workspace {
     wide_registers: Vec<Lanes>,
     wide_arguments: Vec<Lanes>,
     wide_out: Vec<Lanes>,
+    /// What was spent so far, in multiplications, roughly.
+    spent: u64,
 }
 
 impl Workspace {
+    /// Counts what an iteration costs, in multiplications.
+    pub(crate) fn spend(&mut self, multiplications: usize) {
+        self.spent += multiplications as u64;
+    }
+    /// Returns what was counted so far.
+    pub(crate) fn spent(&self) -> u64 {
+        self.spent
+    }
     /// Runs a tape for one row; the outputs are in what is returned.
     pub(crate) fn run(
         &mut self,

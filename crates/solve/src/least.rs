@@ -477,6 +477,7 @@ impl Least {
     ) -> Option<f64> {
         let block = &self.block;
         let (n, m) = (block.unknowns.len(), block.height());
+        w.spend(100 * (n + block.pattern.len()));
         s.entries.clear();
         s.entries.reserve(n + m + s.local.jacobian.len() + block.seconds().len());
         let pulls = s.pull.iter().enumerate();

@@ -99,6 +99,15 @@ impl Measure {
         &self.block.unknowns
     }
 
+    /// Returns about how many multiplications an iteration takes.
+    fn cost(&self) -> usize {
+        let n = self.unknowns.len();
+        match self.large {
+            Some(_) => 100 * self.block.pattern.len(),
+            None => n * n * (10 * n + self.levels.len()),
+        }
+    }
+
     /// Solves from the values that the unknowns have now; distance is measured from `x0`.
     pub(crate) fn solve(
         &self,
@@ -113,6 +122,7 @@ impl Measure {
         let (mut smallest, mut idle) = (f64::INFINITY, 0);
         let mut settled = false;
         for iteration in 0..STEPS {
+            w.spend(self.cost());
             let Some(local) = self.evaluate(values, &scale, &weights, w) else {
                 return Measured::Failed;
             };

@@ -29,6 +29,8 @@ const SHORTEST: f64 = 1e-7;
 const PART: f64 = 0.25;
 /// Into so many ways at most, over the same number.
 const MOST_WORK: usize = 20_000;
+/// What a stride costs for every slot, in multiplications.
+const STRIDE: usize = 64;
 /// How many strides are tried before a way is given up.
 const STRIDES: usize = 600;
 
@@ -48,6 +50,10 @@ impl Runner {
     /// Makes an empty one.
     pub fn new() -> Self {
         Self::default()
+    }
+    /// Returns what its runs have cost so far, in multiplications, roughly: the same on every machine.
+    pub fn spent(&self) -> u64 {
+        self.buffers.work.spent()
     }
     /// Says which way the states lean that it starts from from now on, where two branches meet.
     pub fn lean(&mut self, leans: Vec<Lean>) {
@@ -524,6 +530,7 @@ impl Way<'_> {
         approach: &Approach,
     ) -> Result<(), Failure> {
         self.set_out(last, goal, part);
+        self.buffers.work.spend(STRIDE * self.trial.len());
         let Self { plan, part, .. } = *self;
         let attempt = Attempt { plan, frame: self.frame, last, trust, part };
         attempt.run(self.trial, approach, self.buffers, self.host)

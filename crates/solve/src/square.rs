@@ -206,6 +206,12 @@ impl Square {
         self.block.compute_defined(values, w);
     }
 
+    /// Returns about how many multiplications an iteration takes.
+    fn cost(&self) -> usize {
+        let n = self.block.core.len();
+        let factors = if self.is_dense() { n * n * n / 3 } else { 100 * self.block.pattern.len() };
+        factors + 20 * self.block.unknowns.len()
+    }
     fn is_dense(&self) -> bool {
         self.block.core.len() <= DENSE
     }
@@ -398,6 +404,7 @@ impl Square {
         let (mut first_size, mut damping) = (0.0, 0.0f64);
         let mut factors = Factors { sign: 0, ratio: 1.0 };
         for iteration in 0..STEPS {
+            w.spend(self.cost());
             if norm == 0.0 && iteration > 0 {
                 break;
             }

@@ -24,6 +24,8 @@ use std::collections::{BTreeMap, BTreeSet};
 /// How many sets are tried before the search is given up, and how many constraints in all of them.
 const TRIALS: usize = 300;
 const TRIED: usize = 60_000;
+/// After so many multiplications, roughly, too.
+const WORK: u64 = 3_000_000_000;
 /// How many contradictions of one component are told apart.
 const APART: usize = 4;
 /// From how many starts a set is tried.
@@ -114,7 +116,9 @@ impl Planner {
                 continue;
             }
             let most = (TRIED / units.len()).clamp(20, TRIALS);
-            let mut search = Search { planner: self, setup: &setup, values, host, trials: 0, most };
+            let until = self.spent() + WORK;
+            let mut search =
+                Search { planner: self, setup: &setup, values, host, trials: 0, most, until };
             let sets = search.all(units.clone());
             // a repair of one is tried with the others' last constraints left out
             let spared: Vec<Source> =
@@ -147,6 +151,7 @@ impl Planner {
     ) -> Option<Conflict> {
         /// A refusal is wanted at once.
         const MOST: usize = 400;
+        const SOON: u64 = WORK / 30;
         let rules: Vec<u32> = rules.iter().copied().collect();
         let units = self.units(&rules);
         let is_whole = |s: &SlotId| setup.model.structure.slots[*s].primitive.is_whole();
@@ -156,9 +161,10 @@ impl Planner {
             return None;
         }
         let most = TRIED / MOST;
-        let mut search = Search { planner: self, setup, values, host, trials: 0, most };
+        let until = self.spent() + SOON;
+        let mut search = Search { planner: self, setup, values, host, trials: 0, most, until };
         let set = search.minimal(&units)?;
-        if search.trials >= most {
+        if search.has_ended() {
             return None;
         }
         let mut sources = set.iter().map(|u| u.source);
@@ -186,7 +192,9 @@ struct Search<'s> {
     values: &'s Values,
     host: &'s mut dyn Host,
     trials: usize,
+    /// How many there may be, and what the planner may have spent.
     most: usize,
+    until: u64,
 }
 
 impl Search<'_> {
@@ -239,9 +247,14 @@ impl Search<'_> {
         set
     }
 
+    /// Returns true if it was given up: what it found may not be minimal.
+    fn has_ended(&self) -> bool {
+        self.trials >= self.most || self.planner.spent() >= self.until
+    }
+
     /// Returns true if these can hold together. Where the search has ended they are said not to.
     fn can_hold(&mut self, known: &[Unit], more: &[Unit]) -> bool {
-        if self.trials >= self.most {
+        if self.has_ended() {
             return false;
         }
         self.trials += 1;
@@ -250,7 +263,7 @@ impl Search<'_> {
     }
 
     fn certainty(&mut self, set: &[Unit]) -> Certainty {
-        if self.trials >= self.most {
+        if self.has_ended() {
             return Certainty::NotDecided { trials: self.trials };
         }
         match self.planner.can_hold(self.setup, &rules_of(set), self.values, self.host) {

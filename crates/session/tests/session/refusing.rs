@@ -99,3 +99,14 @@ fn nothing_to_undo_or_redo() {
     assert_eq!(refused(&mut desk, |d| d.apply(&Command::Undo)).message, "there is nothing to undo");
     assert_eq!(refused(&mut desk, |d| d.apply(&Command::Redo)).message, "there is nothing to redo");
 }
+
+#[test]
+fn a_reason_that_would_take_long_to_find_is_left_out() {
+    let mut desk = Desk::of(&gallery("bridge"));
+    let refusal = refused(&mut desk, |d| d.set("bridge.beam2.tension", 200.0));
+    assert_eq!(
+        refusal.message,
+        "refused: what stands fixed does not leave room for this; bridge.beam2.tension is computed"
+    );
+    assert!(refusal.constraints.is_empty(), "{refusal:?}");
+}
