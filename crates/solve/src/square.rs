@@ -222,6 +222,7 @@ impl Square {
 
     /// Computes what is defined, then sides and Jacobian.
     fn evaluate(&self, values: &mut [f64], w: &mut Workspace, s: &mut SquareScratch) {
+        w.spend(self.cost());
         self.block.compute_defined(values, w);
         self.block.slopes(values, w, &mut s.local);
         s.residual.clear();
@@ -404,7 +405,6 @@ impl Square {
         let (mut first_size, mut damping) = (0.0, 0.0f64);
         let mut factors = Factors { sign: 0, ratio: 1.0 };
         for iteration in 0..STEPS {
-            w.spend(self.cost());
             if norm == 0.0 && iteration > 0 {
                 break;
             }
