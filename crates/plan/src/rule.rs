@@ -108,8 +108,12 @@ impl Formula<SlotId> {
     }
     /// Computes the one expression that it is of.
     pub(crate) fn value(&self, patterns: &Patterns, numbers: &IdVec<SlotId, f64>) -> f64 {
+        let pattern = patterns.get(self.pattern);
+        if pattern.is_argument() {
+            return numbers[self.slots[0]];
+        }
         let arguments = self.slots.iter().map(|&s| numbers[s]);
-        patterns.get(self.pattern).evaluate(arguments, &mut Scratch::default())[0]
+        pattern.evaluate(arguments, &mut Scratch::default())[0]
     }
 }
 

@@ -4,6 +4,7 @@
 //! derivatives and its solutions for each argument. A row is a kernel and the slots that are its
 //! arguments: two thousand distances are one kernel.
 
+use crate::rows::{Point, generic_number};
 use crate::system::SlotIndex;
 use base::Id;
 use expr::{Arena, Binary, Conic, ExprId, Guard, Node, Tape, Unary, Var, gradient};
@@ -42,6 +43,48 @@ pub(crate) struct Curve {
     /// True if some of them depend on the two arguments.
     pub(crate) guards_move: bool,
     pub(crate) form: Form,
+    /// Where it is a circle, by arguments.
+    pub(crate) round: Option<Round>,
+}
+
+/// A circle through the place of two arguments, and nothing else: their distance from a centre is a radius.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub(crate) struct Round {
+    pub(crate) center: [u32; 2],
+    pub(crate) radius: u32,
+    /// True if the radius may not be negative.
+    pub(crate) is_length: bool,
+}
+
+impl Round {
+    /// Finds the arguments of a circle by what its coefficients are at generic points.
+    fn of(tape: &Tape, [first, second]: [u32; 2], arity: usize) -> Option<Self> {
+        let (mut registers, mut out) = (Vec::new(), Vec::new());
+        let places: Vec<u32> = (0..arity as u32).collect();
+        let mut at = |seed: u64| {
+            let number = |i: u64| generic_number(seed << 32 | i, Point::Positive);
+            let own: Vec<f64> = (0..arity as u64).map(number).collect();
+            tape.run_at(&places, &own, &mut registers, &mut out);
+            let find = |wanted: f64, of: &dyn Fn(f64) -> f64| {
+                let is = |x: &f64| (of(*x) - wanted).abs() <= 1e-12;
+                own.iter().position(is).map(|i| i as u32)
+            };
+            let [x, y] = [first, second].map(|i| own.get(i as usize).copied());
+            let (x, y) = (x?, y?);
+            let [one, u, v, uu, uv, vv] = out[..6] else { return None };
+            let center = [find(x - 0.5 * u, &|x| x)?, find(y - 0.5 * v, &|x| x)?];
+            let radius = find(0.25 * (u * u + v * v) - one, &|x| x * x)?;
+            let is_length = match out[6..] {
+                [] => false,
+                [guard] if guard == own[radius as usize] => true,
+                _ => return None,
+            };
+            let is_plain = [uu, uv, vv] == [1.0, 0.0, 1.0];
+            is_plain.then_some(Self { center, radius, is_length })
+        };
+        let found = at(1)?;
+        (at(2) == Some(found)).then_some(found)
+    }
 }
 
 /// What a conic is of, by its terms of the second degree.
@@ -236,7 +279,11 @@ impl Kernel {
             let (tape, guards) = (Tape::compile(&arena, &outs), conic.guards.len());
             let reads = |&guard| arena.variables(guard).iter().any(|var| vars.contains(var));
             let guards_move = conic.guards.iter().any(reads);
-            Some(Box::new(Curve { tape, guards, guards_move, form }))
+            let round = match form {
+                Form::Circle => Round::of(&tape, [first, second], self.arity()),
+                Form::Line | Form::Numbers(_) | Form::Other => None,
+            };
+            Some(Box::new(Curve { tape, guards, guards_move, form, round }))
         };
         let before = second * (second - 1) / 2;
         self.curves.get((before + first) as usize)?.get_or_init(make).as_deref()

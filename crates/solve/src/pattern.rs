@@ -90,6 +90,10 @@ impl Pattern {
         }
         self.roots().iter().map(|r| made[r.index()]).collect()
     }
+    /// Returns true if it is one expression, and that is its argument.
+    pub fn is_argument(&self) -> bool {
+        self.roots().len() == 1 && matches!(self.excerpt.nodes[..], [Node::Var(_)])
+    }
     /// Computes its expressions; the arguments are gathered by `argument`.
     pub fn evaluate<'s>(
         &self,

@@ -90,12 +90,22 @@ impl Block {
             let Pair { arguments, is_swapped } = closed.pairs[row];
             let (kernel, own) = self.row(row);
             let Some(curve) = kernel.curve(arguments) else { unreachable!("it was found before") };
-            let out = w.run(&curve.tape, own, values, 6 + curve.guards);
-            is_guarded &= out[6..].iter().all(|&guard| guard >= 0.0);
-            if is_swapped {
-                Conic { one: out[0], slope: [out[2], out[1]], second: [out[5], out[4], out[3]] }
+            let (one, [u, v], second) = if let Some(round) = &curve.round {
+                let at = |argument: u32| values[own[argument as usize] as usize];
+                let [dx, dy] = [0, 1].map(|i| at(arguments[i]) - at(round.center[i]));
+                let radius = at(round.radius);
+                is_guarded &= radius >= 0.0 || !round.is_length;
+                (dx * dx + dy * dy - radius * radius, [2.0 * dx, 2.0 * dy], [1.0, 0.0, 1.0])
             } else {
-                Conic { one: out[0], slope: [out[1], out[2]], second: [out[3], out[4], out[5]] }
+                let out = w.run(&curve.tape, own, values, 6 + curve.guards);
+                is_guarded &= out[6..].iter().all(|&guard| guard >= 0.0);
+                (out[0], [out[1], out[2]], [out[3], out[4], out[5]])
+            };
+            if is_swapped {
+                let [uu, uv, vv] = second;
+                Conic { one, slope: [v, u], second: [vv, uv, uu] }
+            } else {
+                Conic { one, slope: [u, v], second }
             }
         };
         let rows = [conic(0), conic(1)];
