@@ -97,9 +97,8 @@ pub(crate) struct Region {
     pub(crate) approach: OnceCell<Box<Measure>>,
 }
 
-/// The largest region with curved rows that is approached: of larger ones steps without curvature are not
-/// to be relied on.
-const LARGEST_CURVED: usize = 150;
+/// The largest region with curved rows that is approached: of larger ones it takes longer than a drag has.
+const LARGEST_CURVED: usize = 1000;
 
 impl Region {
     /// Returns true if it is not too large to be approached.

@@ -8,11 +8,12 @@
 //! Newton's method on the Lagrangian of every level, each in the directions that the levels above
 //! leave free. A direction is left free where the level above has no curvature, the curvature of the
 //! stronger rows included (exact second derivatives): an elbow that is stretched to its limit is
-//! held there by curvature alone. Where curvature is negative the step goes downhill. A large block's step is
-//! found by sparse factors and without curvature ([`levels`]).
+//! held there by curvature alone. Where curvature is negative the step goes downhill. A large block is solved by
+//! sparse factors, a linear one level by level ([`levels`]), a curved one with all levels together ([`curved`]).
 //!
 //! **Source:** Nocedal and Wright, *Numerical Optimization*, 2nd ed., §18.1 and §3.4.
 
+mod curved;
 mod levels;
 
 use crate::block::{Block, Local, Workspace};
@@ -20,6 +21,7 @@ use crate::dense::{self, Spaces};
 use crate::lower::{Definers, Problem, ProblemRow};
 use crate::square::Trust;
 use crate::system::{Level, SlotIndex};
+use curved::Curved;
 use levels::{Asked, Levels};
 use std::collections::BTreeMap;
 
@@ -37,8 +39,15 @@ pub(crate) struct Measure {
     given: Vec<bool>,
     /// True if no second derivative is there.
     pub(crate) is_linear: bool,
-    /// What finds the step of a large block.
-    large: Option<Levels>,
+    /// What solves a large block.
+    large: Option<Large>,
+}
+
+/// What solves a large block.
+#[derive(Debug)]
+enum Large {
+    Linear(Levels),
+    Curved(Curved),
 }
 
 /// What came of it.
@@ -71,6 +80,8 @@ const FLAT: f64 = 1e-9;
 const SLOPING: f64 = 1e-6;
 /// Steps below this, in parts of the extent, are no steps.
 const SETTLED: f64 = 1e-12;
+/// A state from which no step is longer than this is settled.
+const STILL: f64 = 1e-9;
 
 impl Measure {
     /// Lays a block out; `kind` tells a slot's scale, and whether it is a given number.
@@ -88,7 +99,10 @@ impl Measure {
             classes: rows().map(|r| common_scale(&problem.rows[r], kind)).collect(),
             given: unknowns.iter().map(|&s| kind(s).1).collect(),
             is_linear: block.is_linear,
-            large: is_large.then(|| Levels::new(&block.pattern)),
+            large: is_large.then(|| match block.is_linear {
+                true => Large::Linear(Levels::new(&block.pattern)),
+                false => Large::Curved(Curved::new(&block)),
+            }),
             unknowns,
             block,
         }
@@ -119,6 +133,15 @@ impl Measure {
     ) -> Measured {
         let scale: Vec<f64> = self.unknowns.iter().map(|&u| scales[u as usize]).collect();
         let weights = self.weights(x0, values, &scale, w);
+        if let Some(Large::Curved(curved)) = &self.large {
+            let (block, given, weights, scale) = (&self.block, &self.given, &weights, &scale);
+            let asked = curved::Asked { block, given, weights, x0, scale, trust };
+            let result = curved.solve(asked, values, w);
+            return match self.evaluate(values, scale, weights, w) {
+                Some(local) if self.hard_rows_hold(&local, values, w) => result,
+                Some(_) | None => Measured::Failed,
+            };
+        }
         let (mut smallest, mut idle) = (f64::INFINITY, 0);
         let mut settled = false;
         for iteration in 0..STEPS {
@@ -182,6 +205,19 @@ impl Measure {
         scales: &[f64],
         w: &mut Workspace,
     ) -> bool {
+        if let Some(Large::Curved(_)) = self.large {
+            let before: Vec<f64> = self.targets().iter().map(|&u| values[u as usize]).collect();
+            let result = self.solve(x0, values, scales, Trust::Branch, w);
+            let stays = |(&u, x): (&SlotIndex, &f64)| {
+                (values[u as usize] - x).abs() <= STILL * scales[u as usize]
+            };
+            let is_settled =
+                result == Measured::Least && self.targets().iter().zip(&before).all(stays);
+            for (&u, x) in self.targets().iter().zip(before) {
+                values[u as usize] = x;
+            }
+            return is_settled;
+        }
         let scale: Vec<f64> = self.unknowns.iter().map(|&u| scales[u as usize]).collect();
         let weights = self.weights(x0, values, &scale, w);
         let Some(local) = self.evaluate(values, &scale, &weights, w) else {
@@ -194,7 +230,7 @@ impl Measure {
             .map(|(&u, s)| (values[u as usize] - x0[u as usize]) / s)
             .collect();
         let step = self.direction(&local, &away, &weights, values, w);
-        self.hard_rows_hold(&local, values, w) && step.iter().all(|d| d.abs() <= 1e-9)
+        self.hard_rows_hold(&local, values, w) && step.iter().all(|d| d.abs() <= STILL)
     }
 
     fn hard_rows_hold(&self, scaled: &Scaled, values: &[f64], w: &mut Workspace) -> bool {
@@ -320,7 +356,7 @@ impl Measure {
         values: &[f64],
         w: &mut Workspace,
     ) -> Vec<f64> {
-        if let Some(large) = &self.large {
+        if let Some(Large::Linear(large)) = &self.large {
             return large.step(Asked {
                 pattern: &self.block.pattern,
                 slopes: &local.slopes,

@@ -5,8 +5,7 @@
 //! least distance. Each level is a problem of least squares under the rows above it, which keep what they
 //! came to: one matrix `[0 Jᵀ; J -1 or 0]` of unknowns and rows. It is factorised with small diagonals,
 //! `ε` for what no row moves and `-δ` for rows that depend on others, and what these do to the solution is
-//! refined away (the proximal method of multipliers). Curvature is left out: of rows that are not linear
-//! it is a step of Gauss and Newton.
+//! refined away (the proximal method of multipliers).
 //!
 //! **Source:** Friedlander and Orban, *A primal-dual regularized interior-point method*, Math. Prog. Comp. 4
 //! (2012); Siciliano and Slotine, *A general framework for managing multiple tasks*, ICAR (1991).
