@@ -66,7 +66,11 @@ impl Lowerer<'_> {
         let Some(turns) = self.turns(scope, each) else { return };
         let members = members_of(each);
         let most = turns.count.saturating_sub(from) as usize;
-        if !self.may_unroll(scope, &range, most.saturating_mul(members.len().max(1))) {
+        let whole = most.saturating_mul(fewest(&members));
+        let own = most.saturating_mul(members.len().max(1));
+        // where loops in it make too many, nothing is begun
+        let counted = if self.unrolled.saturating_add(whole) > MOST_MEMBERS { whole } else { own };
+        if !self.may_unroll(scope, &range, counted) {
             return;
         }
         for turn in from..turns.count {
@@ -320,6 +324,27 @@ fn own_list(scope: &Scope, list: &Expr) -> Option<Name> {
     let Expr::Name(name) = list else { return None };
     let name = name.name()?.name();
     scope.element(&name).is_none().then_some(name)
+}
+
+/// Returns how many members these come to at least: loops count by the numbers that are written out.
+fn fewest(members: &[Member]) -> usize {
+    let of = |member: &Member| {
+        let Member::For(each) = member else { return 1 };
+        written_turns(each).saturating_mul(fewest(&members_of(each)))
+    };
+    members.iter().map(of).fold(0, usize::saturating_add)
+}
+
+/// Returns how many turns a loop takes where its range is two numbers; else one.
+fn written_turns(each: &ast::For) -> usize {
+    let Some(Expr::Range(range)) = each.range() else { return 1 };
+    match (range.start(), range.end()) {
+        (Some(Expr::Number(from)), Some(Expr::Number(to))) => {
+            let ends = from.value().zip(to.value());
+            ends.map_or(1, |(from, to)| (to - from + 1.0).max(0.0) as usize)
+        }
+        _ => 1,
+    }
 }
 
 pub(crate) fn members_of(each: &ast::For) -> Vec<Member> {
