@@ -255,7 +255,11 @@ pub(crate) fn find(state: &State, path: &Path) -> Result<ThingId, Refusal> {
         let names = layout.into_iter().flat_map(|l| l.index.keys().map(base::Name::as_str));
         let hint = base::diagnostic::nearest(&step, names)
             .map_or_else(String::new, |n| format!("; did you mean {n}?"));
-        refuse(format!("there is no {step} in {path}{hint}"))
+        let place = match &path.0[..astray.step] {
+            [] => "here".to_string(),
+            whole => format!("in {}", Path(whole.to_vec())),
+        };
+        refuse(format!("there is no {step} {place}{hint}"))
     })
 }
 

@@ -65,7 +65,7 @@ fn why_a_given_number_is_what_it_is() {
     let why = |path: &str| desk.session.explain(desk.id, Some(&at(path))).summary;
     assert_eq!(why("celsius.node.number"), "celsius.node.number is 72.5: it is given in the text.");
     assert_eq!(why("factor.node.number"), "factor.node.number is 1.8: it is anchored.");
-    assert_eq!(why("factor.mode"), "there is no mode in factor.mode; did you mean node?");
+    assert_eq!(why("factor.mode"), "there is no mode in factor; did you mean node?");
 }
 
 #[test]
@@ -129,7 +129,7 @@ fn virtual_parts_constraints_and_wholes_are_explained() {
     assert_eq!(why("k.length"), format!("k.length is 40, {from}."));
     assert_eq!(why("flat"), "flat holds, because k.p1.y = 60 is anchored.");
     assert_eq!(why("k"), format!("k is as it is, {from}."));
-    assert_eq!(why("k.breadth"), "there is no breadth in k.breadth");
+    assert_eq!(why("k.breadth"), "there is no breadth in k");
 }
 
 const DIVIDER: &str = "use circuits

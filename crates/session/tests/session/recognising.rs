@@ -49,6 +49,6 @@ fn recognition_changes_nothing_and_refuses_what_it_cannot_ask() {
     assert_eq!(refused(&[]), "select one to 6 parts; here are 0");
     assert_eq!(refused(&["a"; 7]), "select one to 6 parts; here are 7");
     assert_eq!(refused(&["a", "a"]), "a is selected twice");
-    assert_eq!(refused(&["a", "nothing"]), "there is no nothing in nothing");
+    assert_eq!(refused(&["a", "nothing"]), "there is no nothing here");
     assert_eq!(desk.moment(), before);
 }
