@@ -259,4 +259,38 @@ merge other.b.node = source.b.node
             assert!((found / load - 1.0).abs() < 1e-9, "{name}: {found}");
         }
     }
+
+    /// With every bar braced too, and in a chain so long that doubles alone lose what depends on what.
+    /// **Source:** the least sum of squares; it is symmetric, so that all change alike.
+    #[test]
+    fn a_braced_truss_without_supports_has_loads_in_balance() {
+        let n = 60;
+        let text = braced_truss(n)
+            .replace("pin: PinnedSupport\nroller: RollerSupport\n", "")
+            .replace("merge pin.joint = below[0]\n", "")
+            .replace(&format!("merge roller.joint = below[{n}]\n"), "");
+        let (opened, values) = solved(&text);
+        for (name, load) in [("below.0", 5e3), ("below.41", 5e3), ("above.7", -5e3)] {
+            let found = value(&opened, &values, &format!("{name}.load"));
+            assert!((found / load - 1.0).abs() < 1e-9, "{name}: {found}");
+        }
+    }
+
+    /// A truss that may turn about its pin has loads without a moment about it.
+    /// **Source:** the least sum of squares under one sum: each load changes by so much of its lever.
+    #[test]
+    fn a_truss_that_may_turn_has_loads_without_a_moment() {
+        let n = 80;
+        let text =
+            warren_truss(n).replace("roller: RollerSupport\n", "").replace("roller.joint = ", "");
+        let (opened, values) = solved(&text);
+        let levers = |all: std::ops::Range<usize>| all.map(|i| 1.5 * i as f64);
+        let moment: f64 = (1..n).map(|i| 10e3 * 3.0 * i as f64).sum();
+        let squares: f64 = levers(0..2 * n + 1).map(|x| x * x).sum();
+        for (i, lever) in [(0, 3.0), (39, 120.0), (78, 237.0)] {
+            let found = value(&opened, &values, &format!("below.{i}.load"));
+            let wanted = 10e3 - lever * moment / squares;
+            assert!((found / wanted - 1.0).abs() < 1e-8, "{i}: {found}, {wanted}");
+        }
+    }
 }

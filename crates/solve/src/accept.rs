@@ -11,9 +11,11 @@
 //! again, else by elimination: in a tableau and, where that fills up in a large piece, sparse.
 
 use crate::deflate;
+use crate::echelon::Row;
 use crate::exact;
 use crate::lists::Lists;
 use crate::matching::Matcher;
+use crate::number::Number;
 use crate::order::Blocks;
 use crate::rows::Rows;
 use crate::sparse::{Pattern, Symbolic};
@@ -110,7 +112,7 @@ impl<'a> Piece<'a> {
 const LARGE: usize = 100;
 
 /// For larger ones it may write so many times what the rows hold before sparse elimination is asked.
-const MOST_WORK: usize = 64;
+const MOST_WORK: usize = 16;
 
 /// All rows in order of acceptance, and all places.
 struct Asked {
@@ -144,12 +146,16 @@ pub(crate) fn accept(system: &System, classes: &Classes, rows: &Rows) -> Accepta
     } else {
         matcher.forget();
         apart(classes, rows, asked.all(), &mut out, &mut |piece, out| {
-            let most = (piece.rows.len() > LARGE).then_some(MOST_WORK);
-            let is_decided = matcher.accept(piece, out)
-                || exact::accept(system, classes, rows, piece, most, out)
-                || deflate::accept(classes, rows, &mut matcher, piece, out);
-            if !is_decided {
-                exact::accept(system, classes, rows, piece, None, out);
+            if matcher.accept(piece, out) {
+                return;
+            }
+            let is_large = piece.rows.len() > LARGE;
+            match is_large.then(|| rows.residues(piece.rows)).flatten() {
+                Some(exact) => eliminate(system, classes, rows, &exact, &mut matcher, piece, out),
+                None => {
+                    let near = rows.doubles(piece.rows);
+                    eliminate(system, classes, rows, &near, &mut matcher, piece, out);
+                }
             }
         });
     }
@@ -176,6 +182,25 @@ fn count(system: &System, classes: &Classes, out: &mut Acceptance) {
     out.freedom = movable.saturating_sub(out.determined);
     let is_given = |s: u32| classes.stay[s as usize] == Stay::Given;
     out.yielded = (0..n as u32).filter(|&s| is_given(s) && out.unknown[s as usize]).collect();
+}
+
+/// Decides for a piece by elimination, with coefficients that are doubles or, in a large one, residues: what
+/// many steps leave of doubles is rounding.
+fn eliminate<N: Number>(
+    system: &System,
+    classes: &Classes,
+    rows: &Rows,
+    coefficients: &[Row<N>],
+    matcher: &mut Matcher<'_>,
+    piece: Piece<'_>,
+    out: &mut Acceptance,
+) {
+    let most = (piece.rows.len() > LARGE).then_some(MOST_WORK);
+    if !exact::accept(system, classes, rows, coefficients, piece, most, out)
+        && !deflate::accept(classes, rows, coefficients, matcher, piece, out)
+    {
+        exact::accept(system, classes, rows, coefficients, piece, None, out);
+    }
 }
 
 /// Splits the rows into pieces and puts together what is decided for each.

@@ -11,8 +11,11 @@ mod layout;
 pub(crate) use closed::{Closed, Conic, Conics};
 pub(crate) use layout::{Layout, Layouts};
 
-use crate::kernel::{Kernel, Side, WIDE};
+use crate::kernel::exact::Exact;
+use crate::kernel::{Entry, Kernel, Side, WIDE};
 use crate::lower::{Definers, Problem, ProblemRow};
+use crate::residue::Residue;
+use crate::rows::Point;
 use crate::system::SlotIndex;
 use expr::{Arena, ExprId, LANES, Lanes, Var};
 use layout::{Group, KNOWN, positions};
@@ -167,6 +170,27 @@ impl Block {
         &self.arguments[group.arguments as usize..][..count]
     }
 
+    /// Computes the Jacobian in a finite field, at a point where nothing is known of any slot, row by row and by
+    /// unknown; none where an entry has no counterpart there.
+    pub(crate) fn residues(&self) -> Option<Vec<Vec<(u32, Residue)>>> {
+        let (mut exact, mut work, mut slopes) = (Vec::new(), Vec::new(), Vec::new());
+        let own = |r: usize| {
+            let (kernel, arguments) = self.row(r);
+            exact.clear();
+            exact.extend(arguments.iter().map(|&slot| Exact::generic(slot, Point::Mixed)));
+            let is_told = kernel.exact_slopes(&exact, &mut work, &mut slopes);
+            let entry = |(e, &slope): (&Entry, &Residue)| {
+                let unknown = self.unknowns.binary_search(&arguments[e.argument as usize]).ok()?;
+                (!slope.is_zero()).then_some((unknown as u32, slope))
+            };
+            let mut row: Vec<(u32, Residue)> =
+                kernel.entries.iter().zip(&slopes).filter_map(entry).collect();
+            row.sort_unstable_by_key(|e| e.0);
+            is_told.then_some(row)
+        };
+        (0..self.height()).map(own).collect()
+    }
+
     /// Returns every slot that the rows speak of, some more than once.
     pub(crate) fn slots(&self) -> impl Iterator<Item = SlotIndex> + '_ {
         self.arguments.iter().chain(&self.unknowns).copied()
@@ -260,10 +284,15 @@ impl Block {
     }
 
     /// Returns by what part of themselves the numbers of a linear block would have to be others for these
-    /// values to be its solution, in the worst row.
-    pub(crate) fn backward_error(&self, values: &[f64], local: &Local) -> f64 {
+    /// values to be its solution, in the worst of these rows.
+    pub(crate) fn backward_error(
+        &self,
+        rows: impl Iterator<Item = usize>,
+        values: &[f64],
+        local: &Local,
+    ) -> f64 {
         let mut worst = 0.0f64;
-        for r in 0..self.height() {
+        for r in rows {
             let residual = local.left[r] - local.right[r];
             let (mut sum, mut size) = (0.0, 0.0);
             for e in self.pattern.range(r) {

@@ -9,7 +9,8 @@
 use crate::accept::{Acceptance, Dependent, Piece};
 use crate::echelon::{Echelon, Row, Vanishing};
 use crate::matching::Matcher;
-use crate::rows::{Entry, Rows};
+use crate::number::{Number, Sum};
+use crate::rows::Rows;
 use crate::substitute::Classes;
 use crate::system::{Level, SlotIndex, Stay};
 use std::cmp::Reverse;
@@ -22,24 +23,25 @@ const CANCELLED: f64 = 1e-8;
 const HELD: usize = 400;
 
 /// A piece whose rows were eliminated.
-pub(crate) struct Deflated<'a> {
+pub(crate) struct Deflated<'a, N> {
     classes: &'a Classes,
     piece: Piece<'a>,
     /// What is not given, in order of slots.
     open: Vec<SlotIndex>,
     /// The rows over it.
-    over_open: Vec<Row>,
+    over_open: Vec<Row<N>>,
     given: Vec<SlotIndex>,
-    eliminated: Echelon,
+    eliminated: Echelon<N>,
     /// Sums of rows that vanish over what is not given, and what each leaves of given numbers.
-    vanishing: Vec<Vanishing>,
-    left: Vec<Row>,
+    vanishing: Vec<Vanishing<N>>,
+    left: Vec<Row<N>>,
 }
 
-/// Decides for a piece; false where only full elimination can.
-pub(crate) fn accept(
+/// Decides for a piece with these coefficients, row by row; false where only full elimination can.
+pub(crate) fn accept<N: Number>(
     classes: &Classes,
     rows: &Rows,
+    coefficients: &[Row<N>],
     matcher: &mut Matcher<'_>,
     piece: Piece<'_>,
     out: &mut Acceptance,
@@ -47,7 +49,7 @@ pub(crate) fn accept(
     if !matcher.is_of_numbers(piece) {
         return false;
     }
-    let deflated = Deflated::new(classes, rows, piece);
+    let deflated = Deflated::new(classes, coefficients, piece);
     let is_held = deflated.hold(matcher, out) || deflated.hold_by_elimination(out);
     if is_held {
         deflated.accept(rows, out);
@@ -55,25 +57,25 @@ pub(crate) fn accept(
     is_held
 }
 
-impl<'a> Deflated<'a> {
-    pub(crate) fn new(classes: &'a Classes, rows: &Rows, piece: Piece<'a>) -> Self {
+impl<'a, N: Number> Deflated<'a, N> {
+    pub(crate) fn new(classes: &'a Classes, coefficients: &[Row<N>], piece: Piece<'a>) -> Self {
         let is_open = |s: SlotIndex| match classes.stay[s as usize] {
             Stay::Kept { .. } | Stay::Free => true,
             Stay::Fixed | Stay::Given => false,
         };
-        let own = |r: &u32| rows.columns(*r as usize).iter();
-        let scale = |r: &u32| size_of(own(r).filter(|e| is_open(e.0)));
-        let scales: Vec<f64> = piece.rows.iter().map(scale).collect();
-        let part = |kind: &dyn Fn(SlotIndex) -> bool| -> (Vec<SlotIndex>, Vec<Row>) {
+        let scale = |row: &Row<N>| size_of(row.iter().filter(|e| is_open(e.0)));
+        let scales: Vec<f64> = coefficients.iter().map(scale).collect();
+        let part = |kind: &dyn Fn(SlotIndex) -> bool| -> (Vec<SlotIndex>, Vec<Row<N>>) {
             let mut columns: Vec<SlotIndex> =
-                piece.rows.iter().flat_map(own).map(|e| e.0).filter(|&s| kind(s)).collect();
+                coefficients.iter().flatten().map(|e| e.0).filter(|&s| kind(s)).collect();
             columns.sort_unstable();
             columns.dedup();
             let place = |s: SlotIndex| columns.partition_point(|&c| c < s) as u32;
-            let row = |(r, scale): (&u32, &f64)| {
-                own(r).filter(|e| kind(e.0)).map(|&(s, value)| (place(s), value / scale)).collect()
+            let row = |(row, scale): (&Row<N>, &f64)| {
+                let own = row.iter().filter(|e| kind(e.0));
+                own.map(|&(s, value)| (place(s), value.scaled_down(*scale))).collect()
             };
-            let made = piece.rows.iter().zip(&scales).map(row).collect();
+            let made = coefficients.iter().zip(&scales).map(row).collect();
             (columns, made)
         };
         let (open, over_open) = part(&is_open);
@@ -108,7 +110,7 @@ impl<'a> Deflated<'a> {
         for (&c, i) in columns.iter().zip(0..) {
             number[c as usize] = i as usize;
         }
-        let mut by_column = vec![Row::new(); columns.len()];
+        let mut by_column: Vec<Row<N>> = vec![Row::new(); columns.len()];
         for (row, r) in self.over_open.iter().zip(0..) {
             row.iter().for_each(|&(c, value)| by_column[number[c as usize]].push((r, value)));
         }
@@ -151,35 +153,37 @@ impl<'a> Deflated<'a> {
 
 /// Finds the sums of rows that vanish over given numbers too, of those that vanish over all else and leave
 /// so much of given numbers.
-fn circuits(vanishing: &[Vanishing], left: &[Row], given: usize) -> Vec<Vanishing> {
-    let sums: Vec<Row> = vanishing.iter().map(|v| v.sum.clone()).collect();
+fn circuits<N: Number>(
+    vanishing: &[Vanishing<N>],
+    left: &[Row<N>],
+    given: usize,
+) -> Vec<Vanishing<N>> {
+    let sums: Vec<Row<N>> = vanishing.iter().map(|v| v.sum.clone()).collect();
     let scales: Vec<f64> = left.iter().map(|row| size_of(row.iter())).collect();
     let again = Echelon::new(left, given).vanishing().into_iter().map(|v| {
-        let parts: Row = v.sum.iter().map(|&(k, w)| (k, w / scales[k as usize])).collect();
+        let part = |&(k, w): &(u32, N)| (k, w.scaled_down(scales[k as usize]));
+        let parts: Row<N> = v.sum.iter().map(part).collect();
         Vanishing { last: vanishing[v.last as usize].last, sum: sum(&parts, &sums) }
     });
     again.collect()
 }
 
-fn size_of<'e>(entries: impl Iterator<Item = &'e Entry>) -> f64 {
-    match entries.fold(0.0f64, |most, e| most.max(e.1.abs())) {
+fn size_of<'e, N: Number + 'e>(entries: impl Iterator<Item = &'e (u32, N)>) -> f64 {
+    match entries.fold(0.0f64, |most, e| most.max(e.1.size())) {
         0.0 => 1.0,
         size => size,
     }
 }
 
 /// Adds rows up, each so many times.
-fn sum(parts: &[Entry], rows: &[Row]) -> Row {
-    let mut total: BTreeMap<u32, (f64, f64)> = BTreeMap::new();
+fn sum<N: Number>(parts: &[(u32, N)], rows: &[Row<N>]) -> Row<N> {
+    let mut total: BTreeMap<u32, Sum<N>> = BTreeMap::new();
     for &(r, weight) in parts {
         for &(column, value) in &rows[r as usize] {
-            let entry = total.entry(column).or_insert((0.0, 0.0));
-            entry.0 += weight * value;
-            entry.1 = entry.1.max((weight * value).abs());
+            total.entry(column).or_default().add(weight.times(value));
         }
     }
-    let stays = |(column, (value, size)): (u32, (f64, f64))| {
-        (value.abs() > CANCELLED * size).then_some((column, value))
-    };
+    let stays =
+        |(column, sum): (u32, Sum<N>)| (!sum.cancels_to(CANCELLED)).then_some((column, sum.value));
     total.into_iter().filter_map(stays).collect()
 }

@@ -1,12 +1,13 @@
 //! Echelon forms: which rows depend on which, and what motions they leave.
 //!
-//! In: sparse rows with numbers. Out: their rank; for each row that depends on earlier ones, which; and for
+//! In: sparse rows with numbers, doubles or those of a finite field. Out: their rank; for each row that depends on earlier ones, which; and for
 //! any choice of the columns that are left free, what the others then are. What is eliminated next is what
 //! makes few new entries (Markowitz), so that large sparse rows stay sparse; what depends on what is told in
 //! the order in which the rows came all the same.
 //!
 //! **Source:** Markowitz, *The elimination form of the inverse*, Management Science 3 (1957).
 
+use crate::number::{Number, Sum};
 use crate::sparse::pivot::Counts;
 use std::collections::BTreeMap;
 
@@ -25,17 +26,17 @@ const SHARE: f64 = 1e-6;
 const CANDIDATES: usize = 4;
 
 /// A sparse row: columns in order, with their coefficients.
-pub type Row = Vec<(u32, f64)>;
+pub type Row<N = f64> = Vec<(u32, N)>;
 
 /// Rows in echelon form.
-#[derive(Clone, Debug, Default)]
-pub struct Echelon {
+#[derive(Clone, Debug)]
+pub struct Echelon<N = f64> {
     /// In order of elimination: the row, its pivot's column, and the rest of it where the pivot is one.
-    pivots: Vec<(u32, u32, Row)>,
+    pivots: Vec<(u32, u32, Row<N>)>,
     /// For every column: it is the pivot of a row.
     has_pivot: Vec<bool>,
     /// For every row, how much of which pivots' rows was subtracted.
-    taken: Vec<Vec<(u32, f64)>>,
+    taken: Vec<Row<N>>,
     /// Rows of which nothing is left.
     vanished: Vec<u32>,
 }
@@ -51,16 +52,16 @@ pub struct Dependent {
 
 /// Rows whose sum vanishes, each so many times.
 #[derive(Clone, PartialEq, Debug)]
-pub(crate) struct Vanishing {
+pub(crate) struct Vanishing<N = f64> {
     /// The last of them, there once.
     pub(crate) last: u32,
     /// How much of each row there is, in order.
-    pub(crate) sum: Row,
+    pub(crate) sum: Row<N>,
 }
 
-impl Echelon {
+impl<N: Number> Echelon<N> {
     /// Eliminates rows over this many columns.
-    pub fn new(rows: &[Row], columns: usize) -> Self {
+    pub fn new(rows: &[Row<N>], columns: usize) -> Self {
         let mut rest = Remainder::new(rows, columns);
         while let Some((row, column)) = rest.best() {
             rest.eliminate(row, column);
@@ -83,6 +84,11 @@ impl Echelon {
         self.pivots.iter().map(|&(row, column, _)| (row, column))
     }
 
+    /// Returns the rows of which nothing was left, in the order in which they were found.
+    pub(crate) fn vanished(&self) -> &[u32] {
+        &self.vanished
+    }
+
     /// Returns the rows that depend on earlier ones.
     pub fn dependent(&self) -> Vec<Dependent> {
         let told = self.vanishing().into_iter().map(|Vanishing { last, sum }| {
@@ -94,17 +100,17 @@ impl Echelon {
 
     /// Returns the sums of rows that vanish, each row scaled so that the largest of its numbers is one, in
     /// order of their last rows; the last row of each is in no other.
-    pub(crate) fn vanishing(&self) -> Vec<Vanishing> {
-        let mut reduced: Vec<Vanishing> = Vec::new();
+    pub(crate) fn vanishing(&self) -> Vec<Vanishing<N>> {
+        let mut reduced: Vec<Vanishing<N>> = Vec::new();
         for &row in &self.vanished {
             let mut own = self.combination(row);
             for other in &reduced {
                 take_away(&mut own, other.last, &other.sum);
             }
-            let largest = own.iter().fold(0.0f64, |m, e| m.max(e.1.abs()));
-            let suits = |e: &&(u32, f64)| e.1.abs() >= SHARE * largest;
+            let largest = own.iter().fold(0.0f64, |m, e| m.max(e.1.size()));
+            let suits = |e: &&(u32, N)| e.1.size() >= SHARE * largest;
             let Some(&(last, value)) = own.iter().rfind(suits) else { continue };
-            own.iter_mut().for_each(|e| e.1 /= value);
+            N::divide(&mut own, value);
             for other in &mut reduced {
                 take_away(&mut other.sum, last, &own);
             }
@@ -115,26 +121,26 @@ impl Echelon {
     }
 
     /// Returns how much of each row there is in a sum that vanishes, with one of this vanished row.
-    fn combination(&self, row: u32) -> Row {
-        let mut made = vec![(row, 1.0)];
-        let mut weight: BTreeMap<u32, (f64, f64)> =
-            self.taken[row as usize].iter().map(|&(k, f)| (k, (-f, f.abs()))).collect();
-        while let Some((k, (w, size))) = weight.pop_last() {
-            if w.abs() <= CANCELLED * size {
+    fn combination(&self, row: u32) -> Row<N> {
+        let mut made = vec![(row, N::ONE)];
+        let mut weight: BTreeMap<u32, Sum<N>> =
+            self.taken[row as usize].iter().map(|&(k, f)| (k, Sum::of(f.negated()))).collect();
+        while let Some((k, share)) = weight.pop_last() {
+            if share.cancels_to(CANCELLED) {
                 continue;
             }
             let pivot_row = self.pivots[k as usize].0;
-            made.push((pivot_row, w));
+            made.push((pivot_row, share.value));
             for &(j, f) in &self.taken[pivot_row as usize] {
-                let entry = weight.entry(j).or_insert((0.0, 0.0));
-                entry.0 -= w * f;
-                entry.1 = entry.1.max((w * f).abs());
+                weight.entry(j).or_default().add(share.value.times(f).negated());
             }
         }
         made.sort_unstable_by_key(|e| e.0);
         made
     }
+}
 
+impl Echelon {
     /// Computes the pivots that go with a choice of the free columns.
     pub fn complete(&self, free: &[(u32, f64)]) -> Row {
         let mut made = vec![0.0; self.has_pivot.len()];
@@ -155,29 +161,27 @@ impl Echelon {
 }
 
 /// Subtracts so much of a row, one in its `last` column, that the other has nothing there.
-fn take_away(from: &mut Row, last: u32, row: &Row) {
+fn take_away<N: Number>(from: &mut Row<N>, last: u32, row: &Row<N>) {
     let Ok(at) = from.binary_search_by_key(&last, |e| e.0) else { return };
     let factor = from[at].1;
     let mut out = Vec::with_capacity(from.len() + row.len());
-    let (mut i, mut j) = (0, 0);
-    while i < from.len() || j < row.len() {
-        let a = from.get(i).map_or(u32::MAX, |e| e.0);
-        let b = row.get(j).map_or(u32::MAX, |e| e.0);
+    let (mut own, mut other) = (from.iter().peekable(), row.iter().peekable());
+    loop {
+        let a = own.peek().map_or(u32::MAX, |e| e.0);
+        let b = other.peek().map_or(u32::MAX, |e| e.0);
         let column = a.min(b);
-        let (mut value, mut size) = (0.0, 0.0f64);
-        if a == column {
-            value = from[i].1;
-            size = value.abs();
-            i += 1;
+        if column == u32::MAX {
+            break;
         }
-        if b == column {
-            let term = factor * row[j].1;
-            value -= term;
-            size = size.max(term.abs());
-            j += 1;
+        let mut sum = Sum::default();
+        if let Some(&(_, value)) = own.next_if(|e| e.0 == column) {
+            sum.add(value);
         }
-        if column != last && value.abs() > CANCELLED * size {
-            out.push((column, value));
+        if let Some(&(_, value)) = other.next_if(|e| e.0 == column) {
+            sum.add(factor.times(value).negated());
+        }
+        if column != last && !sum.cancels_to(CANCELLED) {
+            out.push((column, sum.value));
         }
     }
     *from = out;
@@ -185,49 +189,50 @@ fn take_away(from: &mut Row, last: u32, row: &Row) {
 
 /// An entry of what is left.
 #[derive(Clone, Copy, Debug)]
-struct Entry {
+struct Entry<N> {
     column: u32,
-    value: f64,
+    value: N,
     /// The largest of the terms that it was summed of.
     size: f64,
 }
 
-impl Entry {
+impl<N: Number> Entry<N> {
     fn is_something(&self) -> bool {
-        self.value.is_finite() && self.value.abs() > CANCELLED * self.size
+        let size = self.value.size();
+        size.is_finite() && size > CANCELLED * self.size
     }
 }
 
-fn largest(entries: &[Entry]) -> f64 {
-    entries.iter().fold(0.0, |most, e| most.max(e.value.abs()))
+fn largest<N: Number>(entries: &[Entry<N>]) -> f64 {
+    entries.iter().fold(0.0, |most, e| most.max(e.value.size()))
 }
 
 /// What is left to be eliminated.
-struct Remainder {
-    rows: Vec<Vec<Entry>>,
+struct Remainder<N> {
+    rows: Vec<Vec<Entry<N>>>,
     /// The rows that each column may stand in; what is gone or cancelled is named too.
     columns: Vec<Vec<u32>>,
     by_row: Counts,
     by_column: Counts,
     /// Where each column stands in the row at hand.
     at: Vec<u32>,
-    out: Echelon,
+    out: Echelon<N>,
 }
 
 const NONE: u32 = u32::MAX;
 
-impl Remainder {
-    fn new(rows: &[Row], width: usize) -> Self {
+impl<N: Number> Remainder<N> {
+    fn new(rows: &[Row<N>], width: usize) -> Self {
         let mut columns: Vec<Vec<u32>> = vec![Vec::new(); width];
         let mut own = Vec::with_capacity(rows.len());
         for (r, row) in (0..).zip(rows) {
-            let largest = row.iter().fold(0.0f64, |m, e| m.max(e.1.abs()));
-            let entry = |&(column, value): &(u32, f64)| {
-                let value = value / largest;
-                Entry { column, value, size: value.abs() }
+            let largest = row.iter().fold(0.0f64, |m, e| m.max(e.1.size()));
+            let entry = |&(column, value): &(u32, N)| {
+                let value = value.scaled_down(largest);
+                Entry { column, value, size: value.size() }
             };
-            let counts = |e: &Entry| e.value.is_finite() && e.size > ROUNDING;
-            let entries: Vec<Entry> = row.iter().map(entry).filter(counts).collect();
+            let counts = |e: &Entry<N>| e.size.is_finite() && e.size > ROUNDING;
+            let entries: Vec<Entry<N>> = row.iter().map(entry).filter(counts).collect();
             entries.iter().for_each(|e| columns[e.column as usize].push(r));
             own.push(entries);
         }
@@ -236,7 +241,8 @@ impl Remainder {
         let out = Echelon {
             has_pivot: vec![false; width],
             taken: vec![Vec::new(); rows.len()],
-            ..Echelon::default()
+            pivots: Vec::new(),
+            vanished: Vec::new(),
         };
         let mut made = Self { rows: own, columns, by_row, by_column, at: vec![NONE; width], out };
         for r in 0..rows.len() as u32 {
@@ -259,7 +265,7 @@ impl Remainder {
             let stands = |r: &&u32| {
                 let entries = &self.rows[**r as usize];
                 let own = entries.iter().find(|e| e.column == column);
-                own.is_some_and(|e| e.value.abs() >= ALONE * largest(entries))
+                own.is_some_and(|e| e.value.size() >= ALONE * largest(entries))
             };
             let row = self.columns[column as usize].iter().find(stands)?;
             Some((*row, column))
@@ -274,9 +280,9 @@ impl Remainder {
             for row in self.by_row.of(count) {
                 let entries = &self.rows[row as usize];
                 let least = PIVOT * largest(entries);
-                for e in entries.iter().filter(|e| e.value.abs() >= least) {
+                for e in entries.iter().filter(|e| e.value.size() >= least) {
                     let cost = (count - 1) * (self.by_column.count(e.column) as usize - 1);
-                    let size = e.value.abs();
+                    let size = e.value.size();
                     if best.is_none_or(|b| cost < b.0 || cost == b.0 && size > b.1) {
                         best = Some((cost, size, row, e.column));
                     }
@@ -304,28 +310,29 @@ impl Remainder {
         self.by_row.unlink(row);
         self.by_column.unlink(column);
         self.out.has_pivot[column as usize] = true;
-        let rest = pivot_row.iter().map(|e| (e.column, e.value / pivot));
-        self.out.pivots.push((row, column, rest.collect()));
+        let mut rest: Row<N> = pivot_row.iter().map(|e| (e.column, e.value)).collect();
+        N::divide(&mut rest, pivot);
+        self.out.pivots.push((row, column, rest));
     }
 
     /// Subtracts as much of a pivot's row, the pivot left out, as takes its column away from another.
-    fn subtract(&mut self, r: u32, pivot_row: &[Entry], pivot: f64, (column, number): (u32, u32)) {
+    fn subtract(&mut self, r: u32, pivot_row: &[Entry<N>], pivot: N, (column, number): (u32, u32)) {
         let target = &mut self.rows[r as usize];
         let Some(own) = target.iter().position(|e| e.column == column) else { return };
-        let factor = target.swap_remove(own).value / pivot;
+        let factor = target.swap_remove(own).value.over(pivot);
         for (i, e) in (0..).zip(target.iter()) {
             self.at[e.column as usize] = i;
         }
         for e in pivot_row {
-            let (c, value) = (e.column as usize, -factor * e.value);
+            let (c, value) = (e.column as usize, factor.times(e.value).negated());
             if self.at[c] == NONE {
-                target.push(Entry { column: e.column, value, size: value.abs() });
+                target.push(Entry { column: e.column, value, size: value.size() });
                 self.columns[c].push(r);
                 self.by_column.set(e.column, self.by_column.count(e.column) as usize + 1);
             } else {
                 let entry = &mut target[self.at[c] as usize];
-                entry.value += value;
-                entry.size = entry.size.max(value.abs());
+                entry.value = entry.value.plus(value);
+                entry.size = entry.size.max(value.size());
             }
         }
         target.iter().for_each(|e| self.at[e.column as usize] = NONE);

@@ -4,10 +4,12 @@
 //! matching, found by a fully reduced tableau at a generic point. Cost: up to cubic in the piece.
 
 use crate::accept::{Acceptance, Dependent, Piece};
+use crate::echelon::Row;
+use crate::number::Number;
 use crate::rows::Rows;
 use crate::substitute::Classes;
 use crate::system::{Level, SlotIndex, Stay, System};
-use crate::tableau::{Reduced, SparseRow, Tableau};
+use crate::tableau::{Reduced, Tableau};
 use std::collections::{BTreeMap, BTreeSet};
 
 /// What may move a column.
@@ -23,22 +25,23 @@ enum Column {
     Stays,
 }
 
-/// Decides for one piece; false, with nothing decided, where that takes more work than some times what the
-/// rows hold.
-pub(crate) fn accept(
+/// Decides for one piece with these coefficients, row by row; false, with nothing decided, where that takes
+/// more work than some times what the rows hold.
+pub(crate) fn accept<N: Number>(
     system: &System,
     classes: &Classes,
     rows: &Rows,
+    coefficients: &[Row<N>],
     piece: Piece<'_>,
     most: Option<usize>,
     out: &mut Acceptance,
 ) -> bool {
-    let size: usize = piece.rows.iter().map(|&r| rows.columns(r as usize).len()).sum();
+    let size: usize = coefficients.iter().map(Row::len).sum();
     let most = most.map_or(usize::MAX, |times| times * size);
-    let mut state = State::new(classes, rows, piece);
+    let mut state = State::new(classes, coefficients, piece);
     let (mut accepted, mut dependent, mut determined) = (Vec::new(), Vec::new(), 0);
-    for r in piece.rows.iter().map(|&r| r as usize) {
-        let reduced = state.tableau.reduce(rows.columns(r));
+    for (r, own) in piece.rows.iter().map(|&r| r as usize).zip(coefficients) {
+        let reduced = state.tableau.reduce(own);
         match state.pivot(&reduced.row) {
             Some(column) => {
                 if rows[r].level == Level::Required
@@ -75,23 +78,23 @@ pub(crate) fn accept(
     true
 }
 
-fn circuit(state: &State, reduced: &Reduced, accepted: &[usize]) -> Vec<usize> {
+fn circuit<N: Number>(state: &State<N>, reduced: &Reduced<N>, accepted: &[usize]) -> Vec<usize> {
     state.tableau.circuit(reduced).into_iter().map(|k| accepted[k as usize]).collect()
 }
 
-struct State {
-    tableau: Tableau,
+struct State<N> {
+    tableau: Tableau<N>,
     /// What is never an unknown is not here.
     columns: BTreeMap<SlotIndex, Column>,
     /// How willing a column is to be a pivot: the larger, the sooner it yields.
     willing: BTreeMap<SlotIndex, u64>,
 }
 
-impl State {
-    fn new(classes: &Classes, rows: &Rows, piece: Piece<'_>) -> Self {
+impl<N: Number> State<N> {
+    fn new(classes: &Classes, coefficients: &[Row<N>], piece: Piece<'_>) -> Self {
         let mut columns = BTreeMap::new();
         let mut willing = BTreeMap::new();
-        let met = piece.rows.iter().flat_map(|&r| rows.columns(r as usize).iter().map(|e| e.0));
+        let met = coefficients.iter().flatten().map(|e| e.0);
         for s in met.chain(piece.places().flatten().copied()) {
             let (column, will) = match classes.stay[s as usize] {
                 Stay::Fixed => continue,
@@ -105,15 +108,15 @@ impl State {
         Self { tableau: Tableau::default(), columns, willing }
     }
     /// Chooses the pivot of a reduced row: a given number where nothing else can be one.
-    fn pivot(&self, row: &SparseRow) -> Option<u32> {
+    fn pivot(&self, row: &Row<N>) -> Option<u32> {
         self.best(row, Column::Open).or_else(|| self.best(row, Column::Given))
     }
     /// Returns the most willing of these columns among those that are not small.
-    fn best(&self, row: &SparseRow, kind: Column) -> Option<u32> {
+    fn best(&self, row: &Row<N>, kind: Column) -> Option<u32> {
         let own = || row.iter().filter(|(c, _)| self.columns.get(c) == Some(&kind));
-        let largest = own().fold(0.0f64, |m, e| m.max(e.1.abs()));
+        let largest = own().fold(0.0f64, |m, e| m.max(e.1.size()));
         own()
-            .filter(|e| e.1.abs() >= 0.05 * largest)
+            .filter(|e| e.1.size() >= 0.05 * largest)
             .max_by_key(|e| (self.willing.get(&e.0), e.0))
             .map(|e| e.0)
     }
@@ -121,7 +124,7 @@ impl State {
 
 /// Holds every given number but those without which the rows would lose rank, each by itself: whether
 /// one yields does not depend on the order of the rows.
-fn hold_given(state: &mut State) {
+fn hold_given<N: Number>(state: &mut State<N>) {
     let given = state.columns.iter().filter(|(_, column)| **column == Column::Given);
     let given: Vec<u32> = given.map(|(&c, _)| c).collect();
     let is_given = |c: u32| given.binary_search(&c).is_ok();
@@ -129,7 +132,7 @@ fn hold_given(state: &mut State) {
         let Some(row) = state.tableau.row_with_pivot(c) else { continue };
         // what is not given yields first, however small
         let others = state.tableau.row(row).iter().filter(|e| !is_given(e.0));
-        let other = others.max_by(|a, b| a.1.abs().total_cmp(&b.1.abs())).map(|e| e.0);
+        let other = others.max_by(|a, b| a.1.size().total_cmp(&b.1.size())).map(|e| e.0);
         if let Some(other) = other {
             state.tableau.exchange(row, other);
         }
@@ -150,7 +153,7 @@ fn hold_given(state: &mut State) {
 ///
 /// A given number that yields is no other: how much it changes is decided before what is computed is
 /// asked to stay.
-fn hold(state: &mut State, columns: &[u32]) {
+fn hold<N: Number>(state: &mut State<N>, columns: &[u32]) {
     for &c in columns {
         state.columns.insert(c, Column::Stays);
     }

@@ -4,6 +4,8 @@
 //! derivatives and its solutions for each argument. A row is a kernel and the slots that are its
 //! arguments: two thousand distances are one kernel.
 
+pub(crate) mod exact;
+
 use crate::rows::{Point, generic_number};
 use crate::system::SlotIndex;
 use base::Id;

@@ -32,6 +32,8 @@ pub(crate) struct Least {
     given: Vec<bool>,
     /// Of unknowns, then rows; made when it is first needed.
     structure: OnceLock<Symmetric>,
+    /// Of a large linear block; made when it is first needed.
+    basic: OnceLock<Option<linear::Structure>>,
 }
 
 /// Buffers that a block needs while it is solved.
@@ -145,7 +147,7 @@ impl Least {
         if given.iter().all(|&g| g == given[0]) {
             given.clear();
         }
-        Self { block, given, structure: OnceLock::new() }
+        Self { block, given, structure: OnceLock::new(), basic: OnceLock::new() }
     }
 
     /// Returns true if a row may give way.
@@ -213,7 +215,8 @@ impl Least {
             Measured::Failed => Measured::Failed,
         }
     }
-    /// Solves by elimination; where that is not possible, all is as it was.
+    /// Solves by elimination, by what holds for any numbers or else for these; where that is not possible, all is
+    /// as it was.
     fn solve_linear(
         &self,
         asked: &Asked<'_>,
@@ -224,15 +227,20 @@ impl Least {
         let before: Vec<f64> = self.block.unknowns.iter().map(|&u| values[u as usize]).collect();
         let scale = |&u: &SlotIndex| asked.scales[u as usize];
         let scale: Vec<f64> = self.block.unknowns.iter().map(scale).collect();
-        let local = &mut s.local;
-        let is_solved = linear::solve(&self.block, &self.given, &scale, asked.x0, values, w, local)
-            && self.holds_at(values, w, s);
-        if !is_solved {
-            for (&u, x) in self.block.unknowns.iter().zip(before) {
-                values[u as usize] = x;
+        let structure = || linear::Structure::of_block(&self.block, &self.given);
+        let structure = self.basic.get_or_init(structure).as_ref();
+        for structure in structure.map(Some).into_iter().chain([None]) {
+            let asked = (&*self.given, &*scale, asked.x0);
+            let is_solved = linear::solve(&self.block, asked, structure, values, w, &mut s.local)
+                && self.holds_at(values, w, s);
+            if is_solved {
+                return true;
+            }
+            for (&u, x) in self.block.unknowns.iter().zip(&before) {
+                values[u as usize] = *x;
             }
         }
-        is_solved
+        false
     }
     fn part(&self, counted: Counted, unknown: usize) -> Part {
         match (counted, self.given.get(unknown)) {

@@ -50,6 +50,9 @@ mod union;
 
 pub mod proof;
 
+mod number;
+mod residue;
+
 mod tableau;
 
 pub mod echelon;

@@ -11,6 +11,7 @@
 
 use crate::accept::{Acceptance, Factored, Matched, Piece};
 use crate::dense;
+use crate::echelon::Echelon;
 use crate::lists::Lists;
 use crate::order::{Blocks, strong_components};
 use crate::rows::Rows;
@@ -24,6 +25,9 @@ use std::rc::Rc;
 const DENSE: usize = 16;
 /// Pivots smaller than this part of the largest leave the verdict to elimination.
 const REGULAR: f64 = 1e-11;
+
+/// From so many unknowns on a chain may be too long for doubles to tell.
+const LONG: usize = 100;
 
 /// No row, no slot.
 const NONE: u32 = u32::MAX;
@@ -362,6 +366,18 @@ impl<'a> Matcher<'a> {
             let (rows, columns) = (block.clone(), columns.clone());
             factored.push(Factored { rows, columns, pattern, symbolic: Rc::new(symbolic) });
         }
-        is_regular
+        is_regular || n > LONG && self.is_regular_exactly(block, columns)
+    }
+
+    /// Returns true if a block of which doubles do not tell it is regular.
+    fn is_regular_exactly(&self, block: &[u32], columns: &[SlotIndex]) -> bool {
+        let Some(mut exact) = self.rows.residues(block) else { return false };
+        for row in &mut exact {
+            row.retain_mut(|(slot, _)| {
+                let place = columns.binary_search(slot);
+                place.map(|place| *slot = place as u32).is_ok()
+            });
+        }
+        Echelon::new(&exact, columns.len()).rank() == block.len()
     }
 }

@@ -4,9 +4,11 @@
 //! an opaque relation). The point is the same for every row, so no value is consulted: a
 //! coefficient is zero there only if it is zero everywhere.
 
+use crate::kernel::exact::Exact;
 use crate::kernel::{Form, Kernel, WIDE};
 use crate::lists::Lists;
 use crate::pattern::Scratch;
+use crate::residue::Residue;
 use crate::stated::Stated;
 use crate::substitute::Classes;
 use crate::system::{Level, MethodBody, Relation, RelationBody, SlotIndex, Span, Stay, System};
@@ -46,6 +48,8 @@ pub(crate) struct Rows {
     kernels: Vec<Rc<Kernel>>,
     mentions: Vec<SlotIndex>,
     columns: Vec<Entry>,
+    /// Where the coefficients were taken, if that is a point where nothing is known of any slot.
+    point: Option<Point>,
 }
 
 impl Rows {
@@ -59,6 +63,32 @@ impl Rows {
     /// Returns the slots that a row may write, in order, with generic coefficients.
     pub(crate) fn columns(&self, row: usize) -> &[Entry] {
         &self.columns[self.list[row].columns.range()]
+    }
+    /// Computes the columns of these rows with coefficients in a finite field; none where one is made of what
+    /// has no counterpart there.
+    pub(crate) fn residues(&self, rows: &[u32]) -> Option<Vec<Vec<(SlotIndex, Residue)>>> {
+        let point = self.point?;
+        let (mut arguments, mut work, mut slopes) = (Vec::new(), Vec::new(), Vec::new());
+        let own = |&r: &u32| {
+            let kernel = self.kernel(r as usize)?;
+            let mentions = self.mentions(r as usize);
+            arguments.clear();
+            arguments.extend(mentions.iter().map(|&slot| Exact::generic(slot, point)));
+            kernel.exact_slopes(&arguments, &mut work, &mut slopes).then_some(())?;
+            let of = |&(slot, _): &Entry| {
+                let is_own = |e: &crate::kernel::Entry| mentions[e.argument as usize] == slot;
+                let at = kernel.entries.iter().position(is_own);
+                let told = at.map(|at| slopes[at]).filter(|slope| !slope.is_zero());
+                let drawn = || Residue::drawn(u64::from(r) << 32 | u64::from(slot));
+                (slot, told.unwrap_or_else(drawn))
+            };
+            Some(self.columns(r as usize).iter().map(of).collect())
+        };
+        rows.iter().map(own).collect()
+    }
+    /// Returns the columns of these rows.
+    pub(crate) fn doubles(&self, rows: &[u32]) -> Vec<Vec<Entry>> {
+        rows.iter().map(|&r| self.columns(r as usize).to_vec()).collect()
     }
     /// Returns true if a row says that a place lies on a line, wherever others are: as an equation for its
     /// coordinates it is of the first degree, as that of a point at equal distances from two others is.
@@ -89,7 +119,8 @@ impl std::ops::Index<usize> for Rows {
 /// Makes every row.
 pub(crate) fn rows(stated: &Stated, classes: &Classes) -> Rows {
     let mut rows = stated_rows(stated, classes);
-    let slopes = slopes(&rows, stated.system.slots.len());
+    let (point, slopes) = slopes(&rows, stated.system.slots.len());
+    rows.point = Some(point);
     set_columns(&stated.system, classes, &mut rows, &slopes);
     rows
 }
@@ -266,14 +297,14 @@ impl Kernels {
 
 /// The derivatives of all rows, row after row, at the first of a few generic points that suits them
 /// best.
-fn slopes(rows: &Rows, slots: usize) -> Vec<f64> {
-    let mut best = (usize::MAX, Vec::new());
+fn slopes(rows: &Rows, slots: usize) -> (Point, Vec<f64>) {
+    let mut best = (usize::MAX, (Point::Mixed, Vec::new()));
     for point in Point::ALL {
         let values: Vec<f64> = (0..slots as u64).map(|i| generic_number(i, point)).collect();
         let out = evaluate(rows, &values).slopes;
         let bad = out.iter().filter(|v| !v.is_finite()).count();
         if bad < best.0 {
-            best = (bad, out);
+            best = (bad, (point, out));
         }
         if bad == 0 {
             break;

@@ -512,7 +512,7 @@ impl Square {
                 values[u as usize] += d * scales[u as usize];
             }
             block.sides(values, w, &mut s.local);
-            let now = block.backward_error(values, &s.local);
+            let now = block.backward_error(0..block.height(), values, &s.local);
             if now >= error {
                 for (&u, x) in block.unknowns.iter().zip(&s.start) {
                     values[u as usize] = *x;

@@ -1,7 +1,7 @@
 //! A system with the patterns that it uses.
 
 use crate::pattern::{Pattern, PatternId, Patterns};
-use crate::system::{MethodBody, System};
+use crate::system::{Equation, MethodBody, System};
 use std::rc::Rc;
 
 /// A system and what its patterns are, as long as a plan of it lives.
@@ -17,24 +17,27 @@ pub(crate) struct Stated {
 impl Stated {
     pub(crate) fn new(system: &Rc<System>, patterns: &Patterns) -> Self {
         const UNUSED: u32 = u32::MAX;
-        let mut place = vec![UNUSED; patterns.len()];
-        let mut add = |id: PatternId| place[id.0 as usize] = 0;
-        system.equations.iter().for_each(|e| add(e.pattern));
-        for method in system.relations.iter().flat_map(|r| &r.methods) {
-            match method.body {
-                MethodBody::Formulas { pattern, .. } => add(pattern),
-                MethodBody::Opaque { .. } => {}
-            }
-        }
+        let written = system.relations.iter().flat_map(|r| &r.methods);
+        let formulas = written.filter_map(|method| match method.body {
+            MethodBody::Formulas { pattern, .. } => Some(pattern.0),
+            MethodBody::Opaque { .. } => None,
+        });
+        let ids = || system.equations.iter().map(|e| e.pattern.0).chain(formulas.clone());
+        // of many patterns it uses few, and these were mostly made one after the other
+        let (least, most) =
+            ids().fold((u32::MAX, 0), |(least, most), id| (least.min(id), most.max(id + 1)));
+        let mut place = vec![UNUSED; most.saturating_sub(least) as usize];
+        ids().for_each(|id| place[(id - least) as usize] = 0);
         let used = place.iter().filter(|place| **place != UNUSED).count();
         let mut own = Vec::with_capacity(used);
-        for (id, place) in (0..).map(PatternId).zip(&mut place) {
+        for (id, place) in (least..most).map(PatternId).zip(&mut place) {
             if *place != UNUSED {
                 *place = own.len() as u32;
                 own.push((id, patterns.get(id).clone()));
             }
         }
-        let of_equation = system.equations.iter().map(|e| place[e.pattern.0 as usize]).collect();
+        let place_of = |e: &Equation| place[(e.pattern.0 - least) as usize];
+        let of_equation = system.equations.iter().map(place_of).collect();
         Self { system: system.clone(), patterns: own.into(), of_equation }
     }
     /// The same for another system of the same equations.

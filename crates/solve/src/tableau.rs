@@ -5,36 +5,35 @@
 //! a dependent row is can be told exactly. Cancellation to 1e-9 of what was subtracted counts as
 //! zero: coefficients are taken at a generic point, where nothing vanishes by accident.
 
+use crate::echelon::Row;
+use crate::number::{Number, Sum};
 use std::collections::BTreeMap;
 
 /// What cancels to this part of its terms is zero.
 const CANCELLED: f64 = 1e-9;
 
-/// A sparse row: columns in order, with their coefficients.
-pub(crate) type SparseRow = Vec<(u32, f64)>;
-
 /// A row reduced by the accepted ones.
 #[derive(Clone, Debug)]
-pub(crate) struct Reduced {
+pub(crate) struct Reduced<N> {
     /// What is left of it.
-    pub(crate) row: SparseRow,
+    pub(crate) row: Row<N>,
     /// How much of each accepted row was subtracted, as the rows stand now.
-    multipliers: SparseRow,
+    multipliers: Row<N>,
 }
 
 #[derive(Clone, Debug)]
-struct Accepted {
-    multipliers: SparseRow,
-    pivot: f64,
+struct Accepted<N> {
+    multipliers: Row<N>,
+    pivot: N,
     /// How much of this row was then subtracted from each older one.
-    back: SparseRow,
+    back: Row<N>,
 }
 
 /// Rows accepted so far.
-#[derive(Clone, Debug, Default)]
-pub(crate) struct Tableau {
-    rows: Vec<SparseRow>,
-    history: Vec<Accepted>,
+#[derive(Clone, Debug)]
+pub(crate) struct Tableau<N> {
+    rows: Vec<Row<N>>,
+    history: Vec<Accepted<N>>,
     pivot_of_row: Vec<u32>,
     row_of_pivot: BTreeMap<u32, u32>,
     /// For every column, the rows that may contain it.
@@ -43,13 +42,26 @@ pub(crate) struct Tableau {
     work: usize,
 }
 
-impl Tableau {
+impl<N> Default for Tableau<N> {
+    fn default() -> Self {
+        Self {
+            rows: Vec::new(),
+            history: Vec::new(),
+            pivot_of_row: Vec::new(),
+            row_of_pivot: BTreeMap::new(),
+            occurrences: BTreeMap::new(),
+            work: 0,
+        }
+    }
+}
+
+impl<N: Number> Tableau<N> {
     /// Returns the row whose pivot a column is.
     pub(crate) fn row_with_pivot(&self, column: u32) -> Option<u32> {
         self.row_of_pivot.get(&column).copied()
     }
     /// Returns an accepted row as it stands, its pivot scaled to one.
-    pub(crate) fn row(&self, row: u32) -> &SparseRow {
+    pub(crate) fn row(&self, row: u32) -> &Row<N> {
         &self.rows[row as usize]
     }
     /// Returns how many coefficients of accepted rows have been written so far.
@@ -57,35 +69,32 @@ impl Tableau {
         self.work
     }
     /// Subtracts from a row whatever accepted rows can take away.
-    pub(crate) fn reduce(&self, row: &[(u32, f64)]) -> Reduced {
-        let mut work: BTreeMap<u32, (f64, f64)> =
-            row.iter().map(|&(c, v)| (c, (v, v.abs()))).collect();
+    pub(crate) fn reduce(&self, row: &[(u32, N)]) -> Reduced<N> {
+        let mut work: BTreeMap<u32, Sum<N>> = row.iter().map(|&(c, v)| (c, Sum::of(v))).collect();
         let mut multipliers = Vec::new();
         for &(column, value) in row {
             if let Some(r) = self.row_with_pivot(column) {
                 multipliers.push((r, value));
                 for &(c, v) in &self.rows[r as usize] {
-                    let entry = work.entry(c).or_insert((0.0, 0.0));
-                    entry.0 -= value * v;
-                    entry.1 = entry.1.max((value * v).abs());
+                    work.entry(c).or_default().add(value.times(v).negated());
                 }
             }
         }
         let row = work
             .into_iter()
-            .filter(|(c, (v, size))| {
-                v.abs() > CANCELLED * size && !self.row_of_pivot.contains_key(c)
-            })
-            .map(|(c, (v, _))| (c, v))
+            .filter(|(c, sum)| !sum.cancels_to(CANCELLED) && !self.row_of_pivot.contains_key(c))
+            .map(|(c, sum)| (c, sum.value))
             .collect();
         multipliers.sort_unstable_by_key(|m| m.0);
         Reduced { row, multipliers }
     }
     /// Accepts a reduced row with the pivot chosen among its columns; returns its number.
-    pub(crate) fn accept(&mut self, reduced: Reduced, pivot_column: u32) -> u32 {
+    pub(crate) fn accept(&mut self, reduced: Reduced<N>, pivot_column: u32) -> u32 {
         let index = self.rows.len() as u32;
-        let pivot = coefficient(&reduced.row, pivot_column);
-        let row: SparseRow = reduced.row.iter().map(|&(c, v)| (c, v / pivot)).collect();
+        let own = coefficient(&reduced.row, pivot_column);
+        let pivot = own.expect("a row has its pivot");
+        let mut row = reduced.row;
+        N::divide(&mut row, pivot);
         let back = self.clear_column(pivot_column, &row, None);
         for &(c, _) in &row {
             self.occurrences.entry(c).or_default().push(index);
@@ -98,9 +107,10 @@ impl Tableau {
     }
     /// Makes another of a row's columns its pivot. Circuits can no longer be asked for afterwards.
     pub(crate) fn exchange(&mut self, row: u32, column: u32) {
-        let pivot = coefficient(&self.rows[row as usize], column);
-        let scaled: SparseRow =
-            self.rows[row as usize].iter().map(|&(c, v)| (c, v / pivot)).collect();
+        let own = coefficient(&self.rows[row as usize], column);
+        let pivot = own.expect("a row has its pivot");
+        let mut scaled = self.rows[row as usize].clone();
+        N::divide(&mut scaled, pivot);
         self.clear_column(column, &scaled, Some(row));
         self.rows[row as usize] = scaled;
         let old = std::mem::replace(&mut self.pivot_of_row[row as usize], column);
@@ -108,47 +118,43 @@ impl Tableau {
         self.row_of_pivot.insert(column, row);
     }
     /// Returns the accepted rows that a row without remainder is a combination of.
-    pub(crate) fn circuit(&self, reduced: &Reduced) -> Vec<u32> {
-        let mut weight: BTreeMap<u32, (f64, f64)> =
-            reduced.multipliers.iter().map(|&(r, m)| (r, (m, m.abs()))).collect();
+    pub(crate) fn circuit(&self, reduced: &Reduced<N>) -> Vec<u32> {
+        let own = reduced.multipliers.iter();
+        let mut weight: BTreeMap<u32, Sum<N>> = own.map(|&(r, m)| (r, Sum::of(m))).collect();
         let mut circuit = Vec::new();
         for k in (0..self.rows.len() as u32).rev() {
             let step = &self.history[k as usize];
-            let mut total = weight.get(&k).copied().unwrap_or((0.0, 0.0));
+            let mut total = weight.get(&k).copied().unwrap_or_default();
             for &(j, t) in &step.back {
-                if let Some(&(m, _)) = weight.get(&j) {
-                    total.0 -= m * t;
-                    total.1 = total.1.max((m * t).abs());
+                if let Some(Sum { value, .. }) = weight.get(&j) {
+                    total.add(value.times(t).negated());
                 }
             }
-            if total.0.abs() <= CANCELLED * total.1 {
+            if total.cancels_to(CANCELLED) {
                 continue;
             }
             circuit.push(k);
-            let share = total.0 / step.pivot;
+            let share = total.value.over(step.pivot);
             for &(j, m) in &step.multipliers {
-                let entry = weight.entry(j).or_insert((0.0, 0.0));
-                entry.0 -= share * m;
-                entry.1 = entry.1.max((share * m).abs());
-                if entry.0.abs() <= CANCELLED * entry.1 {
-                    entry.0 = 0.0;
+                let entry = weight.entry(j).or_default();
+                entry.add(share.times(m).negated());
+                if entry.cancels_to(CANCELLED) {
+                    entry.value = N::ZERO;
                 }
             }
         }
         circuit.reverse();
         circuit
     }
-    fn clear_column(&mut self, column: u32, by: &SparseRow, except: Option<u32>) -> SparseRow {
+    fn clear_column(&mut self, column: u32, by: &Row<N>, except: Option<u32>) -> Row<N> {
         let mut back = Vec::new();
         for r in self.occurrences.get(&column).cloned().unwrap_or_default() {
-            let factor = coefficient(&self.rows[r as usize], column);
-            if Some(r) == except || factor == 0.0 {
-                continue;
-            }
+            let own = coefficient(&self.rows[r as usize], column);
+            let Some(factor) = own.filter(|_| Some(r) != except) else { continue };
             let pivot = self.pivot_of_row[r as usize];
             let merged = subtract(&self.rows[r as usize], factor, by, column, pivot);
             for &(c, _) in by {
-                if coefficient(&self.rows[r as usize], c) == 0.0 {
+                if coefficient(&self.rows[r as usize], c).is_none() {
                     self.occurrences.entry(c).or_default().push(r);
                 }
             }
@@ -161,37 +167,33 @@ impl Tableau {
     }
 }
 
-/// Returns a row's coefficient in a column.
-pub(crate) fn coefficient(row: &SparseRow, column: u32) -> f64 {
-    row.binary_search_by_key(&column, |e| e.0).map_or(0.0, |i| row[i].1)
+/// Returns a row's coefficient in a column, where it has one.
+fn coefficient<N: Number>(row: &Row<N>, column: u32) -> Option<N> {
+    row.binary_search_by_key(&column, |e| e.0).ok().map(|i| row[i].1)
 }
 
-/// Returns `row - factor * by`, with `cleared` exactly absent and `pivot` exactly kept.
-fn subtract(row: &SparseRow, factor: f64, by: &SparseRow, cleared: u32, pivot: u32) -> SparseRow {
-    let mut out = Vec::with_capacity(row.len() + by.len());
-    let (mut i, mut j) = (0, 0);
-    while i < row.len() || j < by.len() {
-        let a = row.get(i).map_or(u32::MAX, |e| e.0);
-        let b = by.get(j).map_or(u32::MAX, |e| e.0);
+/// Returns `row - factor * by` without the cleared column; the row's own pivot stays whatever cancels.
+fn subtract<N: Number>(row: &Row<N>, factor: N, by: &Row<N>, cleared: u32, pivot: u32) -> Row<N> {
+    let mut out = Row::with_capacity(row.len() + by.len());
+    let (mut own, mut other) = (row.iter().peekable(), by.iter().peekable());
+    loop {
+        let a = own.peek().map_or(u32::MAX, |e| e.0);
+        let b = other.peek().map_or(u32::MAX, |e| e.0);
         let column = a.min(b);
-        let mut value = 0.0;
-        let mut size = 0.0f64;
-        if a == column {
-            value = row[i].1;
-            size = value.abs();
-            i += 1;
+        if column == u32::MAX {
+            return out;
         }
-        if b == column {
-            let term = factor * by[j].1;
-            value -= term;
-            size = size.max(term.abs());
-            j += 1;
+        let mut sum = Sum::default();
+        if let Some(&(_, value)) = own.next_if(|e| e.0 == column) {
+            sum.add(value);
         }
-        if column == pivot || (column != cleared && value.abs() > CANCELLED * size) {
-            out.push((column, value));
+        if let Some(&(_, value)) = other.next_if(|e| e.0 == column) {
+            sum.add(factor.times(value).negated());
+        }
+        if column == pivot || (column != cleared && !sum.cancels_to(CANCELLED)) {
+            out.push((column, sum.value));
         }
     }
-    out
 }
 
 #[cfg(test)]
@@ -201,7 +203,7 @@ mod tests {
     #[test]
     fn a_dependent_row_names_exactly_its_circuit() {
         let mut t = Tableau::default();
-        let rows: [SparseRow; 4] = [
+        let rows: [Row; 4] = [
             vec![(0, 1.0), (1, 2.0)],
             vec![(1, 1.0), (2, -1.0)],
             vec![(3, 1.0)],

@@ -161,6 +161,39 @@ impl Net {
         open.extend(yielding);
         (accepted, dependent, open)
     }
+
+    /// What the tableau finds, and sparse elimination in both of its ways.
+    fn by_elimination<N: Number>(&self, of: impl Fn(&[u32]) -> Vec<Row<N>>) -> [Acceptance; 3] {
+        let (system, classes, rows) = (&*self.stated.system, &self.classes, &self.rows);
+        let asked = Asked::new(system, classes, rows);
+        let decide = |piece: &mut dyn FnMut(Piece<'_>, &mut Acceptance)| {
+            let mut out = undecided(classes);
+            apart(classes, rows, asked.all(), &mut out, piece);
+            count(system, classes, &mut out);
+            out
+        };
+        let by_tableau = decide(&mut |piece, out| {
+            exact::accept(system, classes, rows, &of(piece.rows), piece, None, out);
+        });
+        let [of_slots, by_pivots] = [true, false].map(|of_slots| {
+            let mut matcher = Matcher::new(system, classes, rows);
+            decide(&mut |piece, out| {
+                let own = of(piece.rows);
+                let deflated = Deflated::new(classes, &own, piece);
+                let is_held = if of_slots {
+                    deflated.hold_by_elimination(out)
+                } else {
+                    deflated.hold(&mut matcher, out)
+                };
+                if is_held {
+                    deflated.accept(rows, out);
+                } else {
+                    exact::accept(system, classes, rows, &own, piece, None, out);
+                }
+            })
+        });
+        [by_tableau, of_slots, by_pivots]
+    }
 }
 
 proptest! {
@@ -174,34 +207,13 @@ proptest! {
     ) {
         let net = net(&stays, &relations);
         let system = &net.stated.system;
-        let asked = Asked::new(system, &net.classes, &net.rows);
-        let decide = |piece: &mut dyn FnMut(Piece<'_>, &mut Acceptance)| {
-            let mut out = undecided(&net.classes);
-            apart(&net.classes, &net.rows, asked.all(), &mut out, piece);
-            count(system, &net.classes, &mut out);
-            out
-        };
         let found = Acceptance { matched: None, ..accept(system, &net.classes, &net.rows) };
-        let by_elimination = decide(&mut |piece, out| {
-            exact::accept(system, &net.classes, &net.rows, piece, None, out);
-        });
-        prop_assert_eq!(&found, &by_elimination);
-        for by_elimination in [false, true] {
-            let mut matcher = Matcher::new(system, &net.classes, &net.rows);
-            let sparsely = decide(&mut |piece, out| {
-                let deflated = Deflated::new(&net.classes, &net.rows, piece);
-                let is_held = if by_elimination {
-                    deflated.hold_by_elimination(out)
-                } else {
-                    deflated.hold(&mut matcher, out)
-                };
-                if is_held {
-                    deflated.accept(&net.rows, out);
-                } else {
-                    exact::accept(system, &net.classes, &net.rows, piece, None, out);
-                }
-            });
-            prop_assert_eq!(&found, &sparsely);
+        for other in net.by_elimination(|rows| net.rows.doubles(rows)) {
+            prop_assert_eq!(&found, &other);
+        }
+        let residues = |rows: &[u32]| net.rows.residues(rows).expect("sums and products have them");
+        for other in net.by_elimination(residues) {
+            prop_assert_eq!(&found, &other);
         }
         let (accepted, dependent, open) = net.by_search();
         prop_assert_eq!(&found.accepted, &accepted);
