@@ -54,12 +54,26 @@ pub(crate) fn direct(
     rows: &Rows,
     acceptance: &Acceptance,
 ) -> Direction {
-    let has_methods = || system.relations.iter().any(|r| !r.methods.is_empty());
-    if let Some(known) = acceptance.matched.as_ref().filter(|_| !has_methods()) {
-        let (slot_of_row, row_of_slot) = (known.slot_of_row.clone(), known.row_of_slot.clone());
-        return Direction { slot_of_row, row_of_slot, ..Direction::default() };
+    let (slot_of_row, row_of_slot) = match &acceptance.matched {
+        Some(known) => (known.slot_of_row.clone(), known.row_of_slot.clone()),
+        None => (vec![None; rows.len()], vec![None; acceptance.unknown.len()]),
+    };
+    let known = Direction { slot_of_row, row_of_slot, ..Direction::default() };
+    if acceptance.matched.is_some() && system.relations.iter().all(|r| r.methods.is_empty()) {
+        return known;
     }
-    let mut m = Matching::new(rows, acceptance);
+    direct_from(system, classes, rows, acceptance, known)
+}
+
+/// Chooses methods from a direction in which some rows have slots already; the others find theirs.
+pub(crate) fn direct_from(
+    system: &System,
+    classes: &Classes,
+    rows: &Rows,
+    acceptance: &Acceptance,
+    known: Direction,
+) -> Direction {
+    let mut m = Matching::new(rows, acceptance, known);
     let mut with_methods: Vec<usize> = acceptance
         .accepted
         .iter()
@@ -86,26 +100,22 @@ pub(crate) fn direct(
 }
 
 impl<'a> Matching<'a> {
-    /// Matches the accepted rows, unless acceptance has.
-    fn new(rows: &'a Rows, acceptance: &Acceptance) -> Self {
-        let n = acceptance.unknown.len();
-        let known = acceptance.matched.as_ref();
-        let slot_of_row = known.map_or_else(|| vec![None; rows.len()], |m| m.slot_of_row.clone());
-        let row_of_slot = known.map_or_else(|| vec![None; n], |m| m.row_of_slot.clone());
+    /// Matches the accepted rows that have no slot yet.
+    fn new(rows: &'a Rows, acceptance: &Acceptance, known: Direction) -> Self {
         let mut matching = Self {
             rows,
             open: acceptance.unknown.clone(),
             fixed_row: vec![false; rows.len()],
-            slot_of_row,
-            row_of_slot,
-            seen: vec![0; n],
+            seen: vec![0; known.row_of_slot.len()],
+            slot_of_row: known.slot_of_row,
+            row_of_slot: known.row_of_slot,
             round: 0,
             changed: Vec::new(),
         };
-        if known.is_none() {
-            acceptance.accepted.iter().for_each(|&r| {
-                matching.match_row(r);
-            });
+        for &row in &acceptance.accepted {
+            if matching.slot_of_row[row].is_none() {
+                matching.match_row(row);
+            }
         }
         matching
     }

@@ -226,7 +226,12 @@ impl Analysis<'_> {
         accepted.filter(|r| **r == row).for_each(|r| *r = now);
         let system = &self.stated.system;
         self.acceptance.matched = None;
-        self.direction = direct::direct(system, &self.classes, &self.rows, &self.acceptance);
+        let mut known = std::mem::take(&mut self.direction);
+        if let Some(slot) = known.slot_of_row[row].take() {
+            known.row_of_slot[slot as usize] = None;
+        }
+        let (classes, rows, acceptance) = (&self.classes, &self.rows, &self.acceptance);
+        self.direction = direct::direct_from(system, classes, rows, acceptance, known);
         self.method_reads = method_reads(system, &self.classes, &self.direction);
         Exchange { dependent, row: now }
     }
