@@ -18,9 +18,11 @@ pub(crate) fn edits(open: &Open, path: &Path, others: &[TextEdit]) -> Vec<TextEd
     let Ok(thing) = state.structure.follow(DOCUMENT, path) else { return Vec::new() };
     let document = &state.lowered.document;
     let write = |t: ThingId| (state.structure.path(document, t), literal(state, t, &state.values));
-    let apart =
-        leaves(state, thing).into_iter().flat_map(|leaf| [Some(leaf), next_given(state, leaf)]);
-    let own = apart.flatten().filter(|&t| is_given_another(state, t));
+    // leaves may be one with each other as well
+    let leaves = leaves(state, thing).into_iter();
+    let apart: BTreeSet<ThingId> =
+        leaves.flat_map(|leaf| std::iter::once(leaf).chain(next_given(state, leaf))).collect();
+    let own = apart.into_iter().filter(|&t| is_given_another(state, t));
     let mut writes: Vec<(Path, Literal)> = own.map(write).collect();
     if !state.yielded.is_empty() {
         let slots = state.structure.slots_under(thing);

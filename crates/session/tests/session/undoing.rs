@@ -140,3 +140,16 @@ fn the_undo_list_calls_a_place_by_its_name() {
     assert_eq!(change.label, "move s");
     assert_eq!((desk.number("s.x"), desk.number("s.size")), (4.0, 3.0));
 }
+
+#[test]
+fn a_whole_is_parted_whose_parts_are_one() {
+    let classes = "class Spot { x: Real = 3  y: Real = 4 }\nclass Bar { p, q: Spot }\n";
+    let bars =
+        "a: Bar { p = (1, 2)  q = (5, 6)  merge p = q }\nb: Bar { p = (7, 8)  q = (9, 9) }\n";
+    let mut desk = Desk::of(&format!("{classes}{bars}merge a = b\n"));
+    desk.apply(&Command::Unmerge(at("b"))).expect("it is merged");
+    assert_eq!([desk.number("b.p.x"), desk.number("b.q.y")], [1.0, 2.0]);
+    desk.undo();
+    desk.apply(&Command::Unmerge(at("a"))).expect("it is merged");
+    assert_eq!([desk.number("a.p.x"), desk.number("b.q.x"), desk.number("b.p.y")], [1.0, 1.0, 2.0]);
+}
