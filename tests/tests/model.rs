@@ -10,7 +10,7 @@
 
 use session::view::Status;
 use session::{Command, DocumentId, Host, Literal, Path, Session, parse_path};
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 use std::fmt::Write as _;
 
 struct Nothing;
@@ -289,7 +289,8 @@ fn unmerge(dice: &mut Dice, model: &Model, mut next: Model) -> Picked {
     // what was one with it in any of them stays one
     let (of_it, others): (Vec<_>, Vec<_>) = next.merges.drain(..).partition(|m| m.contains(&p));
     let mut rest: Vec<Names> = of_it.concat();
-    rest.retain(|q| *q != p);
+    let mut known = BTreeSet::from([p.clone()]);
+    rest.retain(|q| known.insert(q.clone()));
     next.merges = others;
     if rest.len() > 1 {
         next.merges.push(rest);
