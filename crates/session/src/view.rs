@@ -241,6 +241,8 @@ pub struct StructureRow {
     pub value: Option<String>,
     /// The path of the first thing that it is merged with, where it is not the first itself.
     pub merged_with: Option<String>,
+    /// Of a merge, the paths that it makes one.
+    pub makes_one: Vec<String>,
     /// Its state.
     pub freedom: Option<Freedom>,
     /// Whether it is anchored.

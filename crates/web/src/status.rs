@@ -62,7 +62,7 @@ pub fn Refused(
     let shown = move |refusal: Refusal| {
         let mut sentences: Vec<String> = Vec::new();
         for sentence in refusal.diagnostics.into_iter().map(|d| d.message) {
-            if sentence != refusal.message && !sentences.contains(&sentence) {
+            if !refusal.message.starts_with(&sentence) && !sentences.contains(&sentence) {
                 sentences.push(sentence);
             }
         }

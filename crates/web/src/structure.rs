@@ -2,7 +2,7 @@
 //!
 //! All rows are equally high; only those in sight, and the one that has the keyboard, are in the page.
 
-use crate::lab::Lab;
+use crate::lab::{Lab, Notice};
 use crate::values::rounded_all;
 use crate::{field, icons, words};
 use leptos::ev::KeyboardEvent;
@@ -112,9 +112,18 @@ impl Tree {
 
     /// Gives a row the keyboard and selects its thing.
     fn go_to(self, at: usize) {
-        let path = self.row(at).map(|row| row.path).filter(|path| !path.is_empty());
-        self.lab.select(path);
+        self.lab.select(self.row(at).and_then(thing_of));
         self.take_keyboard(at);
+    }
+
+    /// Parts what a merge makes one: the last goes. What has no path and is no merge stays as it is.
+    fn delete(self, row: &StructureRow) {
+        match row.makes_one.last().and_then(|path| session::parse_path(path)) {
+            Some(path) => {
+                self.lab.apply(&Command::Unmerge(path));
+            }
+            None => self.lab.notice.set(Some(Notice::Said(words::NO_PATH.into()))),
+        }
     }
 
     /// Gives a row the keyboard and leaves the selection as it is.
@@ -179,11 +188,18 @@ impl Tree {
             }
             "Enter" if is_editable(&row) => self.editing.set(Some(at)),
             "Enter" | " " => self.toggle(&row),
+            "Delete" if !row.kind.has_own_path() => self.delete(&row),
             _ => return,
         }
         e.prevent_default();
         e.stop_propagation();
     }
+}
+
+/// The path of the thing that a row speaks of: of a merge, what it makes one.
+fn thing_of(row: StructureRow) -> Option<String> {
+    let path = row.makes_one.into_iter().next().unwrap_or(row.path);
+    (!path.is_empty()).then_some(path)
 }
 
 /// Whether a row is open: by its depth, unless it was toggled.
@@ -404,7 +420,7 @@ fn Row(tree: Tree, place: usize, shown: Shown) -> impl IntoView {
                     tree.editing.set(Some(at));
                 }
             }
-            on:pointerenter=move |_| lab.hover(Some(path.get_untracked()).filter(|p| !p.is_empty()))
+            on:pointerenter=move |_| lab.hover(tree.row(at).and_then(thing_of))
             on:keydown=move |e: KeyboardEvent| tree.key(at, &e)
         >
             <button class="twist" tabindex="-1" aria-hidden="true" on:click=toggle
@@ -502,6 +518,7 @@ mod tests {
             doc: String::new(),
             value: None,
             merged_with: None,
+            makes_one: Vec::new(),
             freedom: None,
             anchored: false,
             enabled: true,

@@ -233,6 +233,7 @@ mod tests {
             doc: String::new(),
             value: None,
             merged_with: None,
+            makes_one: Vec::new(),
             freedom: None,
             anchored: false,
             enabled: true,

@@ -61,6 +61,7 @@ pub const NOT_A_CONSTRAINT: &str = "the selection is not a constraint";
 pub const IS_A_CONSTRAINT: &str = "a constraint has no value to lock";
 pub const ONE_SELECTED: &str = "only one thing is selected; hold Ctrl to choose another";
 pub const NOT_MERGED: &str = "the selection is not merged with anything";
+pub const NO_PATH: &str = "this has no name of its own: take it out of the text";
 pub const NO_SUCH_ACTION: &str = "No action has this name.";
 
 pub const LOCK_NAME: &str = "Lock";

@@ -50,6 +50,7 @@ impl Maker<'_> {
             doc: String::new(),
             value: None,
             merged_with: None,
+            makes_one: Vec::new(),
             freedom: None,
             anchored: false,
             enabled: true,
@@ -165,6 +166,8 @@ impl Maker<'_> {
                 let mut row = self.row(path, depth, RowKind::Merge, name, merge.origin);
                 let paths: Vec<String> = merge.paths.iter().map(ToString::to_string).collect();
                 row.detail = paths.join(" = ");
+                row.makes_one =
+                    merge.paths.iter().map(|path| owner.join(path).to_string()).collect();
                 self.rows.push(row);
             }
         }

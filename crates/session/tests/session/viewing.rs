@@ -131,6 +131,11 @@ fn a_merge_that_is_masked_is_not_shown() {
     let merges: Vec<&str> =
         rows.iter().filter(|r| r.kind == RowKind::Merge).map(|r| r.path.as_str()).collect();
     assert_eq!(merges, ["p"]);
+    let one = rows.iter().find(|r| r.kind == RowKind::Merge).expect("a merge");
+    assert_eq!(
+        (one.detail.as_str(), &one.makes_one[..]),
+        ("a = b", &["p.a".into(), "p.b".into()][..])
+    );
 }
 
 const WHEEL: &str = "use geometry
