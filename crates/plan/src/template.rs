@@ -159,7 +159,8 @@ struct Way {
     slots: Vec<SlotId>,
 }
 
-/// Lowers every constraint that is not switched off and every declared stay. What cannot be planned is left out and reported.
+/// Lowers every constraint that is not switched off and every declared stay. What cannot be planned is left
+/// out and reported.
 ///
 /// What is known of the classes is not opened again; what is not is added.
 pub(crate) fn lower_all(

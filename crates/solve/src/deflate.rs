@@ -1,10 +1,11 @@
 //! Acceptance of large pieces: by sparse elimination what depends on what, by matching what may stay.
 //!
-//! In: a piece that neither matching nor a tableau that stays small could decide. Out: the answer of elimination, or nothing. Rows are
-//! eliminated over what is not given. Sums of them that vanish there leave given numbers: those have to
-//! yield, and a sum that leaves none is a circuit. The pivots are a slot for each independent row, and
-//! regular together; from these, matching holds what it can. Where the numbers do not bear that out, slots are
-//! eliminated by rows as rows were by slots. Cost: that of sparse factors, where few depend on others.
+//! In: a piece that neither matching nor a tableau that stays small could decide. Out: the answer of
+//! elimination, or nothing. Rows are eliminated over what is not given. Sums of them that vanish there
+//! leave given numbers: those have to yield, and a sum that leaves none is a circuit. The pivots are a slot
+//! for each independent row, and regular together; from these, matching holds what it can. Where the
+//! numbers do not bear that out, slots are eliminated by rows as rows were by slots. Cost: that of sparse
+//! factors, where few depend on others.
 
 use crate::accept::{Acceptance, Dependent, Piece};
 use crate::echelon::{Echelon, Row, Vanishing};

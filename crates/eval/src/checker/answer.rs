@@ -1,8 +1,9 @@
 //! Whether an edit has the right answer: who yields, and how much.
 //!
-//! Only what the rules themselves prove is told, so these are conditions that every answer meets, not
-//! all that there are: to first order, at the state after the edit, where no rule is a written method. Where rules are soft, only that those that are not met could not be
-//! met better. Components of more than [`MOST`] slots are not looked at.
+//! Only what the rules themselves prove is told, so these are conditions that every answer meets, not all
+//! that there are: to first order, at the state after the edit, where no rule is a written method. Where
+//! rules are soft, only that those that are not met could not be met better. Components of more than
+//! [`MOST`] slots are not looked at.
 
 use super::algebra::{Span, length, rest_of_cone, sign_of_determinant};
 use super::slopes::{Row, only_read, rows};

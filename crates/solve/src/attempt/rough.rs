@@ -1,6 +1,7 @@
 //! From a rough start: everything that does not hold is moved at once, so that the steps begin near.
 //!
-//! In: an attempt. Out: values for which everything holds, or none. What holds in x0, and comes from nothing else, keeps its bits.
+//! In: an attempt. Out: values for which everything holds, or none. What holds in x0, and comes from
+//! nothing else, keeps its bits.
 
 use super::{Approach, Attempt, Buffers, Motion, Run, begin};
 use crate::joint::Joint;
