@@ -29,6 +29,8 @@ const SHORTEST: f64 = 1e-7;
 const PART: f64 = 0.25;
 /// Into so many ways at most, over the same number.
 const MOST_WORK: usize = 20_000;
+/// What one wish of a drag may cost, in multiplications: the pointer waits for it.
+const PATIENCE: u64 = 300_000_000;
 /// What a stride costs for every slot, in multiplications.
 const STRIDE: usize = 64;
 /// How many strides are tried before a way is given up.
@@ -116,7 +118,7 @@ pub fn run(
         }
     }
     let trust = if solved_before && plan.has_branches { Trust::Branch } else { Trust::Any };
-    let mut way = Way { plan, frame, buffers, host, trial, part: Part::Whole };
+    let mut way = Way { plan, frame, buffers, host, trial, part: Part::Whole, until: u64::MAX };
     let mut result = way.go(last, goal, values, trust);
     if let Err(Stop::NoWay(Failure {
         reason: Reason::NoSolution { .. } | Reason::NotDecided { .. },
@@ -245,23 +247,28 @@ impl Drag {
     ///
     /// Where the required relations cannot follow, the drag stops at the limit and says so; a wish
     /// that they do not allow is met as nearly as they do. Later wishes go on from there. A long way is gone in
-    /// short ones, so that how often the pointer is asked plays no part.
+    /// short ones, so that how often the pointer is asked plays no part, as long as that is done soon: where
+    /// the way is hard to find the drag stops on it.
     ///
     /// # Panics
     /// If there are not as many targets as inputs.
     pub fn follow(&mut self, plan: &Plan, targets: &[f64], host: &mut dyn Host) -> Outcome {
         assert_eq!(targets.len(), self.slice.inputs.len(), "a wish names every input");
         let parts = self.parts(plan, targets);
+        let until = self.runner.spent() + PATIENCE;
         if parts > 1 {
             let from: Vec<f64> =
                 self.slice.inputs.iter().map(|&input| self.now[input as usize]).collect();
             for part in 1..parts {
                 let part = f64::from(part) / f64::from(parts);
                 let on = from.iter().zip(targets).map(|(a, b)| a + part * (b - a));
-                self.follow_on(plan, &on.collect::<Vec<_>>(), host);
+                self.follow_on(plan, &on.collect::<Vec<_>>(), until, host);
+                if self.runner.spent() > until {
+                    break;
+                }
             }
         }
-        self.follow_on(plan, targets, host)
+        self.follow_on(plan, targets, until, host)
     }
 
     /// Returns into how many ways that to a wish is cut: where least change bends, a stride might pass over the
@@ -283,7 +290,13 @@ impl Drag {
     }
 
     /// Follows a wish that is near.
-    fn follow_on(&mut self, plan: &Plan, targets: &[f64], host: &mut dyn Host) -> Outcome {
+    fn follow_on(
+        &mut self,
+        plan: &Plan,
+        targets: &[f64],
+        until: u64,
+        host: &mut dyn Host,
+    ) -> Outcome {
         let Self { slice, branch, now, .. } = self;
         let Runner { frame, buffers, goal, trial, .. } = &mut self.runner;
         goal.clear();
@@ -298,7 +311,7 @@ impl Drag {
         }
         let part = if self.has_run { Part::Downstream(slice) } else { Part::Whole };
         self.moved_slice = self.has_run;
-        let mut way = Way { plan, frame, buffers, host, trial, part };
+        let mut way = Way { plan, frame, buffers, host, trial, part, until };
         let mut outcome;
         while trust == Trust::Branch && way.take_back(slice, branch, goal) {}
         let anchors = way.frame.anchors.len();
@@ -476,6 +489,8 @@ struct Way<'a> {
     /// Where attempts put their values.
     trial: &'a mut Vec<f64>,
     part: Part<'a>,
+    /// A walk ends where it stands when so much was spent.
+    until: u64,
 }
 
 impl Way<'_> {
@@ -562,6 +577,9 @@ impl Way<'_> {
         let mut gone = 0.0;
         let mut length = strides.start;
         for _ in 0..STRIDES {
+            if self.buffers.work.spent() > self.until {
+                break;
+            }
             let part = if gone + length >= 1.0 { 1.0 } else { length / (1.0 - gone) };
             if self.stride(last, goal, part, trust, &Approach::Nowhere).is_ok() {
                 last.copy_from_slice(self.trial);

@@ -30,7 +30,10 @@ impl Way<'_> {
         if trust != Trust::Branch || !self.plan.has_least {
             return gone;
         }
-        while gone < 1.0 && self.frame.anchors.len() < ANCHORS {
+        while gone < 1.0
+            && self.frame.anchors.len() < ANCHORS
+            && self.buffers.work.spent() <= self.until
+        {
             self.frame.anchors.push(last.to_vec());
             let goes_on = self.stride(last, goal, SHORTEST, trust, &Approach::Nowhere).is_ok();
             self.frame.anchors.pop();
