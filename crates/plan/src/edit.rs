@@ -16,6 +16,10 @@ use kernel::{SlotId, Term, ThingId, Value, Values};
 use solve::Level;
 use std::collections::BTreeSet;
 
+/// An edit that took so many multiplications is not tried again in parts to say why it is refused: a refusal
+/// is wanted at once.
+const DEAR: u64 = 500_000_000;
+
 /// What an edit is about.
 #[derive(Clone, Copy, Debug)]
 pub enum Target<'a> {
@@ -282,10 +286,12 @@ impl Planner {
         let mut scratch = wanted.clone();
         let mut tasks = self.plan_edit(model, aim);
         let mut report = EditReport::default();
+        let began = self.spent();
         for task in &mut tasks {
             let ran = run(self, model, task, aim, values, &mut scratch, host);
             note(&mut report, task, ran);
         }
+        let is_dear = self.spent() - began > DEAR;
         let rules: BTreeSet<u32> =
             tasks.iter().flat_map(|t| t.component.rules().iter().copied()).collect();
         self.latest = Latest { tasks, edited: Some(aim.slots()) };
@@ -299,15 +305,17 @@ impl Planner {
                 Some(report.not_decided.map_or(RefusalReason::Unmet, RefusalReason::NotDecided));
             let holding = |s| aim.holding(model.structure, s);
             let setup = Setup { model, holding: &holding, aim };
-            let conflict = match report.not_decided {
+            let may_be_tried = match report.not_decided {
                 // every part of it would be searched as long
-                Some(NotDecided::Roots(_) | NotDecided::Whole(_)) => None,
-                Some(NotDecided::Search(_) | NotDecided::Modes(_)) | None => {
-                    self.against(&setup, &all_rules, &wanted, host)
-                }
+                Some(NotDecided::Roots(_) | NotDecided::Whole(_)) => false,
+                Some(NotDecided::Search(_) | NotDecided::Modes(_)) | None => !is_dear,
+            };
+            let conflict = match may_be_tried {
+                true => self.against(&setup, &all_rules, &wanted, host),
+                false => None,
             };
             report.conflicts = conflict.map_or(report.conflicts, |c| vec![c]);
-            if report.not_decided.is_none() {
+            if report.not_decided.is_none() && !is_dear {
                 let tasks = &self.latest.tasks;
                 report.limit = self.limit(model, values, aim, tasks, &was_unmet, host);
             }
