@@ -108,10 +108,11 @@ impl<'a> Piece<'a> {
     }
 }
 
-/// Up to this many rows a piece is decided by the tableau, whatever that takes.
+/// Up to this many rows a piece is decided by a tableau of doubles, whatever that takes.
 const LARGE: usize = 100;
 
-/// For larger ones it may write so many times what the rows hold before sparse elimination is asked.
+/// For larger ones it may write so many times what the rows hold, and nothing may be in doubt; else residues
+/// are asked, and then sparse elimination.
 const MOST_WORK: usize = 16;
 
 /// All rows in order of acceptance, and all places.
@@ -149,13 +150,14 @@ pub(crate) fn accept(system: &System, classes: &Classes, rows: &Rows) -> Accepta
             if matcher.accept(piece, out) {
                 return;
             }
-            let is_large = piece.rows.len() > LARGE;
-            match is_large.then(|| rows.residues(piece.rows)).flatten() {
+            let near = rows.doubles(piece.rows);
+            let most = (piece.rows.len() > LARGE).then_some(MOST_WORK);
+            if exact::accept(system, classes, rows, &near, piece, most, out) {
+                return;
+            }
+            match rows.residues(piece.rows) {
                 Some(exact) => eliminate(system, classes, rows, &exact, &mut matcher, piece, out),
-                None => {
-                    let near = rows.doubles(piece.rows);
-                    eliminate(system, classes, rows, &near, &mut matcher, piece, out);
-                }
+                None => eliminate(system, classes, rows, &near, &mut matcher, piece, out),
             }
         });
     }
@@ -184,8 +186,8 @@ fn count(system: &System, classes: &Classes, out: &mut Acceptance) {
     out.yielded = (0..n as u32).filter(|&s| is_given(s) && out.unknown[s as usize]).collect();
 }
 
-/// Decides for a piece by elimination, with coefficients that are doubles or, in a large one, residues: what
-/// many steps leave of doubles is rounding.
+/// Decides for a large piece by elimination, with coefficients that are residues, or doubles where there are
+/// none.
 fn eliminate<N: Number>(
     system: &System,
     classes: &Classes,
@@ -195,8 +197,7 @@ fn eliminate<N: Number>(
     piece: Piece<'_>,
     out: &mut Acceptance,
 ) {
-    let most = (piece.rows.len() > LARGE).then_some(MOST_WORK);
-    if !exact::accept(system, classes, rows, coefficients, piece, most, out)
+    if !exact::accept(system, classes, rows, coefficients, piece, Some(MOST_WORK), out)
         && !deflate::accept(classes, rows, coefficients, matcher, piece, out)
     {
         exact::accept(system, classes, rows, coefficients, piece, None, out);

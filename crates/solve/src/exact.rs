@@ -26,7 +26,7 @@ enum Column {
 }
 
 /// Decides for one piece with these coefficients, row by row; false, with nothing decided, where that takes
-/// more work than some times what the rows hold.
+/// more work than some times what the rows hold, or rounding may have decided something.
 pub(crate) fn accept<N: Number>(
     system: &System,
     classes: &Classes,
@@ -37,6 +37,7 @@ pub(crate) fn accept<N: Number>(
     out: &mut Acceptance,
 ) -> bool {
     let size: usize = coefficients.iter().map(Row::len).sum();
+    let is_bounded = most.is_some();
     let most = most.map_or(usize::MAX, |times| times * size);
     let mut state = State::new(classes, coefficients, piece);
     let (mut accepted, mut dependent, mut determined) = (Vec::new(), Vec::new(), 0);
@@ -68,6 +69,9 @@ pub(crate) fn accept<N: Number>(
         if state.tableau.work() > most {
             return false;
         }
+    }
+    if is_bounded && state.tableau.is_doubtful() {
+        return false;
     }
     for (&slot, &column) in &state.columns {
         out.unknown[slot as usize] = matches!(column, Column::Open | Column::Yields);

@@ -7,10 +7,13 @@
 
 use crate::echelon::Row;
 use crate::number::{Number, Sum};
+use std::cell::Cell;
 use std::collections::BTreeMap;
 
 /// What cancels to this part of its terms is zero.
 const CANCELLED: f64 = 1e-9;
+/// Of what cancels to a part between these, rounding may decide whether it is zero.
+const DOUBTFUL: std::ops::Range<f64> = 1e-12..1e-6;
 
 /// A row reduced by the accepted ones.
 #[derive(Clone, Debug)]
@@ -40,6 +43,7 @@ pub(crate) struct Tableau<N> {
     occurrences: BTreeMap<u32, Vec<u32>>,
     /// How many coefficients have been written so far.
     work: usize,
+    is_doubtful: Cell<bool>,
 }
 
 impl<N> Default for Tableau<N> {
@@ -51,6 +55,7 @@ impl<N> Default for Tableau<N> {
             row_of_pivot: BTreeMap::new(),
             occurrences: BTreeMap::new(),
             work: 0,
+            is_doubtful: Cell::new(false),
         }
     }
 }
@@ -68,6 +73,18 @@ impl<N: Number> Tableau<N> {
     pub(crate) fn work(&self) -> usize {
         self.work
     }
+    /// Returns true if rounding may have decided whether something is zero.
+    pub(crate) fn is_doubtful(&self) -> bool {
+        self.is_doubtful.get()
+    }
+    /// Returns true if a sum is zero.
+    fn vanishes(&self, sum: &Sum<N>) -> bool {
+        let is_small = sum.cancels_to(DOUBTFUL.end);
+        if is_small && !sum.cancels_to(DOUBTFUL.start) {
+            self.is_doubtful.set(true);
+        }
+        is_small && sum.cancels_to(CANCELLED)
+    }
     /// Subtracts from a row whatever accepted rows can take away.
     pub(crate) fn reduce(&self, row: &[(u32, N)]) -> Reduced<N> {
         let mut work: BTreeMap<u32, Sum<N>> = row.iter().map(|&(c, v)| (c, Sum::of(v))).collect();
@@ -82,7 +99,7 @@ impl<N: Number> Tableau<N> {
         }
         let row = work
             .into_iter()
-            .filter(|(c, sum)| !sum.cancels_to(CANCELLED) && !self.row_of_pivot.contains_key(c))
+            .filter(|(c, sum)| !self.vanishes(sum) && !self.row_of_pivot.contains_key(c))
             .map(|(c, sum)| (c, sum.value))
             .collect();
         multipliers.sort_unstable_by_key(|m| m.0);
@@ -130,7 +147,7 @@ impl<N: Number> Tableau<N> {
                     total.add(value.times(t).negated());
                 }
             }
-            if total.cancels_to(CANCELLED) {
+            if self.vanishes(&total) {
                 continue;
             }
             circuit.push(k);
@@ -138,7 +155,7 @@ impl<N: Number> Tableau<N> {
             for &(j, m) in &step.multipliers {
                 let entry = weight.entry(j).or_default();
                 entry.add(share.times(m).negated());
-                if entry.cancels_to(CANCELLED) {
+                if self.vanishes(entry) {
                     entry.value = N::ZERO;
                 }
             }
@@ -152,7 +169,8 @@ impl<N: Number> Tableau<N> {
             let own = coefficient(&self.rows[r as usize], column);
             let Some(factor) = own.filter(|_| Some(r) != except) else { continue };
             let pivot = self.pivot_of_row[r as usize];
-            let merged = subtract(&self.rows[r as usize], factor, by, column, pivot);
+            let vanishes = |sum: &Sum<N>| self.vanishes(sum);
+            let merged = subtract(&self.rows[r as usize], factor, by, (column, pivot), &vanishes);
             for &(c, _) in by {
                 if coefficient(&self.rows[r as usize], c).is_none() {
                     self.occurrences.entry(c).or_default().push(r);
@@ -173,7 +191,13 @@ fn coefficient<N: Number>(row: &Row<N>, column: u32) -> Option<N> {
 }
 
 /// Returns `row - factor * by` without the cleared column; the row's own pivot stays whatever cancels.
-fn subtract<N: Number>(row: &Row<N>, factor: N, by: &Row<N>, cleared: u32, pivot: u32) -> Row<N> {
+fn subtract<N: Number>(
+    row: &Row<N>,
+    factor: N,
+    by: &Row<N>,
+    (cleared, pivot): (u32, u32),
+    vanishes: &impl Fn(&Sum<N>) -> bool,
+) -> Row<N> {
     let mut out = Row::with_capacity(row.len() + by.len());
     let (mut own, mut other) = (row.iter().peekable(), by.iter().peekable());
     loop {
@@ -190,7 +214,7 @@ fn subtract<N: Number>(row: &Row<N>, factor: N, by: &Row<N>, cleared: u32, pivot
         if let Some(&(_, value)) = other.next_if(|e| e.0 == column) {
             sum.add(factor.times(value).negated());
         }
-        if column == pivot || (column != cleared && !sum.cancels_to(CANCELLED)) {
+        if column == pivot || (column != cleared && !vanishes(&sum)) {
             out.push((column, sum.value));
         }
     }

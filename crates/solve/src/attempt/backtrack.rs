@@ -19,7 +19,7 @@ use std::rc::Rc;
 const ROUNDS: usize = 5000;
 const WORK: usize = 3_000_000;
 /// After how much of either everything is moved at once, at the latest.
-const SOON: usize = 10;
+const SOON: usize = 2;
 const SOON_WORK: usize = 2000;
 /// How many choices are laid by.
 const CHOICES: usize = 400;
