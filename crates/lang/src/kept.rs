@@ -13,8 +13,8 @@ use base::{Id, Place, Span};
 use kernel::{Count, Given, Part};
 use std::ops::Range;
 use std::rc::Rc;
-use syntax::SyntaxKind;
 use syntax::ast::{Member, Value};
+use syntax::{Parse, SyntaxKind};
 
 /// What a member at the top of the text added to the document's class, where that depends on the
 /// classes alone: one part, and some given values.
@@ -42,6 +42,9 @@ struct Shared<'l> {
     before: &'l Lowered,
     /// How many at the beginning.
     head: usize,
+    /// Those behind the first that is another one, up to the next, and how far they have moved.
+    middle: (usize, usize),
+    middle_shift: i64,
     /// The first of those at the end: its place in this text and in the one before.
     tail: (usize, usize),
     /// How far the text at the end has moved.
@@ -54,6 +57,7 @@ impl Shared<'_> {
         let (was, shift) = match member.checked_sub(self.tail.0) {
             Some(behind) => (self.tail.1 + behind, self.shift),
             None if member < self.head => (member, 0),
+            None if (self.middle.0..self.middle.1).contains(&member) => (member, self.middle_shift),
             None => return None,
         };
         self.before.added.get(was)?.map(|_| (was, shift))
@@ -87,7 +91,13 @@ impl<'l> Lowerer<'l> {
             return None;
         }
         let shift = self.files[OWN].text.len() as i64 - before.effective.len() as i64;
-        Some(Shared { before, head, tail: (now - tail, then - tail), shift })
+        // a value may have been changed far before a merge
+        let most = (now - tail).min(then - tail);
+        let end = (head + 1 + parse.shared_behind(was, head)).min(most);
+        let start = |of: &Parse| of.outline().nth(head + 1).map_or(0, |(_, s)| i64::from(s.start));
+        let (middle, middle_shift) = ((head + 1, end), start(&parse) - start(was));
+        let tail = (now - tail, then - tail);
+        Some(Shared { before, head, middle, middle_shift, tail, shift })
     }
 
     /// Declares what the document's own text adds to the document's class.

@@ -3,7 +3,8 @@
 //! The lines that both texts have at their beginning and end keep their nodes; the members between
 //! them are parsed alone, with two of their neighbours on either side, since a member may look at
 //! what follows it. Where the neighbours behind come out as they were, every bracket, comment and text
-//! before them ended there, and what follows is what it was. Anything else is parsed as a whole.
+//! before them ended there, and what follows is what it was. Where lines far apart were changed, the first
+//! is parsed first, and then the rest. Anything else is parsed as a whole.
 
 use crate::grammar::{self, Scope};
 use crate::kind::SyntaxKind;
@@ -21,7 +22,25 @@ const NEIGHBOURS: usize = 2;
 ///
 /// Cost: that of comparing the texts and of the members that changed.
 pub fn reparse(file: FileId, known: &Parse, before: &str, text: &str) -> Parse {
-    spliced(file, known, before, text).unwrap_or_else(|| parse(file, text))
+    let in_two = first_line_alone(before, text).and_then(|between| {
+        let half = spliced(file, known, before, &between)?;
+        spliced(file, &half, &between, text)
+    });
+    let made = in_two.or_else(|| spliced(file, known, before, text));
+    made.unwrap_or_else(|| parse(file, text))
+}
+
+/// Where a text was changed far apart, returns it with the first line that was changed, and no other.
+fn first_line_alone(before: &str, text: &str) -> Option<String> {
+    /// From so many bytes between the first and the last change on.
+    const FAR: usize = 4096;
+    let head = common_head(before.as_bytes(), text.as_bytes());
+    let tail = common_tail(&before.as_bytes()[head..], &text.as_bytes()[head..]);
+    if before.len() - head - tail < FAR || text.len() - head - tail < FAR {
+        return None;
+    }
+    let line_end = |of: &str| Some(head + of.as_bytes()[head..].iter().position(|b| *b == b'\n')?);
+    Some([text.get(..line_end(text)?)?, before.get(line_end(before)?..)?].concat())
 }
 
 /// A piece of the file's children: their indices, and their bytes in the text before.

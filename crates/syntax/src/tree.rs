@@ -70,6 +70,12 @@ impl Parse {
         let tail = both_back().take_while(is_same).filter(|(a, _)| a.as_node().is_some()).count();
         (head, tail.min(members(self).min(members(other)) - head))
     }
+    /// Returns how many members at the top are the same as in another tree behind the member of this number,
+    /// in both, with all that stands between them.
+    pub fn shared_behind(&self, other: &Self, member: usize) -> usize {
+        let (own, others) = (behind(&self.green, member), behind(&other.green, member));
+        own.zip(others).take_while(is_same).filter(|(a, _)| a.as_node().is_some()).count()
+    }
     /// Returns what is wrong, in the order of the text.
     pub fn diagnostics(&self) -> &[Diagnostic] {
         &self.diagnostics
@@ -82,6 +88,18 @@ impl Parse {
 
 /// A node or token, as trees share them.
 type Element<'t> = NodeOrToken<&'t GreenNodeData, &'t GreenTokenData>;
+
+/// Returns what stands behind a member.
+fn behind(green: &GreenNodeData, member: usize) -> impl Iterator<Item = Element<'_>> {
+    let mut members = 0;
+    green
+        .children()
+        .skip_while(move |child| {
+            members += usize::from(child.as_node().is_some());
+            members <= member
+        })
+        .skip(1)
+}
 
 fn is_same((a, b): &(Element<'_>, Element<'_>)) -> bool {
     match (a, b) {

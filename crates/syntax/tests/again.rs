@@ -105,3 +105,25 @@ fn members_that_an_edit_does_not_touch_keep_their_nodes() {
     let kept = was.iter().zip(&is).filter(|(a, b)| a == b).count();
     assert_eq!(kept, 40 - 5, "the member and two on either side are parsed");
 }
+
+#[test]
+fn edits_far_apart_give_the_tree_of_their_text() {
+    let line = |i: usize| format!("w{i}: Widget {{ left = {i} }}\n");
+    let text: String = (0..400).map(line).chain(["merge w3.left = w390.left\n".into()]).collect();
+    let known = parse(FileId(0), &text);
+    let mut dice = Dice(7);
+    let mut right = 0;
+    for _ in 0..300 {
+        let (first, second) = text.split_at(text.len() / 2);
+        let after = edited(&mut dice, first) + &edited(&mut dice, second);
+        let (again, anew) = (reparse(FileId(0), &known, &text, &after), parse(FileId(0), &after));
+        assert!(again == anew, "became\n{after}");
+        right += usize::from(anew.diagnostics().is_empty());
+    }
+    assert!(right > 20, "{right} edited texts have no errors");
+    let after = text.replace("left = 3 ", "left = 47 ").replace("merge w3.left = w390.left\n", "");
+    let again = reparse(FileId(0), &known, &text, &after);
+    assert_eq!(again, parse(FileId(0), &after));
+    assert_eq!(again.shared(&known), (3, 0));
+    assert_eq!(again.shared_behind(&known, 3), 396);
+}

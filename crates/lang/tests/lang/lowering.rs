@@ -217,6 +217,57 @@ fn things_of_a_used_file_are_reached_by_its_name() {
 }
 
 #[test]
+fn what_changed_far_apart_means_what_it_would_alone() {
+    let lines: Vec<String> = (0..300)
+        .map(|i| format!("w{i}: Widget {{ left = {i}  size = {} }}\n", i + 1))
+        .chain(["merge w3.left = w290.left\n".into(), "constraint w5.size = w7.size\n".into()])
+        .collect();
+    let text = |lines: &[String]| {
+        lines.concat()
+            + "class Widget { left: Real = 0  size: Real  constraint wide: size > left }\n"
+    };
+    let before = right(&text(&lines));
+    let changes: [(usize, &str); 8] = [
+        (3, "w3: Widget { left = 1000000  size = 4 }\n"),
+        (3, ""),
+        (3, "w3: Widget { left = 3 }\nnew: Widget\n"),
+        (3, "\n// said\nw3: Widget { left = 3  size = 4 }\n"),
+        (3, "w4: Widget\n"),
+        (0, "w0: Real = 3\n"),
+        (200, "w200: Widget { left = 2 }\n"),
+        (300, ""),
+    ];
+    for (a, first) in changes {
+        for (b, second) in [(300, ""), (301, "constraint w5.size = w8.size\n"), (250, "")] {
+            let mut lines = lines.clone();
+            lines[a] = first.into();
+            lines[b] = second.into();
+            let text = text(&lines);
+            let (again, anew) =
+                (lang::lower(&text, &load, Some(&before)), lang::lower(&text, &load, None));
+            let said = |l: &Lowered| l.diagnostics.iter().map(|d| d.message.clone()).collect();
+            let (said_again, said_anew): (Vec<String>, Vec<String>) = (said(&again), said(&anew));
+            assert_eq!(said_again, said_anew, "{a} {b}");
+            if !said_anew.is_empty() {
+                continue;
+            }
+            let means = |l: &Lowered| -> Vec<(Path, Term, String)> {
+                let says = |g: &std::rc::Rc<kernel::Given>| l.source_of(g.origin);
+                let each = root(l).givens.iter();
+                each.map(|g| (g.path.clone(), g.value.clone(), says(g))).collect()
+            };
+            assert_eq!(means(&again), means(&anew), "{a} {b}");
+            let parts = |l: &Lowered| -> Vec<(String, String)> {
+                let each = root(l).parts.iter();
+                each.map(|p| (p.name.to_string(), l.source_of(p.origin))).collect()
+            };
+            assert_eq!(parts(&again), parts(&anew), "{a} {b}");
+            assert_eq!(root(&again).merges.len(), root(&anew).merges.len());
+        }
+    }
+}
+
+#[test]
 fn a_wrong_member_says_what_it_said_before() {
     let good = right("a: Real = 1\nconstraint c: a = 2\n");
     let lowered = lang::lower("a: Real = 3\nconstraint c: a = \n", &load, Some(&good));
