@@ -308,7 +308,11 @@ impl Tape {
         registers: &mut Vec<f64>,
         out: &mut Vec<f64>,
     ) {
-        let registers = self.compute(|v| values[places[v] as usize], registers);
+        let gather = |own: &mut [f64], from: usize| {
+            let places = &places[from..][..own.len()];
+            own.iter_mut().zip(places).for_each(|(own, &place)| *own = values[place as usize]);
+        };
+        let registers = self.compute(gather, registers);
         out.clear();
         out.extend(self.outputs.iter().map(|&register| registers[register as usize]));
     }
@@ -325,7 +329,8 @@ impl Tape {
 
     fn run_on<W: Word>(&self, values: &[W], registers: &mut Vec<W>, out: &mut [W]) {
         assert_eq!(out.len(), self.outputs.len(), "there is a place for every output");
-        let registers = self.compute(|v| values[v], registers);
+        let copy = |own: &mut [W], from: usize| own.copy_from_slice(&values[from..][..own.len()]);
+        let registers = self.compute(copy, registers);
         match self.outputs[..] {
             [] => {}
             [first, ..] if self.is_straight => {
@@ -339,18 +344,18 @@ impl Tape {
         }
     }
 
-    /// Computes every register.
+    /// Computes every register; `read` gives some the values of the variables from one on.
     fn compute<'r, W: Word>(
         &self,
-        value: impl Fn(usize) -> W,
+        read: impl Fn(&mut [W], usize),
         registers: &'r mut Vec<W>,
     ) -> &'r mut [W] {
         if registers.len() < self.registers {
             registers.resize(self.registers, W::of(0.0));
         }
         let registers = &mut registers[..self.registers];
-        for (register, &constant) in self.constants.iter().enumerate() {
-            registers[register] = W::of(constant);
+        for (register, &constant) in registers.iter_mut().zip(&self.constants) {
+            *register = W::of(constant);
         }
         let mut operands = self.operands.as_slice();
         let mut mixed = self.mixed.as_slice();
@@ -361,8 +366,7 @@ impl Tape {
                 Kind::Values => {
                     let from = operands[0] as usize;
                     operands = &operands[1..];
-                    let own = &mut registers[first..first + run.count as usize];
-                    own.iter_mut().zip(from..).for_each(|(register, v)| *register = value(v));
+                    read(&mut registers[first..first + run.count as usize], from);
                     continue;
                 }
                 Kind::Mixed => {
@@ -558,22 +562,15 @@ fn run_mixed<W: Word>(registers: &mut [W], first: usize, operations: &[Mixed]) {
             }
         };
     }
-    // what came out last need not be stored before it is read
-    let (mut last, mut last_at) = (W::of(0.0), usize::MAX);
-    for (register, Mixed { operation, operands }) in (first..).zip(operations) {
-        let at = |operand: usize| {
-            let operand = operands[operand] as usize;
-            if operand == last_at { last } else { registers[operand] }
-        };
-        last = each!(
+    for (i, Mixed { operation, operands }) in operations.iter().enumerate() {
+        let at = |operand: usize| registers[operands[operand] as usize];
+        registers[first + i] = each!(
             *operation,
             at,
             [Neg Abs Sqrt Sin Cos Tan Asin Acos Atan Exp Ln Floor Round Sign Not],
             [Add Sub Mul Div Pow Atan2 Min Max Remainder Less LessEqual Equal NotEqual And Or],
             at(0).choose(at(1), at(2))
         );
-        last_at = register;
-        registers[register] = last;
     }
 }
 

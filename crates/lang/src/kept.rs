@@ -95,7 +95,7 @@ impl<'l> Lowerer<'l> {
         let most = (now - tail).min(then - tail);
         let end = (head + 1 + parse.shared_behind(was, head)).min(most);
         let start = |of: &Parse| of.outline().nth(head + 1).map_or(0, |(_, s)| i64::from(s.start));
-        let (middle, middle_shift) = ((head + 1, end), start(&parse) - start(was));
+        let (middle, middle_shift) = ((head + 1, end), start(parse) - start(was));
         let tail = (now - tail, then - tail);
         Some(Shared { before, head, middle, middle_shift, tail, shift })
     }
