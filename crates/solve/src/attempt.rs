@@ -497,11 +497,11 @@ impl Run<'_> {
         self.fail(step)
     }
 
-    /// Solves what lies at one place: there no direction is nearer than another, and nothing is least. As
-    /// if it had been a little apart, it has one.
+    /// Solves from where no direction is nearer than another, as where two places lie at one, or two rows slope
+    /// alike: as if it had been a little apart. What is found counts from x0 again, unless all is as near there.
     fn measure_apart(&mut self, step: &Step, measure: &Measure) -> bool {
         let mut from = self.frame.x0.clone();
-        APART.iter().any(|&reach| {
+        let is_found = APART.iter().any(|&reach| {
             self.start_from_last(&step.targets);
             self.scatter(&step.targets, 1, reach);
             for &t in &step.targets {
@@ -509,7 +509,19 @@ impl Run<'_> {
             }
             let (scales, work) = (&self.frame.scales, &mut self.buffers.work);
             measure.solve(&from, self.values, scales, self.trust, work) == Measured::Least
-        })
+        });
+        if !is_found {
+            return false;
+        }
+        let Frame { x0, scales, .. } = self.frame;
+        let found: Vec<f64> = measure.targets().iter().map(|&t| self.values[t as usize]).collect();
+        let work = &mut self.buffers.work;
+        if measure.solve(x0, self.values, scales, Trust::Branch, work) == Measured::Failed {
+            for (&t, x) in measure.targets().iter().zip(found) {
+                self.values[t as usize] = x;
+            }
+        }
+        true
     }
 
     /// How often a search may begin elsewhere: only where nothing had a value before.
