@@ -43,7 +43,7 @@ pub struct Lowered {
     pub origins: Origins,
     /// What is wrong, in no particular order.
     pub diagnostics: Vec<Diagnostic>,
-    /// What the first `///` of the text says.
+    /// What the `///` that the text begins with says, where that is above a `use` or a line of units.
     pub doc: String,
     /// The texts; the document's own is the first.
     pub files: IdVec<FileId, File>,
@@ -289,14 +289,14 @@ impl<'l> Lowerer<'l> {
         checks
     }
 
-    /// Returns what the first comment for readers in the document's own text says.
+    /// Returns what the comment for readers above the first `use` or line of units says; one above anything
+    /// else is that thing's own.
     fn first_doc(&self) -> String {
         let File { parse, .. } = &self.files[OWN];
-        let file = parse.file();
-        // a part that may be kept has none
-        let others = parse.outline().zip(&self.added).filter(|(_, added)| added.is_none());
-        let mut others = others.filter_map(|((_, span), _)| file.member_at(span));
-        others.find_map(|m| m.doc()).unwrap_or_default()
+        let of_all =
+            |kind| matches!(kind, SyntaxKind::Use | SyntaxKind::UnitLine | SyntaxKind::YLine);
+        let first = parse.outline().next().filter(|&(kind, _)| of_all(kind));
+        first.and_then(|(_, span)| parse.file().member_at(span)?.doc()).unwrap_or_default()
     }
 
     pub(crate) fn origin(&mut self, file: FileId, span: Span) -> OriginId {

@@ -412,7 +412,7 @@ pub(crate) fn command_label(command: &Command) -> String {
     }
 }
 
-/// Returns a document's title: its first `///` up to the first colon or full stop, else its name.
+/// Returns a document's title: what its text says of itself up to the first colon or full stop, else its name.
 pub(crate) fn title(open: &Open) -> String {
     let doc = &open.state.lowered.doc;
     let end = doc.find([':', '.', '\n']).unwrap_or(doc.len());
