@@ -412,10 +412,15 @@ pub(crate) fn command_label(command: &Command) -> String {
     }
 }
 
-/// Returns a document's title: what its text says of itself up to the first colon or full stop, else its name.
+/// Returns a document's title: what its text says of itself up to the first colon or full stop; else its name,
+/// without folder and ending.
 pub(crate) fn title(open: &Open) -> String {
     let doc = &open.state.lowered.doc;
     let end = doc.find([':', '.', '\n']).unwrap_or(doc.len());
     let title = doc[..end].trim();
-    if title.is_empty() || title.chars().count() > 40 { open.name.clone() } else { title.into() }
+    if !title.is_empty() && title.chars().count() <= 40 {
+        return title.into();
+    }
+    let name = open.name.rsplit('/').next().unwrap_or(&open.name);
+    name.strip_suffix(".thing").unwrap_or(name).replace(['-', '_'], " ")
 }

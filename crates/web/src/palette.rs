@@ -110,6 +110,8 @@ fn Entry(
         Choice::Do(action) => (String::from(action.id), String::from(action.label), Some(action)),
         Choice::Open(listed) => (listed.path, format!("{} {}", words::OPEN, listed.title), None),
     };
+    // of a document, where it is
+    let path = if action.is_none() { name.clone() } else { String::new() };
     let why = Memo::new(move |_| action.and_then(|action| (action.enabled)(lab).err()));
     let key = action.and_then(|action| action.keys.first());
     view! {
@@ -119,23 +121,31 @@ fn Entry(
             on:pointerenter=move |_| at.set(n)
             on:click=move |_| choose(n)>
             <span class="label">{label}</span>
-            <span class="reason">{why}</span>
+            <span class="reason">{path}{why}</span>
             {key.map(|key| view! { <kbd>{*key}</kbd> })}
         </li>
     }
 }
 
-/// What has all letters of what is wanted in its label, in order; whole words first.
+/// What has the words that are wanted in its label; then what has them in its own name; then what has all
+/// their letters in order: an action in its label, a document, whose title may be long, in its path.
 fn matching(wanted: &str, listed: &[Listed]) -> Vec<Choice> {
     let wanted = wanted.trim().to_lowercase();
-    let rank = |label: &str| {
-        let label = label.to_lowercase();
-        if label.contains(&wanted) { Some(0) } else { scattered(&label, &wanted).then_some(1) }
+    let rank = |label: &str, name: &str, short: &str| {
+        let has = |text: &str| text.to_lowercase().contains(&wanted);
+        match () {
+            () if has(label) => Some(0),
+            () if has(name) => Some(1),
+            () => scattered(&short.to_lowercase(), &wanted).then_some(2),
+        }
     };
-    let actions = ACTIONS.iter().map(|action| (rank(action.label), Choice::Do(action)));
-    let documents = listed.iter().map(|one| (rank(&one.title), Choice::Open(one.clone())));
+    let action =
+        |action: &'static Action| (rank(action.label, action.id, action.label), Choice::Do(action));
+    let document =
+        |one: &Listed| (rank(&one.title, &one.path, &one.path), Choice::Open(one.clone()));
+    let all = ACTIONS.iter().map(action).chain(listed.iter().map(document));
     let mut found: Vec<(i32, Choice)> =
-        actions.chain(documents).filter_map(|(rank, choice)| Some((rank?, choice))).collect();
+        all.filter_map(|(rank, choice)| Some((rank?, choice))).collect();
     found.sort_by_key(|(rank, _)| *rank);
     found.into_iter().map(|(_, choice)| choice).collect()
 }
@@ -168,6 +178,10 @@ mod tests {
         assert_eq!(first("undo"), "undo");
         assert_eq!(first("under"), "gallery/bridge.thing");
         assert_eq!(first("ftp"), "fit");
+        assert_eq!(first("recog"), "recognise");
+        assert_eq!(first("brg"), "gallery/bridge.thing");
+        // no piece of every word of a long title
+        assert_eq!(first("bgeudload"), "");
         assert_eq!(first("qqq"), "");
     }
 }

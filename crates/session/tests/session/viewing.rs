@@ -216,14 +216,15 @@ fn the_status_says_which_given_numbers_gave_way() {
 #[test]
 fn a_document_is_called_what_it_says_of_itself_or_by_its_name() {
     let title = |text: &str| {
-        let desk = Desk::of(text);
-        desk.session.title(desk.id)
+        let mut desk = Desk::of("");
+        let id = desk.session.open("rooms/a-desk.thing", text);
+        desk.session.title(id)
     };
     assert_eq!(
         title("/// Four bars: they turn.\nuse geometry\n\n/// A bar.\nclass Bar {}\n"),
         "Four bars"
     );
     assert_eq!(title("/// Beams\nunit mm\nx: Real = 1\n"), "Beams");
-    assert_eq!(title("use geometry\n\n/// A bar with a handle.\nclass Handle {}\n"), "desk");
-    assert_eq!(title("/// A bar with a handle.\nclass Handle {}\n"), "desk");
+    assert_eq!(title("use geometry\n\n/// A bar with a handle.\nclass Handle {}\n"), "a desk");
+    assert_eq!(title("/// A bar with a handle.\nclass Handle {}\n"), "a desk");
 }
