@@ -193,6 +193,7 @@ fn hands(
         times.push([set, undo, press, drag, release, again, merged, parted]);
     }
     let least = |i: usize| times.iter().map(|t| t[i]).fold(f64::INFINITY, f64::min);
+    parts_computed(out, name, session, id, [thing, other])?;
     writeln!(
         out,
         "{name:8} set {:.1}  undo {:.1}  press {:.2}  drag {:.4}  release {:.1}  undo {:.1}  merge {:.1}  \
@@ -205,6 +206,38 @@ fn hands(
         least(5),
         least(6),
         least(7),
+    )
+}
+
+/// Measures what a hand waits for that merges a given number with a computed one, which makes a given number
+/// of the other thing yield, and parts them again, by either path.
+fn parts_computed(
+    out: &mut impl Write,
+    name: &str,
+    session: &mut Session,
+    id: DocumentId,
+    [thing, other]: [&str; 2],
+) -> std::io::Result<()> {
+    let at = |path: String| session::parse_path(&path).expect("the path is well formed");
+    let paths = vec![at(format!("{thing}.left")), at(format!("{other}.right"))];
+    let mut times = [f64::INFINITY; 3];
+    for _ in 0..TIMES {
+        for (i, path) in paths.iter().enumerate() {
+            let (merged, change) = timed(|| session.apply(id, &Command::Merge(paths.clone())));
+            assert!(change.is_ok(), "the numbers can be one: {change:?}");
+            let (parted, change) = timed(|| session.apply(id, &Command::Unmerge(path.clone())));
+            assert!(change.is_ok(), "they can be parted: {change:?}");
+            session.apply(id, &Command::Undo).expect("there is a step");
+            session.apply(id, &Command::Undo).expect("there is another");
+            times[0] = times[0].min(merged);
+            times[1 + i] = times[1 + i].min(parted);
+        }
+    }
+    let [merge, given, computed] = times;
+    writeln!(
+        out,
+        "{name:8} given with computed: merge {merge:.1}  unmerge the given {given:.1}, the computed \
+         {computed:.1} (goal 20) ms",
     )
 }
 

@@ -115,7 +115,11 @@ pub fn instantiate_again(
 ) -> (Structure, Vec<Fault>) {
     let Some((grown, givens)) = grown::kept(document, before) else { return instantiate(document) };
     let (was, structure) = before;
-    if structure.is_faultless && grown::is_form_kept(document, was, structure, &givens) {
+    let are_parts_kept = structure.grown.as_ref().is_some_and(|was| Rc::ptr_eq(was, &grown));
+    if are_parts_kept
+        && structure.is_faultless
+        && grown::is_form_kept(document, was, structure, &givens)
+    {
         return (Structure { form: structure.form.clone(), givens }, Vec::new());
     }
     let mut maker = Maker::new(document, grown.layouts.clone());

@@ -47,10 +47,12 @@ impl Lowerer<'_> {
     }
 
     /// Parses a text; what is as it was before is not parsed again.
-    fn parse(&self, id: FileId, name: &str, text: &str) -> Parse {
+    fn parse(&mut self, id: FileId, name: &str, text: &str) -> Parse {
         let Some(before) = self.before else { return syntax::parse(id, text) };
         if id == OWN {
-            return syntax::reparse(id, &before.effective_parse, &before.effective, text);
+            let again = syntax::reparse(id, &before.effective_parse, &before.effective, text);
+            self.changed = again.changed;
+            return again.parse;
         }
         let known = before.files.get(id).filter(|f| f.name == name && *f.text == *text);
         known.map_or_else(|| syntax::parse(id, text), |f| f.parse.clone())

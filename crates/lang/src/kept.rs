@@ -14,7 +14,7 @@ use kernel::{Count, Given, Part};
 use std::ops::Range;
 use std::rc::Rc;
 use syntax::ast::{Member, Value};
-use syntax::{Parse, SyntaxKind};
+use syntax::{Changed, Parse, SyntaxKind};
 
 /// What a member at the top of the text added to the document's class, where that depends on the
 /// classes alone: one part, and some given values.
@@ -36,31 +36,11 @@ pub(crate) struct Run {
     shift: i64,
 }
 
-/// Which members of a text are those of the text before.
-#[derive(Clone, Copy)]
-struct Shared<'l> {
-    before: &'l Lowered,
-    /// How many at the beginning.
-    head: usize,
-    /// Those behind the first that is another one, up to the next, and how far they have moved.
-    middle: (usize, usize),
-    middle_shift: i64,
-    /// The first of those at the end: its place in this text and in the one before.
-    tail: (usize, usize),
-    /// How far the text at the end has moved.
-    shift: i64,
-}
-
-impl Shared<'_> {
-    /// Returns which member one was before, where that may be kept, and how far it has moved.
-    fn known(&self, member: usize) -> Option<(usize, i64)> {
-        let (was, shift) = match member.checked_sub(self.tail.0) {
-            Some(behind) => (self.tail.1 + behind, self.shift),
-            None if member < self.head => (member, 0),
-            None if (self.middle.0..self.middle.1).contains(&member) => (member, self.middle_shift),
-            None => return None,
-        };
-        self.before.added.get(was)?.map(|_| (was, shift))
+/// Returns which member of the text before a member is, and how far it has moved; nothing for another one.
+fn member_before(changed: &[Changed], member: usize) -> Option<(usize, i64)> {
+    match &changed[..changed.partition_point(|c| c.after.start <= member)] {
+        [] => Some((member, 0)),
+        [.., last] => Some((last.before.end + member.checked_sub(last.after.end)?, last.shift)),
     }
 }
 
@@ -72,8 +52,9 @@ impl Run {
 }
 
 impl<'l> Lowerer<'l> {
-    /// Finds out which members are those of the text before: none, unless all classes are as they were.
-    fn shared(&self) -> Option<Shared<'l>> {
+    /// Returns what the text meant before, unless that says nothing about members that are as they were:
+    /// where a class is another one.
+    fn known(&self) -> Option<&'l Lowered> {
         let before = self.before?;
         let is_same = |(a, b): (&File, &File)| a.name == b.name && a.text == b.text;
         let used = self.files.iter().zip(before.files.iter()).skip(1);
@@ -81,37 +62,33 @@ impl<'l> Lowerer<'l> {
         if self.files.len() != before.files.len() || !used.all(is_same) {
             return None;
         }
-        let (parse, was) = (&self.files[OWN].parse, &before.effective_parse);
-        let (head, tail) = parse.shared(was);
-        let (now, then) = (parse.outline().count(), was.outline().count());
-        let changed = parse.outline().take(now - tail).skip(head);
-        let gone = was.outline().take(then - tail).skip(head);
         let kinds = [SyntaxKind::Class, SyntaxKind::Use, SyntaxKind::UnitLine, SyntaxKind::YLine];
-        if changed.chain(gone).any(|(kind, _)| kinds.contains(&kind)) {
-            return None;
-        }
-        let shift = self.files[OWN].text.len() as i64 - before.effective.len() as i64;
-        // a value may have been changed far before a merge
-        let most = (now - tail).min(then - tail);
-        let end = (head + 1 + parse.shared_behind(was, head)).min(most);
-        let start = |of: &Parse| of.outline().nth(head + 1).map_or(0, |(_, s)| i64::from(s.start));
-        let (middle, middle_shift) = ((head + 1, end), start(parse) - start(was));
-        let tail = (now - tail, then - tail);
-        Some(Shared { before, head, middle, middle_shift, tail, shift })
+        let has_other = |parse: &Parse, members: &dyn Fn(&Changed) -> Range<usize>| {
+            let mut others = self.changed.iter().flat_map(members).peekable();
+            let mut all = (0..).zip(parse.outline());
+            others.any(|member| {
+                all.by_ref()
+                    .find(|(i, _)| *i == member)
+                    .is_some_and(|(_, (kind, _))| kinds.contains(&kind))
+            })
+        };
+        let is_other = has_other(&self.files[OWN].parse, &|c| c.after.clone())
+            || has_other(&before.effective_parse, &|c| c.before.clone());
+        (!is_other).then_some(before)
     }
 
     /// Declares what the document's own text adds to the document's class.
     pub(crate) fn declare_own(&mut self, scope: &Scope) {
-        let shared = self.shared();
+        let before = self.known();
         let parse = self.files[OWN].parse.clone();
         let file = parse.file();
         self.added = vec![None; parse.outline().count()];
-        if let Some(Shared { before, .. }) = shared {
+        if let Some(before) = before {
             self.reserve(before);
         }
         let classes = self.document.classes.len();
         for (member, (_, span)) in parse.outline().enumerate() {
-            let known = shared.and_then(|s| Some((s.before, s.known(member)?)));
+            let known = before.zip(member_before(&self.changed, member));
             let part = self.document.classes[scope.class()].parts.len() as u32;
             if let Some((before, (was, shift))) = known
                 && self.keep_part(scope, before, was, span)
@@ -304,14 +281,16 @@ class Row { all: List of Real = [1] }
                     assert_eq!(now.diagnostics, anew.diagnostics, "{text}");
                 }
                 before = Some(now);
-                let (at, line) = (dice.below(lines.len()), LINES[dice.below(LINES.len())]);
-                match dice.below(3) {
-                    0 => lines[at] = line,
-                    1 => lines.insert(at, line),
-                    _ if lines.len() > 1 => {
-                        lines.remove(at);
+                for _ in 0..1 + dice.below(3) {
+                    let (at, line) = (dice.below(lines.len()), LINES[dice.below(LINES.len())]);
+                    match dice.below(3) {
+                        0 => lines[at] = line,
+                        1 => lines.insert(at, line),
+                        _ if lines.len() > 1 => {
+                            lines.remove(at);
+                        }
+                        _ => {}
                     }
-                    _ => {}
                 }
             }
         }

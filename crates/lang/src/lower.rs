@@ -28,7 +28,7 @@ use std::collections::{BTreeMap, BTreeSet};
 use std::hash::BuildHasherDefault;
 use std::rc::Rc;
 use syntax::ast::{self, AstNode};
-use syntax::{Parse, SyntaxKind};
+use syntax::{Changed, Parse, SyntaxKind};
 
 /// What a text means.
 #[derive(Clone, Debug)]
@@ -141,6 +141,8 @@ pub(crate) struct Lowerer<'l> {
     pub(crate) load: &'l dyn Fn(&str) -> Option<String>,
     /// What an earlier text meant.
     pub(crate) before: Option<&'l Lowered>,
+    /// Which members at the top of the text are others than in the earlier one.
+    pub(crate) changed: Vec<Changed>,
     /// What each member at the top of the text added, where that may be kept.
     pub(crate) added: Vec<Option<Added>>,
     pub(crate) files: IdVec<FileId, File>,
@@ -223,6 +225,7 @@ impl<'l> Lowerer<'l> {
         let mut l = Self {
             load,
             before,
+            changed: Vec::new(),
             added: Vec::new(),
             files: IdVec::new(),
             reading: Vec::new(),

@@ -309,7 +309,7 @@ fn restructure(open: &mut Open, host: &dyn Host, command: &Command) -> Result<Ch
     let done = restructuring(&before, command)?;
     let mut edits = done.edits;
     if let Command::Unmerge(path) = command {
-        edits.extend(parting::edits(open, path, &edits));
+        edits = parting::edits(open, path, edits);
     }
     let text = syntax::edit::apply(&before.text, &edits);
     let plans = open.planner.take_plans();

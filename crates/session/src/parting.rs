@@ -11,11 +11,11 @@ use kernel::{DOCUMENT, Literal, Path, SlotId, Term, ThingId, Value};
 use std::collections::BTreeSet;
 use syntax::edit::TextEdit;
 
-/// Returns the edits that give what a path leads to, and what gave way for it, the present values; none
-/// where they would touch others.
-pub(crate) fn edits(open: &Open, path: &Path, others: &[TextEdit]) -> Vec<TextEdit> {
+/// Returns the edits that part a path, and those that give what it leads to, and what gave way for it, the
+/// present values; the first alone where they would touch.
+pub(crate) fn edits(open: &Open, path: &Path, parting: Vec<TextEdit>) -> Vec<TextEdit> {
     let state = &open.state;
-    let Ok(thing) = state.structure.follow(DOCUMENT, path) else { return Vec::new() };
+    let Ok(thing) = state.structure.follow(DOCUMENT, path) else { return parting };
     let document = &state.lowered.document;
     let write = |t: ThingId| (state.structure.path(document, t), literal(state, t, &state.values));
     // leaves may be one with each other as well
@@ -32,20 +32,39 @@ pub(crate) fn edits(open: &Open, path: &Path, others: &[TextEdit]) -> Vec<TextEd
         let gave_way = gave_way.filter(|s| tied.contains(s) && !apart.contains(s));
         writes.extend(gave_way.map(|slot| write(state.structure.slots[slot].thing)));
     }
-    let edits = lang::write_values(&state.lowered, &writes);
-    let touches =
-        |a: &TextEdit, b: &TextEdit| a.span.start <= b.span.end && b.span.start <= a.span.end;
-    let are_apart = !edits.iter().any(|e| others.iter().any(|other| touches(e, other)));
-    if are_apart { edits } else { Vec::new() }
+    let mut all = parting.clone();
+    for edit in lang::write_values(&state.lowered, &writes) {
+        let touched = |a: &TextEdit| a.span.start <= edit.span.end && edit.span.start <= a.span.end;
+        let mut touching = all.iter_mut().filter(|a| touched(a));
+        match (touching.next(), touching.next()) {
+            (None, _) => all.push(edit),
+            // what is new stands on the line where the merge stood
+            (Some(gone), None)
+                if gone.insert.is_empty()
+                    && edit.span.range().is_empty()
+                    && state.text[gone.span.range()].ends_with('\n') =>
+            {
+                let was = &state.text[gone.span.range()];
+                let (before, after) = (was.len() - was.trim_start().len(), was.trim_end().len());
+                gone.insert = [&was[..before], edit.insert.trim(), &was[after..]].concat();
+            }
+            (Some(_), _) => return parting,
+        }
+    }
+    all
 }
 
-/// Returns true for a number that the text gives by itself and that is another as it is merged.
+/// Returns true for a number that is given by itself, and is another as it is merged.
 fn is_given_another(state: &State, thing: ThingId) -> bool {
-    let Some(given) = state.structure.given_apart(thing) else { return false };
-    let is = state.structure.slot_of[thing].map(|slot| state.values.get(slot));
-    match (&given.term, is) {
-        (Term::Number { value, .. }, Some(Value::Number(is))) => {
-            value.to_bits() != is.to_bits() && state.lowered.is_own_given(given.origin)
+    let structure = &state.structure;
+    let Some((given, slot)) = structure.given_apart(thing).zip(structure.slot_of[thing]) else {
+        return false;
+    };
+    // a lone number holds what it is given, whoever gives it
+    let is_lone = structure.slots[slot].place.is_none();
+    match (&given.term, state.values.get(slot)) {
+        (Term::Number { value, .. }, Value::Number(is)) => {
+            value.to_bits() != is.to_bits() && (is_lone || state.lowered.is_own_given(given.origin))
         }
         _ => false,
     }

@@ -41,7 +41,7 @@ pub mod edit;
 pub use edit::TextEdit;
 pub use format::format;
 pub use kind::{SyntaxElement, SyntaxKind, SyntaxNode, SyntaxToken};
-pub use reparse::reparse;
+pub use reparse::{Changed, Reparsed, reparse};
 pub use tree::{
     Parse, dump, parse, parse_expression, parse_statements, span_of, span_of_token, token_from,
 };

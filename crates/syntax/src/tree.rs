@@ -6,7 +6,7 @@ use crate::kind::{self, SyntaxElement, SyntaxKind, SyntaxNode, SyntaxToken};
 use crate::lexer::lex;
 use crate::parser::Parser;
 use base::{Diagnostic, FileId, Span};
-use rowan::{GreenNode, GreenNodeData, GreenTokenData, Language as _, NodeOrToken};
+use rowan::{GreenNode, GreenNodeData, Language as _, NodeOrToken};
 use std::fmt::Write;
 
 /// A text as a tree, and what is wrong with it. Cheap to copy, and free to cross threads.
@@ -59,23 +59,6 @@ impl Parse {
         };
         children.zip(self.outline()).filter_map(holds)
     }
-    /// Returns how many members at the top are the same as in another tree, with all that stands before
-    /// them and with all that stands behind them. Those that [`crate::reparse`] took over are compared by
-    /// identity.
-    pub fn shared(&self, other: &Self) -> (usize, usize) {
-        let both = || self.green.children().zip(other.green.children());
-        let both_back = || self.green.children().rev().zip(other.green.children().rev());
-        let members = |p: &Self| p.green.children().filter(|c| c.as_node().is_some()).count();
-        let head = both().take_while(is_same).filter(|(a, _)| a.as_node().is_some()).count();
-        let tail = both_back().take_while(is_same).filter(|(a, _)| a.as_node().is_some()).count();
-        (head, tail.min(members(self).min(members(other)) - head))
-    }
-    /// Returns how many members at the top are the same as in another tree behind the member of this number,
-    /// in both, with all that stands between them.
-    pub fn shared_behind(&self, other: &Self, member: usize) -> usize {
-        let (own, others) = (behind(&self.green, member), behind(&other.green, member));
-        own.zip(others).take_while(is_same).filter(|(a, _)| a.as_node().is_some()).count()
-    }
     /// Returns what is wrong, in the order of the text.
     pub fn diagnostics(&self) -> &[Diagnostic] {
         &self.diagnostics
@@ -83,30 +66,6 @@ impl Parse {
     /// Returns the text that was parsed, byte for byte.
     pub fn text(&self) -> String {
         self.syntax().text().to_string()
-    }
-}
-
-/// A node or token, as trees share them.
-type Element<'t> = NodeOrToken<&'t GreenNodeData, &'t GreenTokenData>;
-
-/// Returns what stands behind a member.
-fn behind(green: &GreenNodeData, member: usize) -> impl Iterator<Item = Element<'_>> {
-    let mut members = 0;
-    green
-        .children()
-        .skip_while(move |child| {
-            members += usize::from(child.as_node().is_some());
-            members <= member
-        })
-        .skip(1)
-}
-
-fn is_same((a, b): &(Element<'_>, Element<'_>)) -> bool {
-    match (a, b) {
-        (NodeOrToken::Node(a), NodeOrToken::Node(b)) => std::ptr::eq(*a, *b) || a == b,
-        (NodeOrToken::Token(a), NodeOrToken::Token(b)) => a == b,
-        (NodeOrToken::Node(_), NodeOrToken::Token(_))
-        | (NodeOrToken::Token(_), NodeOrToken::Node(_)) => false,
     }
 }
 

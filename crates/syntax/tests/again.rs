@@ -3,7 +3,7 @@
 use base::FileId;
 use std::fs;
 use std::path::PathBuf;
-use syntax::{parse, reparse};
+use syntax::{Changed, Parse, Reparsed, parse, reparse};
 
 /// Numbers that depend on nothing but the seed.
 struct Dice(u64);
@@ -67,21 +67,43 @@ fn edited(dice: &mut Dice, text: &str) -> String {
     format!("{}{typed}{}", &text[..ends[from]], &text[ends[to]..])
 }
 
+/// Parses an edited text again, and holds it against parsing it anew.
+fn again(known: &Parse, before: &str, after: &str) -> Reparsed {
+    let file = FileId(0);
+    let again = reparse(file, known, before, after);
+    let anew = parse(file, after);
+    assert!(again.parse == anew, "{before:?}\nbecame\n{after:?}\n{:#?}", again.parse.syntax());
+    // what is not told to be another member is the member that it was
+    let (was, is): (Vec<_>, Vec<_>) = (known.outline().collect(), anew.outline().collect());
+    let whole = Changed { before: was.len()..was.len(), after: is.len()..is.len(), shift: 0 };
+    let (mut at, mut shift) = ((0, 0), 0);
+    for Changed { before: gone, after: new, shift: next } in again.changed.iter().chain([&whole]) {
+        let kept = was[at.0..gone.start].iter().zip(&is[at.1..new.start]);
+        assert_eq!(gone.start - at.0, new.start - at.1, "{before:?}\nbecame\n{after:?}");
+        for ((kind, span), (kind_now, span_now)) in kept {
+            assert_eq!(
+                (kind, i64::from(span.start) + shift),
+                (kind_now, i64::from(span_now.start))
+            );
+            assert_eq!(before[span.range()], after[span_now.range()]);
+        }
+        (at, shift) = ((gone.end, new.end), *next);
+    }
+    again
+}
+
 #[test]
 fn any_edit_gives_the_tree_of_its_text() {
-    let file = FileId(0);
     let mut dice = Dice(1);
     let mut right = 0;
     for text in texts() {
-        let known = parse(file, &text);
+        let known = parse(FileId(0), &text);
         for _ in 0..100 {
             let (mut before, mut tree) = (text.clone(), known.clone());
             for _ in 0..1 + dice.below(4) {
                 let after = edited(&mut dice, &before);
-                let again = reparse(file, &tree, &before, &after);
-                let anew = parse(file, &after);
-                assert!(again == anew, "{before:?}\nbecame\n{after:?}\n{:#?}", again.syntax());
-                right += usize::from(anew.diagnostics().is_empty());
+                let again = again(&tree, &before, &after).parse;
+                right += usize::from(again.diagnostics().is_empty());
                 (before, tree) = (after, again);
             }
         }
@@ -93,37 +115,46 @@ fn any_edit_gives_the_tree_of_its_text() {
 fn members_that_an_edit_does_not_touch_keep_their_nodes() {
     let text: String = (0..40).map(|i| format!("w{i}: Widget {{ left = {i} }}\n")).collect();
     let known = parse(FileId(0), &text);
-    let after = text.replace("left = 20", "left = 21");
-    let again = reparse(FileId(0), &known, &text, &after);
-    assert_eq!(again, parse(FileId(0), &after));
-    let pointers = |p: &syntax::Parse| -> Vec<usize> {
+    let after = text.replace("left = 20", "left = 21").replace("w30: Widget { left = 30 }\n", "");
+    let again = again(&known, &text, &after);
+    let changed = [
+        Changed { before: 20..21, after: 20..21, shift: 0 },
+        Changed { before: 30..31, after: 30..30, shift: -26 },
+    ];
+    assert_eq!(again.changed, changed);
+    let pointers = |p: &Parse| -> Vec<usize> {
         let nodes =
             p.syntax().children().map(|n| n.green().as_ref() as *const _ as *const u8 as usize);
         nodes.collect()
     };
-    let (was, is) = (pointers(&known), pointers(&again));
-    let kept = was.iter().zip(&is).filter(|(a, b)| a == b).count();
-    assert_eq!(kept, 40 - 5, "the member and two on either side are parsed");
+    let (was, is) = (pointers(&known), pointers(&again.parse));
+    assert_eq!([&was[..20], &was[21..30], &was[31..]], [&is[..20], &is[21..30], &is[30..]]);
 }
 
 #[test]
-fn edits_far_apart_give_the_tree_of_their_text() {
+fn edits_in_many_places_give_the_tree_of_their_text() {
     let line = |i: usize| format!("w{i}: Widget {{ left = {i} }}\n");
-    let text: String = (0..400).map(line).chain(["merge w3.left = w390.left\n".into()]).collect();
+    let lines: Vec<String> =
+        (0..400).map(line).chain(["merge w3.left = w390.left\n".into()]).collect();
+    let text = lines.concat();
     let known = parse(FileId(0), &text);
     let mut dice = Dice(7);
-    let mut right = 0;
+    let (mut right, mut apart) = (0, 0);
     for _ in 0..300 {
-        let (first, second) = text.split_at(text.len() / 2);
-        let after = edited(&mut dice, first) + &edited(&mut dice, second);
-        let (again, anew) = (reparse(FileId(0), &known, &text, &after), parse(FileId(0), &after));
-        assert!(again == anew, "became\n{after}");
-        right += usize::from(anew.diagnostics().is_empty());
+        let mut lines = lines.clone();
+        // now and then too many to be told apart
+        for _ in 0..[1, 2, 3, 8, 90][dice.below(5)] {
+            let at = dice.below(lines.len());
+            lines[at] = match dice.below(3) {
+                0 => String::new(),
+                1 => format!("{}v{at}: Real = 3\n", lines[at]),
+                _ => edited(&mut dice, &lines[at]),
+            };
+        }
+        let again = again(&known, &text, &lines.concat());
+        right += usize::from(again.parse.diagnostics().is_empty());
+        apart += usize::from(again.changed.len() > 2);
     }
-    assert!(right > 20, "{right} edited texts have no errors");
-    let after = text.replace("left = 3 ", "left = 47 ").replace("merge w3.left = w390.left\n", "");
-    let again = reparse(FileId(0), &known, &text, &after);
-    assert_eq!(again, parse(FileId(0), &after));
-    assert_eq!(again.shared(&known), (3, 0));
-    assert_eq!(again.shared_behind(&known, 3), 396);
+    assert!(right > 60, "{right} edited texts have no errors");
+    assert!(apart > 60, "{apart} were changed in more than two places");
 }

@@ -1,15 +1,20 @@
 //! Grown: the parts of a document before its own class spoke of them, kept from one edit to the next.
 //!
 //! What the document's class says of its parts (merges, constraints, stays, memberships) stands apart
-//! from what its parts are. Where an edit left these as they were, they are taken over by identity.
+//! from what its parts are. Where an edit left these as they were, they are taken over by identity, and so
+//! are they where it gave a few numbers more.
 
-use super::body::Body;
-use crate::class::{Class, Given};
+use super::body::{Body, ROOT};
+use crate::class::{Class, ClassKind, Given};
 use crate::document::Document;
+use crate::path::{Path, Step};
 use crate::structure::{GivenId, GivenIn, GivenTerm, Givens, Layouts, Structure, ThingId};
 use crate::term::Term;
 use base::{Id, IdVec};
 use std::rc::Rc;
+
+/// How many values an edit may give that were not given before.
+const MOST_NEW: usize = 64;
 
 /// A document's parts before its own class spoke of them.
 #[derive(Debug)]
@@ -34,8 +39,8 @@ pub(super) struct Shared {
     pub(super) part: u32,
 }
 
-/// Returns the parts of a document before an edit, and the values that they are given after it, if the
-/// edit changed nothing of them but constants.
+/// Returns the parts of a document after an edit, and the values that they are given, if the edit changed
+/// nothing of them but constants, or gave some more.
 pub(super) fn kept(
     document: &Document,
     (was, structure): (&Document, &Structure),
@@ -50,8 +55,7 @@ pub(super) fn kept(
         true => has_same_parts(a, b),
         false => a == b,
     });
-    let givens = is_kept.then(|| given_again(document, was, &grown, &structure.givens))??;
-    Some((grown, givens))
+    is_kept.then(|| given_again(document, was, grown, &structure.givens))?
 }
 
 fn has_same_parts(a: &Class, b: &Class) -> bool {
@@ -66,40 +70,52 @@ fn has_same_parts(a: &Class, b: &Class) -> bool {
         && a.parts.iter().zip(&b.parts).all(is_same)
 }
 
-/// Returns the given values after an edit of constants; nothing where it changed more of them.
+/// Returns the parts, and the given values after an edit of constants; nothing where it changed more of them.
 fn given_again(
     document: &Document,
     was: &Document,
-    grown: &Grown,
+    grown: Rc<Grown>,
     givens: &Rc<Givens>,
-) -> Option<Rc<Givens>> {
-    let (now, then) = [document, was].map(|d| &d.classes[d.root].givens).into();
-    if now.len() != then.len() {
-        return None;
-    }
+) -> Option<(Rc<Grown>, Rc<Givens>)> {
+    let [now, then] = [document, was].map(|d| d.classes[d.root].givens.as_slice());
+    let mut left = now.len().checked_sub(then.len()).filter(|&n| n <= MOST_NEW)?;
     // the document's own stand first, behind those of its superclasses
     let above = document.primary_line(document.root).into_iter().skip(1);
     let first: usize = above.map(|c| document.classes[c].givens.len()).sum();
-    let mut changed: Vec<usize> = Vec::new();
-    for (i, (a, b)) in now.iter().zip(then).enumerate() {
-        if Rc::ptr_eq(a, b) || a == b {
-            continue;
+    let (mut changed, mut new): (Vec<usize>, Vec<usize>) = (Vec::new(), Vec::new());
+    let mut before = then.iter();
+    for (i, a) in now.iter().enumerate() {
+        match before.as_slice().first() {
+            Some(b) if Rc::ptr_eq(a, b) || a == b => {}
+            Some(b) if a.path == b.path && is_like(&a.value, &b.value) => changed.push(i),
+            _ => {
+                left = left.checked_sub(1)?;
+                new.push(i);
+                continue;
+            }
         }
-        if a.path != b.path || !is_like(&a.value, &b.value) {
-            return None;
+        before.next();
+    }
+    if changed.is_empty() && new.is_empty() {
+        return Some((grown, givens.clone()));
+    }
+    let term = |i: usize| {
+        let Given { value, origin, .. } = &*now[i];
+        GivenTerm { term: value.clone(), origin: *origin, of_copy: false }
+    };
+    let new: Vec<GivenId> = new.into_iter().map(|i| GivenId::from_index(first + i)).collect();
+    let (grown, mut again) = match new.is_empty() {
+        true => (grown, Givens::clone(givens)),
+        false => {
+            let paths = new.iter().map(|id| (*id, &*now[id.index() - first]));
+            let more = given_more(document, &grown, paths)?;
+            (Rc::new(more), with_more(givens, new.iter().map(|id| (*id, term(id.index() - first)))))
         }
-        changed.push(i);
-    }
-    if changed.is_empty() {
-        return Some(givens.clone());
-    }
-    let mut again = Givens::clone(givens);
+    };
     let mut is_changed = IdVec::<GivenId, bool>::filled(false, again.len());
     for i in changed {
         let id = GivenId::from_index(first + i);
-        let Given { value, origin, .. } = &*now[i];
-        again[id] = GivenTerm { term: value.clone(), origin: *origin, of_copy: false };
-        is_changed[id] = true;
+        (again[id], is_changed[id]) = (term(i), true);
     }
     for shared in &grown.shared {
         if is_changed[shared.whole] {
@@ -110,7 +126,76 @@ fn given_again(
             is_changed[shared.value] = true;
         }
     }
-    Some(Rc::new(again))
+    Some((grown, Rc::new(again)))
+}
+
+/// Returns given values with more of them, at their places.
+fn with_more(givens: &Givens, new: impl Iterator<Item = (GivenId, GivenTerm)>) -> Givens {
+    let mut old = givens.iter().map(|(_, given)| given.clone());
+    let mut again = Givens::new();
+    for (id, term) in new {
+        again.extend(old.by_ref().take(id.index() - again.len()));
+        again.push(term);
+    }
+    again.extend(old);
+    again
+}
+
+/// Returns the parts where some numbers and texts are given a constant that the document gave nothing before.
+/// Nothing where that may change more.
+fn given_more<'d>(
+    document: &Document,
+    grown: &Grown,
+    new: impl Iterator<Item = (GivenId, &'d Given)>,
+) -> Option<Grown> {
+    let mut body = grown.body.clone();
+    // where values decide how many things there are, what is given makes them
+    if body.counts_givens {
+        return None;
+    }
+    let mut leaves: Vec<(GivenId, ThingId)> = Vec::new();
+    for (id, given) in new {
+        let is_constant =
+            matches!(given.value, Term::Number { .. } | Term::Text(_) | Term::Bool(_));
+        let leaf = leaf(document, grown, &given.path).filter(|_| is_constant)?;
+        let is_given = body.givens[leaf].is_some_and(|given| given.me == ROOT);
+        if is_given || leaves.iter().any(|(_, other)| *other == leaf) {
+            return None;
+        }
+        leaves.push((id, leaf));
+    }
+    // each stands behind those that it stood behind
+    let before: Vec<usize> = leaves.iter().enumerate().map(|(n, (id, _))| id.index() - n).collect();
+    let moved = |id: GivenId| {
+        GivenId::from_index(id.index() + before.partition_point(|&at| at <= id.index()))
+    };
+    let givens = Rc::make_mut(&mut body.givens);
+    for (_, given) in givens.iter_mut() {
+        *given = given.map(|given| GivenIn { value: moved(given.value), ..given });
+    }
+    for (value, leaf) in leaves {
+        givens[leaf] = Some(GivenIn { value, me: ROOT });
+    }
+    let of_part = |s: &Shared| Shared { value: moved(s.value), whole: moved(s.whole), ..*s };
+    let shared = grown.shared.iter().map(of_part).collect();
+    Some(Grown { body, layouts: grown.layouts.clone(), shared })
+}
+
+/// Returns the number or text that a path of parts leads to, each of which the thing before it has itself.
+fn leaf(document: &Document, grown: &Grown, path: &Path) -> Option<ThingId> {
+    let mut at = ROOT;
+    for step in &path.0 {
+        let t = &grown.body.things[at];
+        let is_list = matches!(document.classes[t.class].kind, ClassKind::List(_));
+        let part = match step {
+            Step::Part(name) => *grown.layouts[t.class].as_ref()?.index.get(name)?,
+            Step::Index(i) if is_list => *i,
+            Step::Index(_) | Step::Last | Step::Owner => return None,
+        };
+        at = (part < t.parts).then(|| grown.body.part(at, part as usize))?;
+    }
+    let class = grown.body.things[at].class;
+    matches!(document.classes[class].kind, ClassKind::Primitive(_)).then_some(at)
 }
 
 /// Returns true if two terms differ in constants alone.

@@ -283,7 +283,7 @@ fn random_documents_are_what_a_naive_reading_says() {
 /// Changes one thing that the document's own class says.
 fn say_otherwise(dice: &mut Dice, document: &mut Document) {
     let mut more = Builder(document.classes.clone());
-    say_something(dice, &mut more, document.root);
+    (0..1 + dice.below(4)).for_each(|_| say_something(dice, &mut more, document.root));
     let more = more.0[document.root].clone();
     let root = &mut document.classes[document.root];
     let n = root.givens.len();
@@ -296,7 +296,14 @@ fn say_otherwise(dice: &mut Dice, document: &mut Document) {
         2 if n > 0 => {
             root.givens.remove(dice.below(n));
         }
-        3 => root.merges = more.merges,
+        3 => {
+            root.merges = more.merges;
+            for given in &more.givens[n..] {
+                let value = Term::number(dice.below(1000) as f64);
+                let given = Given { value, ..Given::clone(given) };
+                root.givens.insert(dice.below(n + 1), Rc::new(given));
+            }
+        }
         4 => root.inserts = more.inserts,
         5 => {
             root.merges.pop();
@@ -308,7 +315,7 @@ fn say_otherwise(dice: &mut Dice, document: &mut Document) {
 #[test]
 fn what_an_edit_left_as_it_was_is_taken_over_and_all_is_as_made_anew() {
     let mut dice = Dice(2026);
-    let (mut forms, mut things) = (0, 0);
+    let (mut forms, mut things, mut more) = (0, 0, 0);
     for _ in 0..150 {
         let mut before = random_document(&mut dice);
         let (mut structure, _) = instantiate(&before);
@@ -323,11 +330,15 @@ fn what_an_edit_left_as_it_was_is_taken_over_and_all_is_as_made_anew() {
             assert_eq!(told, told_again);
             assert_eq!(format!("{anew:?}"), format!("{again:?}"));
             forms += usize::from(Rc::ptr_eq(&again.form, &structure.form));
-            things += usize::from(Rc::ptr_eq(&again.form.things, &structure.form.things));
+            let are_kept = Rc::ptr_eq(&again.form.things, &structure.form.things);
+            things += usize::from(are_kept);
+            let givens = |d: &Document| d.classes[d.root].givens.len();
+            more += usize::from(are_kept && givens(&document) > givens(&before));
             (before, structure) = (document, again);
         }
     }
     assert!(forms > 100 && things > forms + 100, "{forms} forms and {things} lists of things kept");
+    assert!(more > 20, "{more} lists of things kept where more was given");
 }
 
 #[test]
