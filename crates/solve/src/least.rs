@@ -13,6 +13,7 @@
 //! **Source:** Nocedal and Wright, *Numerical Optimization*, 2nd ed., §18.1 and §16.3; Friedlander and
 //! Orban, *A primal-dual regularized interior-point method*, Math. Prog. Comp. 4 (2012).
 
+mod buckle;
 mod linear;
 
 use crate::block::{Block, Local, Workspace};
@@ -74,6 +75,13 @@ impl LeastScratch {
     /// Forgets what was found, so that what comes depends on what is given alone.
     pub(crate) fn forget(&mut self) {
         self.came.unknowns.clear();
+    }
+    /// Takes what changes of a block's unknowns are measured in.
+    fn measure(&mut self, block: &Block, scales: &[f64]) {
+        self.scale.clear();
+        self.scale.extend(block.unknowns.iter().map(|&u| scales[u as usize]));
+        self.pull.clear();
+        self.pull.extend(self.scale.iter().map(|scale| 1.0 / (scale * scale)));
     }
 }
 
@@ -261,10 +269,7 @@ impl Least {
         s: &mut LeastScratch,
     ) -> Measured {
         let block = &self.block;
-        s.scale.clear();
-        s.scale.extend(block.unknowns.iter().map(|&u| scales[u as usize]));
-        s.pull.clear();
-        s.pull.extend(s.scale.iter().map(|scale| 1.0 / (scale * scale)));
+        s.measure(block, scales);
         self.evaluate(counted, values, w, s);
         self.weigh(s);
         let mut norm = norm(s);

@@ -6,10 +6,16 @@
 //! again. So what a wish leads to depends on the way there and not on its frames, and the way back is the way out.
 
 use super::{LONGEST, SHORTEST, Way};
-use crate::attempt::Approach;
+use crate::attempt::{Approach, Buffers, Failure};
+use crate::fork;
+use crate::least::Least;
+use crate::lower::Program;
+use crate::outcome::Reason;
+use crate::plan::Step;
 use crate::slice::Slice;
 use crate::square::Trust;
 use crate::system::SlotIndex;
+use std::collections::BTreeSet;
 
 /// The shortest stride where the end of a branch is to be found exactly.
 const EXACT: f64 = 1e-11;
@@ -17,6 +23,8 @@ const EXACT: f64 = 1e-11;
 const ANCHORS: usize = 256;
 /// A way comes past an anchor where it is as near to it as this, in parts of its own length.
 const PASSING: f64 = 0.5;
+/// How far a state goes that buckles, in parts of the extent.
+const BUCKLED: f64 = 1e-5;
 /// Two measures agree where no slot differs by more, in parts of the extent.
 const SAME: f64 = 5e-3;
 /// The part of the way on from there that shows whether a measure can go on.
@@ -26,6 +34,9 @@ impl Way<'_> {
     /// Many strides; where least change goes no further on its branch, it is measured anew from there. Returns
     /// the part that was gone.
     pub(super) fn walk_on(&mut self, last: &mut [f64], goal: &[f64], trust: Trust) -> f64 {
+        if trust == Trust::Branch && self.frame.x0 == *last {
+            self.buckle(last, goal);
+        }
         let mut gone = self.walk(last, goal, trust, LONGEST..SHORTEST);
         if trust != Trust::Branch || !self.plan.has_least {
             return gone;
@@ -47,6 +58,49 @@ impl Way<'_> {
             gone = if on == 1.0 { 1.0 } else { gone + (1.0 - gone) * on };
         }
         gone
+    }
+
+    /// Where the press is a state that no branch leads out of to first order, as a straight chain is one, goes a
+    /// little way on out of it, and measures from where that begins: from the press no direction is nearer than its
+    /// opposite.
+    fn buckle(&mut self, last: &mut [f64], goal: &[f64]) {
+        let anchors = self.frame.anchors.len();
+        let scales = &self.frame.scales;
+        let parts = goal.iter().zip(&*last).zip(scales).map(|((to, from), by)| (to - from) / by);
+        let part = (BUCKLED / parts.fold(0.0, |far, part| part.abs().max(far))).min(1.0);
+        let mut aside = last.to_vec();
+        let mut steps = BTreeSet::new();
+        loop {
+            let has_buckled = !steps.is_empty();
+            match self.stride(&aside, goal, part, Trust::Branch, &Approach::Nowhere) {
+                Ok(()) if has_buckled => return last.copy_from_slice(self.trial),
+                Err(Failure { reason: Reason::NoSolution { step }, .. })
+                    if steps.insert(step)
+                        && self.buckle_step(&self.plan.steps[step as usize], &mut aside) => {}
+                Ok(()) | Err(_) => return self.frame.anchors.truncate(anchors),
+            }
+            self.frame.anchors.truncate(anchors);
+            self.frame.anchors.push(aside.clone());
+        }
+    }
+
+    /// Moves the targets of a step that has failed to where it goes on from; returns false where it does not.
+    fn buckle_step(&mut self, step: &Step, aside: &mut [f64]) -> bool {
+        step.targets.iter().for_each(|&t| self.trial[t as usize] = aside[t as usize]);
+        let Buffers { work, least: scratch, .. } = &mut *self.buffers;
+        let scales = &self.frame.scales;
+        let buckles = match (&step.program, fork::forking(&step.program)) {
+            (Program::Least(least), _) => least.0.buckle(self.trial, scales, work, scratch),
+            (_, Some(square)) => {
+                let least = Least::new(&square.block.problem(), &|_| false);
+                least.buckle(self.trial, scales, work, scratch)
+            }
+            (_, None) => false,
+        };
+        if buckles {
+            step.targets.iter().for_each(|&t| aside[t as usize] = self.trial[t as usize]);
+        }
+        buckles
     }
 
     /// Where the way from `last` to the goal comes back past the wish at which least change was last measured
