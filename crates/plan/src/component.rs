@@ -329,13 +329,13 @@ struct Numbers {
 }
 
 /// Slots in disjoint groups, each known by its first.
-struct Groups(IdVec<SlotId, SlotId>);
+pub(crate) struct Groups(IdVec<SlotId, SlotId>);
 
 impl Groups {
-    fn new(slots: usize) -> Self {
+    pub(crate) fn new(slots: usize) -> Self {
         Self((0..slots as u32).map(SlotId).collect())
     }
-    fn first(&mut self, slot: SlotId) -> SlotId {
+    pub(crate) fn first(&mut self, slot: SlotId) -> SlotId {
         let mut at = slot;
         while self.0[at] != at {
             let next = self.0[self.0[at]];
@@ -345,7 +345,7 @@ impl Groups {
         at
     }
     /// Puts slots into one group.
-    fn unite_all(&mut self, mut slots: impl Iterator<Item = SlotId>) {
+    pub(crate) fn unite_all(&mut self, mut slots: impl Iterator<Item = SlotId>) {
         let Some(first) = slots.next() else { return };
         let mut all = self.first(first);
         for slot in slots {

@@ -195,6 +195,16 @@ impl Shape<SlotId> {
     }
 }
 
+impl<S> Shape<S> {
+    /// Returns its equations; what is none has none.
+    pub(crate) fn equations(&self) -> impl Iterator<Item = &Formula<S>> {
+        match &self.body {
+            Body::Equations(equations) => equations.iter(),
+            Body::True(_) | Body::Different(_) | Body::Opaque(_) | Body::Hold(_) => [].iter(),
+        }
+    }
+}
+
 /// A constraint or a declared stay, over the slots of the document.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Rule<'r> {

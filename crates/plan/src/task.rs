@@ -14,7 +14,7 @@ use expr::Dimension;
 use indexmap::IndexMap;
 use kernel::{Primitive, SlotId, Structure};
 use solve::{
-    Condition, Conditional, Demand, DemandKind, Guard, Level, Method, MethodBody, Mode, Modes,
+    Condition, Conditional, Demand, DemandKind, Few, Guard, Level, Method, MethodBody, Mode, Modes,
     Patterns, Plan, Puzzle, Relation, RelationBody, SlotIndex, SlotRange, Span, Stay, System,
 };
 use std::borrow::Cow;
@@ -454,7 +454,7 @@ impl<'s> Making<'s> {
             body,
             methods,
             derived: shape.derived,
-            reads: self.locals(rule, &shape.reads),
+            reads: rule.slots_at(&shape.reads).map(|s| self.local(s)).collect(),
             within: shape.within,
             source,
         });
@@ -539,7 +539,7 @@ impl<'s> Making<'s> {
             body: RelationBody::Equations(equations),
             methods: Vec::new(),
             derived: true,
-            reads: Vec::new(),
+            reads: Few::default(),
             within: Tolerance::Relative,
             source,
         });

@@ -6,18 +6,22 @@
 //! belong to the classes: they can be made, and all that they say compiled, when the things are, and
 //! what is left to a planner is which slots they are of.
 
+use crate::component::Groups;
 use crate::evaluate::Opening;
 use crate::fault::Fault;
 use crate::lower::{guard, held, hold, lower_constraint};
 use crate::planner::Model;
 use crate::reach::{Route, Routes};
-use crate::rule::{Body, Formula, Position, Rules, Shape, ShapeId, Source};
+use crate::rule::{Formula, Position, Rules, Shape, ShapeId, Source};
 use base::IdVec;
 use kernel::{ClassId, ConstraintInstance, Document, SlotId, Strength, Structure};
-use solve::{Patterns, Span};
+use solve::{Level, Patterns, Span};
 
 /// How many ways of being built one constraint is remembered for.
 const REMEMBERED: u32 = 16;
+
+/// Up to this many arguments an equation is compiled where some of them are equal.
+const MERGED: usize = 16;
 
 /// No template.
 const NONE: u32 = u32::MAX;
@@ -59,19 +63,41 @@ impl Templates {
     /// Opens the constraints of all classes in the things that have them, and compiles what they say.
     ///
     /// Planners of documents with these classes are quicker made with them. Cost: linear in the things
-    /// that are constrained; every kind of rule is compiled once.
+    /// that are constrained; every kind of rule is compiled once, and once more where others make what it
+    /// speaks of equal in another way.
     pub fn of(model: Model<'_>) -> Self {
         let Self { mut patterns, mut known } = Self::default();
         let (rules, _) = lower_all(model, &mut patterns, &mut known);
-        let equations = rules.shapes().filter_map(|shape| match &shape.body {
-            Body::Equations(equations) => Some(equations),
-            Body::True(_) | Body::Different(_) | Body::Opaque(_) | Body::Hold(_) => None,
-        });
-        for Formula { pattern, .. } in equations.flatten() {
+        for Formula { pattern, .. } in rules.shapes().flat_map(Shape::equations) {
             patterns.get(*pattern).compile();
         }
+        compile_merged(model.structure, &rules, &patterns);
         known.shapes = rules.into_shapes();
         Self { patterns, known }
+    }
+}
+
+/// Compiles what rules say where others make some of what they speak of equal, as the ends of a level line.
+fn compile_merged(structure: &Structure, rules: &Rules, patterns: &Patterns) {
+    let mut groups = Groups::new(structure.slots.len());
+    for rule in rules.iter().filter(|r| r.shape.level == Level::Required) {
+        let is_equality = |e: &&Formula| patterns.get(e.pattern).is_equality();
+        for equation in rule.shape.equations().filter(is_equality) {
+            groups.unite_all(rule.slots_at(&equation.slots));
+        }
+    }
+    let (mut slots, mut first) = (Vec::new(), Vec::new());
+    for rule in rules.iter() {
+        for equation in rule.shape.equations().filter(|e| e.slots.len() <= MERGED) {
+            slots.clear();
+            slots.extend(rule.slots_at(&equation.slots).map(|s| groups.first(s)));
+            let place = |slot: &SlotId| slots.iter().position(|s| s == slot).unwrap_or(0) as u32;
+            first.clear();
+            first.extend(slots.iter().map(place));
+            if !first.iter().copied().eq(0..slots.len() as u32) {
+                patterns.get(equation.pattern).compile_where(&first);
+            }
+        }
     }
 }
 

@@ -266,6 +266,7 @@ impl Block {
         local.jacobian.clear();
         local.jacobian.resize(self.pattern.len(), 0.0);
         local.slopes.clear();
+        local.slopes.reserve(self.slope_count());
         for group in &self.groups {
             let count = group.kernel.entries.len();
             let (rows, places) = (self.rows_of(group), self.entries_of(group));

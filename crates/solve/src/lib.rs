@@ -5,7 +5,7 @@
 //! through an edit and [`Drag`] through a drag, for any values.
 //!
 //! ```
-//! use solve::{Level, NoHost, Patterns, Relation, RelationBody, Runner, Slot, Stay, System};
+//! use solve::{Few, Level, NoHost, Patterns, Relation, RelationBody, Runner, Slot, Stay, System};
 //! // 1.8 c + 32 = f, over argument 0 and argument 1
 //! let mut arena = expr::Arena::new();
 //! let (c, f) = (arena.var(expr::Var(0)), arena.var(expr::Var(1)));
@@ -24,7 +24,7 @@
 //!     body: RelationBody::Equations(equations),
 //!     methods: Vec::new(),
 //!     derived: true,
-//!     reads: Vec::new(),
+//!     reads: Few::default(),
 //!     within: Default::default(),
 //!     source: 0,
 //! }];

@@ -273,6 +273,7 @@ impl Work {
     fn state(&mut self, analysis: &Analysis<'_>, block: Block<'_>) -> &Problem {
         let Problem { rows, unknowns } = &mut self.problem;
         rows.clear();
+        rows.reserve(block.rows.len());
         rows.extend(block.rows.iter().filter_map(|&r| problem_row(&analysis.rows, r)));
         unknowns.clear();
         unknowns.extend_from_slice(block.unknowns);

@@ -19,8 +19,6 @@ define_id!(PatternId, "p", "A pattern, by its place among those of one planner."
 
 /// Up to this many arguments a pattern is compiled as what it says of any two.
 const CURVED: usize = 10;
-/// Up to this many arguments a pattern is compiled with any two of them made one.
-const PAIRED: usize = 6;
 
 /// Expressions over arguments.
 #[derive(Debug)]
@@ -103,7 +101,7 @@ impl Pattern {
         scratch.run(self.values(), arguments.into_iter(), self.roots().len())
     }
     /// Compiles what an equation and its derivatives come to, and its solutions for every argument,
-    /// so that no plan has to; of few arguments, also what it says of any two, and with any two made one.
+    /// so that no plan has to; of few arguments, also what it says of any two.
     ///
     /// # Panics
     /// If it has not two expressions.
@@ -112,16 +110,19 @@ impl Pattern {
         if self.arity <= CURVED {
             self.kernel().complete_curves();
         }
-        if self.arity > PAIRED {
-            return;
+    }
+    /// Compiles the same where some arguments are one: of each it is told which is the first that it is.
+    ///
+    /// # Panics
+    /// If it has not two expressions.
+    pub fn compile_where(&self, first: &[u32]) {
+        if !self.identified.borrow().contains_key(first) {
+            self.identified(first).0.compile();
         }
-        for second in 1..self.arity {
-            for first in 0..second {
-                let which: Vec<u32> =
-                    (0..self.arity).map(|i| if i == second { first } else { i } as u32).collect();
-                self.identified(&which).0.kernel().complete();
-            }
-        }
+    }
+    /// Returns true if all that it says is that its two arguments are equal.
+    pub fn is_equality(&self) -> bool {
+        self.plain == Some(Plain::Same)
     }
     /// Returns true if the derivatives of an equation are the same everywhere.
     ///

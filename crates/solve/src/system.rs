@@ -3,6 +3,7 @@
 //! In: relations among slots, each slot with the stay that it has in this edit. The system holds no
 //! values: a plan made of it serves all. Two systems that are equal have the same plan.
 
+use crate::few::Few;
 use crate::pattern::PatternId;
 use base::number::Tolerance;
 
@@ -158,7 +159,7 @@ pub struct Relation {
     /// True if it may also be solved in ways that were not written (always so without methods).
     pub derived: bool,
     /// Slots that it never writes.
-    pub reads: Vec<SlotIndex>,
+    pub reads: Few,
     /// How far its sides may differ.
     pub within: Tolerance,
     /// What the caller calls it: the index of a constraint, a wish or a stay in the caller's table.

@@ -1,5 +1,6 @@
 use super::*;
 use crate::deflate::Deflated;
+use crate::few::Few;
 use crate::pattern::{PatternId, Patterns};
 use crate::stated::Stated;
 use crate::system::{Level, Relation, RelationBody, Slot};
@@ -66,7 +67,7 @@ fn net(stays: &[u8], relations: &[(u8, [usize; 3], bool)]) -> Net {
             body: RelationBody::Equations(equations),
             methods: Vec::new(),
             derived: true,
-            reads: Vec::new(),
+            reads: Few::default(),
             within: base::number::Tolerance::Relative,
             source: 0,
         });

@@ -78,6 +78,7 @@ pub(super) const KNOWN: u32 = u32::MAX;
 /// Adds which unknown every argument of every row is, row after row.
 pub(super) fn positions(problem: &Problem, positions: &mut Vec<u32>) {
     let unknown = |s| problem.unknowns.binary_search(s).map_or(KNOWN, |at| at as u32);
+    positions.reserve(problem.rows.iter().map(|row| row.arguments.len()).sum());
     for row in &problem.rows {
         positions.extend(row.arguments.iter().map(unknown));
     }
@@ -171,7 +172,7 @@ impl Layout {
 
     /// Puts in where the derivatives of every row go.
     fn fill(&mut self, mut positions: &[u32]) {
-        let mut pattern = Pattern::with_width(self.width);
+        let mut pattern = Pattern::with_room(self.width, self.place.len(), self.entries.len());
         for r in 0..self.place.len() {
             let (group, at) = self.place[r];
             let Group { kernel, rows, entries, .. } = &self.groups[group as usize];
@@ -228,6 +229,10 @@ impl Layout {
         let start = group.entries as usize + at as usize * count;
         start..start + count
     }
+    /// Returns how many derivatives the rows of all groups have.
+    pub(super) fn slope_count(&self) -> usize {
+        self.entries.len()
+    }
     pub(super) fn kernel_of_row(&self, row: usize) -> &Rc<Kernel> {
         &self.groups[self.place[row].0 as usize].kernel
     }
@@ -269,7 +274,8 @@ impl Layout {
         if count > 0 {
             self.definitions = self.in_order(&defined);
         }
-        self.core = (0..self.width as u32).filter(|&u| defined[u as usize].is_none()).collect();
+        self.core.reserve(self.width - count);
+        self.core.extend((0..self.width as u32).filter(|&u| defined[u as usize].is_none()));
         self.core_rows = core_rows;
     }
 

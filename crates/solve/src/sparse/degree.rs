@@ -37,7 +37,7 @@ pub(crate) fn eliminate_in(
     joined: impl Iterator<Item = (u32, u32)> + Clone,
 ) -> Elimination {
     if chain.len() <= few::MOST {
-        return few::eliminate(chain.len(), joined);
+        return few::eliminate_in(chain, joined);
     }
     let near = near(chain.len(), joined);
     let entries = near.all().len() / 2;

@@ -18,7 +18,13 @@ impl Pattern {
     }
     /// Makes the pattern of no rows.
     pub(crate) fn with_width(width: usize) -> Self {
-        Self { width, starts: vec![0], columns: Vec::new() }
+        Self::with_room(width, 0, 0)
+    }
+    /// Makes the pattern of no rows, with room for so many of so many entries in all.
+    pub(crate) fn with_room(width: usize, rows: usize, entries: usize) -> Self {
+        let mut starts = Vec::with_capacity(rows + 1);
+        starts.push(0);
+        Self { width, starts, columns: Vec::with_capacity(entries) }
     }
     /// Adds a row whose columns come in any order, some perhaps twice.
     pub(crate) fn push(&mut self, row: impl IntoIterator<Item = u32>) {

@@ -2,8 +2,8 @@
 
 use expr::{Arena, Binary, ExprId, Var};
 use solve::{
-    Drag, Host, Level, Method, MethodBody, NoHost, Outcome, Patterns, Plan, Relation, RelationBody,
-    Runner, Slot, SlotIndex, Stay, System,
+    Drag, Few, Host, Level, Method, MethodBody, NoHost, Outcome, Patterns, Plan, Relation,
+    RelationBody, Runner, Slot, SlotIndex, Stay, System,
 };
 use std::rc::Rc;
 
@@ -97,7 +97,7 @@ impl Sheet {
             body: RelationBody::Equations(equations),
             methods: Vec::new(),
             derived: true,
-            reads: Vec::new(),
+            reads: Few::default(),
             within: base::number::Tolerance::Relative,
             source: index,
         });

@@ -2,7 +2,7 @@
 
 use expr::{Arena, Binary, ExprId, Unary, Var};
 use solve::{
-    Conditional, Demand, DemandKind, Level, Patterns, Puzzle, Relation, RelationBody, Slot,
+    Conditional, Demand, DemandKind, Few, Level, Patterns, Puzzle, Relation, RelationBody, Slot,
     SlotRange, Span, Stay, Verdict,
 };
 
@@ -23,7 +23,7 @@ fn puzzle(stays: &[Stay], most: i64, arena: &Arena, truths: &[ExprId]) -> Puzzle
             body: RelationBody::Equations(Span::default()),
             methods: Vec::new(),
             derived: true,
-            reads: Vec::new(),
+            reads: Few::default(),
             within: base::number::Tolerance::Relative,
             source: relation,
         });

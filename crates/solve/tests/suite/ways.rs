@@ -2,7 +2,7 @@
 
 use crate::builder::{Sheet, close, lines};
 use solve::{
-    Host, Level, Method, MethodBody, NoHost, Note, Relation, RelationBody, Stay, StepKind,
+    Few, Host, Level, Method, MethodBody, NoHost, Note, Relation, RelationBody, Stay, StepKind,
 };
 
 fn thermometer() -> (Sheet, [u32; 2]) {
@@ -172,7 +172,7 @@ fn a_caption_and_a_height_follow_each_other() {
             Method { targets: vec![height], body: MethodBody::Opaque { reads: vec![caption] } },
         ],
         derived: false,
-        reads: Vec::new(),
+        reads: Few::default(),
         within: base::number::Tolerance::within(0.0),
         source: 0,
     });
