@@ -49,8 +49,22 @@ pub(crate) struct Local {
     pub(crate) right: Vec<f64>,
     /// The entries of the Jacobian of `left - right`, in the order of the pattern.
     pub(crate) jacobian: Vec<f64>,
-    /// Every derivative of every row by its arguments, where the Jacobian was computed.
-    slopes: Vec<f64>,
+}
+
+/// What a tape came to for one row, among what it came to for the rows beside it.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Out<'a> {
+    all: &'a [f64],
+    /// How many rows there are, and which of them it is.
+    rows: usize,
+    row: usize,
+}
+
+impl Out<'_> {
+    /// Returns one of the outputs.
+    pub(crate) fn get(self, output: usize) -> f64 {
+        self.all[output * self.rows + self.row]
+    }
 }
 
 /// A second derivative of a row by two unknowns.
@@ -67,8 +81,8 @@ pub(crate) struct SecondPlace {
 
 impl SecondPlace {
     /// Returns its value, of those of the kernel.
-    pub(crate) fn of(&self, out: &[f64]) -> f64 {
-        self.times * out[self.out as usize]
+    pub(crate) fn of(&self, out: Out<'_>) -> f64 {
+        self.times * out.get(self.out as usize)
     }
 }
 
@@ -249,13 +263,12 @@ impl Block {
     /// Evaluates both sides of every row.
     pub(crate) fn sides(&self, values: &[f64], w: &mut Workspace, local: &mut Local) {
         self.prepare(local);
-        local.slopes.clear();
         for group in &self.groups {
             let Local { left, right, .. } = local;
             let rows = self.rows_of(group);
             self.each(group, &group.kernel.sides, 2, values, w, &mut |row, out| {
                 let at = rows[row] as usize;
-                (left[at], right[at]) = (out[0], out[1]);
+                (left[at], right[at]) = (out.get(0), out.get(1));
             });
         }
     }
@@ -265,19 +278,16 @@ impl Block {
         self.prepare(local);
         local.jacobian.clear();
         local.jacobian.resize(self.pattern.len(), 0.0);
-        local.slopes.clear();
-        local.slopes.reserve(self.slope_count());
         for group in &self.groups {
             let count = group.kernel.entries.len();
             let (rows, places) = (self.rows_of(group), self.entries_of(group));
-            let Local { left, right, jacobian, slopes } = local;
+            let Local { left, right, jacobian } = local;
             self.each(group, &group.kernel.slopes, 2 + count, values, w, &mut |row, out| {
                 let at = rows[row] as usize;
-                (left[at], right[at]) = (out[0], out[1]);
-                slopes.extend_from_slice(&out[2..]);
-                for (&place, &slope) in places[row * count..][..count].iter().zip(&out[2..]) {
+                (left[at], right[at]) = (out.get(0), out.get(1));
+                for (&place, i) in places[row * count..][..count].iter().zip(2..) {
                     if place != KNOWN {
-                        jacobian[place as usize] += slope;
+                        jacobian[place as usize] += out.get(i);
                     }
                 }
             });
@@ -347,7 +357,7 @@ impl Block {
         &self,
         values: &[f64],
         w: &mut Workspace,
-        visit: &mut impl FnMut(usize, &[SecondPlace], &[f64]),
+        visit: &mut impl FnMut(usize, &[SecondPlace], Out<'_>),
     ) {
         let (seconds, ends) = self.all_seconds();
         let mut first = 0;
@@ -384,12 +394,7 @@ impl Block {
         let (left, right) = (local.left[row], local.right[row]);
         self.within[row].is_met_with(left, right, || {
             let (kernel, arguments) = self.row(row);
-            match local.slopes.get(self.slopes_of_row(row)) {
-                Some(slopes) => {
-                    kernel.sway_of(slopes, |argument| values[arguments[argument] as usize])
-                }
-                None => w.sway(kernel, arguments, values),
-            }
+            w.sway(kernel, arguments, values)
         })
     }
 }
@@ -403,7 +408,7 @@ impl Block {
         outs: usize,
         values: &[f64],
         w: &mut Workspace,
-        visit: &mut impl FnMut(usize, &[f64]),
+        visit: &mut impl FnMut(usize, Out<'_>),
     ) {
         if outs == 0 {
             return;
@@ -412,22 +417,19 @@ impl Block {
         let rows = group.rows.len as usize;
         let mut row = 0;
         if rows >= WIDE {
-            let mut one = std::mem::take(&mut w.out);
             while rows - row >= WIDE {
                 let lanes = LANES.min(rows - row);
                 let arguments = &all[row * arity..][..lanes * arity];
                 let out = w.run_wide(tape, arguments, arity, values, outs);
                 for lane in 0..lanes {
-                    one.clear();
-                    one.extend(out.iter().map(|value| value[lane]));
-                    visit(row + lane, &one);
+                    visit(row + lane, Out { all: out.as_flattened(), rows: LANES, row: lane });
                 }
                 row += lanes;
             }
-            w.out = one;
         }
         for row in row..rows {
-            visit(row, w.run(tape, &all[row * arity..][..arity], values, outs));
+            let all = w.run(tape, &all[row * arity..][..arity], values, outs);
+            visit(row, Out { all, rows: 1, row: 0 });
         }
     }
 }

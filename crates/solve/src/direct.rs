@@ -59,10 +59,16 @@ pub(crate) fn direct(
         None => (vec![None; rows.len()], vec![None; acceptance.unknown.len()]),
     };
     let known = Direction { slot_of_row, row_of_slot, ..Direction::default() };
-    if acceptance.matched.is_some() && system.relations.iter().all(|r| r.methods.is_empty()) {
+    if is_settled(system, acceptance) {
         return known;
     }
     direct_from(system, classes, rows, acceptance, known)
+}
+
+/// Returns true if the direction is what acceptance found, whatever else may yield: every row has its slot, and
+/// no method is written.
+pub(crate) fn is_settled(system: &System, acceptance: &Acceptance) -> bool {
+    acceptance.matched.is_some() && system.relations.iter().all(|r| r.methods.is_empty())
 }
 
 /// Chooses methods from a direction in which some rows have slots already; the others find theirs.

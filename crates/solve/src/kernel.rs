@@ -301,12 +301,8 @@ impl Kernel {
         out.clear();
         out.resize(2 + self.entries.len(), 0.0);
         self.slopes.run(arguments, registers, out);
-        self.sway_of(&out[2..], |argument| arguments[argument])
-    }
-    /// Computes the same from its derivatives.
-    pub(crate) fn sway_of(&self, slopes: &[f64], argument: impl Fn(usize) -> f64) -> f64 {
-        let moves = self.entries.iter().zip(slopes);
-        moves.map(|(e, slope)| (argument(e.argument as usize) * slope).abs()).sum()
+        let moves = self.entries.iter().zip(&out[2..]);
+        moves.map(|(e, slope)| (arguments[e.argument as usize] * slope).abs()).sum()
     }
 
     /// Returns how many arguments it has.

@@ -225,7 +225,6 @@ impl Analysis<'_> {
         let accepted = self.acceptance.accepted.iter_mut().chain(&mut exchanged.circuit);
         accepted.filter(|r| **r == row).for_each(|r| *r = now);
         let system = &self.stated.system;
-        self.acceptance.matched = None;
         let mut known = std::mem::take(&mut self.direction);
         if let Some(slot) = known.slot_of_row[row].take() {
             known.row_of_slot[slot as usize] = None;
@@ -271,7 +270,8 @@ fn plan_stated(stated: Stated) -> Plan {
         }
     }
     let mut direction = direct::direct(system, &classes, &rows, &acceptance);
-    if tie::tie(system, &classes, &rows, &direction, &mut acceptance) {
+    let is_tied = tie::tie(system, &classes, &rows, &direction, &mut acceptance);
+    if is_tied && !direct::is_settled(system, &acceptance) {
         direction = direct::direct(system, &classes, &rows, &acceptance);
     }
     let relations = tests_of_relations(system);
@@ -279,11 +279,11 @@ fn plan_stated(stated: Stated) -> Plan {
     let mut analysis =
         Analysis { stated: &stated, classes, rows, acceptance, direction, method_reads };
     let (mut findings, together) = report(&analysis);
-    let mut blocks = blocks_of(&analysis, &together);
+    let mut blocks = blocks_of(&mut analysis, &together);
     for exchange in view::exchanges(&analysis, &blocks) {
         let back = analysis.accept_instead(exchange);
         let (other, tied) = report(&analysis);
-        let split = blocks_of(&analysis, &tied);
+        let split = blocks_of(&mut analysis, &tied);
         if view::together(&split) < view::together(&blocks) {
             (findings, blocks) = (other, split);
         } else {
@@ -439,13 +439,13 @@ fn report(analysis: &Analysis<'_>) -> (Report, Vec<Vec<usize>>) {
     (Report { rejected, freedom: analysis.acceptance.freedom, yielded, free_slots }, together)
 }
 
-fn blocks_of(analysis: &Analysis<'_>, together: &[Vec<usize>]) -> Blocks {
+fn blocks_of(analysis: &mut Analysis<'_>, together: &[Vec<usize>]) -> Blocks {
     let Analysis { acceptance, direction, .. } = analysis;
-    if let Some(matched) = &acceptance.matched {
+    if let Some(matched) = acceptance.matched.take() {
         // where every slot that may move has its row, what acceptance found are the blocks
         let unknown = acceptance.unknown.iter().filter(|u| **u).count();
         if unknown == acceptance.accepted.len() && direction.methods.is_empty() {
-            return matched.blocks.clone();
+            return matched.blocks;
         }
     }
     let mut taking_part = analysis.acceptance.accepted.clone();

@@ -94,13 +94,17 @@ impl Rows {
     /// coordinates it is of the first degree, as that of a point at equal distances from two others is.
     pub(crate) fn is_line(&self, row: usize, place: &[SlotIndex]) -> bool {
         let mentions = self.mentions(row);
-        let own: Vec<u32> =
-            (0..mentions.len() as u32).filter(|&a| place.contains(&mentions[a as usize])).collect();
+        let is_own = |a: &u32| place.contains(&mentions[*a as usize]);
         self.kernel(row).is_some_and(|kernel| {
-            let of_own = kernel.entries.iter().filter(|entry| own.contains(&entry.argument));
-            !of_own.flat_map(|entry| &entry.depends).any(|argument| own.contains(argument))
-                || <[u32; 2]>::try_from(&own[..])
-                    .is_ok_and(|pair| kernel.curve(pair).is_some_and(|c| c.form == Form::Line))
+            let mut of_own = kernel.entries.iter().filter(|entry| is_own(&entry.argument));
+            if !of_own.any(|entry| entry.depends.iter().any(is_own)) {
+                return true;
+            }
+            let mut own = (0..mentions.len() as u32).filter(is_own);
+            let (Some(first), Some(second), None) = (own.next(), own.next(), own.next()) else {
+                return false;
+            };
+            kernel.curve([first, second]).is_some_and(|c| c.form == Form::Line)
         })
     }
     /// Returns what a row says; nothing for an opaque one.

@@ -221,18 +221,6 @@ impl Layout {
         let start = group.arguments as usize + at as usize * arity;
         start..start + arity
     }
-    /// Returns where the derivatives of a row stand among those of all groups.
-    pub(super) fn slopes_of_row(&self, row: usize) -> Range<usize> {
-        let (group, at) = self.place[row];
-        let group = &self.groups[group as usize];
-        let count = group.kernel.entries.len();
-        let start = group.entries as usize + at as usize * count;
-        start..start + count
-    }
-    /// Returns how many derivatives the rows of all groups have.
-    pub(super) fn slope_count(&self) -> usize {
-        self.entries.len()
-    }
     pub(super) fn kernel_of_row(&self, row: usize) -> &Rc<Kernel> {
         &self.groups[self.place[row].0 as usize].kernel
     }

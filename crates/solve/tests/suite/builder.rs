@@ -116,7 +116,8 @@ impl Sheet {
         relation.methods.push(Method { targets: vec![target], body });
     }
     pub(crate) fn reads(&mut self, relation: u32, slot: SlotIndex) {
-        self.system.relations[relation as usize].reads.push(slot);
+        let reads = &mut self.system.relations[relation as usize].reads;
+        *reads = reads.iter().copied().chain([slot]).collect();
     }
     /// A wish that `slots` be where the pointer is; returns the pointer's slots.
     pub(crate) fn wish(&mut self, slots: &[SlotIndex]) -> Vec<SlotIndex> {
