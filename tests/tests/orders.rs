@@ -197,3 +197,27 @@ fn the_order_of_members_plays_no_part() {
     assert!(wrong.is_empty(), "{} of {seeds}\n{}", wrong.len(), shown.join("\n\n"));
     assert!(compared > 40 * seeds as usize, "{compared} values were compared");
 }
+
+/// Reads where a place came to that is as far as two distances say from two others.
+fn third(members: [&str; 2]) -> [f64; 2] {
+    let mut session = Session::new(Box::new(NoFiles));
+    let members = members.join("\n");
+    let id = session.open("third", &format!("class Spot {{ x, y: Real }}\nc: Spot\n{members}\n"));
+    let rows = session.values(id);
+    ["c.x", "c.y"].map(|path| {
+        rows.iter().find(|row| row.path == path).and_then(|row| row.number).expect("it is there")
+    })
+}
+
+#[test]
+fn a_start_between_two_solutions_takes_the_same_in_every_order() {
+    let a = "constraint sqrt(c.x ^ 2 + c.y ^ 2) = 6";
+    let b = "constraint sqrt((c.x - 10) ^ 2 + c.y ^ 2) = 7";
+    // 6² - x² = 7² - (10 - x)²; of the two above and below the one in which y grows
+    let y = base::number::sqrt(36.0 - 4.35 * 4.35);
+    for members in [[a, b], [b, a]] {
+        let [x_found, y_found] = third(members);
+        let off = (x_found - 4.35).abs().max((y_found - y).abs());
+        assert!(off < ROUNDING, "{members:?}: {x_found}, {y_found}");
+    }
+}

@@ -16,6 +16,8 @@ const NEAR: f64 = 1e-3;
 const FLAT: f64 = 1e-9;
 /// A correction above this, in parts of the extent, is none of rounding.
 const CORRECTION: f64 = 1e-7;
+/// Numbers that differ by less are the same.
+const SAME: f64 = 1e-9;
 /// How many roundings of its numbers a row may be off in a solution.
 const ROUNDINGS: f64 = 8.0 * f64::EPSILON;
 
@@ -31,8 +33,12 @@ impl Square {
         let base = self.base(values, w)?;
         let Base { closed, conics, start } = &base;
         let slots = self.pair();
-        let here = side(conics)?;
         let is_branch = course.trust == Trust::Branch;
+        let here = match side(conics) {
+            Some(side) => side,
+            None if is_branch => return None,
+            None => return self.solve_undecided(&base, values, scales, w),
+        };
         let side = match course.side.closed {
             _ if !is_branch => here,
             0 => side(&self.block.conics(closed, course.last, w))?,
@@ -60,6 +66,32 @@ impl Square {
         let (own, other) = (roots.all().iter().find(own), roots.all().iter().find(|p| !own(p)));
         for root in own.into_iter().chain(other) {
             if self.put(&base, *root, values, scales, w)?.is_guarded {
+                return Some(Solved::Regular);
+            }
+        }
+        Some(Solved::Failed)
+    }
+
+    /// Solves from a start that lies on neither side: it takes the nearer solution; of two that are as near that in
+    /// which the unknown grows in which they differ more, so that the order of the rows plays no part.
+    fn solve_undecided(
+        &self,
+        base: &Base<'_>,
+        values: &mut [f64],
+        scales: &[f64],
+        w: &mut Workspace,
+    ) -> Option<Solved> {
+        let roots = roots(&base.conics)?;
+        let slots = self.pair();
+        let &[first, second] = roots.all() else { return None };
+        let way = [0, 1].map(|i| (second[i] - first[i]) / scales[slots[i]]);
+        let apart = size(second, slots, scales) - size(first, slots, scales);
+        let larger = if way[1].abs() > way[0].abs() * (1.0 + SAME) { way[1] } else { way[0] };
+        let is_same = apart.abs() <= SAME * size(way, [0, 1], &[1.0, 1.0]);
+        let second_first = if is_same { larger > 0.0 } else { apart < 0.0 };
+        let order = if second_first { [second, first] } else { [first, second] };
+        for root in order {
+            if self.put(base, root, values, scales, w)?.is_guarded {
                 return Some(Solved::Regular);
             }
         }
