@@ -47,6 +47,7 @@ mod scope;
 mod settle;
 mod switches;
 mod terms;
+mod trails;
 mod uses;
 mod visible;
 mod write;

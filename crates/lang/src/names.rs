@@ -7,7 +7,6 @@ use crate::scope::{Element, Scope};
 use base::{Diagnostic, Name, Place};
 use kernel::builtin;
 use kernel::{ClassId, ClassKind, Document, PartRef, PartRole, Path, Step, Term};
-use std::collections::BTreeSet;
 use syntax::ast;
 
 /// How many expressions may stand inside one another before a message's worth is left open.
@@ -263,12 +262,14 @@ fn find_part(
     name: &str,
     own: &dyn Fn(ClassId) -> Option<usize>,
 ) -> Option<ClassId> {
-    let mut seen = BTreeSet::new();
+    // a handful, as a rule
+    let mut seen: Vec<ClassId> = Vec::with_capacity(8);
     let mut waiting = vec![referred(document, class)];
     while let Some(class) = waiting.pop() {
         let mut others = Vec::new();
         let mut next = Some(class);
-        while let Some(c) = next.filter(|&c| seen.insert(c)) {
+        while let Some(c) = next.filter(|c| !seen.contains(c)) {
+            seen.push(c);
             let supers = &document.classes[c].supers;
             if let Some(index) = own(c) {
                 let field = PartRef { class: c, index, role: PartRole::Part };

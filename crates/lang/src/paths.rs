@@ -172,7 +172,7 @@ impl Lowerer<'_> {
     }
 
     /// Returns how many elements the list at a path always has, if its declaration tells.
-    fn count_at(&self, scope: &Scope, path: &Path) -> Option<u32> {
+    pub(crate) fn count_at(&self, scope: &Scope, path: &Path) -> Option<u32> {
         let (owner, step) = self.owner_at(scope, path)?;
         match step {
             Step::Part(name) => self.count_of_part(owner, name),

@@ -6,6 +6,7 @@ use crate::members::{Definition, Pending};
 use crate::paths::loose_path;
 use crate::scope::Scope;
 use crate::terms::code_for;
+use crate::trails::Trails;
 use base::{Diagnostic, Name, Place};
 use kernel::{
     BinaryOperator, ClassId, ClassKind, Constraint, Given, Insert, Merge, Method, OriginId, Path,
@@ -79,6 +80,8 @@ impl Lowerer<'_> {
             Pending::Answer { .. } => 1,
             _ => 2,
         });
+        // merges come first, so that what is known of their paths stays true
+        let mut trails = Trails::default();
         for pending in pending {
             match pending {
                 Pending::Kept(run) => self.keep_values(run),
@@ -88,7 +91,7 @@ impl Lowerer<'_> {
                     self.take_turns(&scope, &each, from);
                     self.define_pending();
                 }
-                Pending::Member(scope, member) => self.define(&scope, &member),
+                Pending::Member(scope, member) => self.define(&scope, &member, &mut trails),
                 Pending::Value { scope, prefix, target, value } => {
                     self.define_value(&scope, prefix, target.as_ref(), &value);
                 }
@@ -269,15 +272,14 @@ impl Lowerer<'_> {
         }
     }
 
-    fn define(&mut self, scope: &Scope, member: &Member) {
+    fn define(&mut self, scope: &Scope, member: &Member, trails: &mut Trails) {
         let origin = self.rule_origin(scope, span_without_doc(member.syntax()));
         let class = scope.class();
         match member {
             Member::Constraint(c) => self.define_constraint(scope, c, origin),
             Member::Merge(merge) if self.define_joint(scope, merge, origin) => {}
             Member::Merge(merge) => {
-                let wanted = merge.paths().count();
-                let paths = self.paths(scope, merge.paths());
+                let (paths, wanted) = self.paths_of_merge(scope, merge, trails);
                 let Some(name) = self.rule_name(scope, merge.name()) else { return };
                 let twice = (1..paths.len()).find(|&i| paths[..i].contains(&paths[i]));
                 if let Some(i) = twice {
