@@ -3,7 +3,7 @@
 use crate::class::ClassId;
 use crate::structure::{ConstraintInstance, GivenIn, Layouts, Paths, StayInstance, Thing, ThingId};
 use base::IdVec;
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 use std::rc::Rc;
 
 /// The thing that a body is of.
@@ -22,6 +22,8 @@ pub(super) struct Body {
     pub(super) merged: Rc<IdVec<ThingId, ThingId>>,
     /// For every first thing of a merge of unlike things, one of each class.
     pub(super) unlike: BTreeMap<ThingId, Vec<ThingId>>,
+    /// The classes of those.
+    pub(super) mixed: BTreeSet<ClassId>,
     /// For every thing, its place in the order of declaration: parts before the next sibling.
     pub(super) rank: Rc<IdVec<ThingId, u32>>,
     pub(super) givens: Rc<IdVec<ThingId, Option<GivenIn>>>,
@@ -124,6 +126,7 @@ impl Body {
         Rc::make_mut(&mut self.givens).extend(givens);
         let unlike = |all: &Vec<ThingId>| all.iter().map(|&t| moved(t)).collect();
         self.unlike.extend(from.unlike.iter().map(|(&t, all)| (moved(t), unlike(all))));
+        self.mixed.extend(&from.mixed);
         let constraint =
             |c: &ConstraintInstance| ConstraintInstance { owner: moved(c.owner), ..*c };
         Rc::make_mut(&mut self.constraints).extend(from.constraints.iter().map(constraint));
@@ -152,6 +155,14 @@ impl Body {
             at = next;
         }
         at
+    }
+
+    /// Makes two things one, each the first that it is merged with; returns the one declared first, then the
+    /// other.
+    pub(super) fn make_one(&mut self, a: ThingId, b: ThingId) -> (ThingId, ThingId) {
+        let (first, last) = if self.rank[a] < self.rank[b] { (a, b) } else { (b, a) };
+        self.set_merged(last, first);
+        (first, last)
     }
 
     /// Says that a thing is merged with one that stands before it.

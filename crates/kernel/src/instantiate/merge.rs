@@ -17,7 +17,18 @@ pub(super) fn merge_pair(
 ) {
     let mut pairs = vec![(a, b)];
     while let Some((a, b)) = pairs.pop() {
-        if body.identity(a) == body.identity(b) {
+        let (first, last) = (body.identity(a), body.identity(b));
+        if first == last {
+            continue;
+        }
+        let classes = [a, b].map(|t| body.things[t].class);
+        if classes[0] == classes[1] && !body.mixed.contains(&classes[0]) {
+            // all that is merged with either is of this class
+            match parts_in_common(maker, body, a, b) {
+                Ok(n) => pairs.extend((0..n).map(|i| (body.part(a, i), body.part(b, i)))),
+                Err((kind, message)) => return maker.fault(origin, kind, message),
+            }
+            body.make_one(first, last);
             continue;
         }
         for one in alike(body, a) {
@@ -29,6 +40,25 @@ pub(super) fn merge_pair(
             }
         }
         unite(body, a, b);
+    }
+}
+
+/// Returns how many parts two things of one class have in common: all, of lists of one length.
+fn parts_in_common(
+    maker: &Maker<'_>,
+    body: &Body,
+    a: ThingId,
+    b: ThingId,
+) -> Result<usize, (FaultKind, String)> {
+    let [na, nb] = [a, b].map(|t| body.things[t].parts);
+    match maker.document.classes[body.things[a].class].kind {
+        ClassKind::Composite => Ok(na.min(nb) as usize),
+        ClassKind::List(_) if na == nb => Ok(na as usize),
+        ClassKind::List(_) => {
+            let message = format!("a list of {na} and a list of {nb} cannot be one list");
+            Err((FaultKind::UnlikeMerge, message))
+        }
+        ClassKind::Primitive(_) | ClassKind::Set(_) | ClassKind::Reference(_) => Ok(0),
     }
 }
 
@@ -56,26 +86,15 @@ fn common_parts(
 ) -> Result<Vec<(ThingId, ThingId)>, (FaultKind, String)> {
     let document = maker.document;
     let (ca, cb) = (body.things[a].class, body.things[b].class);
-    let pairs = |a: ThingId, b: ThingId, n: u32| {
-        let n = n.min(body.things[a].parts).min(body.things[b].parts) as usize;
+    let pairs = |a: ThingId, b: ThingId, n: usize| {
+        let n = n.min(body.things[a].parts as usize).min(body.things[b].parts as usize);
         (0..n).map(|i| (body.part(a, i), body.part(b, i))).collect::<Vec<_>>()
     };
     let name = |c: ClassId| &document.classes[c].name;
     let (ka, kb) = (&document.classes[ca].kind, &document.classes[cb].kind);
     match (ka, kb) {
-        (ClassKind::Composite, ClassKind::Composite) if ca == cb => {
-            return Ok(pairs(a, b, u32::MAX));
-        }
-        (ClassKind::Composite, ClassKind::Composite) => {}
-        (ClassKind::List(_), ClassKind::List(_)) if ka == kb => {
-            let (na, nb) = (body.things[a].parts, body.things[b].parts);
-            if na == nb {
-                return Ok(pairs(a, b, na));
-            }
-            let message = format!("a list of {na} and a list of {nb} cannot be one list");
-            return Err((FaultKind::UnlikeMerge, message));
-        }
-        _ if ka == kb => return Ok(Vec::new()),
+        (ClassKind::Composite, ClassKind::Composite) if ca != cb => {}
+        _ if ka == kb => return parts_in_common(maker, body, a, b).map(|n| pairs(a, b, n)),
         (ClassKind::Reference(_), _) | (_, ClassKind::Reference(_)) => {
             let (names, other) =
                 if matches!(ka, ClassKind::Reference(_)) { (ca, cb) } else { (cb, ca) };
@@ -95,8 +114,7 @@ fn common_parts(
     let ancestor = document.lineage(ca).into_iter().find(|c| others.contains(c));
     let seen = |t, c| seen_as(maker, body, t, c);
     let views = ancestor.and_then(|c| Some((seen(a, c)?, seen(b, c)?, c)));
-    let pairs =
-        views.map_or_else(Vec::new, |(a, b, c)| pairs(a, b, document.layout(c).len() as u32));
+    let pairs = views.map_or_else(Vec::new, |(a, b, c)| pairs(a, b, document.layout(c).len()));
     let general = |c| {
         let line = document.primary_line(c).into_iter();
         line.map(|c| document.classes[c].general.unwrap_or(c)).find(|&c| has_counts(document, c))
@@ -140,8 +158,7 @@ fn seen_as(maker: &Maker<'_>, body: &Body, thing: ThingId, class: ClassId) -> Op
 /// Makes two things one: the one that was declared first.
 fn unite(body: &mut Body, a: ThingId, b: ThingId) {
     let (a, b) = (body.identity(a), body.identity(b));
-    let (first, last) = if body.rank[a] < body.rank[b] { (a, b) } else { (b, a) };
-    body.set_merged(last, first);
+    let (first, last) = body.make_one(a, b);
     let known = body.unlike.remove(&first);
     let others = body.unlike.remove(&last);
     if known.is_none() && others.is_none() && body.things[a].class == body.things[b].class {
@@ -155,6 +172,7 @@ fn unite(body: &mut Body, a: ThingId, b: ThingId) {
         }
     }
     if classes.len() > 1 {
+        body.mixed.extend(classes.iter().map(|&t| body.things[t].class));
         body.unlike.insert(first, classes);
     }
 }
