@@ -265,8 +265,19 @@ fn regions(analysis: &Analysis<'_>, blocks: &Blocks, region_of: &[u32]) -> Vec<R
 struct Work {
     layouts: Layouts,
     problem: Problem,
-    reads: Vec<SlotIndex>,
+    reads: Reads,
 }
+
+/// What finds the reads of blocks.
+#[derive(Default)]
+struct Reads {
+    list: Vec<SlotIndex>,
+    /// Of large blocks, which slots are unknowns or found already.
+    met: Vec<bool>,
+}
+
+/// From so many unknowns on the reads of a block are found by marks.
+const MARKED: usize = 16;
 
 impl Work {
     /// States the rows and unknowns of a block; none of its rows is opaque.
@@ -281,14 +292,22 @@ impl Work {
     }
 }
 
-fn reads_of(analysis: &Analysis<'_>, block: Block<'_>, reads: &mut Vec<SlotIndex>) -> Few {
-    let all = block.rows.iter().flat_map(|&r| analysis.reads_of_row(r));
-    let is_own = |s: &SlotIndex| block.unknowns.binary_search(s).is_ok();
-    reads.clear();
-    reads.extend(all.copied().filter(|s| !is_own(s)));
-    reads.sort_unstable();
-    reads.dedup();
-    reads[..].into()
+fn reads_of(analysis: &Analysis<'_>, block: Block<'_>, reads: &mut Reads) -> Few {
+    let all = block.rows.iter().flat_map(|&r| analysis.reads_of_row(r)).copied();
+    let Reads { list, met } = reads;
+    list.clear();
+    if block.unknowns.len() < MARKED {
+        list.extend(all.filter(|s| block.unknowns.binary_search(s).is_err()));
+        list.sort_unstable();
+        list.dedup();
+        return list[..].into();
+    }
+    met.resize(analysis.stated.system.slots.len(), false);
+    block.unknowns.iter().for_each(|&s| met[s as usize] = true);
+    list.extend(all.filter(|&s| !std::mem::replace(&mut met[s as usize], true)));
+    block.unknowns.iter().chain(&*list).for_each(|&s| met[s as usize] = false);
+    list.sort_unstable();
+    list[..].into()
 }
 
 fn lower_block(analysis: &Analysis<'_>, block: Block<'_>, work: &mut Work, steps: &mut Vec<Step>) {

@@ -61,6 +61,8 @@ pub(crate) struct Matcher<'a> {
 struct BlockScratch {
     rows: Vec<u32>,
     columns: Vec<SlotIndex>,
+    /// Where a slot stands among the columns, if it does.
+    place: Vec<u32>,
     matrix: Vec<f64>,
     swaps: Vec<usize>,
 }
@@ -336,14 +338,23 @@ impl<'a> Matcher<'a> {
     }
 
     fn is_regular_block(&self, scratch: &mut BlockScratch, factored: &mut Vec<Factored>) -> bool {
-        let BlockScratch { rows: block, columns, matrix, swaps } = scratch;
+        let BlockScratch { rows: block, columns, place, matrix, swaps } = scratch;
         columns.clear();
         columns.extend(block.iter().map(|&r| self.slot_of_row[r as usize]));
         columns.sort_unstable();
         let n = block.len();
+        place.resize(self.row_of_slot.len(), NONE);
+        for (&slot, at) in columns.iter().zip(0..) {
+            place[slot as usize] = at;
+        }
         let entries = |r: u32| {
             let own = self.rows.columns(r as usize).iter();
-            own.filter_map(|e| columns.binary_search(&e.0).ok().map(|c| (c, e.1)))
+            // what is left of another block does no harm
+            let at = |slot: SlotIndex| {
+                let at = place[slot as usize] as usize;
+                (columns.get(at) == Some(&slot)).then_some(at)
+            };
+            own.filter_map(move |e| Some((at(e.0)?, e.1)))
         };
         if n <= DENSE {
             matrix.clear();

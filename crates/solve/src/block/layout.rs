@@ -9,7 +9,7 @@ use crate::block::{Local, SecondPlace};
 use crate::kernel::{Entry, Kernel, Side};
 use crate::lower::{Definers, Problem};
 use crate::sparse::Pattern;
-use crate::system::{Level, Span};
+use crate::system::{Level, SlotIndex, Span};
 use base::Mixer;
 use base::number::Tolerance;
 use indexmap::IndexMap;
@@ -75,10 +75,22 @@ pub(super) struct Group {
 /// The argument, or what a derivative is by, is known.
 pub(super) const KNOWN: u32 = u32::MAX;
 
-/// Adds which unknown every argument of every row is, row after row.
+/// Adds which unknown every argument of every row is, row after row; unknowns stand in order.
 pub(super) fn positions(problem: &Problem, positions: &mut Vec<u32>) {
-    let unknown = |s| problem.unknowns.binary_search(s).map_or(KNOWN, |at| at as u32);
     positions.reserve(problem.rows.iter().map(|row| row.arguments.len()).sum());
+    if problem.unknowns.len() <= SMALL {
+        let unknown = |s| problem.unknowns.binary_search(s).map_or(KNOWN, |at| at as u32);
+        for row in &problem.rows {
+            positions.extend(row.arguments.iter().map(unknown));
+        }
+        return;
+    }
+    let last = problem.unknowns.last().map_or(0, |&last| last as usize + 1);
+    let mut place = vec![KNOWN; last];
+    for (&slot, at) in problem.unknowns.iter().zip(0..) {
+        place[slot as usize] = at;
+    }
+    let unknown = |s: &SlotIndex| place.get(*s as usize).copied().unwrap_or(KNOWN);
     for row in &problem.rows {
         positions.extend(row.arguments.iter().map(unknown));
     }
