@@ -4,11 +4,9 @@
 //! coordinates of one place: a place yields as one.
 
 use crate::rule::Rules;
-use base::{IdVec, Mixer};
-use indexmap::IndexSet;
+use base::IdVec;
 use kernel::{SlotId, Structure, ThingId};
 use std::fmt;
-use std::hash::BuildHasherDefault;
 use std::rc::Rc;
 
 /// Rules with the slots that they mention, both in order of declaration.
@@ -313,7 +311,7 @@ impl Net {
         is_fixed: &dyn Fn(SlotId) -> bool,
         tied: &[Vec<SlotId>],
     ) -> Vec<Component> {
-        let [rule_seen, slot_seen] = [(); 2].map(|()| Seen::default());
+        let [rule_seen, slot_seen] = [rules.len(), self.places.of.len()].map(Seen::new);
         Walk { net: self, rules, is_fixed, rule_seen, slot_seen, tied }.around(slots)
     }
 }
@@ -356,8 +354,22 @@ impl Groups {
     }
 }
 
-/// The numbers that were met.
-type Seen = IndexSet<u32, BuildHasherDefault<Mixer>>;
+/// The numbers that were met, a bit for each.
+struct Seen(Vec<u64>);
+
+impl Seen {
+    fn new(count: usize) -> Self {
+        Self(vec![0; count.div_ceil(64)])
+    }
+    /// Notes a number; true the first time.
+    fn insert(&mut self, number: u32) -> bool {
+        let bits = &mut self.0[number as usize / 64];
+        let bit = 1 << (number % 64);
+        let is_new = *bits & bit == 0;
+        *bits |= bit;
+        is_new
+    }
+}
 
 struct Walk<'w> {
     net: &'w Net,

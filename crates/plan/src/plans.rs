@@ -8,6 +8,7 @@ use crate::template::{Known, Templates, lower_all};
 use crate::whole::Whole;
 use base::Mixer;
 use indexmap::IndexMap;
+use indexmap::map::Entry;
 use solve::{Conditional, Mode, Modes, Patterns, Plan, Puzzle, SlotIndex, Stay, System};
 use std::cell::RefCell;
 use std::hash::BuildHasherDefault;
@@ -78,14 +79,20 @@ impl Plans {
     }
     /// Returns the plan of a system, a system that it is the plan of, and its number among those made.
     pub(crate) fn plan(&mut self, system: System) -> (Rc<System>, Rc<Plan>, u32) {
-        if let Some((number, system, plan)) = self.made.get_full(&system) {
-            self.reused += 1;
-            return (system.clone(), plan.clone(), number as u32);
+        let entry = self.made.entry(Rc::new(system));
+        let number = entry.index() as u32;
+        match entry {
+            Entry::Occupied(known) => {
+                self.reused += 1;
+                (known.key().clone(), known.get().clone(), number)
+            }
+            Entry::Vacant(new) => {
+                let system = new.key().clone();
+                let plan = Rc::new(solve::plan(&system, &self.patterns));
+                new.insert(plan.clone());
+                (system, plan, number)
+            }
         }
-        let system = Rc::new(system);
-        let plan = Rc::new(solve::plan(&system, &self.patterns));
-        let (number, _) = self.made.insert_full(system.clone(), plan.clone());
-        (system, plan, number as u32)
     }
 
     /// Returns where the plans end that are made so far.

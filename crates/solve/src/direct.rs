@@ -4,7 +4,7 @@
 //! written methods that were chosen: relations choose in order of declaration the first of their
 //! methods whose targets are all unknown and that leaves every other row a slot.
 
-use crate::accept::Acceptance;
+use crate::accept::{Acceptance, Matched};
 use crate::rows::Rows;
 use crate::substitute::Classes;
 use crate::system::{SlotIndex, System};
@@ -47,22 +47,26 @@ struct Matching<'a> {
     changed: Vec<(usize, Option<SlotIndex>)>,
 }
 
-/// Matches rows and slots and chooses methods.
+/// Matches rows and slots and chooses methods. Where acceptance has found the way, it is taken over.
 pub(crate) fn direct(
     system: &System,
     classes: &Classes,
     rows: &Rows,
-    acceptance: &Acceptance,
+    acceptance: &mut Acceptance,
 ) -> Direction {
-    let (slot_of_row, row_of_slot) = match &acceptance.matched {
+    let is_settled = is_settled(system, acceptance);
+    let (slot_of_row, row_of_slot) = match &mut acceptance.matched {
+        Some(Matched { slot_of_row, row_of_slot, .. }) if is_settled => {
+            (std::mem::take(slot_of_row), std::mem::take(row_of_slot))
+        }
         Some(known) => (known.slot_of_row.clone(), known.row_of_slot.clone()),
         None => (vec![None; rows.len()], vec![None; acceptance.unknown.len()]),
     };
     let known = Direction { slot_of_row, row_of_slot, ..Direction::default() };
-    if is_settled(system, acceptance) {
-        return known;
+    match is_settled {
+        true => known,
+        false => direct_from(system, classes, rows, acceptance, known),
     }
-    direct_from(system, classes, rows, acceptance, known)
 }
 
 /// Returns true if the direction is what acceptance found, whatever else may yield: every row has its slot, and

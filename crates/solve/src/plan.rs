@@ -269,10 +269,10 @@ fn plan_stated(stated: Stated) -> Plan {
             (rows, acceptance) = (there, again);
         }
     }
-    let mut direction = direct::direct(system, &classes, &rows, &acceptance);
+    let mut direction = direct::direct(system, &classes, &rows, &mut acceptance);
     let is_tied = tie::tie(system, &classes, &rows, &direction, &mut acceptance);
     if is_tied && !direct::is_settled(system, &acceptance) {
-        direction = direct::direct(system, &classes, &rows, &acceptance);
+        direction = direct::direct(system, &classes, &rows, &mut acceptance);
     }
     let relations = tests_of_relations(system);
     let method_reads = method_reads(system, &classes, &direction);
@@ -440,7 +440,7 @@ fn report(analysis: &Analysis<'_>) -> (Report, Vec<Vec<usize>>) {
 }
 
 fn blocks_of(analysis: &mut Analysis<'_>, together: &[Vec<usize>]) -> Blocks {
-    let Analysis { acceptance, direction, .. } = analysis;
+    let Analysis { acceptance, direction, .. } = &mut *analysis;
     if let Some(matched) = acceptance.matched.take() {
         // where every slot that may move has its row, what acceptance found are the blocks
         let unknown = acceptance.unknown.iter().filter(|u| **u).count();
