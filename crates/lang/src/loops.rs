@@ -21,6 +21,10 @@ pub(crate) const MOST_MEMBERS: usize = 1_000_000;
 pub(crate) struct Turns {
     pub(crate) count: u32,
     over: Over,
+    /// The names that the loop binds.
+    bound: Vec<Name>,
+    /// The names of what is declared in it.
+    declared: Vec<Name>,
 }
 
 /// What a loop binds its name to in one turn, where the text lists it.
@@ -34,8 +38,8 @@ enum Over {
     Numbers(i64),
     /// What is written, one after the other.
     Written(Vec<Written>),
-    /// Elements of a list, so many at a time.
-    Elements { path: Path, element: ClassId, together: u32 },
+    /// Elements of a list, as many at a time as there are names.
+    Elements { path: Path, element: ClassId },
 }
 
 impl Lowerer<'_> {
@@ -74,7 +78,7 @@ impl Lowerer<'_> {
             return;
         }
         for turn in from..turns.count {
-            let inner = turn_of(scope, each, &turns, turn);
+            let inner = turn_of(scope, &turns, turn);
             self.take_turn(&inner, each, &members);
         }
     }
@@ -92,6 +96,12 @@ impl Lowerer<'_> {
 
     /// Finds what a loop goes through, and how many turns that takes.
     pub(crate) fn turns(&mut self, scope: &Scope, each: &ast::For) -> Option<Turns> {
+        let (count, over) = self.gone_through(scope, each)?;
+        let bound = each.names().map(|word| word.name()).collect();
+        Some(Turns { count, over, bound, declared: declared_names(each) })
+    }
+
+    fn gone_through(&mut self, scope: &Scope, each: &ast::For) -> Option<(u32, Over)> {
         let range = each.range()?;
         let (over, together) = match &range {
             Expr::Range(_) => (None, 1),
@@ -122,7 +132,7 @@ impl Lowerer<'_> {
             };
             let count = to.saturating_sub(from).saturating_add(1).max(0);
             let count = u32::try_from(count).unwrap_or(u32::MAX);
-            return Some(Turns { count, over: Over::Numbers(from) });
+            return Some((count, Over::Numbers(from)));
         };
         let written = match &list {
             Expr::List(list) => Some(list.elements().collect::<Vec<Expr>>()),
@@ -133,7 +143,7 @@ impl Lowerer<'_> {
             let over: Option<Vec<Written>> =
                 written.iter().map(|e| self.written(scope, e)).collect();
             let count = written.len() as u32;
-            return Some(Turns { count, over: Over::Written(over?) });
+            return Some((count, Over::Written(over?)));
         }
         if !matches!(list, Expr::Name(_) | Expr::Field(_) | Expr::Index(_) | Expr::Paren(_)) {
             let place = Place { file: scope.file, span: list.span() };
@@ -158,7 +168,7 @@ impl Lowerer<'_> {
             return None;
         };
         let count = elements.saturating_sub(together - 1);
-        Some(Turns { count, over: Over::Elements { path, element, together } })
+        Some((count, Over::Elements { path, element }))
     }
 
     /// Finds what a loop binds its name to where it is written: a whole number, or a part.
@@ -273,31 +283,27 @@ impl Lowerer<'_> {
 }
 
 /// Returns the scope of one turn, in which what is declared in the loop means the turn's own.
-pub(crate) fn turn_of(scope: &Scope, each: &ast::For, turns: &Turns, turn: u32) -> Scope {
-    let mut inner = match &turns.over {
-        Over::Numbers(from) => each.names().fold(scope.clone(), |scope, word| {
-            scope.with_constant(word.name(), from + i64::from(turn))
-        }),
-        Over::Written(all) => {
-            each.names().fold(scope.clone(), |scope, word| match &all[turn as usize] {
-                Written::Number(number) => scope.with_constant(word.name(), *number),
+pub(crate) fn turn_of(scope: &Scope, turns: &Turns, turn: u32) -> Scope {
+    let mut inner = scope.clone();
+    for (i, name) in (0..).zip(&turns.bound) {
+        match &turns.over {
+            Over::Numbers(from) => inner.bind_number(name.clone(), from + i64::from(turn)),
+            Over::Written(all) => match &all[turn as usize] {
+                Written::Number(number) => inner.bind_number(name.clone(), *number),
                 Written::Thing { path, class } => {
-                    scope.with_element(word.name(), path.clone(), *class)
+                    inner.bind_element(name.clone(), path.clone(), *class);
                 }
-            })
-        }
-        Over::Elements { path, element, together } => {
-            let bind = |scope: Scope, (i, word): (u32, ast::Word)| {
+            },
+            Over::Elements { path, element } => {
                 let path = path.then(Step::Index(turn + i));
-                scope.with_element(word.name(), path, Some(*element))
-            };
-            (0..*together).zip(each.names()).fold(scope.clone(), bind)
+                inner.bind_element(name.clone(), path, Some(*element));
+            }
         }
-    };
+    }
     inner.turns.push(turn);
-    for name in declared_names(each) {
+    for name in &turns.declared {
         let path = of_turn(&inner, name.clone());
-        inner = inner.with_element(name, path, None);
+        inner.bind_element(name.clone(), path, None);
     }
     inner
 }

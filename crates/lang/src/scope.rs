@@ -62,15 +62,13 @@ impl Scope {
         inner.locals.push((name, kind));
         inner
     }
-    pub(crate) fn with_constant(&self, name: Name, value: i64) -> Self {
-        let mut inner = self.clone();
-        inner.constants.insert(name, value);
-        inner
+    /// Makes a name stand for a number.
+    pub(crate) fn bind_number(&mut self, name: Name, value: i64) {
+        self.constants.insert(name, value);
     }
-    pub(crate) fn with_element(&self, name: Name, path: Path, class: Option<ClassId>) -> Self {
-        let mut inner = self.clone();
-        inner.elements.push(Element { name, path, class, depth: self.classes.len() });
-        inner
+    /// Makes a name stand for an element of a list, of this class if that is known.
+    pub(crate) fn bind_element(&mut self, name: Name, path: Path, class: Option<ClassId>) {
+        self.elements.push(Element { name, path, class, depth: self.classes.len() });
     }
     /// Returns the element that a variable of `for` stands for.
     pub(crate) fn element(&self, name: &str) -> Option<&Element> {

@@ -90,7 +90,7 @@ impl<'l> Lowerer<'l> {
             return None;
         }
         let shapes = (0..turns.count).map(|turn| {
-            let here = turn_of(scope, each, &turns, turn);
+            let here = turn_of(scope, &turns, turn);
             self.shape(&here, inner)
         });
         Some(Shape::Each(shapes.collect::<Option<_>>()?))
@@ -239,13 +239,13 @@ impl<'l> Lowerer<'l> {
         let turns = match (&*leaves, shape) {
             (Leaves::Alike(_), Shape::Turns(_)) => return (plain, Vec::new()),
             (Leaves::Alike(_), Shape::Each(_)) | (Leaves::Own(..), _) => {
-                loops.first().and_then(|each| Some((each, self.turns(scope, each)?)))
+                loops.first().and_then(|each| self.turns(scope, each))
             }
         };
-        let Some((each, turns)) = turns else { return (plain, Vec::new()) };
+        let Some(turns) = turns else { return (plain, Vec::new()) };
         let mut classes = Vec::new();
         for turn in 0..shape.len() {
-            let here = turn_of(scope, each, &turns, turn);
+            let here = turn_of(scope, &turns, turn);
             classes.push(match (&mut *leaves, shape) {
                 (Leaves::Alike(class), Shape::Turns(_)) => *class,
                 (Leaves::Own(_, of_turn), Shape::Turns(_)) => of_turn(self, &here),
@@ -308,7 +308,7 @@ impl<'l> Lowerer<'l> {
         }
         let mut answers = Vec::new();
         for turn in 0..turns.count {
-            let here = turn_of(scope, each, &turns, turn);
+            let here = turn_of(scope, &turns, turn);
             answers.push(self.answer_of(&here, inner, answer, element)?);
         }
         Some(Term::List(answers))
@@ -327,7 +327,7 @@ impl<'l> Lowerer<'l> {
         let turns = self.turns(scope, each)?;
         let element = match turns.count {
             0 => Kind::Unknown,
-            _ => self.kind_of_answer(&turn_of(scope, each, &turns, 0), inner, answer)?,
+            _ => self.kind_of_answer(&turn_of(scope, &turns, 0), inner, answer)?,
         };
         Some(Kind::List(Box::new(element)))
     }
