@@ -23,6 +23,8 @@ pub(crate) struct Symbolic {
     lower: Vec<u32>,
     upper_starts: Vec<u32>,
     upper: Vec<u32>,
+    /// For every pivot before the tail: its row is that of the next, and the next's pivot.
+    is_joined: Vec<bool>,
     /// The sign of both orders as permutations.
     parity: i8,
 }
@@ -37,6 +39,9 @@ pub(crate) struct Lu {
     swaps: Vec<usize>,
     work: Vec<f64>,
 }
+
+/// Up to so many rows are subtracted at once.
+const ABREAST: usize = 4;
 
 /// Pivots of this ratio, ordered as a whole, are not trusted before they were tried.
 const POOR: f64 = 1e-9;
@@ -83,7 +88,13 @@ impl Symbolic {
         for row in upper_starts.windows(2) {
             upper[row[0] as usize..row[1] as usize].sort_unstable();
         }
+        let row = |k: usize| &upper[upper_starts[k] as usize..upper_starts[k + 1] as usize];
+        let joins = |k: usize| {
+            k + 1 < pivots.sparse && row(k).split_first() == Some((&(k as u32 + 1), row(k + 1)))
+        };
+        let is_joined = (0..pivots.sparse).map(joins).collect();
         Self {
+            is_joined,
             parity: parity(&pivots.rows) * parity(&pivots.columns),
             sparse: pivots.sparse,
             rows: pivots.rows,
@@ -126,17 +137,18 @@ impl Symbolic {
             for e in pattern.range(self.rows[k] as usize) {
                 work[self.place[pattern.column(e)] as usize] = values[e];
             }
-            for i in self.lower(k) {
-                let j = self.lower[i] as usize;
-                let factor = work[j] / lu.pivots[j];
-                work[j] = 0.0;
-                lu.lower[i] = factor;
-                let row = self.upper(j);
-                if factor != 0.0 {
-                    for (&c, u) in self.upper[row.clone()].iter().zip(&lu.upper[row]) {
-                        work[c as usize] -= factor * u;
-                    }
-                }
+            let mut lower = self.lower(k);
+            while !lower.is_empty() {
+                let first = self.lower[lower.start] as usize;
+                let is_next = |i: usize| {
+                    self.lower.get(lower.start + i) == Some(&((first + i) as u32))
+                        && self.is_joined[first + i - 1]
+                };
+                let most = lower.len().min(ABREAST);
+                let count = (1..most).find(|&i| !is_next(i)).unwrap_or(most);
+                let factors = &mut lu.lower[lower.start..lower.start + count];
+                self.subtract(first, &lu.pivots, &lu.upper, factors, work);
+                lower.start += count;
             }
             if k < self.sparse {
                 let pivot = std::mem::take(&mut work[k]);
@@ -170,6 +182,61 @@ impl Symbolic {
         }
         let ratio = if n == 0 { 1.0 } else { least / most };
         Some(Factors { sign: sign * dense.sign, ratio })
+    }
+
+    /// Subtracts as much of joined rows, from the first on, as leaves nothing at their pivots; how much is put
+    /// in `factors`. What it comes to has the bits of one row after the other.
+    fn subtract(
+        &self,
+        first: usize,
+        pivots: &[f64],
+        upper: &[f64],
+        factors: &mut [f64],
+        work: &mut [f64],
+    ) {
+        let last = first + factors.len() - 1;
+        for (j, at) in (first..).zip(0..factors.len()) {
+            let factor = std::mem::take(&mut work[j]) / pivots[j];
+            factors[at] = factor;
+            let row = &upper[self.upper(j).start..];
+            for (x, u) in work[j + 1..=last].iter_mut().zip(row) {
+                *x -= factor * u;
+            }
+        }
+        // what lies behind the last of them is the same for all
+        let columns = &self.upper[self.upper(last)];
+        let row = |at: usize| {
+            let own = self.upper(first + at);
+            &upper[own.end - columns.len()..own.end]
+        };
+        match *factors {
+            [a] if a != 0.0 => {
+                for (&c, u) in columns.iter().zip(row(0)) {
+                    work[c as usize] -= a * u;
+                }
+            }
+            [_] => {}
+            [a, b] => {
+                for ((&c, u), v) in columns.iter().zip(row(0)).zip(row(1)) {
+                    let x = &mut work[c as usize];
+                    *x = (*x - a * u) - b * v;
+                }
+            }
+            [a, b, c, d] => {
+                let rows = row(0).iter().zip(row(1)).zip(row(2).iter().zip(row(3)));
+                for (&column, ((s, t), (u, v))) in columns.iter().zip(rows) {
+                    let x = &mut work[column as usize];
+                    *x = (((*x - a * s) - b * t) - c * u) - d * v;
+                }
+            }
+            _ => {
+                for (at, factor) in factors.iter().enumerate() {
+                    for (&c, u) in columns.iter().zip(row(at)) {
+                        work[c as usize] -= factor * u;
+                    }
+                }
+            }
+        }
     }
 
     /// Solves with the factors; `b` becomes the solution.
