@@ -13,6 +13,8 @@ use plan::Target;
 /// How far two ends may lie apart, of bars of length one: where least change is measured anew on the way, the
 /// place where that is depends a little on the strides.
 const SAME: f64 = 1e-3;
+/// The same for chains that come to lie on a floor, where that begins depends on the strides as well.
+const SAME_ON_FLOOR: f64 = 1e-2;
 /// Into how many frames a way is cut.
 const FRAMES: [usize; 3] = [100, 5, 1];
 
@@ -70,9 +72,17 @@ fn chain(bars: usize, end: End, dice: &mut Dice) -> Case {
     }
 }
 
-/// Drags a joint straight to a place; returns where all joints are then, and whether it was reached.
-fn dragged(case: &Case, joint: usize, to: [f64; 2], frames: usize) -> (Vec<[f64; 2]>, bool) {
-    let opened = Opened::new(&document::text(case)).expect("a chain can be said");
+/// Drags a joint straight to a place, with more rules; returns where all joints are then, and whether it was
+/// reached.
+fn dragged(
+    case: &Case,
+    rules: &str,
+    joint: usize,
+    to: [f64; 2],
+    frames: usize,
+) -> (Vec<[f64; 2]>, bool) {
+    let text = format!("{}\n{rules}", document::text(case));
+    let opened = Opened::new(&text).expect("a chain can be said");
     let (mut planner, mut values, report) = opened.solve();
     assert!(report.unmet.is_empty(), "its bars are as long as they are");
     let thing = opened.thing(&format!("p{joint}")).expect("it has this joint");
@@ -106,7 +116,7 @@ fn a_drag_ends_in_the_same_place_in_few_frames_and_in_many() {
         let (far, angle) = (dice.between(0.2, 1.0) * reach, dice.between(-3.2, 3.2));
         let to = [far * base::number::cos(angle), far * base::number::sin(angle)];
         let [(many, fine), (five, some), (one, once)] =
-            FRAMES.map(|frames| dragged(&case, joint, to, frames));
+            FRAMES.map(|frames| dragged(&case, "", joint, to, frames));
         reached += usize::from(fine);
         for (ends, arrived, frames) in [(five, some, 5), (one, once, 1)] {
             let off = |(p, q): (&[f64; 2], &[f64; 2])| (p[0] - q[0]).abs().max((p[1] - q[1]).abs());
@@ -126,4 +136,34 @@ fn a_drag_ends_in_the_same_place_in_few_frames_and_in_many() {
         wrong.join("\n")
     );
     assert!(2 * reached > seeds as usize, "{reached} of {seeds} reached");
+}
+
+#[test]
+fn a_chain_comes_to_lie_on_its_floor_in_few_frames_as_in_many() {
+    let seeds = if std::env::var_os("THINGLAB_LONG").is_some() { 400 } else { 14 };
+    let (mut wrong, mut lie) = (Vec::new(), 0);
+    for seed in 0..seeds {
+        let dice = &mut Dice::new(seed);
+        let bars = 2 + seed as usize % 4;
+        let case = chain(bars, End::Open, dice);
+        let lowest = case.start.iter().map(|p| p[1]).fold(0.0, f64::min);
+        let floor = lowest - dice.between(0.05, 0.5);
+        let rules: Vec<String> =
+            (1..=bars).map(|p| format!("constraint p{p}.y >= {floor}")).collect();
+        let to = [dice.between(-1.0, 1.0) * bars as f64, floor - dice.between(0.0, 1.0)];
+        let [(many, _), (five, _), (one, _)] =
+            FRAMES.map(|frames| dragged(&case, &rules.join("\n"), bars, to, frames));
+        lie += usize::from(many.iter().any(|p| p[1] < floor + 1e-6));
+        for (ends, frames) in [(five, 5), (one, 1)] {
+            let off = |(p, q): (&[f64; 2], &[f64; 2])| (p[0] - q[0]).abs().max((p[1] - q[1]).abs());
+            let apart = many.iter().zip(&ends).map(off).fold(0.0, f64::max);
+            if apart > SAME_ON_FLOOR {
+                wrong.push(format!(
+                    "seed {seed}, {bars} bars to {to:?}, floor {floor} in {frames} frames: {apart:.1e} off"
+                ));
+            }
+        }
+    }
+    assert!(wrong.is_empty(), "{} of {seeds}, {lie} lie\n{}", wrong.len(), wrong.join("\n"));
+    assert!(2 * lie > seeds as usize, "{lie} of {seeds} lie on it");
 }

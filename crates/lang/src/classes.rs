@@ -166,7 +166,8 @@ impl Lowerer<'_> {
                     let place = Place { file, span: word.span() };
                     let mut d = Diagnostic::error("unknown-class", place, message);
                     let names = self.visible.names(file).map(Name::as_str);
-                    if let Some(near) = self.nearest(word.text(), names) {
+                    let near = self.nearest(word.text(), names);
+                    if let Some(near) = near.or_else(|| called_otherwise(word.text())) {
                         d = d.meant(near);
                     } else {
                         d = d.hint("declare it, or `use` the library that has it");
@@ -273,4 +274,16 @@ pub(crate) fn small_first(name: &str) -> Name {
     let mut letters = name.chars();
     let first: String = letters.next().into_iter().flat_map(char::to_lowercase).collect();
     Name::new(&(first + letters.as_str()))
+}
+
+/// Returns the primitive class that other languages call by this name.
+fn called_otherwise(name: &str) -> Option<&'static str> {
+    match name.to_ascii_lowercase().as_str() {
+        "boolean" => Some("Bool"),
+        "number" | "num" | "float" | "double" | "decimal" => Some("Real"),
+        "int" => Some("Integer"),
+        "string" | "str" => Some("Text"),
+        "colour" => Some("Color"),
+        _ => None,
+    }
 }

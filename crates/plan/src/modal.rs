@@ -13,6 +13,7 @@ use kernel::{SlotId, Values};
 use solve::{
     Constants, Decision, Ended, Lean, Mode, Modes, Plan, SlotIndex, Standing, System, Tried, decide,
 };
+use std::cmp::Ordering;
 use std::collections::BTreeMap;
 use std::rc::Rc;
 
@@ -214,7 +215,9 @@ pub(crate) fn attempt_in_mode(
     let Ground { x0, local, changed } = ground;
     let mut local = local.clone();
     let mut adapter = Adapter { planner, model, task, values, host };
-    let mut runner = planner.take_runner(leans.to_vec());
+    let mut leans = leans.to_vec();
+    leans.extend(within_bounds(modes, mode, &plan, x0, &leans));
+    let mut runner = planner.take_runner(leans);
     let outcome = solve::run(&plan, &mut runner, x0, &mut local, changed, &mut adapter);
     planner.put_back(runner);
     let breaks = |values: &[f64]| !modes.broken(mode, values).is_empty();
@@ -260,7 +263,8 @@ pub(crate) fn tell(planner: &Planner, modes: &Modes, task: &Task, decision: Deci
 /// A drag through modes.
 ///
 /// Each mode is dragged on its own; one that was not followed at the last wish goes on from where
-/// the drag stood then.
+/// the drag stood then. Where other inequalities act at a wish than at the last, the way there is halved, so
+/// that the new mode is met near where it begins: it has other branches elsewhere.
 #[derive(Debug)]
 pub(crate) struct ModalDrag {
     modes: Rc<Modes>,
@@ -275,8 +279,20 @@ pub(crate) struct ModalDrag {
 #[derive(Debug)]
 struct Followed {
     drag: solve::Drag,
-    /// The wish that it followed last.
+    /// The wish that it followed last, and the first of those that it followed without a gap.
     wish: u64,
+    since: u64,
+}
+
+/// How often the way to where other inequalities act is halved.
+const HALVINGS: u32 = 10;
+
+/// What a drag works with.
+struct Hands<'a> {
+    planner: &'a Planner,
+    model: Model<'a>,
+    values: &'a mut Values,
+    host: &'a mut dyn Host,
 }
 
 impl ModalDrag {
@@ -302,43 +318,109 @@ impl ModalDrag {
         values: &mut Values,
         host: &mut dyn Host,
     ) -> Ran {
-        self.wishes += 1;
-        let Self { modes, x0, inputs, followed, mode, now, wishes } = self;
         let texts = values.texts.clone();
-        let leans = leans(model, task);
-        let first = Mode { active: Default::default(), ..mode.clone() };
-        let mut attempt = |mode: &Mode| {
-            let (_, plan) = planner.plans.in_mode(modes, mode);
-            values.texts.clone_from(&texts);
-            let mut adapter = Adapter { planner, model, task, values, host };
-            let follow = followed.entry(mode.clone()).or_insert_with(|| {
-                let mut drag = solve::Drag::begin(&plan, x0, inputs);
-                drag.lean(&plan, &leans);
-                Followed { drag, wish: 0 }
-            });
-            if follow.wish + 1 < *wishes {
-                follow.drag.stand_at(now);
-            }
-            follow.wish = *wishes;
-            let outcome = follow.drag.follow(&plan, targets, &mut adapter);
-            Tried { plan, outcome, values: follow.drag.values().to_vec() }
-        };
-        let decision = decide(modes, &first, &mut attempt);
-        if decision.ended == Ended::Settled {
-            if has_texts(task) {
-                attempt(&decision.mode);
-            }
-            now.clone_from(&decision.tried.values);
-            mode.clone_from(&decision.mode);
-            scatter(task, now, values);
-        } else {
+        let mut hands = Hands { planner, model, values, host };
+        let decision = self.go(task, targets, HALVINGS, &mut hands);
+        if decision.ended != Ended::Settled {
             values.texts = texts;
         }
-        let mut told = tell(planner, modes, task, decision);
+        let mut told = tell(planner, &self.modes, task, decision);
         match told.stands.take() {
             Some(stands) if told.is_solved => task.stand(stands),
             Some(_) | None => {}
         }
         told
     }
+
+    /// Goes to a wish, by halves where other inequalities act there.
+    fn go(
+        &mut self,
+        task: &Task,
+        targets: &[f64],
+        halvings: u32,
+        hands: &mut Hands<'_>,
+    ) -> Decision {
+        let decision = self.decide(task, targets, hands);
+        if decision.ended != Ended::Settled {
+            return decision;
+        }
+        let alike = Mode { active: self.mode.active.clone(), ..decision.mode.clone() };
+        if halvings > 0 && decision.mode != self.mode && alike == self.mode {
+            self.forget_begun();
+            let half = |(&input, to): (&SlotIndex, &f64)| 0.5 * (self.now[input as usize] + to);
+            let middle: Vec<f64> = self.inputs.iter().zip(targets).map(half).collect();
+            self.go(task, &middle, halvings - 1, hands);
+            return self.go(task, targets, halvings - 1, hands);
+        }
+        self.now.clone_from(&decision.tried.values);
+        self.mode.clone_from(&decision.mode);
+        scatter(task, &self.now, hands.values);
+        decision
+    }
+
+    /// Finds the mode that stands at a wish; the host's texts are then of that mode.
+    fn decide(&mut self, task: &Task, targets: &[f64], hands: &mut Hands<'_>) -> Decision {
+        self.wishes += 1;
+        let Self { modes, x0, inputs, followed, mode, now, wishes } = self;
+        let Hands { planner, model, values, host } = hands;
+        let texts = values.texts.clone();
+        let leans = leans(*model, task);
+        let first = Mode { active: Default::default(), ..mode.clone() };
+        let mut attempt = |mode: &Mode| {
+            let (_, plan) = planner.plans.in_mode(modes, mode);
+            values.texts.clone_from(&texts);
+            let mut adapter = Adapter { planner, model: *model, task, values, host: *host };
+            let follow = followed.entry(mode.clone()).or_insert_with(|| {
+                let mut drag = solve::Drag::begin(&plan, x0, inputs);
+                let mut leans = leans.clone();
+                leans.extend(within_bounds(modes, mode, &plan, x0, &leans));
+                drag.lean(&plan, &leans);
+                Followed { drag, wish: 0, since: 1 }
+            });
+            if follow.wish + 1 < *wishes {
+                follow.drag.stand_at(now);
+                follow.since = *wishes;
+            }
+            follow.wish = *wishes;
+            let outcome = follow.drag.follow(&plan, targets, &mut adapter);
+            Tried { plan, outcome, values: follow.drag.values().to_vec() }
+        };
+        let decision = decide(modes, &first, &mut attempt);
+        if decision.ended == Ended::Settled && has_texts(task) {
+            attempt(&decision.mode);
+        }
+        decision
+    }
+
+    /// Has other modes that began at the last wish begin again where the drag stands.
+    fn forget_begun(&mut self) {
+        for (mode, follow) in &mut self.followed {
+            if follow.since == self.wishes && *mode != self.mode {
+                follow.wish = 0;
+            }
+        }
+    }
+}
+
+/// Returns which way blocks lean in which two branches meet, where an inequality that is at its bound holds one
+/// way alone, and nothing else is written.
+fn within_bounds(
+    modes: &Modes,
+    mode: &Mode,
+    plan: &Plan,
+    x0: &[f64],
+    written: &[Lean],
+) -> Vec<Lean> {
+    if modes.at_bounds(mode, x0).active.is_empty() {
+        return Vec::new();
+    }
+    let broken = |state: &[f64]| modes.broken(mode, state).len();
+    let forks = solve::forks(plan, x0).into_iter();
+    let open = forks.filter(|[(lean, _), _]| written.iter().all(|w| w.slot != lean.slot));
+    let held = open.filter_map(|[more, less]| match broken(&more.1).cmp(&broken(&less.1)) {
+        Ordering::Less => Some(more.0),
+        Ordering::Greater => Some(less.0),
+        Ordering::Equal => None,
+    });
+    held.collect()
 }

@@ -85,14 +85,44 @@ pub(crate) fn leaning(
             (1 | -1, false, true) => -1.0,
             _ => continue,
         };
-        let largest = open.iter().fold(0.0_f64, |size, d| size.max(d.abs()));
-        let is_large = |d: &f64| d.abs() > 0.999 * largest;
-        if let Some(core) = open.iter().position(is_large) {
+        if let Some(core) = most_open(&open) {
             let toward = if open[core] * aside > 0.0 { Toward::More } else { Toward::Less };
             found.push(Lean { slot: square.slot(core) as SlotIndex, toward });
         }
     }
     found
+}
+
+/// Returns for every block that is at a fork in a state two ways to lean, each with the state that lies that way
+/// a little aside.
+pub(crate) fn asides(
+    plan: &Plan,
+    frame: &Frame,
+    buffers: &mut Buffers,
+    state: &[f64],
+) -> Vec<[(Lean, Vec<f64>); 2]> {
+    let Buffers { work, square: scratch, .. } = buffers;
+    let scales = &frame.scales;
+    let mut found = Vec::new();
+    for square in plan.steps.iter().filter_map(|step| forking(&step.program)) {
+        let Some(open) = square.fork(state, scales, work, scratch) else { continue };
+        let Some(core) = most_open(&open) else { continue };
+        let slot = square.slot(core) as SlotIndex;
+        let mut aside = |toward: Toward| {
+            let by = if (open[core] > 0.0) == (toward == Toward::More) { ASIDE } else { -ASIDE };
+            let mut aside = state.to_vec();
+            square.shift(&mut aside, &open, by, scales, work);
+            (Lean { slot, toward }, aside)
+        };
+        found.push([aside(Toward::More), aside(Toward::Less)]);
+    }
+    found
+}
+
+/// Returns which unknown of a core moves most along an open direction; of several, the first.
+fn most_open(open: &[f64]) -> Option<usize> {
+    let largest = open.iter().fold(0.0_f64, |size, d| size.max(d.abs()));
+    open.iter().position(|d| d.abs() > 0.999 * largest)
 }
 
 /// Returns the equations of a step that may have several solutions.

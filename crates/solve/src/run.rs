@@ -74,6 +74,14 @@ pub fn leaning(plan: &Plan, x0: &[f64], leans: &[Lean], values: &[f64]) -> Vec<L
     fork::leaning(plan, &runner.frame, &mut runner.buffers, leans, values)
 }
 
+/// Returns for every block in which two branches meet in a state two ways to lean, each with the state that lies
+/// that way a little aside: the rules do not hold in it exactly.
+pub fn forks(plan: &Plan, x0: &[f64]) -> Vec<[(Lean, Vec<f64>); 2]> {
+    let mut runner = Runner::new();
+    start(plan, &mut runner, x0, &[]);
+    fork::asides(plan, &runner.frame, &mut runner.buffers, x0)
+}
+
 /// Returns other states that a plan can come to from a state that holds: in each, one step takes another of
 /// its roots, and the rest follows. At `most` so many; steps of more than a dozen unknowns are not asked.
 pub fn others(plan: &Plan, x0: &[f64], most: usize, host: &mut dyn Host) -> Vec<Other> {

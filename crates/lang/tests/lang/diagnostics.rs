@@ -271,6 +271,8 @@ fn hints_name_what_is_near_or_what_there_is() {
     let hint = |text: &str| lower(text).diagnostics[0].hint.clone().unwrap_or_default();
     assert_eq!(hint("use shapes\na: Line\nx: Real = a.lenght"), "did you mean `length`?");
     assert_eq!(hint("use shapes\np: Pont"), "did you mean `Point`?");
+    assert_eq!(hint("p: Boolean"), "did you mean `Bool`?");
+    assert_eq!(hint("p: List of String"), "did you mean `Text`?");
     assert_eq!(hint("a: Resistance = 3 kohn"), "did you mean `kohm`?");
     let all = hint("use shapes\np: Point\nx: Real = p.voltage");
     assert!(all.contains("x, y, distance"), "{all}");
