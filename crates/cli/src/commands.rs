@@ -225,8 +225,9 @@ pub(crate) fn explain(path: &Path, about: Option<&str>, form: Form) -> Result<Re
     };
     let explanation: Explanation = opened.session.explain(opened.id, about.as_ref());
     let held = about.as_ref().and_then(|path| opened.session.held(opened.id, path));
-    let ghosts = about.as_ref().and_then(|path| opened.session.ghosts(opened.id, path).ok());
-    let ghosts = ghosts.unwrap_or_default();
+    let ghosts = about.as_ref().map(|path| opened.session.ghosts(opened.id, path));
+    let leads_somewhere = !matches!(ghosts, Some(Err(_)));
+    let ghosts = ghosts.and_then(Result::ok).unwrap_or_default();
     let mut words = format!("{}\n", explanation.summary);
     for warning in &explanation.warnings {
         let _ = writeln!(words, "warning: {warning}.");
@@ -255,7 +256,7 @@ pub(crate) fn explain(path: &Path, about: Option<&str>, form: Form) -> Result<Re
     json["held"] = json!(held);
     json["ghosts"] = json!(ghosts);
     json["advice"] = json!(advice);
-    Ok(report(form, true, words, &json))
+    Ok(report(form, leads_somewhere, words, &json))
 }
 
 /// Says which classes some parts of a document could be the parts of.
@@ -328,11 +329,19 @@ fn write_advice(words: &mut String, advice: &[Advice]) {
 pub(crate) fn draw(path: &Path, output: Option<&Path>, form: Form) -> Result<Report, OpenError> {
     let opened = open(path)?;
     let svg = opened.session.svg(opened.id);
-    let json = json!({ "path": path, "svg": svg });
-    let Some(output) = output else { return Ok(report(form, true, svg, &json)) };
+    let undrawn = opened.session.undrawn(opened.id);
+    let is_whole = undrawn.is_empty();
+    let json = json!({ "path": path, "svg": svg, "undrawn": undrawn });
+    let why: String =
+        undrawn.iter().map(|why| format!("something is not drawn: {why}\n")).collect();
+    let Some(output) = output else {
+        // what is printed is to be an SVG or nothing
+        let words = if is_whole { svg } else { why };
+        return Ok(report(form, is_whole, words, &json));
+    };
     std::fs::write(output, &svg)
         .map_err(|source| OpenError::Unreadable { path: output.to_path_buf(), source })?;
-    Ok(report(form, true, format!("{}\n", output.display()), &json))
+    Ok(report(form, is_whole, format!("{}\n{why}", output.display()), &json))
 }
 
 /// Lays documents out as the language wants, keeping comments; `write` false only says which would change.

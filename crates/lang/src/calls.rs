@@ -382,8 +382,11 @@ impl Lowerer<'_> {
             return self.constructor(scope, &word, class, args);
         }
         for (class, me) in owners(scope) {
-            // `picture => picture(a, b)`: what takes no arguments leaves the name to the function
-            if !args.is_empty() && !self.takes_arguments(class, &name) {
+            // `picture => picture(a, b)`: what takes no arguments leaves the name to the function, as does
+            // `picture => picture()`, where that takes none as well
+            let count = args.len();
+            let is_asked = builtin::find(builtin::FUNCTIONS, &name).is_some_and(|b| b.takes(count));
+            if (is_asked || count > 0) && !self.takes_arguments(class, &name) {
                 break;
             }
             if self.kind_of_part(class, &name).is_some() {

@@ -216,6 +216,11 @@ impl Session {
     pub fn svg(&self, id: DocumentId) -> String {
         views::picture::svg(&self.picture(id))
     }
+    /// Says why some things have no picture, which is drawn without them; nothing is praise.
+    pub fn undrawn(&self, id: DocumentId) -> Vec<String> {
+        let open = self.document(id);
+        views::picture::undrawn(&open.state, open.values())
+    }
     /// Returns the structure: the picture's accessible twin.
     pub fn structure(&self, id: DocumentId) -> Vec<StructureRow> {
         let open = self.document(id);

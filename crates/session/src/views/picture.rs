@@ -40,6 +40,17 @@ pub(crate) fn picture(state: &State, values: &Values, status: &plan::Status) -> 
     }
 }
 
+/// Says why some things have no picture, each reason once.
+pub(crate) fn undrawn(state: &State, values: &Values) -> Vec<String> {
+    let mut said: Vec<String> = Vec::new();
+    for fault in state.evaluator(values).picture(DOCUMENT).faults {
+        if !said.contains(&fault.message) {
+            said.push(fault.message);
+        }
+    }
+    said
+}
+
 /// Returns the elements of a picture that look otherwise with these values than with those of the state.
 pub(crate) fn changed(state: &State, values: &Values, status: &plan::Status) -> drawing::Drawing {
     let now = picture(state, &state.values, status).drawing;

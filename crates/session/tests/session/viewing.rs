@@ -228,3 +228,20 @@ fn a_document_is_called_what_it_says_of_itself_or_by_its_name() {
     assert_eq!(title("use geometry\n\n/// A bar with a handle.\nclass Handle {}\n"), "a desk");
     assert_eq!(title("/// A bar with a handle.\nclass Handle {}\n"), "a desk");
 }
+
+#[test]
+fn everything_in_the_gallery_is_drawn() {
+    for name in GALLERY {
+        let desk = Desk::of(&gallery(name));
+        assert_eq!(desk.session.undrawn(desk.id), Vec::<String>::new(), "{name}");
+    }
+}
+
+#[test]
+fn a_picture_without_end_is_said_not_to_be_there() {
+    let desk = Desk::of(
+        "class Leaf { size: Real = 3  picture => Leaf(size: size + 1).picture }\nl: Leaf\n",
+    );
+    let said = desk.session.undrawn(desk.id);
+    assert!(matches!(&said[..], [why] if why.starts_with("messages call each other")), "{said:?}");
+}
