@@ -192,11 +192,7 @@ pub(crate) fn mode(state: &State, change: ModeChange) -> Option<ModeView> {
     let instance = state.structure.constraints[index as usize];
     let class = &state.lowered.document.classes[instance.class];
     let declared = &class.constraints[instance.index as usize];
-    let written = words::rule_of(state, index);
-    let rule = written.split_once("constraint").map_or(written.as_str(), |(_, rest)| rest.trim());
-    let named =
-        declared.name.as_deref().and_then(|name| rule.strip_prefix(name)?.strip_prefix(':'));
-    let rule = named.unwrap_or(rule).trim();
+    let rule = &words::rule_alone(state, index);
     let acts = words::acting(state, &constraint, change.acting.kind);
     let message = match (change.acting.kind, change.begins) {
         (ActingKind::AtBound, true) => format!("{acts}: {rule}"),

@@ -28,35 +28,35 @@ pub(crate) fn refusal_of_text(state: &State, diagnostics: &[Diagnostic]) -> Refu
 
 /// Says why an edit was refused, and by which constraints.
 pub(crate) fn refusal_for(state: &State, reason: &RefusalReason, report: &EditReport) -> Refusal {
-    let unmet: Vec<String> = report
-        .unmet
-        .iter()
-        .filter(|u| u.level == solve::Level::Required)
-        .filter_map(|u| source_name(state, u.source))
-        .collect();
-    let mut conflicting: Vec<String> = Vec::new();
+    let required = report.unmet.iter().filter(|u| u.level == solve::Level::Required);
+    let unmet: Vec<Source> = required.map(|u| u.source).collect();
+    let mut conflicting: Vec<Source> = Vec::new();
     for conflict in &report.conflicts {
-        for source in std::iter::once(&conflict.source).chain(&conflict.circuit) {
-            if let Some(name) = source_name(state, *source)
-                && !conflicting.contains(&name)
-            {
-                conflicting.push(name);
+        for &source in std::iter::once(&conflict.source).chain(&conflict.circuit) {
+            if source_name(state, source).is_some() && !conflicting.contains(&source) {
+                conflicting.push(source);
             }
         }
     }
     // What is only downstream of the conflict has no part in it.
-    let mut constraints = if conflicting.is_empty() { unmet.clone() } else { conflicting.clone() };
+    let of = if conflicting.is_empty() { &unmet } else { &conflicting };
+    let mut constraints: Vec<String> =
+        of.iter().filter_map(|&source| source_name(state, source)).collect();
+    let all = |sources: &[Source]| {
+        let said = sources.iter().filter_map(|&source| source_in_words(state, source));
+        listed(&said.collect::<Vec<_>>())
+    };
     let message = match reason {
         RefusalReason::Unmet if conflicting.len() > 1 => {
-            format!("refused: {} would not all hold", listed(&conflicting))
+            format!("refused: {} would not all hold", all(&conflicting))
         }
         RefusalReason::Unmet if conflicting.len() == 1 => {
-            format!("refused: {} would not hold", listed(&conflicting))
+            format!("refused: {} would not hold", all(&conflicting))
         }
         RefusalReason::Unmet if unmet.is_empty() => {
             "refused: what stands fixed does not leave room for this".to_string()
         }
-        RefusalReason::Unmet => format!("refused: {} would not hold", listed(&unmet)),
+        RefusalReason::Unmet => format!("refused: {} would not hold", all(&unmet)),
         RefusalReason::NotDecided(bound) => {
             format!("not decided: no solution was found in {}", given_up(*bound))
         }
@@ -97,8 +97,10 @@ pub(crate) fn given_up(bound: NotDecided) -> String {
 /// do.
 pub(crate) fn refusal_of_status(state: &State, status: &plan::Status) -> Option<Refusal> {
     let unmet = status.unmet.iter().filter(|u| u.level == solve::Level::Required);
-    let constraints: Vec<String> = unmet.filter_map(|u| source_name(state, u.source)).collect();
-    let message = format!("refused: {} would not hold", listed(&constraints));
+    let unmet: Vec<Source> = unmet.map(|u| u.source).collect();
+    let constraints: Vec<String> = unmet.iter().filter_map(|&u| source_name(state, u)).collect();
+    let said: Vec<String> = unmet.iter().filter_map(|&u| source_in_words(state, u)).collect();
+    let message = format!("refused: {} would not hold", listed(&said));
     (!status.satisfied).then(|| Refusal { message, constraints, ..Refusal::default() })
 }
 
@@ -152,14 +154,14 @@ pub(crate) fn what_holds(state: &State, report: &EditReport, acting: &[Acting]) 
     let mut names: Vec<String> = Vec::new();
     for conflict in &report.conflicts {
         let sources = std::iter::once(&conflict.source).chain(&conflict.circuit);
-        for name in sources.filter_map(|s| source_name(state, *s)) {
+        for name in sources.filter_map(|s| source_in_words(state, *s)) {
             if !names.contains(&name) {
                 names.push(name);
             }
         }
     }
     let bounds = acting.iter().filter(|a| a.kind == ActingKind::AtBound);
-    for name in bounds.filter_map(|a| source_name(state, a.source)) {
+    for name in bounds.filter_map(|a| source_in_words(state, a.source)) {
         if !names.contains(&name) {
             names.push(name);
         }
@@ -179,6 +181,30 @@ pub(crate) fn source_name(state: &State, source: Source) -> Option<String> {
         }
         Source::Wish(_) => None,
     }
+}
+
+/// Returns what a reader is told of a constraint: its path; of one without a name what it says as well.
+pub(crate) fn source_in_words(state: &State, source: Source) -> Option<String> {
+    let name = source_name(state, source)?;
+    match source {
+        Source::Constraint(index) => Some(name + &unnamed_rule(state, index)),
+        Source::Stay(_) | Source::Wish(_) => Some(name),
+    }
+}
+
+/// The longest rule that is told with the path of its constraint, in letters.
+const LONGEST_RULE: usize = 48;
+
+/// Returns the rule of a constraint that has no name, in brackets; nothing where it has one, or is long.
+pub(crate) fn unnamed_rule(state: &State, index: u32) -> String {
+    let instance = state.structure.constraints[index as usize];
+    let class = &state.lowered.document.classes[instance.class];
+    if class.constraints[instance.index as usize].name.is_some() {
+        return String::new();
+    }
+    let rule = rule_alone(state, index);
+    let is_short = !rule.is_empty() && rule.chars().count() <= LONGEST_RULE && !rule.contains('\n');
+    if is_short { format!(" ({rule})") } else { String::new() }
 }
 
 /// Returns the path of a constraint: its owner's, and its name.
@@ -204,6 +230,18 @@ pub(crate) fn rule_of(state: &State, index: u32) -> String {
     let written = state.lowered.source_of(class.constraints[instance.index as usize].origin);
     let rule = written.strip_suffix('}').and_then(|w| w.split_once('{')).map(|(rule, _)| rule);
     rule.unwrap_or(&written).trim().to_string()
+}
+
+/// Returns the rule of a constraint as it is written, without its strength, name and methods.
+pub(crate) fn rule_alone(state: &State, index: u32) -> String {
+    let instance = state.structure.constraints[index as usize];
+    let declared =
+        &state.lowered.document.classes[instance.class].constraints[instance.index as usize];
+    let written = rule_of(state, index);
+    let rule = written.split_once("constraint").map_or(written.as_str(), |(_, rest)| rest.trim());
+    let named =
+        declared.name.as_deref().and_then(|name| rule.strip_prefix(name)?.strip_prefix(':'));
+    named.unwrap_or(rule).trim().to_string()
 }
 
 /// Says how a constraint of this name acts in a mode.

@@ -24,7 +24,9 @@ pub(crate) fn view(open: &Open) -> Status {
         format!("{} is a double root: two solutions coincide there", state.slot_path(slot))
     });
     let notes: Vec<String> = double_roots.chain(yielded(state)).collect();
-    let mut message = sentence(satisfied, &unmet, status.freedom, errors);
+    let said: Vec<String> =
+        status.unmet.iter().filter_map(|u| words::source_in_words(state, u.source)).collect();
+    let mut message = sentence(satisfied, &said, status.freedom, errors);
     for note in &notes {
         message = format!("{message}; {note}");
     }
@@ -81,12 +83,12 @@ fn unmet(open: &Open, u: &plan::Unmet) -> Option<Unmet> {
     })
 }
 
-fn sentence(satisfied: bool, unmet: &[Unmet], freedom: usize, errors: usize) -> String {
+fn sentence(satisfied: bool, unmet: &[String], freedom: usize, errors: usize) -> String {
     let holds = match (satisfied, unmet.len()) {
         (true, 0) => "all constraints hold".to_string(),
         (true, 1) => "all required constraints hold, one softer one does not".to_string(),
         (true, n) => format!("all required constraints hold, {n} softer ones do not"),
-        (false, 1) => format!("{} does not hold", unmet[0].constraint),
+        (false, 1) => format!("{} does not hold", unmet[0]),
         (false, n) => format!("{n} constraints do not hold"),
     };
     let free = match freedom {

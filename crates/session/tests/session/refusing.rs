@@ -110,3 +110,16 @@ fn a_reason_that_would_take_long_to_find_is_left_out() {
     );
     assert!(refusal.constraints.is_empty(), "{refusal:?}");
 }
+
+#[test]
+fn a_refusal_says_what_a_rule_without_a_name_says() {
+    let mut desk = Desk::of(
+        "w: Real = 10\nh: Real = 10\nconstraint w * h = 100\nweak constraint h = 10\nconstraint h >= 4\n",
+    );
+    let refusal = desk.set("w", 30.0).expect_err("the height would be less than four");
+    assert_eq!(
+        refusal.message,
+        "refused: 25 is the limit of w; constraint1 (w * h = 100), constraint3 (h >= 4) would not all hold"
+    );
+    assert_eq!(refusal.constraints, ["constraint1", "constraint3"]);
+}
