@@ -259,6 +259,22 @@ impl Term {
             Step::Owner => Self::send(to, "owner"),
         })
     }
+    /// Returns the path that the term reads step by step from `Me`; messages without arguments are steps, too.
+    pub fn path(&self) -> Option<Path> {
+        match self {
+            Self::Me => Some(Path::default()),
+            Self::Owner => Some(Path(vec![Step::Owner])),
+            Self::Send { to, name, arguments, search: None } if arguments.is_empty() => {
+                let step = if *name == "owner" { Step::Owner } else { Step::Part(name.clone()) };
+                Some(to.path()?.then(step))
+            }
+            Self::Index(of, at) => match **at {
+                Self::Number { value, .. } => Some(of.path()?.then(Step::Index(value as u32))),
+                _ => None,
+            },
+            _ => None,
+        }
+    }
     /// Makes the term that reads `name` of `to`.
     pub fn send(to: Self, name: &str) -> Self {
         Self::Send { to: Box::new(to), name: Name::new(name), arguments: Vec::new(), search: None }

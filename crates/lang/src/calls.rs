@@ -430,6 +430,13 @@ impl Lowerer<'_> {
             self.error("abstract-part", scope.file, word.span(), message);
             return None;
         }
+        let names = self.field_names(class);
+        let given = args.iter().enumerate().filter_map(|(i, arg)| {
+            let name = arg.label.as_ref().map(ast::Word::name).or(names.get(i).cloned())?;
+            Some((name, arg.expr.clone()))
+        });
+        let given: Vec<(Name, Expr)> = given.collect();
+        let class = self.class_constructed(scope, class, &given)?;
         let document = &self.document;
         let fields = document.layout(class).into_iter().map(|f| {
             let name = document.field_name(f).clone();
@@ -454,6 +461,14 @@ impl Lowerer<'_> {
         let what = with_article(word.text());
         let arguments = self.bound(scope, &what, &fields, args)?;
         Some((Term::Make { class, arguments }, Kind::of_class(&self.document, class)))
+    }
+}
+
+impl Lowerer<'_> {
+    /// Returns the names of what things of a class are made of, in order.
+    pub(crate) fn field_names(&self, class: ClassId) -> Vec<Name> {
+        let fields = self.document.layout(class).into_iter();
+        fields.map(|f| self.document.field_name(f).clone()).collect()
     }
 }
 

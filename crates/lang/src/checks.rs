@@ -6,8 +6,8 @@
 use crate::lower::{Lowerer, OWN};
 use crate::paths::loose_path;
 use crate::scope::Scope;
-use base::Span;
-use kernel::{Command, Path, Step, Term};
+use base::{Name, Span};
+use kernel::{ClassId, Command, Literal, Path, Step, Term};
 use std::rc::Rc;
 use syntax::SyntaxKind;
 use syntax::ast::{self, AstNode, Member};
@@ -132,7 +132,7 @@ fn lower_check(l: &mut Lowerer<'_>, check: &ast::Check) -> Check {
 }
 
 /// Makes a class for the names that the check's statements see: the document's and its own.
-fn class_of_check(l: &mut Lowerer<'_>, own: &[Member]) -> kernel::ClassId {
+fn class_of_check(l: &mut Lowerer<'_>, own: &[Member]) -> ClassId {
     let root = l.document.root;
     if own.is_empty() {
         return root;
@@ -145,7 +145,7 @@ fn class_of_check(l: &mut Lowerer<'_>, own: &[Member]) -> kernel::ClassId {
 }
 
 /// Returns true for an edit after which other names may be known.
-fn restructures(l: &Lowerer<'_>, class: kernel::ClassId, statement: &StatementKind) -> bool {
+fn restructures(l: &Lowerer<'_>, class: ClassId, statement: &StatementKind) -> bool {
     let is_count = |path: &Path| {
         let Some((Step::Part(name), owner)) = path.0.split_last() else { return false };
         let owner = l.class_at(class, &Path(owner.to_vec()));
@@ -184,7 +184,10 @@ fn is_statement(member: &Member) -> bool {
 fn statement(l: &mut Lowerer<'_>, scope: &Scope, member: &Member) -> Option<StatementKind> {
     let one = |command| Some(StatementKind::Command(command));
     match member {
-        Member::Set(set) => Some(StatementKind::Set(targets(l, scope, set.targets())?)),
+        Member::Set(set) => match set.targets().map(|t| named_in_class(l, scope, &t)).collect() {
+            Some(named) => one(Command::Set(named)),
+            None => Some(StatementKind::Set(targets(l, scope, set.targets())?)),
+        },
         Member::Move(moved) => Some(StatementKind::Move(targets(l, scope, moved.targets())?)),
         Member::Unmerge(u) => one(Command::Unmerge(spoken_of(l, scope, &u.paths().next()?)?)),
         Member::Delete(d) => one(Command::Delete(spoken_of(l, scope, &d.paths().next()?)?)),
@@ -257,12 +260,26 @@ fn targets(
     Some(all)
 }
 
+/// Reads what a part of a prototype is to name: `set Strut.end to Strut.p2`.
+fn named_in_class(
+    l: &mut Lowerer<'_>,
+    scope: &Scope,
+    target: &ast::Target,
+) -> Option<(Path, Literal)> {
+    let (path, named) = (loose_path(&target.path()?)?, loose_path(&target.value()?)?);
+    let [Step::Part(first), before @ .., last] = path.0.as_slice() else { return None };
+    let class = prototype_named(l, scope, first)?;
+    let owner = l.class_at(class, &Path(before.to_vec()))?;
+    l.class_at(class, &Path(named.0.get(1..)?.to_vec()))?;
+    let names_another = l.is_reference(owner, &Path(vec![last.clone()]));
+    (names_another && named.0[0] == path.0[0]).then_some((path, Literal::Path(named)))
+}
+
 /// Lowers a target that begins at a class's prototype: `Strut.p1.x`.
 fn of_prototype(l: &mut Lowerer<'_>, scope: &Scope, target: &ast::Target) -> Option<(Path, Term)> {
     let path = loose_path(&target.path()?)?;
     let [Step::Part(first), before @ .., Step::Part(last)] = path.0.as_slice() else { return None };
-    let is_part = scope.classes.iter().any(|&c| l.kind_of_part(c, first).is_some());
-    let class = l.visible.class(scope.file, first).filter(|_| !is_part)?;
+    let class = prototype_named(l, scope, first)?;
     let kind = match l.kind_of_constraint(class, before, last) {
         Some(kind) => kind,
         None => {
@@ -272,6 +289,12 @@ fn of_prototype(l: &mut Lowerer<'_>, scope: &Scope, target: &ast::Target) -> Opt
     };
     let value = l.expr_of(scope, &target.value()?, &kind)?;
     Some((path.clone(), value))
+}
+
+/// Returns the class whose prototype a name means, where it is no part's.
+fn prototype_named(l: &mut Lowerer<'_>, scope: &Scope, name: &Name) -> Option<ClassId> {
+    let is_part = scope.classes.iter().any(|&c| l.kind_of_part(c, name).is_some());
+    l.visible.class(scope.file, name).filter(|_| !is_part)
 }
 
 fn expectation(l: &mut Lowerer<'_>, scope: &Scope, e: &ast::Expect) -> Option<Expectation> {

@@ -11,7 +11,7 @@ mod outside;
 use crate::lower::{Lowerer, OWN};
 use crate::scope::Scope;
 use base::{Diagnostic, FileId, Name, Place, Span};
-use kernel::{ClassId, ClassKind, Path, Stay, Step, Superclass, Term};
+use kernel::{ClassId, ClassKind, OriginId, Path, Stay, Step, Superclass, Term};
 use std::collections::{BTreeMap, BTreeSet};
 use syntax::ast::{self, AstNode, Expr, Member, TypeShape};
 use syntax::{SyntaxKind, SyntaxNode};
@@ -38,6 +38,8 @@ pub(crate) struct Counts {
     made: BTreeMap<(ClassId, Numbers), ClassId>,
     /// The numbers that each of these has otherwise than its text says.
     others: BTreeMap<ClassId, Numbers>,
+    /// Where each of these was asked for first.
+    asked: BTreeMap<ClassId, Place>,
     /// How many of these each was asked for inside of.
     depth: BTreeMap<ClassId, u32>,
     /// The document's parts to which a count is given from further out, by index.
@@ -66,7 +68,12 @@ impl Lowerer<'_> {
         }
         for (id, _, _) in self.declared.clone() {
             let own = self.counts.given.get(&id).cloned().unwrap_or_default();
-            self.document.classes[id].supers = self.supers_with(id, &own);
+            let supers = self.supers_with(id, &own);
+            let place = self.origins.place(self.document.classes[id].origin);
+            for s in supers.iter().filter(|s| self.counts.others.contains_key(&s.class)) {
+                self.counts.asked.entry(s.class).or_insert(place);
+            }
+            self.document.classes[id].supers = supers;
         }
     }
 
@@ -132,6 +139,18 @@ impl Lowerer<'_> {
         None
     }
 
+    /// Returns the count of a thing that a path names, `t.n`, where lists and loops of its class speak of it.
+    pub(crate) fn count_of_thing(&mut self, scope: &Scope, e: &Expr) -> Option<i64> {
+        if self.counts.spoken.is_empty() {
+            return None;
+        }
+        let path = self.silent_path(scope, e)?;
+        match self.owner_at(scope, &path)? {
+            (owner, Step::Part(name)) => self.counts_of(owner).get(name).copied(),
+            (_, Step::Index(_) | Step::Last | Step::Owner) => None,
+        }
+    }
+
     /// Returns the number that a name stands for in any expression: a variable of `for`, or what counts
     /// parts of the thing or of one around it.
     pub(crate) fn known_number(&self, scope: &Scope, e: &Expr) -> Option<f64> {
@@ -185,19 +204,11 @@ impl Lowerer<'_> {
 
     /// Returns the class that a class is with these numbers for its counts.
     pub(crate) fn class_with(&mut self, class: ClassId, numbers: &Numbers) -> ClassId {
-        let usual = self.counts_of(class);
-        let other = |(name, n): (&Name, &i64)| usual.get(name).is_some_and(|usual| usual != n);
-        let other: Numbers =
-            numbers.iter().filter(|&n| other(n)).map(|(name, &n)| (name.clone(), n)).collect();
-        if other.is_empty() {
-            return class;
-        }
-        let Some((general, file, text)) = self.text_of(class).cloned() else { return class };
-        let before = self.counts.others.get(&class).cloned().unwrap_or_default();
-        let key = (general, before.into_iter().chain(other).collect::<Numbers>());
-        if let Some(&known) = self.counts.made.get(&key) {
+        if let Some(known) = self.known_class_with(class, numbers) {
             return known;
         }
+        let Some((general, file, text)) = self.text_of(class).cloned() else { return class };
+        let key = (general, self.numbers_with(class, numbers));
         if self.counts.made.len() >= MOST_MADE {
             return class;
         }
@@ -217,6 +228,24 @@ impl Lowerer<'_> {
         self.counts.others.insert(made, others);
         self.declared_for_counts.push((made, file, text));
         made
+    }
+
+    /// Returns the class that a class is with these numbers for its counts, if there is one already.
+    pub(crate) fn known_class_with(&self, class: ClassId, numbers: &Numbers) -> Option<ClassId> {
+        let usual = self.counts_of(class);
+        if numbers.iter().all(|(name, n)| usual.get(name).is_none_or(|usual| usual == n)) {
+            return Some(class);
+        }
+        let (general, _, _) = self.text_of(class)?;
+        self.counts.made.get(&(*general, self.numbers_with(class, numbers))).copied()
+    }
+
+    /// Returns what a class has otherwise than its text says, with these numbers for its counts.
+    fn numbers_with(&self, class: ClassId, numbers: &Numbers) -> Numbers {
+        let usual = self.counts_of(class);
+        let other = numbers.iter().filter(|(name, n)| usual.get(*name).is_some_and(|u| u != *n));
+        let before = self.counts.others.get(&class).into_iter().flatten();
+        before.chain(other).map(|(name, &n)| (name.clone(), n)).collect()
     }
 
     /// Returns where a class is declared: one made for other counts, as the class that it generally is.
@@ -259,6 +288,7 @@ impl Lowerer<'_> {
         }
         let usual = self.counts_of(class);
         let mut numbers = Numbers::new();
+        let mut asked = None;
         for member in members {
             let Member::Assign(assign) = member else { continue };
             let Some(name) = own_name(assign).filter(|name| usual.contains_key(name)) else {
@@ -266,7 +296,10 @@ impl Lowerer<'_> {
             };
             let Some(value) = assign.value().and_then(ast::Value::expr) else { continue };
             match self.constant_in_body(scope, class, &value) {
-                Some(n) => numbers.extend([(name, n)]),
+                Some(n) => {
+                    numbers.extend([(name, n)]);
+                    asked = asked.or(Some(Place { file: scope.file, span: assign.span() }));
+                }
                 None => {
                     let message = format!(
                         "{name} says how many parts there are: a whole number, known as the text stands"
@@ -286,8 +319,122 @@ impl Lowerer<'_> {
         let made = self.class_with(class, &numbers);
         if made != class {
             self.counts.depth.entry(made).or_insert(depth);
+            asked.map(|place| self.counts.asked.entry(made).or_insert(place));
         }
         made
+    }
+
+    /// Returns the class that a part is of that is given a new thing, `q: Ring = Ring(n: 4)`: with the counts and
+    /// the lists that the thing has.
+    pub(crate) fn class_for_call(
+        &mut self,
+        scope: &Scope,
+        name: &Name,
+        class: ClassId,
+        call: &ast::CallExpr,
+        origin: OriginId,
+    ) -> ClassId {
+        let is_new =
+            call.name().is_some_and(|w| self.visible.class(scope.file, &w.name()).is_some());
+        let args: Vec<ast::Arg> = call.args().into_iter().flat_map(|a| a.args()).collect();
+        if !is_new || args.is_empty() {
+            return class;
+        }
+        let usual = self.counts_of(class);
+        let (mut numbers, mut lists) = (Numbers::new(), Vec::new());
+        let names = self.names_in_text(class);
+        for (i, arg) in args.iter().enumerate() {
+            let label = arg.label().map(|w| w.name()).or(names.get(i).cloned());
+            let (Some(label), Some(value)) = (label, arg.value()) else { continue };
+            match &value {
+                Expr::List(list) => {
+                    let count = list.elements().count() as u32;
+                    match self.is_looped(class, &label) {
+                        true => lists.push((label, count)),
+                        false => {
+                            let key = (scope.class(), name.clone(), label);
+                            self.given_in_bodies.insert(key, count);
+                        }
+                    }
+                }
+                _ if usual.contains_key(&label) => {
+                    numbers.extend(self.constant(scope, &value).map(|n| (label, n)));
+                }
+                _ => {}
+            }
+        }
+        let made = self.class_with(class, &numbers);
+        if made != class {
+            let place = Place { file: scope.file, span: call.span() };
+            self.counts.asked.entry(made).or_insert(place);
+        }
+        if lists.is_empty() {
+            return made;
+        }
+        let one = self.class_of_one(scope, name, made, origin);
+        self.given_counts.extend(lists.into_iter().map(|(list, count)| ((one, list), count)));
+        one
+    }
+
+    /// Returns the names of what a class's things are made of as far as they are known before all parts are
+    /// declared: not of a class with several superclasses.
+    fn names_in_text(&self, class: ClassId) -> Vec<Name> {
+        let line = self.document.primary_line(class);
+        if line.iter().any(|&c| self.document.classes[c].supers.len() > 1) {
+            return Vec::new();
+        }
+        let bodies = line.iter().rev().filter_map(|&c| self.text_of(c)?.2.body());
+        let parts = bodies.flat_map(|body| body.members()).filter_map(|m| match m {
+            Member::Part(part) if part.definition().is_none() => Some(part),
+            _ => None,
+        });
+        parts.flat_map(|part| part.names().map(|w| w.name()).collect::<Vec<_>>()).collect()
+    }
+
+    /// Returns the class of the thing that a constructor makes: with the counts that it is given. Reports one
+    /// that no thing has been declared with.
+    pub(crate) fn class_constructed(
+        &mut self,
+        scope: &Scope,
+        class: ClassId,
+        given: &[(Name, Expr)],
+    ) -> Option<ClassId> {
+        let mut numbers = Numbers::new();
+        let is_count = |l: &Self, name: &Name| l.document.count(class, name).is_some();
+        for (name, value) in given {
+            if !is_count(self, name) {
+                continue;
+            }
+            let Some(n) = self.constant(scope, value) else {
+                let message = format!(
+                    "{name} says how many parts there are: a whole number, known as the text stands"
+                );
+                self.error("not-a-count", scope.file, value.span(), message);
+                return None;
+            };
+            numbers.extend([(name.clone(), n)]);
+        }
+        let known = self.known_class_with(class, &numbers);
+        if known.is_none() {
+            let what = self.document.classes[self.document.named_class(class)].name.clone();
+            let others = numbers.iter().filter_map(|(name, n)| {
+                let is = self.document.count(class, name).filter(|is| is != n)?;
+                Some((name, is, n))
+            });
+            let others: Vec<(&Name, i64, &i64)> = others.collect();
+            let is: Vec<String> =
+                others.iter().map(|(name, is, _)| format!("{name} = {is}")).collect();
+            let says: Vec<String> =
+                others.iter().map(|(name, _, n)| format!("{name} = {n}")).collect();
+            let (is, says) = (is.join(", "), says.join("  "));
+            let span = given.first().map_or_else(Span::default, |(_, value)| value.span());
+            let message = format!("a new {what} has {is}, and as many parts as that says");
+            let d = Diagnostic::error("not-a-count", Place { file: scope.file, span }, message);
+            let hint =
+                format!("declare a class that has others: `class Other is {what} {{ {says} }}`");
+            self.report(d.hint(hint));
+        }
+        known
     }
 
     /// Returns the whole number that a value in the body of a part is, known as the text stands: it may speak
@@ -316,6 +463,23 @@ impl Lowerer<'_> {
         counts.filter_map(apart).next()
     }
 
+    /// Says how a thing is declared that has something of its own from the beginning.
+    pub(crate) fn said_where_declared(&self, thing: &Path, class: ClassId, says: &str) -> String {
+        let what = &self.document.classes[self.document.named_class(class)].name;
+        match thing.0.last() {
+            Some(Step::Part(thing)) => {
+                format!("say it where {thing} is declared: `{thing}: {what} {{ {says} }}`")
+            }
+            _ => format!("say it where its thing is declared: `{what} {{ {says} }}`"),
+        }
+    }
+
+    /// Returns where things of a class were asked to have other counts than their class says.
+    pub(crate) fn asked_at(&self, class: ClassId) -> Option<Place> {
+        let line = self.document.primary_line(class);
+        line.iter().find_map(|c| self.counts.asked.get(c).copied())
+    }
+
     /// Reports a number for a count that differs from the one that the thing was made with.
     pub(crate) fn other_count(
         &mut self,
@@ -342,14 +506,9 @@ impl Lowerer<'_> {
             return true;
         }
         let message = format!("{path} says how many parts there are, and is {is} here");
-        let what = &self.document.classes[self.document.named_class(class)].name;
         let given = self.files[scope.file].text.get(value.span().range()).unwrap_or_default();
-        let hint = match owner.last() {
-            Some(Step::Part(owner)) => format!(
-                "say it where {owner} is declared: `{owner}: {what} {{ {name} = {given} }}`"
-            ),
-            _ => format!("say it where its thing is declared: `{what} {{ {name} = {given} }}`"),
-        };
+        let hint =
+            self.said_where_declared(&Path(owner.to_vec()), class, &format!("{name} = {given}"));
         self.report(Diagnostic::error("not-a-count", place, message).hint(hint));
         true
     }

@@ -253,12 +253,22 @@ impl Text<'_> {
             let lineage = document.lineage(class);
             lineage.into_iter().find(|&c| document.classes[c].parts.iter().any(|p| p.name == *name))
         });
-        let by = declares.map(|class| document.classes[class].name.clone());
-        let message = match by.filter(|name| !name.is_empty()) {
-            Some(class) => format!("{path} is declared by {class}, not by the document"),
-            None => format!("{path} is not the document's own to change"),
+        let by = declares.map(|class| &document.classes[class]).filter(|c| !c.name.is_empty());
+        let (Some(by), Some(last)) = (by, path.0.last()) else {
+            let message = format!("{path} is not the document's own to change");
+            return refused("of-a-class", message).hint("edit the class, or the thing as a whole");
         };
-        refused("of-a-class", message).hint("edit the class, or the thing as a whole")
+        let class = &by.name;
+        let message = format!("{path} is declared by {class}, not by the document");
+        let file = &self.lowered.files[self.lowered.origins.place(by.origin).file].name;
+        let hint = match (by.is_of_one, file.is_empty()) {
+            (true, _) => format!("change it in {class}"),
+            (false, true) => {
+                format!("say it of {class}.{}, for every {class}", Path(vec![last.clone()]))
+            }
+            (false, false) => format!("change it in {file}, for every {class}"),
+        };
+        refused("of-a-class", message).hint(format!("{hint}; or change the thing as a whole"))
     }
 }
 

@@ -4,7 +4,7 @@ use crate::lower::{Lowerer, OWN};
 use crate::scope::Scope;
 use base::{Diagnostic, FileId, Place};
 use expr::dimension::Dimension;
-use kernel::{ClassId, OriginId, Part, Vertical};
+use kernel::{ClassId, OriginId, Part, Step, Vertical};
 use std::rc::Rc;
 use syntax::ast::{self, AstNode, Member};
 use syntax::{Parse, SyntaxKind, SyntaxToken};
@@ -125,6 +125,9 @@ impl Lowerer<'_> {
                 continue;
             }
             let origin = self.origin(file, path.span());
+            let around = self.file_things.get(&file).cloned().unwrap_or_default();
+            let things = around.then(Step::Part(last.name()));
+            self.file_things.entry(found).or_insert(things);
             if let Some(things) = self.class_of_file(found, origin) {
                 let doc = String::new();
                 let part = Part {

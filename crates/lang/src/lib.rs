@@ -31,6 +31,7 @@ mod files;
 mod kept;
 mod kin;
 mod kinds;
+mod lengths;
 mod loops;
 mod lower;
 mod members;

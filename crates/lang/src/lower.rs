@@ -23,7 +23,7 @@ use crate::switches::PendingSwitch;
 use crate::visible::Visible;
 use base::{Diagnostic, FileId, IdVec, Mixer, Name, Place, Severity, Span};
 use indexmap::IndexMap;
-use kernel::{ClassId, Document, Fault, OriginId, PartRef, Search, Vertical};
+use kernel::{ClassId, Document, Fault, OriginId, PartRef, Path, Search, Vertical};
 use std::collections::{BTreeMap, BTreeSet};
 use std::hash::BuildHasherDefault;
 use std::rc::Rc;
@@ -150,6 +150,8 @@ pub(crate) struct Lowerer<'l> {
     pub(crate) reading: Vec<FileId>,
     /// The files whose things are being declared, each in the one before it.
     pub(crate) using: Vec<FileId>,
+    /// Where the document has the things of what it uses.
+    pub(crate) file_things: BTreeMap<FileId, Path>,
     /// Files after those that they use; the document last.
     pub(crate) order: Vec<FileId>,
     pub(crate) document: Document,
@@ -169,6 +171,8 @@ pub(crate) struct Lowerer<'l> {
     pub(crate) parts: ByName<usize>,
     /// How many elements the value of a list has that is declared without a count.
     pub(crate) given_counts: BTreeMap<(ClassId, Name), u32>,
+    /// The same of lists that the body of a part gives, by the class that has the part, the part and the list.
+    pub(crate) given_in_bodies: BTreeMap<(ClassId, Name, Name), u32>,
     /// Lists that loops declare, in classes that take more turns than where they are declared.
     pub(crate) longer: Vec<(ClassId, PartRef, ClassId)>,
     /// Every message that a class defines, by its name: the index of the last among its messages.
@@ -230,6 +234,7 @@ impl<'l> Lowerer<'l> {
             files: IdVec::new(),
             reading: Vec::new(),
             using: Vec::new(),
+            file_things: BTreeMap::new(),
             order: Vec::new(),
             document: Document {
                 classes: IdVec::new(),
@@ -256,6 +261,7 @@ impl<'l> Lowerer<'l> {
             broken: BTreeSet::new(),
             named_at: ByName::default(),
             given_counts: BTreeMap::new(),
+            given_in_bodies: BTreeMap::new(),
             longer: Vec::new(),
             rule_names: BTreeSet::new(),
             masks: Vec::new(),

@@ -199,12 +199,16 @@ impl Lowerer<'_> {
         crate::numbers::constant(&|e| known.get(&e.span()).copied(), expr)
     }
 
-    /// Returns how many elements a list has, where `list.count` says so and that is known.
+    /// Returns how many elements a list has, where `list.count` says so and that is known, or the count of
+    /// another thing, `t.n`.
     pub(crate) fn constant_count(&mut self, scope: &Scope, e: &Expr) -> Option<i64> {
         let Expr::Field(field) = e else { return None };
         let is_count = field.args().is_none() && field.name()?.text() == "count";
-        let list = field.receiver().filter(|_| is_count)?;
-        self.length_of(scope, &list).map(i64::from)
+        let length = match field.receiver().filter(|_| is_count) {
+            Some(list) => self.length_of(scope, &list).map(i64::from),
+            None => None,
+        };
+        length.or_else(|| self.count_of_thing(scope, e))
     }
 
     fn declare_part(&mut self, scope: &Scope, part: &ast::Part) {
@@ -227,6 +231,10 @@ impl Lowerer<'_> {
             let span = span_without_doc(part.syntax());
             let origin = self.origin(scope.file, span);
             let name = word.name();
+            let class = match part.value().and_then(ast::Value::expr) {
+                Some(Expr::Call(call)) => self.class_for_call(scope, &name, class, &call, origin),
+                _ => class,
+            };
             let class = match &of_elements {
                 // a class may have things of itself with other counts, down to none
                 Some(_) if count == Some(Count::Fixed(0)) && has_named_count(part) => class,
@@ -319,6 +327,12 @@ impl Lowerer<'_> {
         };
         let is_looped = members.iter().filter_map(gives).any(|name| self.is_looped(class, &name));
         if let Some(values) = values_alone(&members).filter(|_| !is_looped) {
+            for (list, count) in members.iter().filter_map(|m| match m {
+                Member::Assign(assign) => given_list(assign),
+                _ => None,
+            }) {
+                self.given_in_bodies.insert((scope.class(), name.clone(), list), count);
+            }
             for (target, value) in values {
                 let prefix = vec![Step::Part(name.clone())];
                 let scope = scope.clone();
@@ -354,7 +368,7 @@ impl Lowerer<'_> {
         self.class_made_of("List of", ClassKind::List(one), one)
     }
 
-    fn class_of_one(
+    pub(crate) fn class_of_one(
         &mut self,
         scope: &Scope,
         name: &Name,

@@ -29,7 +29,7 @@ impl Lowerer<'_> {
                     return None;
                 };
                 let count = self.count_at(scope, &path);
-                let i = self.element_index(scope, i, at.span(), count)?;
+                let i = self.element_index(scope, i, &at, (&receiver, count))?;
                 let element = match class {
                     Some(list) => Some(self.element_at(list, i).or_else(|| {
                         let what = Kind::of_class(&self.document, list).words(&self.document);
@@ -133,13 +133,13 @@ impl Lowerer<'_> {
     }
 
     /// Returns the class of one element of a list.
-    fn element_at(&self, list: ClassId, i: u32) -> Option<ClassId> {
+    pub(crate) fn element_at(&self, list: ClassId, i: u32) -> Option<ClassId> {
         let own = self.document.classes[list].elements.get(i as usize);
         own.map(|&c| referred(&self.document, c)).or_else(|| self.element(list))
     }
 
     /// Returns the path that an expression is, if it is one; what is wrong with it is said elsewhere.
-    fn silent_path(&mut self, scope: &Scope, e: &Expr) -> Option<Path> {
+    pub(crate) fn silent_path(&mut self, scope: &Scope, e: &Expr) -> Option<Path> {
         let mut names = e.syntax().descendants().filter_map(ast::NameExpr::cast);
         if names.any(|n| n.name().is_some_and(|w| scope.local(w.text()).is_some())) {
             return None;
@@ -156,6 +156,12 @@ impl Lowerer<'_> {
         self.count_at(scope, &path)
     }
 
+    /// Returns the class of what has a list.
+    pub(crate) fn owner_of(&mut self, scope: &Scope, list: &Expr) -> Option<ClassId> {
+        let path = self.silent_path(scope, list)?;
+        self.owner_at(scope, &path).map(|(owner, _)| owner)
+    }
+
     /// Returns how many elements a list has: as its declaration tells, or what it is given.
     pub(crate) fn length_of(&mut self, scope: &Scope, list: &Expr) -> Option<u32> {
         let path = self.silent_path(scope, list)?;
@@ -165,10 +171,22 @@ impl Lowerer<'_> {
     /// Returns how many elements the list at a path has: as its declaration tells, or what it is given.
     pub(crate) fn length_at(&self, scope: &Scope, path: &Path) -> Option<u32> {
         let given = || match self.owner_at(scope, path)? {
-            (owner, Step::Part(name)) => self.given_count(owner, name),
+            (owner, Step::Part(name)) => {
+                self.given_by_body(scope, path).or_else(|| self.given_count(owner, name))
+            }
             (_, Step::Index(_) | Step::Last | Step::Owner) => None,
         };
         self.count_at(scope, path).or_else(given)
+    }
+
+    /// Returns how many elements a list is given by the body of the part that has it.
+    fn given_by_body(&self, scope: &Scope, path: &Path) -> Option<u32> {
+        let (Step::Part(list), part) = path.0.split_last()? else { return None };
+        let part = Path(part.to_vec());
+        let (class, Step::Part(part)) = self.owner_at(scope, &part)? else { return None };
+        let line = self.document.primary_line(class);
+        let given = |c: ClassId| self.given_in_bodies.get(&(c, part.clone(), list.clone()));
+        line.into_iter().find_map(given).copied()
     }
 
     /// Returns how many elements the list at a path always has, if its declaration tells.
@@ -185,7 +203,11 @@ impl Lowerer<'_> {
     }
 
     /// Returns the class of what owns the thing at a path, and the last step to it.
-    fn owner_at<'p>(&self, scope: &Scope, path: &'p Path) -> Option<(ClassId, &'p Step)> {
+    pub(crate) fn owner_at<'p>(
+        &self,
+        scope: &Scope,
+        path: &'p Path,
+    ) -> Option<(ClassId, &'p Step)> {
         let outwards = path.0.iter().take_while(|step| **step == Step::Owner).count();
         let class = *scope.classes.get(outwards)?;
         let (step, owner) = path.0[outwards..].split_last()?;
@@ -210,6 +232,31 @@ impl Lowerer<'_> {
         match self.document.classes[c].parts[part].count? {
             Count::Fixed(n) => Some(n),
             Count::Given => None,
+        }
+    }
+}
+
+impl Lowerer<'_> {
+    /// Reads a path without looking where it leads; where it speaks of elements that a `for` goes through,
+    /// and by numbers known here, these are what it says.
+    pub(crate) fn written_path(&mut self, scope: &Scope, expr: &Expr) -> Option<Path> {
+        match expr {
+            Expr::Name(name) => match scope.element(&name.name()?.name()) {
+                Some(element) => Some(scope.path_to(element)),
+                None => loose_path(expr),
+            },
+            Expr::Field(field) if field.args().is_none() => {
+                let name = field.name()?.name();
+                let step = if name == "last" { Step::Last } else { Step::Part(name) };
+                Some(self.written_path(scope, &field.receiver()?)?.then(step))
+            }
+            Expr::Index(index) => {
+                let i = self.constant(scope, &index.index()?)?;
+                let list = self.written_path(scope, &index.receiver()?)?;
+                Some(list.then(Step::Index(u32::try_from(i).ok()?)))
+            }
+            Expr::Paren(inner) => self.written_path(scope, &inner.inner()?),
+            other => loose_path(other),
         }
     }
 }

@@ -5,7 +5,6 @@
 //! mask or a modification concerns a part, a class of one for that part, in that class alone.
 
 use crate::lower::Lowerer;
-use crate::paths::loose_path;
 use crate::rules::{Heading, Mask, Written};
 use crate::scope::Scope;
 use base::diagnostic::nearest;
@@ -21,8 +20,33 @@ use syntax::ast::{self, AstNode};
 pub(crate) struct Refinement {
     /// The classes of the bodies of `modify`.
     bodies: Vec<ClassId>,
-    /// The parts on the way, and the name of the constraint or merge.
-    masks: Vec<(Vec<Name>, Name)>,
+    /// The parts on the way, and elements of lists, and the name of the constraint or merge.
+    masks: Vec<(Vec<Step>, Name)>,
+}
+
+impl Refinement {
+    /// Returns what is said of a part.
+    fn below(&self, part: &Step) -> Self {
+        let below = |(way, mask): &(Vec<Step>, Name)| {
+            let (first, rest) = way.split_first()?;
+            (first == part).then(|| (rest.to_vec(), mask.clone()))
+        };
+        Self { bodies: self.bodies.clone(), masks: self.masks.iter().filter_map(below).collect() }
+    }
+
+    /// Returns what is said of an element of a list: what is said of it alone, and of all.
+    fn of_element(&self, i: u32) -> Self {
+        let of_all =
+            self.masks.iter().filter(|(way, _)| !matches!(way.first(), Some(Step::Index(_))));
+        let mut of_element = self.below(&Step::Index(i));
+        of_element.masks.extend(of_all.cloned());
+        of_element
+    }
+
+    /// Returns true if something is said of one element of a list alone.
+    fn tells_elements_apart(&self) -> bool {
+        self.masks.iter().any(|(way, _)| matches!(way.first(), Some(Step::Index(_))))
+    }
 }
 
 /// The classes of one made so far.
@@ -80,7 +104,7 @@ impl Lowerer<'_> {
 
     /// Carries out masks, replacements and modifications, once everything is defined.
     pub(crate) fn refine_parts(&mut self) {
-        let mut masks: BTreeMap<ClassId, Vec<(Vec<Name>, Name)>> = BTreeMap::new();
+        let mut masks: BTreeMap<ClassId, Vec<(Vec<Step>, Name)>> = BTreeMap::new();
         for (scope, replace, origin) in std::mem::take(&mut self.replacements) {
             self.replace(&scope, &replace, origin);
         }
@@ -140,17 +164,13 @@ impl Lowerer<'_> {
     ) -> Vec<(PartRef, ClassId)> {
         let mut refined = Vec::new();
         for field in self.document.layout(class) {
-            let name = self.document.field_name(field);
-            let below = |(way, mask): &(Vec<Name>, Name)| {
-                let (first, rest) = way.split_first()?;
-                (first == name).then(|| (rest.to_vec(), mask.clone()))
-            };
-            let of_field = Refinement {
-                bodies: refinement.bodies.clone(),
-                masks: refinement.masks.iter().filter_map(below).collect(),
-            };
+            let name = self.document.field_name(field).clone();
+            let of_field = refinement.below(&Step::Part(name.clone()));
             let declared = self.longest(class, field);
-            if let Some(narrower) = self.narrower(declared, &of_field, made) {
+            let count =
+                || self.count_of_part(class, &name).or_else(|| self.given_count(class, &name));
+            let count = if of_field.tells_elements_apart() { count() } else { None };
+            if let Some(narrower) = self.narrower(declared, count, &of_field, made) {
                 refined.push((field, narrower));
             }
         }
@@ -162,33 +182,47 @@ impl Lowerer<'_> {
     fn narrower_of_own(
         &mut self,
         list: ClassId,
+        elements: &[ClassId],
         refinement: &Refinement,
         made: &mut Made,
     ) -> Option<ClassId> {
-        let mut own = self.document.classes[list].clone();
-        let mut any = false;
-        for class in &mut own.elements {
-            if let Some(narrower) = self.narrower(*class, refinement, made) {
-                (*class, any) = (narrower, true);
+        let mut narrowed = elements.to_vec();
+        for (i, class) in (0..).zip(&mut narrowed) {
+            let of_element = refinement.of_element(i);
+            let count = self.document.classes[*class].count;
+            if let Some(narrower) = self.narrower(*class, count, &of_element, made) {
+                *class = narrower;
             }
         }
-        any.then(|| self.document.classes.push(own))
+        let own = self.document.classes[list].clone();
+        let count = Some(narrowed.len() as u32);
+        let is_other = narrowed != elements;
+        is_other.then(|| self.document.classes.push(Class { count, elements: narrowed, ..own }))
     }
 
-    /// Returns the class of one that a part of a class gets; none where nothing concerns it.
+    /// Returns the class of one that a part of a class gets; none where nothing concerns it. `count` is how
+    /// many elements it has, where it is a list and that is needed.
     fn narrower(
         &mut self,
         class: ClassId,
+        count: Option<u32>,
         refinement: &Refinement,
         made: &mut Made,
     ) -> Option<ClassId> {
         match self.document.classes[class].kind {
             ClassKind::Primitive(_) | ClassKind::Set(_) | ClassKind::Reference(_) => return None,
             ClassKind::List(_) if !self.document.classes[class].elements.is_empty() => {
-                return self.narrower_of_own(class, refinement, made);
+                let elements = self.document.classes[class].elements.clone();
+                return self.narrower_of_own(class, &elements, refinement, made);
+            }
+            ClassKind::List(element) if refinement.tells_elements_apart() => {
+                let count = self.document.classes[class].count.or(count)?;
+                let elements = vec![element; count as usize];
+                return self.narrower_of_own(class, &elements, refinement, made);
             }
             ClassKind::List(element) => {
-                let element = self.narrower(element, refinement, made)?;
+                let within = self.document.classes[element].count;
+                let element = self.narrower(element, within, refinement, made)?;
                 return Some(match self.document.classes[class].count {
                     Some(count) => self.counted(element, count),
                     None => self.class_made_of("List of", ClassKind::List(element), element),
@@ -307,12 +341,11 @@ impl Lowerer<'_> {
     /// Puts another rule in the place of an inherited one: its name and strength stay.
     fn replace(&mut self, scope: &Scope, replace: &ast::Replace, origin: OriginId) {
         let (Some(target), Some(rule)) = (replace.target(), replace.rule()) else { return };
-        let Some(path) = loose_path(&target) else { return };
+        let Some(path) = self.written_path(scope, &target) else { return };
         let place = Place { file: scope.file, span: target.span() };
         let mask = Mask { class: scope.class(), path, place };
         let Some((way, name)) = self.masked(&mask) else { return };
-        let path = Path(way.into_iter().map(Step::Part).collect());
-        let Some(class) = self.class_at(mask.class, &path) else { return };
+        let Some(class) = self.class_at(mask.class, &Path(way)) else { return };
         let above = self.document.primary_line(class);
         let said = above.iter().flat_map(|&c| self.with_bodies(c)).collect::<Vec<_>>();
         let rules = said.iter().flat_map(|&c| &self.document.classes[c].constraints);
@@ -331,17 +364,31 @@ impl Lowerer<'_> {
     ///
     /// A bare name means what the primary line says or, where that says nothing of the name, the one
     /// other superclass that does.
-    fn masked(&mut self, mask: &Mask) -> Option<(Vec<Name>, Name)> {
+    fn masked(&mut self, mask: &Mask) -> Option<(Vec<Step>, Name)> {
         let Mask { class, path, place } = mask;
         let (Step::Part(name), before) = path.0.split_last()? else { return None };
         let mut way = Vec::new();
         let mut at = *class;
+        // how many elements what was reached has, if it is a list
+        let mut count = None;
         for step in before {
-            let Step::Part(part) = step else {
-                let message = format!("{path} is no constraint of a part");
-                self.report(Diagnostic::error("unknown-name", *place, message));
-                return None;
+            let part = match step {
+                Step::Part(part) => part,
+                Step::Index(_) | Step::Last => {
+                    let (i, element) = self.masked_element(at, count, step, mask)?;
+                    way.push(Step::Index(i));
+                    count = self.document.classes[element].count;
+                    at = element;
+                    continue;
+                }
+                Step::Owner => {
+                    let message = format!("{path} is no constraint of a part");
+                    self.report(Diagnostic::error("unknown-name", *place, message));
+                    return None;
+                }
             };
+            // what is said of a list's parts is said of every element
+            at = self.innermost(at);
             if self.is_primary_name(at, part) {
                 continue;
             }
@@ -350,16 +397,17 @@ impl Lowerer<'_> {
                 self.report(Diagnostic::error("unknown-name", *place, message));
                 return None;
             };
-            way.push(part.clone());
-            // what is said of a list's parts is said of every element
-            at = std::iter::successors(Some(next), |&list| self.element(list)).last()?;
+            way.push(Step::Part(part.clone()));
+            count = self.count_of_part(at, part).or_else(|| self.given_count(at, part));
+            at = next;
         }
+        let at = self.innermost(at);
         let start = place.span.end.saturating_sub(name.len() as u32);
         let word = Place { file: place.file, span: Span::new(start, place.span.end) };
         self.refer(word, name, at);
         let mut ways = self.ways_to_rule(at, name, *class);
         if ways.len() == 1 || ways.first().is_some_and(Vec::is_empty) {
-            way.append(&mut ways[0]);
+            way.extend(ways.swap_remove(0).into_iter().map(Step::Part));
             return Some((way, name.clone()));
         }
         if let [first, second, ..] = &ways[..] {
@@ -384,6 +432,37 @@ impl Lowerer<'_> {
         }
         self.report(d);
         None
+    }
+
+    /// Finds the element of a list that a mask names, and its class; reports one that is not there.
+    fn masked_element(
+        &mut self,
+        list: ClassId,
+        count: Option<u32>,
+        step: &Step,
+        mask: &Mask,
+    ) -> Option<(u32, ClassId)> {
+        let i = match step {
+            Step::Index(i) => Some(*i),
+            Step::Last | Step::Part(_) | Step::Owner => count.and_then(|n| n.checked_sub(1)),
+        };
+        let found = i.filter(|i| count.is_some_and(|n| i < &n));
+        let element = found.and_then(|i| Some((i, self.element_at(list, i)?)));
+        if element.is_none() {
+            let message = match count {
+                Some(n) => format!("{} names an element of a list of {n}", mask.path),
+                None => format!("{} names an element of a list of none", mask.path),
+            };
+            let d = Diagnostic::error("index", mask.place, message);
+            self.report(d.hint("without an index it is said of every element"));
+        }
+        element
+    }
+
+    /// Returns the class of the elements of a list, those of lists in it; any other class is returned.
+    fn innermost(&self, class: ClassId) -> ClassId {
+        let elements = std::iter::successors(Some(class), |&list| self.element(list));
+        elements.last().unwrap_or(class)
     }
 
     /// Returns true if a name is that of a primary superclass, by which a thing reaches itself.

@@ -3,7 +3,6 @@
 use crate::kinds::{Kind, measured};
 use crate::lower::Lowerer;
 use crate::members::{Definition, Pending};
-use crate::paths::loose_path;
 use crate::scope::Scope;
 use crate::terms::code_for;
 use crate::trails::Trails;
@@ -145,6 +144,15 @@ impl Lowerer<'_> {
             self.leads_nowhere(before);
         }
         let Some((term, kind)) = found else { return };
+        if let (Kind::Thing(given), Some(wanted)) = (&kind, class)
+            && let Some((name, is, other)) = self.counts_apart(wanted, *given)
+        {
+            let message = format!("{path} has {name} = {is}, and is given a thing with {other}");
+            let place = Place { file: scope.file, span: value.span() };
+            let d = Diagnostic::error("not-a-count", place, message);
+            let hint = self.said_where_declared(&path, wanted, &format!("{name} = {other}"));
+            return self.report(d.hint(hint));
+        }
         if !kind.fits(&wanted, &self.document) {
             let (is, given) = (wanted.words(&self.document), kind.words(&self.document));
             let message = format!("{path} is {is}, and is given {given}");
@@ -155,11 +163,8 @@ impl Lowerer<'_> {
                 None => d,
             });
         }
-        if let (Kind::Thing(given), Some(wanted)) = (&kind, class)
-            && let Some((name, is, other)) = self.counts_apart(wanted, *given)
-        {
-            let message = format!("{path} has {name} = {is}, and is given a thing with {other}");
-            return self.error("not-a-count", scope.file, value.span(), message);
+        if class.is_some_and(|class| self.loses_elements(scope, &path, class, value)) {
+            return;
         }
         self.refer_by_position(scope.file, value, &wanted);
         let term = measured(&self.document, term, &kind, &wanted);
@@ -176,11 +181,15 @@ impl Lowerer<'_> {
         }));
     }
 
-    /// Gives a reference the path that it follows from the document.
+    /// Gives a reference the path that it follows from the document: from the one whose text says it, where that
+    /// has what is named, else from the one that uses it.
     fn define_absolute(&mut self, scope: &Scope, path: Path, target: &Expr) {
         let root = Scope::of(scope.file, self.document.root);
         let before = self.diagnostics.len();
-        let found = self.expr(&root, target);
+        let (found, document) = match self.in_own_document(scope, target) {
+            Some((found, document)) => (Some(found), document),
+            None => (self.expr(&root, target), Term::Document),
+        };
         self.leads_nowhere(before);
         let Some((term, kind)) = found else { return };
         let class = self.class_at(scope.class(), &path);
@@ -189,11 +198,23 @@ impl Lowerer<'_> {
             return self.wrong_kind(scope, target.span(), &kind, &wanted);
         }
         let origin = self.origin(scope.file, target.span());
-        let value = from_document(term);
+        let value = from_document(term, &document);
         self.document.classes[scope.class()].givens.push(Rc::new(Given { path, value, origin }));
     }
 
-    fn is_reference(&self, class: ClassId, path: &Path) -> bool {
+    /// Lowers what an absolute reference names among the things of its own text, where a document uses these;
+    /// returns the document that it leads from, too.
+    fn in_own_document(&mut self, scope: &Scope, target: &Expr) -> Option<((Term, Kind), Term)> {
+        let things = self.file_things.get(&scope.file)?.clone();
+        let class = self.class_at(self.document.root, &things)?;
+        self.silent += 1;
+        let found = self.expr(&Scope::of(scope.file, class), target);
+        self.silent -= 1;
+        Some((found?, Term::at(Term::Document, &things)))
+    }
+
+    /// Returns true for the path of a part that names another.
+    pub(crate) fn is_reference(&self, class: ClassId, path: &Path) -> bool {
         let [Step::Part(name)] = path.0.as_slice() else { return false };
         let line = self.document.primary_line(class);
         let own = line.into_iter().find_map(|c| {
@@ -307,8 +328,12 @@ impl Lowerer<'_> {
             Member::Insert(insert) => self.define_insert(scope, insert, origin),
             Member::Without(without) => {
                 for e in without.paths() {
-                    let Some(path) = loose_path(&e) else { continue };
                     let place = Place { file: scope.file, span: e.span() };
+                    let Some(path) = self.written_path(scope, &e) else {
+                        let message = "the path of a constraint or merge is wanted: `a.level`";
+                        self.report(Diagnostic::error("not-a-path", place, message));
+                        continue;
+                    };
                     self.masks.push(Mask { class, path, place });
                 }
             }
@@ -452,7 +477,7 @@ impl Lowerer<'_> {
                 let (term, kind) = self.expr(scope, rule)?;
                 let is_part = standing == Standing::InBranch
                     && matches!(kind, Kind::Thing(_))
-                    && stored_path(&term).is_some_and(|p| !p.is_empty());
+                    && term.path().is_some_and(|p| !p.is_empty());
                 if is_part || kind.fits(&Kind::Bool, &self.document) {
                     return Some(term);
                 }
@@ -549,21 +574,21 @@ impl Lowerer<'_> {
     }
 }
 
-/// Lets a path begin at the document instead of at `Me`.
-fn from_document(term: Term) -> Term {
+/// Lets a path begin at a document instead of at `Me`.
+fn from_document(term: Term, document: &Term) -> Term {
     match term {
-        Term::Me => Term::Document,
+        Term::Me => document.clone(),
         Term::Send { to, name, arguments, search } => {
-            Term::Send { to: Box::new(from_document(*to)), name, arguments, search }
+            Term::Send { to: Box::new(from_document(*to, document)), name, arguments, search }
         }
-        Term::Index(list, at) => Term::Index(Box::new(from_document(*list)), at),
+        Term::Index(list, at) => Term::Index(Box::new(from_document(*list, document)), at),
         other => other,
     }
 }
 
 /// Collects the paths of parts and messages that a term speaks of.
 fn mentions(term: &Term, found: &mut Vec<Path>) {
-    if let Some(path) = stored_path(term) {
+    if let Some(path) = term.path() {
         return found.push(path);
     }
     match term {
@@ -599,23 +624,6 @@ fn mentions(term: &Term, found: &mut Vec<Path>) {
         | Term::Document
         | Term::Local(_)
         | Term::All(_) => {}
-    }
-}
-
-/// Returns the path that a term is, messages without arguments among its steps included.
-fn stored_path(term: &Term) -> Option<Path> {
-    match term {
-        Term::Me => Some(Path::default()),
-        Term::Owner => Some(Path(vec![Step::Owner])),
-        Term::Send { to, name, arguments, search: None } if arguments.is_empty() => {
-            let step = if *name == "owner" { Step::Owner } else { Step::Part(name.clone()) };
-            Some(stored_path(to)?.then(step))
-        }
-        Term::Index(of, at) => match **at {
-            Term::Number { value, .. } => Some(stored_path(of)?.then(Step::Index(value as u32))),
-            _ => None,
-        },
-        _ => None,
     }
 }
 

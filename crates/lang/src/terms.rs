@@ -110,8 +110,17 @@ impl Lowerer<'_> {
     fn mismatch(&mut self, scope: &Scope, span: Span, left: &Kind, right: &Kind) {
         let (a, b) = (left.words(&self.document), right.words(&self.document));
         let place = Place { file: scope.file, span };
-        let mut d =
-            Diagnostic::error(code_for(left, right), place, format!("left is {a}, right is {b}"));
+        let apart = match (left, right) {
+            (Kind::Thing(left), Kind::Thing(right)) => self.counts_apart(*left, *right),
+            _ => None,
+        };
+        let message = match apart {
+            Some((name, left, right)) => {
+                format!("left is {a} with {name} = {left}, right is {b} with {name} = {right}")
+            }
+            None => format!("left is {a}, right is {b}"),
+        };
+        let mut d = Diagnostic::error(code_for(left, right), place, message);
         if let (Kind::Text, Kind::Number(_)) | (Kind::Number(_), Kind::Text) = (left, right) {
             d = d.hint("write `.text` after the number");
         }
@@ -192,31 +201,65 @@ impl Lowerer<'_> {
         let known = |e: &Expr| self.known_number(scope, e);
         if let Some(i) = crate::numbers::constant(&known, &at) {
             let count = self.count_of(scope, &list);
-            self.element_index(scope, i, at.span(), count)?;
+            self.element_index(scope, i, &at, (&list, count))?;
             place = Term::number(i);
         }
         Some((Term::Index(Box::new(of), Box::new(place)), element))
     }
 
-    /// Checks a constant index; reports one that no list, or not this one, has.
+    /// Checks a constant index; reports one that no list, or not this one with so many elements, has.
     pub(crate) fn element_index(
         &mut self,
         scope: &Scope,
         i: f64,
-        span: Span,
-        count: Option<u32>,
+        at: &Expr,
+        (list, count): (&Expr, Option<u32>),
     ) -> Option<u32> {
         if i.fract() != 0.0 || !(0.0..4e9).contains(&i) {
             let message = "an index is a whole number, from 0".to_string();
-            self.error("index", scope.file, span, message);
+            self.error("index", scope.file, at.span(), message);
             return None;
         }
         if let Some(count) = count.filter(|&n| i >= f64::from(n)) {
-            let message = format!("the list has {count} elements, from 0; here is {i}");
-            self.error("index", scope.file, span, message);
+            self.missing_element(scope, i, at, (list, count));
             return None;
         }
         Some(i as u32)
+    }
+
+    /// Reports an index that a list is too short for, and who made it so short.
+    fn missing_element(&mut self, scope: &Scope, i: f64, at: &Expr, (list, count): (&Expr, u32)) {
+        let name = list.syntax().text();
+        let (of, elements) = (
+            match count {
+                0 => "none".to_string(),
+                1 => "[0] alone".to_string(),
+                n => format!("[0] to [{}]", n - 1),
+            },
+            if count == 1 { "element" } else { "elements" },
+        );
+        let message = format!("{name} has {count} {elements}, {of}: there is no {name}[{i}]");
+        let place = Place { file: scope.file, span: at.span() };
+        let mut d = Diagnostic::error("index", place, message);
+        let asked = self.owner_of(scope, list).and_then(|owner| self.asked_at(owner));
+        let through = match scope.turns.is_empty() {
+            true => format!(
+                "a `for` takes no turn for what is not there: `for i in {i}..{name}.count - 1`"
+            ),
+            false => format!("let the `for` go to `{name}.count - 1`, or through the list"),
+        };
+        d = match asked {
+            Some(asked) => {
+                let text = &self.files[asked.file].text;
+                let says = text.get(asked.span.range()).and_then(|t| t.lines().next());
+                let says = says.unwrap_or_default().trim_end_matches(['{', ' ']).to_string();
+                d.label(asked, "as many as this says")
+                    .hint(format!("`{says}` says how many; {through}"))
+            }
+            None if !scope.turns.is_empty() => d.hint(through),
+            None => d,
+        };
+        self.report(d);
     }
 
     fn choice(&mut self, scope: &Scope, choice: &ast::IfExpr) -> Lowered {

@@ -6,7 +6,7 @@
 use crate::lower::{Lowered, OWN};
 use crate::numbers::{from_bare, from_si, write_number};
 use crate::paths::loose_path;
-use base::Span;
+use base::{Name, Span};
 use expr::dimension::Dimension;
 use indexmap::IndexMap;
 use kernel::{ClassId, ClassKind, Document, Literal, Path, Primitive, Step};
@@ -32,6 +32,7 @@ pub(crate) fn value_edits(lowered: &Lowered, writes: &[(Path, Literal)]) -> Vec<
     for (path, literal) in writes {
         let root = lowered.document.root;
         if let Some((class, declared, rest)) = prototype(lowered, &file, path) {
+            let literal = &in_class(literal, &path.0[..1]);
             let part = Value { literal, class: lowered.class_at(class, &rest) };
             let end = Spot::EndOf(declared.syntax().clone());
             let members = declared.body().into_iter().flat_map(|b| b.members());
@@ -86,6 +87,16 @@ fn prototype(
         _ => None,
     })?;
     Some((class, declared, Path(rest.to_vec())))
+}
+
+/// Returns what a part of a prototype names as its class says it: `Strut.p1` is `p1` there.
+fn in_class(literal: &Literal, class: &[Step]) -> Literal {
+    match literal {
+        Literal::Path(path) if path.0.starts_with(class) => {
+            Literal::Path(Path(path.0[1..].to_vec()))
+        }
+        other => other.clone(),
+    }
 }
 
 /// Carries edits of the effective text over to the text itself.
@@ -245,6 +256,13 @@ impl Writer<'_> {
                 let class = at.map(|i| self.document.field_class(layout[i]));
                 self.write_inside(&element, class, rest, value)
             }
+            (Expr::Call(call), Step::Part(name), _) => {
+                let made = call.name().and_then(|w| self.document.class_named(w.text()));
+                let Some((class, element)) = made.and_then(|c| self.argument(c, call, name)) else {
+                    return false;
+                };
+                self.write_inside(&element, Some(class), rest, value)
+            }
             (Expr::List(list), Step::Index(i), _) => {
                 let Some(element) = list.elements().nth(*i as usize) else { return false };
                 let class = class.and_then(|c| self.lowered.class_at(c, &Path(vec![step.clone()])));
@@ -252,6 +270,21 @@ impl Writer<'_> {
             }
             _ => false,
         }
+    }
+
+    /// Returns what a new thing of a class is given for a part, and the part's class.
+    fn argument(
+        &self,
+        made: ClassId,
+        call: &ast::CallExpr,
+        name: &Name,
+    ) -> Option<(ClassId, Expr)> {
+        let layout = self.document.layout(made);
+        let at = layout.iter().position(|&f| self.document.field_name(f) == name)?;
+        let args: Vec<ast::Arg> = call.args()?.args().collect();
+        let labelled = args.iter().find(|a| a.label().is_some_and(|l| l.name() == *name));
+        let arg = labelled.or_else(|| args.get(at).filter(|a| a.label().is_none()))?;
+        Some((self.document.field_class(layout[at]), arg.value()?))
     }
 
     fn part(&self, owner: Option<ClassId>, steps: &[Step]) -> Option<ClassId> {

@@ -45,6 +45,19 @@ pub(crate) struct Opening<'a> {
 }
 
 impl<'a> Opening<'a> {
+    /// Says that a list has no such element.
+    fn missing_element(&self, list: &Meaning<'_>, count: usize, index: i64) -> Trouble {
+        let Meaning::Thing(list) = list else {
+            return Trouble::wrong(format!("there is no element {index} in a list of {count}"));
+        };
+        let path = self.structure.path(self.document, *list);
+        let elements = if count == 1 { "element" } else { "elements" };
+        Trouble::wrong(format!(
+            "{path} has {count} {elements}: there is no {path}[{index}]; \
+             a `for` through the list speaks of those that are there"
+        ))
+    }
+
     pub(crate) fn new(document: &'a Document, structure: &'a Structure) -> Self {
         let reach = Reach::new(structure);
         Self { document, structure, reach, arena: Arena::new(), depth: 0, nested: 0, terms: 0 }
@@ -101,9 +114,8 @@ impl<'a> Opening<'a> {
                 let list = self.meaning(list, frame)?;
                 let items = self.items(&list)?;
                 let index = self.whole(index, frame)?;
-                usize::try_from(index).ok().and_then(|i| items.get(i)).cloned().ok_or_else(|| {
-                    Trouble::wrong(format!("there is no element {index} in {}", items.len()))
-                })
+                let found = usize::try_from(index).ok().and_then(|i| items.get(i)).cloned();
+                found.ok_or_else(|| self.missing_element(&list, items.len(), index))
             }
             Term::Unary(operator, operand) => {
                 let operand = self.meaning(operand, frame)?;

@@ -38,6 +38,7 @@ pub(crate) fn apply(
         return restructure(open, host, command);
     }
     if let Command::Set(targets) | Command::Move(targets) = command
+        && !targets.iter().all(|(_, value)| matches!(value, Literal::Path(_)))
         && let Some(class) = targets.first().and_then(|t| prototype::class_of(&open.state, &t.0))
     {
         return prototype::edit(open, host, command, targets, class);

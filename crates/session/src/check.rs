@@ -181,7 +181,9 @@ impl Run<'_> {
     fn edit(&mut self, state: &State, kind: &StatementKind) -> Result<Change, Refusal> {
         let command = match kind {
             StatementKind::Set(targets) => {
-                let literal = |path: &Path, answer: &Answer<'_>| to_set(state, path, answer);
+                let literal = |(path, term): &(Path, Term), answer: &Answer<'_>| {
+                    to_set(state, path, term, answer)
+                };
                 Command::Set(literals(state, targets, literal)?)
             }
             StatementKind::Move(targets) => {
@@ -294,23 +296,36 @@ fn expect_rule(state: &State, rule: &Term, within: Option<&Term>) -> Result<(), 
 fn literals(
     state: &State,
     targets: &[(Path, Term)],
-    literal: impl Fn(&Path, &Answer<'_>) -> Result<Literal, Refusal>,
+    literal: impl Fn(&(Path, Term), &Answer<'_>) -> Result<Literal, Refusal>,
 ) -> Result<Vec<(Path, Literal)>, Refusal> {
     let evaluator = state.evaluator(&state.values);
-    let each = |(path, term): &(Path, Term)| {
+    let each = |target: &(Path, Term)| {
+        let (path, term) = target;
         let answer = evaluator.evaluate(term, DOCUMENT).map_err(|f| words::refuse(f.message))?;
-        Ok((path.clone(), literal(path, &answer)?))
+        Ok((path.clone(), literal(target, &answer)?))
     };
     targets.iter().map(each).collect()
 }
 
 /// Returns what a part is set to: of a part that names another, what it shall name.
-fn to_set(state: &State, path: &Path, answer: &Answer<'_>) -> Result<Literal, Refusal> {
-    match answer {
-        Answer::Thing(thing) if words::names_another(state, path) => {
-            Ok(Literal::Path(state.structure.path(&state.lowered.document, *thing)))
-        }
-        answer => literal_of(answer),
+fn to_set(
+    state: &State,
+    path: &Path,
+    term: &Term,
+    answer: &Answer<'_>,
+) -> Result<Literal, Refusal> {
+    if !words::names_another(state, path) {
+        return literal_of(answer);
+    }
+    // a number or text is named by its path
+    let named = || state.structure.follow(DOCUMENT, &term.path()?).ok();
+    let thing = match answer {
+        Answer::Thing(thing) => Some(*thing),
+        _ => named(),
+    };
+    match thing {
+        Some(thing) => Ok(Literal::Path(state.structure.path(&state.lowered.document, thing))),
+        None => literal_of(answer),
     }
 }
 

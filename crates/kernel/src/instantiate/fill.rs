@@ -94,11 +94,13 @@ fn fill_list<'d>(
     bindings: &[Binding<'d>],
     origin: OriginId,
 ) {
-    let whole = bindings.iter().rev().find(|b| b.path.is_empty());
-    let given = whole.map_or(0, |b| match &maker.givens[b.given.value].term {
-        Term::List(items) => items.len(),
-        _ => 0,
+    // what comes to a list only when it is evaluated gives elements values, and makes none
+    let whole = bindings.iter().rev().filter(|b| b.path.is_empty());
+    let mut written = whole.filter_map(|b| match &maker.givens[b.given.value].term {
+        Term::List(items) => Some(items.len()),
+        _ => None,
     });
+    let given = written.next().unwrap_or(0);
     // a narrower list knows better than where it was declared
     let own = maker.document.classes[body.things[thing].class].count.map(Count::Fixed);
     let count = match own.or_else(|| declared(maker, body, thing)?.1) {

@@ -120,10 +120,17 @@ fn common_parts(
         line.map(|c| document.classes[c].general.unwrap_or(c)).find(|&c| has_counts(document, c))
     };
     if named && pairs.is_empty() && general(ca).is_some() && general(ca) == general(cb) {
+        let with = |c| {
+            let line = document.primary_line(c).into_iter();
+            let mut counts = line.flat_map(|c| &document.classes[c].counts);
+            counts.next().map_or(String::new(), |(count, n)| format!(" with {count} = {n}"))
+        };
         let message = format!(
-            "this {} and this {} have different numbers of parts and cannot be one",
+            "this {}{} and this {}{} have different numbers of parts and cannot be one",
             name(ca),
-            name(cb)
+            with(ca),
+            name(cb),
+            with(cb)
         );
         return Err((FaultKind::UnlikeMerge, message));
     }

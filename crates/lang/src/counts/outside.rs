@@ -9,9 +9,9 @@ use crate::lower::Lowerer;
 use crate::members::Pending;
 use crate::paths::loose_path;
 use crate::scope::Scope;
-use base::Name;
+use base::{Name, Place};
 use kernel::{ClassId, ClassKind, PartRef, PartRole, Path, Step};
-use syntax::ast::Expr;
+use syntax::ast::{AstNode, Expr};
 
 /// A count that a body gives a thing further in.
 struct Given {
@@ -61,7 +61,12 @@ impl Lowerer<'_> {
         let Some((Step::Part(first), rest)) = path.split_first() else { return };
         let Some((field, was)) = self.field_at(class, first) else { return };
         let count = self.count_of_part(class, first);
-        let narrower = self.with_count_below(was, count, rest, &Numbers::from([(name, number)]));
+        let numbers = Numbers::from([(name, number)]);
+        let narrower = self.with_count_below(was, count, rest, &numbers);
+        if let Some(made) = self.class_at(narrower, &Path(rest.to_vec())) {
+            let place = Place { file: scope.file, span: value.span() };
+            self.counts.asked.entry(made).or_insert(place);
+        }
         if narrower == was {
             return;
         }

@@ -120,9 +120,9 @@ fn a_part_is_renamed_wherever_it_is_spoken_of() {
     );
     // other things of that name keep it
     assert_becomes(
-        "a: Real\nclass C { a: Real  twice => 2 * a }\nl: List of Real = [1].map(a => a + 1)\nc: C { a = 3 }\nx: Real = c.a + a\n",
+        "a: Real\nclass C { a: Real  twice => 2 * a }\nl: List of 1 Real = [1].map(a => a + 1)\nc: C { a = 3 }\nx: Real = c.a + a\n",
         &rename("a", "n"),
-        "n: Real\nclass C { a: Real  twice => 2 * a }\nl: List of Real = [1].map(a => a + 1)\nc: C { a = 3 }\nx: Real = c.a + n\n",
+        "n: Real\nclass C { a: Real  twice => 2 * a }\nl: List of 1 Real = [1].map(a => a + 1)\nc: C { a = 3 }\nx: Real = c.a + n\n",
     );
     let text = "use shapes\na: Line\nb: Line\n";
     assert_eq!(apply(text, &rename("a", "b")), Err("duplicate-name"));

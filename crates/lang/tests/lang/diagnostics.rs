@@ -219,6 +219,34 @@ const WRONG: &[(&str, &str, &str)] = &[
         "endless-parts",
         "n = owner.n + 1",
     ),
+    ("class C { n: Integer = 3  l: List of n Real }\nclass D { f => C(n: 4) }", "not-a-count", "4"),
+    (
+        "class C { n: Integer = 3  l: List of n Real }\nx: Real = 4\nc: C = C(n: x)",
+        "not-a-count",
+        "x",
+    ),
+    (
+        "class C { n: Integer = 3  l: List of n Real  constraint l[2] = 1 }\nc: C { n = 2 }",
+        "index",
+        "2",
+    ),
+    (
+        "class C { l: List of Real }\nx: C { l = [1, 2] }\ny: C = copy of x",
+        "not-a-count",
+        "copy of x",
+    ),
+    ("class C { l: List of Real }\nx: C = C([1, 2])\ny: C = x", "not-a-count", "x"),
+    (
+        "class C { l: List of Real = [1]  more => C([1, 2]) }\nx: C { l = [1, 2] }\ny: C\ny = x",
+        "not-a-count",
+        "x",
+    ),
+    ("l: List of 3 Real = [1, 2, 3]\nm: List of Real = l", "not-a-count", "l"),
+    (
+        "class B { p: Real  constraint v: p = 1 }\nclass F { l: List of 2 B }\nf: F { without l[2].v }",
+        "index",
+        "l[2].v",
+    ),
     ("class C { modify Real { } }", "not-modifiable", "Real"),
     ("class C { modify Lnie { } }", "unknown-class", "Lnie"),
     (

@@ -104,9 +104,17 @@ struct Folder;
 
 const PARTS: &str = "class Peg { width: Real = 4  height: Real = 2  name: Text }\n";
 
+const YARD: &str =
+    "class Gate { width: Real = 3  ref level: Real -> document level  ref slack: Real -> owner.slack }
+level: Real = 10
+slack: Real = 1
+gate: Gate
+";
+
 impl Host for Folder {
     fn read(&self, name: &str) -> Option<String> {
-        (name == "parts").then(|| PARTS.to_string())
+        let texts = [("parts", PARTS), ("yard", YARD)];
+        texts.iter().find(|(known, _)| *known == name).map(|(_, text)| text.to_string())
     }
 }
 
@@ -151,4 +159,44 @@ fn a_step_is_taken_back_beside_what_is_used_now() {
     assert_eq!(session.text(user).source, "use parts\np: Peg\n");
     assert_eq!(number(&session, user, "p.width"), Some(6.0));
     assert_eq!(number(&session, user, "p.height"), Some(2.0));
+}
+
+#[test]
+fn references_lead_where_their_text_says_in_whatever_document() {
+    let mut session = Session::new(Box::new(Folder));
+    let yard = session.open("yard", YARD);
+    let farm = session.open(
+        "farm",
+        "use yard
+mine: Gate
+copied: Gate = copy of yard.gate
+slack: Real = 7
+ref theirs: Gate -> document yard.gate
+constraint double: mine.width = 2 * theirs.width
+above: Real
+constraint over: above = copied.level + 1
+levels: List of 3 Real = [yard.gate.level, mine.level, copied.level]
+slacks: List of 3 Real = [yard.gate.slack, mine.slack, copied.slack]
+",
+    );
+    assert_eq!(session.text(farm).diagnostics, []);
+    // an absolute one leads to the same thing from everywhere, a relative one to what its owner has
+    let read = |session: &Session, list: &str| {
+        [0, 1, 2].map(|i| number(session, farm, &format!("{list}[{i}]")).expect("it is a number"))
+    };
+    assert_eq!(read(&session, "levels"), [10.0, 10.0, 10.0]);
+    assert_eq!(read(&session, "slacks"), [1.0, 7.0, 7.0]);
+    session.apply(farm, &set("mine.width", 8.0)).expect("what is referred to follows");
+    assert_eq!(number(&session, farm, "yard.gate.width"), Some(4.0));
+    session.apply(farm, &set("yard.level", 12.0)).expect("it is free");
+    assert_eq!(number(&session, farm, "above"), Some(13.0));
+    // what goes from the document that is used is said at the reference
+    session.apply(yard, &Command::Delete(at("gate"))).expect("it can be deleted");
+    let codes = |s: &Session| -> Vec<String> {
+        s.text(farm).diagnostics.iter().map(|d| d.code.clone()).collect()
+    };
+    assert!(codes(&session).contains(&"unknown-reference".to_string()), "{:?}", codes(&session));
+    session.apply(yard, &Command::Undo).expect("there is a step");
+    assert_eq!(codes(&session), Vec::<String>::new());
+    assert_eq!(number(&session, farm, "mine.width"), Some(8.0));
 }
