@@ -11,6 +11,7 @@ use crate::document::Document;
 use crate::structure::{Givens, Layout, Layouts, Structure};
 use crate::term::OriginId;
 use base::IdVec;
+use std::collections::BTreeMap;
 use std::rc::Rc;
 
 mod body;
@@ -27,6 +28,7 @@ mod switches;
 use body::Body;
 pub(crate) use grown::Grown;
 use grown::Shared;
+use merge::Kinship;
 
 /// Something in a document that cannot be made as written.
 #[derive(Clone, PartialEq, Debug)]
@@ -168,6 +170,8 @@ struct Maker<'d> {
     givens: Givens,
     /// Which given values are what parts get of others.
     shared: Vec<Shared>,
+    /// What classes whose things were merged have in common.
+    kinships: BTreeMap<(ClassId, ClassId), Option<Kinship>>,
     /// The classes whose things are being filled, each inside the one before it.
     on_the_way: Vec<ClassId>,
     /// How many things were made so far, those that were only copied from included.
@@ -185,6 +189,7 @@ impl<'d> Maker<'d> {
             bodies: IdVec::filled(None, document.classes.len()),
             givens: IdVec::new(),
             shared: Vec::new(),
+            kinships: BTreeMap::new(),
             on_the_way: Vec::new(),
             copied: 0,
             is_full: false,

@@ -78,7 +78,7 @@ fn alike(body: &mut Body, thing: ThingId) -> Vec<ThingId> {
 ///
 /// `named` pairs must have some: an ancestor without parts is a vacuous merge.
 fn common_parts(
-    maker: &Maker<'_>,
+    maker: &mut Maker<'_>,
     body: &Body,
     a: ThingId,
     b: ThingId,
@@ -110,11 +110,13 @@ fn common_parts(
             return Err((FaultKind::UnlikeMerge, message));
         }
     }
-    let others = document.lineage(cb);
-    let ancestor = document.lineage(ca).into_iter().find(|c| others.contains(c));
-    let seen = |t, c| seen_as(maker, body, t, c);
-    let views = ancestor.and_then(|c| Some((seen(a, c)?, seen(b, c)?, c)));
-    let pairs = views.map_or_else(Vec::new, |(a, b, c)| pairs(a, b, document.layout(c).len()));
+    let common = kinship(maker, ca, cb);
+    let seen = |t, kin: Kinship, side: usize| match kin.is_in_line[side] {
+        true => Some(t),
+        false => seen_as(maker, body, t, kin.ancestor),
+    };
+    let views = common.and_then(|kin| Some((seen(a, kin, 0)?, seen(b, kin, 1)?, kin)));
+    let pairs = views.map_or_else(Vec::new, |(a, b, kin)| pairs(a, b, kin.parts));
     let general = |c| {
         let line = document.primary_line(c).into_iter();
         line.map(|c| document.classes[c].general.unwrap_or(c)).find(|&c| has_counts(document, c))
@@ -143,6 +145,29 @@ fn common_parts(
         return Err((FaultKind::VacuousMerge, message));
     }
     Ok(pairs)
+}
+
+/// What two classes have in common.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Kinship {
+    /// Their nearest common ancestor.
+    ancestor: ClassId,
+    /// How many parts it has.
+    parts: usize,
+    /// For each of the two, whether its things have them first of all.
+    is_in_line: [bool; 2],
+}
+
+/// Finds what two classes have in common, once.
+fn kinship(maker: &mut Maker<'_>, a: ClassId, b: ClassId) -> Option<Kinship> {
+    let document = maker.document;
+    let find = || {
+        let others = document.lineage(b);
+        let ancestor = document.lineage(a).into_iter().find(|c| others.contains(c))?;
+        let is_in_line = [a, b].map(|c| document.primary_line(c).contains(&ancestor));
+        Some(Kinship { ancestor, parts: document.layout(ancestor).len(), is_in_line })
+    };
+    *maker.kinships.entry((a, b)).or_insert_with(find)
 }
 
 /// Returns true if some whole number of a class says how many parts its things have.
