@@ -173,15 +173,8 @@ impl Least {
 
     fn structure(&self) -> &Symmetric {
         self.structure.get_or_init(|| {
-            let (n, m) = (self.block.unknowns.len() as u32, self.block.height() as u32);
-            let seconds = self.block.seconds();
-            let most = (n + m) as usize + self.block.pattern.len() + seconds.len();
-            let mut entries: Vec<(u32, u32)> = Vec::with_capacity(most);
-            entries.extend((0..n + m).map(|i| (i, i)));
-            for r in 0..m {
-                entries.extend(self.block.pattern.row(r as usize).iter().map(|&c| (c, n + r)));
-            }
-            entries.extend(seconds.iter().map(|place| (place.i, place.j)));
+            let mut entries = self.block.pattern.bordered();
+            entries.extend(self.block.seconds().iter().map(|place| (place.i, place.j)));
             Symmetric::of_chain(self.chain(), &entries)
         })
     }

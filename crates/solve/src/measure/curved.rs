@@ -78,13 +78,10 @@ struct Scratch {
 
 impl Curved {
     pub(crate) fn new(block: &Block) -> Self {
-        let (n, m) = (block.unknowns.len() as u32, block.height() as u32);
-        let mut entries: Vec<(u32, u32)> = (0..n + m).map(|i| (i, i)).collect();
-        for r in 0..m {
-            entries.extend(block.pattern.row(r as usize).iter().map(|&c| (c, n + r)));
-        }
+        let mut entries = block.pattern.bordered();
         entries.extend(block.seconds().iter().map(|place| (place.i, place.j)));
-        Self { symmetric: Symmetric::new((n + m) as usize, &entries) }
+        let size = block.unknowns.len() + block.height();
+        Self { symmetric: Symmetric::new(size, &entries) }
     }
 
     /// Solves from the values that the unknowns have now; whether required rows then hold is not tested.

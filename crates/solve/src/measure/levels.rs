@@ -56,12 +56,8 @@ enum Part {
 
 impl Levels {
     pub(crate) fn new(pattern: &Pattern) -> Self {
-        let (n, m) = (pattern.width as u32, pattern.height() as u32);
-        let mut entries: Vec<(u32, u32)> = (0..n + m).map(|i| (i, i)).collect();
-        for r in 0..m {
-            entries.extend(pattern.row(r as usize).iter().map(|&c| (c, n + r)));
-        }
-        Self { symmetric: Symmetric::new((n + m) as usize, &entries) }
+        let size = pattern.width + pattern.height();
+        Self { symmetric: Symmetric::new(size, &pattern.bordered()) }
     }
 
     /// Returns the step that all levels together ask for; what cannot be factorised is no number.

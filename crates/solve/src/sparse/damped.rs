@@ -1,14 +1,14 @@
 //! Damped steps: the least squares of a sparse system, held back by the length of the step.
 //!
 //! In: where a matrix has entries; then numbers, a right side, a damping. Out: the step that makes
-//! `|A step - right|² + damping |step|²` least, by the residuals that it leaves: `[I A; Aᵀ -damping]` is
+//! `|A step - right|² + damping |step|²` least, by the residuals that it leaves: `[-damping Aᵀ; A I]` is
 //! quasi-definite and as sparse as `A`.
 //!
 //! **Source:** Björck, *Numerical Methods for Least Squares Problems*, SIAM 1996, §2.5.3.
 
 use super::{Ldl, Pattern, Symmetric};
 
-/// The order for damped steps, of rows then columns.
+/// The order for damped steps, of columns then rows.
 #[derive(Clone, Debug)]
 pub(crate) struct Damped {
     symmetric: Symmetric,
@@ -28,12 +28,7 @@ impl Damped {
     /// Lays the factors out.
     pub(crate) fn new(pattern: &Pattern) -> Self {
         let (height, width) = (pattern.height(), pattern.width);
-        let m = height as u32;
-        let mut entries: Vec<(u32, u32)> = (0..m + width as u32).map(|i| (i, i)).collect();
-        for r in 0..m {
-            entries.extend(pattern.row(r as usize).iter().map(|c| (r, m + c)));
-        }
-        Self { symmetric: Symmetric::new(height + width, &entries), height, width }
+        Self { symmetric: Symmetric::new(width + height, &pattern.bordered()), height, width }
     }
 
     /// Returns the step, by column, for numbers in the order of the pattern and a right side for every row;
@@ -46,15 +41,15 @@ impl Damped {
         s: &'a mut DampedScratch,
     ) -> Option<&'a [f64]> {
         s.saddle.clear();
-        s.saddle.resize(self.height, 1.0);
-        s.saddle.resize(self.height + self.width, -damping);
+        s.saddle.resize(self.width, -damping);
+        s.saddle.resize(self.width + self.height, 1.0);
         s.saddle.extend_from_slice(matrix);
         s.right.clear();
+        s.right.resize(self.width, 0.0);
         s.right.extend(right);
-        s.right.resize(self.height + self.width, 0.0);
         self.symmetric.factorise(&s.saddle, &mut s.ldl)?;
         self.symmetric.solve(&mut s.ldl, &mut s.right);
-        Some(&s.right[self.height..])
+        Some(&s.right[..self.width])
     }
 }
 

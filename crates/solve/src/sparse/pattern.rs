@@ -62,6 +62,17 @@ impl Pattern {
     pub(crate) fn column(&self, entry: usize) -> usize {
         self.columns[entry] as usize
     }
+    /// Returns the places of the symmetric matrix `[· Jᵀ; J ·]` of unknowns, then rows: the diagonal, then every
+    /// entry.
+    pub(crate) fn bordered(&self) -> Vec<(u32, u32)> {
+        let (n, m) = (self.width as u32, self.height() as u32);
+        let mut places = Vec::with_capacity((n + m) as usize + self.len());
+        places.extend((0..n + m).map(|i| (i, i)));
+        for r in 0..m {
+            places.extend(self.row(r as usize).iter().map(|&c| (c, n + r)));
+        }
+        places
+    }
     /// Returns where an entry stands among all.
     pub(crate) fn find(&self, row: usize, column: u32) -> Option<usize> {
         let at = self.row(row).binary_search(&column).ok()?;
