@@ -233,7 +233,7 @@ impl Remainder {
             loop {
                 let before = self.left;
                 rows.retain(|&row| {
-                    let found = self.cheapest(row, most);
+                    let found = self.cheap(row, most);
                     if let Some(column) = found {
                         self.eliminate(row, column, out);
                     }
@@ -246,17 +246,15 @@ impl Remainder {
         }
     }
 
-    /// The column in which a row has a pivot that costs no more than this.
-    fn cheapest(&self, row: u32, most: usize) -> Option<u32> {
+    /// The column in which a row has a pivot that costs no more than this: of several the one that was summed of
+    /// most, which in a net is a node's own, so that it does not vanish for other numbers.
+    fn cheap(&self, row: u32, most: usize) -> Option<u32> {
         let entries = self.rows.of(row);
         let others = entries.len().saturating_sub(1);
-        let cost = |c: u32| others * (self.count[c as usize] as usize - 1);
-        let &Entry { column, value, .. } = entries.iter().min_by_key(|e| cost(e.column))?;
-        if cost(column) > most {
-            return None;
-        }
-        let largest = largest(entries);
-        is_pivot(value, CHEAP_THRESHOLD * largest).then_some(column)
+        let is_cheap = |e: &&Entry| others * (self.count[e.column as usize] as usize - 1) <= most;
+        let cheap = entries.iter().filter(is_cheap);
+        let &Entry { column, value, .. } = cheap.max_by(|a, b| a.size.total_cmp(&b.size))?;
+        is_pivot(value, CHEAP_THRESHOLD * largest(entries)).then_some(column)
     }
 
     /// Ranks what is left.

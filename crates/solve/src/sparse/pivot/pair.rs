@@ -10,6 +10,9 @@
 use super::{DENSE, Entry, NONE, Pivots, Remainder, THRESHOLD, is_pivot, largest};
 use crate::sparse::degree::{self, Elimination};
 
+/// What was summed of most makes the pair even where these numbers nearly cancel, down to this part of the largest.
+const CANCELLED: f64 = 1e-5;
+
 /// Eliminates all that remains; returns false where some row finds no column of its own.
 pub(super) fn eliminate(rest: &Remainder, out: &mut Pivots) -> bool {
     // a row that is left has entries: without any, the matrix is singular
@@ -67,7 +70,7 @@ fn pair(rest: &Remainder, rows: &[u32]) -> Option<Pairs> {
     let mut pairs = Pairs { column_of_row: vec![NONE; n], row_of_column: vec![NONE; n] };
     for &r in rows {
         let entries = rest.rows.of(r);
-        let least = THRESHOLD * largest(entries);
+        let least = CANCELLED * largest(entries);
         let suits = |e: &&Entry| is_pivot(e.value, least);
         let found = entries.iter().filter(suits).max_by(|a, b| a.size.total_cmp(&b.size))?;
         let other = &mut pairs.row_of_column[found.column as usize];
