@@ -30,23 +30,6 @@ pub(crate) fn eliminate(n: usize, joined: impl Iterator<Item = (u32, u32)> + Clo
     by_degree(&near(n, joined))
 }
 
-/// Orders places as they stand in a chain, if that makes few new entries whatever the order: no more than a
-/// third of the entries. Else by degree.
-pub(crate) fn eliminate_in(
-    chain: Vec<u32>,
-    joined: impl Iterator<Item = (u32, u32)> + Clone,
-) -> Elimination {
-    if chain.len() <= few::MOST {
-        return few::eliminate_in(chain, joined);
-    }
-    let near = near(chain.len(), joined);
-    let entries = near.all().len() / 2;
-    match columns(&chain, &near, entries + entries / 3) {
-        Some(columns) => Elimination { order: chain, columns },
-        None => by_degree(&near),
-    }
-}
-
 /// Returns what every place is joined to, some more than once.
 fn near(n: usize, joined: impl Iterator<Item = (u32, u32)> + Clone) -> Lists {
     Lists::new(n, joined.filter(|e| e.0 != e.1).flat_map(|(i, j)| [(i, j), (j, i)]))
@@ -61,8 +44,8 @@ fn by_degree(near: &Lists) -> Elimination {
         own
     };
     let order = order((0..n as u32).map(distinct).collect());
-    let columns = columns(&order, near, usize::MAX);
-    Elimination { order, columns: columns.expect("no number of entries is too many") }
+    let columns = columns(&order, near);
+    Elimination { order, columns }
 }
 
 /// The state of the graph while it is eliminated.
@@ -234,8 +217,8 @@ fn same_members(a: &[u32], b: &[u32]) -> bool {
 }
 
 /// What is left of each column when its turn comes: its own entries, and those of columns that it is the
-/// first entry of. Nothing where these are more than `most` in all.
-fn columns(order: &[u32], near: &Lists, most: usize) -> Option<Lists> {
+/// first entry of.
+fn columns(order: &[u32], near: &Lists) -> Lists {
     const NONE: u32 = u32::MAX;
     let n = order.len();
     let mut place = vec![0u32; n];
@@ -267,11 +250,8 @@ fn columns(order: &[u32], near: &Lists, most: usize) -> Option<Lists> {
             before[k as usize] = std::mem::replace(&mut latest[first as usize], k);
         }
         columns.push(&own);
-        if columns.all().len() > most {
-            return None;
-        }
     }
-    Some(columns)
+    columns
 }
 
 #[cfg(test)]
@@ -341,17 +321,6 @@ mod tests {
                 }
             }
         }
-    }
-
-    #[test]
-    fn a_chain_is_eliminated_as_it_stands_and_a_grid_is_not() {
-        let order = |n: u32| (0..n).collect::<Vec<u32>>();
-        let chain = (1..1000).flat_map(|i: u32| [(i - 1, i), (i.saturating_sub(2), i)]);
-        let found = eliminate_in(order(1000), chain);
-        assert_eq!(found.order, order(1000));
-        assert_eq!(entries(&found), 998 + 999);
-        let found = eliminate_in(order(900), grid(30).into_iter());
-        assert_eq!(found.order, eliminate(900, grid(30).into_iter()).order);
     }
 
     /// 31 n log2(n) / 4 entries is what nested dissection promises; minimum degree is not far from that.

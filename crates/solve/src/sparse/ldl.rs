@@ -8,7 +8,10 @@
 //! **Source:** Davis, *Algorithm 849: a concise sparse Cholesky factorization package*, ACM TOMS 31
 //! (2005); Vanderbei, *Symmetric quasidefinite matrices*, SIAM J. Optim. 5 (1995).
 
-use super::degree::{self, Elimination};
+use super::degree;
+
+/// No place.
+const NONE: u32 = u32::MAX;
 
 /// The factors' structure: every index is a place in the order of elimination.
 #[derive(Clone, Debug, Default)]
@@ -41,13 +44,18 @@ impl Symmetric {
     /// Lays the factors out for a matrix of `n` rows; each entry stands for its mirror too, and
     /// those at one place are summed.
     pub(crate) fn new(n: usize, entries: &[(u32, u32)]) -> Self {
-        Self::by(degree::eliminate(n, entries.iter().copied()), entries)
+        let order = degree::eliminate(n, entries.iter().copied()).order;
+        Self::in_order(order, entries, usize::MAX).expect("no number of entries is too many")
     }
-    /// Does the same for rows that may be a chain in this order.
+    /// Does the same for rows as they stand in a chain, if that makes few new entries: no more than a third of
+    /// the entries. Else by degree.
     pub(crate) fn of_chain(chain: Vec<u32>, entries: &[(u32, u32)]) -> Self {
-        Self::by(degree::eliminate_in(chain, entries.iter().copied()), entries)
+        let n = chain.len();
+        let joins = entries.iter().filter(|e| e.0 != e.1).count();
+        Self::in_order(chain, entries, joins + joins / 3).unwrap_or_else(|| Self::new(n, entries))
     }
-    fn by(Elimination { order, columns }: Elimination, entries: &[(u32, u32)]) -> Self {
+    /// Does the same in this order, if the factors have no more than so many entries.
+    fn in_order(order: Vec<u32>, entries: &[(u32, u32)], most: usize) -> Option<Self> {
         let n = order.len();
         let mut place = vec![0u32; n];
         for (k, &i) in order.iter().enumerate() {
@@ -65,17 +73,34 @@ impl Symmetric {
             own[next[later as usize] as usize] = (earlier, number);
             next[later as usize] += 1;
         }
-        let row_starts = starts(n, columns.all().iter().copied());
-        let mut next = row_starts.clone();
-        let mut rows = vec![0; columns.all().len()];
-        for k in 0..n as u32 {
-            for &i in columns.of(k) {
-                rows[next[i as usize] as usize] = k;
-                next[i as usize] += 1;
+        // a row of L is what its entries lead to in the tree of elimination, in which every place stands under
+        // the first that its column reaches
+        let (mut above, mut met) = (vec![NONE; n], vec![NONE; n]);
+        let mut rows = Vec::with_capacity(most.min(2 * entries.len()));
+        let mut row_starts = Vec::with_capacity(n + 1);
+        row_starts.push(0);
+        for (k, ends) in (0..).zip(entry_starts.windows(2)) {
+            met[k as usize] = k;
+            let start = rows.len();
+            for &(earlier, _) in &own[ends[0] as usize..ends[1] as usize] {
+                let mut at = earlier;
+                while met[at as usize] != k {
+                    met[at as usize] = k;
+                    rows.push(at);
+                    if above[at as usize] == NONE {
+                        above[at as usize] = k;
+                    }
+                    at = above[at as usize];
+                }
             }
+            if rows.len() > most {
+                return None;
+            }
+            rows[start..].sort_unstable();
+            row_starts.push(rows.len() as u32);
         }
-        let column_starts = columns.starts().to_vec();
-        Self { order, entry_starts, entries: own, row_starts, rows, column_starts }
+        let column_starts = starts(n, rows.iter().copied());
+        Some(Self { order, entry_starts, entries: own, row_starts, rows, column_starts })
     }
 
     /// Puts numbers in, in the order of the entries; returns how many pivots are negative, or
@@ -178,6 +203,23 @@ mod tests {
         symmetric.solve(&mut ldl, &mut b);
         for (x, wanted) in b.iter().zip([1.0, 2.0, 1.0, -1.0, -1.0]) {
             assert!((x - wanted).abs() < 1e-12, "{b:?}");
+        }
+    }
+
+    #[test]
+    fn a_chain_is_eliminated_as_it_stands_and_a_star_is_not() {
+        for n in [9, 900] {
+            let order: Vec<u32> = (0..n).collect();
+            let chain: Vec<(u32, u32)> =
+                (1..n).flat_map(|i| [(i - 1, i), (i.saturating_sub(2), i)]).collect();
+            let found = Symmetric::of_chain(order.clone(), &chain);
+            assert_eq!(found.order, order);
+            assert_eq!(found.rows.len() as u32, n - 2 + n - 1);
+            assert_eq!(found.rows[found.row_starts[5] as usize..][..2], [3, 4]);
+            // its hub comes first, and would join all others to one another
+            let star: Vec<(u32, u32)> = (1..n).map(|i| (0, i)).collect();
+            let found = Symmetric::of_chain(order, &star);
+            assert_eq!(found.rows.len() as u32, n - 1);
         }
     }
 

@@ -38,41 +38,6 @@ impl Set {
     }
 }
 
-/// Orders up to [`MOST`] places as they stand in a chain, if that makes few new entries: no more than a third
-/// of the entries. Else by degree.
-pub(super) fn eliminate_in(
-    chain: Vec<u32>,
-    joined: impl Iterator<Item = (u32, u32)> + Clone,
-) -> Elimination {
-    let n = chain.len();
-    let mut place = [0u16; MOST];
-    for (k, &i) in (0..).zip(&chain) {
-        place[i as usize] = k;
-    }
-    // what of each comes later
-    let mut later = [Set::EMPTY; MOST];
-    for (i, j) in joined.clone().filter(|e| e.0 != e.1) {
-        let (a, b) = (place[i as usize], place[j as usize]);
-        later[a.min(b) as usize].insert(a.max(b) as usize);
-    }
-    let entries: u32 = later[..n].iter().map(Set::len).sum();
-    let most = (entries + entries / 3) as usize;
-    let mut columns = Lists::with_room(n, most);
-    for k in 0..n {
-        let own = later[k];
-        columns.push_each(own.places().map(|j| j as u32));
-        if columns.all().len() > most {
-            return eliminate(n, joined);
-        }
-        // what is left of it is among what is left of the first that it leads to
-        if let Some(first) = own.places().next() {
-            later[first].insert_all(&own);
-            later[first].remove(first);
-        }
-    }
-    Elimination { order: chain, columns }
-}
-
 /// Orders up to [`MOST`] places of which these are joined; of places of one degree the first comes first.
 pub(super) fn eliminate(n: usize, joined: impl Iterator<Item = (u32, u32)>) -> Elimination {
     const GONE: u32 = u32::MAX;
