@@ -38,15 +38,9 @@ pub(crate) fn edits(open: &Open, path: &Path, parting: Vec<TextEdit>) -> Vec<Tex
         let mut touching = all.iter_mut().filter(|a| touched(a));
         match (touching.next(), touching.next()) {
             (None, _) => all.push(edit),
-            // what is new stands on the line where the merge stood
-            (Some(gone), None)
-                if gone.insert.is_empty()
-                    && edit.span.range().is_empty()
-                    && state.text[gone.span.range()].ends_with('\n') =>
-            {
-                let was = &state.text[gone.span.range()];
-                let (before, after) = (was.len() - was.trim_start().len(), was.trim_end().len());
-                gone.insert = [&was[..before], edit.insert.trim(), &was[after..]].concat();
+            // what is new stands where the merge stood
+            (Some(gone), None) if gone.insert.is_empty() && edit.span.range().is_empty() => {
+                *gone = syntax::edit::instead(&state.text, gone, &edit);
             }
             (Some(_), _) => return parting,
         }

@@ -225,6 +225,19 @@ pub fn delete_member(node: &SyntaxNode) -> TextEdit {
     }
 }
 
+/// Returns the edit that says something new in the place of what another takes away.
+///
+/// The layout around stays; `;` stands where something else follows on the line.
+pub fn instead(text: &str, gone: &TextEdit, new: &TextEdit) -> TextEdit {
+    let was = &text[gone.span.range()];
+    let (before, after) = (was.len() - was.trim_start().len(), was.trim_end().len());
+    let (before, after) = (&was[..before], &was[after..]);
+    let rest = &text[gone.span.end as usize..];
+    let is_last = after.contains('\n') || rest.is_empty() || rest.starts_with(['\n', '}']);
+    let after = if is_last { after } else { "; " };
+    TextEdit { span: gone.span, insert: [before, new.insert.trim(), after].concat() }
+}
+
 /// Takes one of several names away from the part or class list that declares it: `x, y: Real`.
 ///
 /// Returns `None` where it is the only one: then the member goes as a whole.

@@ -118,9 +118,14 @@ impl Search<'_> {
         if s.merged_with(thing).into_iter().any(is) {
             return Ok(thing);
         }
-        let name = |class: ClassId| &self.document.classes[class].name;
-        let (found, wanted) = (name(s.things[thing].class), name(wanted));
-        Err(format!("{} is of {found}, wanted one of {wanted}", s.path(self.document, thing)))
+        let name = |class| &self.document.classes[self.document.named_class(class)].name;
+        let (path, wanted) = (s.path(self.document, thing), name(wanted));
+        Err(match path.is_empty() {
+            true => format!("this leads to the document, wanted one of {wanted}"),
+            false => {
+                format!("{path} is of {}, wanted one of {wanted}", name(s.things[thing].class))
+            }
+        })
     }
 
     fn lost(&self, from: ThingId, step: &Step) -> String {

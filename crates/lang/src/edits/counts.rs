@@ -9,7 +9,7 @@ use crate::write::value_edits;
 use base::Diagnostic;
 use kernel::{ClassId, Literal, Path, Step};
 use syntax::ast::{self, AstNode, Expr, TypeShape, span_without_doc};
-use syntax::edit::TextEdit;
+use syntax::edit::{self, TextEdit};
 
 /// Returns true if a path leads to a whole number that says how many parts a thing has.
 pub fn is_count(lowered: &Lowered, path: &Path) -> bool {
@@ -61,10 +61,18 @@ impl Text<'_> {
     /// Writes a count, and deletes what goes along.
     pub(super) fn with_count(&self, path: &Path, number: f64, deletion: Deletion) -> Restructuring {
         let mut edits = deletion.edits;
-        let apart = |e: &TextEdit| !super::delete::is_gone(&edits, e.span);
-        let written = value_edits(self.lowered, &[(path.clone(), Literal::Number(number))]);
-        let written: Vec<TextEdit> = written.into_iter().filter(apart).collect();
-        edits.extend(written);
+        for new in value_edits(self.lowered, &[(path.clone(), Literal::Number(number))]) {
+            let around =
+                |e: &&mut TextEdit| e.span.start <= new.span.start && new.span.end <= e.span.end;
+            match edits.iter_mut().find(around) {
+                None => edits.push(new),
+                // it stands where what goes along stood
+                Some(gone) if new.span.range().is_empty() => {
+                    *gone = edit::instead(&self.lowered.effective, gone, &new);
+                }
+                Some(_) => {}
+            }
+        }
         Restructuring { edits, along: deletion.along, ..Restructuring::default() }
     }
 
