@@ -38,21 +38,24 @@ impl Planner {
         if size > LARGEST || !aim.fixed.keys().all(is_real) {
             return None;
         }
+        let until = self.spent() + WORK;
         let mut can_go = |part: f64| {
             let at = self.part_of_the_way(values, aim, part);
             let mut trial = values.clone();
             for (&slot, value) in &at.fixed {
                 trial.put(slot, value.clone());
             }
+            // one that takes longer than there is goes nowhere
+            self.end_at(Some(until));
             for task in tasks {
                 run(self, model, task, &at, values, &mut trial, host);
             }
+            self.end_at(None);
             let rules = tasks.iter().flat_map(|t| t.component.rules().iter().copied());
             let unmet = self.unmet(model, rules, &trial, host);
             !is_any_new(&unmet, was_unmet) && self.reached(&at, &trial)
         };
         let (mut gone, mut beyond) = (0.0, 1.0);
-        let until = self.spent() + WORK;
         for halving in 0..HALVINGS {
             if self.spent() > until {
                 return None;

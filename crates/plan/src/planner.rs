@@ -128,6 +128,11 @@ impl Planner {
     pub(crate) fn spent(&self) -> u64 {
         self.runner.borrow().as_ref().map_or(0, |runner| runner.spent())
     }
+    /// Says what runs may cost until then, by what they have cost: those that come to that find no solution.
+    pub(crate) fn end_at(&self, bound: Option<u64>) {
+        let mut runner = self.runner.borrow_mut();
+        runner.get_or_insert_default().end_at(bound);
+    }
 
     /// Returns the slots that rules tie to these, and these themselves.
     pub fn tied_to(&self, slots: impl IntoIterator<Item = SlotId>) -> BTreeSet<SlotId> {

@@ -97,6 +97,8 @@ pub(crate) struct Workspace {
     wide_out: Vec<Lanes>,
     /// What was spent so far, in multiplications, roughly.
     spent: u64,
+    /// What may be spent: iteration ends there.
+    bound: Option<u64>,
 }
 
 impl Workspace {
@@ -107,6 +109,14 @@ impl Workspace {
     /// Returns what was counted so far.
     pub(crate) fn spent(&self) -> u64 {
         self.spent
+    }
+    /// Says up to what iteration goes on; without a bound it ends where it ends.
+    pub(crate) fn end_at(&mut self, bound: Option<u64>) {
+        self.bound = bound;
+    }
+    /// Returns true if what may be spent is spent.
+    pub(crate) fn is_spent(&self) -> bool {
+        self.bound.is_some_and(|bound| self.spent > bound)
     }
     /// Runs a tape for one row; the outputs are in what is returned.
     pub(crate) fn run(

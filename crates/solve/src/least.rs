@@ -290,6 +290,9 @@ impl Least {
         let mut smallest = (f64::INFINITY, 0);
         let mut polished = 0;
         for iteration in 0..STEPS {
+            if w.is_spent() {
+                return Measured::Failed;
+            }
             let matrix = match iteration {
                 0 => first,
                 // what it is off by is the last step times this one, and how much they shrank by how long

@@ -146,6 +146,9 @@ impl Measure {
         let mut settled = false;
         for iteration in 0..STEPS {
             w.spend(self.cost());
+            if w.is_spent() {
+                return Measured::Failed;
+            }
             let Some(local) = self.evaluate(values, &scale, &weights, w) else {
                 return Measured::Failed;
             };

@@ -57,6 +57,11 @@ impl Runner {
     pub fn spent(&self) -> u64 {
         self.buffers.work.spent()
     }
+    /// Says what its runs may cost from now on, by what they have [`spent`](Self::spent) then: one that comes to
+    /// that finds no solution.
+    pub fn end_at(&mut self, bound: Option<u64>) {
+        self.buffers.work.end_at(bound);
+    }
     /// Says which way the states lean that it starts from from now on, where two branches meet.
     pub fn lean(&mut self, leans: Vec<Lean>) {
         self.leans = leans;
@@ -585,7 +590,7 @@ impl Way<'_> {
         let mut gone = 0.0;
         let mut length = strides.start;
         for _ in 0..STRIDES {
-            if self.buffers.work.spent() > self.until {
+            if self.buffers.work.spent() > self.until || self.buffers.work.is_spent() {
                 break;
             }
             let part = if gone + length >= 1.0 { 1.0 } else { length / (1.0 - gone) };

@@ -445,7 +445,7 @@ impl Square {
                     if branch.is_some() && length < 1.0 && !was_held {
                         return Solved::Failed;
                     }
-                    if !better.is_finite() {
+                    if !better.is_finite() || w.is_spent() {
                         return Solved::Failed;
                     }
                     let slow = better > 0.5 * norm;

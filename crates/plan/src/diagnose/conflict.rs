@@ -26,6 +26,8 @@ const TRIALS: usize = 300;
 const TRIED: usize = 60_000;
 /// After so many multiplications, roughly, too.
 const WORK: u64 = 3_000_000_000;
+/// What trying the repairs of one contradiction may cost.
+const REPAIR: u64 = 1_000_000_000;
 /// How many contradictions of one component are told apart.
 const APART: usize = 4;
 /// From how many starts a set is tried.
@@ -127,10 +129,12 @@ impl Planner {
                 let is_spared =
                     |u: &Unit| (0..).zip(&spared).any(|(j, s)| j != i && *s == u.source);
                 let whole: Vec<Unit> = units.iter().filter(|u| !is_spared(u)).cloned().collect();
+                self.end_at(Some(self.spent() + REPAIR));
                 let mut suspects =
                     Suspects { planner: self, setup: &setup, values, set: &set, whole: &whole };
                 let anchors = suspects.anchors(host);
                 let repairs = suspects.repairs(&anchors, host);
+                self.end_at(None);
                 let constraints = set.iter().map(|u| u.source).collect();
                 let proof = self.combination(&setup, &set, values);
                 let certainty = if proof.is_some() { Certainty::Contradiction } else { certainty };
@@ -259,15 +263,24 @@ impl Search<'_> {
         }
         self.trials += 1;
         let rules: Vec<u32> = known.iter().chain(more).flat_map(|u| u.rules.clone()).collect();
-        self.planner.can_hold(self.setup, &rules, self.values, self.host) == Trial::Holds
+        self.try_out(&rules) == Trial::Holds
+    }
+
+    /// Tries rules. One that takes longer than there is says nothing: then the search has ended.
+    fn try_out(&mut self, rules: &[u32]) -> Trial {
+        self.planner.end_at(Some(self.until));
+        let trial = self.planner.can_hold(self.setup, rules, self.values, self.host);
+        self.planner.end_at(None);
+        trial
     }
 
     fn certainty(&mut self, set: &[Unit]) -> Certainty {
-        if self.has_ended() {
-            return Certainty::NotDecided { trials: self.trials };
-        }
-        match self.planner.can_hold(self.setup, &rules_of(set), self.values, self.host) {
+        let trial = if self.has_ended() { Trial::NotFound } else { self.try_out(&rules_of(set)) };
+        match trial {
             Trial::Contradicts => Certainty::Contradiction,
+            Trial::NotFound | Trial::Holds if self.has_ended() => {
+                Certainty::NotDecided { trials: self.trials }
+            }
             Trial::NotFound | Trial::Holds => Certainty::NoSolution { starts: STARTS },
         }
     }

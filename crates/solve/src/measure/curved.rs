@@ -101,7 +101,7 @@ impl Curved {
             let mut is_settled = false;
             for iteration in 0..STEPS {
                 let is_first = stage == STAGES[0] && iteration == 0;
-                if !self.step(&asked, &counts, is_first, values, w, &mut s) {
+                if w.is_spent() || !self.step(&asked, &counts, is_first, values, w, &mut s) {
                     return Measured::Failed;
                 }
                 let step = &s.right[..asked.scale.len()];

@@ -1,7 +1,7 @@
 //! Several roots: where one leads nowhere, another does; and a search that ends.
 
 use crate::builder::{Sheet, bits, close};
-use solve::{NoHost, Reason, SlotIndex, Status};
+use solve::{NoHost, Reason, Runner, SlotIndex, Status};
 
 /// A place at these distances from two others.
 fn tied(sheet: &mut Sheet, start: [f64; 2], ties: [([SlotIndex; 2], f64); 2]) -> [SlotIndex; 2] {
@@ -125,4 +125,22 @@ fn the_coupler_of_a_four_bar_has_another_side() {
     let [other] = &others[..] else { panic!("{others:?}") };
     close(other.values[p[0] as usize], 365.0 / 3.0, 1e-9);
     close(other.values[p[1] as usize], -113.712_600_689_437_92, 1e-9);
+}
+
+#[test]
+fn a_run_that_may_cost_nothing_finds_nothing_and_changes_nothing() {
+    let mut s = Sheet::default();
+    let (from, to) = (s.anchor(0.0, 0.0), s.place(3.0, 4.0));
+    let (distance, length) = (s.distance(from, to), s.c(7.0));
+    s.require(distance, length);
+    let (plan, mut runner, mut values) = (s.plan(), Runner::new(), s.x0.clone());
+    runner.end_at(Some(0));
+    let outcome = solve::run(&plan, &mut runner, &s.x0, &mut values, &[], &mut NoHost);
+    assert!(matches!(outcome.status, Status::Stopped(_)), "{outcome:?}");
+    assert_eq!(bits(&values), bits(&s.x0));
+    runner.end_at(None);
+    let outcome = solve::run(&plan, &mut runner, &s.x0, &mut values, &[], &mut NoHost);
+    assert!(outcome.is_solved(), "{outcome:?}");
+    let [x, y] = to.map(|s| values[s as usize]);
+    close(base::number::hypot(x, y), 7.0, 1e-9);
 }
