@@ -52,7 +52,28 @@ impl Lowerer<'_> {
             let kind = self.builtin_kind(b.result, &Kind::Unknown);
             return Some((Term::send(Term::Me, &name), kind));
         }
+        if let Some(b) = builtin::find(builtin::FUNCTIONS, &name) {
+            return self.bare_function(scope, word, b);
+        }
         self.unknown_name(scope, word);
+        None
+    }
+
+    /// Resolves the name of a function without brackets: `pi` is what it answers, `sqrt` is an error.
+    fn bare_function(
+        &mut self,
+        scope: &Scope,
+        word: &ast::Word,
+        b: &builtin::Builtin<builtin::Function>,
+    ) -> Option<(Term, Kind)> {
+        let name = word.name();
+        if b.parameters.is_empty() {
+            let kind = self.builtin_kind(b.result, &Kind::Unknown);
+            return Some((Term::Call { name, arguments: Vec::new() }, kind));
+        }
+        let takes: Vec<&str> = b.parameters.iter().map(|p| p.label).collect();
+        let message = format!("{name} is a function: `{name}({})`", takes.join(", "));
+        self.error("wrong-arity", scope.file, word.span(), message);
         None
     }
 

@@ -28,6 +28,7 @@ const WRONG: &[(&str, &str, &str)] = &[
     ("a: Bool\nb: Bool = a.not", "expected-name", "not"),
     ("use shapes\nclass T is HorizontalLine { without levle }", "unknown-name", "levle"),
     ("use shapes\nclass T is Quad { without level }", "unknown-name", "level"),
+    ("a: Real = sqrt", "wrong-arity", "sqrt"),
     // classes
     ("p: Pont", "unknown-class", "Pont"),
     ("class A is Bee { }", "unknown-class", "Bee"),
