@@ -51,7 +51,10 @@ pub fn check_edit(document: &Document, structure: &Structure, edit: Edit<'_>) ->
     let connected = connected(document, structure, edit);
     for slot in edit.before.changed(edit.after) {
         let (before, after) = (shown(edit.before, slot), shown(edit.after, slot));
-        if structure.slots[slot].anchored && !edit.edited.contains(&slot) {
+        // what no text gives is computed anew when an edit's text is opened, the same but for rounding
+        let rounds = structure.slots[slot].given.is_none()
+            && base::number::close(edit.before.numbers[slot], edit.after.numbers[slot]);
+        if structure.slots[slot].anchored && !rounds && !edit.edited.contains(&slot) {
             wrong.push(format!("{} is anchored, and went from {before} to {after}", path(slot)));
         } else if !connected.contains(&slot) {
             let path = path(slot);
