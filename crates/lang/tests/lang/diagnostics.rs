@@ -123,6 +123,13 @@ const WRONG: &[(&str, &str, &str)] = &[
     ("l: List of 3 Real\nconstraint l[0.5] = 1", "index", "0.5"),
     ("l: List of 3 Real\nstay l[3]", "index", "3"),
     ("l: List of 3 Real\nfor i in 0..3 { constraint l[i] = 1 }", "index", "i"),
+    ("l, k: List of 3 Real\nfor i in 0..2 { merge l[i] = k[i + 1] }", "index", "i + 1"),
+    ("l, k: List of 3 Real\nfor i in 0..2 { merge l[i] = k[1 - i] }", "index", "1 - i"),
+    (
+        "l: List of 3 Real\nfor i in 0..2 { merge l[i] = l[2 - i] }",
+        "vacuous-merge",
+        "merge l[i] = l[2 - i]",
+    ),
     ("l: List of 2.5 Real", "not-a-count", "2.5"),
     ("a: Real\nconstraint a[0] = 1", "value-of-wrong-class", "a"),
     ("for i in 0..999 { for j in 0..999 { constraint i = j } }", "too-many-members", "0..999"),

@@ -148,6 +148,32 @@ fn for_is_unrolled() {
     );
 }
 
+/// What one turn of a loop merges tells what the others do: sums are counted, all else is looked up.
+#[test]
+fn loops_merge_what_each_turn_says() {
+    let merges = |text: &str, which: usize| {
+        let text = format!("class P {{ x: Real }}\nl, k: List of 9 P\n{text}");
+        let lowered = right(&text);
+        let merges = &root(&lowered).merges;
+        let paths: Vec<String> = merges[which].paths.iter().map(ToString::to_string).collect();
+        (merges.len(), paths.join(" = "))
+    };
+    let sums = "for i in 0..2 { for j in 0..2 { merge l[3 * i + j] = k[8 - (i * 3 + j)] } }";
+    assert_eq!(merges(sums, 5), (9, "l[5] = k[3]".into()));
+    assert_eq!(
+        merges("for i in 0..2 { merge l[i * i].x = k[i].x }", 2),
+        (3, "l[4].x = k[2].x".into())
+    );
+    assert_eq!(
+        merges("for i in 0..3 { merge l[4 + i] = k[-(i - 3)] }", 3),
+        (4, "l[7] = k[0]".into())
+    );
+    let next = "for a, b in l.neighbours { merge a.x = b.x }";
+    assert_eq!(merges(next, 7), (8, "l[7].x = l[8].x".into()));
+    let last = "for i in 0..1 { merge l.last = k[i] }";
+    assert_eq!(merges(last, 1), (2, "l.last = k[1]".into()));
+}
+
 #[test]
 fn constraints_keep_strength_methods_and_reads() {
     let lowered = right(
