@@ -355,6 +355,52 @@ mod tests {
         }
     }
 
+    /// A net of nodes whose first is tied to the ground; pivots are chosen for links of any resistance and sign,
+    /// and serve where all are alike: those of a node's own row and column never vanish.
+    #[test]
+    fn pivots_of_a_net_serve_other_links() {
+        let (k, mut seed) = (40, 3);
+        let n = k * k;
+        let links = (0..n).flat_map(|i| {
+            let across = (i % k + 1 < k).then_some((i, i + 1));
+            across.into_iter().chain((i + k < n).then_some((i, i + k)))
+        });
+        let links: Vec<(usize, usize)> = links.collect();
+        let m = links.len();
+        // of every link what falls along it, then of every node what flows out of it
+        let mut rows: Vec<Vec<(usize, f64)>> = vec![Vec::new(); m + n];
+        rows[m].push((0, 1.0));
+        for (link, &(a, b)) in links.iter().enumerate() {
+            rows[link].extend([(a, 1.0), (b, -1.0)]);
+            rows[m + a].push((n + link, 1.0));
+            rows[m + b].push((n + link, -1.0));
+        }
+        let net = |resistance: &mut dyn FnMut() -> f64| {
+            let mut rows = rows.clone();
+            for (link, row) in rows[..m].iter_mut().enumerate() {
+                row.push((n + link, -resistance()));
+            }
+            rows.iter_mut().for_each(|row| row.sort_by_key(|e| e.0));
+            let columns = |row: &Vec<(usize, f64)>| row.iter().map(|e| e.0 as u32).collect();
+            let pattern = Pattern::of_rows(n + m, rows.iter().map(columns));
+            (pattern, rows.iter().flatten().map(|e| e.1).collect::<Vec<f64>>())
+        };
+        // as large as generic numbers are, of either sign
+        let (pattern, any) = net(&mut || {
+            let x = random(&mut seed);
+            1.3 * x + 1.25 * x.signum()
+        });
+        let (_, alike) = net(&mut || 1.0);
+        let symbolic = Symbolic::new(pivot::choose(&pattern, &any, How::Paired));
+        let mut lu = Lu::default();
+        assert!(symbolic.factorise(&pattern, &alike, &mut lu).is_some());
+        // what flows into the nodes, one each, the ground carries away
+        let mut volts = vec![0.0; m];
+        volts.resize(m + n, 1.0);
+        symbolic.solve(&mut lu, &mut volts);
+        assert!((volts[0] - n as f64).abs() < 1e-6, "{}", volts[0]);
+    }
+
     #[test]
     fn factors_serve_other_numbers_of_the_pattern() {
         let mut seed = 5;
