@@ -24,12 +24,14 @@ pub(super) fn finish(maker: &mut Maker<'_>, body: Body, givens: &Givens) -> Form
     give_slots(maker, &body, &order, givens, &mut structure);
     let references = given_references(maker, &body);
     let first = |t: ThingId| body.merged[t];
-    let mut members: Vec<(ThingId, ThingId)> =
-        body.members.iter().map(|&(set, part)| (first(set), first(part))).collect();
-    members.sort_by_key(|&(set, part)| (body.rank[set], body.rank[part]));
+    // by their ranks, which tell the things
+    let rank = |&(set, part): &(ThingId, ThingId)| (body.rank[first(set)], body.rank[first(part)]);
+    let mut members: Vec<(u32, u32)> = body.members.iter().map(rank).collect();
+    members.sort_unstable();
     members.dedup();
-    for (set, part) in members {
-        structure.sets.entry(set).or_default().push(part);
+    for own in members.chunk_by(|a, b| a.0 == b.0) {
+        let parts = own.iter().map(|&(_, part)| order[part as usize]).collect();
+        structure.sets.insert(order[own[0].0 as usize], parts);
     }
     structure.things = body.things;
     structure.merged = body.merged;

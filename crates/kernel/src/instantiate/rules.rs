@@ -3,12 +3,11 @@
 use super::body::{Body, Member, Waiting};
 use super::merge::merge_pair;
 use super::{FaultKind, Maker};
-use crate::class::{ClassKind, Merge};
+use crate::class::{ClassId, ClassKind, Merge};
 use crate::path::Path;
 use crate::structure::{ConstraintInstance, StayInstance, ThingId};
 use crate::term::OriginId;
 use base::{IdVec, Name};
-use std::collections::BTreeSet;
 use std::rc::Rc;
 
 /// Applies what a thing's classes say: its merges, then constraints, stays and set members.
@@ -154,12 +153,17 @@ fn keep_each_once(body: &mut Body) {
     if !any {
         return;
     }
-    let mut seen = BTreeSet::new();
-    let mut is_first = |c: &ConstraintInstance| {
-        !is_shared[c.owner] || seen.insert((body.merged[c.owner], c.class, c.index))
-    };
-    let Some(again) = body.constraints.iter().position(|c| !is_first(c)) else { return };
-    let (before, behind) = body.constraints.split_at(again);
-    let kept = before.iter().chain(behind.iter().filter(|c| is_first(c))).copied().collect();
-    body.constraints = Rc::new(kept);
+    let shared = (0..).zip(body.constraints.iter()).filter(|(_, c)| is_shared[c.owner]);
+    let mut shared: Vec<(ThingId, ClassId, u32, u32)> =
+        shared.map(|(at, c)| (body.merged[c.owner], c.class, c.index, at)).collect();
+    shared.sort_unstable();
+    let mut is_again = vec![false; body.constraints.len()];
+    for pair in shared.windows(2) {
+        let [(a, class, index, _), (b, other, number, at)] = [pair[0], pair[1]];
+        is_again[at as usize] = (a, class, index) == (b, other, number);
+    }
+    if is_again.contains(&true) {
+        let kept = body.constraints.iter().zip(is_again).filter(|(_, is_again)| !is_again);
+        body.constraints = Rc::new(kept.map(|(c, _)| *c).collect());
+    }
 }
