@@ -4,7 +4,7 @@ use super::body::Body;
 use super::grown::Shared;
 use super::{FaultKind, Maker};
 use crate::class::{ClassId, ClassKind};
-use crate::document::Document;
+use crate::document::{Document, PartRef};
 use crate::path::{Path, Step};
 use crate::structure::{GivenId, GivenIn, GivenTerm, ThingId};
 use crate::term::Term;
@@ -100,7 +100,10 @@ fn each_share<'d>(
             let name =
                 layout.as_ref().map(|l| maker.document.field_name(l.fields[part as usize]).clone());
             let class = body.things[body.part(thing, part as usize)].class;
-            if is_copied_reference(maker, class, b.given.value) {
+            let field = layout.as_ref().map(|l| l.fields[part as usize]);
+            if is_copied_reference(maker, class, b.given.value)
+                || field.is_some_and(|field| is_of_body(maker, field, b.given.value))
+            {
                 continue;
             }
             let value = share_of_whole(maker, b.given.value, part, name.as_ref());
@@ -138,6 +141,15 @@ fn each_share<'d>(
 /// Returns true for a reference in a copy: it is read again where the copy is.
 fn is_copied_reference(maker: &Maker<'_>, class: ClassId, whole: GivenId) -> bool {
     matches!(maker.document.classes[class].kind, ClassKind::Reference(_))
+        && !matches!(maker.givens[whole].term, Term::List(_) | Term::Tuple(_) | Term::Make { .. })
+}
+
+/// Returns true for what only the thing's own body declares, where the value is that of another thing, which
+/// has no such part.
+fn is_of_body(maker: &Maker<'_>, field: PartRef, whole: GivenId) -> bool {
+    let declares = &maker.document.classes[field.class];
+    declares.is_of_one
+        && declares.general.is_none()
         && !matches!(maker.givens[whole].term, Term::List(_) | Term::Tuple(_) | Term::Make { .. })
 }
 
