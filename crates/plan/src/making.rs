@@ -4,7 +4,7 @@ use crate::evaluate::{Answer, Given, Opening};
 use crate::fault::{FaultKind, Trouble};
 use crate::meaning::{Frame, Made, Meaning, Opaque};
 use base::Name;
-use kernel::{ClassId, ClassKind};
+use kernel::{ClassId, ClassKind, Count, PartRef};
 use std::rc::Rc;
 
 impl<'a> Opening<'a> {
@@ -19,7 +19,7 @@ impl<'a> Opening<'a> {
             let positional = || arguments.get(i).filter(|a| a.0.is_none());
             let meaning = match labelled.or_else(positional) {
                 Some(argument) => argument.1.clone(),
-                None => self.default_field(class, &name, document.field_class(field), &fields)?,
+                None => self.default_field(class, &name, field, &fields)?,
             };
             fields.push((name, meaning));
         }
@@ -31,7 +31,7 @@ impl<'a> Opening<'a> {
         &mut self,
         class: ClassId,
         name: &Name,
-        field_class: ClassId,
+        field: PartRef,
         so_far: &[(Name, Meaning<'a>)],
     ) -> Answer<'a> {
         let document = self.document;
@@ -44,11 +44,26 @@ impl<'a> Opening<'a> {
             let me = Meaning::Made(Rc::new(Made { class, fields: so_far.to_vec() }));
             return self.deeper(|opening| opening.meaning(&given.value, &Frame::new(me)));
         }
-        match document.classes[field_class].kind {
+        let count = document.declared(field).and_then(|part| part.count);
+        self.blank(document.field_class(field), count)
+    }
+
+    /// Makes a value of a class of which nothing is said.
+    fn blank(&mut self, class: ClassId, count: Option<Count>) -> Answer<'a> {
+        let own = &self.document.classes[class];
+        match own.kind {
             ClassKind::Primitive(p) if p.is_number() => Ok(self.number(0.0)),
             ClassKind::Primitive(_) => Ok(Meaning::Opaque(Opaque::default())),
-            ClassKind::Composite => self.deeper(|opening| opening.make(field_class, &[])),
-            ClassKind::List(_) | ClassKind::Set(_) => Ok(Meaning::List(Rc::from([]))),
+            ClassKind::Composite => self.deeper(|opening| opening.make(class, &[])),
+            ClassKind::List(element) => {
+                let n = match own.count.map(Count::Fixed).or(count) {
+                    Some(Count::Fixed(n)) => n,
+                    Some(Count::Given) | None => 0,
+                };
+                let elements = (0..n).map(|_| self.blank(element, None));
+                Ok(Meaning::List(elements.collect::<Result<_, _>>()?))
+            }
+            ClassKind::Set(_) => Ok(Meaning::List(Rc::from([]))),
             ClassKind::Reference(_) => {
                 Err(Trouble::new(FaultKind::Reference, "a reference that names nothing"))
             }
