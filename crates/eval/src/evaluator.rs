@@ -335,7 +335,7 @@ impl<'a> Evaluator<'a> {
 
     /// Returns what is stored in a part, or the part itself where it has parts.
     pub(crate) fn part(&self, thing: ThingId) -> Result<Answer<'a>> {
-        match self.structure.slot_of[thing] {
+        match self.structure.slot_of(thing) {
             Some(slot) => Ok(self.stored(slot)),
             None => match self.class_kind(thing) {
                 ClassKind::Reference(_) => match self.structure.referent(thing) {

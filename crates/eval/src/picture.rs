@@ -82,7 +82,7 @@ impl Evaluator<'_> {
             if std::mem::replace(&mut seen[first], true) {
                 continue;
             }
-            let slot = |i: u32| self.structure.slot_of[ThingId(t.first_part.0 + i)];
+            let slot = |i: u32| self.structure.slot_of(ThingId(t.first_part.0 + i));
             if let (Some(x), Some(y)) = (slot(x), slot(y)) {
                 let number = |s: SlotId| self.values.numbers[s];
                 let held = |s: SlotId| self.structure.slots[s].anchored;

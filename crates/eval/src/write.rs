@@ -142,7 +142,7 @@ impl<'a> Evaluator<'a> {
         written: &mut Vec<(SlotId, Value)>,
     ) -> Result<()> {
         self.burn()?;
-        if let Some(slot) = self.structure.slot_of[target] {
+        if let Some(slot) = self.structure.slot_of(target) {
             written.push((slot, self.value_for(slot, value)?));
             return Ok(());
         }

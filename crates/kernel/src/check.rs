@@ -28,15 +28,15 @@ pub fn structure(document: &Document, structure: &Structure) -> Result<(), Strin
             return Err(format!("an identity is its own identity: {id}"));
         }
         let primitive = matches!(document.classes[thing.class].kind, ClassKind::Primitive(_));
-        if primitive != structure.slot_of[id].is_some() {
+        if primitive != structure.slot_of(id).is_some() {
             return Err(format!("primitive things, and only they, have slots: {id}"));
         }
-        if structure.slot_of[first] != structure.slot_of[id] {
+        if structure.slot_of(first) != structure.slot_of(id) {
             return Err(format!("merged things share their slot: {id}"));
         }
     }
     for (id, slot) in structure.slots.iter() {
-        if structure.slot_of[slot.thing] != Some(id) {
+        if structure.slot_of(slot.thing) != Some(id) {
             return Err(format!("a slot's first thing has that slot: {id}"));
         }
     }

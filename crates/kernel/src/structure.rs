@@ -106,6 +106,16 @@ impl Deref for Structure {
     }
 }
 
+/// Stands for the slot of a thing that has none: half the memory of an `Option`.
+pub(crate) const NO_SLOT: SlotId = SlotId(u32::MAX);
+
+impl Form {
+    /// Returns the slot of a primitive thing; nothing for others.
+    pub fn slot_of(&self, thing: ThingId) -> Option<SlotId> {
+        Some(self.own_slots[thing]).filter(|&slot| slot != NO_SLOT)
+    }
+}
+
 impl Structure {
     /// Returns the given value of a slot.
     pub fn given(&self, slot: SlotId) -> Option<&GivenTerm> {
@@ -132,8 +142,8 @@ pub struct Form {
     pub(crate) unlike: BTreeMap<ThingId, Vec<ThingId>>,
     /// For every thing, whether it is among the keys of `unlike`; empty where nothing is.
     pub(crate) is_unlike: IdVec<ThingId, bool>,
-    /// For every primitive thing, its slot.
-    pub slot_of: IdVec<ThingId, Option<SlotId>>,
+    /// For every primitive thing, its slot; [`NO_SLOT`] for others. It is asked by [`Form::slot_of`].
+    pub(crate) own_slots: IdVec<ThingId, SlotId>,
     /// Every slot, in order of declaration of its first thing.
     pub slots: IdVec<SlotId, Slot>,
     /// The values that an integer may take, for slots where that is written.
@@ -371,8 +381,8 @@ impl Form {
     /// Returns the slot that is meant where a thing goes some way: a coordinate of a place, or a number.
     pub fn slot_of_side(&self, thing: ThingId, way: SideWay) -> Option<SlotId> {
         match way.coordinate() {
-            Some(coordinate) => self.slot_of[self.part_named(thing, coordinate)?],
-            None => self.slot_of[thing],
+            Some(coordinate) => self.slot_of(self.part_named(thing, coordinate)?),
+            None => self.slot_of(thing),
         }
     }
     /// Returns how it is written that a slot goes some way: of its place where it is a coordinate.
@@ -478,7 +488,7 @@ impl Form {
         let mut slots = Vec::new();
         let mut stack = vec![thing];
         while let Some(t) = stack.pop() {
-            match self.slot_of[t] {
+            match self.slot_of(t) {
                 Some(slot) => slots.push(slot),
                 None => stack.extend(self.parts(t).rev()),
             }

@@ -73,7 +73,7 @@ impl Planner {
     ) -> Vec<Ghost> {
         let structure = model.structure;
         let under = structure.slots_under(thing);
-        let is_whole = structure.slot_of[thing].is_none();
+        let is_whole = structure.slot_of(thing).is_none();
         let own: BTreeSet<SlotId> = under
             .into_iter()
             .filter(|&slot| match Self::resting_hold(structure, slot) {

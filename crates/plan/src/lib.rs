@@ -20,7 +20,7 @@
 //!     let mut values = Values::default();
 //!     planner.open(model, &mut values, host);
 //!     let first = structure.parts(kernel::DOCUMENT).next()?;
-//!     let wanted = 2.0 * values.numbers[structure.slot_of[first]?];
+//!     let wanted = 2.0 * values.numbers[structure.slot_of(first)?];
 //!     let targets = [(Target::Thing(first), vec![Value::Number(wanted)])];
 //!     let report = planner.edit(model, &mut values, EditKind::Set, &targets, host);
 //!     report.refusal.is_none().then_some(values)

@@ -184,7 +184,7 @@ impl<'a> Reach<'a> {
     }
     /// Returns the slot of a thing, if it is primitive.
     pub(crate) fn slot(&mut self, thing: ThingId) -> Option<SlotId> {
-        let slot = self.structure.slot_of[thing]?;
+        let slot = self.structure.slot_of(thing)?;
         let number = self.number_of(thing);
         self.stored.push((number, slot));
         Some(slot)
@@ -326,7 +326,7 @@ impl Routes {
         if !others.all(|other| unlike.next() == Some(&other)) || unlike.next().is_some() {
             return false;
         }
-        let slot = |n: Reached| structure.slot_of[things[n as usize]];
+        let slot = |n: Reached| structure.slot_of(things[n as usize]);
         let stored = &self.stored[route.stored.range()];
         slots.extend(stored.iter().filter_map(|&n| slot(n)));
         let again = &self.again[route.again.range()];

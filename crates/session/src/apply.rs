@@ -469,7 +469,7 @@ fn carried_over(command: &Command, before: &State, after: &State) -> Option<Valu
         let holds = general::merged(before, paths);
         let slot = |path: &Path| {
             let thing = after.structure.follow(DOCUMENT, path).ok()?;
-            after.structure.slot_of[thing]
+            after.structure.slot_of(thing)
         };
         let holds: Vec<(SlotId, Value)> =
             holds.into_iter().filter_map(|(path, value)| Some((slot(&path)?, value))).collect();
@@ -489,7 +489,7 @@ fn carried_over(command: &Command, before: &State, after: &State) -> Option<Valu
             let path = before_deletion(command, after, path);
             thing = before.structure.follow(DOCUMENT, &path).ok();
         }
-        if let Some(was) = thing.and_then(|t| before.structure.slot_of[t]) {
+        if let Some(was) = thing.and_then(|t| before.structure.slot_of(t)) {
             values.put(slot, before.values.get(was));
         }
     }

@@ -47,7 +47,7 @@ pub(crate) fn press(
     let structure = &state.structure;
     general::accept(state, &path).map_err(|r| RefusalReason::Target(r.message))?;
     let otherwise = otherwise(state, thing);
-    let handles: Vec<Vec<ThingId>> = match (structure.slot_of[thing], &otherwise) {
+    let handles: Vec<Vec<ThingId>> = match (structure.slot_of(thing), &otherwise) {
         (Some(_), _) => vec![vec![thing]],
         (None, Some(moves)) => moves.iter().map(|&s| vec![structure.slots[s].thing]).collect(),
         (None, None) => places(structure, thing),
@@ -147,7 +147,7 @@ fn otherwise(state: &State, thing: ThingId) -> Option<Vec<SlotId>> {
 pub(crate) fn coordinates(structure: &Structure, thing: ThingId) -> Option<[(ThingId, SlotId); 2]> {
     let coordinate = |name| {
         let part = structure.part_named(thing, name)?;
-        Some((part, structure.slot_of[part]?))
+        Some((part, structure.slot_of(part)?))
     };
     Some([coordinate("x")?, coordinate("y")?])
 }

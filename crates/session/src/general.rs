@@ -132,15 +132,15 @@ fn held(state: &State, thing: ThingId, answer: &Answer<'_>) -> Vec<(SlotId, Valu
         Answer::Made(made) => &made.fields[..],
         Answer::List(items) => items,
         Answer::Number(x, _) => {
-            return structure.slot_of[thing].map(|s| (s, Value::Number(*x))).into_iter().collect();
+            return structure.slot_of(thing).map(|s| (s, Value::Number(*x))).into_iter().collect();
         }
         Answer::Bool(b) => {
             let x = Value::Number(f64::from(u8::from(*b)));
-            return structure.slot_of[thing].map(|s| (s, x)).into_iter().collect();
+            return structure.slot_of(thing).map(|s| (s, x)).into_iter().collect();
         }
         Answer::Text(text) => {
             let text = Value::Text(Arc::from(&**text));
-            return structure.slot_of[thing].map(|s| (s, text)).into_iter().collect();
+            return structure.slot_of(thing).map(|s| (s, text)).into_iter().collect();
         }
         Answer::Thing(other) => {
             let (to, from) = (structure.slots_under(thing), structure.slots_under(*other));

@@ -51,7 +51,7 @@ pub(crate) fn edits(open: &Open, path: &Path, parting: Vec<TextEdit>) -> Vec<Tex
 /// Returns true for a number that is given by itself, and is another as it is merged.
 fn is_given_another(state: &State, thing: ThingId) -> bool {
     let structure = &state.structure;
-    let Some((given, slot)) = structure.given_apart(thing).zip(structure.slot_of[thing]) else {
+    let Some((given, slot)) = structure.given_apart(thing).zip(structure.slot_of(thing)) else {
         return false;
     };
     // a lone number holds what it is given, whoever gives it
@@ -76,7 +76,7 @@ fn leaves(state: &State, thing: ThingId) -> Vec<ThingId> {
     let mut leaves = Vec::new();
     let mut stack = vec![thing];
     while let Some(t) = stack.pop() {
-        match state.structure.slot_of[t] {
+        match state.structure.slot_of(t) {
             Some(_) => leaves.push(t),
             None => stack.extend(state.structure.parts(t).rev()),
         }

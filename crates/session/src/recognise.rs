@@ -172,7 +172,7 @@ impl Trial {
         filled: &mut [bool],
     ) -> bool {
         if let (Some(slot), Some(source)) =
-            (self.lone.structure.slot_of[part], state.structure.slot_of[from])
+            (self.lone.structure.slot_of(part), state.structure.slot_of(from))
         {
             let value = state.values.get(source);
             let agrees = match (&value, values.get(slot)) {

@@ -324,7 +324,7 @@ pub(crate) fn show_thing(state: &State, thing: ThingId, values: &Values) -> Opti
         let (text, unit) = show_slot(state, slot, values);
         with_unit(text, &unit)
     };
-    match state.structure.slot_of[thing] {
+    match state.structure.slot_of(thing) {
         Some(slot) => Some(joined(slot)),
         None if state.lowered.document.is_place(state.structure.things[thing].class) => {
             let slots = state.structure.slots_under(thing);
@@ -367,7 +367,7 @@ pub(crate) fn freedom_of(
     status: &plan::Status,
     thing: ThingId,
 ) -> Option<Freedom> {
-    if let Some(slot) = structure.slot_of[thing] {
+    if let Some(slot) = structure.slot_of(thing) {
         return Some(match status.slots[slot] {
             plan::SlotState::Conflicting => Freedom::Conflicting,
             plan::SlotState::Free => Freedom::Free,

@@ -152,9 +152,9 @@ fn written_at(state: &State, unit: ThingId) -> ThingId {
     }
     let gives = |&t: &ThingId| {
         let leaves =
-            if structure.slot_of[t].is_some() { vec![t] } else { structure.parts(t).collect() };
+            if structure.slot_of(t).is_some() { vec![t] } else { structure.parts(t).collect() };
         leaves.iter().any(|&leaf| {
-            let Some(slot) = structure.slot_of[leaf] else { return false };
+            let Some(slot) = structure.slot_of(leaf) else { return false };
             let (given, own) = (structure.given(slot), structure.given_apart(leaf));
             given.is_some_and(|g| Some(g) == own && state.lowered.is_own_given(g.origin))
         })
@@ -164,7 +164,7 @@ fn written_at(state: &State, unit: ThingId) -> ThingId {
 
 /// Returns what a thing is worth, as the language writes it.
 pub(crate) fn literal(state: &State, thing: ThingId, values: &Values) -> Literal {
-    match state.structure.slot_of[thing] {
+    match state.structure.slot_of(thing) {
         Some(slot) => match (state.structure.slots[slot].primitive, values.get(slot)) {
             (Primitive::Bool, Value::Number(x)) => Literal::Bool(x != 0.0),
             (_, Value::Number(x)) => Literal::Number(x),

@@ -15,7 +15,7 @@ pub(super) fn forget_computed(form: &mut Form, givens: &Givens) {
     let from = |(slot, s): (SlotId, &Slot)| {
         let given = &givens[s.given?.value];
         let source = follow(form, &given.term, s.given?.me).filter(|_| given.of_copy)?;
-        Some((slot, form.slot_of[source]?))
+        Some((slot, form.slot_of(source)?))
     };
     let mut waiting: Vec<(SlotId, SlotId)> = form.slots.iter().filter_map(from).collect();
     loop {

@@ -6,7 +6,7 @@ use super::refer::refer;
 use super::{FaultKind, Maker};
 use crate::class::{Class, ClassId, ClassKind};
 use crate::document::{Document, Side};
-use crate::structure::{Form, GivenIn, Givens, Slot, ThingId};
+use crate::structure::{Form, GivenIn, Givens, NO_SLOT, Slot, ThingId};
 use crate::term::OriginId;
 use base::IdVec;
 use std::collections::BTreeMap;
@@ -15,7 +15,7 @@ use std::collections::BTreeMap;
 pub(super) fn finish(maker: &mut Maker<'_>, body: Body, givens: &Givens) -> Form {
     let order = in_order(&body);
     let mut structure = Form {
-        slot_of: IdVec::filled(None, body.things.len()),
+        own_slots: IdVec::filled(NO_SLOT, body.things.len()),
         next_merged: rings(&body, &order),
         layouts: std::mem::take(&mut maker.layouts),
         ..Form::default()
@@ -141,7 +141,7 @@ fn give_slots(
         let t = &body.things[thing];
         let ClassKind::Primitive(primitive) = document.classes[t.class].kind else { continue };
         let first = body.merged[thing];
-        let slot = structure.slot_of[first].unwrap_or_else(|| {
+        let slot = structure.slot_of(first).unwrap_or_else(|| {
             let place = t.owner.filter(|&owner| {
                 let class = body.things[owner].class;
                 let count = || document.place_in(class).unwrap_or(0);
@@ -156,8 +156,8 @@ fn give_slots(
                 place,
             })
         });
-        structure.slot_of[first] = Some(slot);
-        structure.slot_of[thing] = Some(slot);
+        structure.own_slots[first] = slot;
+        structure.own_slots[thing] = slot;
         if let Some(given) = body.givens[thing] {
             // what stands further out is nearer to whoever wrote it; of equals the first declared
             let known = structure.slots[slot].given;

@@ -19,7 +19,7 @@ fn at(structure: &Structure, path: &[&str]) -> ThingId {
 }
 
 fn given_number(structure: &Structure, path: &[&str]) -> Option<f64> {
-    let slot = structure.slot_of[at(structure, path)].expect("a number has a slot");
+    let slot = structure.slot_of(at(structure, path)).expect("a number has a slot");
     match &structure.given(slot)?.term {
         Term::Number { value, .. } => Some(*value),
         other => panic!("given {other:?}"),
@@ -287,7 +287,7 @@ fn a_list_in_a_part_takes_as_many_elements_as_its_owner_gives() {
     let s = make(&b.document(root));
     let counts = ["two", "none", "one"].map(|row| s.parts(at(&s, &[row, "cells"])).len());
     assert_eq!(counts, [2, 0, 1]);
-    let last = s.parts(at(&s, &["two", "cells"])).last().and_then(|cell| s.slot_of[cell]);
+    let last = s.parts(at(&s, &["two", "cells"])).last().and_then(|cell| s.slot_of(cell));
     let given = last.and_then(|slot| s.given(slot)).map(|g| g.term.clone());
     assert_eq!(given, Some(Term::number(1.0)));
 }

@@ -148,7 +148,7 @@ impl Lab {
         self.structure.follow(ThingId(0), &to_path(path)).expect("the path leads somewhere")
     }
     pub(crate) fn slot(&self, path: &str) -> SlotId {
-        self.structure.slot_of[self.thing(path)].expect("the part is primitive")
+        self.structure.slot_of(self.thing(path)).expect("the part is primitive")
     }
     pub(crate) fn number(&self, path: &str) -> f64 {
         self.values.numbers[self.slot(path)]
@@ -287,7 +287,7 @@ impl Terms<'_> {
                 read.map(Value::Number)
             }
             Term::Send { .. } => {
-                let slot = self.structure.slot_of[self.part(me, term)];
+                let slot = self.structure.slot_of(self.part(me, term));
                 Ok(values.get(slot.expect("the part is primitive")))
             }
             other => Err(format!("this host does not know {other:?}")),
@@ -341,7 +341,7 @@ impl Host for Terms<'_> {
                 (self.part(me, right), left)
             }
         };
-        let slot = self.structure.slot_of[target].expect("the target is primitive");
+        let slot = self.structure.slot_of(target).expect("the target is primitive");
         Ok(vec![(slot, self.term(me, value, values)?)])
     }
     fn holds(&mut self, constraint: ConstraintInstance, values: &Values) -> bool {

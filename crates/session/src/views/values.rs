@@ -42,7 +42,7 @@ pub(crate) fn renew<'r>(
                 owner.and_then(|owner| show_virtual(state, &evaluator, owner, name))
             }
             _ => crate::session::thing_at(state, &path)
-                .and_then(|thing| state.structure.slot_of[thing])
+                .and_then(|thing| state.structure.slot_of(thing))
                 .map(|slot| show(state, values, slot)),
         };
         if let Some(shown) = shown {
@@ -134,7 +134,7 @@ impl Maker<'_> {
         if structure.merged[thing] != thing {
             return;
         }
-        if let Some(slot) = structure.slot_of[thing] {
+        if let Some(slot) = structure.slot_of(thing) {
             let s = &structure.slots[slot];
             let Shown { text, unit, number } = show(state, self.values, slot);
             self.rows.push(ValueRow {
