@@ -533,6 +533,9 @@ impl Run<'_> {
     fn square(&mut self, step: &Step, square: &Square) -> Result<(), Failure> {
         let ways: &[Trust] = match self.trust {
             Trust::Branch => &[Trust::Branch],
+            Trust::Any | Trust::Leap if self.buffers.square.is_hasty && square.is_large() => {
+                &[Trust::Any]
+            }
             Trust::Any | Trust::Leap => &[Trust::Any, Trust::Leap],
         };
         for &way in ways {

@@ -41,9 +41,15 @@ impl Joint {
         Self { block, damped }
     }
 
-    /// Moves the unknowns until every row holds or no step makes the errors smaller; returns true if every
-    /// row holds. Where rows are not finite nothing is moved.
-    pub(crate) fn settle(&self, values: &mut [f64], scales: &[f64], w: &mut Workspace) -> bool {
+    /// Moves the unknowns until every row holds, no step makes the errors smaller, or they are `enough` so, in
+    /// parts of the extent; returns true if every row holds. Where rows are not finite nothing is moved.
+    pub(crate) fn settle(
+        &self,
+        values: &mut [f64],
+        scales: &[f64],
+        enough: f64,
+        w: &mut Workspace,
+    ) -> bool {
         let unknowns = &self.block.unknowns;
         let weight = self.weights(values, scales, w);
         let mut now = self.stand(values, &weight, w);
@@ -57,6 +63,9 @@ impl Joint {
             }
             if self.holds(&now.local, values, w) {
                 return true;
+            }
+            if now.sum <= enough * enough * now.error.len() as f64 {
+                return false;
             }
             self.fill(&now.local, &weight, scales, &mut matrix);
             let right = now.error.iter().map(|e| -e);
@@ -174,7 +183,7 @@ mod tests {
     #[test]
     fn rows_that_are_not_finite_move_nothing() {
         let mut values = [-1.0];
-        assert!(!joint(&[0], root).settle(&mut values, &[1.0], &mut Workspace::default()));
+        assert!(!joint(&[0], root).settle(&mut values, &[1.0], 0.0, &mut Workspace::default()));
         assert_eq!(values, [-1.0]);
     }
 
@@ -186,7 +195,7 @@ mod tests {
         };
         let mut values = [0.0];
         let joint = joint(&[0], contradiction);
-        assert!(!joint.settle(&mut values, &[1.0], &mut Workspace::default()));
+        assert!(!joint.settle(&mut values, &[1.0], 0.0, &mut Workspace::default()));
         assert!((values[0] - 3.0).abs() < 1e-9, "{values:?}");
     }
 
@@ -199,14 +208,19 @@ mod tests {
             vec![(arena.add(x, y), arena.constant(25.0))]
         };
         let mut values = [6.0, 8.0];
-        assert!(joint(&[0, 1], circle).settle(&mut values, &[10.0; 2], &mut Workspace::default()));
+        assert!(joint(&[0, 1], circle).settle(
+            &mut values,
+            &[10.0; 2],
+            0.0,
+            &mut Workspace::default()
+        ));
         assert!((values[0] - 3.0).abs() + (values[1] - 4.0).abs() < 1e-6, "{values:?}");
     }
 
     #[test]
     fn a_root_is_found_from_afar() {
         let mut values = [100.0];
-        assert!(joint(&[0], root).settle(&mut values, &[100.0], &mut Workspace::default()));
+        assert!(joint(&[0], root).settle(&mut values, &[100.0], 0.0, &mut Workspace::default()));
         assert!((values[0] - 4.0).abs() < 1e-7, "{values:?}");
     }
 }

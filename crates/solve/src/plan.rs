@@ -150,6 +150,8 @@ pub struct Plan {
     pub(crate) scale_classes: usize,
     /// True if a step depends on the branch that the state is on.
     pub(crate) has_branches: bool,
+    /// True if a step is a curved block of many unknowns, none of which comes before the others.
+    pub(crate) has_large_core: bool,
     /// True if a step changes as little as it can.
     pub(crate) has_least: bool,
     /// True if in some step the least change is sought along rows that are curved.
@@ -293,6 +295,8 @@ fn plan_stated(stated: Stated) -> Plan {
     let lowered = lower::lower(&analysis, &blocks);
     let is_measured = |s: &Step| matches!(s.kind, StepKind::LeastChange | StepKind::Compromise);
     let has_branches = lowered.steps.iter().any(|s| s.may_branch() || is_measured(s));
+    let is_large = |s: &Step| matches!(&s.program, Program::Square(square) if square.is_large());
+    let has_large_core = lowered.steps.iter().any(is_large);
     let has_least = lowered.steps.iter().any(|s| matches!(s.program, Program::Least(_)));
     let is_curved = |p: &Program| matches!(p, Program::Least(least) if !least.0.block.is_linear);
     let bends = lowered.steps.iter().any(|s| is_curved(&s.program));
@@ -310,6 +314,7 @@ fn plan_stated(stated: Stated) -> Plan {
         shared_given: shared_given(&analysis),
         scale_classes: system.slots.iter().map(|s| s.scale as usize + 1).max().unwrap_or(0),
         has_branches,
+        has_large_core,
         stated,
         relaxed: OnceCell::new(),
         tests: OnceCell::new(),

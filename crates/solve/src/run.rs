@@ -515,7 +515,19 @@ impl Way<'_> {
         values: &mut [f64],
         trust: Trust,
     ) -> Result<(), Stop> {
-        let failure = match self.direct(last, goal, trust) {
+        let is_rough = trust == Trust::Any && self.plan.has_large_core;
+        self.buffers.square.is_hasty = is_rough;
+        let mut direct = self.direct(last, goal, trust);
+        self.buffers.square.is_hasty = false;
+        if is_rough && direct.is_err() {
+            // what a large block finds alone by small steps lies farther off than what all rows find together
+            if self.from_near(last, goal) {
+                values.copy_from_slice(self.trial);
+                return Ok(());
+            }
+            direct = self.direct(last, goal, trust);
+        }
+        let failure = match direct {
             Ok(()) => {
                 values.copy_from_slice(self.trial);
                 // on another root a surplus row may hold
@@ -636,6 +648,14 @@ impl Way<'_> {
         let Self { plan, part, .. } = *self;
         let attempt = Attempt { plan, frame: self.frame, last, trust: Trust::Any, part };
         attempt.search(self.trial, self.buffers, self.host)
+    }
+
+    /// One stride, from where all rows together err least; returns true if everything then holds.
+    fn from_near(&mut self, last: &[f64], goal: &[f64]) -> bool {
+        self.set_out(last, goal, 1.0);
+        let Self { plan, part, .. } = *self;
+        let attempt = Attempt { plan, frame: self.frame, last, trust: Trust::Any, part };
+        attempt.run_from_near(self.trial, self.buffers, self.host)
     }
 
     /// Returns true if a required row that depends on others does not hold, but may on another root.

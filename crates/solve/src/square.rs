@@ -33,6 +33,8 @@ pub(crate) struct Square {
 /// Buffers that a block needs while it is solved.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct SquareScratch {
+    /// True while a large core gives up where a step is wide or has to be cut.
+    pub(crate) is_hasty: bool,
     local: Local,
     /// The block and the residuals where a step began.
     kept: Local,
@@ -106,6 +108,10 @@ const STEPS: usize = 200;
 const REFINEMENTS: usize = 10;
 /// How many steps may be taken whatever the residuals do.
 const LEAPS: usize = 60;
+/// A step this long, in parts of the extent, leads away from what is near.
+const WIDE: f64 = 0.1;
+/// A step that has to be cut this short, in a large core, goes across a narrow valley.
+const SHORT: f64 = 0.1;
 /// The largest core whose linear algebra is dense.
 const DENSE: usize = 12;
 /// The largest core whose least determined unknown is sought by eigenvectors.
@@ -154,6 +160,11 @@ impl Square {
         s.own = None;
         self.weigh(scales, s);
         self.factorise(s).sign
+    }
+
+    /// Returns true if it is curved and its core is so large that from a rough start its solution may lie far off.
+    pub(crate) fn is_large(&self) -> bool {
+        !self.block.is_linear && !self.is_dense()
     }
 
     /// Returns the direction that the core is free to go in to first order, in scaled unknowns, where the
@@ -440,6 +451,10 @@ impl Square {
             } else {
                 self.search(values, norm, was_held, w, s)
             };
+            let is_cut = found.is_none_or(|(length, _)| length < 1.0);
+            if (is_cut || size > WIDE) && !was_held && s.is_hasty && self.is_large() {
+                return Solved::Failed;
+            }
             match found {
                 Some((length, better)) => {
                     if branch.is_some() && length < 1.0 && !was_held {
@@ -450,7 +465,14 @@ impl Square {
                     }
                     let slow = better > 0.5 * norm;
                     norm = better;
-                    damping = if newton { 0.0 } else { damping * 0.1 };
+                    damping = if length < SHORT && !was_held && self.is_large() {
+                        // along the valley steps that are held back go further
+                        (damping * 10.0).max(1e-6)
+                    } else if newton {
+                        0.0
+                    } else {
+                        damping * 0.1
+                    };
                     if damping < 1e-10 {
                         damping = 0.0;
                     }

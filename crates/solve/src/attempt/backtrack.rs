@@ -18,9 +18,11 @@ use std::rc::Rc;
 /// How often, at most, equations are solved for every unknown, and for all of them together.
 const ROUNDS: usize = 5000;
 const WORK: usize = 3_000_000;
-/// After how much of either everything is moved at once, at the latest.
+/// After how much of either everything is moved at once, at the latest; where so many unknowns may have several
+/// values at once.
 const SOON: usize = 2;
 const SOON_WORK: usize = 2000;
+const LONG: usize = 100;
 /// How many choices are laid by.
 const CHOICES: usize = 400;
 /// How many steps with several roots, the nearest before a failure, are asked for others.
@@ -76,6 +78,7 @@ impl Attempt<'_> {
         let plan = self.plan;
         buffers.notes.clear();
         buffers.approached.clear();
+        let set_out = values.to_vec();
         begin(plan, self.frame, values, buffers);
         let mut writer = vec![None; plan.slots.len()];
         let mut branching = 0;
@@ -83,10 +86,14 @@ impl Attempt<'_> {
             step.targets.iter().for_each(|&t| writer[t as usize] = Some(i));
             branching += if step.may_branch() { step.targets.len() } else { 0 };
         }
-        let soon = (SOON * branching).max(SOON_WORK);
+        let soon = match branching {
+            _ if plan.has_whole_unknowns() => usize::MAX,
+            LONG.. => 0,
+            _ => (SOON * branching).max(SOON_WORK),
+        };
         let mut search = Search {
             attempt: self,
-            soon: if plan.has_whole_unknowns() { usize::MAX } else { soon },
+            soon,
             writer,
             choices: Vec::new(),
             seen: BTreeSet::new(),
@@ -95,6 +102,14 @@ impl Attempt<'_> {
             taken: Taken::new(),
         };
         buffers.square.work = 0;
+        if search.soon == 0 {
+            search.soon = usize::MAX;
+            if self.run_from_near(values, buffers, host) {
+                return Ok(());
+            }
+            values.copy_from_slice(&set_out);
+            begin(plan, self.frame, values, buffers);
+        }
         let mut from = 0;
         let mut first = None;
         let mut tried = 0;

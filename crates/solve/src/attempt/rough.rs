@@ -10,10 +10,14 @@ use crate::outcome::Host;
 use crate::plan::Step;
 use crate::system::{Level, SlotIndex, Stay};
 
+/// What all rows together may err when the steps take over: the last digits are soon found block by block, and
+/// slowly in the narrow valley that many rows make together. Where that is too rough, as little as can be.
+const ENOUGH: [f64; 2] = [1e-7, 0.0];
+
 impl Attempt<'_> {
     /// Runs the steps from where all rows together err least, near the last state; returns true if everything
     /// then holds. Of `values` the known slots count; what they are afterwards counts only then.
-    pub(super) fn run_from_near(
+    pub(crate) fn run_from_near(
         self,
         values: &mut [f64],
         buffers: &mut Buffers,
@@ -24,16 +28,20 @@ impl Attempt<'_> {
                 values[i] = self.last[i];
             }
         }
-        self.gather(values, buffers, host);
-        let near = values.to_vec();
-        let attempt = Attempt { last: &near, ..self };
-        attempt.run(values, &Approach::Nowhere, buffers, host).is_ok()
-            && self.broken(values, buffers).is_none()
+        let joint = self.gather(values, buffers, host);
+        let mut near = values.to_vec();
+        ENOUGH.iter().any(|&enough| {
+            joint.settle(&mut near, &self.frame.scales, enough, &mut buffers.work);
+            values.copy_from_slice(&near);
+            let attempt = Attempt { last: &near, ..self };
+            attempt.run(values, &Approach::Nowhere, buffers, host).is_ok()
+                && self.broken(values, buffers).is_none()
+        })
     }
 
-    /// Moves all unknowns of steps that do not hold to where the errors of all rows together are least near
-    /// by. `values` comes with the last state in it, and the known slots set.
-    fn gather(self, values: &mut [f64], buffers: &mut Buffers, host: &mut dyn Host) {
+    /// Takes all rows and unknowns of steps that do not hold together. `values` comes with the last state in it,
+    /// and the known slots set, and leaves with what comes from those alone.
+    fn gather(self, values: &mut [f64], buffers: &mut Buffers, host: &mut dyn Host) -> Joint {
         let Self { plan, frame, last, trust, part: _ } = self;
         begin(plan, frame, values, buffers);
         let mut unknowns: Vec<SlotIndex> = Vec::new();
@@ -65,8 +73,7 @@ impl Attempt<'_> {
             is_required.then_some(relation.first_row + rejected.row)
         });
         equations.extend(surplus);
-        let joint = Joint::new(&plan.problem(equations, unknowns));
-        joint.settle(values, &frame.scales, &mut buffers.work);
+        Joint::new(&plan.problem(equations, unknowns))
     }
 }
 
