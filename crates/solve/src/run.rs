@@ -521,7 +521,7 @@ impl Way<'_> {
         self.buffers.square.is_hasty = false;
         if is_rough && direct.is_err() {
             // what a large block finds alone by small steps lies farther off than what all rows find together
-            if self.from_near(last, goal) {
+            if self.all_at_once(last, goal) {
                 values.copy_from_slice(self.trial);
                 return Ok(());
             }
@@ -651,7 +651,7 @@ impl Way<'_> {
     }
 
     /// One stride, from where all rows together err least; returns true if everything then holds.
-    fn from_near(&mut self, last: &[f64], goal: &[f64]) -> bool {
+    fn all_at_once(&mut self, last: &[f64], goal: &[f64]) -> bool {
         self.set_out(last, goal, 1.0);
         let Self { plan, part, .. } = *self;
         let attempt = Attempt { plan, frame: self.frame, last, trust: Trust::Any, part };

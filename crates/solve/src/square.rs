@@ -457,25 +457,14 @@ impl Square {
             }
             match found {
                 Some((length, better)) => {
-                    if branch.is_some() && length < 1.0 && !was_held {
-                        return Solved::Failed;
-                    }
-                    if !better.is_finite() || w.is_spent() {
+                    let leaves = branch.is_some() && length < 1.0 && !was_held;
+                    if leaves || !better.is_finite() || w.is_spent() {
                         return Solved::Failed;
                     }
                     let slow = better > 0.5 * norm;
                     norm = better;
-                    damping = if length < SHORT && !was_held && self.is_large() {
-                        // along the valley steps that are held back go further
-                        (damping * 10.0).max(1e-6)
-                    } else if newton {
-                        0.0
-                    } else {
-                        damping * 0.1
-                    };
-                    if damping < 1e-10 {
-                        damping = 0.0;
-                    }
+                    let is_short = length < SHORT && !was_held && self.is_large();
+                    damping = next_damping(damping, newton, is_short);
                     if was_held && slow {
                         if damping == 0.0 {
                             break;
@@ -687,4 +676,15 @@ fn normal_step(
     }
     dense::factorise(normal, n, swaps);
     dense::substitute_back(normal, n, swaps, step);
+}
+
+/// Returns how much the step after one that made the residuals smaller is held back.
+fn next_damping(damping: f64, newton: bool, is_short: bool) -> f64 {
+    let next = match () {
+        // along a narrow valley steps that are held back go further
+        () if is_short => (damping * 10.0).max(1e-6),
+        () if newton => 0.0,
+        () => damping * 0.1,
+    };
+    if next < 1e-10 { 0.0 } else { next }
 }
