@@ -1,15 +1,15 @@
 //! Things made by constructors: fields without slots.
 
-use crate::evaluate::{Answer, Given, Opening};
+use crate::evaluate::{Answer, Given as Argument, Opening};
 use crate::fault::{FaultKind, Trouble};
 use crate::meaning::{Frame, Made, Meaning, Opaque};
 use base::Name;
-use kernel::{ClassId, ClassKind, Count, PartRef};
+use kernel::{ClassId, ClassKind, Count, Given, PartRef, Step};
 use std::rc::Rc;
 
 impl<'a> Opening<'a> {
     /// Makes a thing from its fields, by name or by position; the rest is as its class says.
-    pub(crate) fn make(&mut self, class: ClassId, arguments: &[Given<'a>]) -> Answer<'a> {
+    pub(crate) fn make(&mut self, class: ClassId, arguments: &[Argument<'a>]) -> Answer<'a> {
         let document = self.document;
         let layout = document.layout(class);
         let mut fields = Vec::with_capacity(layout.len());
@@ -26,7 +26,8 @@ impl<'a> Opening<'a> {
         Ok(Meaning::Made(Rc::new(Made { class, fields })))
     }
 
-    /// Evaluates the value that a class gives to a field of its things; zero where it gives none.
+    /// Evaluates what a class gives to a field of its things and to the field's parts, its superclasses first;
+    /// zero where it gives nothing.
     fn default_field(
         &mut self,
         class: ClassId,
@@ -35,17 +36,31 @@ impl<'a> Opening<'a> {
         so_far: &[(Name, Meaning<'a>)],
     ) -> Answer<'a> {
         let document = self.document;
-        let path = kernel::Path::of(&[name]);
-        let given = document
-            .primary_line(class)
-            .into_iter()
-            .find_map(|c| document.classes[c].givens.iter().rev().find(|g| g.path == path));
-        if let Some(given) = given {
-            let me = Meaning::Made(Rc::new(Made { class, fields: so_far.to_vec() }));
-            return self.deeper(|opening| opening.meaning(&given.value, &Frame::new(me)));
+        let me = Meaning::Made(Rc::new(Made { class, fields: so_far.to_vec() }));
+        let own = |given: &&'a Rc<Given>| given.path.0.first() == Some(&Step::Part(name.clone()));
+        let line = document.primary_line(class).into_iter().rev();
+        let givens = line.flat_map(|c| &document.classes[c].givens).filter(own);
+        let givens: Vec<&'a Rc<Given>> = givens.collect();
+        // a value of the whole stands for all that was said before
+        let from = givens.iter().rposition(|given| given.path.0.len() == 1).unwrap_or(0);
+        let mut made = None;
+        for given in &givens[from..] {
+            let frame = Frame::new(me.clone());
+            let value = self.deeper(|opening| opening.meaning(&given.value, &frame))?;
+            if given.path.0.len() > 1 && made.is_none() {
+                made = Some(self.blank_field(field)?);
+            }
+            match &mut made {
+                Some(made) => put(made, &given.path.0[1..], value),
+                None => made = Some(value),
+            }
         }
-        let count = document.declared(field).and_then(|part| part.count);
-        self.blank(document.field_class(field), count)
+        made.map_or_else(|| self.blank_field(field), Ok)
+    }
+
+    fn blank_field(&mut self, field: PartRef) -> Answer<'a> {
+        let count = self.document.declared(field).and_then(|part| part.count);
+        self.blank(self.document.field_class(field), count)
     }
 
     /// Makes a value of a class of which nothing is said.
@@ -68,5 +83,41 @@ impl<'a> Opening<'a> {
                 Err(Trouble::new(FaultKind::Reference, "a reference that names nothing"))
             }
         }
+    }
+}
+
+/// Puts a value where a path leads in a thing that was made; where it leads nowhere nothing is put.
+fn put<'a>(made: &mut Meaning<'a>, path: &[Step], value: Meaning<'a>) {
+    let [first, inner @ ..] = path else {
+        *made = value;
+        return;
+    };
+    match (made, first) {
+        (Meaning::Made(thing), Step::Part(name)) => {
+            let thing = Rc::make_mut(thing);
+            if let Some((_, field)) = thing.fields.iter_mut().find(|(own, _)| own == name) {
+                put(field, inner, value);
+            }
+        }
+        (Meaning::List(items), Step::Index(_) | Step::Last) => {
+            let mut own = items.to_vec();
+            let at = match first {
+                Step::Index(i) => *i as usize,
+                Step::Last | Step::Part(_) | Step::Owner => own.len().wrapping_sub(1),
+            };
+            if let Some(item) = own.get_mut(at) {
+                put(item, inner, value);
+            }
+            *items = own.into();
+        }
+        (
+            Meaning::Number(_)
+            | Meaning::Opaque(_)
+            | Meaning::Thing(_)
+            | Meaning::Lambda(_)
+            | Meaning::Made(_)
+            | Meaning::List(_),
+            _,
+        ) => {}
     }
 }

@@ -28,7 +28,7 @@ pub(crate) enum Meaning<'a> {
 }
 
 /// A thing made by a constructor: it has no slots of its own.
-#[derive(Debug)]
+#[derive(Clone, Debug)]
 pub(crate) struct Made<'a> {
     pub(crate) class: ClassId,
     /// Every field with its name, in the order of the class's layout.
