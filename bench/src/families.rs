@@ -5,6 +5,7 @@
 
 use crate::case::{Case, Constraint, Drag, End};
 use base::number::{cos, sin};
+use base::scrambled;
 use std::f64::consts::{FRAC_PI_3, PI};
 
 /// A family of cases.
@@ -103,11 +104,8 @@ impl Made {
 
     /// Returns a number from -1 to 1.
     fn noise(&mut self) -> f64 {
+        let z = scrambled(self.state);
         self.state = self.state.wrapping_add(0x9e37_79b9_7f4a_7c15);
-        let mut z = self.state;
-        z = (z ^ (z >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
-        z = (z ^ (z >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
-        z ^= z >> 31;
         (z >> 11) as f64 / (1u64 << 52) as f64 - 1.0
     }
     fn below(&mut self, n: usize) -> usize {

@@ -184,12 +184,7 @@ fn hands(
         let (release, change) = timed(|| session.release(id));
         assert!(change.is_ok(), "the drag is kept: {change:?}");
         let (again, _) = timed(|| session.apply(id, &Command::Undo));
-        let (merged, change) = timed(|| session.apply(id, &merge));
-        assert!(change.is_ok(), "the numbers can be one: {change:?}");
-        let (parted, change) = timed(|| session.apply(id, &unmerge));
-        assert!(change.is_ok(), "they can be parted: {change:?}");
-        session.apply(id, &Command::Undo).expect("there is a step");
-        session.apply(id, &Command::Undo).expect("there is another");
+        let [merged, parted] = merge_and_part(session, id, &merge, &unmerge);
         times.push([set, undo, press, drag, release, again, merged, parted]);
     }
     let least = |i: usize| times.iter().map(|t| t[i]).fold(f64::INFINITY, f64::min);
@@ -209,6 +204,22 @@ fn hands(
     )
 }
 
+/// Measures a merge and an unmerge, in milliseconds, and takes both back.
+fn merge_and_part(
+    session: &mut Session,
+    id: DocumentId,
+    merge: &Command,
+    unmerge: &Command,
+) -> [f64; 2] {
+    let (merged, change) = timed(|| session.apply(id, merge));
+    assert!(change.is_ok(), "the numbers can be one: {change:?}");
+    let (parted, change) = timed(|| session.apply(id, unmerge));
+    assert!(change.is_ok(), "they can be parted: {change:?}");
+    session.apply(id, &Command::Undo).expect("there is a step");
+    session.apply(id, &Command::Undo).expect("there is another");
+    [merged, parted]
+}
+
 /// Measures what a hand waits for that merges a given number with a computed one, which makes a given number
 /// of the other thing yield, and parts them again, by either path.
 fn parts_computed(
@@ -220,23 +231,20 @@ fn parts_computed(
 ) -> std::io::Result<()> {
     let at = |path: String| session::parse_path(&path).expect("the path is well formed");
     let paths = vec![at(format!("{thing}.left")), at(format!("{other}.right"))];
+    let merge = Command::Merge(paths.clone());
     let mut times = [f64::INFINITY; 3];
     for _ in 0..TIMES {
         for (i, path) in paths.iter().enumerate() {
-            let (merged, change) = timed(|| session.apply(id, &Command::Merge(paths.clone())));
-            assert!(change.is_ok(), "the numbers can be one: {change:?}");
-            let (parted, change) = timed(|| session.apply(id, &Command::Unmerge(path.clone())));
-            assert!(change.is_ok(), "they can be parted: {change:?}");
-            session.apply(id, &Command::Undo).expect("there is a step");
-            session.apply(id, &Command::Undo).expect("there is another");
+            let unmerge = Command::Unmerge(path.clone());
+            let [merged, parted] = merge_and_part(session, id, &merge, &unmerge);
             times[0] = times[0].min(merged);
             times[1 + i] = times[1 + i].min(parted);
         }
     }
-    let [merge, given, computed] = times;
+    let [merged, given, computed] = times;
     writeln!(
         out,
-        "{name:8} given with computed: merge {merge:.1}  unmerge the given {given:.1}, the computed \
+        "{name:8} given with computed: merge {merged:.1}  unmerge the given {given:.1}, the computed \
          {computed:.1} (goal 20) ms",
     )
 }

@@ -2,6 +2,7 @@
 //! and the order in which constraints were written plays no part. Edits are small: on the way of a large one
 //! least change may end and be measured anew. `THINGLAB_LONG` makes them many.
 
+use base::Dice;
 use session::{Command, DocumentId, Host, Literal, Session};
 use std::fmt::Write as _;
 
@@ -16,32 +17,9 @@ impl Host for NoFiles {
     }
 }
 
-/// A generator of numbers, the same in every run (xorshift).
-struct Dice(u64);
-
-impl Dice {
-    fn new(seed: u64) -> Self {
-        let mut dice = Self(seed.wrapping_mul(0x9e37_79b9_7f4a_7c15) | 1);
-        (0..8).for_each(|_| {
-            dice.below(2);
-        });
-        dice
-    }
-    fn below(&mut self, n: usize) -> usize {
-        self.0 ^= self.0 << 13;
-        self.0 ^= self.0 >> 7;
-        self.0 ^= self.0 << 17;
-        ((self.0 >> 20) % n as u64) as usize
-    }
-    /// Returns a number between two, in hundredths of the way.
-    fn between(&mut self, low: f64, high: f64) -> f64 {
-        low + (high - low) * self.below(101) as f64 / 100.0
-    }
-    fn shuffle<T>(&mut self, items: &mut [T]) {
-        for i in (1..items.len()).rev() {
-            items.swap(i, self.below(i + 1));
-        }
-    }
+/// Returns a number between two, in hundredths of the way.
+fn between(dice: &mut Dice, low: f64, high: f64) -> f64 {
+    low + (high - low) * dice.below(101) as f64 / 100.0
 }
 
 /// A document in two parts, and what can be edited in it.
@@ -70,7 +48,7 @@ impl Random {
         self.places = 3 + dice.below(5);
         let mut at: Vec<[f64; 2]> = Vec::new();
         for i in 0..self.places {
-            let place = [dice.between(0.0, 100.0), dice.between(0.0, 100.0)];
+            let place = [between(dice, 0.0, 100.0), between(dice, 0.0, 100.0)];
             at.push(place);
             writeln!(self.parts, "p{i}: Point = ({}, {})", place[0], place[1]).expect("a string");
         }
@@ -95,7 +73,7 @@ impl Random {
                     ));
                 }
                 1 => {
-                    let wall = at[a][0] + dice.between(0.0, 20.0);
+                    let wall = at[a][0] + between(dice, 0.0, 20.0);
                     self.constraints.push(format!("constraint p{a}.x <= {wall}"));
                 }
                 2 => {
@@ -121,7 +99,7 @@ impl Random {
     fn sheet(&mut self, dice: &mut Dice) {
         let count = 3 + dice.below(6);
         for i in 0..count {
-            let x = dice.between(1.0, 20.0);
+            let x = between(dice, 1.0, 20.0);
             let given = if dice.below(2) == 0 { format!(" = {x}") } else { String::new() };
             writeln!(self.parts, "x{i}: Real{given}").expect("a string");
             self.numbers.push(format!("x{i}"));
@@ -150,14 +128,14 @@ impl Random {
         if !self.numbers.is_empty() && (self.places == 0 || dice.below(2) == 0) {
             let name = &self.numbers[dice.below(self.numbers.len())];
             let (_, now) = now.iter().find(|n| n.0 == *name).expect("it has a value");
-            let wanted = now * dice.between(0.95, 1.05);
+            let wanted = now * between(dice, 0.95, 1.05);
             return Command::Set(vec![(path(name), Literal::Number(wanted))]);
         }
         let name = format!("p{}", dice.below(self.places));
         let place = ["x", "y"].map(|axis| {
             let of = format!("{name}.{axis}");
             let (_, now) = now.iter().find(|n| n.0 == of).expect("it has coordinates");
-            Literal::Number(now + dice.between(-5.0, 5.0))
+            Literal::Number(now + between(dice, -5.0, 5.0))
         });
         Command::Move(vec![(path(&name), Literal::Tuple(place.to_vec()))])
     }

@@ -5,6 +5,7 @@
 //! straight way of several bar lengths: in one frame, in five, and in hundreds. `THINGLAB_LONG` tries
 //! more of them.
 
+use base::Dice;
 use bench::case::{Case, Constraint};
 use bench::document;
 use bench::opened::Opened;
@@ -17,25 +18,6 @@ const SAME: f64 = 1e-3;
 const SAME_ON_FLOOR: f64 = 1e-2;
 /// Into how many frames a way is cut.
 const FRAMES: [usize; 3] = [100, 5, 1];
-
-/// A generator of numbers, the same in every run (xorshift).
-struct Dice(u64);
-
-impl Dice {
-    fn new(seed: u64) -> Self {
-        let mut dice = Self(seed.wrapping_mul(0x9e37_79b9_7f4a_7c15) | 1);
-        (0..8).for_each(|_| {
-            dice.between(0.0, 1.0);
-        });
-        dice
-    }
-    fn between(&mut self, low: f64, high: f64) -> f64 {
-        self.0 ^= self.0 << 13;
-        self.0 ^= self.0 >> 7;
-        self.0 ^= self.0 << 17;
-        low + (high - low) * ((self.0 >> 20) % 10_007) as f64 / 10_006.0
-    }
-}
 
 /// Whether the last joint of a chain is pinned too.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
@@ -102,11 +84,39 @@ fn dragged(
     ((0..case.start.len()).map(place).collect(), reached)
 }
 
+/// What a drag comes to in many frames, and what is otherwise in few.
+struct Compared {
+    many: Vec<[f64; 2]>,
+    reached: bool,
+    complaints: Vec<String>,
+}
+
+/// Drags a joint in many frames and in few, and complains where joints lie farther apart than `same` then or
+/// one drag reaches what another does not.
+fn compared(case: &Case, rules: &str, joint: usize, to: [f64; 2], same: f64) -> Compared {
+    let [(many, reached), few @ ..] = FRAMES.map(|frames| dragged(case, rules, joint, to, frames));
+    let mut complaints = Vec::new();
+    for ((ends, arrived), frames) in few.into_iter().zip(&FRAMES[1..]) {
+        let off = |(p, q): (&[f64; 2], &[f64; 2])| (p[0] - q[0]).abs().max((p[1] - q[1]).abs());
+        let apart = many.iter().zip(&ends).map(off).fold(0.0, f64::max);
+        if apart > same || arrived != reached {
+            complaints.push(format!(
+                "{} joints to {to:?} in {frames} frames: {apart:.1e} off, reached: {arrived}, in many: {reached}",
+                case.start.len()
+            ));
+        }
+    }
+    Compared { many, reached, complaints }
+}
+
+fn seeds() -> u64 {
+    if std::env::var_os("THINGLAB_LONG").is_some() { 400 } else { 14 }
+}
+
 #[test]
 fn a_drag_ends_in_the_same_place_in_few_frames_and_in_many() {
-    let seeds = if std::env::var_os("THINGLAB_LONG").is_some() { 400 } else { 14 };
     let (mut wrong, mut reached) = (Vec::new(), 0);
-    for seed in 0..seeds {
+    for seed in 0..seeds() {
         let dice = &mut Dice::new(seed);
         let bars = 3 + seed as usize % 7;
         let end = if seed % 3 == 0 { End::Pinned } else { End::Open };
@@ -115,34 +125,18 @@ fn a_drag_ends_in_the_same_place_in_few_frames_and_in_many() {
         let reach = 0.9 * joint as f64;
         let (far, angle) = (dice.between(0.2, 1.0) * reach, dice.between(-3.2, 3.2));
         let to = [far * base::number::cos(angle), far * base::number::sin(angle)];
-        let [(many, fine), (five, some), (one, once)] =
-            FRAMES.map(|frames| dragged(&case, "", joint, to, frames));
-        reached += usize::from(fine);
-        for (ends, arrived, frames) in [(five, some, 5), (one, once, 1)] {
-            let off = |(p, q): (&[f64; 2], &[f64; 2])| (p[0] - q[0]).abs().max((p[1] - q[1]).abs());
-            let apart = many.iter().zip(&ends).map(off).fold(0.0, f64::max);
-            if apart > SAME || arrived != fine {
-                wrong.push(format!(
-                    "seed {seed}, {bars} bars {end:?} to {to:?} in {frames} frames: {apart:.1e} off, \
-                     reached: {arrived}, in many: {fine}"
-                ));
-            }
-        }
+        let drags = compared(&case, "", joint, to, SAME);
+        reached += u64::from(drags.reached);
+        wrong.extend(drags.complaints.iter().map(|c| format!("seed {seed}, {end:?}: {c}")));
     }
-    assert!(
-        wrong.is_empty(),
-        "{} of {seeds}, {reached} reached\n{}",
-        wrong.len(),
-        wrong.join("\n")
-    );
-    assert!(2 * reached > seeds as usize, "{reached} of {seeds} reached");
+    assert!(wrong.is_empty(), "{reached} of {} reached\n{}", seeds(), wrong.join("\n"));
+    assert!(2 * reached > seeds(), "{reached} of {} reached", seeds());
 }
 
 #[test]
 fn a_chain_comes_to_lie_on_its_floor_in_few_frames_as_in_many() {
-    let seeds = if std::env::var_os("THINGLAB_LONG").is_some() { 400 } else { 14 };
     let (mut wrong, mut lie) = (Vec::new(), 0);
-    for seed in 0..seeds {
+    for seed in 0..seeds() {
         let dice = &mut Dice::new(seed);
         let bars = 2 + seed as usize % 4;
         let case = chain(bars, End::Open, dice);
@@ -151,19 +145,10 @@ fn a_chain_comes_to_lie_on_its_floor_in_few_frames_as_in_many() {
         let rules: Vec<String> =
             (1..=bars).map(|p| format!("constraint p{p}.y >= {floor}")).collect();
         let to = [dice.between(-1.0, 1.0) * bars as f64, floor - dice.between(0.0, 1.0)];
-        let [(many, _), (five, _), (one, _)] =
-            FRAMES.map(|frames| dragged(&case, &rules.join("\n"), bars, to, frames));
-        lie += usize::from(many.iter().any(|p| p[1] < floor + 1e-6));
-        for (ends, frames) in [(five, 5), (one, 1)] {
-            let off = |(p, q): (&[f64; 2], &[f64; 2])| (p[0] - q[0]).abs().max((p[1] - q[1]).abs());
-            let apart = many.iter().zip(&ends).map(off).fold(0.0, f64::max);
-            if apart > SAME_ON_FLOOR {
-                wrong.push(format!(
-                    "seed {seed}, {bars} bars to {to:?}, floor {floor} in {frames} frames: {apart:.1e} off"
-                ));
-            }
-        }
+        let drags = compared(&case, &rules.join("\n"), bars, to, SAME_ON_FLOOR);
+        lie += u64::from(drags.many.iter().any(|p| p[1] < floor + 1e-6));
+        wrong.extend(drags.complaints.iter().map(|c| format!("seed {seed}, floor {floor}: {c}")));
     }
-    assert!(wrong.is_empty(), "{} of {seeds}, {lie} lie\n{}", wrong.len(), wrong.join("\n"));
-    assert!(2 * lie > seeds as usize, "{lie} of {seeds} lie on it");
+    assert!(wrong.is_empty(), "{lie} of {} lie\n{}", seeds(), wrong.join("\n"));
+    assert!(2 * lie > seeds(), "{lie} of {} lie on it", seeds());
 }

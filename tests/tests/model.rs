@@ -8,6 +8,7 @@
 //!
 //! `THINGLAB_LONG` makes it 10 000 steps. A seed that once failed is kept.
 
+use base::Dice;
 use session::view::Status;
 use session::{Command, DocumentId, Host, Literal, Path, Session, parse_path};
 use std::collections::{BTreeMap, BTreeSet};
@@ -203,20 +204,6 @@ impl Model {
     }
 }
 
-/// Pseudo-random numbers, the same everywhere.
-struct Dice(u64);
-
-impl Dice {
-    fn below(&mut self, n: usize) -> usize {
-        self.0 =
-            self.0.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
-        ((self.0 >> 33) as usize) % n
-    }
-    fn one<T: Clone>(&mut self, of: &[T]) -> Option<T> {
-        (!of.is_empty()).then(|| of[self.below(of.len())].clone())
-    }
-}
-
 fn path(names: &Names) -> Path {
     parse_path(&names.join(".")).expect("the model's paths are well formed")
 }
@@ -231,14 +218,14 @@ fn pick(dice: &mut Dice, model: &Model) -> Picked {
     let fresh = format!("n{}", model.made);
     match dice.below(12) {
         0 | 1 => {
-            let class = dice.one(&["Spot", "Bar", "Node", "Frame"])?;
+            let class = dice.one_of(&["Spot", "Bar", "Node", "Frame"])?;
             next.parts.push((fresh.clone(), class));
             next.settle();
             let members = format!("{fresh}: {class}");
             Some((Command::Edit { target: Path::default(), members }, Some(next)))
         }
         2 | 3 => {
-            let leaf = dice.one(&model.leaves())?;
+            let leaf = dice.one_of(&model.leaves())?;
             let x = dice.below(400) as f64 / 4.0;
             let groups = model.groups();
             let alike = groups.iter().filter(|(_, first)| **first == groups[&leaf]);
@@ -247,9 +234,9 @@ fn pick(dice: &mut Dice, model: &Model) -> Picked {
             Some((Command::Set(vec![(path(&leaf), Literal::Number(x))]), Some(next)))
         }
         4 | 5 => {
-            let class = dice.one(&["Spot", "Bar", "Node"])?;
+            let class = dice.one_of(&["Spot", "Bar", "Node"])?;
             let things = model.things(class);
-            let (a, b) = (dice.one(&things)?, dice.one(&things)?);
+            let (a, b) = (dice.one_of(&things)?, dice.one_of(&things)?);
             let merge = Command::Merge(vec![path(&a), path(&b)]);
             if a == b {
                 return None;
@@ -279,7 +266,7 @@ fn unmerge(dice: &mut Dice, model: &Model, mut next: Model) -> Picked {
     };
     let listed: Vec<Names> = model.merges.concat();
     let any = model.things("Spot");
-    let p = if dice.below(4) > 0 { dice.one(&listed)? } else { dice.one(&any)? };
+    let p = if dice.below(4) > 0 { dice.one_of(&listed)? } else { dice.one_of(&any)? };
     if in_class(&p) {
         return None;
     }
@@ -301,7 +288,7 @@ fn unmerge(dice: &mut Dice, model: &Model, mut next: Model) -> Picked {
 
 /// Deletes a part of the document.
 fn delete(dice: &mut Dice, model: &Model, mut next: Model) -> Picked {
-    let (name, _) = dice.one(&model.parts)?;
+    let (name, _) = dice.one_of(&model.parts)?;
     next.parts.retain(|(n, _)| *n != name);
     for merge in &mut next.merges {
         merge.retain(|p| p[0] != name);
@@ -315,7 +302,7 @@ fn delete(dice: &mut Dice, model: &Model, mut next: Model) -> Picked {
 fn change_class(dice: &mut Dice, model: &Model, mut next: Model) -> Picked {
     if dice.below(2) == 0 {
         let fields = model.classes["Node"].clone();
-        let (name, _) = dice.one(&fields[4..])?;
+        let (name, _) = dice.one_of(&fields[4..])?;
         next.classes.get_mut("Node")?.retain(|(n, _)| *n != name);
         next.hold();
         return Some((Command::Delete(path(&names(&format!("Node.{name}")))), Some(next)));
@@ -332,8 +319,8 @@ fn change_class(dice: &mut Dice, model: &Model, mut next: Model) -> Picked {
 
 /// Renames a part, sometimes to a name that is taken.
 fn rename(dice: &mut Dice, model: &Model, mut next: Model, fresh: String) -> Picked {
-    let (name, _) = dice.one(&model.parts)?;
-    let other = if dice.below(5) == 0 { dice.one(&model.parts)?.0 } else { fresh };
+    let (name, _) = dice.one_of(&model.parts)?;
+    let other = if dice.below(5) == 0 { dice.one_of(&model.parts)?.0 } else { fresh };
     let rename = Command::Rename { from: path(&vec![name.clone()]), to: other.clone() };
     if model.parts.iter().any(|(n, _)| *n == other) {
         return Some((rename, None));
@@ -369,7 +356,7 @@ fn moment(session: &Session, id: DocumentId) -> Moment {
 
 /// Runs one sequence of commands; returns what differs, with the commands that led there.
 fn run(seed: u64, steps: usize) -> Result<usize, String> {
-    let mut dice = Dice(seed);
+    let mut dice = Dice::new(seed);
     let mut session = Session::new(Box::new(Nothing));
     let id = session.open("model", CLASSES);
     let mut model = Model::new();

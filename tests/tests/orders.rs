@@ -6,6 +6,7 @@
 //! What order does decide, by definition, is which of several places yields and under which path a merged part is
 //! shown. `THINGLAB_LONG` tries more.
 
+use base::Dice;
 use session::{Command, DocumentId, Host, Literal, Session};
 use std::fmt::Write as _;
 
@@ -23,32 +24,9 @@ impl Host for NoFiles {
     }
 }
 
-/// A generator of numbers, the same in every run (xorshift).
-struct Dice(u64);
-
-impl Dice {
-    fn new(seed: u64) -> Self {
-        let mut dice = Self(seed.wrapping_mul(0x9e37_79b9_7f4a_7c15) | 1);
-        (0..8).for_each(|_| {
-            dice.below(2);
-        });
-        dice
-    }
-    fn below(&mut self, n: usize) -> usize {
-        self.0 ^= self.0 << 13;
-        self.0 ^= self.0 >> 7;
-        self.0 ^= self.0 << 17;
-        ((self.0 >> 20) % n as u64) as usize
-    }
-    /// Returns a number from one to four, in hundredths.
-    fn number(&mut self) -> f64 {
-        1.0 + self.below(301) as f64 / 100.0
-    }
-    fn shuffle<T>(&mut self, items: &mut [T]) {
-        for i in (1..items.len()).rev() {
-            items.swap(i, self.below(i + 1));
-        }
-    }
+/// Returns a number from one to four, in hundredths.
+fn number(dice: &mut Dice) -> f64 {
+    1.0 + dice.below(301) as f64 / 100.0
 }
 
 /// A document of cells in a net, what is computed from them, and what is read.
@@ -62,11 +40,11 @@ struct Net {
 impl Net {
     fn new(dice: &mut Dice) -> Self {
         let mut net = Self::default();
-        net.say(format!("source: Real = {}", dice.number()));
+        net.say(format!("source: Real = {}", number(dice)));
         net.given.push("source".into());
         let cells = 2 + dice.below(5);
         for i in 0..cells {
-            net.say(format!("c{i}: Cell {{ gain = {} }}", dice.number()));
+            net.say(format!("c{i}: Cell {{ gain = {} }}", number(dice)));
             net.given.push(format!("c{i}.gain"));
             net.computed.push(format!("c{i}.outer"));
             let from = match dice.below(i + 1) {
@@ -81,7 +59,7 @@ impl Net {
             net.say(format!("p{k}: Real"));
             net.say(format!("q{k}: Real"));
             net.say(format!("constraint p{k} + 2 * q{k} = {}", cell(dice)));
-            net.say(format!("constraint {} * p{k} - q{k} = {}", dice.number(), cell(dice)));
+            net.say(format!("constraint {} * p{k} - q{k} = {}", number(dice), cell(dice)));
             net.computed.extend([format!("p{k}"), format!("q{k}")]);
         }
         net.say("total: Real".into());
@@ -167,7 +145,7 @@ fn run(seed: u64) -> Result<usize, String> {
             }
         }
         let Some(name) = edits.get(step) else { break };
-        let by = dice.number() / 2.0;
+        let by = number(&mut dice) / 2.0;
         let path = session::parse_path(name).expect("a path");
         for &id in &ids {
             let mut read = net.computed.iter().chain(&net.given);

@@ -1,7 +1,7 @@
 //! The ground floor: what every room of the house stands on.
 //!
-//! Four subjects and no fifth: [`id`] (identity in arenas), [`text`] (files and spans),
-//! [`diagnostic`] (what is said to the user), [`number`] (the same bits on every machine).
+//! Five subjects and no sixth: [`id`] (identity in arenas), [`text`] (files and spans), [`diagnostic`] (what is
+//! said to the user), [`number`] (the same bits on every machine), [`dice`] (chance that is the same in every run).
 //!
 //! ```
 //! use base::{Diagnostic, FileId, Place, Span};
@@ -11,10 +11,12 @@
 //! assert_eq!(d.code, "unknown-name");
 //! ```
 pub mod diagnostic;
+pub mod dice;
 pub mod id;
 pub mod number;
 pub mod text;
 
 pub use diagnostic::{Diagnostic, Fix, Label, Severity};
+pub use dice::{Dice, scrambled};
 pub use id::{Id, IdVec, Mixer};
 pub use text::{FileId, LineIndex, Name, Place, Span};

@@ -211,6 +211,7 @@ fn is_plain(member: &Member) -> bool {
 #[cfg(test)]
 mod tests {
     use crate::lower::{Lowered, lower};
+    use base::Dice;
 
     const CLASSES: &str = "class Widget { left: Real = 1  bottom: Real = 2  top: Real
     constraint top = left + bottom }
@@ -244,16 +245,6 @@ class Row { all: List of Real = [1] }
         "for a in some { constraint a <= 9 }",
     ];
 
-    /// Numbers that depend on nothing but the seed.
-    struct Dice(u64);
-
-    impl Dice {
-        fn below(&mut self, n: usize) -> usize {
-            self.0 = self.0.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1);
-            (self.0 >> 33) as usize % n
-        }
-    }
-
     fn told(l: &Lowered) -> String {
         let Lowered { document, checks, origins, diagnostics, doc, parts, class_spans, .. } = l;
         let more = (&l.effective, &l.added);
@@ -264,7 +255,7 @@ class Row { all: List of Real = [1] }
 
     #[test]
     fn what_is_kept_is_what_lowering_anew_gives() {
-        let mut dice = Dice(5);
+        let mut dice = Dice::new(5);
         let mut kept = 0;
         for _ in 0..220 {
             let mut lines: Vec<&str> = (0..6).map(|_| LINES[dice.below(LINES.len())]).collect();

@@ -462,23 +462,15 @@ mod tests {
     use super::*;
     use crate::lower::hold;
     use crate::rule::Source;
+    use base::Dice;
     use kernel::{Form, Primitive, Slot, Strength};
-
-    /// Numbers that depend on nothing but the seed.
-    struct Dice(u64);
-
-    impl Dice {
-        fn below(&mut self, n: u32) -> u32 {
-            self.0 = self.0.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1);
-            (self.0 >> 33) as u32 % n
-        }
-    }
 
     fn structure(dice: &mut Dice, slots: u32) -> Structure {
         let (mut form, mut things) = (Form::default(), IdVec::new());
         for i in 0..slots {
             // some slots are the coordinates of one place, not always side by side
-            let place = (dice.below(3) == 0).then(|| ThingId(dice.below(slots)));
+            let place = (dice.below(3 as usize) as u32 == 0)
+                .then(|| ThingId(dice.below(slots as usize) as u32));
             let thing = ThingId(i);
             things.push(kernel::Thing {
                 class: kernel::ClassId(0),
@@ -487,7 +479,8 @@ mod tests {
                 first_part: thing,
                 parts: 0,
             });
-            let (primitive, given, anchored) = (Primitive::Integer, None, dice.below(5) == 0);
+            let (primitive, given, anchored) =
+                (Primitive::Integer, None, dice.below(5 as usize) as u32 == 0);
             form.slots.push(Slot { thing, primitive, given, anchored, place });
         }
         form.things = Rc::new(things);
@@ -496,15 +489,16 @@ mod tests {
 
     #[test]
     fn all_components_are_those_around_every_slot() {
-        let mut dice = Dice(1);
+        let mut dice = Dice::new(1);
         let mut several = 0;
         for _ in 0..300 {
-            let slots = 2 + dice.below(12);
+            let slots = 2 + dice.below(12 as usize) as u32;
             let structure = structure(&mut dice, slots);
             let mut rules = Rules::default();
-            for i in 0..dice.below(8) {
-                let mut mentioned: Vec<SlotId> =
-                    (0..1 + dice.below(3)).map(|_| SlotId(dice.below(slots))).collect();
+            for i in 0..dice.below(8 as usize) as u32 {
+                let mut mentioned: Vec<SlotId> = (0..1 + dice.below(3 as usize) as u32)
+                    .map(|_| SlotId(dice.below(slots as usize) as u32))
+                    .collect();
                 mentioned.sort_unstable();
                 mentioned.dedup();
                 let shape = rules.add_shape(hold(Strength::Weak, mentioned.len() as u32));

@@ -33,10 +33,7 @@ impl Residue {
 
     /// Draws a number without `i` that depends on `seed` alone.
     pub(crate) fn drawn(seed: u64) -> Self {
-        let mut z = seed.wrapping_add(0x9e37_79b9_7f4a_7c15);
-        z = (z ^ (z >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
-        z = (z ^ (z >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
-        Self::of(reduced(u128::from(z ^ (z >> 31))))
+        Self::of(reduced(u128::from(base::scrambled(seed))))
     }
 
     /// Returns the number that a double stands for: a whole number or the fraction that rounds to it. None

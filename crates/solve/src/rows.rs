@@ -13,6 +13,7 @@ use crate::stated::Stated;
 use crate::substitute::Classes;
 use crate::system::{Level, MethodBody, Relation, RelationBody, SlotIndex, Span, Stay, System};
 use base::number::Tolerance;
+use base::scrambled;
 use expr::{LANES, Lanes};
 use std::collections::BTreeSet;
 use std::rc::Rc;
@@ -524,10 +525,7 @@ fn generic_coefficient(row: usize, slot: SlotIndex) -> f64 {
 
 /// Returns a number that depends on `seed` alone and on nothing else that could coincide.
 pub(crate) fn generic_number(seed: u64, point: Point) -> f64 {
-    let mut z = seed.wrapping_add(0x9e37_79b9_7f4a_7c15);
-    z = (z ^ (z >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
-    z = (z ^ (z >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
-    z ^= z >> 31;
+    let z = scrambled(seed);
     let unit = (z >> 11) as f64 / (1u64 << 53) as f64;
     match point {
         Point::Mixed if z & 1 == 1 => -(0.6 + 1.3 * unit),

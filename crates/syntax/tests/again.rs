@@ -1,19 +1,9 @@
 //! Parsing an edited text again gives what parsing it anew gives.
 
-use base::FileId;
+use base::{Dice, FileId};
 use std::fs;
 use std::path::PathBuf;
 use syntax::{Changed, Parse, Reparsed, parse, reparse};
-
-/// Numbers that depend on nothing but the seed.
-struct Dice(u64);
-
-impl Dice {
-    fn below(&mut self, n: usize) -> usize {
-        self.0 = self.0.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1);
-        (self.0 >> 33) as usize % n
-    }
-}
 
 /// What a hand types, right and wrong.
 const TYPED: [&str; 24] = [
@@ -94,7 +84,7 @@ fn again(known: &Parse, before: &str, after: &str) -> Reparsed {
 
 #[test]
 fn any_edit_gives_the_tree_of_its_text() {
-    let mut dice = Dice(1);
+    let mut dice = Dice::new(1);
     let mut right = 0;
     for text in texts() {
         let known = parse(FileId(0), &text);
@@ -138,7 +128,7 @@ fn edits_in_many_places_give_the_tree_of_their_text() {
         (0..400).map(line).chain(["merge w3.left = w390.left\n".into()]).collect();
     let text = lines.concat();
     let known = parse(FileId(0), &text);
-    let mut dice = Dice(7);
+    let mut dice = Dice::new(7);
     let (mut right, mut apart) = (0, 0);
     for _ in 0..300 {
         let mut lines = lines.clone();

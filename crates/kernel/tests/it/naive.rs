@@ -4,7 +4,7 @@
 //! a relation that is closed again and again; a given value is looked for from the outside in.
 
 use crate::builder::{Builder, ORIGIN};
-use base::Name;
+use base::{Dice, Name};
 use kernel::{
     ClassId, ClassKind, Count, DOCUMENT, Document, Given, Insert, Merge, OriginId, Path, Step,
     Structure, Term, check, instantiate, instantiate_again,
@@ -12,17 +12,8 @@ use kernel::{
 use std::collections::{BTreeMap, BTreeSet};
 use std::rc::Rc;
 
-/// Numbers that look random, the same in every run.
-struct Dice(u64);
-
-impl Dice {
-    fn below(&mut self, n: usize) -> usize {
-        self.0 = self.0.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963);
-        ((self.0 >> 33) as usize) % n
-    }
-    fn pick<T: Clone>(&mut self, all: &[T]) -> T {
-        all[self.below(all.len())].clone()
-    }
+fn pick<T: Clone>(dice: &mut Dice, all: &[T]) -> T {
+    dice.one_of(all).expect("there are some")
 }
 
 /// Makes a document of a few classes, each of parts of earlier ones.
@@ -36,9 +27,9 @@ fn random_document(dice: &mut Dice) -> Document {
             classes.iter().copied().filter(|&c| b.0[c].kind == ClassKind::Composite).collect();
         let mut supers = vec![object];
         if !composites.is_empty() && dice.below(2) == 0 {
-            supers = vec![dice.pick(&composites)];
+            supers = vec![pick(dice, &composites)];
             if dice.below(3) == 0 {
-                supers.push(dice.pick(&composites));
+                supers.push(pick(dice, &composites));
             }
         }
         let class = b.class(&format!("C{i}"), ClassKind::Composite, &supers);
@@ -46,7 +37,7 @@ fn random_document(dice: &mut Dice) -> Document {
             above.name = Name::new(&format!("s{i}{k}"));
         }
         for j in 0..1 + dice.below(3) {
-            let part = dice.pick(&classes);
+            let part = pick(dice, &classes);
             let name = format!("p{i}{j}");
             if dice.below(5) == 0 {
                 let list = b.class(&format!("List {i}{j}"), ClassKind::List(part), &[object]);
@@ -84,9 +75,9 @@ fn say_something(dice: &mut Dice, b: &mut Builder, class: ClassId) {
         return;
     }
     for _ in 0..dice.below(3) {
-        let (one, class_of_one) = dice.pick(&paths);
+        let (one, class_of_one) = pick(dice, &paths);
         let alike: Vec<_> = paths.iter().filter(|p| p.1 == class_of_one).cloned().collect();
-        let paths = vec![one, dice.pick(&alike).0];
+        let paths = vec![one, pick(dice, &alike).0];
         b.0[class].merges.push(Merge { name: None, paths, origin: ORIGIN });
     }
     let numbers: Vec<_> = paths.iter().filter(|p| b.0[p.1].name == "Real").cloned().collect();
@@ -97,13 +88,13 @@ fn say_something(dice: &mut Dice, b: &mut Builder, class: ClassId) {
     for _ in 0..dice.below(4) {
         let value = Term::number(dice.below(1000) as f64);
         b.0[class].givens.push(Rc::new(Given {
-            path: dice.pick(&numbers).0,
+            path: pick(dice, &numbers).0,
             value,
             origin: ORIGIN,
         }));
     }
     if let (Some((set, _)), 0) = (sets.first().cloned(), dice.below(2)) {
-        let part = dice.pick(&numbers).0;
+        let part = pick(dice, &numbers).0;
         b.0[class].inserts.push(Insert { part, set, origin: ORIGIN });
     }
 }
@@ -263,7 +254,7 @@ fn compare(document: &Document, s: &Structure) {
 
 #[test]
 fn random_documents_are_what_a_naive_reading_says() {
-    let mut dice = Dice(1979);
+    let mut dice = Dice::new(1979);
     let (mut compared, mut merged) = (0, 0);
     while compared < 400 {
         let document = random_document(&mut dice);
@@ -314,7 +305,7 @@ fn say_otherwise(dice: &mut Dice, document: &mut Document) {
 
 #[test]
 fn what_an_edit_left_as_it_was_is_taken_over_and_all_is_as_made_anew() {
-    let mut dice = Dice(2026);
+    let mut dice = Dice::new(2026);
     let (mut forms, mut things, mut more) = (0, 0, 0);
     for _ in 0..150 {
         let mut before = random_document(&mut dice);

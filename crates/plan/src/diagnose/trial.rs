@@ -6,6 +6,7 @@ use crate::host::Host;
 use crate::planner::{Model, Planner};
 use crate::run::{Ran, run};
 use crate::task::{Holding, Wish};
+use base::scrambled;
 use kernel::{SlotId, Values};
 use std::collections::BTreeSet;
 
@@ -96,10 +97,7 @@ pub(crate) fn perturbed(model: Model<'_>, slots: &[SlotId], values: &Values) -> 
 
 /// Returns a number between -1 and 1, away from 0, that depends on `seed` alone.
 pub(crate) fn scattered(seed: u32) -> f64 {
-    let mut z = u64::from(seed).wrapping_add(1).wrapping_mul(0x9e37_79b9_7f4a_7c15);
-    z = (z ^ (z >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
-    z = (z ^ (z >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
-    z ^= z >> 31;
+    let z = scrambled(u64::from(seed));
     let unit = (z >> 11) as f64 / (1u64 << 53) as f64;
     let size = 0.25 + 0.75 * unit;
     if z & 1 == 1 { -size } else { size }

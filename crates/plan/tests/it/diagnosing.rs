@@ -1,20 +1,12 @@
 //! What cannot hold together, what would help, and what is free.
 
 use crate::builder::{Builder, Lab, POINT, REAL, add, call, equal, mul, n, p, pair, sub};
+use base::Dice;
 use kernel::Term;
 use plan::{Certainty, Contradiction, MotionKind, Repair, Source};
 
-/// Numbers that look random and are the same in every run.
-struct Dice(u64);
-
-impl Dice {
-    fn below(&mut self, n: usize) -> usize {
-        self.0 = self.0.wrapping_mul(6364136223846793005).wrapping_add(1442695040888963407);
-        ((self.0 >> 33) % n as u64) as usize
-    }
-    fn number(&mut self) -> f64 {
-        self.below(19) as f64 - 9.0
-    }
+fn whole(dice: &mut Dice) -> f64 {
+    dice.below(19) as f64 - 9.0
 }
 
 /// Places, coordinates and factors whose products are summed.
@@ -49,8 +41,8 @@ impl Planted {
 /// Sums of two or three coordinates, true of hidden numbers; the culprit is a combination of two of
 /// them with another right side.
 fn linear(seed: u64) -> Planted {
-    let mut dice = Dice(seed);
-    let hidden: Vec<[f64; 2]> = (0..5).map(|_| [dice.number(), dice.number()]).collect();
+    let mut dice = Dice::new(seed);
+    let hidden: Vec<[f64; 2]> = (0..5).map(|_| [whole(&mut dice), whole(&mut dice)]).collect();
     let parts = (0..5).map(|i| (format!("p{i}"), 0.0, 0.0)).collect();
     let mut rows: Vec<(Row, f64)> = Vec::new();
     for _ in 0..7 {
@@ -87,9 +79,9 @@ fn distance(i: usize, j: usize) -> Term {
 
 /// Distances true of hidden places; the culprit is longer than the way round.
 fn distances(seed: u64) -> Planted {
-    let mut dice = Dice(seed);
+    let mut dice = Dice::new(seed);
     let hidden: Vec<[f64; 2]> =
-        (0..5).map(|i| [20.0 * i as f64 + dice.number(), 3.0 * dice.number()]).collect();
+        (0..5).map(|i| [20.0 * i as f64 + whole(&mut dice), 3.0 * whole(&mut dice)]).collect();
     let parts = hidden.iter().zip(0..).map(|(h, i)| (format!("p{i}"), h[0] + 1.0, h[1])).collect();
     let far = |i: usize, j: usize| {
         base::number::hypot(hidden[j][0] - hidden[i][0], hidden[j][1] - hidden[i][1])

@@ -1,5 +1,6 @@
 //! Whole numbers: what is found is what trying everything finds.
 
+use base::Dice;
 use expr::{Arena, Binary, ExprId, Unary, Var};
 use solve::{
     Conditional, Demand, DemandKind, Few, Level, Patterns, Puzzle, Relation, RelationBody, Slot,
@@ -68,27 +69,16 @@ fn a_given_number_yields_only_where_nothing_else_can() {
     assert_eq!(nearest, Verdict::Found(vec![8.0, 9.0]), "the given number changes least");
 }
 
-/// A deterministic stream of small numbers.
-struct Dice(u64);
-
-impl Dice {
-    fn roll(&mut self, sides: u64) -> u64 {
-        self.0 =
-            self.0.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
-        (self.0 >> 33) % sides
-    }
-}
-
 fn some_number(dice: &mut Dice, arena: &mut Arena, depth: u32) -> ExprId {
-    if depth == 0 || dice.roll(3) == 0 {
-        return match dice.roll(4) {
-            0 => arena.constant(dice.roll(5) as f64),
+    if depth == 0 || dice.below(3) == 0 {
+        return match dice.below(4) {
+            0 => arena.constant(dice.below(5) as f64),
             v => arena.var(Var(v as u32 - 1)),
         };
     }
     let a = some_number(dice, arena, depth - 1);
     let b = some_number(dice, arena, depth - 1);
-    match dice.roll(4) {
+    match dice.below(4) {
         0 => arena.add(a, b),
         1 => arena.sub(a, b),
         2 => arena.mul(a, b),
@@ -97,10 +87,10 @@ fn some_number(dice: &mut Dice, arena: &mut Arena, depth: u32) -> ExprId {
 }
 
 fn some_truth(dice: &mut Dice, arena: &mut Arena, depth: u32) -> ExprId {
-    if depth > 0 && dice.roll(2) == 0 {
+    if depth > 0 && dice.below(2) == 0 {
         let a = some_truth(dice, arena, depth - 1);
         let b = some_truth(dice, arena, depth - 1);
-        return match dice.roll(3) {
+        return match dice.below(3) {
             0 => arena.binary(Binary::And, a, b),
             1 => arena.binary(Binary::Or, a, b),
             _ => arena.unary(Unary::Not, a),
@@ -109,12 +99,12 @@ fn some_truth(dice: &mut Dice, arena: &mut Arena, depth: u32) -> ExprId {
     let a = some_number(dice, arena, 2);
     let b = some_number(dice, arena, 2);
     let op = [Binary::Less, Binary::LessEqual, Binary::Equal, Binary::NotEqual];
-    arena.binary(op[dice.roll(4) as usize], a, b)
+    arena.binary(op[dice.below(4)], a, b)
 }
 
 #[test]
 fn the_nearest_and_the_count_are_those_of_trying_everything() {
-    let mut dice = Dice(7);
+    let mut dice = Dice::new(7);
     let mut found_some = 0;
     for _ in 0..400 {
         let mut arena = Arena::new();
@@ -122,8 +112,8 @@ fn the_nearest_and_the_count_are_those_of_trying_everything() {
             arena.var(Var(v));
         });
         let truths: Vec<ExprId> =
-            (0..1 + dice.roll(3)).map(|_| some_truth(&mut dice, &mut arena, 2)).collect();
-        let start: Vec<f64> = (0..3).map(|_| dice.roll(5) as f64).collect();
+            (0..1 + dice.below(3)).map(|_| some_truth(&mut dice, &mut arena, 2)).collect();
+        let start: Vec<f64> = (0..3).map(|_| dice.below(5) as f64).collect();
         let puzzle = puzzle(&[KEPT; 3], 4, &arena, &truths);
         let mut all: Vec<(f64, Vec<f64>)> = Vec::new();
         for i in 0..125 {
