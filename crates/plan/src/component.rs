@@ -469,8 +469,7 @@ mod tests {
         let (mut form, mut things) = (Form::default(), IdVec::new());
         for i in 0..slots {
             // some slots are the coordinates of one place, not always side by side
-            let place = (dice.below(3 as usize) as u32 == 0)
-                .then(|| ThingId(dice.below(slots as usize) as u32));
+            let place = (dice.below(3) == 0).then(|| ThingId(dice.below(slots as usize) as u32));
             let thing = ThingId(i);
             things.push(kernel::Thing {
                 class: kernel::ClassId(0),
@@ -479,8 +478,7 @@ mod tests {
                 first_part: thing,
                 parts: 0,
             });
-            let (primitive, given, anchored) =
-                (Primitive::Integer, None, dice.below(5 as usize) as u32 == 0);
+            let (primitive, given, anchored) = (Primitive::Integer, None, dice.below(5) == 0);
             form.slots.push(Slot { thing, primitive, given, anchored, place });
         }
         form.things = Rc::new(things);
@@ -492,11 +490,11 @@ mod tests {
         let mut dice = Dice::new(1);
         let mut several = 0;
         for _ in 0..300 {
-            let slots = 2 + dice.below(12 as usize) as u32;
+            let slots = 2 + dice.below(12) as u32;
             let structure = structure(&mut dice, slots);
             let mut rules = Rules::default();
-            for i in 0..dice.below(8 as usize) as u32 {
-                let mut mentioned: Vec<SlotId> = (0..1 + dice.below(3 as usize) as u32)
+            for i in 0..dice.below(8) as u32 {
+                let mut mentioned: Vec<SlotId> = (0..1 + dice.below(3) as u32)
                     .map(|_| SlotId(dice.below(slots as usize) as u32))
                     .collect();
                 mentioned.sort_unstable();
