@@ -171,9 +171,17 @@ impl<'a> Opening<'a> {
         name: &Name,
         arguments: &[Meaning<'a>],
     ) -> Answer<'a> {
+        if let ("count" | "first" | "last", []) = (name.as_str(), arguments) {
+            let count = self.count(to)?;
+            return match (name.as_str(), count) {
+                ("count", _) => Ok(self.number(count as f64)),
+                (_, 0) => Err(empty(name)),
+                ("first", _) => self.item(to, 0),
+                _ => self.item(to, count - 1),
+            };
+        }
         let items = self.items(to)?;
         match (name.as_str(), arguments) {
-            ("count", []) => Ok(self.number(items.len() as f64)),
             ("sum", []) if items.is_empty() => Ok(self.number(0.0)),
             ("sum", []) => self.fold(Binary::Add, &items),
             ("sum", [f]) => {
@@ -183,8 +191,6 @@ impl<'a> Opening<'a> {
             ("min", []) => self.fold(Binary::Min, &items),
             ("max", []) => self.fold(Binary::Max, &items),
             ("map", [f]) => Ok(Meaning::List(self.map(&items, f)?.into())),
-            ("first", []) => items.first().cloned().ok_or_else(|| empty(name)),
-            ("last", []) => items.last().cloned().ok_or_else(|| empty(name)),
             ("filter", [f]) => {
                 let mut kept = Vec::new();
                 for item in items.iter() {

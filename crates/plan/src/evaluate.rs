@@ -112,10 +112,12 @@ impl<'a> Opening<'a> {
             }
             Term::Index(list, index) => {
                 let list = self.meaning(list, frame)?;
-                let items = self.items(&list)?;
+                let count = self.count(&list)?;
                 let index = self.whole(index, frame)?;
-                let found = usize::try_from(index).ok().and_then(|i| items.get(i)).cloned();
-                found.ok_or_else(|| self.missing_element(&list, items.len(), index))
+                match usize::try_from(index).ok().filter(|&i| i < count) {
+                    Some(i) => self.item(&list, i),
+                    None => Err(self.missing_element(&list, count, index)),
+                }
             }
             Term::Unary(operator, operand) => {
                 let operand = self.meaning(operand, frame)?;
@@ -476,6 +478,32 @@ impl<'a> Opening<'a> {
             Meaning::Number(_) | Meaning::Made(_) | Meaning::Opaque(_) | Meaning::Lambda(_) => {
                 Err(Trouble::wrong(format!("{} is neither a list nor a set", kind(list))))
             }
+        }
+    }
+
+    /// Returns the list that a meaning is, if it is one of the structure.
+    fn stored_list(&self, list: &Meaning<'a>) -> Option<ThingId> {
+        let &Meaning::Thing(thing) = list else { return None };
+        matches!(self.structure_kind(thing), ClassKind::List(_)).then_some(thing)
+    }
+
+    /// Returns how many elements a list, a set or a tuple has.
+    pub(crate) fn count(&mut self, list: &Meaning<'a>) -> Result<usize, Trouble> {
+        match self.stored_list(list) {
+            Some(list) => Ok(self.reach.count(list)),
+            None => Ok(self.items(list)?.len()),
+        }
+    }
+
+    /// Returns one element of a list, a set or a tuple that has so many, without a look at the others where
+    /// it is stored.
+    pub(crate) fn item(&mut self, list: &Meaning<'a>, at: usize) -> Answer<'a> {
+        match self.stored_list(list) {
+            Some(list) => {
+                let element = self.reach.element(list, at);
+                self.part(element)
+            }
+            None => Ok(self.items(list)?[at].clone()),
         }
     }
 

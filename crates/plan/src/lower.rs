@@ -262,12 +262,13 @@ fn meaning_of_path<'a>(
         at = match step {
             Step::Part(name) => opening.send(&at, name, &[], None)?,
             Step::Index(_) | Step::Last => {
-                let items = opening.items(&at)?;
-                let item = match step {
-                    Step::Index(i) => items.get(*i as usize),
-                    Step::Last | Step::Part(_) | Step::Owner => items.last(),
+                let count = opening.count(&at)?;
+                let place = match step {
+                    Step::Index(i) => Some(*i as usize).filter(|&i| i < count),
+                    Step::Last | Step::Part(_) | Step::Owner => count.checked_sub(1),
                 };
-                item.cloned().ok_or_else(|| Trouble::wrong(format!("{path} leads nowhere")))?
+                let nowhere = || Trouble::wrong(format!("{path} leads nowhere"));
+                opening.item(&at, place.ok_or_else(nowhere)?)?
             }
             Step::Owner => match at {
                 Meaning::Thing(t) => {

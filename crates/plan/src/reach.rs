@@ -24,6 +24,10 @@ pub(crate) enum Step {
     Part(Reached, u32),
     /// All parts, and there are so many.
     Parts(Reached, u32),
+    /// That a list has so many elements.
+    Count(Reached, u32),
+    /// One element of a list, by its place.
+    Element(Reached, u32),
     /// All members of a set, and there are so many.
     Members(Reached, u32),
     /// What a reference names.
@@ -168,6 +172,20 @@ impl<'a> Reach<'a> {
         self.step(Step::Parts(from, parts.len() as u32), parts.iter().copied());
         parts
     }
+    /// Returns how many elements a list has.
+    pub(crate) fn count(&mut self, list: ThingId) -> usize {
+        let count = self.structure.parts(list).len();
+        let from = self.number_of(list);
+        self.step(Step::Count(from, count as u32), []);
+        count
+    }
+    /// Returns the element of a list at a place that it has.
+    pub(crate) fn element(&mut self, list: ThingId, at: usize) -> ThingId {
+        let element = ThingId(self.structure.things[list].first_part.0 + at as u32);
+        let from = self.number_of(list);
+        self.step(Step::Element(from, at as u32), [element]);
+        element
+    }
     /// Returns the members of a set.
     pub(crate) fn members(&mut self, set: ThingId) -> Vec<ThingId> {
         let members = members(self.structure, set).to_vec();
@@ -207,8 +225,14 @@ impl<'a> Reach<'a> {
         for step in &path.0 {
             at = match step {
                 PathStep::Part(name) => self.part_named(at, name)?,
-                PathStep::Index(n) => *self.parts(at).get(*n as usize)?,
-                PathStep::Last => *self.parts(at).last()?,
+                PathStep::Index(n) => {
+                    let at_place = Some(*n as usize).filter(|&n| n < self.count(at))?;
+                    self.element(at, at_place)
+                }
+                PathStep::Last => {
+                    let last = self.count(at).checked_sub(1)?;
+                    self.element(at, last)
+                }
                 PathStep::Owner => self.owner(at)?,
             };
             at = self.referent(at).unwrap_or(at);
@@ -299,6 +323,13 @@ impl Routes {
                     let is_like = parts.len() == *count as usize;
                     things.extend(parts);
                     is_like
+                }
+                Step::Count(n, count) => structure.parts(of(n)).len() == *count as usize,
+                Step::Element(n, place) => {
+                    let list = &structure.things[of(n)];
+                    let element = ThingId(list.first_part.0 + place);
+                    things.push(element);
+                    *place < list.parts && fits(element, at)
                 }
                 Step::Members(n, count) => {
                     let members = members(structure, of(n));

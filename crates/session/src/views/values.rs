@@ -6,7 +6,8 @@ use crate::words;
 use base::Name;
 use eval::{Answer, Evaluator};
 use indexmap::IndexMap;
-use kernel::{ClassId, ClassKind, Document, Path, SlotId, Step, ThingId, Values};
+use kernel::builtin::{FUNCTIONS, Kind, PICTURE_MESSAGES, find};
+use kernel::{ClassId, ClassKind, Document, Path, SlotId, Step, Term, ThingId, Values};
 use std::collections::BTreeMap;
 use std::fmt::Write;
 use std::rc::Rc;
@@ -260,22 +261,37 @@ fn append(path: &mut String, name: &str) {
 /// Returns the messages that read as values, with what `///` says of them, in order of declaration.
 ///
 /// One that a subclass defines anew stands where it was first declared, once. What the lab shows in
-/// views of its own is no value, whatever it answers.
+/// views of its own is no value, whatever it answers, and a picture is none.
 fn virtual_parts(document: &Document, class: ClassId) -> Rc<[(Name, String)]> {
-    let mut found: IndexMap<&Name, &str> = IndexMap::new();
+    let mut found: IndexMap<&Name, (&str, bool)> = IndexMap::new();
     for class in document.primary_line(class).into_iter().rev() {
         if document.classes[class].supers.is_empty() {
             continue;
         }
         let messages = document.classes[class].messages.iter();
         for message in messages.filter(|m| m.parameters.is_empty() && !is_view(&m.name)) {
-            let doc = found.entry(&message.name).or_default();
+            let (doc, is_drawn) = found.entry(&message.name).or_default();
             if !message.doc.is_empty() {
                 *doc = &message.doc;
             }
+            *is_drawn = is_picture(&message.answer);
         }
     }
-    found.into_iter().map(|(name, doc)| (name.clone(), doc.to_string())).collect()
+    let read = found.into_iter().filter(|(_, (_, is_drawn))| !is_drawn);
+    read.map(|(name, (doc, _))| (name.clone(), doc.to_string())).collect()
+}
+
+/// Returns true if a term answers a picture, whatever it is asked of.
+fn is_picture(term: &Term) -> bool {
+    match term {
+        Term::Call { name, .. } => {
+            find(FUNCTIONS, name).is_some_and(|function| function.result == Kind::Picture)
+        }
+        Term::Send { to, name, .. } => is_picture(to) && find(PICTURE_MESSAGES, name).is_some(),
+        Term::If(_, a, b) => is_picture(a) && is_picture(b),
+        Term::Let(_, _, term) => is_picture(term),
+        _ => false,
+    }
 }
 
 fn is_view(name: &Name) -> bool {
