@@ -427,11 +427,28 @@ impl Arena {
         }
         variables
     }
+    /// Returns the last of the expressions that the `roots` are made of of which `is` is true: it is no part
+    /// of any other.
+    pub fn last(&self, roots: &[ExprId], is: impl Fn(Node) -> bool) -> Option<ExprId> {
+        let reached = self.reachable(roots);
+        reached.into_iter().rev().find(|&id| is(self.node(id)))
+    }
     /// Replaces the variables for which `replacement` gives an expression.
     pub fn substitute(
         &mut self,
         id: ExprId,
         replacement: &dyn Fn(Var) -> Option<ExprId>,
+    ) -> ExprId {
+        self.replace(id, &|arena, old| match arena.node(old) {
+            Node::Var(var) => replacement(var),
+            Node::Constant(_) | Node::Unary(..) | Node::Binary(..) | Node::Select { .. } => None,
+        })
+    }
+    /// Replaces the parts for which `replacement` gives an expression; that is taken as it is.
+    pub fn replace(
+        &mut self,
+        id: ExprId,
+        replacement: &dyn Fn(&Self, ExprId) -> Option<ExprId>,
     ) -> ExprId {
         let order = self.reachable(&[id]);
         let mut made: Vec<ExprId> = Vec::with_capacity(order.len());
@@ -439,10 +456,10 @@ impl Arena {
             let node = self.node(old);
             let mut changed = false;
             node.each_operand(|a| changed |= made[place(&order, a)] != a);
-            let new = match node {
-                Node::Var(var) => replacement(var).unwrap_or(old),
-                _ if changed => self.rebuild(node, |a| made[place(&order, a)]),
-                _ => old,
+            let new = match replacement(self, old) {
+                Some(new) => new,
+                None if changed => self.rebuild(node, |a| made[place(&order, a)]),
+                None => old,
             };
             made.push(new);
         }

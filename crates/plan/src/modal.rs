@@ -20,6 +20,7 @@ use std::rc::Rc;
 /// A mode with its plain system and plan.
 #[derive(Clone, Debug)]
 pub(crate) struct Stands {
+    modes: Rc<Modes>,
     system: Rc<System>,
     plan: Rc<Plan>,
     mode: Mode,
@@ -122,13 +123,7 @@ impl Task {
     }
     /// Puts a task into another mode.
     pub(crate) fn stand(&mut self, stands: Stands) {
-        let modes = match (&self.course, self.whole()) {
-            (Course::Modes(modes, _), _) => modes.clone(),
-            // whole numbers were looked for beside a plan
-            (Course::Plan, Some(whole)) => whole.modes.clone(),
-            (Course::Plan | Course::Search(_), _) => return,
-        };
-        self.course = Course::Modes(modes, Box::new(stands.mode));
+        self.course = Course::Modes(stands.modes, Box::new(stands.mode));
         self.system = stands.system;
         self.plan = stands.plan;
     }
@@ -163,17 +158,20 @@ impl Task {
     }
 }
 
-fn stands(planner: &Planner, modes: &Modes, mode: Mode) -> Stands {
+fn stands(planner: &Planner, modes: &Rc<Modes>, mode: Mode) -> Stands {
     let (system, plan) = planner.plans.in_mode(modes, &mode);
-    Stands { system, plan, mode }
+    Stands { modes: modes.clone(), system, plan, mode }
 }
+
+/// How the mode of a task is decided: what is tried first, and how each is tried.
+type Decide = fn(&Modes, &Mode, &mut dyn FnMut(&Mode) -> Tried) -> Decision;
 
 /// Runs a task with modes; where none is found the values are those of the last attempt.
 pub(crate) fn run(
     planner: &Planner,
     model: Model<'_>,
     task: &Task,
-    modes: &Modes,
+    (modes, decide): (&Rc<Modes>, Decide),
     ground: &Ground,
     values: &mut Values,
     host: &mut dyn Host,
@@ -235,7 +233,7 @@ pub(crate) fn has_texts(task: &Task) -> bool {
 }
 
 /// Says in the document's terms what a decision came to.
-pub(crate) fn tell(planner: &Planner, modes: &Modes, task: &Task, decision: Decision) -> Ran {
+pub(crate) fn tell(planner: &Planner, modes: &Rc<Modes>, task: &Task, decision: Decision) -> Ran {
     let stands = stands(planner, modes, decision.mode);
     let mut task = task.clone();
     task.stand(stands.clone());

@@ -9,6 +9,7 @@ use crate::whole::Whole;
 use base::Mixer;
 use indexmap::IndexMap;
 use indexmap::map::Entry;
+use solve::pieces;
 use solve::{Conditional, Mode, Modes, Patterns, Plan, Puzzle, SlotIndex, Stay, System};
 use std::cell::RefCell;
 use std::hash::BuildHasherDefault;
@@ -111,6 +112,11 @@ impl Plans {
         let modes = Rc::new(Modes::new(stated.clone(), &mut self.patterns));
         self.modes.insert(stated, modes.clone());
         modes
+    }
+    /// Returns what a system is with its equations taken apart that have pieces; nothing where none has.
+    pub(crate) fn pieces(&mut self, stated: &Conditional) -> Option<Rc<Modes>> {
+        let apart = pieces::taken_apart(stated, &mut self.patterns)?;
+        Some(self.modes(apart))
     }
     /// Returns how whole numbers among the real unknowns of a system are looked for.
     pub(crate) fn whole(&mut self, stated: Conditional) -> Rc<Whole> {

@@ -56,7 +56,34 @@ pub(crate) fn run(
 ) -> Ran {
     let ground = ground(planner, task, aim, start, values);
     let ran = by_course(planner, model, task, &ground, values, host);
+    let ran = or_pieces(planner, model, task, &ground, ran, values, host);
     or_whole(planner, model, task, &ground, ran, values, host)
+}
+
+/// Looks for other pieces of equations where what was run on those at hand did not come to an end.
+fn or_pieces(
+    planner: &Planner,
+    model: Model<'_>,
+    task: &Task,
+    ground: &Ground,
+    ran: Ran,
+    values: &mut Values,
+    host: &mut dyn Host,
+) -> Ran {
+    let Some(modes) = task.pieces() else { return ran };
+    if ran.is_solved || ran.failure.is_some() {
+        return ran;
+    }
+    let texts = values.texts.clone();
+    let numbers: Vec<f64> = task.numbers(&values.numbers).collect();
+    let how = (modes, solve::decide_pieces as _);
+    let found = modal::run(planner, model, task, how, ground, values, host);
+    if found.is_solved {
+        return found;
+    }
+    values.texts = texts;
+    scatter(task, &numbers, values);
+    Ran { not_decided: ran.not_decided.or(found.not_decided), ..ran }
 }
 
 /// Looks for whole numbers where what was run made none, or did not come to an end.
@@ -106,7 +133,9 @@ fn by_course(
             scatter(task, &local, values);
             ran(planner, task, &outcome)
         }
-        Course::Modes(modes, _) => modal::run(planner, model, task, modes, ground, values, host),
+        Course::Modes(modes, _) => {
+            modal::run(planner, model, task, (modes, solve::decide), ground, values, host)
+        }
         Course::Search(puzzle) => {
             let verdict = puzzle.nearest(&ground.x0, &ground.local);
             if let Verdict::Found(found) = &verdict {

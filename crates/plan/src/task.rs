@@ -91,6 +91,8 @@ struct Stated {
     number: Option<u32>,
     /// How its whole numbers are looked for, where some are among real unknowns.
     whole: Option<Rc<Whole>>,
+    /// What it is with every equation with an `if` taken apart, where some have.
+    pieces: Option<Rc<Modes>>,
     /// The component's slots that can move while nothing is edited; found when first asked for.
     movable: OnceCell<Vec<SlotIndex>>,
     /// The rows that may depend on others at some state; found when first asked for.
@@ -194,10 +196,15 @@ fn state(
     making.ranges();
     let Making { conditional, holds, targets, relations, .. } = making;
     let whole = whole::stated(&conditional).then(|| plans.whole(conditional.clone()));
+    let pieces = match whole {
+        Some(_) => None,
+        None => plans.pieces(&conditional),
+    };
     let (system, plan, course, number) = course(plans, conditional);
     let number = number.filter(|_| whole.is_none() && !has_host(&system));
     let (movable, core, at_rest) = Default::default();
-    let stated = Stated { holds, targets, relations, number, whole, movable, core, at_rest };
+    let stated =
+        Stated { holds, targets, relations, number, whole, pieces, movable, core, at_rest };
     (system, plan, course, Rc::new(stated))
 }
 
@@ -576,6 +583,10 @@ impl Task {
     /// Returns how its whole numbers are looked for, where some are among real unknowns.
     pub(crate) fn whole(&self) -> Option<&Rc<Whole>> {
         self.stated.whole.as_ref()
+    }
+    /// Returns what it is with every equation with an `if` taken apart, where some have.
+    pub(crate) fn pieces(&self) -> Option<&Rc<Modes>> {
+        self.stated.pieces.as_ref()
     }
     /// Returns the number of its plan, where what that comes to depends on numbers alone.
     pub(crate) fn number(&self) -> Option<u32> {

@@ -105,6 +105,8 @@ pub mod conditional;
 
 mod truth;
 
+pub mod pieces;
+
 pub mod modes;
 
 pub mod search;
@@ -115,7 +117,7 @@ pub use attempt::others::Other;
 pub use conditional::{Condition, Conditional, Demand, DemandKind, Guard, SlotRange};
 pub use few::Few;
 pub use fork::Lean;
-pub use modes::{Decision, Ended, Mode, Modes, Standing, Tried, decide};
+pub use modes::{Decision, Ended, Mode, Modes, Standing, Tried, decide, decide_pieces};
 pub use outcome::{Host, NoHost, Note, Outcome, Reason, Status, Unmet};
 pub use pattern::{Pattern, PatternId, Patterns, Scratch};
 pub use plan::{Plan, Rejected, Report, Step, StepKind, plan};

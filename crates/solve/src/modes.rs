@@ -11,7 +11,7 @@
 
 mod decide;
 
-pub use decide::{Decision, Ended, MOST_MODES, Tried, decide};
+pub use decide::{Decision, Ended, MOST_MODES, Tried, decide, decide_pieces};
 
 use crate::conditional::{Conditional, DemandKind};
 use crate::pattern::{Pattern, PatternId, Patterns, Scratch};

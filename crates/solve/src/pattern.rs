@@ -6,6 +6,7 @@
 //! Whatever can be known of a row without its slots is worked out once, for the pattern.
 
 use crate::kernel::Kernel;
+use crate::pieces;
 use crate::system::SlotIndex;
 use base::{Id, Mixer, define_id};
 use expr::{Arena, Excerpt, ExprId, Node, Tape, Var};
@@ -27,6 +28,7 @@ pub struct Pattern {
     arena: OnceCell<Arena>,
     arity: usize,
     plain: Option<Plain>,
+    has_pieces: bool,
     values: OnceCell<Rc<Tape>>,
     kernel: OnceCell<Rc<Kernel>>,
     identified: RefCell<BTreeMap<Box<[u32]>, Identified>>,
@@ -48,11 +50,13 @@ impl Pattern {
     fn new(excerpt: Excerpt) -> Self {
         let arity = excerpt.nodes.iter().filter(|n| matches!(n, Node::Var(_))).count();
         let plain = plain(&excerpt);
+        let has_pieces = excerpt.nodes.iter().any(|&node| pieces::has_pieces(node));
         Self {
             excerpt,
             arena: OnceCell::new(),
             arity,
             plain,
+            has_pieces,
             values: OnceCell::new(),
             kernel: OnceCell::new(),
             identified: RefCell::default(),
@@ -165,6 +169,10 @@ impl Pattern {
         scratch.arguments.extend(arguments);
         self.kernel().sway(&scratch.arguments, &mut scratch.registers, &mut scratch.out)
     }
+    /// Returns true if what it says is another expression here than there.
+    pub(crate) fn has_pieces(&self) -> bool {
+        self.has_pieces
+    }
     /// Returns what it says if that is next to nothing.
     pub(crate) fn plain(&self) -> Option<Plain> {
         self.plain
@@ -261,11 +269,12 @@ impl indexmap::Equivalent<Interned> for Excerpt {
 #[derive(Debug)]
 pub struct Patterns {
     all: IndexSet<Interned, BuildHasherDefault<Mixer>>,
+    have_pieces: bool,
 }
 
 impl Default for Patterns {
     fn default() -> Self {
-        let mut patterns = Self { all: IndexSet::default() };
+        let mut patterns = Self { all: IndexSet::default(), have_pieces: false };
         let mut arena = Arena::for_nodes(2);
         let (a, b) = (arena.var(Var(0)), arena.var(Var(1)));
         patterns.intern(&arena, &[a, b]);
@@ -283,7 +292,11 @@ impl Patterns {
         let (excerpt, variables) = arena.excerpt(roots);
         let index = match self.all.get_index_of(&excerpt) {
             Some(index) => index,
-            None => self.all.insert_full(Interned(Rc::new(Pattern::new(excerpt)))).0,
+            None => {
+                let pattern = Pattern::new(excerpt);
+                self.have_pieces |= pattern.has_pieces;
+                self.all.insert_full(Interned(Rc::new(pattern))).0
+            }
         };
         (PatternId::from_index(index), variables)
     }
@@ -303,6 +316,10 @@ impl Patterns {
     /// If the id is not from here.
     pub fn get(&self, id: PatternId) -> &Rc<Pattern> {
         &self.all[id.index()].0
+    }
+    /// Returns true if any says another expression here than there.
+    pub(crate) fn have_pieces(&self) -> bool {
+        self.have_pieces
     }
     /// Returns how many patterns there are.
     pub fn len(&self) -> usize {

@@ -11,6 +11,9 @@ const NUDGE: f64 = 1.0 / 1_048_576.0;
 /// How near to its bound an inequality acts, as a part of its slopes.
 const AT_BOUND: f64 = 1e-6;
 
+/// How much a slope may differ from one side of a number to the other, as a part of it, and of one at least.
+const KINK: f64 = 1e-3;
+
 /// A comparison: the difference of its sides and its slope by each column.
 #[derive(Clone, Debug)]
 pub(crate) struct Row {
@@ -45,7 +48,7 @@ pub(crate) fn only_read(
 }
 
 /// Returns the rows of a constraint, with their slopes by some slots; nothing where it compares no
-/// numbers, or others where they move. By what the constraint never writes it has none.
+/// numbers, or others where they move, or is at a kink. By what the constraint never writes it has none.
 pub(crate) fn rows(
     evaluator: &Evaluator<'_>,
     constraint: ConstraintInstance,
@@ -80,6 +83,13 @@ pub(crate) fn rows(
             return None;
         }
         for (i, row) in rows.iter_mut().enumerate() {
+            let [rise, fall] = [
+                (high.differences[i] - row.difference) / (above - x),
+                (row.difference - low.differences[i]) / (x - below),
+            ];
+            if (rise - fall).abs() > KINK * rise.abs().max(fall.abs()).max(1.0) {
+                return None;
+            }
             row.slopes[column] = (high.differences[i] - low.differences[i]) / (above - below);
         }
     }

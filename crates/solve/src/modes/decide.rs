@@ -20,6 +20,9 @@ use std::rc::Rc;
 /// How many modes are tried before the matter is left undecided.
 pub const MOST_MODES: usize = 2_000;
 
+/// So many slots are planned in all the modes of the pieces of equations, before it is.
+const MOST_OF_PIECES: usize = 200_000;
+
 /// What came of trying a mode.
 #[derive(Clone, Debug)]
 pub struct Tried {
@@ -55,9 +58,29 @@ pub enum Ended {
 
 /// Finds the mode in which everything holds.
 pub fn decide(modes: &Modes, first: &Mode, attempt: &mut dyn FnMut(&Mode) -> Tried) -> Decision {
+    decide_within(modes, first, attempt, MOST_MODES)
+}
+
+/// Finds the mode in which everything holds, among fewer where the system is large.
+pub fn decide_pieces(
+    modes: &Modes,
+    first: &Mode,
+    attempt: &mut dyn FnMut(&Mode) -> Tried,
+) -> Decision {
+    let slots = modes.conditional.system.slots.len().max(1);
+    decide_within(modes, first, attempt, (MOST_OF_PIECES / slots).clamp(8, MOST_MODES))
+}
+
+fn decide_within(
+    modes: &Modes,
+    first: &Mode,
+    attempt: &mut dyn FnMut(&Mode) -> Tried,
+    most: usize,
+) -> Decision {
     let mut deciding = Deciding {
         modes,
         attempt,
+        most,
         tried: BTreeMap::new(),
         blamed: BTreeSet::new(),
         edge: None,
@@ -76,6 +99,8 @@ pub fn decide(modes: &Modes, first: &Mode, attempt: &mut dyn FnMut(&Mode) -> Tri
 struct Deciding<'a> {
     modes: &'a Modes,
     attempt: &'a mut dyn FnMut(&Mode) -> Tried,
+    /// How many modes are tried.
+    most: usize,
     tried: BTreeMap<Mode, Rc<Tried>>,
     /// Relations that took part in failures.
     blamed: BTreeSet<u32>,
@@ -125,7 +150,7 @@ impl Deciding<'_> {
     fn act(&mut self, mut mode: Mode) -> Inner {
         let mut seen = BTreeSet::new();
         let mut blamed = BTreeSet::new();
-        while seen.insert(mode.active.clone()) && self.tried.len() < MOST_MODES {
+        while seen.insert(mode.active.clone()) && self.tried.len() < self.most {
             let tried = self.try_mode(&mode);
             if !tried.outcome.is_solved() {
                 let relations = blame(&tried);
@@ -233,7 +258,7 @@ impl Deciding<'_> {
     /// Goes through the assumptions depth first, learning from every failure.
     fn go_through(&mut self, first: &Mode) -> Decision {
         let mut learnt: Vec<Vec<Assumption>> = Vec::new();
-        while self.tried.len() < MOST_MODES {
+        while self.tried.len() < self.most {
             let Some(mode) = self.next(first, &learnt) else { break };
             let relevant = match self.act(mode.clone()) {
                 Inner::Holds(found) => {
@@ -258,10 +283,10 @@ impl Deciding<'_> {
         if let Some(mode) = self.edge.take() {
             return self.decision(mode, Ended::Settled);
         }
-        let ended = if self.tried.len() < MOST_MODES {
+        let ended = if self.tried.len() < self.most {
             Ended::Contradiction(self.blamed.iter().copied().collect())
         } else {
-            Ended::NotDecided(MOST_MODES)
+            Ended::NotDecided(self.most)
         };
         self.decision(first.clone(), ended)
     }

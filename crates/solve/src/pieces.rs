@@ -1,0 +1,169 @@
+//! Pieces: an equation with an `if` in an expression, as alternatives.
+//!
+//! In: a system. Out: a conditional one in which each equation with an `if`, a larger, a smaller or a
+//! size is a choice: of the piece that it is on, where that piece ends being inequalities. So what
+//! Newton's steps cannot leave, a piece that is flat, another mode is not on.
+//!
+//! `y = max(a, b)` says `b <= a and y = a or a <= b and y = b`.
+
+use crate::conditional::{Conditional, Demand, DemandKind};
+use crate::pattern::{PatternId, Patterns};
+use crate::system::{Equation, RelationBody};
+use base::Id;
+use expr::{Arena, Binary, ExprId, Node, Unary, Var};
+use std::collections::BTreeMap;
+
+/// An equation is taken apart into so many pieces at most; what is left of it stays whole.
+const MOST_PIECES: u32 = 64;
+/// So many equations of a system at most are taken apart.
+const MOST_EQUATIONS: usize = 200;
+
+/// Returns true if an equation with this operation in it may be taken apart.
+pub(crate) fn has_pieces(node: Node) -> bool {
+    let is_step = matches!(node, Node::Unary(Unary::Floor | Unary::Round, _));
+    is_step || is_piecewise(node)
+}
+
+/// Returns true if an operation is one of several expressions, each on its own piece.
+fn is_piecewise(node: Node) -> bool {
+    match node {
+        Node::Select { .. } => true,
+        Node::Unary(op, _) => op == Unary::Abs,
+        Node::Binary(op, ..) => matches!(op, Binary::Min | Binary::Max),
+        Node::Constant(_) | Node::Var(_) => false,
+    }
+}
+
+/// Takes the equations of a system apart that have pieces. Returns nothing where none has, or too many
+/// have.
+pub fn taken_apart(stated: &Conditional, patterns: &mut Patterns) -> Option<Conditional> {
+    if !patterns.have_pieces() || stated.is_searched() {
+        return None;
+    }
+    let has_pieces = |e: &Equation| patterns.get(e.pattern).has_pieces();
+    let count = stated.system.equations.iter().filter(|e| has_pieces(e)).count();
+    if count == 0 || count > MOST_EQUATIONS {
+        return None;
+    }
+    let mut apart = stated.clone();
+    let mut known: BTreeMap<PatternId, (PatternId, Vec<Var>)> = BTreeMap::new();
+    for (index, relation) in (0..).zip(&stated.system.relations) {
+        let equations = stated.system.equations_of(relation).iter().copied();
+        let (pieces, whole): (Vec<Equation>, Vec<Equation>) =
+            equations.partition(|e| patterns.get(e.pattern).has_pieces());
+        if pieces.is_empty() {
+            continue;
+        }
+        for equation in pieces {
+            let (pattern, variables) = known
+                .entry(equation.pattern)
+                .or_insert_with(|| alternatives(patterns, equation.pattern));
+            let slots = stated.system.arguments(equation.arguments);
+            let slots = variables.iter().map(|v| slots[v.index()]);
+            let arguments = apart.system.add_arguments(slots);
+            let (kind, pattern) = (DemandKind::True, *pattern);
+            apart.demands.push(Demand { relation: index, kind, pattern, arguments });
+        }
+        let whole =
+            whole.iter().map(|e| (e.pattern, stated.system.arguments(e.arguments).to_vec()));
+        let whole = apart.system.add_equations(whole.collect::<Vec<_>>());
+        let relation = &mut apart.system.relations[index as usize];
+        relation.body = RelationBody::Equations(whole);
+        // a method may be that of another piece
+        relation.methods.clear();
+    }
+    apart.demands.sort_by_key(|d| d.relation);
+    Some(apart)
+}
+
+/// Returns the pattern that is true where an equation holds, with its arguments among the equation's.
+fn alternatives(patterns: &mut Patterns, equation: PatternId) -> (PatternId, Vec<Var>) {
+    let equation = patterns.get(equation).clone();
+    let mut arena = equation.arena().clone();
+    let [left, right] = equation.roots() else { unreachable!("an equation has two sides") };
+    let mut lifting = Lifting { arena: &mut arena, assumed: Vec::new(), left: MOST_PIECES };
+    let truth = lifting.lift(*left, *right);
+    patterns.intern(&arena, &[truth])
+}
+
+struct Lifting<'a> {
+    arena: &'a mut Arena,
+    /// The conditions of the piece at hand, as they are on it.
+    assumed: Vec<(ExprId, bool)>,
+    /// How many more pieces there may be.
+    left: u32,
+}
+
+impl Lifting<'_> {
+    /// Returns what is true where two sides are equal, without pieces in them.
+    fn lift(&mut self, left: ExprId, right: ExprId) -> ExprId {
+        for (side, other) in [(left, right), (right, left)] {
+            if let Node::Unary(op @ (Unary::Floor | Unary::Round), x) = self.arena.node(side) {
+                return self.between(op, x, other);
+            }
+        }
+        let piecewise = self.arena.last(&[left, right], is_piecewise);
+        let (Some(whole), true) = (piecewise, self.left > 1) else {
+            return self.arena.binary(Binary::Equal, left, right);
+        };
+        if let Node::Select { condition, then, otherwise } = self.arena.node(whole) {
+            let known = self.assumed.iter().find(|(c, _)| *c == condition);
+            if let Some(&(_, truth)) = known {
+                return self.on(whole, if truth { then } else { otherwise }, [left, right]);
+            }
+            self.left -= 1;
+            self.assumed.push((condition, true));
+            let first = self.on(whole, then, [left, right]);
+            self.assumed.pop();
+            self.assumed.push((condition, false));
+            let second = self.on(whole, otherwise, [left, right]);
+            self.assumed.pop();
+            return self.arena.select(condition, first, second);
+        }
+        self.left -= 1;
+        let [first, second] = self.halves(whole);
+        let [first, second] = [first, second].map(|(condition, value)| {
+            let holds = self.on(whole, value, [left, right]);
+            self.arena.binary(Binary::And, condition, holds)
+        });
+        self.arena.binary(Binary::Or, first, second)
+    }
+
+    /// Returns what is true where a number rounds to another, if that is whole.
+    fn between(&mut self, op: Unary, x: ExprId, whole: ExprId) -> ExprId {
+        let arena = &mut *self.arena;
+        let (below, above) = if op == Unary::Floor { (0.0, 1.0) } else { (0.5, 0.5) };
+        let [below, above] = [below, above].map(|by| arena.constant(by));
+        let (low, high) = (arena.sub(whole, below), arena.add(whole, above));
+        let low = arena.binary(Binary::LessEqual, low, x);
+        let high = arena.binary(Binary::Less, x, high);
+        arena.binary(Binary::And, low, high)
+    }
+
+    /// Returns what is true where two sides are equal with one piece for a part of theirs.
+    fn on(&mut self, whole: ExprId, piece: ExprId, sides: [ExprId; 2]) -> ExprId {
+        let replacement = |_: &Arena, part: ExprId| (part == whole).then_some(piece);
+        let [left, right] = sides.map(|side| self.arena.replace(side, &replacement));
+        self.lift(left, right)
+    }
+
+    /// Returns both pieces of a larger, a smaller or a size: where each is, and what it is there.
+    fn halves(&mut self, whole: ExprId) -> [(ExprId, ExprId); 2] {
+        let arena = &mut *self.arena;
+        let (low, high, [under, over]) = match arena.node(whole) {
+            Node::Binary(Binary::Max, a, b) => (b, a, [b, a]),
+            Node::Binary(_, a, b) => (b, a, [a, b]),
+            Node::Unary(_, a) => {
+                let zero = arena.constant(0.0);
+                let negated = arena.unary(Unary::Neg, a);
+                (zero, a, [negated, a])
+            }
+            Node::Constant(_) | Node::Var(_) | Node::Select { .. } => {
+                unreachable!("these have no halves")
+            }
+        };
+        let above = arena.binary(Binary::LessEqual, low, high);
+        let below = arena.binary(Binary::LessEqual, high, low);
+        [(above, over), (below, under)]
+    }
+}
