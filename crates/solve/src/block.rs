@@ -336,16 +336,26 @@ impl Block {
     }
     fn all_seconds(&self) -> &(Vec<SecondPlace>, Vec<u32>) {
         self.seconds.get_or_init(|| {
-            let at = |slot| self.unknowns.binary_search(slot).map_or(KNOWN, |at| at as u32);
             let count = |g: &Group| g.rows.len as usize * g.kernel.second().entries.len();
             let mut seconds = Vec::with_capacity(self.groups.iter().map(count).sum());
             let mut ends = Vec::with_capacity(self.height());
             let mut unknowns: Vec<u32> = Vec::new();
             for group in &self.groups {
                 let entries = &group.kernel.second().entries;
-                for arguments in self.arguments_of(group).chunks_exact(group.kernel.arity()) {
-                    unknowns.clear();
-                    unknowns.extend(arguments.iter().map(at));
+                if entries.is_empty() {
+                    ends.extend(std::iter::repeat_n(seconds.len() as u32, group.rows.len as usize));
+                    continue;
+                }
+                // what has a second derivative has a first
+                unknowns.clear();
+                unknowns.resize(group.kernel.arity(), KNOWN);
+                for places in self.entries_of(group).chunks_exact(group.kernel.entries.len()) {
+                    for (entry, &place) in group.kernel.entries.iter().zip(places) {
+                        unknowns[entry.argument as usize] = match place {
+                            KNOWN => KNOWN,
+                            place => self.pattern.column(place as usize) as u32,
+                        };
+                    }
                     for (out, &(a, b)) in (0..).zip(entries) {
                         let (i, j) = (unknowns[a as usize], unknowns[b as usize]);
                         if i != KNOWN && j != KNOWN {

@@ -135,7 +135,7 @@ enum Matrix {
 const LARGE: usize = 60;
 const STEPS: usize = 100;
 /// The regularisation of the rows.
-const DELTA: f64 = 1e-6;
+const DELTA: f64 = 1e-9;
 /// How many steps are taken beyond the last where a row does not hold yet.
 const POLISH: usize = 8;
 /// How much what goes along is held to where it is.
@@ -287,6 +287,7 @@ impl Least {
         let mut size = f64::INFINITY;
         // how the steps before shrank
         let mut shrank = f64::INFINITY;
+        let mut was_exact = false;
         let mut smallest = (f64::INFINITY, 0);
         let mut polished = 0;
         for iteration in 0..STEPS {
@@ -326,13 +327,17 @@ impl Least {
             } else {
                 smallest.1 += 1;
             }
-            // what comes after a step that shrank like this is no step
-            let next = if iteration > 0 { size * shrank } else { size };
-            let last = size <= SETTLED
-                || iteration > 1 && next <= SETTLED
-                || smallest.1 >= 4 && smallest.0 < 1e-7;
             take_on(s);
             norm = self.advance(counted, values, size, norm, w, s);
+            // what comes after a step that shrank like this is no step; after Newton's it shrinks by the square,
+            // as far as the rows are not held back
+            let next = size * shrank;
+            let is_newton = was_exact && matrix == Matrix::Exact;
+            was_exact = matrix == Matrix::Exact;
+            let last = size <= SETTLED
+                || iteration > 1 && next <= SETTLED
+                || iteration > 1 && is_newton && norm.max(next * shrank) <= SETTLED
+                || smallest.1 >= 4 && smallest.0 < 1e-7;
             if last {
                 // of what is small beside its scale, a few more steps find the last digits
                 polished += 1;

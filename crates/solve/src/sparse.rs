@@ -12,6 +12,8 @@ pub(crate) mod degree;
 
 pub(crate) mod lu;
 
+mod band;
+
 pub(crate) mod ldl;
 
 pub(crate) mod damped;

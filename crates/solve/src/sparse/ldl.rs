@@ -3,21 +3,43 @@
 //! In: the places of a symmetric matrix's entries; then numbers. Out: factors, how many pivots are
 //! negative (the inertia), solutions. The order has minimum degree, or is that of a chain, and is chosen by
 //! structure alone, so the matrix has to be quasi-definite, or its failure to be so has to be what the
-//! caller asks.
+//! caller asks. A chain's factors are a band.
 //!
 //! **Source:** Davis, *Algorithm 849: a concise sparse Cholesky factorization package*, ACM TOMS 31
 //! (2005); Vanderbei, *Symmetric quasidefinite matrices*, SIAM J. Optim. 5 (1995).
 
+use super::band::{Band, BandFactors};
 use super::degree;
+
+/// How wide bands are.
+const NARROW: usize = 5;
+const WIDE: usize = 8;
 
 /// No place.
 const NONE: u32 = u32::MAX;
 
-/// The factors' structure: every index is a place in the order of elimination.
-#[derive(Clone, Debug, Default)]
+/// The factors' structure.
+#[derive(Clone, Debug)]
 pub(crate) struct Symmetric {
     /// What is eliminated, in order.
     order: Vec<u32>,
+    layout: Layout,
+}
+
+/// How the factors are kept: every index is a place in the order of elimination.
+#[derive(Clone, Debug)]
+enum Layout {
+    /// What is near the diagonal, as where each of a chain of bars in the plane is joined to the next.
+    Narrow(Band<NARROW>),
+    /// What is a little farther from it.
+    Wide(Band<WIDE>),
+    /// What is not zero.
+    Sparse(Sparse),
+}
+
+/// Where the factors are not zero.
+#[derive(Clone, Debug)]
+struct Sparse {
     /// For every place, where its entries of the matrix start.
     entry_starts: Vec<u32>,
     /// The earlier place (or the same) and the number of an entry.
@@ -32,6 +54,7 @@ pub(crate) struct Symmetric {
 /// Factors with their numbers, and working space.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct Ldl {
+    band: BandFactors,
     /// One over every pivot.
     inverses: Vec<f64>,
     /// Columns of L: rows and values.
@@ -45,38 +68,75 @@ impl Symmetric {
     /// those at one place are summed.
     pub(crate) fn new(n: usize, entries: &[(u32, u32)]) -> Self {
         let order = degree::eliminate(n, entries.iter().copied()).order;
-        Self::in_order(order, entries, usize::MAX).expect("no number of entries is too many")
+        let places = places(&order, entries);
+        let sparse = Sparse::new(n, &places, usize::MAX).expect("no number of entries is too many");
+        Self { order, layout: Layout::Sparse(sparse) }
     }
     /// Does the same for rows as they stand in a chain, if that makes few new entries: no more than a third of
     /// the entries. Else by degree.
     pub(crate) fn of_chain(chain: Vec<u32>, entries: &[(u32, u32)]) -> Self {
         let n = chain.len();
         let joins = entries.iter().filter(|e| e.0 != e.1).count();
-        Self::in_order(chain, entries, joins + joins / 3).unwrap_or_else(|| Self::new(n, entries))
-    }
-    /// Does the same in this order, if the factors have no more than so many entries.
-    fn in_order(order: Vec<u32>, entries: &[(u32, u32)], most: usize) -> Option<Self> {
-        let n = order.len();
-        let mut place = vec![0u32; n];
-        for (k, &i) in order.iter().enumerate() {
-            place[i as usize] = k as u32;
+        let places = places(&chain, entries);
+        let sparse = || Sparse::new(n, &places, joins + joins / 3).map(Layout::Sparse);
+        let wide = || Band::new(n, &places).map(Layout::Wide);
+        match Band::new(n, &places).map(Layout::Narrow).or_else(wide).or_else(sparse) {
+            Some(layout) => Self { order: chain, layout },
+            None => Self::new(n, entries),
         }
-        let places = |&(i, j): &(u32, u32)| {
-            let (i, j) = (place[i as usize], place[j as usize]);
-            (i.max(j), i.min(j))
+    }
+
+    /// Puts numbers in, in the order of the entries; returns how many pivots are negative, or
+    /// nothing where one vanished.
+    pub(crate) fn factorise(&self, values: &[f64], ldl: &mut Ldl) -> Option<usize> {
+        match &self.layout {
+            Layout::Narrow(band) => band.factorise(values, &mut ldl.band),
+            Layout::Wide(band) => band.factorise(values, &mut ldl.band),
+            Layout::Sparse(sparse) => sparse.factorise(values, ldl),
+        }
+    }
+
+    /// Solves with the factors; `b` becomes the solution.
+    pub(crate) fn solve(&self, ldl: &mut Ldl, b: &mut [f64]) {
+        let right = self.order.iter().map(|&i| b[i as usize]);
+        let solution = match &self.layout {
+            Layout::Narrow(band) => band.solve(&mut ldl.band, right),
+            Layout::Wide(band) => band.solve(&mut ldl.band, right),
+            Layout::Sparse(sparse) => sparse.solve(ldl, right),
         };
-        let entry_starts = starts(n, entries.iter().map(|e| places(e).0));
+        for (value, &i) in solution.iter().zip(&self.order) {
+            b[i as usize] = *value;
+        }
+    }
+}
+
+/// Returns the places of entries in an order, the later one of each first.
+fn places(order: &[u32], entries: &[(u32, u32)]) -> Vec<(u32, u32)> {
+    let mut place = vec![0u32; order.len()];
+    for (k, &i) in (0..).zip(order) {
+        place[i as usize] = k;
+    }
+    let places = |&(i, j): &(u32, u32)| {
+        let (i, j) = (place[i as usize], place[j as usize]);
+        (i.max(j), i.min(j))
+    };
+    entries.iter().map(places).collect()
+}
+
+impl Sparse {
+    /// Lays the factors out, if they have no more than so many entries beside the diagonal.
+    fn new(n: usize, places: &[(u32, u32)], most: usize) -> Option<Self> {
+        let entry_starts = starts(n, places.iter().map(|e| e.0));
         let mut next = entry_starts.clone();
-        let mut own = vec![(0, 0); entries.len()];
-        for (number, entry) in (0..).zip(entries) {
-            let (later, earlier) = places(entry);
+        let mut own = vec![(0, 0); places.len()];
+        for (number, &(later, earlier)) in (0..).zip(places) {
             own[next[later as usize] as usize] = (earlier, number);
             next[later as usize] += 1;
         }
         // a row of L is what its entries lead to in the tree of elimination, in which every place stands under
         // the first that its column reaches
         let (mut above, mut met) = (vec![NONE; n], vec![NONE; n]);
-        let mut rows = Vec::with_capacity(most.min(2 * entries.len()));
+        let mut rows = Vec::with_capacity(most.min(2 * places.len()));
         let mut row_starts = Vec::with_capacity(n + 1);
         row_starts.push(0);
         for (k, ends) in (0..).zip(entry_starts.windows(2)) {
@@ -100,13 +160,11 @@ impl Symmetric {
             row_starts.push(rows.len() as u32);
         }
         let column_starts = starts(n, rows.iter().copied());
-        Some(Self { order, entry_starts, entries: own, row_starts, rows, column_starts })
+        Some(Self { entry_starts, entries: own, row_starts, rows, column_starts })
     }
 
-    /// Puts numbers in, in the order of the entries; returns how many pivots are negative, or
-    /// nothing where one vanished.
-    pub(crate) fn factorise(&self, values: &[f64], ldl: &mut Ldl) -> Option<usize> {
-        let n = self.order.len();
+    fn factorise(&self, values: &[f64], ldl: &mut Ldl) -> Option<usize> {
+        let n = self.column_starts.len() - 1;
         ldl.inverses.clear();
         ldl.inverses.resize(n, 0.0);
         ldl.below.resize(self.rows.len(), (0, 0.0));
@@ -144,30 +202,26 @@ impl Symmetric {
         Some(negative)
     }
 
-    /// Solves with the factors; `b` becomes the solution.
-    pub(crate) fn solve(&self, ldl: &mut Ldl, b: &mut [f64]) {
-        let n = self.order.len();
-        let work = &mut ldl.work;
-        for (value, &i) in work.iter_mut().zip(&self.order) {
-            *value = b[i as usize];
-        }
+    fn solve<'l>(&self, ldl: &'l mut Ldl, right: impl Iterator<Item = f64>) -> &'l [f64] {
+        let Ldl { work, inverses, below, .. } = ldl;
+        work.clear();
+        work.extend(right);
+        let n = work.len();
         let column = |k: usize| self.column_starts[k] as usize..self.column_starts[k + 1] as usize;
         for k in 0..n {
             let value = work[k];
-            for &(i, l) in &ldl.below[column(k)] {
+            for &(i, l) in &below[column(k)] {
                 work[i as usize] -= l * value;
             }
         }
         for k in (0..n).rev() {
-            let mut value = work[k] * ldl.inverses[k];
-            for &(i, l) in &ldl.below[column(k)] {
+            let mut value = work[k] * inverses[k];
+            for &(i, l) in &below[column(k)] {
                 value -= l * work[i as usize];
             }
             work[k] = value;
         }
-        for (value, &i) in work.iter().zip(&self.order) {
-            b[i as usize] = *value;
-        }
+        work
     }
 }
 
@@ -214,13 +268,44 @@ mod tests {
                 (1..n).flat_map(|i| [(i - 1, i), (i.saturating_sub(2), i)]).collect();
             let found = Symmetric::of_chain(order.clone(), &chain);
             assert_eq!(found.order, order);
-            assert_eq!(found.rows.len() as u32, n - 2 + n - 1);
-            assert_eq!(found.rows[found.row_starts[5] as usize..][..2], [3, 4]);
+            assert!(matches!(found.layout, Layout::Narrow(_)));
             // its hub comes first, and would join all others to one another
             let star: Vec<(u32, u32)> = (1..n).map(|i| (0, i)).collect();
             let found = Symmetric::of_chain(order, &star);
-            assert_eq!(found.rows.len() as u32, n - 1);
+            let Layout::Sparse(Sparse { rows, .. }) = found.layout else { panic!("{found:?}") };
+            assert_eq!(rows.len() as u32, n - 1);
         }
+    }
+
+    #[test]
+    fn a_band_has_the_pivots_and_solutions_of_what_is_sparse() {
+        // a chain, each joined to the next two and to the seventh; every third pivot is negative
+        let n = 30u32;
+        let mut entries: Vec<(u32, u32)> = (0..n).map(|i| (i, i)).collect();
+        entries.extend((1..n).flat_map(|i| [(i - 1, i), (i.saturating_sub(2), i), (i, i - 1)]));
+        entries.extend((7..n).map(|i| (i - 7, i)));
+        let value = |at: usize| match at {
+            at if at >= n as usize => 0.3 + 0.01 * (at % 7) as f64,
+            at if at % 3 == 2 => -2.0,
+            _ => 3.0,
+        };
+        let values: Vec<f64> = (0..entries.len()).map(value).collect();
+        let order: Vec<u32> = (0..n).collect();
+        let places = places(&order, &entries);
+        let band = Band::new(n as usize, &places);
+        let sparse = Sparse::new(n as usize, &places, usize::MAX);
+        let layouts = [band.map(Layout::Wide), sparse.map(Layout::Sparse)];
+        let [one, other] = layouts.map(|layout| {
+            let layout = layout.expect("all entries are near the diagonal, and not too many");
+            let symmetric = Symmetric { order: order.clone(), layout };
+            let mut ldl = Ldl::default();
+            assert_eq!(symmetric.factorise(&values, &mut ldl), Some(10));
+            let mut b: Vec<f64> = (0..n).map(f64::from).collect();
+            symmetric.solve(&mut ldl, &mut b);
+            b
+        });
+        assert!(one.iter().zip(&other).all(|(x, y)| (x - y).abs() < 1e-12), "{one:?} {other:?}");
+        assert!(Band::<8>::new(n as usize, &[(8, 0)]).is_none());
     }
 
     #[test]
