@@ -400,7 +400,18 @@ impl Lowerer<'_> {
         }
         let Some(b) = builtin::find(builtin::FUNCTIONS, &name) else {
             let Some(b) = builtin::find(builtin::THING_MESSAGES, &name) else {
-                self.unknown_name(scope, &word);
+                match asked_of_first(self, &word, &args) {
+                    Some(said) => {
+                        let message = format!("there is no function {}", word.text());
+                        let at = Place { file: scope.file, span: call.span() };
+                        self.report(
+                            Diagnostic::error("unknown-name", at, message)
+                                .hint(format!("it is asked of a thing: `{said}`"))
+                                .fix(format!("write {said}"), [(at, said)]),
+                        );
+                    }
+                    None => self.unknown_name(scope, &word),
+                }
                 return None;
             };
             let (arguments, kind) = self.own_arguments(scope, b, call.span(), None, args)?;
@@ -470,6 +481,47 @@ impl Lowerer<'_> {
         let fields = self.document.layout(class).into_iter();
         fields.map(|f| self.document.field_name(f).clone()).collect()
     }
+}
+
+/// Returns how what stands as a function's first argument is asked instead, `a.distance(to: b)` of
+/// `distance(a, b)`; None where it knows no such part or message.
+fn asked_of_first(lowerer: &Lowerer<'_>, word: &ast::Word, args: &[Arg]) -> Option<String> {
+    let (first, rest) = args.split_first()?;
+    let labels: Vec<&str> = match &first.kind {
+        Kind::Thing(class) => match lowerer.find_message(*class, &word.name(), None) {
+            Some((_, message)) => message.parameters.iter().map(|p| p.label.as_str()).collect(),
+            None => lowerer.class_of_part(*class, &word.name()).map(|_| Vec::new())?,
+        },
+        Kind::List(_) => labels_of(builtin::LIST_MESSAGES, word)?,
+        Kind::Text => labels_of(builtin::TEXT_MESSAGES, word)?,
+        Kind::Number(_) => labels_of(builtin::NUMBER_MESSAGES, word)?,
+        Kind::Picture => labels_of(builtin::PICTURE_MESSAGES, word)?,
+        Kind::Bool | Kind::Function | Kind::Tuple(_) | Kind::Unknown => return None,
+    };
+    let text = |arg: &Arg| arg.expr.syntax().to_string().trim().to_string();
+    let stands_alone = matches!(
+        first.expr,
+        Expr::Name(_) | Expr::Field(_) | Expr::Index(_) | Expr::Call(_) | Expr::Paren(_)
+    );
+    let receiver = if stands_alone { text(first) } else { format!("({})", text(first)) };
+    let argument = |(arg, label): (&Arg, &&str)| match label {
+        &"" => text(arg),
+        label => format!("{label}: {}", text(arg)),
+    };
+    let arguments: Vec<String> = rest.iter().zip(&labels).map(argument).collect();
+    match (rest.len() == labels.len(), arguments.is_empty()) {
+        (false, _) => None,
+        (true, true) => Some(format!("{receiver}.{}", word.text())),
+        (true, false) => Some(format!("{receiver}.{}({})", word.text(), arguments.join(", "))),
+    }
+}
+
+/// The language's own messages are written without labels.
+fn labels_of<F>(
+    table: &'static [builtin::Builtin<F>],
+    word: &ast::Word,
+) -> Option<Vec<&'static str>> {
+    builtin::find(table, word.text()).map(|b| vec![""; b.parameters.len()])
 }
 
 fn unchecked(args: Vec<Arg>) -> Vec<Argument> {

@@ -307,6 +307,14 @@ fn hints_name_what_is_near_or_what_there_is() {
     let hint = |text: &str| lower(text).diagnostics[0].hint.clone().unwrap_or_default();
     assert_eq!(hint("use shapes\na: Line\nx: Real = a.lenght"), "did you mean `length`?");
     assert_eq!(hint("use shapes\np: Pont"), "did you mean `Point`?");
+    let asked = "class P { x, y: Real  apart(to p: P) => x - p.x }\na, b: P\n";
+    let said = hint(&format!("{asked}c: Real = apart(a, b)"));
+    assert_eq!(said, "it is asked of a thing: `a.apart(to: b)`");
+    assert_eq!(hint(&format!("{asked}c: Real = x(a)")), "it is asked of a thing: `a.x`");
+    assert_eq!(
+        hint("l: List of Real = [1, 2]\nc: Real = count(l)"),
+        "it is asked of a thing: `l.count`"
+    );
     assert_eq!(hint("p: Boolean"), "did you mean `Bool`?");
     assert_eq!(hint("p: List of String"), "did you mean `Text`?");
     assert_eq!(hint("a: Resistance = 3 kohn"), "did you mean `kohm`?");
