@@ -330,6 +330,9 @@ fn expectation(l: &mut Lowerer<'_>, scope: &Scope, e: &ast::Expect) -> Option<Ex
         ast::Expectation::Error(word) => Some(Expectation::Error(word?.unquoted())),
         ast::Expectation::Holds { condition, tolerance } => {
             let condition = condition?;
+            if l.splits_its_rule(scope, &condition, tolerance.as_ref()) {
+                return None;
+            }
             let rule = l.expr_of(scope, &condition, &crate::kinds::Kind::Bool)?;
             let within = match tolerance {
                 Some(t) => Some(l.tolerance(scope, &condition, &t)?),

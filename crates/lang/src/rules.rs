@@ -425,6 +425,11 @@ impl Lowerer<'_> {
     /// Lowers a rule with its tolerance and methods, and adds it to the class of the scope.
     pub(crate) fn add_constraint(&mut self, scope: &Scope, written: Written, heading: Heading) {
         let Written { rule, tolerance: within, methods: written } = written;
+        if let Rule::Holds(rule) = &rule
+            && self.splits_its_rule(scope, rule, within.as_ref())
+        {
+            return;
+        }
         let Some(term) = self.rule(scope, &rule, Standing::Alone) else { return };
         let tolerance = |l: &mut Self, e: &Expr| match &rule {
             Rule::Holds(rule) => l.tolerance(scope, rule, e),
@@ -522,6 +527,29 @@ impl Lowerer<'_> {
             _ => Kind::Number(None),
         };
         self.expr_of(scope, e, &wanted)
+    }
+
+    /// Says so where a tolerance stands in the midst of its rule, `a within e = b`; returns true if it does.
+    pub(crate) fn splits_its_rule(
+        &mut self,
+        scope: &Scope,
+        rule: &Expr,
+        within: Option<&Expr>,
+    ) -> bool {
+        let Some(Expr::Binary(rest)) = within else { return false };
+        let (Some(op), Some(e), Some(right)) = (rest.op_word(), rest.left(), rest.right()) else {
+            return false;
+        };
+        if rest.op() != Some(BinaryOp::Equal) {
+            return false;
+        }
+        let text = |e: &Expr| e.syntax().to_string().trim().to_string();
+        let [rule_text, e, right] = [rule, &e, &right].map(text);
+        let said = format!("{rule_text} {} {right} within {e}", op.text());
+        let at = Place { file: scope.file, span: rule.span().join(rest.span()) };
+        let d = Diagnostic::error("value-of-wrong-class", at, "a tolerance stands behind its rule");
+        self.report(d.hint(format!("write `{said}`")).fix(format!("write {said}"), [(at, said)]));
+        true
     }
 
     fn method(&mut self, scope: &Scope, m: &ast::Method, rule: &Term) -> Option<Method> {

@@ -315,6 +315,9 @@ fn hints_name_what_is_near_or_what_there_is() {
         hint("l: List of Real = [1, 2]\nc: Real = count(l)"),
         "it is asked of a thing: `l.count`"
     );
+    let split = "a: Real = 1\ncheck \"c\" { expect a within 1e-6 = 1 }";
+    assert_eq!(hint(split), "write `a = 1 within 1e-6`");
+    assert_eq!(hint("a: Real = 1\nconstraint a within 0.1 = 1"), "write `a = 1 within 0.1`");
     assert_eq!(hint("p: Boolean"), "did you mean `Bool`?");
     assert_eq!(hint("p: List of String"), "did you mean `Text`?");
     assert_eq!(hint("a: Resistance = 3 kohn"), "did you mean `kohm`?");
