@@ -6,7 +6,8 @@
 //! alone. Nothing here is a second solver.
 //!
 //! Reading order: [`case`], [`document`], [`opened`], [`sketch`], [`residual`], [`measure`], [`report`],
-//! [`families`], [`documents`].
+//! [`families`], [`documents`], [`browser`].
+pub mod browser;
 pub mod case;
 pub mod document;
 pub mod documents;

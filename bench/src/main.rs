@@ -2,7 +2,8 @@
 //!
 //! `cargo bench-table SECTION` prints one section, `cargo bench-table SECTION NAME` the rows whose names
 //! begin so: `cargo bench-table sketches rects`. The sections: `sketches`, `drags`, `circuits`, `trusses`,
-//! `rows`, `instances`, `tape`, `things`, `gallery` (`gallery NAME GRIP` drags by one grip). Figures to
+//! `rows`, `instances`, `tape`, `things`, `gallery` (`gallery NAME GRIP` drags by one grip), `browser` (in
+//! WebAssembly, in a browser). Figures to
 //! read, not tests: nothing here fails for being slow.
 
 mod circuits;
@@ -14,10 +15,21 @@ mod tape;
 mod things;
 
 use std::io::{self, Write};
+use std::process::{Command, Stdio};
 
 /// The sections, in the order in which they are printed.
-const SECTIONS: [&str; 9] =
-    ["sketches", "drags", "circuits", "trusses", "rows", "instances", "tape", "things", "gallery"];
+const SECTIONS: [&str; 10] = [
+    "sketches",
+    "drags",
+    "circuits",
+    "trusses",
+    "rows",
+    "instances",
+    "tape",
+    "things",
+    "gallery",
+    "browser",
+];
 
 fn main() -> io::Result<()> {
     let arguments: Vec<String> = std::env::args().skip(1).collect();
@@ -40,8 +52,18 @@ fn main() -> io::Result<()> {
             "instances" => instances::table(out)?,
             "tape" => tape::table(out)?,
             "things" => things::table(out)?,
-            _ => gallery::table(out, filter, grip)?,
+            "gallery" => gallery::table(out, filter, grip)?,
+            _ => browser(out)?,
         }
     }
     Ok(())
+}
+
+/// Prints the figures that a browser can tell, native ones first; builds their page and has a browser print it.
+fn browser(out: &mut impl Write) -> io::Result<()> {
+    writeln!(out, "native\n{}in the browser", bench::browser::table())?;
+    let cargo = std::env::var_os("CARGO").unwrap_or_else(|| "cargo".into());
+    let xtask = ["run", "--quiet", "--package", "xtask", "--", "figures"];
+    let printed = Command::new(cargo).args(xtask).stderr(Stdio::inherit()).output()?;
+    out.write_all(&printed.stdout)
 }

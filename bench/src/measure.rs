@@ -6,7 +6,8 @@ use crate::sketch::{Sketch, constraints_at, wishes};
 use kernel::Values;
 use plan::Planner;
 use std::hint::black_box;
-use std::time::{Duration, Instant};
+use std::time::Duration;
+use web_time::Instant;
 
 /// A sketch counts as solved if no constraint is further off.
 pub const SOLVED: f64 = 1e-8;

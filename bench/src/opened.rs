@@ -3,7 +3,7 @@
 use kernel::{ConstraintInstance, DOCUMENT, SlotId, Structure, ThingId, Value, Values};
 use lang::Lowered;
 use plan::{EditReport, Host, Model, Planner, Plans, Templates, Way};
-use std::time::Instant;
+use web_time::Instant;
 
 /// A document with its things made, before anything is solved.
 #[derive(Debug)]

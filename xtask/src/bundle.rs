@@ -17,19 +17,30 @@ use crate::{say, top};
 /// # Errors
 /// A sentence that says which step failed; the step's own messages are on the terminal.
 pub(crate) fn build(compiler: &WasmCompiler) -> Result<(), String> {
-    say!("page: compiling (minutes the first time)");
-    let made = target().join("wasm32-unknown-unknown/wasm-release/web.wasm");
-    run("the page did not compile", &mut compile_command(compiler))?;
-    let module = target().join("bindgen");
-    if is_older(&module.join("web_bg.wasm"), &made) {
-        say!("page: making its module");
-        let mut bindgen = tools::cargo(&["run", "--package", "bindgen", "--"]);
-        run("the page's module was not made", quiet(bindgen.arg(&made).arg(&module)))?;
-    }
+    let module = module("web", compiler)?;
     let files = page_files(&module).and_then(|files| synchronise(&top().join("dist"), &files));
     let size = files.map_err(|error| format!("dist/ could not be written: {error}"))?;
     say!("page: {} kB in dist/", size / 1000);
     Ok(())
+}
+
+/// Compiles a package's program of the same name for the browser; gives the folder of its module: `NAME.js`, and
+/// `NAME_bg.wasm` that it loads.
+///
+/// # Errors
+/// As [`build`].
+pub(crate) fn module(package: &str, compiler: &WasmCompiler) -> Result<PathBuf, String> {
+    say!("page: compiling {package} (minutes the first time)");
+    let made =
+        target().join("wasm32-unknown-unknown/wasm-release").join(package).with_extension("wasm");
+    run("the page did not compile", &mut compile_command(package, compiler))?;
+    let module = target().join("bindgen").join(package);
+    if is_older(&module.join(format!("{package}_bg.wasm")), &made) {
+        say!("page: making its module");
+        let mut bindgen = tools::cargo(&["run", "--package", "bindgen", "--"]);
+        run("the page's module was not made", quiet(bindgen.arg(&made).arg(&module)))?;
+    }
+    Ok(module)
 }
 
 /// Builds the command for release, with the page in it; gives its path.
@@ -51,12 +62,12 @@ fn target() -> PathBuf {
     top().join("target-web")
 }
 
-fn compile_command(compiler: &WasmCompiler) -> Command {
+fn compile_command(package: &str, compiler: &WasmCompiler) -> Command {
     let mut command = match compiler {
         WasmCompiler::Toolchain => tools::cargo(&["build"]),
         WasmCompiler::Debian { linker } => debian_cargo(linker),
     };
-    command.args(["--package", "web", "--bin", "web", "--profile", "wasm-release"]);
+    command.args(["--package", package, "--bin", package, "--profile", "wasm-release"]);
     command.args(["--target", "wasm32-unknown-unknown", "--target-dir"]).arg(target());
     quiet(&mut command);
     command

@@ -7,6 +7,7 @@ use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 
 mod bundle;
+mod figures;
 mod lab;
 #[cfg(test)]
 mod tidy;
@@ -39,6 +40,7 @@ fn main() -> ExitCode {
     let rest: Vec<String> = arguments.collect();
     let outcome = match command.as_str() {
         "lab" => lab::parse(&rest).map(|wish| lab::run(&wish)),
+        "figures" => figures::parse(&rest).map(figures::run),
         "verify" => verify::parse(&rest).map(|wish| verify::run(&wish)),
         _ => Err(String::from("lab or verify?")),
     };
