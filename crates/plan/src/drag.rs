@@ -260,7 +260,7 @@ impl Pull {
         };
         match drag.moved() {
             Some(moved) => moved.iter().copied().for_each(put),
-            None => self.task.plan.steps.iter().flat_map(|s| &s.targets).copied().for_each(put),
+            None => self.task.plan.steps().iter().flat_map(|s| &s.targets).copied().for_each(put),
         }
         if !outcome.is_solved() || !outcome.unmet.is_empty() || self.task.whole().is_some() {
             let ran = ran(planner, &self.task, &outcome);

@@ -218,7 +218,7 @@ impl Planner {
         let mut wanted: BTreeSet<u32> = local(task, slot).into_iter().collect();
         let mut roots = Vec::new();
         let mut steps = Vec::new();
-        for step in task.plan.steps.iter().rev() {
+        for step in task.plan.steps().iter().rev() {
             if !step.targets.iter().any(|t| wanted.contains(t)) {
                 continue;
             }
@@ -312,7 +312,7 @@ impl Planner {
             touched.extend(local(task, slot));
         }
         touched.extend(task.looked_for());
-        task.plan.steps.iter().filter(move |step| {
+        task.plan.steps().iter().filter(move |step| {
             let runs = everything || step.reads.iter().any(|r| touched.contains(r));
             if runs {
                 touched.extend(&step.targets);
@@ -425,5 +425,5 @@ fn local(task: &Task, slot: SlotId) -> Option<u32> {
 }
 
 fn producer(task: &Task, slot: u32) -> Option<&Step> {
-    task.plan.steps.iter().find(|s| s.targets.contains(&slot))
+    task.plan.steps().iter().find(|s| s.targets.contains(&slot))
 }

@@ -210,7 +210,7 @@ impl Planner {
         let mut trial = values.clone();
         let mut adapter = Adapter { planner: self, model, task, values: &mut trial, host };
         for other in solve::others(plan, &x0, MOST, &mut adapter) {
-            let reads = plan.steps[other.step as usize].reads.iter();
+            let reads = plan.steps()[other.step as usize].reads.iter();
             let reads = reads.filter_map(|&r| task.component.slots().get(r as usize).copied());
             let kind = GhostKind::Root { reads: reads.collect() };
             self.add(model, task, &other.values, kind, values, host, found);

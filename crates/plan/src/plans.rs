@@ -140,7 +140,8 @@ impl Plans {
         }
         let is_kept = |s: &SlotIndex| matches!(system.slots[*s as usize].stay, Stay::Kept { .. });
         let opens = || system.slots.iter().any(|s| s.stay == Stay::Free);
-        let places_yield = plan.steps.iter().flat_map(|step| &step.targets).any(is_kept) && opens();
+        let places_yield =
+            plan.steps().iter().flat_map(|step| &step.targets).any(is_kept) && opens();
         if !places_yield && plan.report.yielded.is_empty() {
             return None;
         }

@@ -238,7 +238,7 @@ pub(crate) fn ran(planner: &Planner, task: &Task, outcome: &Outcome) -> Ran {
     let conflicts = planner.conflicts(task, |rejected| unmet.contains(&rejected.relation));
     let failure = match &outcome.status {
         Status::Stopped(Reason::Method { step, message }) => {
-            let relation = task.plan.steps[*step as usize].relations.first().copied();
+            let relation = task.plan.steps()[*step as usize].relations.first().copied();
             relation.map(|r| Failure { source: source(r), message: message.clone() })
         }
         Status::Solved

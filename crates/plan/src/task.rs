@@ -248,7 +248,7 @@ fn course(
 fn movable(system: &System, plan: &Plan, slots: usize) -> Vec<SlotIndex> {
     let mut moves: Vec<bool> =
         system.slots.iter().map(|s| matches!(s.stay, Stay::Kept { .. })).collect();
-    for step in &plan.steps {
+    for step in plan.steps() {
         let rows: usize = step
             .relations
             .iter()

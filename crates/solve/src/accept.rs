@@ -20,7 +20,7 @@ use crate::order::Blocks;
 use crate::rows::Rows;
 use crate::sparse::{Pattern, Symbolic};
 use crate::substitute::Classes;
-use crate::system::{SlotIndex, Stay, System};
+use crate::system::{Level, SlotIndex, Stay, System};
 use crate::union::Union;
 use std::rc::Rc;
 
@@ -161,6 +161,22 @@ pub(crate) fn accept(system: &System, classes: &Classes, rows: &Rows) -> Accepta
             }
         });
     }
+    count(system, classes, &mut out);
+    out
+}
+
+/// Accepts all rows, each of which determines a slot of its own, and no other row could determine it: these
+/// slots move, and what nothing holds.
+pub(crate) fn peeled(
+    system: &System,
+    classes: &Classes,
+    rows: &Rows,
+    is_determined: &[bool],
+) -> Acceptance {
+    let is_unknown = |s: usize| is_determined[s] || classes.stay[s] == Stay::Free;
+    let unknown = (0..classes.stay.len()).map(|s| is_open(classes, s) && is_unknown(s)).collect();
+    let required = (0..rows.len()).filter(|&r| rows[r].level == Level::Required);
+    let mut out = Acceptance { unknown, determined: required.count(), ..Acceptance::default() };
     count(system, classes, &mut out);
     out
 }

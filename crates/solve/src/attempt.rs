@@ -148,7 +148,7 @@ impl Attempt<'_> {
         match self.part {
             Part::Whole => {
                 begin(self.plan, self.frame, values, buffers);
-                (0..self.plan.steps.len())
+                (0..self.plan.step_count())
                     .try_for_each(|index| self.step(index, values, approach, buffers, host))
             }
             Part::Downstream(slice) => {
@@ -200,7 +200,7 @@ impl Attempt<'_> {
         host: &mut dyn Host,
     ) -> Result<(), Failure> {
         let Self { plan, frame, last, trust, part: _ } = self;
-        let step = &plan.steps[index];
+        let step = &plan.steps()[index];
         if let Approach::In(regions) = approach
             && regions.contains(&step.region)
             && !matches!(step.program, Program::Host { .. })
@@ -244,7 +244,7 @@ fn approach_region(
         return Ok(());
     }
     buffers.approached.push(step.region);
-    let region = &plan.regions[step.region as usize];
+    let region = &plan.regions()[step.region as usize];
     let refused = || {
         let reason = Reason::NoSolution { step: index as u32 };
         Err(Failure { reason, region: step.region })

@@ -28,6 +28,7 @@ pub(crate) struct Kernel {
     /// Both sides, then the derivatives.
     pub(crate) slopes: Tape,
     derivatives: Vec<ExprId>,
+    shown: OnceLock<Vec<u32>>,
     stated: OnceLock<Vec<(u32, Side)>>,
     second: OnceLock<Second>,
     solved: Vec<OnceLock<Option<Solved>>>,
@@ -216,7 +217,7 @@ impl Kernel {
         let solved = (0..arity).map(|_| OnceLock::new()).collect();
         let pairs = if arity > PAIRED { 0 } else { arity * (arity + 1) / 2 };
         let curves = (0..pairs).map(|_| OnceLock::new()).collect();
-        let (stated, second) = (OnceLock::new(), OnceLock::new());
+        let (shown, stated, second) = Default::default();
         Self {
             arena,
             left,
@@ -225,6 +226,7 @@ impl Kernel {
             sides,
             slopes,
             derivatives,
+            shown,
             stated,
             second,
             solved,
@@ -303,6 +305,28 @@ impl Kernel {
         self.slopes.run(arguments, registers, out);
         let moves = self.entries.iter().zip(&out[2..]);
         moves.map(|(e, slope)| (arguments[e.argument as usize] * slope).abs()).sum()
+    }
+
+    /// Returns the arguments of which a change shows at a generic point.
+    pub(crate) fn shown(&self) -> impl Iterator<Item = u32> + '_ {
+        let find = || {
+            let (mut registers, mut out) = (Vec::new(), vec![0.0; self.entries.len() + 2]);
+            let is_linear = self.is_linear();
+            let mut shows = vec![None; self.entries.len()];
+            for point in Point::ALL.into_iter().filter(|_| !is_linear) {
+                let own: Vec<f64> =
+                    (0..self.arity() as u64).map(|i| generic_number(i, point)).collect();
+                self.slopes.run(&own, &mut registers, &mut out);
+                for (shows, slope) in shows.iter_mut().zip(&out[2..]).filter(|s| s.1.is_finite()) {
+                    shows.get_or_insert(*slope != 0.0);
+                }
+            }
+            let of = |(entry, shows): (&Entry, Option<bool>)| {
+                (shows != Some(false) || entry.branches).then_some(entry.argument)
+            };
+            self.entries.iter().zip(shows).filter_map(of).collect()
+        };
+        self.shown.get_or_init(find).iter().copied()
     }
 
     /// Returns how many arguments it has.

@@ -68,6 +68,7 @@ mod deflate;
 mod direct;
 
 mod order;
+mod peel;
 mod view;
 
 pub mod plan;

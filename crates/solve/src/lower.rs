@@ -104,8 +104,13 @@ impl Region {
     /// Returns true if it is not too large to be approached.
     pub(crate) fn is_within_reach(&self) -> bool {
         let mut rows = self.problem.rows.iter();
-        self.problem.unknowns.len() <= LARGEST_CURVED || rows.all(|row| row.kernel.is_linear())
+        is_within_reach(self.problem.unknowns.len(), rows.all(|row| row.kernel.is_linear()))
     }
+}
+
+/// Returns true if a region of so many unknowns is not too large to be approached.
+pub(crate) fn is_within_reach(unknowns: usize, is_linear: bool) -> bool {
+    unknowns <= LARGEST_CURVED || is_linear
 }
 
 /// Rows and unknowns before they are laid out.
@@ -136,6 +141,7 @@ pub(crate) enum Definers {
 }
 
 /// Steps and regions.
+#[derive(Debug, Default)]
 pub(crate) struct Lowered {
     pub(crate) steps: Vec<Step>,
     pub(crate) regions: Vec<Region>,
@@ -252,7 +258,7 @@ fn regions(analysis: &Analysis<'_>, blocks: &Blocks, region_of: &[u32]) -> Vec<R
         let region = &mut regions[region as usize];
         if region.can_approach {
             region.problem.unknowns.extend(block.unknowns);
-            let rows = block.rows.iter().filter_map(|&r| problem_row(&analysis.rows, r));
+            let rows = block.rows.iter().filter_map(|&r| problem_row(analysis.rows, r));
             region.problem.rows.extend(rows);
         }
     }
@@ -285,7 +291,7 @@ impl Work {
         let Problem { rows, unknowns } = &mut self.problem;
         rows.clear();
         rows.reserve(block.rows.len());
-        rows.extend(block.rows.iter().filter_map(|&r| problem_row(&analysis.rows, r)));
+        rows.extend(block.rows.iter().filter_map(|&r| problem_row(analysis.rows, r)));
         unknowns.clear();
         unknowns.extend_from_slice(block.unknowns);
         &self.problem
@@ -344,7 +350,7 @@ fn lower_block(analysis: &Analysis<'_>, block: Block<'_>, work: &mut Work, steps
 /// The step of a row that has a formula for its one unknown.
 fn by_formula(analysis: &Analysis<'_>, block: Block<'_>, work: &mut Work) -> Option<Step> {
     let ([row], [slot]) = (block.rows, block.unknowns) else { return None };
-    let inverse = Inverse::new(problem_row(&analysis.rows, *row)?, *slot)?;
+    let inverse = Inverse::new(problem_row(analysis.rows, *row)?, *slot)?;
     let reads = reads_of(analysis, block, &mut work.reads);
     Some(inverse_step(analysis, block.rows, inverse, reads))
 }

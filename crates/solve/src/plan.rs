@@ -6,9 +6,10 @@
 use crate::accept::{self, Acceptance};
 use crate::direct::{self, Direction};
 use crate::few::Few;
-use crate::lower::{self, Problem, Program, Region};
+use crate::lower::{self, Lowered, Problem, Program, Region};
 use crate::order::{self, Blocks, Incidence};
 use crate::pattern::{Pattern, Patterns};
+use crate::peel::{self, Found, Peeled};
 use crate::rows::{self, Rows};
 use crate::slice::Slice;
 use crate::stated::Stated;
@@ -136,13 +137,14 @@ pub struct Report {
 /// What to do for one system in one edit, for any values.
 #[derive(Debug)]
 pub struct Plan {
-    /// The steps, in order.
-    pub steps: Vec<Step>,
     /// What the planner found out.
     pub report: Report,
+    /// The steps and their regions; where all rows are solved one after the other by formula, made when they
+    /// are first asked for.
+    lowered: OnceCell<Lowered>,
+    peeled: Option<Box<Peeled>>,
     pub(crate) slots: Vec<PlannedSlot>,
     pub(crate) relations: Vec<PlannedRelation>,
-    pub(crate) regions: Vec<Region>,
     /// The relations that only the host can test.
     pub(crate) opaque: Vec<u32>,
     /// Classes of several given numbers: the representative and those numbers.
@@ -203,8 +205,8 @@ impl PlannedRelation {
 /// Everything known before blocks are lowered.
 pub(crate) struct Analysis<'a> {
     pub(crate) stated: &'a Stated,
-    pub(crate) classes: Classes,
-    pub(crate) rows: Rows,
+    pub(crate) classes: &'a Classes,
+    pub(crate) rows: &'a Rows,
     pub(crate) acceptance: Acceptance,
     pub(crate) direction: Direction,
     /// For every relation whose written method was chosen, the slots that that reads, in order.
@@ -231,9 +233,9 @@ impl Analysis<'_> {
         if let Some(slot) = known.slot_of_row[row].take() {
             known.row_of_slot[slot as usize] = None;
         }
-        let (classes, rows, acceptance) = (&self.classes, &self.rows, &self.acceptance);
+        let Self { classes, rows, acceptance, .. } = self;
         self.direction = direct::direct_from(system, classes, rows, acceptance, known);
-        self.method_reads = method_reads(system, &self.classes, &self.direction);
+        self.method_reads = method_reads(system, classes, &self.direction);
         Exchange { dependent, row: now }
     }
 }
@@ -259,7 +261,16 @@ pub fn plan(system: &Rc<System>, patterns: &Patterns) -> Plan {
 fn plan_stated(stated: Stated) -> Plan {
     let system = &*stated.system;
     let classes = substitute::substitute(&stated);
-    let mut rows = rows::rows(&stated, &classes);
+    let rows = rows::stated_rows(&stated, &classes);
+    let rows = if is_curved_and_short(system, &rows) {
+        rows
+    } else {
+        match peel::peel(system, &classes, rows) {
+            Found::All(peeled) => return plan_peeled(stated, &classes, peeled),
+            Found::Not(rows) => rows,
+        }
+    };
+    let mut rows = rows::with_columns(&stated, &classes, rows);
     let mut acceptance = accept::accept(system, &classes, &rows);
     if (!acceptance.yielded.is_empty() || may_imply(system, &rows))
         && rows.len() <= IMPLIED_ROWS
@@ -276,10 +287,15 @@ fn plan_stated(stated: Stated) -> Plan {
     if is_tied && !direct::is_settled(system, &acceptance) {
         direction = direct::direct(system, &classes, &rows, &mut acceptance);
     }
-    let relations = tests_of_relations(system);
     let method_reads = method_reads(system, &classes, &direction);
-    let mut analysis =
-        Analysis { stated: &stated, classes, rows, acceptance, direction, method_reads };
+    let mut analysis = Analysis {
+        stated: &stated,
+        classes: &classes,
+        rows: &rows,
+        acceptance,
+        direction,
+        method_reads,
+    };
     let (mut findings, together) = report(&analysis);
     let mut blocks = blocks_of(&mut analysis, &together);
     for exchange in view::exchanges(&analysis, &blocks) {
@@ -293,25 +309,71 @@ fn plan_stated(stated: Stated) -> Plan {
         }
     }
     let lowered = lower::lower(&analysis, &blocks);
-    let is_measured = |s: &Step| matches!(s.kind, StepKind::LeastChange | StepKind::Compromise);
-    let has_branches = lowered.steps.iter().any(|s| s.may_branch() || is_measured(s));
-    let is_large = |s: &Step| matches!(&s.program, Program::Square(square) if square.is_large());
-    let has_large_core = lowered.steps.iter().any(is_large);
-    let has_least = lowered.steps.iter().any(|s| matches!(s.program, Program::Least(_)));
-    let is_curved = |p: &Program| matches!(p, Program::Least(least) if !least.0.block.is_linear);
-    let bends = lowered.steps.iter().any(|s| is_curved(&s.program));
+    plan_of(stated, &classes, findings, lowered)
+}
+
+/// Plans a system whose rows are solved one after the other.
+fn plan_peeled(stated: Stated, classes: &Classes, peeled: Peeled) -> Plan {
+    let mut is_determined = vec![false; stated.system.slots.len()];
+    peeled.order.iter().for_each(|&solved| is_determined[peeled.target(solved) as usize] = true);
+    let acceptance = accept::peeled(&stated.system, classes, &peeled.rows, &is_determined);
+    let (findings, _) =
+        report_on(&stated, classes, &peeled.rows, &acceptance, &|s| is_determined[s as usize]);
+    if classes.is_plain() && peeled.is_by_formula(&stated.system) {
+        let mut plan = plan_of(stated, classes, findings, Lowered::default());
+        plan.lowered = OnceCell::new();
+        plan.peeled = Some(Box::new(peeled));
+        return plan;
+    }
+    let lowered = lower_peeled(&stated, classes, &peeled);
+    plan_of(stated, classes, findings, lowered)
+}
+
+/// Lowers rows that are solved one after the other.
+fn lower_peeled(stated: &Stated, classes: &Classes, peeled: &Peeled) -> Lowered {
+    let Peeled { rows, order, .. } = peeled;
+    let mut blocks = Blocks::with_room(order.len(), order.len(), order.len());
+    for &solved in order {
+        blocks.add([solved.row as usize].into_iter(), [peeled.target(solved)].into_iter());
+    }
+    let (acceptance, direction, method_reads) = Default::default();
+    let analysis = Analysis { stated, classes, rows, acceptance, direction, method_reads };
+    lower::lower(&analysis, &blocks)
+}
+
+fn plan_of(stated: Stated, classes: &Classes, report: Report, lowered: Lowered) -> Plan {
+    let system = &*stated.system;
+    let relations = tests_of_relations(system);
+    let (mut has_branches, mut has_large_core) = (false, false);
+    let (mut has_least, mut bends) = (false, false);
+    for step in &lowered.steps {
+        let is_measured = matches!(step.kind, StepKind::LeastChange | StepKind::Compromise);
+        has_branches |= is_measured || step.may_branch();
+        match &step.program {
+            Program::Square(square) => has_large_core |= square.is_large(),
+            Program::Least(least) => {
+                has_least = true;
+                bends |= !least.0.block.is_linear;
+            }
+            Program::Constant(_)
+            | Program::Copy
+            | Program::Formulas(..)
+            | Program::Inverse(_)
+            | Program::Measure(_)
+            | Program::Host { .. } => {}
+        }
+    }
+    let is_opaque = |r: &u32| relations[*r as usize].opaque.is_some();
     Plan {
         has_least,
         bends,
-        steps: lowered.steps,
-        report: findings,
-        slots: planned_slots(&analysis),
-        opaque: (0..relations.len() as u32)
-            .filter(|&r| relations[r as usize].opaque.is_some())
-            .collect(),
+        report,
+        lowered: lowered.into(),
+        peeled: None,
+        slots: planned_slots(system, classes),
+        opaque: (0..relations.len() as u32).filter(is_opaque).collect(),
         relations,
-        regions: lowered.regions,
-        shared_given: shared_given(&analysis),
+        shared_given: shared_given(system, classes),
         scale_classes: system.slots.iter().map(|s| s.scale as usize + 1).max().unwrap_or(0),
         has_branches,
         has_large_core,
@@ -320,6 +382,16 @@ fn plan_stated(stated: Stated) -> Plan {
         tests: OnceCell::new(),
         slice: RefCell::default(),
     }
+}
+
+/// Returns true if it is looked at whether places may yield to rows that say nothing new.
+fn is_curved_and_short(system: &System, rows: &Rows) -> bool {
+    let is_curved = |r: &usize| {
+        rows[*r].level == Level::Required && rows.kernel(*r).is_some_and(|k| !k.is_linear())
+    };
+    rows.len() <= IMPLIED_ROWS
+        && system.slots.iter().all(|s| s.stay != Stay::Free)
+        && (0..rows.len()).filter(is_curved).nth(1).is_some()
 }
 
 /// Returns true if places may yield to a row that says nothing new where the linear ones hold: only where some
@@ -333,8 +405,7 @@ fn may_imply(system: &System, rows: &Rows) -> bool {
         && required().filter(|&r| rows[r].curved).nth(1).is_some()
 }
 
-fn planned_slots(analysis: &Analysis<'_>) -> Vec<PlannedSlot> {
-    let system = &analysis.stated.system;
+fn planned_slots(system: &System, classes: &Classes) -> Vec<PlannedSlot> {
     let one = |s: &Slot| PlannedSlot {
         stay: s.stay,
         scale: s.scale,
@@ -343,8 +414,8 @@ fn planned_slots(analysis: &Analysis<'_>) -> Vec<PlannedSlot> {
         is_discrete: s.is_discrete,
     };
     let mut slots: Vec<PlannedSlot> = system.slots.iter().map(one).collect();
-    for (root, members) in analysis.classes.members() {
-        let stay = std::mem::discriminant(&analysis.classes.stay[root as usize]);
+    for (root, members) in classes.members() {
+        let stay = std::mem::discriminant(&classes.stay[root as usize]);
         let of = |s: SlotIndex| std::mem::discriminant(&system.slots[s as usize].stay);
         let alike = members.iter().filter(|&&s| of(s) == stay).count();
         if alike > 1 {
@@ -379,10 +450,21 @@ fn tests_of_relations(system: &System) -> Vec<PlannedRelation> {
 
 /// States what was rejected, and which rows have to be solved together because they compromise.
 fn report(analysis: &Analysis<'_>) -> (Report, Vec<Vec<usize>>) {
-    let rows = &analysis.rows;
+    let Analysis { stated, classes, rows, acceptance, direction, .. } = analysis;
+    report_on(stated, classes, rows, acceptance, &|s| {
+        direction.row_of_slot[s as usize].is_some() || direction.is_written(s)
+    })
+}
+
+fn report_on(
+    stated: &Stated,
+    classes: &Classes,
+    rows: &Rows,
+    acceptance: &Acceptance,
+    is_determined: &dyn Fn(SlotIndex) -> bool,
+) -> (Report, Vec<Vec<usize>>) {
     let mut together = Vec::new();
-    let mut rejected: Vec<Rejected> = analysis
-        .classes
+    let mut rejected: Vec<Rejected> = classes
         .repeated
         .iter()
         .map(|&((relation, row), ref circuit)| Rejected {
@@ -392,7 +474,7 @@ fn report(analysis: &Analysis<'_>) -> (Report, Vec<Vec<usize>>) {
             compromises: false,
         })
         .collect();
-    for dependent in &analysis.acceptance.dependent {
+    for dependent in &acceptance.dependent {
         let row = rows[dependent.row];
         let level = row.level;
         let compromises = level != Level::Required
@@ -414,10 +496,9 @@ fn report(analysis: &Analysis<'_>) -> (Report, Vec<Vec<usize>>) {
             compromises,
         });
     }
-    let slots = &analysis.stated.system.slots;
-    let classes = &analysis.classes;
-    let mut yielded = analysis.acceptance.yielded.clone();
-    let has_yielded = |root| analysis.acceptance.yielded.binary_search(&root).is_ok();
+    let slots = &stated.system.slots;
+    let mut yielded = acceptance.yielded.clone();
+    let has_yielded = |root| acceptance.yielded.binary_search(&root).is_ok();
     for (root, members) in classes.members() {
         let given = |&&s: &&SlotIndex| slots[s as usize].stay == Stay::Given;
         if classes.stay[root as usize] == Stay::Fixed || has_yielded(root) {
@@ -431,17 +512,14 @@ fn report(analysis: &Analysis<'_>) -> (Report, Vec<Vec<usize>>) {
     }
     yielded.sort_unstable();
     yielded.dedup();
-    let determined = |s: u32| {
-        analysis.direction.row_of_slot[s as usize].is_some() || analysis.direction.is_written(s)
-    };
     let free_slots = (0..slots.len() as u32)
         .filter(|&s| {
-            analysis.acceptance.unknown[s as usize]
+            acceptance.unknown[s as usize]
                 && classes.stay[s as usize] == Stay::Free
-                && !determined(s)
+                && !is_determined(s)
         })
         .collect();
-    (Report { rejected, freedom: analysis.acceptance.freedom, yielded, free_slots }, together)
+    (Report { rejected, freedom: acceptance.freedom, yielded, free_slots }, together)
 }
 
 fn blocks_of(analysis: &mut Analysis<'_>, together: &[Vec<usize>]) -> Blocks {
@@ -458,7 +536,7 @@ fn blocks_of(analysis: &mut Analysis<'_>, together: &[Vec<usize>]) -> Blocks {
     taking_part.sort_unstable();
     taking_part.dedup();
     order::order(&Incidence {
-        rows: &analysis.rows,
+        rows: analysis.rows,
         taking_part: &taking_part,
         unknown: &analysis.acceptance.unknown,
         direction: &analysis.direction,
@@ -467,14 +545,9 @@ fn blocks_of(analysis: &mut Analysis<'_>, together: &[Vec<usize>]) -> Blocks {
     })
 }
 
-fn shared_given(analysis: &Analysis<'_>) -> Vec<(SlotIndex, Vec<SlotIndex>)> {
-    let classes = &analysis.classes;
+fn shared_given(system: &System, classes: &Classes) -> Vec<(SlotIndex, Vec<SlotIndex>)> {
     let given = |members: &[SlotIndex]| -> Vec<SlotIndex> {
-        members
-            .iter()
-            .copied()
-            .filter(|&s| analysis.stated.system.slots[s as usize].stay == Stay::Given)
-            .collect()
+        members.iter().copied().filter(|&s| system.slots[s as usize].stay == Stay::Given).collect()
     };
     classes
         .members()
@@ -485,6 +558,29 @@ fn shared_given(analysis: &Analysis<'_>) -> Vec<(SlotIndex, Vec<SlotIndex>)> {
 }
 
 impl Plan {
+    /// Returns the steps, in order.
+    pub fn steps(&self) -> &[Step] {
+        &self.lowered().steps
+    }
+    /// Returns how many steps there are.
+    pub fn step_count(&self) -> usize {
+        self.peeled().map_or_else(|| self.steps().len(), |peeled| peeled.order.len())
+    }
+    pub(crate) fn regions(&self) -> &[Region] {
+        &self.lowered().regions
+    }
+    fn lowered(&self) -> &Lowered {
+        self.lowered.get_or_init(|| {
+            let lower = |peeled: &Peeled| {
+                lower_peeled(&self.stated, &substitute::substitute(&self.stated), peeled)
+            };
+            self.peeled().map(lower).unwrap_or_default()
+        })
+    }
+    /// Returns the rows in the order of the steps, where each step is a row that is solved by formula.
+    pub(crate) fn peeled(&self) -> Option<&Peeled> {
+        self.peeled.as_deref()
+    }
     /// Returns the scale of a slot, and whether it is a given number.
     pub(crate) fn kind(&self, slot: SlotIndex) -> (u16, bool) {
         let slot = &self.slots[slot as usize];
@@ -501,6 +597,11 @@ impl Plan {
     pub(crate) fn place_of(&self, row: u32) -> Place {
         let relation = self.relations.partition_point(|r| r.first_row + r.rows <= row);
         Place { relation: relation as u32, row }
+    }
+    /// Returns the place of the equation that a row is of.
+    pub(crate) fn place_of_row(&self, rows: &Rows, row: u32) -> u32 {
+        let row = rows[row as usize];
+        self.relations[row.relation as usize].first_row + row.equation
     }
     pub(crate) fn pattern_at(&self, place: usize) -> &Pattern {
         self.stated.pattern_at(place)
@@ -573,7 +674,7 @@ impl Plan {
     pub fn describe(&self, name: &dyn Fn(SlotIndex) -> String) -> Vec<String> {
         let list =
             |slots: &[SlotIndex]| slots.iter().map(|&s| name(s)).collect::<Vec<_>>().join(", ");
-        self.steps
+        self.steps()
             .iter()
             .map(|step| {
                 let kind = match step.kind {

@@ -31,7 +31,8 @@ pub(crate) struct Row {
     pub(crate) within: Tolerance,
     /// True if a derivative by a slot that it may write depends on one.
     pub(crate) curved: bool,
-    kernel: u32,
+    /// Its kernel's place among those of all rows.
+    pub(crate) kernel: u32,
     mentions: Span,
     columns: Span,
 }
@@ -108,6 +109,10 @@ impl Rows {
             kernel.curve([first, second]).is_some_and(|c| c.form == Form::Line)
         })
     }
+    /// Returns what rows say, each once.
+    pub(crate) fn kernels(&self) -> &[Rc<Kernel>] {
+        &self.kernels
+    }
     /// Returns what a row says; nothing for an opaque one.
     pub(crate) fn kernel(&self, row: usize) -> Option<&Rc<Kernel>> {
         self.kernels.get(self.list[row].kernel as usize)
@@ -121,9 +126,8 @@ impl std::ops::Index<usize> for Rows {
     }
 }
 
-/// Makes every row.
-pub(crate) fn rows(stated: &Stated, classes: &Classes) -> Rows {
-    let mut rows = stated_rows(stated, classes);
+/// Gives rows their columns.
+pub(crate) fn with_columns(stated: &Stated, classes: &Classes, mut rows: Rows) -> Rows {
     let (point, slopes) = slopes(&rows, stated.system.slots.len());
     rows.point = Some(point);
     set_columns(&stated.system, classes, &mut rows, &slopes);
@@ -515,7 +519,7 @@ pub(crate) enum Point {
 }
 
 impl Point {
-    const ALL: [Self; 3] = [Self::Mixed, Self::Positive, Self::Small];
+    pub(crate) const ALL: [Self; 3] = [Self::Mixed, Self::Positive, Self::Small];
 }
 
 /// Returns a coefficient that no other is equal to.

@@ -412,7 +412,7 @@ fn start(plan: &Plan, runner: &mut Runner, x0: &[f64], changed: &[SlotIndex]) {
         .changed_texts
         .extend(changed.iter().copied().filter(|&c| !plan.slots[c as usize].is_number));
     buffers.sides.clear();
-    buffers.sides.resize(plan.steps.len(), Side::default());
+    buffers.sides.resize(plan.step_count(), Side::default());
     frame.held.clear();
     frame.held.resize(plan.system().equations.len(), Cell::new(Held::Unknown));
 }
@@ -458,7 +458,7 @@ fn measure_scales(plan: &Plan, frame: &mut Frame) {
 
 /// Returns true if a step that runs even where everything holds changes no bit.
 fn stands(plan: &Plan, step: u32, x0: &[f64]) -> bool {
-    let step = &plan.steps[step as usize];
+    let step = &plan.steps()[step as usize];
     let is = |value: f64| x0[step.targets[0] as usize].to_bits() == value.to_bits();
     match &step.program {
         Program::Constant(value) => is(*value),
@@ -629,7 +629,7 @@ impl Way<'_> {
         let mut regions = Vec::new();
         loop {
             let region = failure.region;
-            let possible = self.plan.regions.get(region as usize).is_some_and(|r| r.can_approach);
+            let possible = self.plan.regions().get(region as usize).is_some_and(|r| r.can_approach);
             if !possible || regions.contains(&region) {
                 return Err(failure);
             }
@@ -673,7 +673,7 @@ impl Way<'_> {
         }
         let Buffers { work, square: scratch, .. } = &mut *self.buffers;
         let scales = &self.frame.scales;
-        self.plan.steps.iter().all(|step| match &step.program {
+        self.plan.steps().iter().all(|step| match &step.program {
             Program::Square(square) if !square.block.is_linear => {
                 let before = square.orientation(&x0, scales, work, scratch);
                 let after = square.orientation(self.trial, scales, work, scratch);

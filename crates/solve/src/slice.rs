@@ -3,11 +3,14 @@
 //! In: a plan and the known slots that move. Out: the steps downstream of them, put together where
 //! they can run together, and what has to be tested after them. Made once for a plan and its inputs.
 
-use crate::lower::Program;
+use crate::lists::Lists;
+use crate::lower::{Program, is_within_reach};
+use crate::peel::Peeled;
 use crate::plan::{Plan, Step};
-use crate::strip::{Portion, Writers, portions};
-use crate::system::{SlotIndex, Stay};
+use crate::strip::{Links, Portion, Writers, portions};
+use crate::system::{Level, SlotIndex, Stay};
 use crate::test::Tests;
+use crate::union::Union;
 
 /// What a drag can change.
 #[derive(Debug, Default)]
@@ -38,11 +41,70 @@ pub(crate) struct Slice {
 impl Slice {
     /// Finds what is downstream of the inputs.
     pub(crate) fn new(plan: &Plan, inputs: &[SlotIndex]) -> Self {
+        match plan.peeled() {
+            Some(peeled) => Self::of_peeled(plan, peeled, inputs),
+            None => Self::of_steps(plan, inputs),
+        }
+    }
+
+    /// Finds it where each step is a row that is solved by formula.
+    fn of_peeled(plan: &Plan, peeled: &Peeled, inputs: &[SlotIndex]) -> Self {
         let mut is_reached = vec![false; plan.slots.len()];
         for &slot in inputs {
             is_reached[slot as usize] = true;
         }
-        let mut is_region_reached = vec![false; plan.regions.len()];
+        let regions = Approachable::of(plan, peeled);
+        let mut is_region_reached = vec![false; regions.lists.len()];
+        let mut is_settled = vec![false; peeled.rows.len()];
+        let is_free = plan.slots.iter().any(|s| s.stay == Stay::Free);
+        let mut made = Self { inputs: inputs.to_vec(), is_held: !is_free, ..Self::default() };
+        let mut steps: Vec<u32> = Vec::with_capacity(peeled.order.len());
+        for (index, &solved) in (0..).zip(&peeled.order) {
+            let mentions = peeled.rows.mentions(solved.row as usize);
+            let target = mentions[solved.argument as usize];
+            // nothing has reached what it determines but a region that was reached
+            let reads = |&&s: &&SlotIndex| s != target && is_reached[s as usize];
+            if mentions.iter().find(reads).is_none() {
+                continue;
+            }
+            steps.push(index);
+            is_reached[target as usize] = true;
+            is_settled[solved.row as usize] = peeled.is_stated(solved);
+            if let Some(region) = regions.of_slot(target)
+                && !std::mem::replace(&mut is_region_reached[region as usize], true)
+            {
+                regions.lists.of(region).iter().for_each(|&u| is_reached[u as usize] = true);
+            }
+        }
+        made.targets = steps.iter().map(|&s| peeled.target(peeled.order[s as usize])).collect();
+        made.portions = portions(Links::Peeled(plan, peeled), &steps);
+        let mut tests = Vec::new();
+        let rows = &peeled.rows;
+        let mut next = 0;
+        while next < rows.len() {
+            let (first, relation) = (next, rows[next].relation);
+            while next < rows.len() && rows[next].relation == relation {
+                next += 1;
+            }
+            let is_asked = |r: usize| rows.mentions(r).iter().any(|&s| is_reached[s as usize]);
+            if (first..next).any(is_asked) {
+                made.relations.push(relation);
+                if !is_settled[first..next].iter().all(|&settled| settled) {
+                    tests.push(relation);
+                }
+            }
+        }
+        made.tests = Tests::new(plan, &tests.iter().copied());
+        made
+    }
+
+    /// Finds it among steps of any kind.
+    fn of_steps(plan: &Plan, inputs: &[SlotIndex]) -> Self {
+        let mut is_reached = vec![false; plan.slots.len()];
+        for &slot in inputs {
+            is_reached[slot as usize] = true;
+        }
+        let mut is_region_reached = vec![false; plan.regions().len()];
         let writers = Writers::of(plan);
         let mut is_settled = vec![false; plan.system().equations.len()];
         let is_free = plan.slots.iter().any(|s| s.stay == Stay::Free);
@@ -52,7 +114,7 @@ impl Slice {
             ..Self::default()
         };
         let mut steps: Vec<u32> = Vec::new();
-        for (index, step) in (0..).zip(&plan.steps) {
+        for (index, step) in (0..).zip(plan.steps()) {
             if matches!(step.program, Program::Host { .. }) {
                 let texts = step.targets.iter().filter(|&&t| !plan.slots[t as usize].is_number);
                 made.texts.extend(texts);
@@ -72,7 +134,7 @@ impl Slice {
             if let (Program::Inverse(inverse), [row]) = (&step.program, &step.rows[..]) {
                 is_settled[*row as usize] = inverse.is_stated() && writers.are_before(plan, index);
             }
-            if let Some(region) = plan.regions.get(step.region as usize)
+            if let Some(region) = plan.regions().get(step.region as usize)
                 && region.can_approach
                 && region.is_within_reach()
                 && !std::mem::replace(&mut is_region_reached[step.region as usize], true)
@@ -82,7 +144,7 @@ impl Slice {
                 }
             }
         }
-        made.portions = portions(plan, &steps, &writers);
+        made.portions = portions(Links::Steps(plan, &writers), &steps);
         let mut tests = Vec::new();
         for r in 0..plan.relations.len() as u32 {
             if !plan.mentions(r).any(|s| is_reached[s as usize]) {
@@ -99,6 +161,68 @@ impl Slice {
         }
         made.tests = Tests::new(plan, &tests.iter().copied());
         made
+    }
+}
+
+/// The regions of a plan that may be approached and are not too large for it.
+struct Approachable {
+    /// For every slot, its region; none where that is not such a one.
+    region_of: Vec<u32>,
+    /// The unknowns of every region.
+    lists: Lists,
+}
+
+impl Approachable {
+    const NONE: u32 = u32::MAX;
+
+    fn of(plan: &Plan, peeled: &Peeled) -> Self {
+        let rows = &peeled.rows;
+        let soft = peeled.order.iter().filter(|s| rows[s.row as usize].level != Level::Required);
+        let mut soft = soft.peekable();
+        if soft.peek().is_none() {
+            return Self { region_of: Vec::new(), lists: Lists::default() };
+        }
+        let mut is_unknown = vec![false; plan.slots.len()];
+        let mut union = Union::new(plan.slots.len());
+        for &solved in &peeled.order {
+            let target = peeled.target(solved);
+            is_unknown[target as usize] = true;
+            for &s in rows.mentions(solved.row as usize).iter().filter(|s| is_unknown[**s as usize])
+            {
+                union.unite(target as usize, s as usize);
+            }
+        }
+        // how many unknowns a region has, and whether a row of it is curved
+        let mut sizes = vec![(0, false); plan.slots.len()];
+        for &solved in &peeled.order {
+            let (count, is_curved) = &mut sizes[union.find(peeled.target(solved) as usize)];
+            *count += 1;
+            *is_curved |= !peeled.kernel(solved).is_linear();
+        }
+        let mut number = vec![Self::NONE; plan.slots.len()];
+        let mut count = 0;
+        for &solved in soft {
+            let root = union.find(peeled.target(solved) as usize);
+            let (unknowns, is_curved) = sizes[root];
+            if is_within_reach(unknowns, !is_curved) && number[root] == Self::NONE {
+                number[root] = count;
+                count += 1;
+            }
+        }
+        if count == 0 {
+            return Self { region_of: Vec::new(), lists: Lists::default() };
+        }
+        let of = |s: usize| match is_unknown[s] {
+            true => number[union.find(s)],
+            false => Self::NONE,
+        };
+        let region_of: Vec<u32> = (0..plan.slots.len()).map(of).collect();
+        let pairs = region_of.iter().copied().zip(0..).filter(|p| p.0 != Self::NONE);
+        let lists = Lists::new(count as usize, pairs);
+        Self { region_of, lists }
+    }
+    fn of_slot(&self, slot: SlotIndex) -> Option<u32> {
+        self.region_of.get(slot as usize).copied().filter(|&region| region != Self::NONE)
     }
 }
 

@@ -7,7 +7,8 @@
 
 use crate::kernel::{Kernel, Solved};
 use crate::lower::{Inverse, Program};
-use crate::plan::{Plan, Step};
+use crate::peel::Peeled;
+use crate::plan::Plan;
 use crate::system::SlotIndex;
 use expr::LANES;
 use std::rc::Rc;
@@ -42,6 +43,8 @@ pub(crate) struct StripRow {
     pub(crate) formula: u32,
     /// Where its arguments begin.
     pub(crate) first: u32,
+    /// The place of its equation in the system; none where it makes several hold.
+    pub(crate) row: u32,
 }
 
 /// An equation solved for one of its arguments by the one formula that there is.
@@ -75,30 +78,96 @@ pub(crate) struct Writers(Vec<u32>);
 impl Writers {
     pub(crate) fn of(plan: &Plan) -> Self {
         let mut writer = vec![u32::MAX; plan.slots.len()];
-        for (index, step) in (0..).zip(&plan.steps) {
+        for (index, step) in (0..).zip(plan.steps()) {
             step.targets.iter().for_each(|&t| writer[t as usize] = index);
         }
         Self(writer)
     }
     /// Returns true if all that a step reads is there when it runs: it is not part of a cycle.
     pub(crate) fn are_before(&self, plan: &Plan, step: u32) -> bool {
-        plan.steps[step as usize].reads.iter().all(|&r| {
+        plan.steps()[step as usize].reads.iter().all(|&r| {
             let writer = self.0[r as usize];
             writer == u32::MAX || writer < step
         })
     }
 }
 
+/// A step that may be part of a strip.
+#[derive(Clone, Copy)]
+struct Link<'p> {
+    kernel: &'p Rc<Kernel>,
+    /// Which argument is computed.
+    argument: u32,
+    arguments: &'p [SlotIndex],
+    /// The place of its equation in the system, where it has nothing else to make hold.
+    row: u32,
+}
+
+impl Link<'_> {
+    fn target(self) -> SlotIndex {
+        self.arguments[self.argument as usize]
+    }
+}
+
+/// Where steps come from.
+#[derive(Clone, Copy)]
+pub(crate) enum Links<'p> {
+    /// From the steps of a plan.
+    Steps(&'p Plan, &'p Writers),
+    /// From rows that are solved one after the other.
+    Peeled(&'p Plan, &'p Peeled),
+}
+
+impl<'p> Links<'p> {
+    /// Returns a step that may be part of a strip.
+    fn get(self, index: u32) -> Option<Link<'p>> {
+        match self {
+            Self::Steps(plan, writers) => {
+                let step = &plan.steps()[index as usize];
+                let Program::Inverse(inverse) = &step.program else { return None };
+                let target = &plan.slots[step.targets[0] as usize];
+                let is_plain = target.is_number && !target.is_discrete && inverse.roots() == 1;
+                let Inverse { row, argument, .. } = inverse;
+                let place = match step.rows[..] {
+                    [place] => place,
+                    _ => u32::MAX,
+                };
+                (is_plain && writers.are_before(plan, index)).then_some(Link {
+                    kernel: &row.kernel,
+                    argument: *argument,
+                    arguments: &row.arguments,
+                    row: place,
+                })
+            }
+            Self::Peeled(plan, peeled) => {
+                let solved = peeled.order[index as usize];
+                Some(Link {
+                    kernel: peeled.kernel(solved),
+                    argument: solved.argument,
+                    arguments: peeled.rows.mentions(solved.row as usize),
+                    row: plan.place_of_row(&peeled.rows, solved.row),
+                })
+            }
+        }
+    }
+    fn link(self, index: u32) -> Link<'p> {
+        self.get(index).expect("a stretch is made of steps that may be part of a strip")
+    }
+    fn slots(self) -> usize {
+        match self {
+            Self::Steps(plan, _) | Self::Peeled(plan, _) => plan.slots.len(),
+        }
+    }
+}
+
 /// Puts steps together, given by their indices in order.
-pub(crate) fn portions(plan: &Plan, steps: &[u32], writers: &Writers) -> Vec<Portion> {
+pub(crate) fn portions(links: Links<'_>, steps: &[u32]) -> Vec<Portion> {
     let mut made = Vec::new();
-    let mut level_of_slot = vec![0; plan.slots.len()];
-    for stretch in
-        steps.chunk_by(|&a, &b| [a, b].iter().all(|&s| formula(plan, s, writers).is_some()))
-    {
-        match formula(plan, stretch[0], writers) {
+    let mut level_of_slot = vec![0; links.slots()];
+    for stretch in steps.chunk_by(|&a, &b| [a, b].iter().all(|&s| links.get(s).is_some())) {
+        match links.get(stretch[0]) {
             Some(_) if stretch.len() >= FEWEST => {
-                stretch_portions(plan, stretch, &mut level_of_slot, &mut made);
+                stretch_portions(links, stretch, &mut level_of_slot, &mut made);
             }
             Some(_) | None => made.extend(stretch.iter().map(|&s| Portion::Step(s))),
         }
@@ -106,30 +175,8 @@ pub(crate) fn portions(plan: &Plan, steps: &[u32], writers: &Writers) -> Vec<Por
     made
 }
 
-/// Returns the formula of a step that may be part of a strip.
-fn formula<'p>(plan: &'p Plan, index: u32, writers: &Writers) -> Option<&'p Inverse> {
-    let step = &plan.steps[index as usize];
-    let Program::Inverse(inverse) = &step.program else { return None };
-    let target = &plan.slots[step.targets[0] as usize];
-    let is_plain = target.is_number && !target.is_discrete && inverse.roots() == 1;
-    (is_plain && writers.are_before(plan, index)).then_some(inverse)
-}
-
-fn inverse(step: &Step) -> &Inverse {
-    match &step.program {
-        Program::Inverse(inverse) => inverse,
-        Program::Constant(_)
-        | Program::Copy
-        | Program::Formulas(..)
-        | Program::Square(_)
-        | Program::Least(_)
-        | Program::Measure(_)
-        | Program::Host { .. } => unreachable!("a stretch is made of formulas"),
-    }
-}
-
 fn stretch_portions(
-    plan: &Plan,
+    links: Links<'_>,
     stretch: &[u32],
     level_of_slot: &mut [u32],
     made: &mut Vec<Portion>,
@@ -137,11 +184,12 @@ fn stretch_portions(
     let mut formulas: Vec<(*const Kernel, u32)> = Vec::new();
     let mut rows: Vec<(u32, u32, u32)> = Vec::with_capacity(stretch.len());
     for &index in stretch {
-        let step = &plan.steps[index as usize];
-        let Inverse { row, argument, .. } = inverse(step);
-        let level = step.reads.iter().map(|&r| level_of_slot[r as usize]).max().unwrap_or(0) + 1;
-        level_of_slot[step.targets[0] as usize] = level;
-        let own = (Rc::as_ptr(&row.kernel), *argument);
+        let link = links.link(index);
+        // what it computes itself has none yet
+        let levels = link.arguments.iter().map(|&r| level_of_slot[r as usize]);
+        let level = levels.max().unwrap_or(0) + 1;
+        level_of_slot[link.target() as usize] = level;
+        let own = (Rc::as_ptr(link.kernel), link.argument);
         let from = formulas.len().saturating_sub(FAR);
         let known = formulas[from..].iter().rposition(|f| *f == own).map(|i| from + i);
         let formula = known.unwrap_or(formulas.len());
@@ -151,43 +199,47 @@ fn stretch_portions(
         rows.push((level, formula as u32, index));
     }
     for &index in stretch {
-        level_of_slot[plan.steps[index as usize].targets[0] as usize] = 0;
+        level_of_slot[links.link(index).target() as usize] = 0;
     }
     let levels = rows.iter().map(|r| r.0).max().unwrap_or(0) as usize;
     if rows.len() < levels * NARROWEST {
-        made.push(Portion::InTurn(strip(plan, stretch.iter().copied())));
+        made.push(Portion::InTurn(strip(links, stretch.iter().copied())));
         return;
     }
     rows.sort_unstable();
     for group in rows.chunk_by(|a, b| (a.0, a.1) == (b.0, b.1)) {
         let steps = group.iter().map(|r| r.2);
         if group.len() >= FEWEST {
-            made.push(Portion::Abreast(strip(plan, steps)));
+            made.push(Portion::Abreast(strip(links, steps)));
         } else {
             made.extend(steps.map(Portion::Step));
         }
     }
 }
 
-fn strip(plan: &Plan, steps: impl Iterator<Item = u32>) -> Strip {
-    let mut strip = Strip { formulas: Vec::new(), rows: Vec::new(), arguments: Vec::new() };
+fn strip(links: Links<'_>, steps: impl ExactSizeIterator<Item = u32>) -> Strip {
+    let mut strip = Strip {
+        formulas: Vec::new(),
+        rows: Vec::with_capacity(steps.len()),
+        arguments: Vec::with_capacity(steps.len() * 3),
+    };
     for index in steps {
-        let step = &plan.steps[index as usize];
-        let Inverse { row, argument, .. } = inverse(step);
-        let same = |f: &Formula| Rc::ptr_eq(&f.kernel, &row.kernel) && f.argument == *argument;
+        let link = links.link(index);
+        let same = |f: &Formula| Rc::ptr_eq(&f.kernel, link.kernel) && f.argument == link.argument;
         let from = strip.formulas.len().saturating_sub(FAR);
         let known = strip.formulas[from..].iter().rposition(same).map(|i| from + i);
         let formula = known.unwrap_or(strip.formulas.len());
         if known.is_none() {
-            strip.formulas.push(Formula { kernel: row.kernel.clone(), argument: *argument });
+            strip.formulas.push(Formula { kernel: link.kernel.clone(), argument: link.argument });
         }
         strip.rows.push(StripRow {
             step: index,
-            target: step.targets[0],
+            target: link.target(),
             formula: formula as u32,
             first: strip.arguments.len() as u32,
+            row: link.row,
         });
-        strip.arguments.extend(&row.arguments);
+        strip.arguments.extend_from_slice(link.arguments);
     }
     strip
 }

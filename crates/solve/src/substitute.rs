@@ -46,6 +46,10 @@ impl Classes {
     pub(crate) fn is_settled(&self, equation: usize) -> bool {
         self.fates[equation] != Fate::Row
     }
+    /// Returns true if no slot equals another, or a number, and no equation says what others say.
+    pub(crate) fn is_plain(&self) -> bool {
+        self.members.is_empty() && self.constants.is_empty() && self.repeated.is_empty()
+    }
     /// Returns every class of several slots: its representative and all of them, in order.
     pub(crate) fn members(&self) -> impl Iterator<Item = (SlotIndex, &[SlotIndex])> {
         self.members.iter().map(|&(root, span)| (root, &self.grouped[span.range()]))

@@ -2,6 +2,7 @@ use super::*;
 use crate::deflate::Deflated;
 use crate::few::Few;
 use crate::pattern::{PatternId, Patterns};
+use crate::peel::{Found, peel};
 use crate::stated::Stated;
 use crate::system::{Level, Relation, RelationBody, Slot};
 use crate::{rows, substitute};
@@ -74,7 +75,7 @@ fn net(stays: &[u8], relations: &[(u8, [usize; 3], bool)]) -> Net {
     }
     let stated = Stated::new(&Rc::new(system), &patterns);
     let classes = substitute::substitute(&stated);
-    let rows = rows::rows(&stated, &classes);
+    let rows = rows::with_columns(&stated, &classes, rows::stated_rows(&stated, &classes));
     Net { stated, classes, rows }
 }
 
@@ -222,5 +223,52 @@ proptest! {
         let unknown: BTreeSet<u32> =
             net.slots().filter(|&s| found.unknown[s as usize]).collect();
         prop_assert_eq!(unknown, open);
+    }
+
+    #[test]
+    fn what_is_peeled_is_what_acceptance_finds(
+        known in prop::array::uniform3(0u8..3),
+        rows in prop::collection::vec(
+            (0u8..5, prop::array::uniform2(0usize..14), 0u8..8, prop::bool::weighted(0.2)), 1..12),
+        again in prop::option::of(0usize..12),
+    ) {
+        let mut stays: Vec<u8> = known.to_vec();
+        stays.extend(rows.iter().map(|_| 4));
+        let slots = |i: usize, reads: [usize; 2]| [reads[0] % (3 + i), reads[1] % (3 + i), 3 + i];
+        let stated = |&(i, (kind, reads, _, soft)): &(usize, (u8, [usize; 2], u8, bool))| {
+            (kind, slots(i, reads), soft)
+        };
+        // declared in any order
+        let mut order: Vec<_> = rows.iter().copied().enumerate().collect();
+        order.sort_by_key(|(_, row)| row.2);
+        let mut relations: Vec<_> = order.iter().map(stated).collect();
+        if let Some(again) = again.and_then(|again| relations.get(again).copied()) {
+            relations.push(again);
+        }
+        let net = net(&stays, &relations);
+        let system = &net.stated.system;
+        let found = accept(system, &net.classes, &net.rows);
+        let stated = rows::stated_rows(&net.stated, &net.classes);
+        let peeled = match peel(system, &net.classes, stated) {
+            Found::All(peeled) => peeled,
+            Found::Not(_) => {
+                let blocks = found.matched.map_or(0, |matched| matched.blocks.len());
+                prop_assert!(blocks < relations.len(), "some are solved together, or say the same");
+                return Ok(());
+            }
+        };
+        prop_assert_eq!(relations.len(), rows.len(), "two rows say of one slot what it is");
+        let matched = found.matched.as_ref().expect("every row has a slot of its own");
+        let mut is_determined = vec![false; stays.len()];
+        for &solved in &peeled.order {
+            let (row, target) = (solved.row as usize, peeled.target(solved));
+            prop_assert_eq!(matched.slot_of_row[row], Some(target));
+            is_determined[target as usize] = true;
+            let is_there = |&s: &u32| is_determined[s as usize] || stays[s as usize] < 4;
+            prop_assert!(peeled.rows.mentions(row).iter().all(is_there));
+        }
+        let made = super::peeled(system, &net.classes, &peeled.rows, &is_determined);
+        prop_assert_eq!(made.yields(), found.yields());
+        prop_assert_eq!((made.freedom, made.unknown), (found.freedom, found.unknown));
     }
 }

@@ -82,7 +82,7 @@ impl Attempt<'_> {
         begin(plan, self.frame, values, buffers);
         let mut writer = vec![None; plan.slots.len()];
         let mut branching = 0;
-        for (i, step) in plan.steps.iter().enumerate() {
+        for (i, step) in plan.steps().iter().enumerate() {
             step.targets.iter().for_each(|&t| writer[t as usize] = Some(i));
             branching += if step.may_branch() { step.targets.len() } else { 0 };
         }
@@ -176,7 +176,7 @@ impl Search<'_> {
         buffers: &mut Buffers,
         host: &mut dyn Host,
     ) -> Result<(), (Fault, Failure)> {
-        for index in from..self.attempt.plan.steps.len() {
+        for index in from..self.attempt.plan.step_count() {
             let ran = self.attempt.step(index, values, &Approach::Nowhere, buffers, host);
             ran.map_err(|failure| (Fault::Step(index), failure))?;
         }
@@ -212,7 +212,7 @@ impl Search<'_> {
             if buffers.square.work > self.soon {
                 break;
             }
-            let step = &plan.steps[suspect];
+            let step = &plan.steps()[suspect];
             let index = suspect;
             let mut run = Run { plan, frame, last, values, trust, buffers, host, index };
             let now = run.targets(step);
@@ -254,7 +254,7 @@ impl Search<'_> {
 
     /// These steps and those that they come from, as far as they may have several roots, nearest first.
     fn suspects(&self, mut next: VecDeque<usize>) -> Vec<usize> {
-        let steps = &self.attempt.plan.steps;
+        let steps = self.attempt.plan.steps();
         let mut seen: BTreeSet<usize> = next.iter().copied().collect();
         let mut found = Vec::new();
         while let Some(step) = next.pop_front() {

@@ -42,7 +42,7 @@ impl Attempt<'_> {
         let mut found: Vec<Other> = Vec::new();
         let mut asked = 0;
         begin(plan, frame, values, buffers);
-        for (index, step) in plan.steps.iter().enumerate() {
+        for (index, step) in plan.steps().iter().enumerate() {
             if self.step(index, values, &Approach::Nowhere, buffers, host).is_err() {
                 break;
             }
@@ -65,7 +65,7 @@ impl Attempt<'_> {
                 let inputs = run.inputs(step);
                 let settled = run.settle(step, inputs).is_ok();
                 let Run { values, buffers, host, .. } = &mut run;
-                let rest = index + 1..plan.steps.len();
+                let rest = index + 1..plan.step_count();
                 let goes_on = settled
                     && rest
                         .into_iter()

@@ -46,7 +46,7 @@ impl Attempt<'_> {
         begin(plan, frame, values, buffers);
         let mut unknowns: Vec<SlotIndex> = Vec::new();
         let mut equations: Vec<u32> = Vec::new();
-        for (index, step) in plan.steps.iter().enumerate() {
+        for (index, step) in plan.steps().iter().enumerate() {
             let mut run = Run { plan, frame, last, values, trust, buffers, host, index };
             match &step.program {
                 // what is no number there is found out when the steps run

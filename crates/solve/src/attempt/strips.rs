@@ -3,31 +3,35 @@
 //! A row whose inputs have moved is computed here; one whose inputs have not, or whose formula is not
 //! defined at them, is left to its step.
 
-use super::{Failure, Motion, Run, motion};
+use super::{Failure, Held, Motion, Run, motion};
 use crate::kernel::Solved;
 use crate::strip::{Strip, StripRow};
-use crate::system::SlotIndex;
+use crate::system::{SlotIndex, Stay};
 use expr::LANES;
+use std::cell::Cell;
 
 impl Run<'_> {
     /// Runs rows one after the other.
     pub(super) fn in_turn(&mut self, strip: &Strip) -> Result<(), Failure> {
-        for row in &strip.rows {
-            let formula = &strip.formulas[row.formula as usize];
-            let arguments = &strip.arguments[row.first as usize..][..formula.arity()];
-            if !self.has_moved(arguments, formula.argument) {
-                self.alone(row)?;
-                continue;
-            }
-            let solved = formula.solved();
-            let outs = solved.guards[0].len() + 1;
-            let out = self.buffers.work.run(&solved.tape, arguments, self.values, outs);
-            match value_of(solved, |i| out[i]) {
-                Some(value) => self.put(row.target, value),
-                None => self.alone(row)?,
-            }
+        strip.rows.iter().try_for_each(|row| self.one(strip, row))
+    }
+
+    fn one(&mut self, strip: &Strip, row: &StripRow) -> Result<(), Failure> {
+        let formula = &strip.formulas[row.formula as usize];
+        let arguments = &strip.arguments[row.first as usize..][..formula.arity()];
+        if !self.has_moved(arguments, formula.argument) {
+            return self.at_rest(row, arguments);
         }
-        Ok(())
+        let solved = formula.solved();
+        let outs = solved.guards[0].len() + 1;
+        let out = self.buffers.work.run(&solved.tape, arguments, self.values, outs);
+        match value_of(solved, |i| out[i]) {
+            Some(value) => {
+                self.put(row.target, value);
+                Ok(())
+            }
+            None => self.alone(row),
+        }
     }
 
     /// Runs rows of one formula in lanes.
@@ -39,7 +43,7 @@ impl Run<'_> {
         for (rows, arguments) in chunks {
             let each = || arguments.chunks_exact(arity);
             if !each().all(|a| self.has_moved(a, formula.argument)) {
-                rows.iter().try_for_each(|row| self.alone(row))?;
+                rows.iter().try_for_each(|row| self.one(strip, row))?;
                 continue;
             }
             let out = self.buffers.work.run_wide(&solved.tape, arguments, arity, self.values, outs);
@@ -69,9 +73,24 @@ impl Run<'_> {
         self.buffers.motion[target as usize] = motion(self.frame, self.values, target);
     }
 
+    /// Runs a row whose inputs have not moved: where it held when the edit began, it has nothing to do.
+    fn at_rest(&mut self, row: &StripRow, arguments: &[SlotIndex]) -> Result<(), Failure> {
+        let target = row.target as usize;
+        let is_still =
+            |&s: &SlotIndex| s == row.target || self.buffers.motion[s as usize] == Motion::Still;
+        let held = self.frame.held.get(row.row as usize).map(Cell::get);
+        let has_value = self.plan.slots[target].stay != Stay::Free;
+        if held != Some(Held::Yes) || !has_value || !arguments.iter().all(is_still) {
+            return self.alone(row);
+        }
+        self.values[target] = self.frame.x0[target];
+        self.buffers.motion[target] = Motion::Still;
+        Ok(())
+    }
+
     fn alone(&mut self, row: &StripRow) -> Result<(), Failure> {
         self.index = row.step as usize;
-        self.step(&self.plan.steps[self.index])
+        self.step(&self.plan.steps()[self.index])
     }
 }
 

@@ -372,7 +372,7 @@ impl Deciding<'_> {
     fn behind(&self, plan: &Plan, slots: &[u32]) -> BTreeSet<u32> {
         let mut wanted: BTreeSet<u32> = slots.iter().copied().collect();
         let mut relations = BTreeSet::new();
-        for step in plan.steps.iter().rev() {
+        for step in plan.steps().iter().rev() {
             if step.targets.iter().any(|t| wanted.contains(t)) {
                 wanted.extend(&step.reads);
                 relations.extend(&step.relations);

@@ -76,7 +76,7 @@ impl Way<'_> {
                 Ok(()) if has_buckled => return last.copy_from_slice(self.trial),
                 Err(Failure { reason: Reason::NoSolution { step }, .. })
                     if steps.insert(step)
-                        && self.buckle_step(&self.plan.steps[step as usize], &mut aside) => {}
+                        && self.buckle_step(&self.plan.steps()[step as usize], &mut aside) => {}
                 Ok(()) | Err(_) => return self.frame.anchors.truncate(anchors),
             }
             self.frame.anchors.truncate(anchors);

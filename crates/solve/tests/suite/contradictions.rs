@@ -7,7 +7,7 @@ use solve::{Level, Reason, Status};
 fn an_empty_system_is_solved() {
     let sheet = Sheet::default();
     let plan = sheet.plan();
-    assert!(plan.steps.is_empty() && plan.report.freedom == 0);
+    assert!(plan.steps().is_empty() && plan.report.freedom == 0);
     assert!(sheet.run(&plan, &[], &mut solve::NoHost).1.is_solved());
 }
 

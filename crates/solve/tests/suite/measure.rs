@@ -31,7 +31,7 @@ fn two_weak_rules_meet_in_the_middle() {
     s.relate(Level::Weak, &[(vx, ten)]);
     s.relate(Level::Weak, &[(vx, thirty)]);
     let plan = s.plan();
-    assert_eq!(plan.steps[0].kind, StepKind::Compromise);
+    assert_eq!(plan.steps()[0].kind, StepKind::Compromise);
     assert!(plan.report.rejected[0].compromises);
     let (values, outcome) = s.run(&plan, &[], &mut NoHost);
     close(values[0], 20.0, 1e-9);

@@ -27,10 +27,10 @@ fn a_temperature_goes_both_ways() {
     assert_eq!(s.x0[f as usize], 68.0);
     let (values, _, plan) = s.set(&[(c, 72.5)]);
     assert_eq!(values[f as usize], 162.5);
-    assert_eq!(plan.steps[0].kind, StepKind::Method { relation: 0, method: 0 });
+    assert_eq!(plan.steps()[0].kind, StepKind::Method { relation: 0, method: 0 });
     let (values, _, plan) = s.set(&[(f, 212.0)]);
     assert_eq!(values[c as usize], 100.0);
-    assert_eq!(plan.steps[0].kind, StepKind::Method { relation: 0, method: 1 });
+    assert_eq!(plan.steps()[0].kind, StepKind::Method { relation: 0, method: 1 });
     assert_eq!(plan.report.yielded, [c]);
     let (values, _, _) = s.set(&[(c, -40.0)]);
     assert_eq!(values[f as usize], -40.0);
