@@ -241,15 +241,16 @@ pub(crate) fn explain(path: &Path, about: Option<&str>, form: Form) -> Result<Re
         let _ = writeln!(words, "{}.", held.message);
     }
     for (i, step) in explanation.steps.iter().enumerate() {
-        let _ = writeln!(words, "\n{:3}. {}: {}", i + 1, step.targets.join(", "), step.method);
+        let (targets, values) = (first_ones(&step.targets), first_ones(&step.values));
+        let _ = writeln!(words, "\n{:3}. {targets}: {}", i + 1, step.method);
         if !step.formula.is_empty() {
             let _ = writeln!(words, "       {}", step.formula.replace('\n', "\n       "));
         }
         if !step.reason.is_empty() {
             let _ = writeln!(words, "     because {}", step.reason);
         }
-        if !step.values.is_empty() {
-            let _ = writeln!(words, "     now {}", step.values.join(", "));
+        if !values.is_empty() {
+            let _ = writeln!(words, "     now {values}");
         }
     }
     let mut json = json!(explanation);
@@ -257,6 +258,16 @@ pub(crate) fn explain(path: &Path, about: Option<&str>, form: Form) -> Result<Re
     json["ghosts"] = json!(ghosts);
     json["advice"] = json!(advice);
     Ok(report(form, leads_somewhere, words, &json))
+}
+
+/// Lists the first dozen, and how many more there are.
+fn first_ones(items: &[String]) -> String {
+    const MOST: usize = 12;
+    let first = items[..items.len().min(MOST)].join(", ");
+    match items.len().saturating_sub(MOST) {
+        0 => first,
+        more => format!("{first} and {more} more"),
+    }
 }
 
 /// Says which classes some parts of a document could be the parts of.

@@ -16,6 +16,8 @@ use plan::{PlanKind, Source};
 const MOST_THINGS: usize = 12;
 /// So many views are tried.
 const MOST_TRIALS: usize = 8;
+/// Of more numbers that are solved together, one view of a few things unties too little.
+const MOST_UNKNOWNS: usize = 200;
 
 /// A class with the things that would be its parts.
 struct View {
@@ -32,6 +34,9 @@ pub(crate) fn advice(open: &Open, host: &dyn Host) -> Vec<Advice> {
         return Vec::new();
     }
     let things = things_solved_together(&now);
+    if things.is_empty() {
+        return Vec::new();
+    }
     let (state, document) = (&now.state, &now.state.lowered.document);
     let mut advice = Vec::new();
     let classes = document.classes.iter().filter(|&(id, class)| is_candidate(state, id, class));
@@ -60,13 +65,17 @@ pub(crate) fn advice(open: &Open, host: &dyn Host) -> Vec<Advice> {
     advice
 }
 
-/// The things whose constraints are solved together, and what those are parts of, in order.
+/// The things whose constraints are solved together, and what those are parts of, in order; none where that
+/// is too much for one view.
 fn things_solved_together(open: &Open) -> Vec<ThingId> {
     let structure = &open.state.structure;
     let steps = open.planner.explain().into_iter();
-    let together = steps.filter(|s| s.kind.plan_kind() > PlanKind::OnePass);
+    let together: Vec<_> = steps.filter(|s| s.kind.plan_kind() > PlanKind::OnePass).collect();
+    if together.iter().map(|s| s.targets.len()).sum::<usize>() > MOST_UNKNOWNS {
+        return Vec::new();
+    }
     let mut things: Vec<ThingId> = Vec::new();
-    for source in together.flat_map(|s| s.sources) {
+    for source in together.into_iter().flat_map(|s| s.sources) {
         let Source::Constraint(c) = source else { continue };
         let mut thing = Some(structure.constraints[c as usize].owner);
         while let Some(t) = thing.filter(|t| *t != kernel::DOCUMENT) {

@@ -5,11 +5,13 @@ use crate::state::State;
 use crate::view::{Freedom, Refusal};
 use crate::views;
 use base::Diagnostic;
+use indexmap::IndexSet;
 use kernel::{
     ClassId, ClassKind, Command, ConstraintInstance, Document, Literal, Path, Primitive, SlotId,
     Step, Structure, Term, ThingId, Value, Values,
 };
 use plan::{Acting, ActingKind, EditReport, NotDecided, RefusalReason, Source};
+use std::collections::BTreeSet;
 
 /// Makes a refusal of one sentence.
 pub(crate) fn refuse(message: String) -> Refusal {
@@ -134,20 +136,18 @@ pub(crate) fn listed(names: &[String]) -> String {
 
 /// Names slots: a place whose coordinates are all among them by its own path.
 pub(crate) fn slots_listed(state: &State, slots: &[SlotId]) -> Vec<String> {
-    let mut names: Vec<String> = Vec::new();
-    for &slot in slots {
+    let all: BTreeSet<SlotId> = slots.iter().copied().collect();
+    let name = |&slot: &SlotId| {
         let place = state.structure.slots[slot].place;
         let whole = place
-            .filter(|&place| state.structure.slots_under(place).iter().all(|s| slots.contains(s)));
-        let name = match whole {
+            .filter(|&place| state.structure.slots_under(place).iter().all(|s| all.contains(s)));
+        match whole {
             Some(place) => state.structure.path(&state.lowered.document, place).to_string(),
             None => state.slot_path(slot).to_string(),
-        };
-        if !names.contains(&name) {
-            names.push(name);
         }
-    }
-    names
+    };
+    let names: IndexSet<String> = slots.iter().map(name).collect();
+    names.into_iter().collect()
 }
 
 /// Says what holds a drag that did not reach the pointer; nothing where no constraint can be named.

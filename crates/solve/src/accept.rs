@@ -145,9 +145,11 @@ pub(crate) fn accept(system: &System, classes: &Classes, rows: &Rows) -> Accepta
     if matcher.accept(asked.all(), &mut out) {
         out.matched = Some(matcher.into_matched());
     } else {
+        let failing = matcher.failing();
         matcher.forget();
         apart(classes, rows, asked.all(), &mut out, &mut |piece, out| {
-            if matcher.accept(piece, out) {
+            let may_match = failing.is_none_or(|row| !piece.rows.contains(&row));
+            if may_match && matcher.accept(piece, out) {
                 return;
             }
             let near = rows.doubles(piece.rows);

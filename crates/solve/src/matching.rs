@@ -54,6 +54,8 @@ pub(crate) struct Matcher<'a> {
     taken: Vec<SlotIndex>,
     /// The blocks of the latest rows that were found regular.
     blocks: Blocks,
+    /// A row of the latest piece at which matching could not decide.
+    failing: Option<u32>,
 }
 
 /// A block of rows that is being factorised.
@@ -106,7 +108,14 @@ impl<'a> Matcher<'a> {
             way: Vec::new(),
             taken: Vec::new(),
             blocks: Blocks::default(),
+            failing: None,
         }
+    }
+
+    /// Returns a row of the latest piece at which matching could not decide: whatever piece has it, apart
+    /// from rows that share no slot with it, is no better off.
+    pub(crate) fn failing(&self) -> Option<u32> {
+        self.failing
     }
 
     /// Takes back everything that was decided.
@@ -138,6 +147,7 @@ impl<'a> Matcher<'a> {
         }
         for &row in piece.rows {
             if !self.take_most_willing(row) && !self.find(row) {
+                self.failing = Some(row);
                 return false;
             }
         }
@@ -326,6 +336,9 @@ impl<'a> Matcher<'a> {
                 scratch.rows.extend(own());
                 scratch.rows.sort_unstable();
                 regular = self.is_regular_block(&mut scratch, factored);
+                if !regular {
+                    self.failing = scratch.rows.first().copied();
+                }
             }
             blocks.add(own().map(|r| r as usize), own().map(|r| self.slot_of_row[r as usize]));
         });

@@ -41,8 +41,8 @@ pub(crate) struct Tableau<N> {
     row_of_pivot: BTreeMap<u32, u32>,
     /// For every column, the rows that may contain it.
     occurrences: BTreeMap<u32, Vec<u32>>,
-    /// How many coefficients have been written so far.
-    work: usize,
+    /// How many coefficients have been read and written so far.
+    work: Cell<usize>,
     is_doubtful: Cell<bool>,
 }
 
@@ -54,7 +54,7 @@ impl<N> Default for Tableau<N> {
             pivot_of_row: Vec::new(),
             row_of_pivot: BTreeMap::new(),
             occurrences: BTreeMap::new(),
-            work: 0,
+            work: Cell::new(0),
             is_doubtful: Cell::new(false),
         }
     }
@@ -69,9 +69,12 @@ impl<N: Number> Tableau<N> {
     pub(crate) fn row(&self, row: u32) -> &Row<N> {
         &self.rows[row as usize]
     }
-    /// Returns how many coefficients of accepted rows have been written so far.
+    /// Returns how many coefficients of accepted rows have been read and written so far.
     pub(crate) fn work(&self) -> usize {
-        self.work
+        self.work.get()
+    }
+    fn spend(&self, coefficients: usize) {
+        self.work.set(self.work.get() + coefficients);
     }
     /// Returns true if rounding may have decided whether something is zero.
     pub(crate) fn is_doubtful(&self) -> bool {
@@ -92,6 +95,7 @@ impl<N: Number> Tableau<N> {
         for &(column, value) in row {
             if let Some(r) = self.row_with_pivot(column) {
                 multipliers.push((r, value));
+                self.spend(self.rows[r as usize].len());
                 for &(c, v) in &self.rows[r as usize] {
                     work.entry(c).or_default().add(value.times(v).negated());
                 }
@@ -176,7 +180,7 @@ impl<N: Number> Tableau<N> {
                     self.occurrences.entry(c).or_default().push(r);
                 }
             }
-            self.work += merged.len();
+            self.spend(merged.len());
             self.rows[r as usize] = merged;
             back.push((r, factor));
         }

@@ -4,6 +4,7 @@ use crate::document::Open;
 use crate::state::State;
 use crate::view::{ExplainedStep, Explanation, Refusal};
 use crate::words;
+use indexmap::IndexSet;
 use kernel::{ConstraintInstance, Path, SlotId, Step};
 use plan::{Acting, ExplainedKind, Root, RootKind, Source};
 
@@ -230,33 +231,37 @@ fn value(open: &Open, slot: SlotId) -> String {
 
 fn step(open: &Open, s: &plan::ExplainedStep) -> ExplainedStep {
     let state = &open.state;
-    let formulas = s.sources.iter().filter_map(|&source| formula(open, source, s.kind));
-    let names: Vec<String> =
-        s.sources.iter().filter_map(|&source| words::source_name(state, source)).collect();
-    let mut reads: Vec<String> = s
-        .reads
-        .iter()
-        .take(12)
-        .map(|&r| format!("{} = {}", state.slot_path(r), value(open, r)))
-        .collect();
+    let formulas: IndexSet<String> =
+        s.sources.iter().filter_map(|&source| formula(open, source, s.kind)).collect();
+    let names = s.sources.iter().filter_map(|&source| words::source_name(state, source));
+    let names = first_ones(names);
+    let read = |&r: &SlotId| format!("{} = {}", state.slot_path(r), value(open, r));
+    let reads = first_ones(s.reads.iter().map(read));
     let mut reason = match names.is_empty() {
         true => "the edit wants it".to_string(),
         false => format!("{} must hold", enumerated(&names)),
     };
     if !reads.is_empty() {
-        let more = s.reads.len() - reads.len();
-        if more > 0 {
-            reads.push(format!("{more} more"));
-        }
         reason.push_str(&format!(", given {}", enumerated(&reads)));
     }
     ExplainedStep {
         targets: s.targets.iter().map(|&t| state.slot_path(t).to_string()).collect(),
         method: method(s.kind),
-        formula: formulas.collect::<Vec<_>>().join("\n"),
+        formula: formulas.into_iter().collect::<Vec<_>>().join("\n"),
         reason,
         values: s.targets.iter().map(|&t| value(open, t)).collect(),
     }
+}
+
+/// Returns the first dozen, and how many more there are.
+fn first_ones(mut items: impl Iterator<Item = String>) -> Vec<String> {
+    const MOST: usize = 12;
+    let mut first: Vec<String> = items.by_ref().take(MOST).collect();
+    match items.count() {
+        0 => {}
+        more => first.push(format!("{more} more")),
+    }
+    first
 }
 
 /// Returns what was written for a constraint: the method that ran, else the rule.

@@ -159,6 +159,26 @@ fn what_is_solved_together_is_advised_a_second_view_that_was_tried() {
     assert_eq!(desk.session.analysis(desk.id).advice, []);
 }
 
+/// A hundred resistors in a row: of what is solved together the first are named, each rule is told once, and
+/// no view of two of them is tried.
+#[test]
+fn of_what_many_equations_say_each_rule_is_told_once() {
+    let desk = Desk::of(
+        "use circuits\nbattery: Battery\nground: Ground\nrow: List of 100 Resistor\n\
+        merge battery.a.node = row[0].a.node\n\
+        merge battery.b.node = row[99].b.node = ground.lead.node\n\
+        for i in 0..98 { merge row[i].b.node = row[i + 1].a.node }\n",
+    );
+    let told = desk.session.explain(desk.id, None);
+    let together = told.steps.iter().find(|s| s.method.contains("solved together")).unwrap();
+    assert_eq!(together.targets.len(), 99 + 100 + 99);
+    let mut rules: Vec<&str> = together.formula.lines().collect();
+    rules.sort_unstable();
+    assert_eq!(rules.len(), 3, "{rules:?}");
+    assert!(together.reason.contains(" and 286 more must hold"), "{}", together.reason);
+    assert_eq!(desk.session.advice(desk.id), []);
+}
+
 #[test]
 fn what_is_approached_step_by_step_is_warned_of_and_a_lighter_view_named() {
     // linear equations have one answer, and it is found
