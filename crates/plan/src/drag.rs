@@ -6,7 +6,7 @@ use crate::edit::{EditKind, EditReport, RefusalReason, Target, note};
 use crate::host::Host;
 use crate::modal::{Acting, ModalDrag, ModeChange};
 use crate::planner::{Latest, Model, Planner, is_any_new};
-use crate::run::{Adapter, Ground, Ran, leans, or_whole, ran, scatter, searched};
+use crate::run::{Adapter, Ground, Ran, leans, or_pieces, or_whole, ran, scatter, searched};
 use crate::task::{Course, Task};
 use kernel::{SlotId, Values};
 use solve::{Puzzle, SlotIndex, Stay, Verdict};
@@ -27,7 +27,8 @@ pub struct Press {
 #[derive(Debug)]
 struct Pull {
     task: Task,
-    /// The task as it was planned, where whole numbers that are looked for may put it into another mode.
+    /// The task as it was planned, where whole numbers or pieces that are looked for may put it into another
+    /// mode.
     planned: Option<Box<Task>>,
     way: Way,
     /// The numbers at the press, by the slots of the system.
@@ -195,7 +196,8 @@ impl Planner {
             }
             Course::Search(puzzle) => (Way::Search(puzzle.clone()), Vec::new()),
         };
-        let planned = task.whole().map(|_| Box::new(task.clone()));
+        let may_change = task.whole().is_some() || task.pieces().is_some();
+        let planned = may_change.then(|| Box::new(task.clone()));
         Pull { task, planned, way, x0, texts, targets }
     }
 }
@@ -230,7 +232,7 @@ impl Pull {
             Way::Plan(drag) => drag,
             Way::Modes(drag) => {
                 let ran = drag.follow(planner, model, &mut self.task, targets, values, host);
-                let ran = self.or_whole(planner, model, ran, values, host);
+                let ran = self.or_otherwise(planner, model, ran, values, host);
                 return note(report, &mut self.task, ran);
             }
             Way::Search(puzzle) => {
@@ -264,13 +266,14 @@ impl Pull {
         }
         if !outcome.is_solved() || !outcome.unmet.is_empty() || self.task.whole().is_some() {
             let ran = ran(planner, &self.task, &outcome);
-            let ran = self.or_whole(planner, model, ran, values, host);
+            let ran = self.or_otherwise(planner, model, ran, values, host);
             note(report, &mut self.task, ran);
         }
     }
 
-    /// Looks for whole numbers, from where the drag began, where it made none.
-    fn or_whole(
+    /// Looks for other pieces of equations where the drag comes to no end on those at hand, and for whole
+    /// numbers where it made none, both from where it began.
+    fn or_otherwise(
         &self,
         planner: &Planner,
         model: Model<'_>,
@@ -278,13 +281,14 @@ impl Pull {
         values: &mut Values,
         host: &mut dyn Host,
     ) -> Ran {
-        if self.task.whole().is_none() {
+        if self.task.whole().is_none() && self.task.pieces().is_none() {
             return ran;
         }
         let inputs: Vec<SlotIndex> = self.task.targets().iter().map(|t| t.0).collect();
         let mut local = self.x0.clone();
         inputs.iter().zip(&self.targets).for_each(|(&i, &target)| local[i as usize] = target);
         let ground = Ground { x0: self.x0.clone(), local, changed: inputs };
+        let ran = or_pieces(planner, model, &self.task, &ground, ran, values, host);
         or_whole(planner, model, &self.task, &ground, ran, values, host)
     }
 }

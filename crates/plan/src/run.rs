@@ -11,7 +11,7 @@ use crate::task::{Course, Origin, Task};
 use crate::whole;
 use base::number::Toward;
 use kernel::{SlotId, Value, Values};
-use solve::{Lean, Outcome, Plan, Reason, Scratch, SlotIndex, Status, Verdict};
+use solve::{Lean, Level, Outcome, Plan, Reason, Scratch, SlotIndex, Status, Verdict};
 use std::collections::BTreeSet;
 
 /// What came of a task.
@@ -21,6 +21,8 @@ pub(crate) struct Ran {
     pub(crate) is_solved: bool,
     /// True if everything could be computed, and something required does not hold all the same.
     pub(crate) is_conflict: bool,
+    /// True if what the pointer wishes is not reached.
+    pub(crate) is_missed: bool,
     /// True if every relation of a task without modes holds.
     pub(crate) is_met: bool,
     pub(crate) conflicts: Vec<Conflict>,
@@ -60,8 +62,9 @@ pub(crate) fn run(
     or_whole(planner, model, task, &ground, ran, values, host)
 }
 
-/// Looks for other pieces of equations where what was run on those at hand did not come to an end.
-fn or_pieces(
+/// Looks for other pieces of equations where what was run on those at hand did not come to an end, or did
+/// not reach what is wished.
+pub(crate) fn or_pieces(
     planner: &Planner,
     model: Model<'_>,
     task: &Task,
@@ -71,7 +74,7 @@ fn or_pieces(
     host: &mut dyn Host,
 ) -> Ran {
     let Some(modes) = task.pieces() else { return ran };
-    if ran.is_solved || ran.failure.is_some() {
+    if ran.is_solved && !ran.is_missed || ran.failure.is_some() {
         return ran;
     }
     let texts = values.texts.clone();
@@ -260,8 +263,11 @@ pub(crate) fn ran(planner: &Planner, task: &Task, outcome: &Outcome) -> Ran {
     let is_conflict = outcome.status == Status::Stopped(Reason::Conflict);
     let double_roots = double_roots.collect();
     let is_met = outcome.unmet.is_empty();
+    let is_wish = |&r: &u32| task.system.relations[r as usize].level == Level::Move;
+    let is_missed = unmet.iter().any(is_wish);
     Ran {
         is_solved,
+        is_missed,
         is_conflict,
         is_met,
         conflicts,

@@ -196,9 +196,10 @@ fn state(
     making.ranges();
     let Making { conditional, holds, targets, relations, .. } = making;
     let whole = whole::stated(&conditional).then(|| plans.whole(conditional.clone()));
+    let is_wish = |source: u32| matches!(relations[source as usize], Origin::Wish(_));
     let pieces = match whole {
         Some(_) => None,
-        None => plans.pieces(&conditional),
+        None => plans.pieces(&conditional, &is_wish),
     };
     let (system, plan, course, number) = course(plans, conditional);
     let number = number.filter(|_| whole.is_none() && !has_host(&system));
