@@ -131,7 +131,9 @@ impl Plans {
         if let Some(whole) = self.wholes.get(&stated) {
             return whole.clone();
         }
-        let whole = Rc::new(Whole::new(self.modes(stated.clone())));
+        let mut held = stated.clone();
+        held.hold_what_is_only_read();
+        let whole = Rc::new(Whole::new(self.modes(held)));
         self.wholes.insert(stated, whole.clone());
         whole
     }

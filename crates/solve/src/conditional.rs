@@ -5,7 +5,7 @@
 //! own: in every *mode* it is a plain system that has one, or its whole numbers are searched.
 
 use crate::pattern::PatternId;
-use crate::system::{RelationBody, Slot, SlotIndex, Span, Stay, System};
+use crate::system::{Relation, RelationBody, Slot, SlotIndex, Span, Stay, System};
 
 /// What a relation asks for besides its equations.
 #[derive(Clone, Copy, PartialEq, Eq, Hash, Debug)]
@@ -95,6 +95,51 @@ impl Conditional {
     /// Returns true if a whole number is unknown, whatever else is.
     pub fn has_whole_unknowns(&self) -> bool {
         (0..self.system.slots.len() as SlotIndex).any(|s| self.is_whole_unknown(s))
+    }
+    /// Returns for every slot whether relations speak of it, and none may write it, nor a condition ask for it. A
+    /// complete list of methods writes its targets alone.
+    pub(crate) fn only_read(&self) -> Vec<bool> {
+        let system = &self.system;
+        let n = system.slots.len();
+        let (mut mentioned, mut written) = (vec![false; n], vec![false; n]);
+        let mut mention = |relation: &Relation, slots: &[SlotIndex]| {
+            let is_open = relation.derived || relation.methods.is_empty();
+            for &slot in slots {
+                mentioned[slot as usize] = true;
+                written[slot as usize] |= is_open && !relation.reads.contains(&slot);
+            }
+        };
+        for relation in &system.relations {
+            for equation in system.equations_of(relation) {
+                mention(relation, system.arguments(equation.arguments));
+            }
+            match &relation.body {
+                RelationBody::Opaque { slots } => mention(relation, slots),
+                RelationBody::Equations(_) => {}
+            }
+        }
+        for demand in &self.demands {
+            let relation = &system.relations[demand.relation as usize];
+            mention(relation, system.arguments(demand.arguments));
+        }
+        let methods = system.relations.iter().flat_map(|r| &r.methods);
+        let conditions = self.conditions.iter().map(|c| system.arguments(c.arguments));
+        let others = methods.map(|m| &m.targets[..]).chain(conditions).flatten();
+        others.for_each(|&slot| written[slot as usize] = true);
+        mentioned
+            .into_iter()
+            .zip(written)
+            .map(|(mentioned, written)| mentioned && !written)
+            .collect()
+    }
+    /// Makes constants of whole numbers with a value that relations only read.
+    pub fn hold_what_is_only_read(&mut self) {
+        let only_read = self.only_read();
+        for (slot, _) in self.system.slots.iter_mut().zip(only_read).filter(|(_, is)| *is) {
+            if slot.is_discrete && slot.stay != Stay::Free {
+                slot.stay = Stay::Fixed;
+            }
+        }
     }
     fn has_finite_ranges(&self) -> bool {
         let is_ranged = |s: SlotIndex| self.ranges.binary_search_by_key(&s, |r| r.slot).is_ok();

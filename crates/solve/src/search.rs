@@ -18,7 +18,7 @@ mod row;
 
 use crate::conditional::{Conditional, DemandKind};
 use crate::pattern::Patterns;
-use crate::system::{Level, RelationBody, SlotIndex, Stay};
+use crate::system::{Level, RelationBody, Slot, SlotIndex, Stay};
 use crate::truth::{Comparing, Comparison, Truth, truth};
 use domain::{Domain, MOST};
 use explore::{End, Net, Visitor, explore};
@@ -159,7 +159,11 @@ impl Puzzle {
                 None => required.extend(rows.into_iter().flat_map(split)),
             }
         }
-        let stays = system.slots.iter().map(|s| s.stay).collect();
+        let stay = |(slot, is_only_read): (&Slot, bool)| match (slot.stay, is_only_read) {
+            (Stay::Given | Stay::Kept { .. }, true) => Stay::Fixed,
+            (stay @ (Stay::Fixed | Stay::Given | Stay::Kept { .. } | Stay::Free), _) => stay,
+        };
+        let stays = system.slots.iter().zip(conditional.only_read()).map(stay).collect();
         Self { arena, stays, whole, ranges, required, soft }
     }
 
