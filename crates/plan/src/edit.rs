@@ -339,10 +339,16 @@ impl Planner {
             return tasks;
         }
         let structure = model.structure;
-        let holding = |slot: SlotId| aim.holding(structure, slot);
+        let spoken_of = aim.slots();
+        // most slots lie far from those that the edit speaks of
+        let near = spoken_of.first().zip(spoken_of.last()).map(|(&first, &last)| first..=last);
+        let holding = |slot: SlotId| match &near {
+            Some(near) if near.contains(&slot) => aim.holding(structure, slot),
+            Some(_) | None => Self::resting_hold(structure, slot),
+        };
         let tied: Vec<Vec<SlotId>> = aim.wishes.iter().map(Wish::slots).collect();
         let start: BTreeSet<SlotId> =
-            aim.slots().into_iter().chain(tied.iter().flatten().copied()).collect();
+            spoken_of.iter().chain(tied.iter().flatten()).copied().collect();
         let is_fixed = |s| holding(s) == Holding::Fixed;
         let components = self.net.around(start, &self.rules, &is_fixed, &tied);
         let tasks = self.tasks(structure, components, &holding, &aim.wishes);

@@ -151,7 +151,7 @@ impl Plans {
         let is_kept = |s: &SlotIndex| matches!(system.slots[*s as usize].stay, Stay::Kept { .. });
         let opens = || system.slots.iter().any(|s| s.stay == Stay::Free);
         let places_yield =
-            plan.steps().iter().flat_map(|step| &step.targets).any(is_kept) && opens();
+            opens() && plan.steps().iter().flat_map(|step| &step.targets).any(is_kept);
         if !places_yield && plan.report.yielded.is_empty() {
             return None;
         }

@@ -220,7 +220,7 @@ pub(crate) fn begin(plan: &Plan, frame: &Frame, values: &mut [f64], buffers: &mu
         }
     }
     buffers.motion.clear();
-    buffers.motion.extend(plan.slots.iter().zip(values.iter().zip(&frame.x0)).map(
+    buffers.motion.extend(plan.slots().iter().zip(values.iter().zip(&frame.x0)).map(
         |(slot, (value, start))| match slot.stay {
             Stay::Free => Motion::Opened,
             Stay::Fixed | Stay::Given if value.to_bits() != start.to_bits() => Motion::Moved,
@@ -299,7 +299,7 @@ impl Run<'_> {
 
     /// Gives the targets of a step that has nothing to do the bits of x0; returns whether it is such a one.
     fn keeps(&mut self, step: &Step, inputs: Motion) -> bool {
-        let valued = step.targets.iter().all(|&t| self.plan.slots[t as usize].stay != Stay::Free);
+        let valued = step.targets.iter().all(|&t| self.plan.slots()[t as usize].stay != Stay::Free);
         let keeps = inputs != Motion::Moved && valued && self.holds_in_x0(step, inputs);
         if keeps {
             for &t in &step.targets {
@@ -330,7 +330,7 @@ impl Run<'_> {
     /// Tests and marks what a step has computed.
     fn settle(&mut self, step: &Step, inputs: Motion) -> Result<(), Failure> {
         for &t in &step.targets {
-            let slot = &self.plan.slots[t as usize];
+            let slot = &self.plan.slots()[t as usize];
             let value = self.values[t as usize];
             if slot.is_number && (!value.is_finite() || slot.is_discrete && is_broken(value)) {
                 return self.fail(step);
@@ -446,7 +446,7 @@ impl Run<'_> {
                     return Err(Failure { reason, region: step.region });
                 }
                 for (&t, &value) in step.targets.iter().zip(out.iter()) {
-                    if self.plan.slots[t as usize].is_number {
+                    if self.plan.slots()[t as usize].is_number {
                         self.values[t as usize] = value;
                     }
                 }
@@ -526,7 +526,8 @@ impl Run<'_> {
 
     /// How often a search may begin elsewhere: only where nothing had a value before.
     fn tries(&self, step: &Step) -> u32 {
-        let opening = step.targets.iter().all(|&t| self.plan.slots[t as usize].stay == Stay::Free);
+        let opening =
+            step.targets.iter().all(|&t| self.plan.slots()[t as usize].stay == Stay::Free);
         if opening && self.trust == Trust::Any { 8 } else { 1 }
     }
 

@@ -14,7 +14,7 @@ use crate::pattern::Pattern;
 use crate::plan::{Analysis, Step, StepKind};
 use crate::rows::{Row, Rows};
 use crate::square::Square;
-use crate::system::{Level, MethodBody, RelationBody, SlotIndex, Stay};
+use crate::system::{Level, MethodBody, RelationBody, SlotIndex, Stay, System};
 use crate::union::Union;
 use base::number::Tolerance;
 use std::cell::OnceCell;
@@ -202,10 +202,11 @@ fn alias(relations: Few, target: SlotIndex, program: Program, reads: Few) -> Ste
     }
 }
 
-pub(crate) fn problem_row(rows: &Rows, row: usize) -> Option<ProblemRow> {
+pub(crate) fn problem_row(system: &System, rows: &Rows, row: usize) -> Option<ProblemRow> {
     let kernel = rows.kernel(row)?.clone();
     let arguments = rows.mentions(row).into();
-    let Row { level, within, .. } = rows[row];
+    let Row { level, relation, .. } = rows[row];
+    let within = system.relations[relation as usize].within;
     Some(ProblemRow { kernel, arguments, level, within })
 }
 
@@ -258,7 +259,10 @@ fn regions(analysis: &Analysis<'_>, blocks: &Blocks, region_of: &[u32]) -> Vec<R
         let region = &mut regions[region as usize];
         if region.can_approach {
             region.problem.unknowns.extend(block.unknowns);
-            let rows = block.rows.iter().filter_map(|&r| problem_row(analysis.rows, r));
+            let rows = block
+                .rows
+                .iter()
+                .filter_map(|&r| problem_row(&analysis.stated.system, analysis.rows, r));
             region.problem.rows.extend(rows);
         }
     }
@@ -291,7 +295,12 @@ impl Work {
         let Problem { rows, unknowns } = &mut self.problem;
         rows.clear();
         rows.reserve(block.rows.len());
-        rows.extend(block.rows.iter().filter_map(|&r| problem_row(analysis.rows, r)));
+        rows.extend(
+            block
+                .rows
+                .iter()
+                .filter_map(|&r| problem_row(&analysis.stated.system, analysis.rows, r)),
+        );
         unknowns.clear();
         unknowns.extend_from_slice(block.unknowns);
         &self.problem
@@ -350,7 +359,7 @@ fn lower_block(analysis: &Analysis<'_>, block: Block<'_>, work: &mut Work, steps
 /// The step of a row that has a formula for its one unknown.
 fn by_formula(analysis: &Analysis<'_>, block: Block<'_>, work: &mut Work) -> Option<Step> {
     let ([row], [slot]) = (block.rows, block.unknowns) else { return None };
-    let inverse = Inverse::new(problem_row(analysis.rows, *row)?, *slot)?;
+    let inverse = Inverse::new(problem_row(&analysis.stated.system, analysis.rows, *row)?, *slot)?;
     let reads = reads_of(analysis, block, &mut work.reads);
     Some(inverse_step(analysis, block.rows, inverse, reads))
 }

@@ -143,7 +143,9 @@ pub struct Plan {
     /// are first asked for.
     lowered: OnceCell<Lowered>,
     peeled: Option<Box<Peeled>>,
-    pub(crate) slots: Vec<PlannedSlot>,
+    /// Slots that stand for several, in order, each with what its scale is multiplied by so that its changes
+    /// count for all of them: less than one.
+    pub(crate) shares: Vec<(SlotIndex, f64)>,
     pub(crate) relations: Vec<PlannedRelation>,
     /// The relations that only the host can test.
     pub(crate) opaque: Vec<u32>,
@@ -172,17 +174,6 @@ const IMPLIED_ROWS: usize = 300;
 /// Up to this many slots a state that does not hold may be moved as a whole.
 const RELAXED_SLOTS: usize = 300;
 
-#[derive(Clone, Copy, Debug)]
-pub(crate) struct PlannedSlot {
-    pub(crate) stay: Stay,
-    pub(crate) scale: u16,
-    /// By what its scale is multiplied, so that its changes count for all slots that it stands for: one,
-    /// or less where they are several.
-    pub(crate) share: f64,
-    pub(crate) is_number: bool,
-    pub(crate) is_discrete: bool,
-}
-
 #[derive(Clone, Debug)]
 pub(crate) struct PlannedRelation {
     pub(crate) level: Level,
@@ -191,8 +182,6 @@ pub(crate) struct PlannedRelation {
     /// Its first equation in the system; one that has none stands where it would.
     pub(crate) first_row: u32,
     pub(crate) rows: u32,
-    /// For an opaque relation, the slots that it speaks of.
-    pub(crate) opaque: Option<Vec<SlotIndex>>,
 }
 
 impl PlannedRelation {
@@ -363,14 +352,17 @@ fn plan_of(stated: Stated, classes: &Classes, report: Report, lowered: Lowered) 
             | Program::Host { .. } => {}
         }
     }
-    let is_opaque = |r: &u32| relations[*r as usize].opaque.is_some();
+    let is_opaque = |r: &u32| match system.relations[*r as usize].body {
+        RelationBody::Equations(_) => false,
+        RelationBody::Opaque { .. } => true,
+    };
     Plan {
         has_least,
         bends,
         report,
         lowered: lowered.into(),
         peeled: None,
-        slots: planned_slots(system, classes),
+        shares: shares(system, classes),
         opaque: (0..relations.len() as u32).filter(is_opaque).collect(),
         relations,
         shared_given: shared_given(system, classes),
@@ -405,34 +397,25 @@ fn may_imply(system: &System, rows: &Rows) -> bool {
         && required().filter(|&r| rows[r].curved).nth(1).is_some()
 }
 
-fn planned_slots(system: &System, classes: &Classes) -> Vec<PlannedSlot> {
-    let one = |s: &Slot| PlannedSlot {
-        stay: s.stay,
-        scale: s.scale,
-        share: 1.0,
-        is_number: s.is_number,
-        is_discrete: s.is_discrete,
-    };
-    let mut slots: Vec<PlannedSlot> = system.slots.iter().map(one).collect();
-    for (root, members) in classes.members() {
+fn shares(system: &System, classes: &Classes) -> Vec<(SlotIndex, f64)> {
+    let share = |(root, members): (SlotIndex, &[SlotIndex])| {
         let stay = std::mem::discriminant(&classes.stay[root as usize]);
         let of = |s: SlotIndex| std::mem::discriminant(&system.slots[s as usize].stay);
         let alike = members.iter().filter(|&&s| of(s) == stay).count();
-        if alike > 1 {
-            slots[root as usize].share = 1.0 / (alike as f64).sqrt();
-        }
-    }
-    slots
+        (alike > 1).then(|| (root, 1.0 / (alike as f64).sqrt()))
+    };
+    classes.members().filter_map(share).collect()
 }
 
 fn tests_of_relations(system: &System) -> Vec<PlannedRelation> {
     let mut relations = Vec::with_capacity(system.relations.len());
     let mut next = 0;
     for relation in &system.relations {
-        let (rows, opaque) = match &relation.body {
-            RelationBody::Equations(span) if span.len > 0 => (*span, None),
-            RelationBody::Equations(_) => (Span { start: next, len: 0 }, None),
-            RelationBody::Opaque { slots } => (Span { start: next, len: 0 }, Some(slots.clone())),
+        let rows = match &relation.body {
+            RelationBody::Equations(span) if span.len > 0 => *span,
+            RelationBody::Equations(_) | RelationBody::Opaque { .. } => {
+                Span { start: next, len: 0 }
+            }
         };
         debug_assert!(rows.start >= next, "equations stand in the order of their relations");
         next = rows.start + rows.len;
@@ -442,7 +425,6 @@ fn tests_of_relations(system: &System) -> Vec<PlannedRelation> {
             source: relation.source,
             first_row: rows.start,
             rows: rows.len,
-            opaque,
         });
     }
     relations
@@ -583,8 +565,12 @@ impl Plan {
     }
     /// Returns the scale of a slot, and whether it is a given number.
     pub(crate) fn kind(&self, slot: SlotIndex) -> (u16, bool) {
-        let slot = &self.slots[slot as usize];
+        let slot = &self.slots()[slot as usize];
         (slot.scale, slot.stay == Stay::Given)
+    }
+    /// Returns the slots of the system.
+    pub(crate) fn slots(&self) -> &[Slot] {
+        &self.system().slots
     }
     pub(crate) fn system(&self) -> &System {
         &self.stated.system
@@ -634,7 +620,10 @@ impl Plan {
         let row = |r: usize| {
             let place = self.relations[rows[r].relation as usize].first_row + rows[r].equation;
             equations.binary_search(&place).ok()?;
-            rows.mentions(r).iter().any(is_unknown).then(|| lower::problem_row(&rows, r))?
+            rows.mentions(r)
+                .iter()
+                .any(is_unknown)
+                .then(|| lower::problem_row(self.system(), &rows, r))?
         };
         Problem { rows: (0..rows.len()).filter_map(row).collect(), unknowns }
     }
@@ -644,15 +633,19 @@ impl Plan {
         let system = &self.stated.system;
         let rows = planned.first_row as usize..(planned.first_row + planned.rows) as usize;
         let stated = system.equations[rows].iter().flat_map(|e| system.arguments(e.arguments));
-        stated.chain(planned.opaque.iter().flatten()).copied()
+        let opaque = match &system.relations[relation as usize].body {
+            RelationBody::Equations(_) => &[][..],
+            RelationBody::Opaque { slots } => slots,
+        };
+        stated.chain(opaque).copied()
     }
     /// Returns true if something has no value yet that it could keep.
     pub fn opens(&self) -> bool {
-        self.slots.iter().any(|s| s.stay == Stay::Free)
+        self.slots().iter().any(|s| s.stay == Stay::Free)
     }
     /// Returns true if a whole number is unknown.
     pub(crate) fn has_whole_unknowns(&self) -> bool {
-        self.slots.iter().any(|s| s.is_number && s.is_discrete && s.stay != Stay::Fixed)
+        self.slots().iter().any(|s| s.is_number && s.is_discrete && s.stay != Stay::Fixed)
     }
     /// The plan in which every place may yield: for a state that does not hold, where those that
     /// structure lets yield cannot reach far enough. None where nothing more would yield.

@@ -12,7 +12,6 @@ use crate::residue::Residue;
 use crate::stated::Stated;
 use crate::substitute::Classes;
 use crate::system::{Level, MethodBody, Relation, RelationBody, SlotIndex, Span, Stay, System};
-use base::number::Tolerance;
 use base::scrambled;
 use expr::{LANES, Lanes};
 use std::collections::BTreeSet;
@@ -27,8 +26,6 @@ pub(crate) struct Row {
     pub(crate) equation: u32,
     /// The relation's level.
     pub(crate) level: Level,
-    /// The tolerance of its sides.
-    pub(crate) within: Tolerance,
     /// True if a derivative by a slot that it may write depends on one.
     pub(crate) curved: bool,
     /// Its kernel's place among those of all rows.
@@ -200,7 +197,6 @@ pub(crate) fn stated_rows(stated: &Stated, classes: &Classes) -> Rows {
             relation: r,
             equation: 0,
             level: relation.level,
-            within: relation.within,
             curved: false,
             kernel: OPAQUE,
             mentions: Span::default(),

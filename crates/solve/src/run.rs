@@ -125,7 +125,7 @@ pub fn run(
     fork::lean(plan, frame, buffers, leans, last);
     goal.clear();
     goal.extend_from_slice(&frame.x0);
-    for (i, slot) in plan.slots.iter().enumerate() {
+    for (i, slot) in plan.slots().iter().enumerate() {
         if slot.stay == Stay::Fixed && slot.is_number {
             goal[i] = came[i];
         }
@@ -291,7 +291,7 @@ impl Drag {
             return 1;
         }
         let scales = &self.runner.frame.scales;
-        let kind = |slot: SlotIndex| plan.slots[slot as usize].scale;
+        let kind = |slot: SlotIndex| plan.slots()[slot as usize].scale;
         let part = |(&input, to): (&SlotIndex, &f64)| {
             let alike = self.slice.targets.iter().filter(|&&t| kind(t) == kind(input)).count();
             let way = (to - self.now[input as usize]).abs() / scales[input as usize];
@@ -410,7 +410,7 @@ fn start(plan: &Plan, runner: &mut Runner, x0: &[f64], changed: &[SlotIndex]) {
     frame.changed_texts.clear();
     frame
         .changed_texts
-        .extend(changed.iter().copied().filter(|&c| !plan.slots[c as usize].is_number));
+        .extend(changed.iter().copied().filter(|&c| !plan.slots()[c as usize].is_number));
     buffers.sides.clear();
     buffers.sides.resize(plan.step_count(), Side::default());
     frame.held.clear();
@@ -442,7 +442,7 @@ fn required_rows_held(plan: &Plan, frame: &Frame, buffers: &mut Buffers) -> bool
 /// The extent of every class of slots that have a value; at least their size, one where all is zero.
 fn measure_scales(plan: &Plan, frame: &mut Frame) {
     let mut ranges = vec![(f64::INFINITY, f64::NEG_INFINITY); plan.scale_classes];
-    for (slot, &v) in plan.slots.iter().zip(&frame.x0) {
+    for (slot, &v) in plan.slots().iter().zip(&frame.x0) {
         if slot.is_number && slot.stay != Stay::Free {
             let range = &mut ranges[slot.scale as usize];
             *range = (range.0.min(v), range.1.max(v));
@@ -453,7 +453,8 @@ fn measure_scales(plan: &Plan, frame: &mut Frame) {
         *low = if extent.is_finite() && extent > 0.0 { extent } else { 1.0 };
     }
     frame.scales.clear();
-    frame.scales.extend(plan.slots.iter().map(|s| ranges[s.scale as usize].0 * s.share));
+    frame.scales.extend(plan.slots().iter().map(|s| ranges[s.scale as usize].0));
+    plan.shares.iter().for_each(|&(slot, share)| frame.scales[slot as usize] *= share);
 }
 
 /// Returns true if a step that runs even where everything holds changes no bit.
@@ -588,7 +589,7 @@ impl Way<'_> {
         };
         match self.part {
             Part::Whole => (0..goal.len())
-                .filter(|&i| self.plan.slots[i].stay == Stay::Fixed)
+                .filter(|&i| self.plan.slots()[i].stay == Stay::Fixed)
                 .for_each(&mut move_known),
             Part::Downstream(slice) => {
                 slice.inputs.iter().for_each(|&slot| move_known(slot as usize));

@@ -49,14 +49,14 @@ impl Slice {
 
     /// Finds it where each step is a row that is solved by formula.
     fn of_peeled(plan: &Plan, peeled: &Peeled, inputs: &[SlotIndex]) -> Self {
-        let mut is_reached = vec![false; plan.slots.len()];
+        let mut is_reached = vec![false; plan.slots().len()];
         for &slot in inputs {
             is_reached[slot as usize] = true;
         }
         let regions = Approachable::of(plan, peeled);
         let mut is_region_reached = vec![false; regions.lists.len()];
         let mut is_settled = vec![false; peeled.rows.len()];
-        let is_free = plan.slots.iter().any(|s| s.stay == Stay::Free);
+        let is_free = plan.slots().iter().any(|s| s.stay == Stay::Free);
         let mut made = Self { inputs: inputs.to_vec(), is_held: !is_free, ..Self::default() };
         let mut steps: Vec<u32> = Vec::with_capacity(peeled.order.len());
         for (index, &solved) in (0..).zip(&peeled.order) {
@@ -100,14 +100,14 @@ impl Slice {
 
     /// Finds it among steps of any kind.
     fn of_steps(plan: &Plan, inputs: &[SlotIndex]) -> Self {
-        let mut is_reached = vec![false; plan.slots.len()];
+        let mut is_reached = vec![false; plan.slots().len()];
         for &slot in inputs {
             is_reached[slot as usize] = true;
         }
         let mut is_region_reached = vec![false; plan.regions().len()];
         let writers = Writers::of(plan);
         let mut is_settled = vec![false; plan.system().equations.len()];
-        let is_free = plan.slots.iter().any(|s| s.stay == Stay::Free);
+        let is_free = plan.slots().iter().any(|s| s.stay == Stay::Free);
         let mut made = Self {
             inputs: inputs.to_vec(),
             is_held: !is_free && plan.shared_given.is_empty(),
@@ -116,7 +116,7 @@ impl Slice {
         let mut steps: Vec<u32> = Vec::new();
         for (index, step) in (0..).zip(plan.steps()) {
             if matches!(step.program, Program::Host { .. }) {
-                let texts = step.targets.iter().filter(|&&t| !plan.slots[t as usize].is_number);
+                let texts = step.targets.iter().filter(|&&t| !plan.slots()[t as usize].is_number);
                 made.texts.extend(texts);
                 made.has_host = true;
             }
@@ -153,7 +153,7 @@ impl Slice {
             let relation = &plan.relations[r as usize];
             let rows = relation.first_row as usize..(relation.first_row + relation.rows) as usize;
             made.relations.push(r);
-            if relation.opaque.is_some() {
+            if plan.opaque.binary_search(&r).is_ok() {
                 made.opaque.push(r);
             } else if !is_settled[rows].iter().all(|&settled| settled) {
                 tests.push(r);
@@ -182,8 +182,8 @@ impl Approachable {
         if soft.peek().is_none() {
             return Self { region_of: Vec::new(), lists: Lists::default() };
         }
-        let mut is_unknown = vec![false; plan.slots.len()];
-        let mut union = Union::new(plan.slots.len());
+        let mut is_unknown = vec![false; plan.slots().len()];
+        let mut union = Union::new(plan.slots().len());
         for &solved in &peeled.order {
             let target = peeled.target(solved);
             is_unknown[target as usize] = true;
@@ -193,13 +193,13 @@ impl Approachable {
             }
         }
         // how many unknowns a region has, and whether a row of it is curved
-        let mut sizes = vec![(0, false); plan.slots.len()];
+        let mut sizes = vec![(0, false); plan.slots().len()];
         for &solved in &peeled.order {
             let (count, is_curved) = &mut sizes[union.find(peeled.target(solved) as usize)];
             *count += 1;
             *is_curved |= !peeled.kernel(solved).is_linear();
         }
-        let mut number = vec![Self::NONE; plan.slots.len()];
+        let mut number = vec![Self::NONE; plan.slots().len()];
         let mut count = 0;
         for &solved in soft {
             let root = union.find(peeled.target(solved) as usize);
@@ -216,7 +216,7 @@ impl Approachable {
             true => number[union.find(s)],
             false => Self::NONE,
         };
-        let region_of: Vec<u32> = (0..plan.slots.len()).map(of).collect();
+        let region_of: Vec<u32> = (0..plan.slots().len()).map(of).collect();
         let pairs = region_of.iter().copied().zip(0..).filter(|p| p.0 != Self::NONE);
         let lists = Lists::new(count as usize, pairs);
         Self { region_of, lists }

@@ -77,7 +77,7 @@ pub(crate) struct Writers(Vec<u32>);
 
 impl Writers {
     pub(crate) fn of(plan: &Plan) -> Self {
-        let mut writer = vec![u32::MAX; plan.slots.len()];
+        let mut writer = vec![u32::MAX; plan.slots().len()];
         for (index, step) in (0..).zip(plan.steps()) {
             step.targets.iter().for_each(|&t| writer[t as usize] = index);
         }
@@ -99,8 +99,6 @@ struct Link<'p> {
     /// Which argument is computed.
     argument: u32,
     arguments: &'p [SlotIndex],
-    /// The place of its equation in the system, where it has nothing else to make hold.
-    row: u32,
 }
 
 impl Link<'_> {
@@ -125,27 +123,21 @@ impl<'p> Links<'p> {
             Self::Steps(plan, writers) => {
                 let step = &plan.steps()[index as usize];
                 let Program::Inverse(inverse) = &step.program else { return None };
-                let target = &plan.slots[step.targets[0] as usize];
+                let target = &plan.slots()[step.targets[0] as usize];
                 let is_plain = target.is_number && !target.is_discrete && inverse.roots() == 1;
                 let Inverse { row, argument, .. } = inverse;
-                let place = match step.rows[..] {
-                    [place] => place,
-                    _ => u32::MAX,
-                };
                 (is_plain && writers.are_before(plan, index)).then_some(Link {
                     kernel: &row.kernel,
                     argument: *argument,
                     arguments: &row.arguments,
-                    row: place,
                 })
             }
-            Self::Peeled(plan, peeled) => {
+            Self::Peeled(_, peeled) => {
                 let solved = peeled.order[index as usize];
                 Some(Link {
                     kernel: peeled.kernel(solved),
                     argument: solved.argument,
                     arguments: peeled.rows.mentions(solved.row as usize),
-                    row: plan.place_of_row(&peeled.rows, solved.row),
                 })
             }
         }
@@ -153,9 +145,28 @@ impl<'p> Links<'p> {
     fn link(self, index: u32) -> Link<'p> {
         self.get(index).expect("a stretch is made of steps that may be part of a strip")
     }
+    /// Returns the place of a step's equation in the system; none where it makes several hold.
+    fn row(self, index: u32) -> u32 {
+        match self {
+            Self::Steps(plan, _) => match plan.steps()[index as usize].rows[..] {
+                [row] => row,
+                _ => u32::MAX,
+            },
+            Self::Peeled(plan, peeled) => {
+                plan.place_of_row(&peeled.rows, peeled.order[index as usize].row)
+            }
+        }
+    }
+    /// Returns true if two steps may be part of one strip.
+    fn may_join(self, a: u32, b: u32) -> bool {
+        match self {
+            Self::Steps(..) => [a, b].iter().all(|&s| self.get(s).is_some()),
+            Self::Peeled(..) => true,
+        }
+    }
     fn slots(self) -> usize {
         match self {
-            Self::Steps(plan, _) | Self::Peeled(plan, _) => plan.slots.len(),
+            Self::Steps(plan, _) | Self::Peeled(plan, _) => plan.slots().len(),
         }
     }
 }
@@ -164,7 +175,7 @@ impl<'p> Links<'p> {
 pub(crate) fn portions(links: Links<'_>, steps: &[u32]) -> Vec<Portion> {
     let mut made = Vec::new();
     let mut level_of_slot = vec![0; links.slots()];
-    for stretch in steps.chunk_by(|&a, &b| [a, b].iter().all(|&s| links.get(s).is_some())) {
+    for stretch in steps.chunk_by(|&a, &b| links.may_join(a, b)) {
         match links.get(stretch[0]) {
             Some(_) if stretch.len() >= FEWEST => {
                 stretch_portions(links, stretch, &mut level_of_slot, &mut made);
@@ -237,7 +248,7 @@ fn strip(links: Links<'_>, steps: impl ExactSizeIterator<Item = u32>) -> Strip {
             target: link.target(),
             formula: formula as u32,
             first: strip.arguments.len() as u32,
-            row: link.row,
+            row: links.row(index),
         });
         strip.arguments.extend_from_slice(link.arguments);
     }

@@ -6,6 +6,7 @@
 use crate::few::Few;
 use crate::pattern::PatternId;
 use base::number::Tolerance;
+use std::hash::{Hash, Hasher};
 
 /// A slot of the system: an unknown or a known. It is also the `expr::Var` of the same number.
 pub type SlotIndex = u32;
@@ -169,7 +170,7 @@ pub struct Relation {
 /// One connected component.
 ///
 /// Relations stand in order of declaration; slots too.
-#[derive(Clone, PartialEq, Eq, Hash, Debug, Default)]
+#[derive(Clone, PartialEq, Eq, Debug, Default)]
 pub struct System {
     /// The slots.
     pub slots: Vec<Slot>,
@@ -179,6 +180,28 @@ pub struct System {
     pub equations: Vec<Equation>,
     /// The arguments of all equations and methods.
     pub arguments: Vec<SlotIndex>,
+}
+
+/// Looks at what tells systems apart as a rule, and at nothing else: large ones are looked up too.
+impl Hash for System {
+    fn hash<H: Hasher>(&self, state: &mut H) {
+        let mut pair = |a: u32, b: u32| state.write_u64(u64::from(a) << 32 | u64::from(b));
+        pair(self.slots.len() as u32, self.relations.len() as u32);
+        for slot in &self.slots {
+            let (kind, group) = match slot.stay {
+                Stay::Fixed => (0, 0),
+                Stay::Given => (1, 0),
+                Stay::Free => (2, 0),
+                Stay::Kept { group } => (3, group),
+            };
+            pair(kind, group);
+        }
+        self.relations.iter().for_each(|r| pair(r.level as u32, r.methods.len() as u32));
+        self.equations.iter().for_each(|e| pair(e.pattern.0, e.arguments.len));
+        let (pairs, rest) = self.arguments.as_chunks::<2>();
+        pairs.iter().for_each(|&[a, b]| pair(a, b));
+        rest.iter().for_each(|&a| pair(a, 0));
+    }
 }
 
 impl System {

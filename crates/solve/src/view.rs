@@ -72,7 +72,7 @@ pub(crate) fn exchanges(analysis: &Analysis<'_>, blocks: &Blocks) -> Vec<Exchang
 
 /// Whether a row has a formula of one solution for a slot.
 fn tells(analysis: &Analysis<'_>, row: usize, slot: SlotIndex) -> bool {
-    crate::lower::problem_row(analysis.rows, row)
+    crate::lower::problem_row(&analysis.stated.system, analysis.rows, row)
         .and_then(|row| Inverse::new(row, slot))
         .is_some_and(|inverse| inverse.roots() == 1)
 }

@@ -80,7 +80,7 @@ impl Attempt<'_> {
         buffers.approached.clear();
         let set_out = values.to_vec();
         begin(plan, self.frame, values, buffers);
-        let mut writer = vec![None; plan.slots.len()];
+        let mut writer = vec![None; plan.slots().len()];
         let mut branching = 0;
         for (i, step) in plan.steps().iter().enumerate() {
             step.targets.iter().for_each(|&t| writer[t as usize] = Some(i));

@@ -23,7 +23,7 @@ impl Attempt<'_> {
         buffers: &mut Buffers,
         host: &mut dyn Host,
     ) -> bool {
-        for (i, slot) in self.plan.slots.iter().enumerate() {
+        for (i, slot) in self.plan.slots().iter().enumerate() {
             if slot.stay != Stay::Fixed {
                 values[i] = self.last[i];
             }

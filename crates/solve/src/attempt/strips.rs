@@ -79,7 +79,7 @@ impl Run<'_> {
         let is_still =
             |&s: &SlotIndex| s == row.target || self.buffers.motion[s as usize] == Motion::Still;
         let held = self.frame.held.get(row.row as usize).map(Cell::get);
-        let has_value = self.plan.slots[target].stay != Stay::Free;
+        let has_value = self.plan.slots()[target].stay != Stay::Free;
         if held != Some(Held::Yes) || !has_value || !arguments.iter().all(is_still) {
             return self.alone(row);
         }
