@@ -87,6 +87,8 @@ pub type Lanes = [f64; LANES];
 
 /// What a register holds: one number, or one of each set.
 trait Word: Copy {
+    /// True where it is kept at hand rather than read again.
+    const IS_SHORT: bool;
     /// The same number in every set.
     fn of(x: f64) -> Self;
     fn map(self, f: impl Fn(f64) -> f64) -> Self;
@@ -96,6 +98,7 @@ trait Word: Copy {
 }
 
 impl Word for f64 {
+    const IS_SHORT: bool = true;
     fn of(x: f64) -> Self {
         x
     }
@@ -111,6 +114,7 @@ impl Word for f64 {
 }
 
 impl Word for Lanes {
+    const IS_SHORT: bool = false;
     fn of(x: f64) -> Self {
         [x; LANES]
     }
@@ -562,15 +566,22 @@ fn run_mixed<W: Word>(registers: &mut [W], first: usize, operations: &[Mixed]) {
             }
         };
     }
+    // what was written last is at hand before it can be read, which a chain waits for
+    let (mut written, mut last) = (usize::MAX, W::of(0.0));
     for (i, Mixed { operation, operands }) in operations.iter().enumerate() {
-        let at = |operand: usize| registers[operands[operand] as usize];
-        registers[first + i] = each!(
+        let at = |operand: usize| match operands[operand] as usize {
+            register if W::IS_SHORT && register == written => last,
+            register => registers[register],
+        };
+        last = each!(
             *operation,
             at,
             [Neg Abs Sqrt Sin Cos Tan Asin Acos Atan Exp Ln Floor Round Sign Not],
             [Add Sub Mul Div Pow Atan2 Min Max Remainder Less LessEqual Equal NotEqual And Or],
             at(0).choose(at(1), at(2))
         );
+        written = first + i;
+        registers[written] = last;
     }
 }
 

@@ -52,6 +52,8 @@ pub(crate) struct Acceptance {
     pub(crate) factored: Vec<Factored>,
     /// A slot for every row, where all were accepted by matching at once.
     pub(crate) matched: Option<Matched>,
+    /// The slots of every place that may be held, by its group, over representatives.
+    pub(crate) places: Lists,
 }
 
 /// A slot of its own for every row, among those that may move.
@@ -164,6 +166,7 @@ pub(crate) fn accept(system: &System, classes: &Classes, rows: &Rows) -> Accepta
         });
     }
     count(system, classes, &mut out);
+    out.places = asked.all_places;
     out
 }
 
@@ -269,7 +272,7 @@ fn apart(
 /// Returns the slots of every place that may be held, by its group, over representatives.
 ///
 /// A coordinate that equals an earlier or firmer one has yielded, and its place with it.
-pub(crate) fn places(system: &System, classes: &Classes) -> Lists {
+fn places(system: &System, classes: &Classes) -> Lists {
     let grouped = || {
         (0..).zip(&system.slots).filter_map(|(s, slot)| match slot.stay {
             Stay::Kept { group } => Some((group, classes.representative[s as usize])),

@@ -1,7 +1,7 @@
 //! Lists by number: what belongs to each of several numbers, one list after the other.
 
 /// A list of numbers for every one of several numbers.
-#[derive(Debug)]
+#[derive(Clone, PartialEq, Eq, Debug)]
 pub(crate) struct Lists {
     first: Vec<u32>,
     items: Vec<u32>,

@@ -164,13 +164,16 @@ pub(crate) fn lower(analysis: &Analysis<'_>, blocks: &Blocks) -> Lowered {
         let program = Program::Constant(f64::from_bits(bits));
         steps.push(alias(told(&equalities, slot), slot, program, Few::default()));
     }
-    let region_of = regions_of(analysis, blocks);
+    // where every row is required nothing is approached
+    let is_soft = |r: usize| analysis.rows[r].level != Level::Required;
+    let has_soft = (0..analysis.rows.len()).any(is_soft);
+    let region_of = if has_soft { regions_of(analysis, blocks) } else { Vec::new() };
     let mut work = Work::default();
-    for (block, &region) in blocks.iter().zip(&region_of) {
+    for (b, block) in blocks.iter().enumerate() {
         let first = steps.len();
         lower_block(analysis, block, &mut work, &mut steps);
-        for step in &mut steps[first..] {
-            step.region = region;
+        if let Some(&region) = region_of.get(b) {
+            steps[first..].iter_mut().for_each(|step| step.region = region);
         }
     }
     for (root, members) in classes.members() {
@@ -210,7 +213,7 @@ pub(crate) fn problem_row(system: &System, rows: &Rows, row: usize) -> Option<Pr
     Some(ProblemRow { kernel, arguments, level, within })
 }
 
-/// Numbers the regions by their first block.
+/// Numbers the regions by their first block: for every block, that in which it lies.
 fn regions_of(analysis: &Analysis<'_>, blocks: &Blocks) -> Vec<u32> {
     const NONE: u32 = u32::MAX;
     let mut block_of_slot = vec![NONE; analysis.stated.system.slots.len()];

@@ -163,6 +163,15 @@ fn components(incidence: &Incidence<'_>, union: &mut Union) -> Blocks {
         }
         node_of_row.push(*node);
     }
+    if nodes == 1 {
+        let is_united = |&s: &SlotIndex| {
+            incidence.unknown[s as usize] && node_of_root[union.find(n + s as usize)] != NONE
+        };
+        let slots = (0..incidence.unknown.len() as u32).filter(is_united);
+        let mut blocks = Blocks::default();
+        blocks.add(incidence.taking_part.iter().copied(), slots);
+        return blocks;
+    }
     let node_of_slot: Vec<u32> = incidence
         .unknown
         .iter()

@@ -71,7 +71,7 @@ pub struct Step {
     /// The relations that it makes hold, by index in the system.
     pub relations: Few,
     pub(crate) program: Program,
-    /// Which region it lies in; regions share no unknown.
+    /// Which region it lies in; regions share no unknown. Where every row is required there are none.
     pub(crate) region: u32,
     /// The rows that it makes hold, by the places of their equations in the system.
     pub(crate) rows: Few,

@@ -8,7 +8,7 @@
 //! rows (midpoints, alignments, offsets), and a place that lies on a line through others, wherever they are:
 //! these tie nothing; nor does a row that determines a lone number.
 
-use crate::accept::{Acceptance, places};
+use crate::accept::Acceptance;
 use crate::direct::Direction;
 use crate::lists::Lists;
 use crate::rows::Rows;
@@ -31,7 +31,8 @@ pub(crate) fn tie(
     if !acceptance.accepted.iter().any(may_tie) {
         return false;
     }
-    let places = places(system, classes);
+    let free = with_freedom(rows, direction, acceptance);
+    let Acceptance { places, unknown, accepted, .. } = acceptance;
     let place = |slot: SlotIndex| match classes.stay[slot as usize] {
         Stay::Kept { group } => {
             let place = places.of(group);
@@ -39,12 +40,10 @@ pub(crate) fn tie(
         }
         Stay::Fixed | Stay::Given | Stay::Free => &[],
     };
-    let free = with_freedom(rows, direction, acceptance);
     let mut tied = false;
-    for &r in &acceptance.accepted {
+    for &r in &*accepted {
         let row = rows[r];
-        let stays =
-            |&(c, _): &(SlotIndex, f64)| !acceptance.unknown[c as usize] && !place(c).is_empty();
+        let stays = |&(c, _): &(SlotIndex, f64)| !unknown[c as usize] && !place(c).is_empty();
         let Some(slot) = direction.slot_of_row[r] else { continue };
         let is_stiff = row.curved
             && !free[slot as usize]
@@ -56,7 +55,7 @@ pub(crate) fn tie(
         }
         for &(c, _) in rows.columns(r) {
             for &s in place(c) {
-                acceptance.unknown[s as usize] = true;
+                unknown[s as usize] = true;
                 tied = true;
             }
         }
