@@ -38,7 +38,7 @@ pub(crate) fn lean(
     if leans.is_empty() {
         return;
     }
-    for step in plan.steps() {
+    for step in plan.branching() {
         let Some(square) = forking(&step.program) else { continue };
         for lean in leans.iter().filter(|l| step.targets.contains(&l.slot)) {
             let slot = lean.slot as usize;
@@ -72,7 +72,7 @@ pub(crate) fn leaning(
     let Buffers { work, square: scratch, .. } = buffers;
     let scales = &frame.scales;
     let mut found = Vec::new();
-    for square in plan.steps().iter().filter_map(|step| forking(&step.program)) {
+    for square in plan.branching().iter().filter_map(|step| forking(&step.program)) {
         let Some(open) = square.fork(after, scales, work, scratch) else { continue };
         let sign = square.orientation(&before, scales, work, scratch);
         let mut lies = |by: f64| {
@@ -104,7 +104,7 @@ pub(crate) fn asides(
     let Buffers { work, square: scratch, .. } = buffers;
     let scales = &frame.scales;
     let mut found = Vec::new();
-    for square in plan.steps().iter().filter_map(|step| forking(&step.program)) {
+    for square in plan.branching().iter().filter_map(|step| forking(&step.program)) {
         let Some(open) = square.fork(state, scales, work, scratch) else { continue };
         let Some(core) = most_open(&open) else { continue };
         let slot = square.slot(core) as SlotIndex;

@@ -42,6 +42,8 @@ struct Way {
     is_formula: bool,
     /// True if it is one side of the equation.
     is_stated: bool,
+    /// True if the kernel is curved.
+    is_curved: bool,
 }
 
 impl Peeled {
@@ -56,6 +58,10 @@ impl Peeled {
     /// Returns true if the row holds once it has been solved: what it determines is one of its sides.
     pub(crate) fn is_stated(&self, solved: Solved) -> bool {
         self.way(solved).is_stated
+    }
+    /// Returns true if a derivative of the row depends on what it speaks of.
+    pub(crate) fn is_curved(&self, solved: Solved) -> bool {
+        self.way(solved).is_curved
     }
     /// Returns true if every row has one formula for a number that need not be whole.
     pub(crate) fn is_by_formula(&self, system: &System) -> bool {
@@ -84,7 +90,8 @@ pub(crate) fn peel(system: &System, classes: &Classes, rows: Rows) -> Found {
     let mut ways = Vec::new();
     for kernel in rows.kernels() {
         first.push(ways.len() as u32);
-        ways.extend((0..kernel.arity()).map(|_| Way::default()));
+        let way = Way { is_curved: !kernel.is_linear(), ..Way::default() };
+        ways.extend((0..kernel.arity()).map(|_| way));
         let own = ways.len() - kernel.arity();
         kernel.shown().for_each(|argument| ways[own + argument as usize].shows = true);
     }

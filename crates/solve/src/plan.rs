@@ -544,6 +544,13 @@ impl Plan {
     pub fn steps(&self) -> &[Step] {
         &self.lowered().steps
     }
+    /// Returns the steps, if some may have several solutions.
+    pub(crate) fn branching(&self) -> &[Step] {
+        match self.peeled() {
+            Some(_) => &[],
+            None => self.steps(),
+        }
+    }
     /// Returns how many steps there are.
     pub fn step_count(&self) -> usize {
         self.peeled().map_or_else(|| self.steps().len(), |peeled| peeled.order.len())

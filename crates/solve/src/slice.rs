@@ -62,9 +62,7 @@ impl Slice {
         for (index, &solved) in (0..).zip(&peeled.order) {
             let mentions = peeled.rows.mentions(solved.row as usize);
             let target = mentions[solved.argument as usize];
-            // nothing has reached what it determines but a region that was reached
-            let reads = |&&s: &&SlotIndex| s != target && is_reached[s as usize];
-            if mentions.iter().find(reads).is_none() {
+            if !mentions.iter().any(|&s| s != target && is_reached[s as usize]) {
                 continue;
             }
             steps.push(index);
@@ -192,19 +190,20 @@ impl Approachable {
                 union.unite(target as usize, s as usize);
             }
         }
-        // how many unknowns a region has, and whether a row of it is curved
-        let mut sizes = vec![(0, false); plan.slots().len()];
+        // how many unknowns a region has, and which have a curved row
+        let mut sizes = vec![0_u32; plan.slots().len()];
+        let mut is_curved = vec![false; plan.slots().len()];
         for &solved in &peeled.order {
-            let (count, is_curved) = &mut sizes[union.find(peeled.target(solved) as usize)];
-            *count += 1;
-            *is_curved |= !peeled.kernel(solved).is_linear();
+            let root = union.find(peeled.target(solved) as usize);
+            sizes[root] += 1;
+            is_curved[root] |= peeled.is_curved(solved);
         }
         let mut number = vec![Self::NONE; plan.slots().len()];
         let mut count = 0;
         for &solved in soft {
             let root = union.find(peeled.target(solved) as usize);
-            let (unknowns, is_curved) = sizes[root];
-            if is_within_reach(unknowns, !is_curved) && number[root] == Self::NONE {
+            let is_near = is_within_reach(sizes[root] as usize, !is_curved[root]);
+            if is_near && number[root] == Self::NONE {
                 number[root] = count;
                 count += 1;
             }

@@ -175,10 +175,12 @@ impl<'p> Links<'p> {
 pub(crate) fn portions(links: Links<'_>, steps: &[u32]) -> Vec<Portion> {
     let mut made = Vec::new();
     let mut level_of_slot = vec![0; links.slots()];
+    // the highest level of the stretches before: what comes from there is on the ground
+    let mut ground = 0;
     for stretch in steps.chunk_by(|&a, &b| links.may_join(a, b)) {
         match links.get(stretch[0]) {
             Some(_) if stretch.len() >= FEWEST => {
-                stretch_portions(links, stretch, &mut level_of_slot, &mut made);
+                ground = stretch_portions(links, stretch, ground, &mut level_of_slot, &mut made);
             }
             Some(_) | None => made.extend(stretch.iter().map(|&s| Portion::Step(s))),
         }
@@ -186,19 +188,21 @@ pub(crate) fn portions(links: Links<'_>, steps: &[u32]) -> Vec<Portion> {
     made
 }
 
+/// Puts a stretch of formulas together; returns its highest level.
 fn stretch_portions(
     links: Links<'_>,
     stretch: &[u32],
+    ground: u32,
     level_of_slot: &mut [u32],
     made: &mut Vec<Portion>,
-) {
+) -> u32 {
     let mut formulas: Vec<(*const Kernel, u32)> = Vec::new();
     let mut rows: Vec<(u32, u32, u32)> = Vec::with_capacity(stretch.len());
     for &index in stretch {
         let link = links.link(index);
         // what it computes itself has none yet
         let levels = link.arguments.iter().map(|&r| level_of_slot[r as usize]);
-        let level = levels.max().unwrap_or(0) + 1;
+        let level = levels.fold(ground, u32::max) + 1;
         level_of_slot[link.target() as usize] = level;
         let own = (Rc::as_ptr(link.kernel), link.argument);
         let from = formulas.len().saturating_sub(FAR);
@@ -209,13 +213,10 @@ fn stretch_portions(
         }
         rows.push((level, formula as u32, index));
     }
-    for &index in stretch {
-        level_of_slot[links.link(index).target() as usize] = 0;
-    }
-    let levels = rows.iter().map(|r| r.0).max().unwrap_or(0) as usize;
-    if rows.len() < levels * NARROWEST {
+    let highest = rows.iter().map(|r| r.0).max().unwrap_or(ground);
+    if rows.len() < (highest - ground) as usize * NARROWEST {
         made.push(Portion::InTurn(strip(links, stretch.iter().copied())));
-        return;
+        return highest;
     }
     rows.sort_unstable();
     for group in rows.chunk_by(|a, b| (a.0, a.1) == (b.0, b.1)) {
@@ -226,6 +227,7 @@ fn stretch_portions(
             made.extend(steps.map(Portion::Step));
         }
     }
+    highest
 }
 
 fn strip(links: Links<'_>, steps: impl ExactSizeIterator<Item = u32>) -> Strip {

@@ -6,6 +6,7 @@ mod contradictions;
 mod drags;
 mod idle;
 mod measure;
+mod peeled;
 mod random;
 mod reach;
 mod roots;
