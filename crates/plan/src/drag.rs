@@ -27,8 +27,7 @@ pub struct Press {
 #[derive(Debug)]
 struct Pull {
     task: Task,
-    /// The task as it was planned, where whole numbers or pieces that are looked for may put it into another
-    /// mode.
+    /// The task as it was planned, where whole numbers or pieces that were looked for put it into another mode.
     planned: Option<Box<Task>>,
     way: Way,
     /// The numbers at the press, by the slots of the system.
@@ -196,9 +195,7 @@ impl Planner {
             }
             Course::Search(puzzle) => (Way::Search(puzzle.clone()), Vec::new()),
         };
-        let may_change = task.whole().is_some() || task.pieces().is_some();
-        let planned = may_change.then(|| Box::new(task.clone()));
-        Pull { task, planned, way, x0, texts, targets }
+        Pull { task, planned: None, way, x0, texts, targets }
     }
 }
 
@@ -224,8 +221,8 @@ impl Pull {
         for (target, &(_, wish, coordinate)) in self.targets.iter_mut().zip(self.task.targets()) {
             *target = aim.wanted[wish as usize][coordinate as usize];
         }
-        if let Some(planned) = &self.planned {
-            self.task.clone_from(planned);
+        if let Some(planned) = self.planned.take() {
+            self.task = *planned;
         }
         let targets = &self.targets;
         let drag = match &mut self.way {
@@ -233,7 +230,7 @@ impl Pull {
             Way::Modes(drag) => {
                 let ran = drag.follow(planner, model, &mut self.task, targets, values, host);
                 let ran = self.or_otherwise(planner, model, ran, values, host);
-                return note(report, &mut self.task, ran);
+                return self.note(report, ran);
             }
             Way::Search(puzzle) => {
                 let mut wanted = self.x0.clone();
@@ -267,8 +264,14 @@ impl Pull {
         if !outcome.is_solved() || !outcome.unmet.is_empty() || self.task.whole().is_some() {
             let ran = ran(planner, &self.task, &outcome);
             let ran = self.or_otherwise(planner, model, ran, values, host);
-            note(report, &mut self.task, ran);
+            self.note(report, ran);
         }
+    }
+
+    /// Adds what came of a wish; the next one is for the task as it was planned.
+    fn note(&mut self, report: &mut EditReport, ran: Ran) {
+        self.planned = ran.stands.is_some().then(|| Box::new(self.task.clone()));
+        note(report, &mut self.task, ran);
     }
 
     /// Looks for other pieces of equations where the drag comes to no end on those at hand, and for whole
@@ -281,7 +284,7 @@ impl Pull {
         values: &mut Values,
         host: &mut dyn Host,
     ) -> Ran {
-        if self.task.whole().is_none() && self.task.pieces().is_none() {
+        if ran.is_solved && !ran.is_missed && self.task.whole().is_none() {
             return ran;
         }
         let inputs: Vec<SlotIndex> = self.task.targets().iter().map(|t| t.0).collect();

@@ -9,8 +9,7 @@ use crate::whole::Whole;
 use base::Mixer;
 use indexmap::IndexMap;
 use indexmap::map::Entry;
-use solve::pieces;
-use solve::{Conditional, Level, Mode, Modes, Patterns, Plan, Puzzle, SlotIndex, Stay, System};
+use solve::{Conditional, Mode, Modes, Patterns, Plan, Puzzle, SlotIndex, Stay, System};
 use std::cell::RefCell;
 use std::hash::BuildHasherDefault;
 use std::rc::Rc;
@@ -112,19 +111,6 @@ impl Plans {
         let modes = Rc::new(Modes::new(stated.clone(), &mut self.patterns));
         self.modes.insert(stated, modes.clone());
         modes
-    }
-    /// Returns what a system is with its equations taken apart that have pieces, where wishes have to be met;
-    /// nothing where none has.
-    pub(crate) fn pieces(
-        &mut self,
-        stated: &Conditional,
-        is_wish: &dyn Fn(u32) -> bool,
-    ) -> Option<Rc<Modes>> {
-        let mut apart = pieces::taken_apart(stated, &mut self.patterns)?;
-        for wish in apart.system.relations.iter_mut().filter(|r| is_wish(r.source)) {
-            wish.level = Level::Required;
-        }
-        Some(self.modes(apart))
     }
     /// Returns how whole numbers among the real unknowns of a system are looked for.
     pub(crate) fn whole(&mut self, stated: Conditional) -> Rc<Whole> {

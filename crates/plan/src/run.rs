@@ -73,10 +73,10 @@ pub(crate) fn or_pieces(
     values: &mut Values,
     host: &mut dyn Host,
 ) -> Ran {
-    let Some(modes) = task.pieces() else { return ran };
     if ran.is_solved && !ran.is_missed || ran.failure.is_some() {
         return ran;
     }
+    let Some(modes) = task.pieces(planner.plans.patterns()) else { return ran };
     let texts = values.texts.clone();
     let numbers: Vec<f64> = task.numbers(&values.numbers).collect();
     let how = (modes, solve::decide_pieces as _);

@@ -13,6 +13,7 @@ use base::{IdVec, Mixer};
 use expr::Dimension;
 use indexmap::IndexMap;
 use kernel::{Primitive, SlotId, Structure};
+use solve::pieces::taken_apart;
 use solve::{
     Condition, Conditional, Demand, DemandKind, Few, Guard, Level, Method, MethodBody, Mode, Modes,
     Patterns, Plan, Puzzle, Relation, RelationBody, SlotIndex, SlotRange, Span, Stay, System,
@@ -91,8 +92,9 @@ struct Stated {
     number: Option<u32>,
     /// How its whole numbers are looked for, where some are among real unknowns.
     whole: Option<Rc<Whole>>,
-    /// What it is with every equation with an `if` taken apart, where some have.
-    pieces: Option<Rc<Modes>>,
+    /// What it is with every equation with an `if` taken apart, where some have; found when first asked
+    /// for.
+    pieces: OnceCell<Option<Rc<Modes>>>,
     /// The component's slots that can move while nothing is edited; found when first asked for.
     movable: OnceCell<Vec<SlotIndex>>,
     /// The rows that may depend on others at some state; found when first asked for.
@@ -196,14 +198,10 @@ fn state(
     making.ranges();
     let Making { conditional, holds, targets, relations, .. } = making;
     let whole = whole::stated(&conditional).then(|| plans.whole(conditional.clone()));
-    let is_wish = |source: u32| matches!(relations[source as usize], Origin::Wish(_));
-    let pieces = match whole {
-        Some(_) => None,
-        None => plans.pieces(&conditional, &is_wish),
-    };
+    plans.patterns_mut().take_apart();
     let (system, plan, course, number) = course(plans, conditional);
     let number = number.filter(|_| whole.is_none() && !has_host(&system));
-    let (movable, core, at_rest) = Default::default();
+    let (pieces, movable, core, at_rest) = Default::default();
     let stated =
         Stated { holds, targets, relations, number, whole, pieces, movable, core, at_rest };
     (system, plan, course, Rc::new(stated))
@@ -585,9 +583,28 @@ impl Task {
     pub(crate) fn whole(&self) -> Option<&Rc<Whole>> {
         self.stated.whole.as_ref()
     }
-    /// Returns what it is with every equation with an `if` taken apart, where some have.
-    pub(crate) fn pieces(&self) -> Option<&Rc<Modes>> {
-        self.stated.pieces.as_ref()
+    /// Returns what it is with every equation with an `if` taken apart, where some have one, and wishes have to
+    /// be met.
+    pub(crate) fn pieces(&self, patterns: &Patterns) -> Option<&Rc<Modes>> {
+        let find = || {
+            let stated = match &self.course {
+                _ if self.whole().is_some() => return None,
+                Course::Search(_) => return None,
+                Course::Modes(modes, _) => modes.conditional().clone(),
+                Course::Plan => {
+                    Conditional { system: (*self.system).clone(), ..Conditional::default() }
+                }
+            };
+            let mut apart = taken_apart(&stated, patterns)?;
+            for relation in &mut apart.system.relations {
+                match self.stated.relations[relation.source as usize] {
+                    Origin::Wish(_) => relation.level = Level::Required,
+                    Origin::Rule(_) => {}
+                }
+            }
+            Modes::known(apart, patterns).map(Rc::new)
+        };
+        self.stated.pieces.get_or_init(find).as_ref()
     }
     /// Returns the number of its plan, where what that comes to depends on numbers alone.
     pub(crate) fn number(&self) -> Option<u32> {

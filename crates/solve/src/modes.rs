@@ -112,30 +112,40 @@ pub enum Standing {
 impl Modes {
     /// Takes a conditional system apart. Values play no part in it.
     pub fn new(conditional: Conditional, patterns: &mut Patterns) -> Self {
+        let made = Self::with(conditional, Interning::Adding(patterns));
+        made.expect("what is not there is added")
+    }
+
+    /// Takes a conditional system apart, if all that its demands say has been met.
+    pub fn known(conditional: Conditional, patterns: &Patterns) -> Option<Self> {
+        Self::with(conditional, Interning::Finding(patterns))
+    }
+
+    fn with(conditional: Conditional, patterns: Interning<'_>) -> Option<Self> {
         let mut making = Making { patterns, comparisons: Vec::new(), choices: Vec::new() };
         let mut wants = Vec::new();
         let system = &conditional.system;
         for demand in &conditional.demands {
             let mut arena = Arena::new();
             let slots = system.arguments(demand.arguments);
-            let roots = making.patterns.get(demand.pattern).write_out(&mut arena, slots);
+            let roots = making.patterns.all().get(demand.pattern).write_out(&mut arena, slots);
             let truth = match demand.kind {
                 DemandKind::True => truth(&mut arena, roots[0], true),
                 DemandKind::Different => all_differ(&roots),
             };
             let relation = demand.relation;
             let within = system.relations[relation as usize].within;
-            let tree = making.tree(&mut arena, relation, within, truth);
+            let tree = making.tree(&mut arena, relation, within, truth)?;
             wants.push(Want { relation, tree });
         }
         let conditions = conditional.conditions.iter().map(|c| Formula {
-            pattern: making.patterns.get(c.pattern).clone(),
+            pattern: making.patterns.all().get(c.pattern).clone(),
             arguments: system.arguments(c.arguments).to_vec(),
         });
         let conditions = conditions.collect();
         let Making { comparisons, choices, .. } = making;
         let scratch = RefCell::default();
-        Self { conditional, wants, comparisons, conditions, choices, scratch }
+        Some(Self { conditional, wants, comparisons, conditions, choices, scratch })
     }
 
     /// Returns the mode before any value is known.
@@ -438,27 +448,65 @@ fn choices_of(tree: &Tree, choices: &mut BTreeSet<u32>) {
     }
 }
 
+/// Adds the patterns of the comparisons that a Bool expression asks for.
+pub(crate) fn add(patterns: &mut Patterns, pattern: PatternId) {
+    let mut arena = patterns.get(pattern).arena().clone();
+    let truth = truth(&mut arena, patterns.get(pattern).roots()[0], true);
+    let patterns = Interning::Adding(patterns);
+    let mut making = Making { patterns, comparisons: Vec::new(), choices: Vec::new() };
+    making.tree(&mut arena, 0, Tolerance::Relative, truth);
+}
+
+/// How patterns are come by.
+enum Interning<'p> {
+    Adding(&'p mut Patterns),
+    /// None is added.
+    Finding(&'p Patterns),
+}
+
+impl Interning<'_> {
+    fn all(&self) -> &Patterns {
+        match self {
+            Self::Adding(patterns) => patterns,
+            Self::Finding(patterns) => patterns,
+        }
+    }
+    fn intern(&mut self, arena: &Arena, roots: &[ExprId]) -> Option<(PatternId, Vec<Var>)> {
+        match self {
+            Self::Adding(patterns) => Some(patterns.intern(arena, roots)),
+            Self::Finding(patterns) => patterns.find(arena, roots),
+        }
+    }
+}
+
 struct Making<'p> {
-    patterns: &'p mut Patterns,
+    patterns: Interning<'p>,
     comparisons: Vec<Sides>,
     choices: Vec<(u32, u32)>,
 }
 
 impl Making<'_> {
-    fn tree(&mut self, arena: &mut Arena, relation: u32, within: Tolerance, truth: Truth) -> Tree {
-        match truth {
-            Truth::Holds(c) => Tree::Holds(self.comparison(arena, relation, within, c)),
+    /// Returns nothing where a pattern is to be found that is not there.
+    fn tree(
+        &mut self,
+        arena: &mut Arena,
+        relation: u32,
+        within: Tolerance,
+        truth: Truth,
+    ) -> Option<Tree> {
+        Some(match truth {
+            Truth::Holds(c) => Tree::Holds(self.comparison(arena, relation, within, c)?),
             Truth::All(parts) => {
                 let parts = parts.into_iter().map(|p| self.tree(arena, relation, within, p));
-                Tree::All(parts.collect())
+                Tree::All(parts.collect::<Option<_>>()?)
             }
             Truth::Any(parts) => {
                 let choice = self.choices.len() as u32;
                 self.choices.push((relation, parts.len() as u32));
                 let ways = parts.into_iter().map(|p| self.tree(arena, relation, within, p));
-                Tree::Any { choice, ways: ways.collect() }
+                Tree::Any { choice, ways: ways.collect::<Option<_>>()? }
             }
-        }
+        })
     }
 
     fn comparison(
@@ -467,22 +515,22 @@ impl Making<'_> {
         relation: u32,
         within: Tolerance,
         c: Comparison,
-    ) -> u32 {
-        let (pattern, variables) = self.patterns.intern(arena, &[c.left, c.right]);
+    ) -> Option<u32> {
+        let (pattern, variables) = self.patterns.intern(arena, &[c.left, c.right])?;
         let sides = Formula {
-            pattern: self.patterns.get(pattern).clone(),
+            pattern: self.patterns.all().get(pattern).clone(),
             arguments: variables.into_iter().map(|v| v.0).collect(),
         };
         let right = match c.comparing {
             Comparing::Less => short_of(arena, c.right, 2.0 * RULE_TOLERANCE),
             Comparing::Equal | Comparing::AtMost | Comparing::Differ => c.right,
         };
-        let (bound, variables) = self.patterns.intern(arena, &[c.left, right]);
+        let (bound, variables) = self.patterns.intern(arena, &[c.left, right])?;
         let arguments = variables.into_iter().map(|v| v.0).collect();
         let comparing = c.comparing;
         let made = Sides { relation, comparing, within, sides, bound, arguments };
         self.comparisons.push(made);
-        self.comparisons.len() as u32 - 1
+        Some(self.comparisons.len() as u32 - 1)
     }
 }
 

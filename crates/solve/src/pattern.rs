@@ -269,12 +269,13 @@ impl indexmap::Equivalent<Interned> for Excerpt {
 #[derive(Debug)]
 pub struct Patterns {
     all: IndexSet<Interned, BuildHasherDefault<Mixer>>,
-    have_pieces: bool,
+    /// Equations that have pieces, and of which it is not known yet what they are taken apart.
+    whole: Vec<PatternId>,
 }
 
 impl Default for Patterns {
     fn default() -> Self {
-        let mut patterns = Self { all: IndexSet::default(), have_pieces: false };
+        let mut patterns = Self { all: IndexSet::default(), whole: Vec::new() };
         let mut arena = Arena::for_nodes(2);
         let (a, b) = (arena.var(Var(0)), arena.var(Var(1)));
         patterns.intern(&arena, &[a, b]);
@@ -294,7 +295,9 @@ impl Patterns {
             Some(index) => index,
             None => {
                 let pattern = Pattern::new(excerpt);
-                self.have_pieces |= pattern.has_pieces;
+                if pattern.has_pieces && pattern.roots().len() == 2 {
+                    self.whole.push(PatternId::from_index(self.all.len()));
+                }
                 self.all.insert_full(Interned(Rc::new(pattern))).0
             }
         };
@@ -317,9 +320,24 @@ impl Patterns {
     pub fn get(&self, id: PatternId) -> &Rc<Pattern> {
         &self.all[id.index()].0
     }
-    /// Returns true if any says another expression here than there.
-    pub(crate) fn have_pieces(&self) -> bool {
-        self.have_pieces
+    /// Finds the pattern of these expressions, if there is one; returns it and the variables that are its
+    /// arguments.
+    pub(crate) fn find(&self, arena: &Arena, roots: &[ExprId]) -> Option<(PatternId, Vec<Var>)> {
+        let (excerpt, variables) = arena.excerpt(roots);
+        let index = self.all.get_index_of(&excerpt)?;
+        Some((PatternId::from_index(index), variables))
+    }
+    /// Adds the patterns of what equations with an `if` are taken apart into, of those that came since this was
+    /// last done, so that [`crate::pieces::taken_apart`] finds them.
+    pub fn take_apart(&mut self) {
+        if self.whole.is_empty() {
+            return;
+        }
+        for pattern in std::mem::take(&mut self.whole) {
+            pieces::add(self, pattern);
+        }
+        // their own parts are not taken apart
+        self.whole.clear();
     }
     /// Returns how many patterns there are.
     pub fn len(&self) -> usize {

@@ -7,11 +7,13 @@
 //! `y = max(a, b)` says `b <= a and y = a or a <= b and y = b`.
 
 use crate::conditional::{Conditional, Demand, DemandKind};
-use crate::pattern::{PatternId, Patterns};
+use crate::modes;
+use crate::pattern::{Pattern, PatternId, Patterns};
 use crate::system::{Equation, RelationBody};
 use base::Id;
 use expr::{Arena, Binary, ExprId, Node, Unary, Var};
 use std::collections::BTreeMap;
+use std::collections::btree_map::Entry;
 
 /// An equation is taken apart into so many pieces at most; what is left of it stays whole.
 const MOST_PIECES: u32 = 64;
@@ -35,29 +37,29 @@ fn is_piecewise(node: Node) -> bool {
 }
 
 /// Takes the equations of a system apart that have pieces. Returns nothing where none has, or too many
-/// have.
-pub fn taken_apart(stated: &Conditional, patterns: &mut Patterns) -> Option<Conditional> {
-    if !patterns.have_pieces() || stated.is_searched() {
-        return None;
-    }
+/// have, or where [`Patterns::take_apart`] did not look at them.
+pub fn taken_apart(stated: &Conditional, patterns: &Patterns) -> Option<Conditional> {
     let has_pieces = |e: &Equation| patterns.get(e.pattern).has_pieces();
     let count = stated.system.equations.iter().filter(|e| has_pieces(e)).count();
-    if count == 0 || count > MOST_EQUATIONS {
+    if count == 0 || count > MOST_EQUATIONS || stated.is_searched() {
         return None;
     }
     let mut apart = stated.clone();
     let mut known: BTreeMap<PatternId, (PatternId, Vec<Var>)> = BTreeMap::new();
     for (index, relation) in (0..).zip(&stated.system.relations) {
         let equations = stated.system.equations_of(relation).iter().copied();
-        let (pieces, whole): (Vec<Equation>, Vec<Equation>) =
-            equations.partition(|e| patterns.get(e.pattern).has_pieces());
+        let (pieces, whole): (Vec<Equation>, Vec<Equation>) = equations.partition(has_pieces);
         if pieces.is_empty() {
             continue;
         }
         for equation in pieces {
-            let (pattern, variables) = known
-                .entry(equation.pattern)
-                .or_insert_with(|| alternatives(patterns, equation.pattern));
+            let (pattern, variables) = match known.entry(equation.pattern) {
+                Entry::Occupied(known) => known.into_mut(),
+                Entry::Vacant(new) => {
+                    let (arena, truth) = alternatives(patterns.get(equation.pattern));
+                    new.insert(patterns.find(&arena, &[truth])?)
+                }
+            };
             let slots = stated.system.arguments(equation.arguments);
             let slots = variables.iter().map(|v| slots[v.index()]);
             let arguments = apart.system.add_arguments(slots);
@@ -76,14 +78,20 @@ pub fn taken_apart(stated: &Conditional, patterns: &mut Patterns) -> Option<Cond
     Some(apart)
 }
 
-/// Returns the pattern that is true where an equation holds, with its arguments among the equation's.
-fn alternatives(patterns: &mut Patterns, equation: PatternId) -> (PatternId, Vec<Var>) {
-    let equation = patterns.get(equation).clone();
+/// Adds the patterns of what an equation is taken apart into.
+pub(crate) fn add(patterns: &mut Patterns, equation: PatternId) {
+    let (arena, truth) = alternatives(patterns.get(equation));
+    let (pattern, _) = patterns.intern(&arena, &[truth]);
+    modes::add(patterns, pattern);
+}
+
+/// Returns what is true where an equation holds, over its arguments.
+fn alternatives(equation: &Pattern) -> (Arena, ExprId) {
     let mut arena = equation.arena().clone();
     let [left, right] = equation.roots() else { unreachable!("an equation has two sides") };
     let mut lifting = Lifting { arena: &mut arena, assumed: Vec::new(), left: MOST_PIECES };
     let truth = lifting.lift(*left, *right);
-    patterns.intern(&arena, &[truth])
+    (arena, truth)
 }
 
 struct Lifting<'a> {
