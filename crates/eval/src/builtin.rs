@@ -6,7 +6,9 @@ use crate::fault::Fault;
 use crate::measure;
 use crate::operate::finite;
 use base::Name;
-use base::number::{acos, asin, atan, atan2, cos, exp, ln, rounded, shortest, sin, sqrt, tan};
+use base::number::{
+    acos, asin, atan, atan2, cos, exp, joined, ln, rounded, shortest, sin, sqrt, tan,
+};
 use drawing::metrics;
 use expr::dimension::Dimension;
 use kernel::builtin::{
@@ -207,13 +209,13 @@ impl<'a> Evaluator<'a> {
         };
         match builtin.function {
             ListMessage::Sum => {
-                let (mut sum, mut dimension) = (0.0, Dimension::NONE);
+                let (mut terms, mut dimension) = (Vec::new(), Dimension::NONE);
                 for item in items.iter() {
                     let (x, d) = self.number(item)?;
                     dimension = measure::common(dimension, d)?;
-                    sum += x;
+                    terms.push(x);
                 }
-                finite(sum, dimension)
+                finite(joined(terms, |a, b| a + b).unwrap_or(0.0), dimension)
             }
             ListMessage::Count => Ok(Answer::plain(items.len() as f64)),
             ListMessage::Map => items

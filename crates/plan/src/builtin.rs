@@ -281,8 +281,10 @@ impl<'a> Opening<'a> {
             return Ok(self.opaque(items));
         }
         let ids: Result<Vec<ExprId>, _> = items.iter().map(|m| self.expression(m)).collect();
-        let joined = ids?.into_iter().reduce(|a, b| self.arena.binary(operator, a, b));
-        joined.map(Meaning::Number).ok_or_else(|| Trouble::wrong("the least of nothing"))
+        let join = |a, b| self.arena.binary(operator, a, b);
+        base::number::joined(ids?, join)
+            .map(Meaning::Number)
+            .ok_or_else(|| Trouble::wrong("the least of nothing"))
     }
 }
 
