@@ -87,8 +87,8 @@ pub type Lanes = [f64; LANES];
 
 /// What a register holds: one number, or one of each set.
 trait Word: Copy {
-    /// True where it is kept at hand rather than read again.
-    const IS_SHORT: bool;
+    /// True if it is one number.
+    const IS_ONE: bool;
     /// The same number in every set.
     fn of(x: f64) -> Self;
     fn map(self, f: impl Fn(f64) -> f64) -> Self;
@@ -98,7 +98,7 @@ trait Word: Copy {
 }
 
 impl Word for f64 {
-    const IS_SHORT: bool = true;
+    const IS_ONE: bool = true;
     fn of(x: f64) -> Self {
         x
     }
@@ -114,7 +114,7 @@ impl Word for f64 {
 }
 
 impl Word for Lanes {
-    const IS_SHORT: bool = false;
+    const IS_ONE: bool = false;
     fn of(x: f64) -> Self {
         [x; LANES]
     }
@@ -376,7 +376,11 @@ impl Tape {
                 Kind::Mixed => {
                     let (mine, rest) = mixed.split_at(run.count as usize);
                     mixed = rest;
-                    run_mixed(registers, first, mine);
+                    if W::IS_ONE && mine.len() > SMALL {
+                        run_mixed::<W, true>(registers, first, mine);
+                    } else {
+                        run_mixed::<W, false>(registers, first, mine);
+                    }
                     continue;
                 }
             };
@@ -553,7 +557,13 @@ impl Lowering {
     }
 }
 
-fn run_mixed<W: Word>(registers: &mut [W], first: usize, operations: &[Mixed]) {
+/// Runs operations that differ. A long chain waits for what was written last to be read again, so that this
+/// may be kept `AT_HAND`; looking whether it is asked for costs those that are no chain a little.
+fn run_mixed<W: Word, const AT_HAND: bool>(
+    registers: &mut [W],
+    first: usize,
+    operations: &[Mixed],
+) {
     macro_rules! each {
         ($operation:expr, $at:ident, [$($unary:ident)*], [$($binary:ident)*], $select:expr) => {
             match $operation {
@@ -566,11 +576,10 @@ fn run_mixed<W: Word>(registers: &mut [W], first: usize, operations: &[Mixed]) {
             }
         };
     }
-    // what was written last is at hand before it can be read, which a chain waits for
     let (mut written, mut last) = (usize::MAX, W::of(0.0));
     for (i, Mixed { operation, operands }) in operations.iter().enumerate() {
         let at = |operand: usize| match operands[operand] as usize {
-            register if W::IS_SHORT && register == written => last,
+            register if AT_HAND && register == written => last,
             register => registers[register],
         };
         last = each!(
