@@ -12,7 +12,7 @@
 
 use super::{Mode, Modes, Tree};
 use crate::outcome::Outcome;
-use crate::plan::Plan;
+use crate::plan::{Plan, StepKind};
 use crate::truth::Comparing;
 use std::collections::{BTreeMap, BTreeSet};
 use std::rc::Rc;
@@ -405,6 +405,15 @@ fn blame(tried: &Tried) -> Option<BTreeSet<u32>> {
     for rejected in &tried.plan.report.rejected {
         if unmet.contains(&rejected.relation) {
             blamed.extend(rejected.circuit.iter().map(|c| c.0));
+        }
+    }
+    // what makes slots equal, or numbers of them, stands in no circuit
+    let mut slots: BTreeSet<u32> = blamed.iter().flat_map(|&r| tried.plan.mentions(r)).collect();
+    let aliases = tried.plan.steps().iter().filter(|s| s.kind == StepKind::Alias);
+    for step in aliases.rev() {
+        if step.targets.iter().any(|t| slots.contains(t)) {
+            slots.extend(&step.reads);
+            blamed.extend(&step.relations);
         }
     }
     // what is unmet without a circuit failed for reasons that the plan does not know
