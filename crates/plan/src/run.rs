@@ -19,7 +19,7 @@ use std::collections::BTreeSet;
 pub(crate) struct Ran {
     /// True if every required relation holds.
     pub(crate) is_solved: bool,
-    /// True if everything could be computed, and something required does not hold all the same.
+    /// True if something required does not hold though everything could be computed, or everything was searched.
     pub(crate) is_conflict: bool,
     /// True if what the pointer wishes is not reached.
     pub(crate) is_missed: bool,
@@ -140,7 +140,9 @@ fn by_course(
             modal::run(planner, model, task, (modes, solve::decide), ground, values, host)
         }
         Course::Search(puzzle) => {
-            let verdict = puzzle.nearest(&ground.x0, &ground.local);
+            let mut runner = planner.take_runner(Vec::new());
+            let verdict = runner.nearest(puzzle, &ground.x0, &ground.local);
+            planner.put_back(runner);
             if let Verdict::Found(found) = &verdict {
                 scatter(task, found, values);
             }
@@ -220,7 +222,7 @@ impl Planner {
 pub(crate) fn searched(verdict: &Verdict) -> Ran {
     match verdict {
         Verdict::Found(_) => Ran { is_solved: true, ..Ran::default() },
-        Verdict::Impossible => Ran::default(),
+        Verdict::Impossible => Ran { is_conflict: true, ..Ran::default() },
         Verdict::NotDecided { visited } => {
             Ran { not_decided: Some(NotDecided::Search(*visited)), ..Ran::default() }
         }

@@ -16,6 +16,7 @@ use crate::kernel::{Entry, Kernel, Side, WIDE};
 use crate::lower::{Definers, Problem, ProblemRow};
 use crate::residue::Residue;
 use crate::rows::Point;
+use crate::search::{Effort, Puzzle, Verdict};
 use crate::system::SlotIndex;
 use expr::{Arena, ExprId, LANES, Lanes, Var};
 use layout::{Group, KNOWN, positions};
@@ -117,6 +118,16 @@ impl Workspace {
     /// Returns true if what may be spent is spent.
     pub(crate) fn is_spent(&self) -> bool {
         self.bound.is_some_and(|bound| self.spent > bound)
+    }
+    /// Searches, which counts as iterating does; where there is a bound, any solution will do.
+    pub(crate) fn nearest(&mut self, puzzle: &Puzzle, start: &[f64], values: &[f64]) -> Verdict {
+        let mut effort = match self.bound {
+            Some(most) => Effort { spent: self.spent, most, improving: 0 },
+            None => Effort { spent: self.spent, ..Effort::default() },
+        };
+        let verdict = puzzle.nearest_within(start, values, &mut effort);
+        self.spent = effort.spent;
+        verdict
     }
     /// Runs a tape for one row; the outputs are in what is returned.
     pub(crate) fn run(

@@ -14,6 +14,7 @@ use crate::fork::{self, Lean};
 use crate::lower::Program;
 use crate::outcome::{Host, Outcome, Reason, Status, Unmet};
 use crate::plan::Plan;
+use crate::search::{Puzzle, Verdict};
 use crate::slice::Slice;
 use crate::square::{Side, Trust};
 use crate::system::{Level, SlotIndex, Stay};
@@ -61,6 +62,10 @@ impl Runner {
     /// that finds no solution.
     pub fn end_at(&mut self, bound: Option<u64>) {
         self.buffers.work.end_at(bound);
+    }
+    /// Finds the solution of a puzzle [nearest](Puzzle::nearest) to a start; it counts as a run does.
+    pub fn nearest(&mut self, puzzle: &Puzzle, start: &[f64], values: &[f64]) -> Verdict {
+        self.buffers.work.nearest(puzzle, start, values)
     }
     /// Says which way the states lean that it starts from from now on, where two branches meet.
     pub fn lean(&mut self, leans: Vec<Lean>) {

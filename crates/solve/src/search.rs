@@ -172,7 +172,17 @@ impl Puzzle {
     /// `start` is the state when the edit began; `values` is the same with what the edit set. A slot
     /// without a stay is looked for near zero.
     pub fn nearest(&self, start: &[f64], values: &[f64]) -> Verdict {
-        let held = self.nearest_with(start, values, Given::Held);
+        self.nearest_within(start, values, &mut Effort::default())
+    }
+
+    /// Does the same, and counts what it costs: it ends where that is spent.
+    pub(crate) fn nearest_within(
+        &self,
+        start: &[f64],
+        values: &[f64],
+        effort: &mut Effort,
+    ) -> Verdict {
+        let held = self.nearest_with(start, values, Given::Held, effort);
         if let Ended::Found(values, distance) = &held
             && distance[..GIVEN].iter().all(|&d| d == 0.0)
         {
@@ -181,7 +191,7 @@ impl Puzzle {
         if !self.stays.contains(&Stay::Given) {
             return held.verdict();
         }
-        let released = self.nearest_with(start, values, Given::Released);
+        let released = self.nearest_with(start, values, Given::Released, effort);
         match (held, released) {
             (Ended::Found(a, x), Ended::Found(b, y)) => {
                 Verdict::Found(if is_less(&y, &x) { b } else { a })
@@ -222,16 +232,31 @@ impl Puzzle {
         found.into_iter().take(most).map(|(_, solution)| solution).collect()
     }
 
-    fn nearest_with(&self, start: &[f64], values: &[f64], given: Given) -> Ended {
+    fn nearest_with(
+        &self,
+        start: &[f64],
+        values: &[f64],
+        given: Given,
+        effort: &mut Effort,
+    ) -> Ended {
         let Some(ground) = self.ground(start, values, given) else { return Ended::None };
         let mut field = Field::new(&self.arena, ground.domains, &ground.known);
+        (field.spent, field.most) = (effort.spent, effort.most);
         let net = Net::new(self.required.iter().collect(), &mut field);
         if net.settle_all(&mut field).is_err() {
+            effort.spent = field.spent;
             return Ended::None;
         }
-        let mut improving =
-            Improving { puzzle: self, near: &ground.near, best: None, at: 0, visited: 0 };
+        let mut improving = Improving {
+            puzzle: self,
+            near: &ground.near,
+            best: None,
+            at: 0,
+            visited: 0,
+            more: effort.improving,
+        };
         let end = explore(&net, &mut field, &ground.near, &mut improving);
+        effort.spent = field.spent;
         match (improving.best, end) {
             (Some((found, distance)), _) => {
                 let exact = |(d, known): (&Domain, &Option<f64>)| known.unwrap_or(d.low() as f64);
@@ -312,6 +337,21 @@ struct Ground {
     near: Vec<f64>,
 }
 
+/// What a search has cost, in multiplications, roughly, what it may, and how many states more are visited in search
+/// of a nearer solution.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Effort {
+    pub(crate) spent: u64,
+    pub(crate) most: u64,
+    pub(crate) improving: u64,
+}
+
+impl Default for Effort {
+    fn default() -> Self {
+        Self { spent: 0, most: u64::MAX, improving: IMPROVING }
+    }
+}
+
 /// Whether given numbers are constants.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 enum Given {
@@ -343,6 +383,8 @@ struct Improving<'a> {
     /// How many states had been visited when the first solution was found.
     at: u64,
     visited: u64,
+    /// How many states more are visited then.
+    more: u64,
 }
 
 impl Visitor for Improving<'_> {
@@ -362,7 +404,7 @@ impl Visitor for Improving<'_> {
         distance.iter().any(|&d| d > 0.0)
     }
     fn patience(&self, visited: u64) -> u64 {
-        let bound = if self.best.is_some() { self.at + IMPROVING } else { PATIENCE };
+        let bound = if self.best.is_some() { self.at + self.more } else { PATIENCE };
         bound.saturating_sub(visited)
     }
 }

@@ -158,10 +158,7 @@ impl Planner {
         const SOON: u64 = WORK / 30;
         let rules: Vec<u32> = rules.iter().copied().collect();
         let units = self.units(&rules);
-        let is_whole = |s: &SlotId| setup.model.structure.slots[*s].primitive.is_whole();
-        // whole numbers are searched: that takes its time
-        if units.len() > MOST || rules.iter().any(|&r| self.rules.get(r).slots.iter().any(is_whole))
-        {
+        if units.len() > MOST {
             return None;
         }
         let most = TRIED / MOST;
@@ -206,7 +203,7 @@ impl Search<'_> {
     /// until leaving out one constraint would do.
     fn all(&mut self, mut units: Vec<Unit>) -> Vec<(Vec<Unit>, Certainty)> {
         let mut found = Vec::new();
-        while found.len() < APART {
+        while found.len() < APART && (found.is_empty() || !self.has_ended()) {
             let Some(set) = self.minimal(&units) else { break };
             let certainty = self.certainty(&set);
             let is_all = set.iter().any(|u| self.can_hold(&without(&units, Some(u)), &[]));

@@ -1,4 +1,5 @@
-//! Contradictions of linear constraints, proved by a sum that can be checked by hand.
+//! Contradictions that are proved: of linear constraints by a sum that can be checked by hand, of whole numbers by a
+//! search of all there are.
 
 use crate::desk::Desk;
 
@@ -41,4 +42,12 @@ fn an_anchored_number_counts_as_it_is() {
 fn what_is_not_linear_is_not_proved() {
     let text = "a, b: Real = 1\nconstraint ring: a^2 + b^2 = 1\nconstraint far: a = 3\n";
     assert_eq!(told(text), ["no solution of ring, far together was found, from 2 starts"]);
+}
+
+#[test]
+fn what_was_searched_to_its_end_contradicts() {
+    let text = "a, b, c: Integer in 1..3\nconstraint all: allDifferent(a, b, c)\n\
+        constraint sum: a + b = 3\nconstraint low: c < 3\nconstraint odd: a * c != 7";
+    // 1 and 2 are taken by a and b, so that c is 3
+    assert_eq!(told(text), ["all, sum, low contradict each other"]);
 }

@@ -10,25 +10,33 @@ use super::row::Row;
 use std::collections::VecDeque;
 use std::rc::Rc;
 
+/// What it costs to look at one cell of a row, in multiplications, roughly.
+const CELL: u64 = 50;
+
 /// Rows with what is needed to run them: who has to hear of which cell.
 pub(crate) struct Net<'a> {
     rows: Vec<&'a Row>,
     partners: Vec<Option<Box<Partners>>>,
     watching: Vec<Vec<u32>>,
+    /// What running each row costs, in multiplications, roughly.
+    costs: Vec<u64>,
 }
 
 impl<'a> Net<'a> {
     pub(crate) fn new(rows: Vec<&'a Row>, field: &mut Field<'_>) -> Self {
         let mut watching = vec![Vec::new(); field.domains.len()];
+        let mut costs = Vec::with_capacity(rows.len());
         for (i, row) in (0..).zip(&rows) {
-            row.cells().into_iter().for_each(|c| watching[c as usize].push(i));
+            let cells = row.cells();
+            costs.push(cells.len() as u64 * CELL);
+            cells.into_iter().for_each(|c| watching[c as usize].push(i));
         }
         let partners = |row: &&Row| match row {
             Row::General(general) => field.partners(general).map(Box::new),
             Row::Linear(_) | Row::Different(_) | Row::All(_) | Row::Any(_) => None,
         };
         let partners = rows.iter().map(partners).collect();
-        Self { rows, partners, watching }
+        Self { rows, partners, watching, costs }
     }
 
     /// Runs every row to the end.
@@ -54,6 +62,7 @@ impl<'a> Net<'a> {
             }
             let Some(row) = waiting.pop_front() else { return Ok(()) };
             waits[row as usize] = false;
+            field.spent += self.costs[row as usize];
             match &self.partners[row as usize] {
                 Some(partners) => field.pair_up(partners)?,
                 None => field.propagate(self.rows[row as usize])?,
@@ -79,7 +88,7 @@ pub(crate) enum End {
     Exhausted,
     /// The visitor has what it wants.
     Content,
-    /// So many states were visited.
+    /// So many states were visited, or what it may cost was spent.
     Bound(u64),
 }
 
@@ -108,7 +117,7 @@ pub(crate) fn explore(
         return End::Content;
     }
     while let Some(Step { domains, cell, domain }) = stack.pop() {
-        if visitor.patience(visited) == 0 {
+        if visitor.patience(visited) == 0 || field.spent > field.most {
             return End::Bound(visited);
         }
         visited += 1;

@@ -34,6 +34,9 @@ pub(crate) struct Field<'a> {
     known: &'a [Option<f64>],
     /// Cells that shrank since they were last taken.
     pub(crate) shrunk: Vec<u32>,
+    /// What was spent so far, in multiplications, roughly, and what may be.
+    pub(crate) spent: u64,
+    pub(crate) most: u64,
     numbers: Vec<f64>,
     registers: Vec<f64>,
 }
@@ -41,7 +44,8 @@ pub(crate) struct Field<'a> {
 impl<'a> Field<'a> {
     pub(crate) fn new(arena: &'a Arena, domains: Vec<Domain>, known: &'a [Option<f64>]) -> Self {
         let numbers = vec![0.0; domains.len()];
-        Self { arena, domains, known, shrunk: Vec::new(), numbers, registers: Vec::new() }
+        let (shrunk, registers) = (Vec::new(), Vec::new());
+        Self { arena, domains, known, shrunk, spent: 0, most: u64::MAX, numbers, registers }
     }
 
     /// Returns another field with the same domains.
