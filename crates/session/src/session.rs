@@ -240,6 +240,11 @@ impl Session {
         let open = self.document(id);
         views::values::renew(&open.state, open.values(), rows.into_iter());
     }
+    /// Returns the value of a thing as its row of the structure view shows it; nothing where it has none.
+    pub fn shown_value(&self, id: DocumentId, path: &Path) -> Option<String> {
+        let open = self.document(id);
+        words::show_thing(&open.state, thing_at(&open.state, path)?, open.values())
+    }
     /// Returns the source with its colours and what is wrong with it.
     pub fn text(&self, id: DocumentId) -> TextView {
         views::text::view(&self.document(id).state)

@@ -10,7 +10,7 @@ use crate::{js, theme, words};
 use leptos::prelude::*;
 use session::view::{
     Analysis, Change, DocumentId, DragState, Explanation, FixView, Ghost, HeldView, PictureView,
-    Question, Recognised, Refusal, Status, StructureRow, TextView, ValueRow, Velocity,
+    Question, Recognised, Refusal, RowKind, Status, StructureRow, TextView, ValueRow, Velocity,
 };
 use session::{Command, Path, Session};
 use std::collections::BTreeMap;
@@ -61,6 +61,10 @@ pub struct Lab {
     pub document: RwSignal<Option<Opened>>,
     /// Its structure view.
     pub structure: RwSignal<Vec<StructureRow>>,
+    /// Which rows of the structure view are in the page.
+    pub shown_things: StoredValue<Vec<usize>>,
+    /// While something is dragged, the values of these rows.
+    pub dragged_values: RwSignal<BTreeMap<usize, String>>,
     /// Its values view.
     pub values: RwSignal<Vec<ValueRow>>,
     /// Which rows of the values view are in the page, in order: those that a drag keeps up to date.
@@ -159,6 +163,8 @@ impl Lab {
             document: RwSignal::new(None),
             structure,
             values: RwSignal::new(Vec::new()),
+            shown_things: StoredValue::new(Vec::new()),
+            dragged_values: RwSignal::new(BTreeMap::new()),
             shown_values: StoredValue::new(Vec::new()),
             text: RwSignal::new(no_text()),
             status: RwSignal::new(Status::default()),
@@ -475,6 +481,17 @@ impl Lab {
     fn repaint(self) {
         let Some(id) = self.id() else { return };
         self.picture.set(self.ask(|session| session.picture(id)));
+        let dragged = self.structure.with_untracked(|rows| {
+            let shown = self.shown_things.get_value();
+            self.ask(|session| {
+                let part = |at: &usize| rows.get(*at).filter(|row| row.kind == RowKind::Part);
+                let value =
+                    |row: &StructureRow| session.shown_value(id, &session::parse_path(&row.path)?);
+                let of = |at: usize| Some((at, part(&at).and_then(value)?));
+                shown.into_iter().filter_map(of).collect()
+            })
+        });
+        self.dragged_values.set(dragged);
         let shown = self.shown_values.get_value();
         self.values.update(|rows| {
             let mut shown = shown.iter().peekable();
@@ -494,6 +511,7 @@ impl Lab {
             (session.structure(id), session.text(id), session.status(id), session.title(id))
         });
         self.structure.set(structure);
+        self.dragged_values.update(BTreeMap::clear);
         self.status.set(status);
         self.update_document(|document| {
             document.dirty = document.saved != text.source;

@@ -291,8 +291,10 @@ pub fn Structure(
         let (window, current) = (window.get(), tree.current.get());
         tree.visible.with(|visible| {
             let rows = visible.iter().copied().enumerate();
-            rows.filter(|(place, row)| window.contains(place) || row.at == current)
-                .collect::<Vec<_>>()
+            let rows = rows.filter(|(place, row)| window.contains(place) || row.at == current);
+            let rows: Vec<(usize, Shown)> = rows.collect();
+            tree.lab.shown_things.set_value(rows.iter().map(|(_, row)| row.at).collect());
+            rows
         })
     });
     Effect::new(move |_| {
@@ -359,7 +361,10 @@ fn Row(tree: Tree, place: usize, shown: Shown) -> impl IntoView {
     let detail = of(|row| String::from(rule_alone(row)));
     let doc = of(|row| row.doc.clone());
     let state = of(|row| row.freedom.map(words::freedom).map(String::from).unwrap_or_default());
-    let value = Memo::new(move |_| row.with(|row| row.as_ref().and_then(|row| row.value.clone())));
+    let value = Memo::new(move |_| {
+        let dragged = lab.dragged_values.with(|values| values.get(&at).cloned());
+        dragged.or_else(|| row.with(|row| row.as_ref().and_then(|row| row.value.clone())))
+    });
     let merged = Memo::new(move |_| row.with(|r| r.as_ref().and_then(|r| r.merged_with.clone())));
     let depth = Memo::new(move |_| row.with(|row| row.as_ref().map_or(0, |row| row.depth)));
     let open = Memo::new(move |_| {

@@ -74,6 +74,13 @@ fn rows_of_values_are_renewed_while_dragging() {
     desk.session.renew_values(desk.id, rows.iter_mut().skip(1));
     assert_eq!(rows[1..], live[1..]);
     assert_ne!(rows[0], live[0], "a row that was not asked for stays as it was");
+    let tree = desk.session.structure(desk.id);
+    for path in ["chain.a.p1", "chain.a.p1.x"] {
+        let row = tree.iter().find(|row| row.path == path).expect("there is a row for it");
+        let shown = desk.session.shown_value(desk.id, &at(path));
+        assert_eq!((shown.is_some(), &shown), (true, &row.value), "{path}");
+    }
+    assert_eq!(desk.session.shown_value(desk.id, &at("chain")), None);
 }
 
 #[test]
