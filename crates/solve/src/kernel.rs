@@ -6,10 +6,12 @@
 
 pub(crate) mod exact;
 
+use crate::few::Few;
 use crate::rows::{Point, generic_number};
 use crate::system::SlotIndex;
 use base::Id;
 use expr::{Arena, Binary, Conic, ExprId, Guard, Node, Tape, Unary, Var, gradient};
+use std::collections::BTreeMap;
 use std::rc::Rc;
 use std::sync::OnceLock;
 
@@ -133,7 +135,7 @@ pub(crate) struct Entry {
     /// By which argument.
     pub(crate) argument: u32,
     /// The arguments that it depends on.
-    pub(crate) depends: Vec<u32>,
+    pub(crate) depends: Few,
     /// True if it can be zero by a choice: of a sign, of the larger, of a case.
     pub(crate) branches: bool,
 }
@@ -203,10 +205,18 @@ impl Kernel {
         let gradient = gradient(&mut arena, residual, &vars);
         let reads = Reads::of(&arena, arity);
         let (mut entries, mut derivatives) = (Vec::new(), Vec::new());
+        let depends = |d| {
+            let (variables, branches) = reads.variables(&arena, d);
+            (variables.into_iter().map(|v| v.0).collect(), branches)
+        };
+        // of the many terms of a long sum most have the same derivative
+        let mut known: BTreeMap<ExprId, (Few, bool)> = BTreeMap::new();
         for (var, d) in vars.iter().zip(gradient) {
             if arena.as_constant(d) != Some(0.0) {
-                let (depends, branches) = reads.variables(&arena, d);
-                let depends = depends.into_iter().map(|v| v.0).collect();
+                let (depends, branches) = match reads.0.is_empty() {
+                    true => known.entry(d).or_insert_with(|| depends(d)).clone(),
+                    false => depends(d),
+                };
                 entries.push(Entry { argument: var.0, depends, branches });
                 derivatives.push(d);
             }
