@@ -6,7 +6,7 @@ use crate::edit::{EditKind, EditReport, RefusalReason, Target, note};
 use crate::host::Host;
 use crate::modal::{Acting, ModalDrag, ModeChange};
 use crate::planner::{Latest, Model, Planner, is_any_new};
-use crate::run::{Adapter, Ground, Ran, leans, or_pieces, or_whole, ran, scatter, searched};
+use crate::run::{Adapter, Ground, Ran, leans, or_otherwise, ran, scatter, searched};
 use crate::task::{Course, Task};
 use kernel::{SlotId, Values};
 use solve::{Puzzle, SlotIndex, Stay, Verdict};
@@ -291,8 +291,7 @@ impl Pull {
         let mut local = self.x0.clone();
         inputs.iter().zip(&self.targets).for_each(|(&i, &target)| local[i as usize] = target);
         let ground = Ground { x0: self.x0.clone(), local, changed: inputs };
-        let ran = or_pieces(planner, model, &self.task, &ground, ran, values, host);
-        or_whole(planner, model, &self.task, &ground, ran, values, host)
+        or_otherwise(planner, model, &self.task, &ground, ran, values, host)
     }
 }
 

@@ -58,13 +58,12 @@ pub(crate) fn run(
 ) -> Ran {
     let ground = ground(planner, task, aim, start, values);
     let ran = by_course(planner, model, task, &ground, values, host);
-    let ran = or_pieces(planner, model, task, &ground, ran, values, host);
-    or_whole(planner, model, task, &ground, ran, values, host)
+    or_otherwise(planner, model, task, &ground, ran, values, host)
 }
 
-/// Looks for other pieces of equations where what was run on those at hand did not come to an end, or did
-/// not reach what is wished.
-pub(crate) fn or_pieces(
+/// Looks further where what was run did not come to an end: for whole numbers, where some are looked for and it
+/// made none; else for other pieces of equations, where it did not reach what is wished as well.
+pub(crate) fn or_otherwise(
     planner: &Planner,
     model: Model<'_>,
     task: &Task,
@@ -73,7 +72,17 @@ pub(crate) fn or_pieces(
     values: &mut Values,
     host: &mut dyn Host,
 ) -> Ran {
-    if ran.is_solved && !ran.is_missed || ran.failure.is_some() {
+    if ran.failure.is_some() {
+        return ran;
+    }
+    if let Some(whole) = task.whole() {
+        if ran.is_solved && whole.is_whole(task, values) {
+            return ran;
+        }
+        let found = whole::run(planner, model, task, ground, values, host);
+        return found.unwrap_or(Ran { is_solved: false, ..ran });
+    }
+    if ran.is_solved && !ran.is_missed {
         return ran;
     }
     let Some(modes) = task.pieces(planner.plans.patterns()) else { return ran };
@@ -87,25 +96,6 @@ pub(crate) fn or_pieces(
     values.texts = texts;
     scatter(task, &numbers, values);
     Ran { not_decided: ran.not_decided.or(found.not_decided), ..ran }
-}
-
-/// Looks for whole numbers where what was run made none, or did not come to an end.
-pub(crate) fn or_whole(
-    planner: &Planner,
-    model: Model<'_>,
-    task: &Task,
-    ground: &Ground,
-    ran: Ran,
-    values: &mut Values,
-    host: &mut dyn Host,
-) -> Ran {
-    let Some(whole) = task.whole() else { return ran };
-    let is_solved = ran.is_solved && whole.is_whole(task, values);
-    if is_solved || ran.failure.is_some() {
-        return ran;
-    }
-    let found = whole::run(planner, model, task, ground, values, host);
-    found.unwrap_or(Ran { is_solved: false, ..ran })
 }
 
 /// Runs a task by its plan, its modes or its search.

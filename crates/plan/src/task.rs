@@ -584,11 +584,10 @@ impl Task {
         self.stated.whole.as_ref()
     }
     /// Returns what it is with every equation with an `if` taken apart, where some have one, and wishes have to
-    /// be met.
+    /// be met. Asked of tasks alone in which no whole numbers are looked for.
     pub(crate) fn pieces(&self, patterns: &Patterns) -> Option<&Rc<Modes>> {
         let find = || {
             let stated = match &self.course {
-                _ if self.whole().is_some() => return None,
                 Course::Search(_) => return None,
                 Course::Modes(modes, _) => modes.conditional().clone(),
                 Course::Plan => {
