@@ -176,7 +176,7 @@ impl Net {
     /// Returns every component of the document, in order of their first slot.
     ///
     /// Cost: linear in what the rules mention.
-    pub(crate) fn all(&self, rules: &Rules, is_fixed: &dyn Fn(SlotId) -> bool) -> Vec<Component> {
+    pub(crate) fn all(&self, rules: &Rules, is_fixed: &dyn Fn(SlotId) -> bool) -> Partition {
         let fixed: IdVec<SlotId, bool> = self.places.of.ids().map(is_fixed).collect();
         let mut groups = Groups::new(fixed.len());
         for rule in rules.iter() {
@@ -188,7 +188,8 @@ impl Net {
             groups.unite_all(place.iter().copied().filter(moves));
         }
         let numbers = self.numbered(rules, &fixed, &mut groups);
-        self.gathered(rules, &fixed, &numbers)
+        let components = self.gathered(rules, &fixed, &numbers);
+        Partition { components, of_slot: numbers.of_slot }
     }
 
     /// Numbers the components in order of their first slot.
@@ -318,6 +319,43 @@ impl Net {
 
 /// No component.
 const NONE: u32 = u32::MAX;
+
+/// Every component of a document.
+#[derive(Debug)]
+pub(crate) struct Partition {
+    /// In order of their first slot.
+    pub(crate) components: Vec<Component>,
+    /// For every slot that is not fixed, its component; none for one that no rule mentions.
+    of_slot: IdVec<SlotId, u32>,
+}
+
+impl Partition {
+    /// Returns the components of these slots, as [`Net::around`] finds them; nothing where that has to be asked:
+    /// where one of them is fixed or no rule speaks of it, or `tied` ties several components together.
+    pub(crate) fn around<'t>(
+        &self,
+        slots: impl IntoIterator<Item = SlotId>,
+        tied: impl IntoIterator<Item = &'t [SlotId]>,
+    ) -> Option<Vec<Component>> {
+        for tied in tied {
+            let mut numbers = tied.iter().map(|&s| self.of_slot[s]);
+            let first = numbers.next();
+            if numbers.any(|number| Some(number) != first) {
+                return None;
+            }
+        }
+        let mut seen = Seen::new(self.components.len());
+        let mut found = Vec::new();
+        for slot in slots {
+            let number = self.of_slot[slot];
+            let component = self.components.get(number as usize)?;
+            if seen.insert(number) {
+                found.push(component.clone());
+            }
+        }
+        Some(found)
+    }
+}
 
 /// The components of slots that are not fixed, and of rules.
 struct Numbers {
@@ -488,7 +526,7 @@ mod tests {
     #[test]
     fn all_components_are_those_around_every_slot() {
         let mut dice = Dice::new(1);
-        let mut several = 0;
+        let (mut several, mut looked_up) = (0, 0);
         for _ in 0..300 {
             let slots = 2 + dice.below(12) as u32;
             let structure = structure(&mut dice, slots);
@@ -507,8 +545,18 @@ mod tests {
             let every = structure.slots.ids().filter(|&s| !net.rules_of(s).is_empty());
             let around = net.around(every, &rules, &is_fixed, &[]);
             several += usize::from(around.len() > 1);
-            assert_eq!(net.all(&rules, &is_fixed), around, "{rules:?} {structure:?}");
+            let all = net.all(&rules, &is_fixed);
+            for slot in structure.slots.ids() {
+                let other = SlotId(dice.below(slots as usize) as u32);
+                let tied = [vec![slot, other]];
+                if let Some(found) = all.around([slot], tied.iter().map(Vec::as_slice)) {
+                    assert_eq!(found, net.around([slot], &rules, &is_fixed, &tied));
+                    looked_up += 1;
+                }
+            }
+            assert_eq!(all.components, around, "{rules:?} {structure:?}");
         }
         assert!(several > 100, "{several} documents of several components");
+        assert!(looked_up > 300, "{looked_up} components were known");
     }
 }

@@ -142,9 +142,9 @@ impl Planner {
         // an anchor holds what it has; where that is nothing yet, rules may give it a value
         let are_anchors_given = slots.filter(|(_, s)| s.anchored).all(|(id, _)| has_value[id]);
         let components = if are_anchors_given {
-            self.whole(model.structure)
+            self.whole(model.structure).components.clone()
         } else {
-            self.net.all(&self.rules, &|s| holding(s) == Holding::Fixed)
+            self.net.all(&self.rules, &|s| holding(s) == Holding::Fixed).components
         };
         let mut tasks = self.tasks(model.structure, components, &holding, &[]);
         let mut report = EditReport { reached: true, ..EditReport::default() };
@@ -349,8 +349,12 @@ impl Planner {
         let tied: Vec<Vec<SlotId>> = aim.wishes.iter().map(Wish::slots).collect();
         let start: BTreeSet<SlotId> =
             spoken_of.iter().chain(tied.iter().flatten()).copied().collect();
-        let is_fixed = |s| holding(s) == Holding::Fixed;
-        let components = self.net.around(start, &self.rules, &is_fixed, &tied);
+        let components = if aim.fixed.is_empty() {
+            self.resting_around(structure, &start, &tied)
+        } else {
+            let is_fixed = |s| holding(s) == Holding::Fixed;
+            self.net.around(start, &self.rules, &is_fixed, &tied)
+        };
         let tasks = self.tasks(structure, components, &holding, &aim.wishes);
         self.recent.add(aim, &tasks);
         tasks
@@ -365,7 +369,7 @@ impl Planner {
         host: &mut dyn Host,
     ) -> Option<Failure> {
         let is_soft = |&&r: &&u32| self.rules.get(r).shape.level != Level::Required;
-        let soft: Vec<SlotId> = components
+        let soft: BTreeSet<SlotId> = components
             .iter()
             .flat_map(|c| c.rules().iter().filter(is_soft))
             .flat_map(|&r| self.rules.get(r).slots.iter().copied())
@@ -374,8 +378,7 @@ impl Planner {
             return None;
         }
         let holding = |s| Self::resting_hold(model.structure, s);
-        let is_fixed = |s| holding(s) == Holding::Fixed;
-        let components = self.net.around(soft, &self.rules, &is_fixed, &[]);
+        let components = self.resting_around(model.structure, &soft, &[]);
         let tasks = self.tasks(model.structure, components, &holding, &[]);
         let start = values.clone();
         let aim = Aim::default();

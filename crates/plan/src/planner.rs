@@ -1,6 +1,6 @@
 //! The planner: rules lowered once for a structure, components, and plans by shape.
 
-use crate::component::{Component, Net};
+use crate::component::{Component, Net, Partition};
 use crate::edit::NotDecided;
 use crate::fault::Fault;
 use crate::holds;
@@ -36,7 +36,7 @@ pub struct Planner {
     pub(crate) plans: Plans,
     pub(crate) alike: Alike,
     /// Every component with nothing edited; found when first asked for.
-    whole: Option<Vec<Component>>,
+    whole: Option<Partition>,
     pub(crate) recent: Recent,
     /// The tasks of the latest edit, and what it changed.
     pub(crate) latest: Latest,
@@ -58,7 +58,7 @@ pub(crate) struct Kept {
     rules: Rc<Rules>,
     net: Rc<Net>,
     alike: Alike,
-    whole: Option<Vec<Component>>,
+    whole: Option<Partition>,
     recent: Recent,
     resting: Option<Vec<Task>>,
 }
@@ -215,7 +215,7 @@ impl Planner {
     pub(crate) fn plan_resting(&mut self, structure: &Structure) {
         if self.resting.is_none() {
             let holding = &|s| Self::resting_hold(structure, s);
-            let components = self.whole(structure);
+            let components = self.whole(structure).components.clone();
             let setting =
                 Setting { structure, rules: &self.rules, net: &self.net, holding, wishes: &[] };
             let (plans, alike, mut locals) = (&mut self.plans, &mut self.alike, None);
@@ -226,10 +226,25 @@ impl Planner {
     }
 
     /// Returns every component, where what is anchored is fixed; found once.
-    pub(crate) fn whole(&mut self, structure: &Structure) -> Vec<Component> {
+    pub(crate) fn whole(&mut self, structure: &Structure) -> &Partition {
         let is_fixed = |s: SlotId| structure.slots[s].anchored;
-        let whole = &mut self.whole;
-        whole.get_or_insert_with(|| self.net.all(&self.rules, &is_fixed)).clone()
+        self.whole.get_or_insert_with(|| self.net.all(&self.rules, &is_fixed))
+    }
+
+    /// Returns the components of these slots, where what is anchored is fixed; each of `tied` speaks of several
+    /// slots and ties them together.
+    pub(crate) fn resting_around(
+        &mut self,
+        structure: &Structure,
+        slots: &BTreeSet<SlotId>,
+        tied: &[Vec<SlotId>],
+    ) -> Vec<Component> {
+        let all = self.whole(structure);
+        let found = all.around(slots.iter().copied(), tied.iter().map(Vec::as_slice));
+        found.unwrap_or_else(|| {
+            let is_fixed = |s: SlotId| structure.slots[s].anchored;
+            self.net.around(slots.iter().copied(), &self.rules, &is_fixed, tied)
+        })
     }
 
     /// Takes the tasks of all components with nothing edited out, to plan others beside them.

@@ -99,7 +99,7 @@ impl Planner {
         let holding = |s| Self::resting_hold(model.structure, s);
         let setup = Setup { model, holding: &holding, aim: &Aim::default() };
         let mut found = Vec::new();
-        for component in self.whole(model.structure) {
+        for component in self.whole(model.structure).components.clone() {
             let units = self.units(component.rules());
             if !units.iter().any(|u| unmet.contains(&u.source)) {
                 continue;
