@@ -149,7 +149,7 @@ impl Planner {
         let mut report = EditReport { reached, ..EditReport::default() };
         let start = press.start(values);
         let aim = press.aim;
-        self.latest.tasks = press.pulls.into_iter().map(|p| p.task).collect();
+        self.latest.tasks = press.pulls.into_iter().map(Pull::end).collect();
         let components: Vec<Component> =
             self.latest.tasks.iter().map(|t| t.component.clone()).collect();
         if let Some(failure) = self.settle(model, &components, values, host) {
@@ -266,6 +266,14 @@ impl Pull {
             let ran = self.or_otherwise(planner, model, ran, values, host);
             self.note(report, ran);
         }
+    }
+
+    /// Ends the drag of a component; returns the task that stands.
+    fn end(self) -> Task {
+        if let Way::Plan(drag) = self.way {
+            drag.end(&self.planned.as_deref().unwrap_or(&self.task).plan);
+        }
+        self.task
     }
 
     /// Adds what came of a wish; the next one is for the task as it was planned.

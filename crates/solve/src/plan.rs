@@ -11,6 +11,7 @@ use crate::order::{self, Blocks, Incidence};
 use crate::pattern::{Pattern, Patterns};
 use crate::peel::{self, Found, Peeled};
 use crate::rows::{self, Rows};
+use crate::run::start::Alike;
 use crate::slice::Slice;
 use crate::stated::Stated;
 use crate::substitute::{self, Classes};
@@ -152,6 +153,8 @@ pub struct Plan {
     /// Classes of several given numbers: the representative and those numbers.
     pub(crate) shared_given: Vec<(SlotIndex, Vec<SlotIndex>)>,
     pub(crate) scale_classes: usize,
+    /// Stretches of slots that are alike, one after the other.
+    pub(crate) alike: Vec<Alike>,
     /// True if a step depends on the branch that the state is on.
     pub(crate) has_branches: bool,
     /// True if a step is a curved block of many unknowns, none of which comes before the others.
@@ -166,6 +169,8 @@ pub struct Plan {
     tests: OnceCell<Tests>,
     /// What the latest drag could change.
     slice: RefCell<Option<Rc<Slice>>>,
+    /// A state in which every equation holds: where the latest drag began or ended; empty where none is known.
+    met_at: RefCell<Vec<f64>>,
 }
 
 /// Up to this many rows it is looked at whether one that a given number would yield to is implied.
@@ -333,6 +338,7 @@ fn lower_peeled(stated: &Stated, classes: &Classes, peeled: &Peeled) -> Lowered 
 fn plan_of(stated: Stated, classes: &Classes, report: Report, lowered: Lowered) -> Plan {
     let system = &*stated.system;
     let relations = tests_of_relations(system);
+    let alike = Alike::all(system);
     let (mut has_branches, mut has_large_core) = (false, false);
     let (mut has_least, mut bends) = (false, false);
     for step in &lowered.steps {
@@ -366,13 +372,15 @@ fn plan_of(stated: Stated, classes: &Classes, report: Report, lowered: Lowered) 
         opaque: (0..relations.len() as u32).filter(is_opaque).collect(),
         relations,
         shared_given: shared_given(system, classes),
-        scale_classes: system.slots.iter().map(|s| s.scale as usize + 1).max().unwrap_or(0),
+        scale_classes: alike.iter().map(|a| a.scale as usize + 1).max().unwrap_or(0),
+        alike,
         has_branches,
         has_large_core,
         stated,
         relaxed: OnceCell::new(),
         tests: OnceCell::new(),
         slice: RefCell::default(),
+        met_at: RefCell::default(),
     }
 }
 
@@ -615,6 +623,16 @@ impl Plan {
         let made = Rc::new(Slice::new(self, inputs));
         *known = Some(made.clone());
         made
+    }
+    /// Returns true if every equation is known to hold in a state.
+    pub(crate) fn is_met_at(&self, state: &[f64]) -> bool {
+        let known = self.met_at.borrow();
+        let is_same = |(a, b): (&f64, &f64)| a.to_bits() == b.to_bits();
+        !known.is_empty() && known.len() == state.len() && known.iter().zip(state).all(is_same)
+    }
+    /// Notes a state in which every equation holds.
+    pub(crate) fn note_met_at(&self, state: Vec<f64>) {
+        self.met_at.replace(state);
     }
     /// Returns these equations, by their places in the system, as rows over these unknowns; those that
     /// substitution makes hold, that are opaque or that speak of none of these are left out.

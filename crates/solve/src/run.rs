@@ -6,10 +6,10 @@
 //! the branch ends, soft wishes are met as nearly as they can be, and required ones stop the edit.
 
 mod anchors;
+pub(crate) mod start;
 
 use crate::attempt::others::Other;
-use crate::attempt::{self, Approach, Attempt, Buffers, Failure, Frame, Held, Part};
-use crate::block::Workspace;
+use crate::attempt::{Approach, Attempt, Buffers, Failure, Frame, Held, Motion, Part};
 use crate::fork::{self, Lean};
 use crate::lower::Program;
 use crate::outcome::{Host, Outcome, Reason, Status, Unmet};
@@ -18,9 +18,10 @@ use crate::search::{Puzzle, Verdict};
 use crate::slice::Slice;
 use crate::square::{Side, Trust};
 use crate::system::{Level, SlotIndex, Stay};
-use crate::test::{Differing, Failing, Place, Tests};
+use crate::test::{Failing, Tests};
+use start::{required_rows_held, start};
 use std::cell::Cell;
-use std::ops::{ControlFlow, Range};
+use std::ops::Range;
 use std::rc::Rc;
 
 /// The first stride of a walk, and the shortest, as parts of the whole way.
@@ -186,6 +187,8 @@ pub struct Drag {
     branch: Vec<f64>,
     /// False until a state was seen in which everything required holds.
     has_branch: bool,
+    /// True if every equation holds in the present state.
+    is_met: bool,
     /// True while the branch is followed from a state that leans: the press, a little aside.
     leans: bool,
     now: Vec<f64>,
@@ -198,14 +201,24 @@ impl Drag {
         start(plan, &mut runner, x0, &[]);
         let slice = plan.slice(inputs);
         let Runner { frame, buffers, .. } = &mut runner;
-        let has_branch = required_rows_held(plan, frame, buffers);
-        let mut branch = frame.x0.clone();
+        let mut is_met = plan.is_met_at(&frame.x0);
+        let has_branch = is_met || required_rows_held(plan, frame, buffers);
+        if is_met {
+            frame.held.fill(Cell::new(Held::Yes));
+        } else {
+            is_met = has_branch && frame.held.iter().all(|held| held.get() == Held::Yes);
+            if is_met {
+                plan.note_met_at(frame.x0.clone());
+            }
+        }
         // what is not downstream rests where everything holds: it need not run
-        let rests = slice.is_held && frame.held.iter().all(|held| held.get() == Held::Yes);
+        let rests = slice.is_held && is_met;
         let has_run = rests && slice.restless.iter().all(|&s| stands(plan, s, &frame.x0));
         if has_run {
-            attempt::begin(plan, frame, &mut branch, buffers);
+            buffers.motion.clear();
+            buffers.motion.resize(frame.x0.len(), Motion::Still);
         }
+        let branch = frame.x0.clone();
         Self {
             runner,
             slice,
@@ -215,7 +228,15 @@ impl Drag {
             now: branch.clone(),
             branch,
             has_branch,
+            is_met,
             leans: false,
+        }
+    }
+
+    /// Ends the drag: another that begins where this one ended need not test what held there.
+    pub fn end(self, plan: &Plan) {
+        if self.is_met {
+            plan.note_met_at(self.now);
         }
     }
 
@@ -240,6 +261,7 @@ impl Drag {
         self.branch.copy_from_slice(state);
         self.now.copy_from_slice(state);
         self.has_branch = false;
+        self.is_met = false;
         self.leans = false;
         // what the drag does not move has to be computed again from here
         self.has_run = false;
@@ -399,67 +421,10 @@ impl Drag {
             way.part = Part::Whole;
             let _ = way.direct(now, now, trust);
         }
+        self.is_met = outcome.is_solved() && outcome.unmet.is_empty();
         outcome.notes.append(&mut buffers.notes);
         outcome
     }
-}
-
-/// Fixes what does not change during the edit.
-fn start(plan: &Plan, runner: &mut Runner, x0: &[f64], changed: &[SlotIndex]) {
-    let Runner { frame, buffers, .. } = runner;
-    buffers.least.forget();
-    frame.x0.clear();
-    frame.x0.extend(x0.iter().map(|&v| if v.is_finite() { v } else { 0.0 }));
-    frame.anchors.clear();
-    measure_scales(plan, frame);
-    frame.changed_texts.clear();
-    frame
-        .changed_texts
-        .extend(changed.iter().copied().filter(|&c| !plan.slots()[c as usize].is_number));
-    buffers.sides.clear();
-    buffers.sides.resize(plan.step_count(), Side::default());
-    frame.held.clear();
-    frame.held.resize(plan.system().equations.len(), Cell::new(Held::Unknown));
-}
-
-/// Returns true if every required row holds in x0. Where that is so it is known of the others too.
-fn required_rows_held(plan: &Plan, frame: &Frame, buffers: &mut Buffers) -> bool {
-    let Buffers { work, test, .. } = buffers;
-    let mut differs = |differing: Differing, work: &mut Workspace| {
-        let Place { relation, row } = differing.place;
-        if plan.is_rounding(differing, &frame.x0, work) {
-            return ControlFlow::Continue(());
-        }
-        frame.held[row as usize].set(Held::No);
-        match plan.relations[relation as usize].level.rank() {
-            None => ControlFlow::Break(()),
-            Some(_) => ControlFlow::Continue(()),
-        }
-    };
-    if plan.each_differing(plan.tests(), &frame.x0, work, test, &mut differs).is_break() {
-        return false;
-    }
-    let unknown = frame.held.iter().filter(|held| held.get() == Held::Unknown);
-    unknown.for_each(|held| held.set(Held::Yes));
-    true
-}
-
-/// The extent of every class of slots that have a value; at least their size, one where all is zero.
-fn measure_scales(plan: &Plan, frame: &mut Frame) {
-    let mut ranges = vec![(f64::INFINITY, f64::NEG_INFINITY); plan.scale_classes];
-    for (slot, &v) in plan.slots().iter().zip(&frame.x0) {
-        if slot.is_number && slot.stay != Stay::Free {
-            let range = &mut ranges[slot.scale as usize];
-            *range = (range.0.min(v), range.1.max(v));
-        }
-    }
-    for (low, high) in &mut ranges {
-        let extent = (*high - *low).max(high.abs()).max(low.abs());
-        *low = if extent.is_finite() && extent > 0.0 { extent } else { 1.0 };
-    }
-    frame.scales.clear();
-    frame.scales.extend(plan.slots().iter().map(|s| ranges[s.scale as usize].0));
-    plan.shares.iter().for_each(|&(slot, share)| frame.scales[slot as usize] *= share);
 }
 
 /// Returns true if a step that runs even where everything holds changes no bit.

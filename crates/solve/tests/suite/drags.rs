@@ -225,6 +225,35 @@ fn a_press_where_all_holds_runs_what_is_downstream_alone() {
     assert_eq!(drag.values()[n as usize].to_bits(), (3.0 + 1e-12_f64).to_bits());
 }
 
+/// What a plan knows of where its last drag ended tells no other state.
+#[test]
+fn a_drag_is_the_same_whatever_its_plan_was_used_for() {
+    let (mut sheet, k) = rows_of_one_k(5);
+    let [m, n] = [sheet.kept(3.0), sheet.kept(3.0)];
+    let (vm, vn) = (sheet.v(m), sheet.v(n));
+    let (sum, twice) = (sheet.add(vm, vm), sheet.add(vn, vn));
+    sheet.require(sum, twice);
+    let wish = sheet.wish(&[k]);
+    let used = sheet.plan();
+    let mut first = sheet.drag(&used, &wish);
+    assert!(first.follow(&used, &[1.5], &mut NoHost).is_solved());
+    sheet.x0 = first.values().to_vec();
+    first.end(&used);
+    // where the first ended, and where what no drag moves does not hold
+    for off in [0.0, 2.0] {
+        sheet.x0[m as usize] += off;
+        let fresh = sheet.plan();
+        let [one, other] = [&used, &fresh].map(|plan| {
+            let mut drag = sheet.drag(plan, &wish);
+            assert!(drag.follow(plan, &[1.75], &mut NoHost).is_solved());
+            assert_eq!(drag.moved().is_some_and(|moved| !moved.contains(&m)), off == 0.0);
+            drag.values().to_vec()
+        });
+        assert_eq!(bits(&one), bits(&other));
+        close(one[m as usize], one[n as usize], 1e-9);
+    }
+}
+
 /// Drags a chain of fifty joints there and back in so many frames; returns the states at every tenth of the
 /// way, and the largest move in a frame of a unit.
 fn there_and_back(far: [f64; 2], frames: u32) -> (Vec<Vec<f64>>, f64) {

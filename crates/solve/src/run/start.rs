@@ -1,0 +1,119 @@
+//! Where an edit begins: the state that it starts from, how its slots are measured, and what holds there.
+
+use crate::attempt::{Buffers, Frame, Held};
+use crate::block::Workspace;
+use crate::plan::Plan;
+use crate::run::Runner;
+use crate::square::Side;
+use crate::system::{SlotIndex, Stay, System};
+use crate::test::{Differing, Place};
+use expr::LANES;
+use std::cell::Cell;
+use std::ops::ControlFlow;
+
+/// Slots one after the other whose numbers are measured alike.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Alike {
+    /// Where they end.
+    pub(crate) end: SlotIndex,
+    pub(crate) scale: u16,
+    /// True if they are numbers that have a value when an edit begins.
+    pub(crate) has_value: bool,
+}
+
+impl Alike {
+    /// Returns the stretches of slots that are alike.
+    pub(crate) fn all(system: &System) -> Vec<Self> {
+        let mut stretches: Vec<Self> = Vec::new();
+        for (slot, end) in system.slots.iter().zip(1..) {
+            let has_value = slot.is_number && slot.stay != Stay::Free;
+            match stretches.last_mut() {
+                Some(last) if last.scale == slot.scale && last.has_value == has_value => {
+                    last.end = end;
+                }
+                Some(_) | None => stretches.push(Self { end, scale: slot.scale, has_value }),
+            }
+        }
+        stretches
+    }
+}
+
+/// Fixes what does not change during the edit.
+pub(super) fn start(plan: &Plan, runner: &mut Runner, x0: &[f64], changed: &[SlotIndex]) {
+    let Runner { frame, buffers, .. } = runner;
+    buffers.least.forget();
+    frame.x0.clear();
+    frame.x0.extend(x0.iter().map(|&v| if v.is_finite() { v } else { 0.0 }));
+    frame.anchors.clear();
+    measure_scales(plan, frame);
+    frame.changed_texts.clear();
+    frame
+        .changed_texts
+        .extend(changed.iter().copied().filter(|&c| !plan.slots()[c as usize].is_number));
+    buffers.sides.clear();
+    buffers.sides.resize(plan.step_count(), Side::default());
+    frame.held.clear();
+    frame.held.resize(plan.system().equations.len(), Cell::new(Held::Unknown));
+}
+
+/// Returns true if every required row holds in x0. Where that is so it is known of the others too.
+pub(super) fn required_rows_held(plan: &Plan, frame: &Frame, buffers: &mut Buffers) -> bool {
+    let Buffers { work, test, .. } = buffers;
+    let mut differs = |differing: Differing, work: &mut Workspace| {
+        let Place { relation, row } = differing.place;
+        if plan.is_rounding(differing, &frame.x0, work) {
+            return ControlFlow::Continue(());
+        }
+        frame.held[row as usize].set(Held::No);
+        match plan.relations[relation as usize].level.rank() {
+            None => ControlFlow::Break(()),
+            Some(_) => ControlFlow::Continue(()),
+        }
+    };
+    if plan.each_differing(plan.tests(), &frame.x0, work, test, &mut differs).is_break() {
+        return false;
+    }
+    let unknown = frame.held.iter().filter(|held| held.get() == Held::Unknown);
+    unknown.for_each(|held| held.set(Held::Yes));
+    true
+}
+
+/// The extent of every class of slots that have a value; at least their size, one where all is zero.
+fn measure_scales(plan: &Plan, frame: &mut Frame) {
+    let mut ranges = vec![(f64::INFINITY, f64::NEG_INFINITY); plan.scale_classes];
+    let mut start = 0;
+    for alike in &plan.alike {
+        let end = alike.end as usize;
+        if alike.has_value {
+            let range = &mut ranges[alike.scale as usize];
+            let (low, high) = extremes(&frame.x0[start..end]);
+            *range = (range.0.min(low), range.1.max(high));
+        }
+        start = end;
+    }
+    for (low, high) in &mut ranges {
+        let extent = (*high - *low).max(high.abs()).max(low.abs());
+        *low = if extent.is_finite() && extent > 0.0 { extent } else { 1.0 };
+    }
+    frame.scales.clear();
+    for alike in &plan.alike {
+        frame.scales.resize(alike.end as usize, ranges[alike.scale as usize].0);
+    }
+    plan.shares.iter().for_each(|&(slot, share)| frame.scales[slot as usize] *= share);
+}
+
+/// Returns the least and the largest of finite numbers.
+fn extremes(numbers: &[f64]) -> (f64, f64) {
+    let (some, rest) = numbers.as_chunks::<LANES>();
+    let (mut low, mut high) = ([f64::INFINITY; LANES], [f64::NEG_INFINITY; LANES]);
+    for numbers in some {
+        for lane in 0..LANES {
+            let x = numbers[lane];
+            low[lane] = if x < low[lane] { x } else { low[lane] };
+            high[lane] = if x > high[lane] { x } else { high[lane] };
+        }
+    }
+    let least = low.iter().chain(rest).copied().fold(f64::INFINITY, f64::min);
+    let largest = high.iter().chain(rest).copied().fold(f64::NEG_INFINITY, f64::max);
+    (least, largest)
+}
