@@ -252,6 +252,9 @@ impl Space {
 
     /// Adds the motions of one place or number alone.
     fn alone(&self, group: &[u32], rows_of: &[Vec<u32>], chosen: &mut Chosen<'_>) {
+        if self.is_held(group, rows_of) {
+            return;
+        }
         let touching: BTreeSet<u32> =
             group.iter().flat_map(|&c| rows_of[c as usize].iter().copied()).collect();
         let own = |r: u32| -> Row {
@@ -297,16 +300,40 @@ impl Space {
     fn is_null(&self, motion: &Row) -> bool {
         /// States are solved to about 1e-12.
         const ROUNDING: f64 = 1e-8;
+        let mut velocity = vec![0.0; self.columns.len()];
+        motion.iter().for_each(|&(c, v)| velocity[c as usize] = v);
         self.rows.iter().all(|row| {
             let (mut sum, mut size) = (0.0, 0.0f64);
             for &(c, v) in row {
-                if let Ok(i) = motion.binary_search_by_key(&c, |e| e.0) {
-                    sum += v * motion[i].1;
-                    size = size.max((v * motion[i].1).abs());
-                }
+                let term = v * velocity[c as usize];
+                sum += term;
+                size = size.max(term.abs());
             }
             f64::abs(sum) <= ROUNDING * size
         })
+    }
+
+    /// Returns true if the rows that speak of a number, or of a place in the plane, clearly leave it no motion
+    /// of its own.
+    fn is_held(&self, group: &[u32], rows_of: &[Vec<u32>]) -> bool {
+        /// The sine, about, of an angle between directions that are two for certain.
+        const APART: f64 = 0.1;
+        let touching = |c: u32| rows_of[c as usize].iter().map(|&r| &self.rows[r as usize]);
+        let slope = |row: &Row, c: u32| row.iter().find(|e| e.0 == c).map_or(0.0, |e| e.1);
+        match *group {
+            [c] => touching(c).next().is_some(),
+            [x, y] => {
+                let mut directions = touching(x).chain(touching(y)).map(|row| {
+                    let (a, b) = (slope(row, x), slope(row, y));
+                    let size = a.abs().max(b.abs());
+                    (a / size, b / size)
+                });
+                directions
+                    .next()
+                    .is_some_and(|(p, q)| directions.any(|(a, b)| f64::abs(a * q - b * p) > APART))
+            }
+            _ => false,
+        }
     }
 }
 
