@@ -68,6 +68,15 @@ impl Component {
     }
 }
 
+/// Returns the rules of components, in order, each once.
+pub(crate) fn rules_of<'c>(components: impl IntoIterator<Item = &'c Component>) -> Vec<u32> {
+    let mut rules: Vec<u32> = Vec::new();
+    components.into_iter().for_each(|c| rules.extend_from_slice(c.rules()));
+    rules.sort_unstable();
+    rules.dedup();
+    rules
+}
+
 impl PartialEq for Component {
     fn eq(&self, other: &Self) -> bool {
         self.rules() == other.rules() && self.slots() == other.slots()

@@ -1,7 +1,7 @@
 //! Drags: planned once at the press, then followed wish by wish.
 
 use crate::aim::{Aim, with_present_values};
-use crate::component::Component;
+use crate::component::{Component, rules_of};
 use crate::edit::{EditKind, EditReport, RefusalReason, Target, note};
 use crate::host::Host;
 use crate::modal::{Acting, ModalDrag, ModeChange};
@@ -10,7 +10,6 @@ use crate::run::{Adapter, Ground, Ran, leans, or_otherwise, ran, scatter, search
 use crate::task::{Course, Task};
 use kernel::{SlotId, Values};
 use solve::{Puzzle, SlotIndex, Stay, Verdict};
-use std::collections::BTreeSet;
 use std::rc::Rc;
 use std::sync::Arc;
 
@@ -157,14 +156,15 @@ impl Planner {
             report.refusal = Some(RefusalReason::Method(failure));
             return report;
         }
-        let rules: BTreeSet<u32> =
-            components.iter().flat_map(|c| c.rules().iter().copied()).collect();
+        let rules = rules_of(&components);
         report.unmet = self.unmet(model, rules.iter().copied(), values, host);
-        let was_unmet = self.unmet(model, rules, &start, host);
-        if is_any_new(&report.unmet, &was_unmet) {
-            *values = start;
-            report.refusal = Some(RefusalReason::Unmet);
-            return report;
+        if !report.unmet.is_empty() {
+            let was_unmet = self.unmet(model, rules, &start, host);
+            if is_any_new(&report.unmet, &was_unmet) {
+                *values = start;
+                report.refusal = Some(RefusalReason::Unmet);
+                return report;
+            }
         }
         report.changed = values.changed(&start).collect();
         report.undecided = self.undecided(model, &self.latest.tasks, &aim, &start, values);

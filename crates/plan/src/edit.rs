@@ -1,7 +1,7 @@
 //! Edits: opening a document, setting values, moving parts; and what came of it.
 
 use crate::aim::Aim;
-use crate::component::Component;
+use crate::component::{Component, rules_of};
 use crate::diagnose::trial::Setup;
 use crate::drag::move_at_once;
 use crate::host::{Failure, Host};
@@ -292,13 +292,15 @@ impl Planner {
             note(&mut report, task, ran);
         }
         let is_dear = self.spent() - began > DEAR;
-        let rules: BTreeSet<u32> =
-            tasks.iter().flat_map(|t| t.component.rules().iter().copied()).collect();
+        let rules = rules_of(tasks.iter().map(|task| &task.component));
         self.latest = Latest { tasks, edited: Some(aim.slots()) };
         report.unmet = self.unmet(model, rules.iter().copied(), &scratch, host);
-        let all_rules = rules.clone();
-        let was_unmet = self.unmet(model, rules, values, host);
         report.reached = self.reached(aim, &scratch);
+        // what did not hold before is asked only where something now does not
+        let was_unmet = match report.unmet.is_empty() && report.reached {
+            true => Vec::new(),
+            false => self.unmet(model, rules.iter().copied(), values, host),
+        };
         let broken = is_any_new(&report.unmet, &was_unmet) || !report.reached;
         if report.refusal.is_none() && broken {
             report.refusal =
@@ -311,7 +313,7 @@ impl Planner {
                 Some(NotDecided::Search(_) | NotDecided::Modes(_)) | None => !is_dear,
             };
             let conflict = match may_be_tried {
-                true => self.against(&setup, &all_rules, &wanted, host),
+                true => self.against(&setup, &rules, &wanted, host),
                 false => None,
             };
             report.conflicts = conflict.map_or(report.conflicts, |c| vec![c]);

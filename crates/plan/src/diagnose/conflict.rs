@@ -149,15 +149,14 @@ impl Planner {
     pub(crate) fn against(
         &mut self,
         setup: &Setup<'_>,
-        rules: &BTreeSet<u32>,
+        rules: &[u32],
         values: &Values,
         host: &mut dyn Host,
     ) -> Option<Conflict> {
         /// A refusal is wanted at once.
         const MOST: usize = 400;
         const SOON: u64 = WORK / 30;
-        let rules: Vec<u32> = rules.iter().copied().collect();
-        let units = self.units(&rules);
+        let units = self.units(rules);
         if units.len() > MOST {
             return None;
         }
