@@ -460,7 +460,10 @@ impl<'s> Making<'s> {
             body,
             methods,
             derived: shape.derived,
-            reads: rule.slots_at(&shape.reads).map(|s| self.local(s)).collect(),
+            reads: match shape.reads[..] {
+                [] => Few::default(),
+                _ => rule.slots_at(&shape.reads).map(|s| self.local(s)).collect(),
+            },
             within: shape.within,
             source,
         });

@@ -53,15 +53,15 @@ impl Slice {
         for &slot in inputs {
             is_reached[slot as usize] = true;
         }
-        let regions = Approachable::of(plan, peeled);
+        let target: Vec<SlotIndex> = peeled.order.iter().map(|&s| peeled.target(s)).collect();
+        let regions = Approachable::of(plan, peeled, &target);
         let mut is_region_reached = vec![false; regions.lists.len()];
         let mut is_settled = vec![false; peeled.rows.len()];
         let is_free = plan.slots().iter().any(|s| s.stay == Stay::Free);
         let mut made = Self { inputs: inputs.to_vec(), is_held: !is_free, ..Self::default() };
         let mut steps: Vec<u32> = Vec::with_capacity(peeled.order.len());
-        for (index, &solved) in (0..).zip(&peeled.order) {
+        for (index, (&solved, &target)) in (0..).zip(peeled.order.iter().zip(&target)) {
             let mentions = peeled.rows.mentions(solved.row as usize);
-            let target = mentions[solved.argument as usize];
             if !mentions.iter().any(|&s| s != target && is_reached[s as usize]) {
                 continue;
             }
@@ -74,7 +74,7 @@ impl Slice {
                 regions.lists.of(region).iter().for_each(|&u| is_reached[u as usize] = true);
             }
         }
-        made.targets = steps.iter().map(|&s| peeled.target(peeled.order[s as usize])).collect();
+        made.targets = steps.iter().map(|&s| target[s as usize]).collect();
         made.portions = portions(Links::Peeled(plan, peeled), &steps);
         let mut tests = Vec::new();
         let rows = &peeled.rows;
@@ -173,17 +173,19 @@ struct Approachable {
 impl Approachable {
     const NONE: u32 = u32::MAX;
 
-    fn of(plan: &Plan, peeled: &Peeled) -> Self {
+    /// Finds them; every step has one target.
+    fn of(plan: &Plan, peeled: &Peeled, targets: &[SlotIndex]) -> Self {
         let rows = &peeled.rows;
-        let soft = peeled.order.iter().filter(|s| rows[s.row as usize].level != Level::Required);
-        let mut soft = soft.peekable();
-        if soft.peek().is_none() {
+        let steps = || peeled.order.iter().zip(targets).map(|(&solved, &target)| (solved, target));
+        let is_soft = |row: u32| rows[row as usize].level != Level::Required;
+        let soft: Vec<SlotIndex> =
+            steps().filter(|(solved, _)| is_soft(solved.row)).map(|(_, target)| target).collect();
+        if soft.is_empty() {
             return Self { region_of: Vec::new(), lists: Lists::default() };
         }
         let mut is_unknown = vec![false; plan.slots().len()];
         let mut union = Union::new(plan.slots().len());
-        for &solved in &peeled.order {
-            let target = peeled.target(solved);
+        for (solved, target) in steps() {
             is_unknown[target as usize] = true;
             for &s in rows.mentions(solved.row as usize).iter().filter(|s| is_unknown[**s as usize])
             {
@@ -193,15 +195,15 @@ impl Approachable {
         // how many unknowns a region has, and which have a curved row
         let mut sizes = vec![0_u32; plan.slots().len()];
         let mut is_curved = vec![false; plan.slots().len()];
-        for &solved in &peeled.order {
-            let root = union.find(peeled.target(solved) as usize);
+        for (solved, target) in steps() {
+            let root = union.find(target as usize);
             sizes[root] += 1;
             is_curved[root] |= peeled.is_curved(solved);
         }
         let mut number = vec![Self::NONE; plan.slots().len()];
         let mut count = 0;
-        for &solved in soft {
-            let root = union.find(peeled.target(solved) as usize);
+        for target in soft {
+            let root = union.find(target as usize);
             let is_near = is_within_reach(sizes[root] as usize, !is_curved[root]);
             if is_near && number[root] == Self::NONE {
                 number[root] = count;

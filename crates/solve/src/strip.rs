@@ -118,6 +118,7 @@ pub(crate) enum Links<'p> {
 
 impl<'p> Links<'p> {
     /// Returns a step that may be part of a strip.
+    #[inline]
     fn get(self, index: u32) -> Option<Link<'p>> {
         match self {
             Self::Steps(plan, writers) => {
