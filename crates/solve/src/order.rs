@@ -87,58 +87,58 @@ pub(crate) struct Incidence<'a> {
 
 /// Splits and orders. Unknown slots that no row reaches are in no block.
 pub(crate) fn order(incidence: &Incidence<'_>) -> Blocks {
-    let n = incidence.rows.len();
-    let slots = incidence.unknown.len();
-    let mut union = Union::new(n + slots);
-    for (s, row) in incidence.direction.row_of_slot.iter().enumerate() {
-        if let Some(row) = row {
-            union.unite(*row, n + s);
-        }
-    }
-    for &(s, row) in &incidence.direction.written_by {
-        union.unite(row, n + s as usize);
+    let direction = incidence.direction;
+    let mut union = Union::new(incidence.rows.len());
+    let home = |row: &Option<usize>| row.map_or(NONE, |row| row as u32);
+    let mut home: Vec<u32> = direction.row_of_slot.iter().map(home).collect();
+    for &(s, row) in &direction.written_by {
+        home[s as usize] = row as u32;
     }
     for rows in incidence.together {
         for &r in rows {
             union.unite(rows[0], r);
         }
     }
-    let relation = |r: usize| incidence.rows[r].relation;
-    for own in incidence.taking_part.chunk_by(|&a, &b| relation(a) == relation(b)) {
-        if own.len() > 1 && incidence.direction.method_of(relation(own[0])).is_some() {
-            own.iter().for_each(|&r| union.unite(own[0], r));
+    if !direction.methods.is_empty() {
+        let relation = |r: usize| incidence.rows[r].relation;
+        for own in incidence.taking_part.chunk_by(|&a, &b| relation(a) == relation(b)) {
+            if own.len() > 1 && direction.method_of(relation(own[0])).is_some() {
+                own.iter().for_each(|&r| union.unite(own[0], r));
+            }
         }
     }
-    unite_free(incidence, &mut union);
-    components(incidence, &mut union)
+    unite_free(incidence, &mut union, &mut home);
+    components(incidence, &mut union, &home)
 }
 
-/// Unites every piece of the under-determined part.
-fn unite_free(incidence: &Incidence<'_>, union: &mut Union) {
-    let n = incidence.rows.len();
-    let mut reached = vec![false; incidence.unknown.len()];
-    let mut stack: Vec<SlotIndex> = (0..incidence.unknown.len() as u32)
-        .filter(|&s| {
-            incidence.unknown[s as usize]
-                && incidence.direction.row_of_slot[s as usize].is_none()
-                && !incidence.direction.is_written(s)
-        })
+/// No node, no row.
+const NONE: u32 = u32::MAX;
+
+/// Unites every piece of the under-determined part; a slot that no row determines finds its `home` there.
+fn unite_free(incidence: &Incidence<'_>, union: &mut Union, home: &mut [u32]) {
+    let unknown = incidence.unknown;
+    let mut stack: Vec<SlotIndex> = (0..unknown.len() as u32)
+        .filter(|&s| unknown[s as usize] && home[s as usize] == NONE)
         .collect();
     if stack.is_empty() {
         return;
     }
+    let mut reached = vec![false; unknown.len()];
     for &s in &stack {
         reached[s as usize] = true;
     }
     let free = |&&r: &&usize| incidence.direction.method_of(incidence.rows[r].relation).is_none();
     let columns = |&r: &usize| incidence.rows.columns(r).iter().map(move |e| (e.0, r as u32));
     let pairs = incidence.taking_part.iter().filter(free).flat_map(columns);
-    let rows_of_slot = Lists::new(incidence.unknown.len(), pairs);
+    let rows_of_slot = Lists::new(unknown.len(), pairs);
     while let Some(slot) = stack.pop() {
         for &r in rows_of_slot.of(slot) {
-            let r = r as usize;
-            union.unite(n + slot as usize, r);
-            if let Some(next) = incidence.direction.slot_of_row[r]
+            let own = &mut home[slot as usize];
+            match *own {
+                NONE => *own = r,
+                own => union.unite(own as usize, r as usize),
+            }
+            if let Some(next) = incidence.direction.slot_of_row[r as usize]
                 && !std::mem::replace(&mut reached[next as usize], true)
             {
                 stack.push(next);
@@ -148,12 +148,10 @@ fn unite_free(incidence: &Incidence<'_>, union: &mut Union) {
 }
 
 /// Strongly connected components of the united rows, each after what it reads.
-fn components(incidence: &Incidence<'_>, union: &mut Union) -> Blocks {
-    const NONE: u32 = u32::MAX;
-    let n = incidence.rows.len();
+fn components(incidence: &Incidence<'_>, union: &mut Union, home: &[u32]) -> Blocks {
     // nodes are numbered by their first row, so that the order is that of declaration
-    let mut node_of_root = vec![NONE; n + incidence.unknown.len()];
-    let mut node_of_row = Vec::with_capacity(incidence.taking_part.len());
+    let mut node_of_root = vec![NONE; incidence.rows.len()];
+    let mut rows: Vec<(u32, u32)> = Vec::with_capacity(incidence.taking_part.len());
     let mut nodes = 0;
     for &r in incidence.taking_part {
         let node = &mut node_of_root[union.find(r)];
@@ -161,24 +159,21 @@ fn components(incidence: &Incidence<'_>, union: &mut Union) -> Blocks {
             *node = nodes;
             nodes += 1;
         }
-        node_of_row.push(*node);
+        rows.push((*node, r as u32));
     }
+    let node = |(&unknown, &home): (&bool, &u32)| match home {
+        home if unknown && home != NONE => node_of_root[union.find(home as usize)],
+        _ => NONE,
+    };
+    let node_of_slot: Vec<u32> = incidence.unknown.iter().zip(home).map(node).collect();
+    let slots = (0..).zip(&node_of_slot).filter(|(_, n)| **n != NONE);
     if nodes == 1 {
-        let is_united = |&s: &SlotIndex| {
-            incidence.unknown[s as usize] && node_of_root[union.find(n + s as usize)] != NONE
-        };
-        let slots = (0..incidence.unknown.len() as u32).filter(is_united);
         let mut blocks = Blocks::default();
-        blocks.add(incidence.taking_part.iter().copied(), slots);
+        blocks.add(incidence.taking_part.iter().copied(), slots.map(|(s, _)| s));
         return blocks;
     }
-    let node_of_slot: Vec<u32> = incidence
-        .unknown
-        .iter()
-        .enumerate()
-        .map(|(s, &unknown)| if unknown { node_of_root[union.find(n + s)] } else { NONE })
-        .collect();
-    let edges = |&(node, r): &(u32, usize)| {
+    let edges = |&(node, r): &(u32, u32)| {
+        let r = r as usize;
         let read = match incidence.method_reads.get(&incidence.rows[r].relation) {
             Some(reads) => reads,
             None => incidence.rows.mentions(r),
@@ -186,11 +181,8 @@ fn components(incidence: &Incidence<'_>, union: &mut Union) -> Blocks {
         let read = read.iter().map(|&s| node_of_slot[s as usize]);
         read.filter(move |&b| b != node && b != NONE).map(move |b| (node, b))
     };
-    let rows: Vec<(u32, usize)> =
-        node_of_row.iter().copied().zip(incidence.taking_part.iter().copied()).collect();
     let before = Lists::new(nodes as usize, rows.iter().flat_map(edges));
-    let rows_of_node = Lists::new(nodes as usize, rows.iter().map(|&(node, r)| (node, r as u32)));
-    let slots = (0..).zip(&node_of_slot).filter(|(_, n)| **n != NONE);
+    let rows_of_node = Lists::new(nodes as usize, rows.iter().copied());
     let slots_of_node = Lists::new(nodes as usize, slots.map(|(s, &node)| (node, s)));
     let (all_rows, all_slots) = (rows_of_node.all().len(), slots_of_node.all().len());
     let mut blocks = Blocks::with_room(all_rows, all_slots, nodes as usize);
