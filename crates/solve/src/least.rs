@@ -173,9 +173,8 @@ impl Least {
 
     fn structure(&self) -> &Symmetric {
         self.structure.get_or_init(|| {
-            let mut entries = self.block.pattern.bordered();
-            entries.extend(self.block.seconds().iter().map(|place| (place.i, place.j)));
-            Symmetric::of_chain(self.chain(), &entries)
+            let curved = self.block.seconds().iter().map(|place| (place.i, place.j));
+            Symmetric::of_chain(self.chain(), &self.block.pattern.bordered(curved))
         })
     }
 
@@ -188,7 +187,12 @@ impl Least {
             own.get(own.len().saturating_sub(1) / 2).copied().unwrap_or(0)
         };
         let rows_at = Lists::new(n as usize, (0..m).map(|r| (middle(r), n + r)));
-        (0..n).flat_map(|u| std::iter::once(u).chain(rows_at.of(u).iter().copied())).collect()
+        let mut chain = Vec::with_capacity((n + m) as usize);
+        for u in 0..n {
+            chain.push(u);
+            chain.extend_from_slice(rows_at.of(u));
+        }
+        chain
     }
 
     /// Solves from the values that the unknowns have now; distance is measured from `x0`.
@@ -435,6 +439,7 @@ impl Least {
     fn weigh(&self, s: &mut LeastScratch) {
         let pattern = &self.block.pattern;
         s.steepness.clear();
+        s.steepness.reserve(self.block.height());
         for r in 0..self.block.height() {
             let mut sum = 0.0;
             for e in pattern.range(r) {

@@ -78,10 +78,9 @@ struct Scratch {
 
 impl Curved {
     pub(crate) fn new(block: &Block) -> Self {
-        let mut entries = block.pattern.bordered();
-        entries.extend(block.seconds().iter().map(|place| (place.i, place.j)));
+        let curved = block.seconds().iter().map(|place| (place.i, place.j));
         let size = block.unknowns.len() + block.height();
-        Self { symmetric: Symmetric::new(size, &entries) }
+        Self { symmetric: Symmetric::new(size, &block.pattern.bordered(curved)) }
     }
 
     /// Solves from the values that the unknowns have now; whether required rows then hold is not tested.

@@ -57,7 +57,7 @@ enum Part {
 impl Levels {
     pub(crate) fn new(pattern: &Pattern) -> Self {
         let size = pattern.width + pattern.height();
-        Self { symmetric: Symmetric::new(size, &pattern.bordered()) }
+        Self { symmetric: Symmetric::new(size, &pattern.bordered(std::iter::empty())) }
     }
 
     /// Returns the step that all levels together ask for; what cannot be factorised is no number.

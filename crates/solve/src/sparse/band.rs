@@ -77,6 +77,7 @@ impl<const W: usize> Band<W> {
         let BandFactors { columns, work } = factors;
         let columns = &columns.as_chunks::<W>().0[..self.size];
         work.clear();
+        work.reserve(self.size);
         // what the places before take from those that follow, the next one first
         let mut taken = [0.0; W];
         for (column, b) in columns.iter().zip(right) {

@@ -28,7 +28,8 @@ impl Damped {
     /// Lays the factors out.
     pub(crate) fn new(pattern: &Pattern) -> Self {
         let (height, width) = (pattern.height(), pattern.width);
-        Self { symmetric: Symmetric::new(width + height, &pattern.bordered()), height, width }
+        let entries = pattern.bordered(std::iter::empty());
+        Self { symmetric: Symmetric::new(width + height, &entries), height, width }
     }
 
     /// Returns the step, by column, for numbers in the order of the pattern and a right side for every row;

@@ -12,7 +12,7 @@ use super::band::{Band, BandFactors};
 use super::degree;
 
 /// How wide bands are.
-const NARROW: usize = 5;
+const NARROW: usize = 6;
 const WIDE: usize = 8;
 
 /// No place.
@@ -29,7 +29,8 @@ pub(crate) struct Symmetric {
 /// How the factors are kept: every index is a place in the order of elimination.
 #[derive(Clone, Debug)]
 enum Layout {
-    /// What is near the diagonal, as where each of a chain of bars in the plane is joined to the next.
+    /// What is near the diagonal, as where each of a chain of bars in the plane is joined to the next, and the
+    /// ends to what is known.
     Narrow(Band<NARROW>),
     /// What is a little farther from it.
     Wide(Band<WIDE>),

@@ -63,14 +63,18 @@ impl Pattern {
         self.columns[entry] as usize
     }
     /// Returns the places of the symmetric matrix `[· Jᵀ; J ·]` of unknowns, then rows: the diagonal, then every
-    /// entry.
-    pub(crate) fn bordered(&self) -> Vec<(u32, u32)> {
+    /// entry, then what is told besides.
+    pub(crate) fn bordered(
+        &self,
+        more: impl ExactSizeIterator<Item = (u32, u32)>,
+    ) -> Vec<(u32, u32)> {
         let (n, m) = (self.width as u32, self.height() as u32);
-        let mut places = Vec::with_capacity((n + m) as usize + self.len());
+        let mut places = Vec::with_capacity((n + m) as usize + self.len() + more.len());
         places.extend((0..n + m).map(|i| (i, i)));
         for r in 0..m {
             places.extend(self.row(r as usize).iter().map(|&c| (c, n + r)));
         }
+        places.extend(more);
         places
     }
     /// Returns where an entry stands among all.
