@@ -80,10 +80,13 @@ const SHORT: u32 = 4;
 /// Up to this many nodes a tape keeps their order: gathering equal operations would make few runs long.
 const SMALL: usize = 64;
 
-/// How many sets of values [`Tape::run_lanes`] takes at once.
+/// How many sets of values [`Tape::run_lanes`] takes at once where there are many.
 pub const LANES: usize = 8;
 /// One number of each of several sets.
-pub type Lanes = [f64; LANES];
+pub type Lanes<const N: usize = LANES> = [f64; N];
+
+/// Working space has at least so many registers, so that it serves small tapes without growing.
+const ROOM: usize = 32;
 
 /// What a register holds: one number, or one of each set.
 trait Word: Copy {
@@ -113,10 +116,10 @@ impl Word for f64 {
     }
 }
 
-impl Word for Lanes {
+impl<const N: usize> Word for Lanes<N> {
     const IS_ONE: bool = false;
     fn of(x: f64) -> Self {
-        [x; LANES]
+        [x; N]
     }
     fn map(self, f: impl Fn(f64) -> f64) -> Self {
         std::array::from_fn(|i| f(self[i]))
@@ -321,13 +324,18 @@ impl Tape {
         out.extend(self.outputs.iter().map(|&register| registers[register as usize]));
     }
 
-    /// Computes every output for [`LANES`] sets of values at once, to the bits of [`Tape::run`].
+    /// Computes every output for several sets of values at once, to the bits of [`Tape::run`].
     ///
     /// `values[v][lane]` is variable `v` of one set. Working space is as for [`Tape::run`].
     ///
     /// # Panics
     /// If a variable has no value, or `out` has not the length of the outputs.
-    pub fn run_lanes(&self, values: &[Lanes], registers: &mut Vec<Lanes>, out: &mut [Lanes]) {
+    pub fn run_lanes<const N: usize>(
+        &self,
+        values: &[Lanes<N>],
+        registers: &mut Vec<Lanes<N>>,
+        out: &mut [Lanes<N>],
+    ) {
         self.run_on(values, registers, out);
     }
 
@@ -355,7 +363,7 @@ impl Tape {
         registers: &'r mut Vec<W>,
     ) -> &'r mut [W] {
         if registers.len() < self.registers {
-            registers.resize(self.registers, W::of(0.0));
+            registers.resize(self.registers.max(ROOM), W::of(0.0));
         }
         let registers = &mut registers[..self.registers];
         for (register, &constant) in registers.iter_mut().zip(&self.constants) {

@@ -12,13 +12,14 @@ pub(crate) use closed::{Closed, Conic, Conics};
 pub(crate) use layout::{Layout, Layouts};
 
 use crate::kernel::exact::Exact;
-use crate::kernel::{Entry, Kernel, Side, WIDE};
+use crate::kernel::{Entry, Kernel, Side};
+use crate::lanes::{LaneScratch, Out, Outs, WIDE};
 use crate::lower::{Definers, Problem, ProblemRow};
 use crate::residue::Residue;
 use crate::rows::Point;
 use crate::search::{Effort, Puzzle, Verdict};
 use crate::system::SlotIndex;
-use expr::{Arena, ExprId, LANES, Lanes, Var};
+use expr::{Arena, ExprId, LANES, Var};
 use layout::{Group, KNOWN, positions};
 use std::ops::Deref;
 use std::rc::Rc;
@@ -52,22 +53,6 @@ pub(crate) struct Local {
     pub(crate) jacobian: Vec<f64>,
 }
 
-/// What a tape came to for one row, among what it came to for the rows beside it.
-#[derive(Clone, Copy, Debug)]
-pub(crate) struct Out<'a> {
-    all: &'a [f64],
-    /// How many rows there are, and which of them it is.
-    rows: usize,
-    row: usize,
-}
-
-impl Out<'_> {
-    /// Returns one of the outputs.
-    pub(crate) fn get(self, output: usize) -> f64 {
-        self.all[output * self.rows + self.row]
-    }
-}
-
 /// A second derivative of a row by two unknowns.
 #[derive(Clone, Copy, PartialEq, Debug)]
 pub(crate) struct SecondPlace {
@@ -93,9 +78,8 @@ pub(crate) struct Workspace {
     pub(crate) registers: Vec<f64>,
     arguments: Vec<f64>,
     out: Vec<f64>,
-    wide_registers: Vec<Lanes>,
-    wide_arguments: Vec<Lanes>,
-    wide_out: Vec<Lanes>,
+    /// Where tapes are run for several rows at once.
+    pub(crate) lanes: LaneScratch,
     /// What was spent so far, in multiplications, roughly.
     spent: u64,
     /// What may be spent: iteration ends there.
@@ -152,30 +136,6 @@ impl Workspace {
         self.arguments.clear();
         self.arguments.extend(arguments.iter().map(|&s| values[s as usize]));
         kernel.sway(&self.arguments, &mut self.registers, &mut self.out)
-    }
-}
-
-impl Workspace {
-    /// Runs a tape for up to as many rows as there are lanes, given by their arguments one row after
-    /// the other; lanes beyond them repeat the last row.
-    pub(crate) fn run_wide(
-        &mut self,
-        tape: &expr::Tape,
-        arguments: &[SlotIndex],
-        arity: usize,
-        values: &[f64],
-        outs: usize,
-    ) -> &[Lanes] {
-        self.wide_arguments.resize(self.wide_arguments.len().max(arity), [0.0; LANES]);
-        self.wide_out.resize(self.wide_out.len().max(outs), [0.0; LANES]);
-        let lanes = arguments.len() / arity;
-        for (a, wide) in self.wide_arguments[..arity].iter_mut().enumerate() {
-            let of = |lane: usize| values[arguments[lane.min(lanes - 1) * arity + a] as usize];
-            *wide = std::array::from_fn(of);
-        }
-        let out = &mut self.wide_out[..outs];
-        tape.run_lanes(&self.wide_arguments[..arity], &mut self.wide_registers, out);
-        out
     }
 }
 
@@ -446,21 +406,16 @@ impl Block {
         }
         let (arity, all) = (group.kernel.arity(), self.arguments_of(group));
         let rows = group.rows.len as usize;
+        let of = |row: usize| &all[row * arity..][..arity];
         let mut row = 0;
-        if rows >= WIDE {
-            while rows - row >= WIDE {
-                let lanes = LANES.min(rows - row);
-                let arguments = &all[row * arity..][..lanes * arity];
-                let out = w.run_wide(tape, arguments, arity, values, outs);
-                for lane in 0..lanes {
-                    visit(row + lane, Out { all: out.as_flattened(), rows: LANES, row: lane });
-                }
-                row += lanes;
-            }
+        while rows - row >= WIDE {
+            let count = LANES.min(rows - row);
+            let outs = w.lanes.run(tape, count, |lane| of(row + lane), values, outs);
+            (0..count).for_each(|lane| visit(row + lane, outs.of(lane)));
+            row += count;
         }
         for row in row..rows {
-            let all = w.run(tape, &all[row * arity..][..arity], values, outs);
-            visit(row, Out { all, rows: 1, row: 0 });
+            visit(row, Outs::of_one(w.run(tape, of(row), values, outs)).of(0));
         }
     }
 }

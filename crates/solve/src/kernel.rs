@@ -15,9 +15,6 @@ use std::collections::BTreeMap;
 use std::rc::Rc;
 use std::sync::OnceLock;
 
-/// From how many rows of a kernel on they are evaluated in lanes.
-pub(crate) const WIDE: usize = 3;
-
 /// An equation of numbered arguments, with everything derived from it.
 pub(crate) struct Kernel {
     arena: Arena,

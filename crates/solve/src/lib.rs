@@ -75,6 +75,8 @@ pub mod plan;
 
 mod kernel;
 
+mod lanes;
+
 mod lower;
 
 mod block;

@@ -5,7 +5,8 @@
 //! coefficient is zero there only if it is zero everywhere.
 
 use crate::kernel::exact::Exact;
-use crate::kernel::{Form, Kernel, WIDE};
+use crate::kernel::{Form, Kernel};
+use crate::lanes::{LaneScratch, Out, Outs, WIDE};
 use crate::lists::Lists;
 use crate::pattern::Scratch;
 use crate::residue::Residue;
@@ -13,7 +14,7 @@ use crate::stated::Stated;
 use crate::substitute::Classes;
 use crate::system::{Level, MethodBody, Relation, RelationBody, SlotIndex, Span, Stay, System};
 use base::scrambled;
-use expr::{LANES, Lanes};
+use expr::LANES;
 use std::collections::BTreeSet;
 use std::rc::Rc;
 
@@ -351,9 +352,7 @@ fn evaluate(rows: &Rows, values: &[f64]) -> Evaluated {
 /// Working space for evaluation, of any content.
 #[derive(Default)]
 struct Work {
-    arguments: Vec<Lanes>,
-    results: Vec<Lanes>,
-    registers: Vec<Lanes>,
+    lanes: LaneScratch,
     one: Scratch,
 }
 
@@ -366,32 +365,24 @@ fn evaluate_kernel(
     out: &mut Evaluated,
 ) {
     let entries = kernel.entries.len();
-    if own.len() < WIDE {
-        for &r in own {
-            let arguments = rows.mentions(r as usize).iter().map(|&slot| values[slot as usize]);
-            let results = work.one.run(&kernel.slopes, arguments, entries + 2);
-            out.errors[r as usize] = results[0] - results[1];
-            out.slopes[out.first[r as usize]..][..entries].copy_from_slice(&results[2..]);
-        }
-        return;
-    }
-    let Work { arguments, results, registers, .. } = work;
-    arguments.resize(kernel.arity(), [0.0; LANES]);
-    results.resize(entries + 2, [0.0; LANES]);
+    let mut put = |r: u32, results: Out<'_>| {
+        out.errors[r as usize] = results.get(0) - results.get(1);
+        let own = &mut out.slopes[out.first[r as usize]..][..entries];
+        own.iter_mut().zip(2..).for_each(|(slope, output)| *slope = results.get(output));
+    };
+    let of = |r: u32| rows.mentions(r as usize);
     for some in own.chunks(LANES) {
-        for (lane, &r) in some.iter().enumerate() {
-            for (argument, &slot) in arguments.iter_mut().zip(rows.mentions(r as usize)) {
-                argument[lane] = values[slot as usize];
+        if some.len() < WIDE {
+            for &r in some {
+                let arguments = of(r).iter().map(|&slot| values[slot as usize]);
+                let results = work.one.run(&kernel.slopes, arguments, entries + 2);
+                put(r, Outs::of_one(results).of(0));
             }
+            continue;
         }
-        kernel.slopes.run_lanes(arguments, registers, results);
-        for (lane, &r) in some.iter().enumerate() {
-            out.errors[r as usize] = results[0][lane] - results[1][lane];
-            let own = &mut out.slopes[out.first[r as usize]..][..entries];
-            for (out, result) in own.iter_mut().zip(&results[2..]) {
-                *out = result[lane];
-            }
-        }
+        let each = |lane: usize| of(some[lane]);
+        let results = work.lanes.run(&kernel.slopes, some.len(), each, values, entries + 2);
+        some.iter().zip(0..).for_each(|(&r, lane)| put(r, results.of(lane)));
     }
 }
 
@@ -416,7 +407,7 @@ fn set_columns(system: &System, classes: &Classes, rows: &mut Rows, slopes: &[f6
                         continue;
                     }
                     let may = |&a: &u32| writable.allows(mentions[a as usize]);
-                    curved |= entry.depends.iter().any(may);
+                    curved = curved || entry.depends.iter().any(may);
                     let by_branch = value == 0.0 && entry.branches;
                     let value = if value.is_finite() && !by_branch {
                         value

@@ -6,12 +6,12 @@
 //! somebody wants to know.
 
 use crate::block::Workspace;
-use crate::kernel::WIDE;
+use crate::lanes::WIDE;
 use crate::pattern::{Pattern, Plain};
 use crate::plan::Plan;
 use crate::system::SlotIndex;
 use base::number::Tolerance;
-use expr::{LANES, Lanes};
+use expr::LANES;
 use std::ops::ControlFlow;
 
 /// An equation that does not hold.
@@ -54,8 +54,6 @@ pub(crate) struct Tests {
 /// Working space for tests.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct TestScratch {
-    arguments: Vec<Lanes>,
-    registers: Vec<Lanes>,
     differing: Vec<Differing>,
 }
 
@@ -97,7 +95,6 @@ impl Plan {
         tests: &Tests,
         values: &[f64],
         work: &mut Workspace,
-        scratch: &mut TestScratch,
         differs: &mut impl FnMut(Differing, &mut Workspace) -> ControlFlow<()>,
     ) -> ControlFlow<()> {
         for (pattern, places) in tests.by_pattern() {
@@ -124,9 +121,14 @@ impl Plan {
                     }
                     continue;
                 }
-                let sides = self.sides_in_lanes(some, pattern, values, scratch);
-                for (lane, &place) in some.iter().enumerate() {
-                    compare(place, sides.map(|side| side[lane]), work)?;
+                let of = |lane: usize| self.arguments(some[lane].row);
+                let outs = work.lanes.run(pattern.values(), some.len(), of, values, 2);
+                let mut sides = [[0.0; 2]; LANES];
+                for (lane, sides) in sides[..some.len()].iter_mut().enumerate() {
+                    *sides = [0, 1].map(|side| outs.of(lane).get(side));
+                }
+                for (&place, sides) in some.iter().zip(sides) {
+                    compare(place, sides, work)?;
                 }
             }
         }
@@ -149,7 +151,7 @@ impl Plan {
             ControlFlow::Continue(())
         };
         // never broken off
-        let _ = self.each_differing(tests, values, work, scratch, add);
+        let _ = self.each_differing(tests, values, work, add);
         differing.sort_unstable_by_key(|d| d.place.row);
         differing.iter().filter_map(|&d| self.failing(d, values, work)).for_each(fails);
         scratch.differing = differing;
@@ -199,26 +201,5 @@ impl Plan {
     fn sides(&self, row: u32, pattern: &Pattern, values: &[f64], w: &mut Workspace) -> [f64; 2] {
         let sides = w.run(pattern.values(), self.arguments(row), values, 2);
         [sides[0], sides[1]]
-    }
-    fn sides_in_lanes(
-        &self,
-        places: &[Place],
-        pattern: &Pattern,
-        values: &[f64],
-        scratch: &mut TestScratch,
-    ) -> [Lanes; 2] {
-        let arity = pattern.arity();
-        if scratch.arguments.len() < arity {
-            scratch.arguments.resize(arity, [0.0; LANES]);
-        }
-        let arguments = &mut scratch.arguments[..arity];
-        for (lane, place) in places.iter().enumerate() {
-            for (lanes, &slot) in arguments.iter_mut().zip(self.arguments(place.row)) {
-                lanes[lane] = values[slot as usize];
-            }
-        }
-        let mut sides = [[0.0; LANES]; 2];
-        pattern.values().run_lanes(arguments, &mut scratch.registers, &mut sides);
-        sides
     }
 }

@@ -46,9 +46,12 @@ impl Run<'_> {
                 rows.iter().try_for_each(|row| self.one(strip, row))?;
                 continue;
             }
-            let out = self.buffers.work.run_wide(&solved.tape, arguments, arity, self.values, outs);
+            let of = |lane: usize| &arguments[lane * arity..][..arity];
+            let work = &mut self.buffers.work;
+            let outs = work.lanes.run(&solved.tape, rows.len(), of, self.values, outs);
+            let value = |lane: usize| value_of(solved, |i| outs.of(lane).get(i));
             let values: [Option<f64>; LANES] =
-                std::array::from_fn(|lane| value_of(solved, |i| out[i][lane]));
+                std::array::from_fn(|lane| if lane < rows.len() { value(lane) } else { None });
             for (row, value) in rows.iter().zip(values) {
                 match value {
                     Some(value) => self.put(row.target, value),

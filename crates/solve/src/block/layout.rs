@@ -194,8 +194,8 @@ impl Layout {
             self.grouped[(rows.start + at) as usize] = r as u32;
             let of = |e: &Entry| position[e.argument as usize];
             let is_unknown = |&a: &u32| position[a as usize] != KNOWN;
-            self.is_linear &=
-                kernel.entries.iter().all(|e| of(e) == KNOWN || !e.depends.iter().any(is_unknown));
+            let is_straight = |e: &Entry| of(e) == KNOWN || !e.depends.iter().any(is_unknown);
+            self.is_linear = self.is_linear && kernel.entries.iter().all(is_straight);
             pattern.push(kernel.entries.iter().map(of).filter(|&c| c != KNOWN));
             let places = &mut self.entries[*entries as usize + at as usize * count..][..count];
             for (place, entry) in places.iter_mut().zip(&kernel.entries) {

@@ -58,7 +58,7 @@ pub(super) fn start(plan: &Plan, runner: &mut Runner, x0: &[f64], changed: &[Slo
 
 /// Returns true if every required row holds in x0. Where that is so it is known of the others too.
 pub(super) fn required_rows_held(plan: &Plan, frame: &Frame, buffers: &mut Buffers) -> bool {
-    let Buffers { work, test, .. } = buffers;
+    let work = &mut buffers.work;
     let mut differs = |differing: Differing, work: &mut Workspace| {
         let Place { relation, row } = differing.place;
         if plan.is_rounding(differing, &frame.x0, work) {
@@ -70,7 +70,7 @@ pub(super) fn required_rows_held(plan: &Plan, frame: &Frame, buffers: &mut Buffe
             Some(_) => ControlFlow::Continue(()),
         }
     };
-    if plan.each_differing(plan.tests(), &frame.x0, work, test, &mut differs).is_break() {
+    if plan.each_differing(plan.tests(), &frame.x0, work, &mut differs).is_break() {
         return false;
     }
     let unknown = frame.held.iter().filter(|held| held.get() == Held::Unknown);
