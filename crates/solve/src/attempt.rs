@@ -361,6 +361,10 @@ impl Run<'_> {
             return measure.is_settled(x0, self.values, scales, &mut self.buffers.work);
         }
         if let Program::Least(least) = &step.program {
+            let fails = |&row: &u32| self.frame.held[row as usize].get() == Held::No;
+            if inputs == Motion::Still && step.rows.iter().any(fails) {
+                return false;
+            }
             for &t in &step.targets {
                 self.values[t as usize] = self.frame.x0[t as usize];
             }
