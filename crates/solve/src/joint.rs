@@ -9,12 +9,30 @@
 use crate::block::{Block, Local, Workspace};
 use crate::lower::{Definers, Problem};
 use crate::sparse::damped::{Damped, DampedScratch};
+use crate::system::SlotIndex;
 
 /// Rows over unknowns, none of which is defined by a row.
 #[derive(Debug)]
 pub(crate) struct Joint {
     block: Block,
     damped: Damped,
+}
+
+/// Equations of a plan that are moved all at once.
+#[derive(Debug)]
+pub(crate) struct Gathered {
+    /// The equations, by their places in the system, in order.
+    pub(crate) equations: Vec<u32>,
+    /// The unknowns, in order.
+    pub(crate) unknowns: Vec<SlotIndex>,
+    pub(crate) joint: Joint,
+}
+
+impl Gathered {
+    /// Returns true if it is of these equations and unknowns.
+    pub(crate) fn is_of(&self, equations: &[u32], unknowns: &[SlotIndex]) -> bool {
+        self.equations == equations && self.unknowns == unknowns
+    }
 }
 
 /// The rows at one state, each divided by what it weighs.

@@ -6,6 +6,7 @@
 use crate::accept::{self, Acceptance};
 use crate::direct::{self, Direction};
 use crate::few::Few;
+use crate::joint::{Gathered, Joint};
 use crate::lower::{self, Lowered, Problem, Program, Region};
 use crate::order::{self, Blocks, Incidence};
 use crate::pattern::{Pattern, Patterns};
@@ -171,6 +172,8 @@ pub struct Plan {
     slice: RefCell<Option<Rc<Slice>>>,
     /// A state in which every equation holds: where the latest drag began or ended; empty where none is known.
     met_at: RefCell<Vec<f64>>,
+    /// What was last moved all at once.
+    gathered: RefCell<Option<Rc<Gathered>>>,
 }
 
 /// Up to this many rows it is looked at whether one that a given number would yield to is implied.
@@ -381,6 +384,7 @@ fn plan_of(stated: Stated, classes: &Classes, report: Report, lowered: Lowered) 
         tests: OnceCell::new(),
         slice: RefCell::default(),
         met_at: RefCell::default(),
+        gathered: RefCell::default(),
     }
 }
 
@@ -634,11 +638,27 @@ impl Plan {
     pub(crate) fn note_met_at(&self, state: Vec<f64>) {
         self.met_at.replace(state);
     }
-    /// Returns these equations, by their places in the system, as rows over these unknowns; those that
-    /// substitution makes hold, that are opaque or that speak of none of these are left out.
-    pub(crate) fn problem(&self, mut equations: Vec<u32>, mut unknowns: Vec<SlotIndex>) -> Problem {
+    /// Returns what moves these unknowns all at once until these equations hold, given by their places in the
+    /// system; made once while they are the same.
+    pub(crate) fn gathered(
+        &self,
+        mut equations: Vec<u32>,
+        mut unknowns: Vec<SlotIndex>,
+    ) -> Rc<Gathered> {
         equations.sort_unstable();
         unknowns.sort_unstable();
+        let mut known = self.gathered.borrow_mut();
+        if let Some(gathered) = known.as_ref().filter(|g| g.is_of(&equations, &unknowns)) {
+            return gathered.clone();
+        }
+        let joint = Joint::new(&self.problem(&equations, &unknowns));
+        let made = Rc::new(Gathered { equations, unknowns, joint });
+        *known = Some(made.clone());
+        made
+    }
+    /// Returns these equations, by their places in the system, as rows over these unknowns, both in order; those
+    /// that substitution makes hold, that are opaque or that speak of none of these are left out.
+    fn problem(&self, equations: &[u32], unknowns: &[SlotIndex]) -> Problem {
         let classes = substitute::substitute(&self.stated);
         let rows = rows::stated_rows(&self.stated, &classes);
         let is_unknown = |slot: &SlotIndex| unknowns.binary_search(slot).is_ok();
@@ -650,7 +670,7 @@ impl Plan {
                 .any(is_unknown)
                 .then(|| lower::problem_row(self.system(), &rows, r))?
         };
-        Problem { rows: (0..rows.len()).filter_map(row).collect(), unknowns }
+        Problem { rows: (0..rows.len()).filter_map(row).collect(), unknowns: unknowns.to_vec() }
     }
     /// Returns every slot that a relation speaks of.
     pub(crate) fn mentions(&self, relation: u32) -> impl Iterator<Item = SlotIndex> + '_ {

@@ -4,11 +4,12 @@
 //! nothing else, keeps its bits.
 
 use super::{Approach, Attempt, Buffers, Motion, Run, begin};
-use crate::joint::Joint;
+use crate::joint::Gathered;
 use crate::lower::Program;
 use crate::outcome::Host;
 use crate::plan::Step;
 use crate::system::{Level, SlotIndex, Stay};
+use std::rc::Rc;
 
 /// What all rows together may err when the steps take over: the last digits are soon found block by block, and
 /// slowly in the narrow valley that many rows make together. Where that is too rough, as little as can be.
@@ -28,10 +29,10 @@ impl Attempt<'_> {
                 values[i] = self.last[i];
             }
         }
-        let joint = self.gather(values, buffers, host);
+        let gathered = self.gather(values, buffers, host);
         let mut near = values.to_vec();
         ENOUGH.iter().any(|&enough| {
-            joint.settle(&mut near, &self.frame.scales, enough, &mut buffers.work);
+            gathered.joint.settle(&mut near, &self.frame.scales, enough, &mut buffers.work);
             values.copy_from_slice(&near);
             let attempt = Attempt { last: &near, ..self };
             attempt.run(values, &Approach::Nowhere, buffers, host).is_ok()
@@ -41,7 +42,12 @@ impl Attempt<'_> {
 
     /// Takes all rows and unknowns of steps that do not hold together. `values` comes with the last state in it,
     /// and the known slots set, and leaves with what comes from those alone.
-    fn gather(self, values: &mut [f64], buffers: &mut Buffers, host: &mut dyn Host) -> Joint {
+    fn gather(
+        self,
+        values: &mut [f64],
+        buffers: &mut Buffers,
+        host: &mut dyn Host,
+    ) -> Rc<Gathered> {
         let Self { plan, frame, last, trust, part: _ } = self;
         begin(plan, frame, values, buffers);
         let mut unknowns: Vec<SlotIndex> = Vec::new();
@@ -73,7 +79,7 @@ impl Attempt<'_> {
             is_required.then_some(relation.first_row + rejected.row)
         });
         equations.extend(surplus);
-        Joint::new(&plan.problem(equations, unknowns))
+        plan.gathered(equations, unknowns)
     }
 }
 
