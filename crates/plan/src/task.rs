@@ -504,13 +504,12 @@ impl<'s> Making<'s> {
 
     /// States what the component's whole numbers may be.
     fn ranges(&mut self) {
-        let all = &self.setting.structure.ranges;
-        if all.is_empty() {
-            return;
-        }
+        let structure = self.setting.structure;
         for (&slot, local) in self.component.slots().iter().zip(0..) {
-            if let Some(&(low, high)) = all.get(&slot) {
-                self.conditional.ranges.push(SlotRange { slot: local, low, high });
+            let is_by_class = structure.slots[slot].primitive == Primitive::Bool;
+            let by_class = is_by_class.then_some((0, 1));
+            if let Some((low, high)) = structure.ranges.get(&slot).copied().or(by_class) {
+                self.conditional.ranges.push(SlotRange { slot: local, low, high, is_by_class });
             }
         }
     }

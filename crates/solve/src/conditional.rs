@@ -58,6 +58,8 @@ pub struct SlotRange {
     pub low: i64,
     /// The greatest.
     pub high: i64,
+    /// True for what its class says: that a truth value is 0 or 1. Formulas keep that.
+    pub is_by_class: bool,
 }
 
 impl SlotRange {
@@ -85,7 +87,9 @@ pub struct Conditional {
 impl Conditional {
     /// Returns true if nothing in it asks for more than equations.
     pub fn is_plain(&self) -> bool {
-        self.demands.is_empty() && self.guards.is_empty() && self.ranges.is_empty()
+        self.demands.is_empty()
+            && self.guards.is_empty()
+            && self.ranges.iter().all(|r| r.is_by_class)
     }
     /// Returns true for a slot whose whole number is unknown.
     pub fn is_whole_unknown(&self, slot: SlotIndex) -> bool {

@@ -24,7 +24,7 @@ use domain::{Domain, MOST};
 use explore::{End, Net, Visitor, explore};
 use expr::{Arena, ExprId};
 use propagate::{Field, Prospect};
-use row::{Row, different, row, whole_number};
+use row::{Cells, Row, different, row, whole_number};
 
 /// How many states are visited in search of a solution.
 pub const PATIENCE: u64 = 200_000;
@@ -97,6 +97,7 @@ impl Puzzle {
             *range = range.clip(r.low, r.high);
         }
         let whole: Vec<bool> = system.slots.iter().map(|s| s.is_discrete).collect();
+        let cells = Cells { whole: &whole, ranges: &ranges };
         let mut conditions = Vec::new();
         for c in &conditional.conditions {
             let slots = system.arguments(c.arguments);
@@ -121,9 +122,9 @@ impl Puzzle {
                 rows.push(match demand.kind {
                     DemandKind::True => {
                         let truth = truth(&mut arena, roots[0], true);
-                        row(&arena, &whole, truth)
+                        row(&arena, cells, truth)
                     }
-                    DemandKind::Different => different(&arena, &whole, &roots),
+                    DemandKind::Different => different(&arena, cells, &roots),
                 });
             }
             let unless: Vec<Row> = conditional
@@ -132,7 +133,7 @@ impl Puzzle {
                 .filter(|g| g.relation == index)
                 .map(|g| {
                     let not = truth(&mut arena, conditions[g.condition as usize], !g.truth);
-                    row(&arena, &whole, not)
+                    row(&arena, cells, not)
                 })
                 .collect();
             let rank = relation.level.rank();
@@ -145,7 +146,7 @@ impl Puzzle {
             }
             rows.extend(equal.into_iter().map(|(left, right)| {
                 let comparing = Comparing::Equal;
-                row(&arena, &whole, Truth::Holds(Comparison { comparing, left, right }))
+                row(&arena, cells, Truth::Holds(Comparison { comparing, left, right }))
             }));
             if !unless.is_empty() {
                 let mut ways = unless;

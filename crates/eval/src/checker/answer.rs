@@ -301,7 +301,9 @@ impl Answer<'_> {
             let span = Span::of((0..weaker.len()).map(column));
             let is_spared = |i: usize| {
                 let own = column(i);
-                length(&span.rest(&own)) <= OFF * length(&own)
+                // what has no slope, as the condition of an `if`, is out of reach of a test of slopes
+                let size = length(&own);
+                size > 0.0 && length(&span.rest(&own)) <= OFF * size
             };
             Some((weaker.len()..columns.len()).map(is_spared).collect::<Vec<bool>>())
         });

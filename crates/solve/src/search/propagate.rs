@@ -2,8 +2,8 @@
 //!
 //! In: a row and domains. Out: smaller domains that lose no solution, or that there is none. Sums by
 //! their bounds; different numbers by taking known ones from the others, by sets of cells that use
-//! all their values up, and by values that only one cell can take; other rows by enclosing their
-//! sides, and value by value once a single cell is open.
+//! all their values up, and by values that only one cell can take; other rows by the bounds of their
+//! sides, and state by state once there are few.
 //!
 //! **Source:** Schulte and Stuckey, "Efficient constraint propagation engines" (2008), §2;
 //! van Hoeve, "The alldifferent constraint: a survey" (2001), §4.
@@ -11,7 +11,12 @@
 use super::domain::{Domain, MOST};
 use super::row::{General, Linear, Row, Shifted, Sum};
 use crate::truth::Comparing;
-use expr::{Arena, Interval};
+use expr::{Arena, ExprId, Interval};
+
+/// How many states of a row's cells are gone through one by one.
+const STATES: u64 = 64;
+/// What it costs to test a row in one of them, in multiplications, roughly.
+const STATE: u64 = 20;
 
 /// There is no solution.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
@@ -37,6 +42,8 @@ pub(crate) struct Field<'a> {
     /// What was spent so far, in multiplications, roughly, and what may be.
     pub(crate) spent: u64,
     pub(crate) most: u64,
+    /// What the cells of the row at hand can be.
+    boxes: Vec<Interval>,
     numbers: Vec<f64>,
     registers: Vec<f64>,
 }
@@ -44,8 +51,9 @@ pub(crate) struct Field<'a> {
 impl<'a> Field<'a> {
     pub(crate) fn new(arena: &'a Arena, domains: Vec<Domain>, known: &'a [Option<f64>]) -> Self {
         let numbers = vec![0.0; domains.len()];
+        let boxes = vec![Interval::ALL; domains.len()];
         let (shrunk, registers) = (Vec::new(), Vec::new());
-        Self { arena, domains, known, shrunk, spent: 0, most: u64::MAX, numbers, registers }
+        Self { arena, domains, known, shrunk, spent: 0, most: u64::MAX, boxes, numbers, registers }
     }
 
     /// Returns another field with the same domains.
@@ -326,44 +334,83 @@ impl<'a> Field<'a> {
     }
 
     fn general(&mut self, general: &General) -> Result<(), Dead> {
-        let mut open = general.cells.iter().filter(|&&c| self.of(c).known().is_none());
-        match (open.next(), open.next()) {
-            (None, _) => {
-                if self.tests_true(general) {
-                    Ok(())
-                } else {
-                    Err(Dead)
-                }
+        let open = |&c: &u32| self.of(c).known().is_none();
+        let open: Vec<u32> = general.cells.iter().copied().filter(open).collect();
+        let states = open.iter().try_fold(1, |states: u64, &cell| {
+            let domain = self.of(cell);
+            let is_listed = domain.values().is_some();
+            states.checked_mul(domain.size()).filter(|&s| is_listed && s <= STATES)
+        });
+        match states {
+            Some(states) => self.go_through(general, &open, states),
+            None => self.narrow(general),
+        }
+    }
+
+    /// Leaves cells the values that they have in a state in which a row holds.
+    fn go_through(&mut self, general: &General, open: &[u32], states: u64) -> Result<(), Dead> {
+        self.note_known(general);
+        let values = |&cell: &u32| self.of(cell).values().into_iter().flatten().collect();
+        let values: Vec<Vec<i64>> = open.iter().map(values).collect();
+        // what each cell has in some state that holds: bit `i` is its value `i`
+        let mut found = vec![0u64; open.len()];
+        let mut holds = false;
+        for state in 0..states {
+            self.spent += STATE;
+            let mut rest = state as usize;
+            let mut at = [0; STATES.ilog2() as usize];
+            for ((&cell, values), at) in open.iter().zip(&values).zip(&mut at) {
+                *at = rest % values.len();
+                rest /= values.len();
+                self.numbers[cell as usize] = values[*at] as f64;
             }
-            (Some(&cell), None) if self.of(cell).values().is_some() => {
-                let mut domain = self.of(cell);
-                self.note_known(general);
-                for v in self.of(cell).values().into_iter().flatten() {
-                    self.numbers[cell as usize] = v as f64;
-                    if !self.sides_hold(general) {
-                        domain = domain.without(v);
-                    }
-                }
-                self.put(cell, domain)
-            }
-            (Some(_), _) => {
-                for &(cell, other) in &general.defined {
-                    let interval = self.enclose(other);
-                    if interval.is_none() {
-                        return Err(Dead);
-                    }
-                    let domain = self.of(cell).clip(
-                        interval.low.ceil().max(-2.0 * MOST as f64) as i64,
-                        interval.high.floor().min(2.0 * MOST as f64) as i64,
-                    );
-                    self.put(cell, domain)?;
-                }
-                match self.prospect_of_sides(general) {
-                    Prospect::Never => Err(Dead),
-                    Prospect::Open | Prospect::Always => Ok(()),
+            if self.sides_hold(general) {
+                holds = true;
+                found.iter_mut().zip(at).for_each(|(found, at)| *found |= 1 << at);
+                if found.iter().zip(&values).all(|(f, v)| f.count_ones() as usize == v.len()) {
+                    break;
                 }
             }
         }
+        for ((&cell, values), found) in open.iter().zip(values).zip(found) {
+            let mut domain = self.of(cell);
+            for (at, value) in values.into_iter().enumerate() {
+                if found >> at & 1 == 0 {
+                    domain = domain.without(value);
+                }
+            }
+            self.put(cell, domain)?;
+        }
+        if holds { Ok(()) } else { Err(Dead) }
+    }
+
+    /// Leaves cells what the bounds of both sides allow.
+    fn narrow(&mut self, general: &General) -> Result<(), Dead> {
+        let (l, r) = self.enclose_sides(general);
+        let (of_left, of_right) = match general.comparing {
+            Comparing::Differ => return Ok(()),
+            Comparing::Less if l.low >= r.high => return Err(Dead),
+            Comparing::Equal => (r, l),
+            Comparing::AtMost | Comparing::Less => (
+                Interval { low: f64::NEG_INFINITY, high: r.high },
+                Interval { low: l.low, high: f64::INFINITY },
+            ),
+        };
+        let boxes = &mut self.boxes;
+        if !self.arena.narrow(general.left, of_left, boxes)
+            || !self.arena.narrow(general.right, of_right, boxes)
+        {
+            return Err(Dead);
+        }
+        let most = 2.0 * MOST as f64;
+        for &cell in &general.cells {
+            if self.known[cell as usize].is_none() {
+                let Interval { low, high } = self.boxes[cell as usize];
+                let (low, high) = (low.ceil().max(-most) as i64, high.floor().min(most) as i64);
+                self.put(cell, self.of(cell).clip(low, high))?;
+            }
+        }
+        Ok(())
     }
 
     fn prospect_of_sides(&mut self, general: &General) -> Prospect {
@@ -371,7 +418,7 @@ impl<'a> Field<'a> {
             let holds = self.tests_true(general);
             return if holds { Prospect::Always } else { Prospect::Never };
         }
-        let (l, r) = (self.enclose(general.left), self.enclose(general.right));
+        let (l, r) = self.enclose_sides(general);
         if l.is_none() || r.is_none() {
             return Prospect::Never;
         }
@@ -389,14 +436,30 @@ impl<'a> Field<'a> {
         }
     }
 
+    /// Returns what a cell can be.
+    fn interval(&self, cell: u32) -> Interval {
+        match self.known[cell as usize] {
+            Some(x) => Interval::point(x),
+            None => {
+                let domain = self.of(cell);
+                Interval { low: domain.low() as f64, high: domain.high() as f64 }
+            }
+        }
+    }
+
     /// Returns an interval that holds whatever an expression can be.
-    pub(crate) fn enclose(&self, id: expr::ExprId) -> Interval {
-        let interval = |(d, known): (&Domain, &Option<f64>)| match known {
-            Some(x) => Interval::point(*x),
-            None => Interval { low: d.low() as f64, high: d.high() as f64 },
-        };
-        let boxes: Vec<Interval> = self.domains.iter().zip(self.known).map(interval).collect();
+    pub(crate) fn enclose(&self, id: ExprId) -> Interval {
+        let boxes: Vec<_> = (0..self.domains.len() as u32).map(|c| self.interval(c)).collect();
         self.arena.enclose(id, &boxes)
+    }
+
+    /// Returns intervals that hold whatever the sides of a row can be.
+    fn enclose_sides(&mut self, general: &General) -> (Interval, Interval) {
+        for &cell in &general.cells {
+            self.boxes[cell as usize] = self.interval(cell);
+        }
+        let of = |side| self.arena.enclose(side, &self.boxes);
+        (of(general.left), of(general.right))
     }
 
     fn tests_true(&mut self, general: &General) -> bool {

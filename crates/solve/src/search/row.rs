@@ -3,6 +3,7 @@
 //! In: truths over cells. Out: [`Row`]s: sums with whole coefficients, sets of different numbers,
 //! anything else by its two sides, and conjunctions and alternatives of these.
 
+use super::domain::Domain;
 use crate::truth::{Comparing, Comparison, Truth};
 use expr::{Arena, Binary, ExprId, Node, Tape, Unary};
 use std::collections::BTreeMap;
@@ -49,26 +50,40 @@ pub(crate) struct General {
     pub(crate) sides: Tape,
     /// In order of declaration.
     pub(crate) cells: Vec<u32>,
-    /// A cell that one side is, and the other side, where that does not speak of it.
-    pub(crate) defined: Vec<(u32, ExprId)>,
 }
 
-/// Makes the row of a truth; `whole` says which cells are whole numbers, known or not.
-pub(crate) fn row(arena: &Arena, whole: &[bool], truth: Truth) -> Row {
+/// What cells can be, whatever the values.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Cells<'a> {
+    /// Which are whole numbers, known or not.
+    pub(crate) whole: &'a [bool],
+    pub(crate) ranges: &'a [Domain],
+}
+
+impl Cells<'_> {
+    /// Returns true for a cell that is 0 or 1.
+    fn is_truth_value(self, cell: u32) -> bool {
+        let range = self.ranges[cell as usize];
+        self.whole[cell as usize] && range.low() >= 0 && range.high() <= 1
+    }
+}
+
+/// Makes the row of a truth.
+pub(crate) fn row(arena: &Arena, of: Cells<'_>, truth: Truth) -> Row {
     match truth {
-        Truth::Holds(comparison) => compare(arena, whole, comparison),
-        Truth::All(parts) => Row::All(parts.into_iter().map(|p| row(arena, whole, p)).collect()),
-        Truth::Any(parts) => Row::Any(parts.into_iter().map(|p| row(arena, whole, p)).collect()),
+        Truth::Holds(comparison) => compare(arena, of, comparison),
+        Truth::All(parts) => Row::All(parts.into_iter().map(|p| row(arena, of, p)).collect()),
+        Truth::Any(parts) => Row::Any(parts.into_iter().map(|p| row(arena, of, p)).collect()),
     }
 }
 
 /// Makes the rows that say that no two expressions are equal.
-pub(crate) fn different(arena: &Arena, whole: &[bool], expressions: &[ExprId]) -> Row {
+pub(crate) fn different(arena: &Arena, of: Cells<'_>, expressions: &[ExprId]) -> Row {
     let shifted = |&e: &ExprId| {
-        let sum = linear(arena, e)?;
+        let sum = linear(arena, of, e)?;
         let mut terms = sum.terms.iter();
         match (terms.next(), terms.next()) {
-            (Some((&cell, 1)), None) if whole[cell as usize] => {
+            (Some((&cell, 1)), None) if of.whole[cell as usize] => {
                 Some(Shifted { cell, by: sum.constant })
             }
             _ => None,
@@ -81,17 +96,17 @@ pub(crate) fn different(arena: &Arena, whole: &[bool], expressions: &[ExprId]) -
     for (i, &left) in expressions.iter().enumerate() {
         for &right in &expressions[i + 1..] {
             let comparison = Comparison { comparing: Comparing::Differ, left, right };
-            pairs.push(compare(arena, whole, comparison));
+            pairs.push(compare(arena, of, comparison));
         }
     }
     Row::All(pairs)
 }
 
-fn compare(arena: &Arena, whole: &[bool], comparison: Comparison) -> Row {
+fn compare(arena: &Arena, of: Cells<'_>, comparison: Comparison) -> Row {
     let Comparison { comparing, left, right } = comparison;
-    if let (Some(l), Some(r)) = (linear(arena, left), linear(arena, right))
+    if let (Some(l), Some(r)) = (linear(arena, of, left), linear(arena, of, right))
         && let Some(difference) = l.plus(&r, -1)
-        && difference.terms.keys().all(|&cell| whole[cell as usize])
+        && difference.terms.keys().all(|&cell| of.whole[cell as usize])
     {
         let terms = difference.terms.into_iter().filter(|t| t.1 != 0).collect();
         let below = difference.constant.checked_neg();
@@ -109,18 +124,8 @@ fn compare(arena: &Arena, whole: &[bool], comparison: Comparison) -> Row {
     cells.extend(arena.variables(right).into_iter().map(|v| v.0));
     cells.sort_unstable();
     cells.dedup();
-    let mut defined = Vec::new();
-    if comparing == Comparing::Equal {
-        for (side, other) in [(left, right), (right, left)] {
-            if let Node::Var(v) = arena.node(side)
-                && !arena.variables(other).contains(&v)
-            {
-                defined.push((v.0, other));
-            }
-        }
-    }
     let sides = Tape::compile(arena, &[left, right]);
-    Row::General(General { comparing, left, right, sides, cells, defined })
+    Row::General(General { comparing, left, right, sides, cells })
 }
 
 /// A sum of cells with whole coefficients, and a constant.
@@ -144,23 +149,38 @@ impl Affine {
     }
 }
 
-/// Returns the sum that an expression is, where its coefficients are whole.
-fn linear(arena: &Arena, id: ExprId) -> Option<Affine> {
+/// Returns the sum that an expression is, where its coefficients are whole. What a truth value chooses between is
+/// one, where the two lie a constant apart.
+fn linear(arena: &Arena, of: Cells<'_>, id: ExprId) -> Option<Affine> {
+    let sum = |id| linear(arena, of, id);
     match arena.node(id) {
         Node::Constant(bits) => Some(Affine::constant(whole_number(f64::from_bits(bits))?)),
         Node::Var(v) => Some(Affine { terms: BTreeMap::from([(v.0, 1)]), constant: 0 }),
-        Node::Unary(Unary::Neg, a) => Affine::constant(0).plus(&linear(arena, a)?, -1),
-        Node::Binary(Binary::Add, a, b) => linear(arena, a)?.plus(&linear(arena, b)?, 1),
-        Node::Binary(Binary::Sub, a, b) => linear(arena, a)?.plus(&linear(arena, b)?, -1),
+        Node::Unary(Unary::Neg, a) => Affine::constant(0).plus(&sum(a)?, -1),
+        Node::Unary(Unary::Not, a) => match arena.node(a) {
+            Node::Var(v) if of.is_truth_value(v.0) => Affine::constant(1).plus(&sum(a)?, -1),
+            _ => None,
+        },
+        Node::Binary(Binary::Add, a, b) => sum(a)?.plus(&sum(b)?, 1),
+        Node::Binary(Binary::Sub, a, b) => sum(a)?.plus(&sum(b)?, -1),
         Node::Binary(Binary::Mul, a, b) => {
-            let (a, b) = (linear(arena, a)?, linear(arena, b)?);
+            let (a, b) = (sum(a)?, sum(b)?);
             match (a.terms.is_empty(), b.terms.is_empty()) {
                 (true, _) => Affine::constant(0).plus(&b, a.constant),
                 (false, true) => Affine::constant(0).plus(&a, b.constant),
                 (false, false) => None,
             }
         }
-        Node::Unary(..) | Node::Binary(..) | Node::Select { .. } => None,
+        Node::Select { condition, then, otherwise } => {
+            let Node::Var(v) = arena.node(condition) else { return None };
+            let (then, otherwise) = (sum(then)?, sum(otherwise)?);
+            let more = then.plus(&otherwise, -1)?;
+            let is_constant = more.terms.values().all(|&c| c == 0);
+            let truth = Affine { terms: BTreeMap::from([(v.0, 1)]), constant: 0 };
+            (of.is_truth_value(v.0) && is_constant)
+                .then(|| otherwise.plus(&truth, more.constant))?
+        }
+        Node::Unary(..) | Node::Binary(..) => None,
     }
 }
 

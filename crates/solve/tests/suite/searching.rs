@@ -13,7 +13,7 @@ fn puzzle(stays: &[Stay], most: i64, arena: &Arena, truths: &[ExprId]) -> Puzzle
     let mut stated = Conditional::default();
     for (&stay, slot) in stays.iter().zip(0..) {
         stated.system.slots.push(Slot { stay, scale: 0, is_number: true, is_discrete: true });
-        stated.ranges.push(SlotRange { slot, low: 0, high: most });
+        stated.ranges.push(SlotRange { slot, low: 0, high: most, is_by_class: false });
     }
     for (&truth, relation) in truths.iter().zip(0..) {
         let (pattern, slots) = patterns.intern(arena, &[truth]);
