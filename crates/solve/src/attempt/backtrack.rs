@@ -15,7 +15,7 @@ use crate::system::{Level, SlotIndex};
 use std::collections::{BTreeMap, BTreeSet, VecDeque};
 use std::rc::Rc;
 
-/// How often, at most, equations are solved for every unknown, and for all of them together.
+/// How often, at most, equations are solved and roots looked for, for every unknown and for all of them.
 const ROUNDS: usize = 5000;
 const WORK: usize = 3_000_000;
 /// After how much of either everything is moved at once, at the latest; where so many unknowns may have several
@@ -54,6 +54,8 @@ struct Search<'a> {
     attempt: Attempt<'a>,
     /// After how much work everything is moved at once.
     soon: usize,
+    /// How often roots were looked for, those that were known too.
+    looks: usize,
     /// The step that writes a slot.
     writer: Vec<Option<usize>>,
     /// The nearest comes last.
@@ -94,6 +96,7 @@ impl Attempt<'_> {
         let mut search = Search {
             attempt: self,
             soon,
+            looks: 0,
             writer,
             choices: Vec::new(),
             seen: BTreeSet::new(),
@@ -120,7 +123,7 @@ impl Attempt<'_> {
             tried += 1;
             let (values_then, motion_then) = (values.to_vec(), buffers.motion.clone());
             search.lay_by(&fault, Reach::Near, values, buffers, host);
-            if buffers.square.work > search.soon {
+            if search.work(buffers) > search.soon {
                 search.soon = usize::MAX;
                 if self.run_from_near(values, buffers, host) {
                     return Ok(());
@@ -131,7 +134,7 @@ impl Attempt<'_> {
             }
             let (fault, failure, begun, motion) =
                 first.get_or_insert((fault, failure, values_then, motion_then));
-            if buffers.square.work > (ROUNDS * branching).min(WORK) {
+            if search.work(buffers) > (ROUNDS * branching).min(WORK) {
                 let reason = Reason::NotDecided { tried };
                 return Err(Failure { reason, region: failure.region });
             }
@@ -168,6 +171,11 @@ impl Attempt<'_> {
 }
 
 impl Search<'_> {
+    /// Returns how often equations were solved, and roots looked for.
+    fn work(&self, buffers: &Buffers) -> usize {
+        buffers.square.work + self.looks
+    }
+
     /// Runs the steps from one on, then tests the surplus rows.
     fn run(
         &self,
@@ -209,9 +217,10 @@ impl Search<'_> {
             }
         };
         for suspect in suspects {
-            if buffers.square.work > self.soon {
+            if self.work(buffers) > self.soon {
                 break;
             }
+            self.looks += 1;
             let step = &plan.steps()[suspect];
             let index = suspect;
             let mut run = Run { plan, frame, last, values, trust, buffers, host, index };
