@@ -132,7 +132,7 @@ impl Measure {
         w: &mut Workspace,
     ) -> Measured {
         let scale: Vec<f64> = self.unknowns.iter().map(|&u| scales[u as usize]).collect();
-        let weights = self.weights(x0, values, &scale, w);
+        let weights = self.weights(x0, values, scales, w);
         if let Some(Large::Curved(curved)) = &self.large {
             let (block, given, weights, scale) = (&self.block, &self.given, &weights, &scale);
             let asked = curved::Asked { block, given, weights, x0, scale, trust };
@@ -222,7 +222,7 @@ impl Measure {
             return is_settled;
         }
         let scale: Vec<f64> = self.unknowns.iter().map(|&u| scales[u as usize]).collect();
-        let weights = self.weights(x0, values, &scale, w);
+        let weights = self.weights(x0, values, scales, w);
         let Some(local) = self.evaluate(values, &scale, &weights, w) else {
             return false;
         };
@@ -252,7 +252,9 @@ impl Measure {
         base::number::sqrt(sum)
     }
 
-    /// What makes each row dimensionless, taken at x0 so that it does not change during the edit.
+    /// What makes each row dimensionless, taken at x0 so that it does not change during the edit: of what must hold
+    /// its slope by the unknowns of the core, of what is wished its slope by the slots that it speaks of, whatever
+    /// these come from.
     ///
     /// Rows of one level that speak of slots of one scale, and slope alike, weigh the same: a bar with
     /// one end anchored is stretched as unwillingly as one with both ends free.
@@ -260,25 +262,35 @@ impl Measure {
         &self,
         x0: &[f64],
         values: &mut [f64],
-        scale: &[f64],
+        scales: &[f64],
         w: &mut Workspace,
     ) -> Vec<f64> {
+        let scale: Vec<f64> = self.unknowns.iter().map(|&u| scales[u as usize]).collect();
+        let block = &self.block;
         let ones = vec![1.0; self.levels.len()];
-        let now: Vec<f64> = self.block.unknowns.iter().map(|&u| values[u as usize]).collect();
-        for &u in &self.block.unknowns {
+        let now: Vec<f64> = block.unknowns.iter().map(|&u| values[u as usize]).collect();
+        for &u in &block.unknowns {
             values[u as usize] = x0[u as usize];
         }
-        let at_start = self.evaluate(values, scale, &ones, w);
-        for (&u, x) in self.block.unknowns.iter().zip(now) {
+        let at_start = self.evaluate(values, &scale, &ones, w);
+        for (&u, x) in block.unknowns.iter().zip(now) {
             values[u as usize] = x;
         }
-        let Some(local) = at_start.or_else(|| self.evaluate(values, scale, &ones, w)) else {
+        let Some(scaled) = at_start.or_else(|| self.evaluate(values, &scale, &ones, w)) else {
             return ones;
         };
         let own = (0..self.levels.len()).map(|r| {
-            let size = match self.large {
-                Some(_) => dense::norm(&local.slopes[self.block.pattern.range(r)]),
-                None => dense::norm(&local.jacobian[r]),
+            let row = block.core_rows[r] as usize;
+            let slope = |e: usize| {
+                let unknown = block.unknowns[block.pattern.column(e)];
+                scaled.local.jacobian[e] * scales[unknown as usize]
+            };
+            let size = match (&self.large, self.levels[r]) {
+                (None, Level::Required) => dense::norm(&scaled.jacobian[r]),
+                _ => {
+                    let slopes: Vec<f64> = block.pattern.range(row).map(slope).collect();
+                    dense::norm(&slopes)
+                }
             };
             if size > 0.0 { 1.0 / size } else { 1.0 }
         });
