@@ -487,13 +487,16 @@ pub(crate) fn code_for(found: &Kind, wanted: &Kind) -> &'static str {
     }
 }
 
+/// A product of bare and plain numbers is a bare one: `20 * cos(a)` is a length where one is wanted.
 fn product(a: &Kind, b: &Kind, join: fn(Dimension, Dimension) -> Dimension) -> Kind {
     let dimension = |k: &Kind| match k {
         Kind::Number(d) => Some(d.unwrap_or(Dimension::NONE)),
         _ => None,
     };
+    let is_bare = |k: &Kind| *k == Kind::Number(None);
+    let is_plain = |k: &Kind| is_bare(k) || *k == Kind::PLAIN;
     match (a, b) {
-        (Kind::Number(None), Kind::Number(None)) => Kind::Number(None),
+        _ if is_bare(a) && is_plain(b) || is_plain(a) && is_bare(b) => Kind::Number(None),
         _ => match (dimension(a), dimension(b)) {
             (Some(a), Some(b)) => Kind::Number(Some(join(a, b))),
             _ => Kind::Unknown,
