@@ -51,6 +51,12 @@ pub(crate) struct Definition {
     pub(crate) loops: Vec<ast::For>,
 }
 
+/// The word that a `for` begins with.
+pub(crate) const FOR: &str = "for";
+/// What to write where a `for` stands for a list.
+pub(crate) const FOR_AS_VALUE: &str = "a list of many is `(0..9).map(i => …)`; as a member, \
+     `for i in 0..9 { list[i] = … }` gives the elements of a list one by one";
+
 impl Lowerer<'_> {
     /// Declares what a body adds to the class of its scope.
     pub(crate) fn declare_body(&mut self, scope: &Scope, members: Vec<Member>) {
@@ -105,8 +111,16 @@ impl Lowerer<'_> {
 
     /// Reports a value that is a block of steps, as only programs have.
     fn refuse_block(&mut self, scope: &Scope, value: Option<ast::Value>) {
-        if let Some(value) = value.filter(|v| v.clone().expr().is_none()) {
-            self.not_yet(scope.file, value.span(), "blocks of steps as values are");
+        let Some(value) = value.filter(|v| v.clone().expr().is_none()) else { return };
+        let (file, span) = (scope.file, value.span());
+        let text = self.files[file].text.get(span.range()).unwrap_or_default();
+        if text.starts_with(FOR) {
+            let line = text.lines().next().unwrap_or_default().trim_end().len() as u32;
+            let place = Place { file, span: Span::new(span.start, span.start + line) };
+            let d = Diagnostic::error("for-as-value", place, "a `for` is no value");
+            self.report(d.hint(FOR_AS_VALUE));
+        } else {
+            self.not_yet(file, span, "blocks of steps as values are");
         }
     }
 

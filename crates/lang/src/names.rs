@@ -2,7 +2,7 @@
 
 use crate::kinds::Kind;
 use crate::lower::{Lowered, Lowerer};
-use crate::members::Definition;
+use crate::members::{Definition, FOR, FOR_AS_VALUE};
 use crate::scope::{Element, Scope};
 use base::{Diagnostic, Name, Place};
 use kernel::builtin;
@@ -110,8 +110,12 @@ impl Lowerer<'_> {
         if scope.classes.iter().any(|&class| self.is_broken(class, &word.name())) {
             return;
         }
-        let message = format!("there is nothing called {} here", word.text());
         let place = Place { file: scope.file, span: word.span() };
+        if word.text() == FOR {
+            let d = Diagnostic::error("for-as-value", place, "a `for` is no value");
+            return self.report(d.hint(FOR_AS_VALUE));
+        }
+        let message = format!("there is nothing called {} here", word.text());
         let mut d = Diagnostic::error("unknown-name", place, message);
         if self.visible.class(scope.file, word.text()).is_some() {
             let made = format!("it is a class: `{}(…)` makes a thing of it", word.text());

@@ -100,6 +100,7 @@ const WRONG: &[(&str, &str, &str)] = &[
     ("a: Length\ncheck \"c\" { expect a = 1 within 1 V }", "dimension-mismatch", "1 V"),
     ("check \"c\" { simulate 5 s }", "not-yet", "simulate 5 s"),
     ("a: Length => 3 V", "dimension-mismatch", "3 V"),
+    ("k: Real\na: Length = k * (k + 1)", "dimension-mismatch", "k * (k + 1)"),
     ("a: Real = 3 furlong", "unknown-unit", "furlong"),
     ("a: Real = 3 kohn", "unknown-unit", "kohn"),
     ("unit furlong", "unknown-unit", "unit furlong"),
