@@ -71,7 +71,31 @@ struct Scaled {
     gradients: Vec<f64>,
 }
 
+/// What the rows should come to after the first step, were they straight.
+struct Begun {
+    residual: Vec<f64>,
+    /// How far they should go.
+    way: f64,
+}
+
+impl Begun {
+    fn new(from: &Scaled, step: &[f64]) -> Self {
+        let along: Vec<f64> = from.jacobian.iter().map(|row| dense::dot(row, step)).collect();
+        let residual = from.residual.iter().zip(&along).map(|(r, a)| r + a).collect();
+        Self { residual, way: dense::norm(&along) }
+    }
+    /// Returns true where the rows, after a long way, come to something else by half of the way: a hand that turns
+    /// by a radian may have gone round.
+    fn bends_to(&self, now: &Scaled) -> bool {
+        let off: Vec<f64> = self.residual.iter().zip(&now.residual).map(|(a, b)| a - b).collect();
+        let off = dense::norm(&off);
+        off > BENT && off > 0.5 * self.way
+    }
+}
+
 const STEPS: usize = 200;
+/// What rows may be off after the first step, in parts of the extent, however they bend.
+const BENT: f64 = 0.1;
 /// From how many unknowns on a block's algebra is sparse.
 const LARGE: usize = 120;
 /// Curvature below this, where one is ordinary, leaves a direction to the next level.
@@ -144,12 +168,13 @@ impl Measure {
         }
         let (mut smallest, mut idle) = (f64::INFINITY, 0);
         let mut settled = false;
+        let mut begun: Option<Begun> = None;
         for iteration in 0..STEPS {
             w.spend(self.cost());
             if w.is_spent() {
                 return Measured::Failed;
             }
-            let Some(local) = self.evaluate(values, &scale, &weights, w) else {
+            let Some(scaled) = self.evaluate(values, &scale, &weights, w) else {
                 return Measured::Failed;
             };
             let away: Vec<f64> = self
@@ -158,7 +183,7 @@ impl Measure {
                 .zip(&scale)
                 .map(|(&u, s)| (values[u as usize] - x0[u as usize]) / s)
                 .collect();
-            let mut step = self.direction(&local, &away, &weights, values, w);
+            let mut step = self.direction(&scaled, &away, &weights, values, w);
             let size = step.iter().fold(0.0f64, |m, d| m.max(d.abs()));
             if !size.is_finite() {
                 return Measured::Failed;
@@ -169,7 +194,8 @@ impl Measure {
                 1 => size > 1e-3f64.max(0.5 * smallest),
                 _ => false,
             };
-            if trust == Trust::Branch && curved && leaps {
+            let bends = iteration == 1 && begun.as_ref().is_some_and(|b| b.bends_to(&scaled));
+            if trust == Trust::Branch && curved && (leaps || bends) {
                 return Measured::Failed;
             }
             // longer steps than half the extent are not believed
@@ -178,7 +204,7 @@ impl Measure {
                     *d *= 0.5 / size;
                 }
             }
-            let hard = self.hard_norm(&local);
+            let hard = self.hard_norm(&scaled);
             if size <= SETTLED || (idle >= 4 && smallest < 1e-7) {
                 settled = true;
                 break;
@@ -191,7 +217,11 @@ impl Measure {
                     return Measured::Failed;
                 }
             }
-            self.advance(values, &step, &scale, hard, &weights, w);
+            let length = self.advance(values, &step, &scale, hard, &weights, w);
+            if trust == Trust::Branch && curved && iteration == 0 && self.large.is_none() {
+                step.iter_mut().for_each(|d| *d *= length);
+                begun = Some(Begun::new(&scaled, &step));
+            }
         }
         match self.evaluate(values, &scale, &weights, w) {
             Some(local) if settled && self.hard_rows_hold(&local, values, w) => Measured::Least,
@@ -498,7 +528,7 @@ impl Measure {
         });
     }
 
-    /// Goes along the step, shortened until the hard rows are not torn apart.
+    /// Goes along the step, shortened until the hard rows are not torn apart; returns by how much.
     fn advance(
         &self,
         values: &mut [f64],
@@ -507,7 +537,7 @@ impl Measure {
         hard: f64,
         weights: &[f64],
         w: &mut Workspace,
-    ) {
+    ) -> f64 {
         let start: Vec<f64> = self.unknowns.iter().map(|&u| values[u as usize]).collect();
         let mut length = 1.0;
         loop {
@@ -518,7 +548,7 @@ impl Measure {
                 .evaluate(values, scale, weights, w)
                 .map_or(f64::INFINITY, |local| self.hard_norm(&local));
             if now <= 0.1f64.max(2.0 * hard) || length < 1e-6 {
-                return;
+                return length;
             }
             length *= 0.5;
         }
