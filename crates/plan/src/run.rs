@@ -194,7 +194,8 @@ impl Planner {
         after: &Values,
     ) -> Vec<(SlotId, Toward)> {
         let mut undecided = Vec::new();
-        for task in tasks.iter().filter(|t| !matches!(t.course, Course::Search(_))) {
+        let may_fork = |t: &&Task| !matches!(t.course, Course::Search(_)) && t.plan.may_fork();
+        for task in tasks.iter().filter(may_fork) {
             let [x0, now] =
                 [before, after].map(|values| ground(self, task, aim, values, values).x0);
             let slot = |lean: Lean| {

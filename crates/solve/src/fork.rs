@@ -125,6 +125,13 @@ fn most_open(open: &[f64]) -> Option<usize> {
     open.iter().position(|d| d.abs() > 0.999 * largest)
 }
 
+impl Plan {
+    /// Returns true if two branches can meet in one of its blocks.
+    pub fn may_fork(&self) -> bool {
+        self.branching().iter().any(|step| forking(&step.program).is_some())
+    }
+}
+
 /// Returns the equations of a step that may have several solutions.
 pub(crate) fn forking(program: &Program) -> Option<&Square> {
     match program {
