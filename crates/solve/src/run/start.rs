@@ -96,6 +96,7 @@ fn measure_scales(plan: &Plan, frame: &mut Frame) {
         *low = if extent.is_finite() && extent > 0.0 { extent } else { 1.0 };
     }
     frame.scales.clear();
+    frame.scales.reserve(plan.slots().len());
     for alike in &plan.alike {
         frame.scales.resize(alike.end as usize, ranges[alike.scale as usize].0);
     }
