@@ -84,8 +84,8 @@ impl Press {
 impl Planner {
     /// Presses on targets, to move them together.
     ///
-    /// Cost: that of planning the components of the targets; of what is downstream of them, where
-    /// they were pressed not long ago.
+    /// Cost: that of planning the components of the targets; where they were pressed not long ago, that of
+    /// copying the state of these, and of testing it where no drag by their plan began or ended there.
     ///
     /// # Errors
     /// Why they cannot be moved at all.
