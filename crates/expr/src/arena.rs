@@ -55,7 +55,7 @@ impl Node {
     }
 }
 
-/// Sixty-four times as many nodes are marked rather than collected.
+/// Up to sixty-four times as many nodes are marked in place.
 const MARKS: usize = 32;
 
 /// A set in order of insertion, without random state.
@@ -336,13 +336,10 @@ impl Arena {
 
     /// Returns every node that the `roots` are made of, operands before users.
     ///
-    /// Cost: that of the nodes reached, whatever else the arena holds.
-    pub(crate) fn reachable(&self, roots: &[ExprId]) -> Vec<ExprId> {
+    /// Cost: that of the nodes reached, and a bit for every other one before them.
+    pub fn reachable(&self, roots: &[ExprId]) -> Vec<ExprId> {
         let end = roots.iter().map(|r| r.index() + 1).max().unwrap_or(0);
-        if end <= MARKS * 64 { self.marked(roots, end) } else { self.collected(roots) }
-    }
-    fn marked(&self, roots: &[ExprId], end: usize) -> Vec<ExprId> {
-        let mut reached = Vec::with_capacity(end);
+        let mut reached = Vec::with_capacity(end.min(MARKS * 64));
         self.each_marked(roots, end, |id, _| reached.push(id));
         reached.reverse();
         reached
@@ -350,11 +347,17 @@ impl Arena {
     /// Marks what is reached among the nodes before `end`; users stand after their operands, so that one
     /// pass from the end meets them all.
     fn each_marked(&self, roots: &[ExprId], end: usize, mut visit: impl FnMut(ExprId, Node)) {
-        let mut marks = [0_u64; MARKS];
-        let mark = |marks: &mut [u64; MARKS], id: ExprId| {
+        let (mut few, mut many) = ([0_u64; MARKS], Vec::new());
+        let marks = if end <= MARKS * 64 {
+            &mut few[..]
+        } else {
+            many.resize(end.div_ceil(64), 0);
+            &mut many[..]
+        };
+        let mark = |marks: &mut [u64], id: ExprId| {
             marks[id.index() / 64] |= 1 << (id.index() % 64);
         };
-        roots.iter().for_each(|&r| mark(&mut marks, r));
+        roots.iter().for_each(|&r| mark(marks, r));
         for word in (0..end.div_ceil(64)).rev() {
             let mut below = u64::MAX;
             while marks[word] & below != 0 {
@@ -363,22 +366,9 @@ impl Arena {
                 let id = ExprId::from_index(word * 64 + bit as usize);
                 let node = self.node(id);
                 visit(id, node);
-                node.each_operand(|operand| mark(&mut marks, operand));
+                node.each_operand(|operand| mark(marks, operand));
             }
         }
-    }
-    fn collected(&self, roots: &[ExprId]) -> Vec<ExprId> {
-        let mut reached: Set<ExprId> = roots.iter().copied().collect();
-        let mut next = 0;
-        while next < reached.len() {
-            self.node(reached[next]).each_operand(|operand| {
-                reached.insert(operand);
-            });
-            next += 1;
-        }
-        let mut reached: Vec<ExprId> = reached.into_iter().collect();
-        reached.sort_unstable();
-        reached
     }
     /// Returns the value of an expression.
     ///
@@ -410,12 +400,7 @@ impl Arena {
     }
     /// Calls `visit` with every operation that an expression is made of, users before operands.
     pub fn each_node(&self, id: ExprId, mut visit: impl FnMut(Node)) {
-        let end = id.index() + 1;
-        if end <= MARKS * 64 {
-            self.each_marked(&[id], end, |_, node| visit(node));
-        } else {
-            self.collected(&[id]).into_iter().rev().for_each(|id| visit(self.node(id)));
-        }
+        self.each_marked(&[id], id.index() + 1, |_, node| visit(node));
     }
     /// Returns the variables that occur in an expression.
     pub fn variables(&self, id: ExprId) -> BTreeSet<Var> {

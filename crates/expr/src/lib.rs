@@ -48,7 +48,7 @@ pub mod units;
 
 pub use arena::{Arena, Excerpt, ExprId, Node, Var};
 pub use conic::{Conic, conic};
-pub use derivative::{derivative, gradient};
+pub use derivative::{derivative, gradient, varying};
 pub use dimension::Dimension;
 pub use interval::Interval;
 pub use isolate::{Guard, Root, is_linear_in, isolate};

@@ -198,7 +198,7 @@ fn state(
     making.ranges();
     let Making { conditional, holds, targets, relations, .. } = making;
     let whole = whole::stated(&conditional).then(|| plans.whole(conditional.clone()));
-    plans.patterns_mut().take_apart();
+    plans.patterns_mut().take_apart(&conditional.system);
     let (system, plan, course, number) = course(plans, conditional);
     let number = number.filter(|_| whole.is_none() && !has_host(&system));
     let (pieces, movable, core, at_rest) = Default::default();

@@ -10,8 +10,7 @@ use crate::few::Few;
 use crate::rows::{Point, generic_number};
 use crate::system::SlotIndex;
 use base::Id;
-use expr::{Arena, Binary, Conic, ExprId, Guard, Node, Tape, Unary, Var, gradient};
-use std::collections::BTreeMap;
+use expr::{Arena, Binary, Conic, ExprId, Guard, Node, Tape, Unary, Var, gradient, varying};
 use std::rc::Rc;
 use std::sync::OnceLock;
 
@@ -198,26 +197,22 @@ impl Kernel {
         sides: Rc<Tape>,
     ) -> Self {
         let residual = arena.sub(left, right);
-        let vars = Reads::of(&arena, arity).variables(&arena, residual).0;
-        let gradient = gradient(&mut arena, residual, &vars);
-        let reads = Reads::of(&arena, arity);
-        let (mut entries, mut derivatives) = (Vec::new(), Vec::new());
-        let depends = |d| {
-            let (variables, branches) = reads.variables(&arena, d);
-            (variables.into_iter().map(|v| v.0).collect(), branches)
+        let vars: Vec<Var> = if arity > u64::BITS {
+            arena.variables(residual).into_iter().collect()
+        } else {
+            let (vars, _) = Reads::by(&arena, arity, &[residual]).of(residual);
+            vars.iter().map(|&v| Var(v)).collect()
         };
-        // of the many terms of a long sum most have the same derivative
-        let mut known: BTreeMap<ExprId, (Few, bool)> = BTreeMap::new();
-        for (var, d) in vars.iter().zip(gradient) {
-            if arena.as_constant(d) != Some(0.0) {
-                let (depends, branches) = match reads.0.is_empty() {
-                    true => known.entry(d).or_insert_with(|| depends(d)).clone(),
-                    false => depends(d),
-                };
-                entries.push(Entry { argument: var.0, depends, branches });
-                derivatives.push(d);
-            }
-        }
+        let gradient = gradient(&mut arena, residual, &vars);
+        let told = |d: &ExprId| arena.as_constant(*d) != Some(0.0);
+        let (vars, derivatives): (Vec<Var>, Vec<ExprId>) =
+            vars.into_iter().zip(gradient).filter(|(_, d)| told(d)).unzip();
+        let reads = Reads::by(&arena, arity, &derivatives);
+        let entry = |(var, &d): (&Var, &ExprId)| {
+            let (depends, branches) = reads.of(d);
+            Entry { argument: var.0, depends, branches }
+        };
+        let entries = vars.iter().zip(&derivatives).map(entry).collect();
         let mut outs = vec![left, right];
         outs.extend(&derivatives);
         let slopes = Tape::compile(&arena, &outs);
@@ -346,7 +341,9 @@ impl Kernel {
         self.second.get_or_init(|| {
             let mut arena = self.arena.clone();
             let (mut entries, mut outs) = (Vec::new(), Vec::new());
-            for (entry, &d) in self.entries.iter().zip(&self.derivatives) {
+            let varies = varying(&arena);
+            let bends = |d: &ExprId| varies[d.index()];
+            for (entry, &d) in self.entries.iter().zip(&self.derivatives).filter(|e| bends(e.1)) {
                 let from = entry.argument;
                 let vars: Vec<Var> =
                     entry.depends.iter().filter(|&&a| a >= from).map(|&a| Var(a)).collect();
@@ -428,14 +425,33 @@ fn canonical(
     (left, right, arguments)
 }
 
-/// What the nodes of an arena read, where its variables are few: of each the variables as bits, and
-/// whether its value depends on a choice.
-struct Reads(Vec<(u64, bool)>);
+/// What the nodes of an arena read: of each the variables, and whether its value depends on a choice.
+enum Reads {
+    /// Of every node, the variables as bits, where these are few.
+    Bits(Vec<(u64, bool)>),
+    /// Of the nodes that were asked for and what they are made of, in order.
+    Lists(Vec<ExprId>, Vec<(Few, bool)>),
+}
 
 impl Reads {
-    fn of(arena: &Arena, arity: u32) -> Self {
+    /// Finds what these expressions read.
+    fn by(arena: &Arena, arity: u32, roots: &[ExprId]) -> Self {
         if arity > u64::BITS {
-            return Self(Vec::new());
+            let order = arena.reachable(roots);
+            let mut reads: Vec<(Few, bool)> = Vec::with_capacity(order.len());
+            for &id in &order {
+                let node = arena.node(id);
+                let mut own = (Few::default(), chooses(node));
+                if let Node::Var(var) = node {
+                    own.0 = [var.0][..].into();
+                }
+                node.each_operand(|operand| {
+                    let at = order.binary_search(&operand).expect("operands are reached too");
+                    own = (union(&own.0, &reads[at].0), own.1 | reads[at].1);
+                });
+                reads.push(own);
+            }
+            return Self::Lists(order, reads);
         }
         let mut reads: Vec<(u64, bool)> = Vec::with_capacity(arena.len());
         for node in arena.nodes() {
@@ -449,28 +465,39 @@ impl Reads {
             });
             reads.push(own);
         }
-        Self(reads)
+        Self::Bits(reads)
     }
-    /// Returns the variables of an expression, in order, and true if its value depends on a choice.
-    fn variables(&self, arena: &Arena, id: ExprId) -> (Vec<Var>, bool) {
-        if let Some(&(mut variables, chooses)) = self.0.get(id.index()) {
-            let mut vars = Vec::with_capacity(variables.count_ones() as usize);
-            while variables != 0 {
-                vars.push(Var(variables.trailing_zeros()));
-                variables &= variables - 1;
+    /// Returns the variables of an expression that was asked for, in order, and true if its value depends on a
+    /// choice.
+    fn of(&self, id: ExprId) -> (Few, bool) {
+        match self {
+            Self::Bits(reads) => {
+                let (mut variables, chooses) = reads[id.index()];
+                let next = || {
+                    let next = (variables != 0).then(|| variables.trailing_zeros());
+                    variables &= variables.wrapping_sub(1);
+                    next
+                };
+                (std::iter::from_fn(next).collect(), chooses)
             }
-            return (vars, chooses);
+            Self::Lists(order, reads) => {
+                let at = order.binary_search(&id).expect("it was asked for");
+                reads[at].clone()
+            }
         }
-        let (mut vars, mut any) = (Vec::new(), false);
-        arena.each_node(id, |node| {
-            any |= chooses(node);
-            if let Node::Var(var) = node {
-                vars.push(var);
-            }
-        });
-        vars.sort_unstable();
-        (vars, any)
     }
+}
+
+/// Returns what is in either of two lists in order; one that holds the other is shared.
+fn union(a: &Few, b: &Few) -> Few {
+    let (few, many) = if a.len() < b.len() { (a, b) } else { (b, a) };
+    let is_new = |x: &&u32| many.binary_search(x).is_err();
+    if few.len() == many.len() && few == many || !few.iter().any(|x| is_new(&x)) {
+        return many.clone();
+    }
+    let mut all: Vec<u32> = many.iter().chain(few.iter().filter(is_new)).copied().collect();
+    all.sort_unstable();
+    all.into()
 }
 
 /// Returns true if an operation is a choice: of a sign, of the larger, of a case.
@@ -527,5 +554,21 @@ mod tests {
         assert!(wide.is_like(tall, true) && product.is_like(product, true));
         // what the factor is of cannot be seen
         assert!(!alike(scaled, scaled));
+    }
+
+    /// Which of many is the largest hangs on all of them, and its slope on nothing else.
+    #[test]
+    fn the_largest_of_many_is_on_a_piece_of_its_own() {
+        let mut arena = Arena::new();
+        let vars: Vec<ExprId> = (0..101).map(|v| arena.var(Var(v))).collect();
+        let join = |a, b| arena.binary(Binary::Max, a, b);
+        let largest = base::number::joined(vars[1..].to_vec(), join).expect("there are some");
+        let (kernel, _) = Kernel::of_slots(&arena, vars[0], largest);
+        let all: Vec<u32> = (1..101).collect();
+        assert_eq!(kernel.entries.len(), 101);
+        assert!(kernel.entries[0].depends.is_empty() && !kernel.entries[0].branches);
+        assert!(kernel.entries[1..].iter().all(|e| e.branches && e.depends[..] == all));
+        assert!(!kernel.is_linear());
+        assert_eq!(kernel.second().entries, []);
     }
 }

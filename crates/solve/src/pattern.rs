@@ -7,12 +7,12 @@
 
 use crate::kernel::Kernel;
 use crate::pieces;
-use crate::system::SlotIndex;
+use crate::system::{SlotIndex, System};
 use base::{Id, Mixer, define_id};
 use expr::{Arena, Excerpt, ExprId, Node, Tape, Var};
 use indexmap::IndexSet;
 use std::cell::{OnceCell, RefCell};
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 use std::hash::{BuildHasherDefault, Hash, Hasher};
 use std::rc::Rc;
 
@@ -327,17 +327,22 @@ impl Patterns {
         let index = self.all.get_index_of(&excerpt)?;
         Some((PatternId::from_index(index), variables))
     }
-    /// Adds the patterns of what equations with an `if` are taken apart into, of those that came since this was
-    /// last done, so that [`crate::pieces::taken_apart`] finds them.
-    pub fn take_apart(&mut self) {
+    /// Adds the patterns of what the equations of a system with an `if` are taken apart into, so that
+    /// [`crate::pieces::taken_apart`] finds them; of so many that it would take none apart, nothing.
+    pub fn take_apart(&mut self, system: &System) {
         if self.whole.is_empty() {
             return;
         }
-        for pattern in std::mem::take(&mut self.whole) {
-            pieces::add(self, pattern);
+        let patterns = system.equations.iter().map(|e| e.pattern);
+        let own: Vec<PatternId> = patterns.filter(|&p| self.get(p).has_pieces).collect();
+        if own.len() > pieces::MOST_EQUATIONS {
+            return;
         }
+        let own: BTreeSet<PatternId> = own.into_iter().collect();
+        let (now, later) = self.whole.iter().copied().partition::<Vec<_>, _>(|p| own.contains(p));
+        now.into_iter().for_each(|pattern| pieces::add(self, pattern));
         // their own parts are not taken apart
-        self.whole.clear();
+        self.whole = later;
     }
     /// Returns how many patterns there are.
     pub fn len(&self) -> usize {

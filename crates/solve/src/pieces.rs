@@ -18,7 +18,7 @@ use std::collections::btree_map::Entry;
 /// An equation is taken apart into so many pieces at most; what is left of it stays whole.
 const MOST_PIECES: u32 = 64;
 /// So many equations of a system at most are taken apart.
-const MOST_EQUATIONS: usize = 200;
+pub(crate) const MOST_EQUATIONS: usize = 200;
 
 /// Returns true if an equation with this operation in it may be taken apart.
 pub(crate) fn has_pieces(node: Node) -> bool {
