@@ -12,7 +12,7 @@
 
 use crate::deflate;
 use crate::echelon::Row;
-use crate::exact;
+use crate::exact::{self, Came};
 use crate::lists::Lists;
 use crate::matching::Matcher;
 use crate::number::Number;
@@ -156,12 +156,15 @@ pub(crate) fn accept(system: &System, classes: &Classes, rows: &Rows) -> Accepta
             }
             let near = rows.doubles(piece.rows);
             let most = (piece.rows.len() > LARGE).then_some(MOST_WORK);
-            if exact::accept(system, classes, rows, &near, piece, most, out) {
+            let came = exact::accept(system, classes, rows, &near, piece, most, out);
+            if came == Came::All {
                 return;
             }
+            let is_too_much = came == Came::TooMuch;
+            let mut eliminate = Eliminating { system, classes, rows, matcher: &mut matcher, piece };
             match rows.residues(piece.rows) {
-                Some(exact) => eliminate(system, classes, rows, &exact, &mut matcher, piece, out),
-                None => eliminate(system, classes, rows, &near, &mut matcher, piece, out),
+                Some(exact) => eliminate.with(&exact, is_too_much, out),
+                None => eliminate.with(&near, true, out),
             }
         });
     }
@@ -207,21 +210,33 @@ fn count(system: &System, classes: &Classes, out: &mut Acceptance) {
     out.yielded = (0..n as u32).filter(|&s| is_given(s) && out.unknown[s as usize]).collect();
 }
 
-/// Decides for a large piece by elimination, with coefficients that are residues, or doubles where there are
-/// none.
-fn eliminate<N: Number>(
-    system: &System,
-    classes: &Classes,
-    rows: &Rows,
-    coefficients: &[Row<N>],
-    matcher: &mut Matcher<'_>,
-    piece: Piece<'_>,
-    out: &mut Acceptance,
-) {
-    if !exact::accept(system, classes, rows, coefficients, piece, Some(MOST_WORK), out)
-        && !deflate::accept(classes, rows, coefficients, matcher, piece, out)
-    {
-        exact::accept(system, classes, rows, coefficients, piece, None, out);
+/// A large piece that is decided by elimination.
+struct Eliminating<'a, 'p> {
+    system: &'a System,
+    classes: &'a Classes,
+    rows: &'a Rows,
+    matcher: &'p mut Matcher<'a>,
+    piece: Piece<'p>,
+}
+
+impl Eliminating<'_, '_> {
+    /// Decides with coefficients that are residues, or doubles where there are none; a tableau may be known to
+    /// be too much work.
+    fn with<N: Number>(
+        &mut self,
+        coefficients: &[Row<N>],
+        is_too_much: bool,
+        out: &mut Acceptance,
+    ) {
+        let Self { system, classes, rows, ref mut matcher, piece } = *self;
+        let tableau = |most, out: &mut Acceptance| {
+            exact::accept(system, classes, rows, coefficients, piece, most, out) == Came::All
+        };
+        let is_decided = !is_too_much && tableau(Some(MOST_WORK), out)
+            || deflate::accept(classes, rows, coefficients, matcher, piece, out);
+        if !is_decided {
+            tableau(None, out);
+        }
     }
 }
 

@@ -304,8 +304,9 @@ impl<N: Number> Remainder<N> {
         }
         let own = pivot_row.iter().position(|e| e.column == column);
         let pivot = pivot_row.swap_remove(own.expect("the pivot stands in its row")).value;
+        let by = pivot.divisor();
         for r in std::mem::take(&mut self.columns[column as usize]) {
-            self.subtract(r, &pivot_row, pivot, (column, number));
+            self.subtract(r, &pivot_row, by, (column, number));
         }
         self.by_row.unlink(row);
         self.by_column.unlink(column);
@@ -316,10 +317,16 @@ impl<N: Number> Remainder<N> {
     }
 
     /// Subtracts as much of a pivot's row, the pivot left out, as takes its column away from another.
-    fn subtract(&mut self, r: u32, pivot_row: &[Entry<N>], pivot: N, (column, number): (u32, u32)) {
+    fn subtract(
+        &mut self,
+        r: u32,
+        pivot_row: &[Entry<N>],
+        pivot: N::Divisor,
+        (column, number): (u32, u32),
+    ) {
         let target = &mut self.rows[r as usize];
         let Some(own) = target.iter().position(|e| e.column == column) else { return };
-        let factor = target.swap_remove(own).value.over(pivot);
+        let factor = target.swap_remove(own).value.divided(pivot);
         for (i, e) in (0..).zip(target.iter()) {
             self.at[e.column as usize] = i;
         }

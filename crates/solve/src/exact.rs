@@ -25,8 +25,19 @@ enum Column {
     Stays,
 }
 
-/// Decides for one piece with these coefficients, row by row; false, with nothing decided, where that takes
-/// more work than some times what the rows hold, or rounding may have decided something.
+/// What came of elimination.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub(crate) enum Came {
+    /// Everything is decided.
+    All,
+    /// Nothing is: it takes too much work.
+    TooMuch,
+    /// Nothing is: rounding may have decided something.
+    Doubtful,
+}
+
+/// Decides for one piece with these coefficients, row by row, unless that takes more work than some times what
+/// the rows hold; then also not where rounding may decide something.
 pub(crate) fn accept<N: Number>(
     system: &System,
     classes: &Classes,
@@ -35,7 +46,7 @@ pub(crate) fn accept<N: Number>(
     piece: Piece<'_>,
     most: Option<usize>,
     out: &mut Acceptance,
-) -> bool {
+) -> Came {
     let size: usize = coefficients.iter().map(Row::len).sum();
     let is_bounded = most.is_some();
     let most = most.map_or(usize::MAX, |times| times * size);
@@ -54,7 +65,7 @@ pub(crate) fn accept<N: Number>(
                 state.tableau.accept(reduced, column);
                 accepted.push(r);
                 if state.tableau.work() > most {
-                    return false;
+                    return Came::TooMuch;
                 }
             }
             None => {
@@ -67,11 +78,11 @@ pub(crate) fn accept<N: Number>(
     for place in piece.places() {
         hold(&mut state, place);
         if state.tableau.work() > most {
-            return false;
+            return Came::TooMuch;
         }
     }
     if is_bounded && state.tableau.is_doubtful() {
-        return false;
+        return Came::Doubtful;
     }
     for (&slot, &column) in &state.columns {
         out.unknown[slot as usize] = matches!(column, Column::Open | Column::Yields);
@@ -79,7 +90,7 @@ pub(crate) fn accept<N: Number>(
     out.accepted.extend(accepted);
     out.dependent.extend(dependent);
     out.determined += determined;
-    true
+    Came::All
 }
 
 fn circuit<N: Number>(state: &State<N>, reduced: &Reduced<N>, accepted: &[usize]) -> Vec<usize> {

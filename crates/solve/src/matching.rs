@@ -11,10 +11,13 @@
 
 use crate::accept::{Acceptance, Factored, Matched, Piece};
 use crate::dense;
-use crate::echelon::Echelon;
+use crate::echelon::{Echelon, Row};
 use crate::lists::Lists;
 use crate::order::{Blocks, strong_components};
+use crate::residue::Residue;
 use crate::rows::Rows;
+use crate::sparse::lu::POOR;
+use crate::sparse::pivot::{self, How};
 use crate::sparse::{Lu, Pattern, Symbolic};
 use crate::substitute::Classes;
 use crate::system::{Level, SlotIndex, Stay, System};
@@ -382,26 +385,48 @@ impl<'a> Matcher<'a> {
         let pattern = Pattern::of_rows(n, block.iter().map(places));
         let values: Vec<f64> = block.iter().flat_map(|&r| entries(r).map(|e| e.1)).collect();
         let mut lu = Lu::default();
-        let (symbolic, factors) = Symbolic::suited(&pattern, &values, &mut lu);
-        let is_regular = factors.is_some_and(|f| {
-            f.sign != 0 && (f.ratio > REGULAR || symbolic.gives_back(&pattern, &values, &mut lu))
-        });
-        if is_regular {
-            let (rows, columns) = (block.clone(), columns.clone());
-            factored.push(Factored { rows, columns, pattern, symbolic: Rc::new(symbolic) });
+        let choose = |how| Symbolic::new(pivot::choose(&pattern, &values, how));
+        let mut tells = |symbolic: &Symbolic, least: f64| {
+            symbolic.factorise(&pattern, &values, &mut lu).map(|f| {
+                f.sign != 0 && (f.ratio > least || symbolic.gives_back(&pattern, &values, &mut lu))
+            })
+        };
+        let mut symbolic = choose(How::Paired);
+        let mut told = tells(&symbolic, POOR);
+        let mut exact = None;
+        if told == Some(false) && n > LONG {
+            exact = self.residues(block, columns);
+            let numbers = |exact: &Vec<Row<Residue>>| -> Vec<Residue> {
+                exact.iter().flatten().map(|e| e.1).collect()
+            };
+            told = exact.as_ref().and_then(|exact| symbolic.is_regular(&pattern, &numbers(exact)));
+            if told == Some(false) {
+                return false;
+            }
         }
-        is_regular || n > LONG && self.is_regular_exactly(block, columns)
+        if told != Some(true) {
+            symbolic = choose(How::Single);
+            if tells(&symbolic, REGULAR) != Some(true) {
+                if exact.is_none() && n > LONG {
+                    exact = self.residues(block, columns);
+                }
+                return exact.is_some_and(|exact| Echelon::new(&exact, n).rank() == n);
+            }
+        }
+        let (rows, columns) = (block.clone(), columns.clone());
+        factored.push(Factored { rows, columns, pattern, symbolic: Rc::new(symbolic) });
+        true
     }
 
-    /// Returns true if a block of which doubles do not tell it is regular.
-    fn is_regular_exactly(&self, block: &[u32], columns: &[SlotIndex]) -> bool {
-        let Some(mut exact) = self.rows.residues(block) else { return false };
+    /// Returns the coefficients of a block in a finite field, by place among its columns.
+    fn residues(&self, block: &[u32], columns: &[SlotIndex]) -> Option<Vec<Row<Residue>>> {
+        let mut exact = self.rows.residues(block)?;
         for row in &mut exact {
             row.retain_mut(|(slot, _)| {
                 let place = columns.binary_search(slot);
                 place.map(|place| *slot = place as u32).is_ok()
             });
         }
-        Echelon::new(&exact, columns.len()).rank() == block.len()
+        Some(exact)
     }
 }

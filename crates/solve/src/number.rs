@@ -17,10 +17,21 @@ pub trait Number: Copy {
     fn times(self, other: Self) -> Self;
     /// Returns it with the other sign.
     fn negated(self) -> Self;
+    /// What many are divided by.
+    type Divisor: Copy;
+    /// Returns what divides by it; it is not zero.
+    fn divisor(self) -> Self::Divisor;
+    /// Returns the quotient.
+    fn divided(self, by: Self::Divisor) -> Self;
     /// Returns the quotient; the other is not zero.
-    fn over(self, other: Self) -> Self;
+    fn over(self, other: Self) -> Self {
+        self.divided(other.divisor())
+    }
     /// Divides every one by the same, which is not zero.
-    fn divide(row: &mut [(u32, Self)], by: Self);
+    fn divide(row: &mut [(u32, Self)], by: Self) {
+        let by = by.divisor();
+        row.iter_mut().for_each(|e| e.1 = e.1.divided(by));
+    }
     /// Returns it scaled down where sizes tell anything.
     fn scaled_down(self, by: f64) -> Self;
 }
@@ -40,11 +51,12 @@ impl Number for f64 {
     fn negated(self) -> Self {
         -self
     }
-    fn over(self, other: Self) -> Self {
-        self / other
+    type Divisor = Self;
+    fn divisor(self) -> Self {
+        self
     }
-    fn divide(row: &mut [(u32, Self)], by: Self) {
-        row.iter_mut().for_each(|e| e.1 /= by);
+    fn divided(self, by: Self) -> Self {
+        self / by
     }
     fn scaled_down(self, by: f64) -> Self {
         self / by
@@ -66,12 +78,12 @@ impl Number for Residue {
     fn negated(self) -> Self {
         self.negated()
     }
-    fn over(self, other: Self) -> Self {
-        self.over(other).expect("nothing is divided by zero")
+    type Divisor = Self;
+    fn divisor(self) -> Self {
+        Residue::ONE.over(self).expect("nothing is divided by zero")
     }
-    fn divide(row: &mut [(u32, Self)], by: Self) {
-        let inverse = Number::over(Self::ONE, by);
-        row.iter_mut().for_each(|e| e.1 = Residue::times(e.1, inverse));
+    fn divided(self, by: Self) -> Self {
+        self.times(by)
     }
     fn scaled_down(self, _: f64) -> Self {
         self

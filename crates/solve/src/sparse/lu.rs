@@ -7,6 +7,7 @@ use super::pattern::Pattern;
 use super::pivot::{self, How, Pivots};
 use crate::dense::{self, Factors};
 use crate::lists::Lists;
+use crate::residue::Residue;
 
 /// An entry this many times its row's pivot means that the pivots do not suit the numbers.
 const WILD: f64 = 1e6;
@@ -44,7 +45,7 @@ pub(crate) struct Lu {
 const ABREAST: usize = 4;
 
 /// Pivots of this ratio, ordered as a whole, are not trusted before they were tried.
-const POOR: f64 = 1e-9;
+pub(crate) const POOR: f64 = 1e-9;
 
 impl Symbolic {
     /// Chooses pivots that suit these numbers and puts them in; no factors where none do.
@@ -184,6 +185,42 @@ impl Symbolic {
         Some(Factors { sign: sign * dense.sign, ratio })
     }
 
+    /// Returns whether a matrix of these numbers, of which nothing is rounded, is regular; nothing where a pivot
+    /// vanishes before the tail, so that others would have to be chosen.
+    pub(crate) fn is_regular(&self, pattern: &Pattern, values: &[Residue]) -> Option<bool> {
+        let n = self.rows.len();
+        let mut upper = vec![Residue::ZERO; self.upper.len()];
+        let mut inverses = Vec::with_capacity(self.sparse);
+        let mut tail = Vec::new();
+        let mut work = vec![Residue::ZERO; n];
+        for k in 0..n {
+            for e in pattern.range(self.rows[k] as usize) {
+                work[self.place[pattern.column(e)] as usize] = values[e];
+            }
+            for i in self.lower(k) {
+                let j = self.lower[i] as usize;
+                let factor = std::mem::take(&mut work[j]).times(inverses[j]).negated();
+                if factor.is_zero() {
+                    continue;
+                }
+                for u in self.upper(j) {
+                    let x = &mut work[self.upper[u] as usize];
+                    *x = x.plus(factor.times(upper[u]));
+                }
+            }
+            if k < self.sparse {
+                inverses.push(Residue::ONE.over(std::mem::take(&mut work[k]))?);
+                for i in self.upper(k) {
+                    upper[i] = std::mem::take(&mut work[self.upper[i] as usize]);
+                }
+            } else {
+                tail.push(work[self.sparse..].to_vec());
+                work[self.sparse..].fill(Residue::ZERO);
+            }
+        }
+        Some(is_regular(tail))
+    }
+
     /// Subtracts as much of joined rows, from the first on, as leaves nothing at their pivots; how much is put
     /// in `factors`. What it comes to has the bits of one row after the other.
     fn subtract(
@@ -264,6 +301,24 @@ impl Symbolic {
     }
 }
 
+/// Returns whether a dense matrix is regular, by its rows.
+fn is_regular(mut rows: Vec<Vec<Residue>>) -> bool {
+    for k in 0..rows.len() {
+        let Some(found) = (k..rows.len()).find(|&r| !rows[r][k].is_zero()) else { return false };
+        rows.swap(k, found);
+        let (above, below) = rows.split_at_mut(k + 1);
+        let pivot_row = &above[k];
+        let Some(inverse) = Residue::ONE.over(pivot_row[k]) else { return false };
+        for row in below {
+            let factor = row[k].times(inverse).negated();
+            for (x, y) in row[k..].iter_mut().zip(&pivot_row[k..]) {
+                *x = x.plus(factor.times(*y));
+            }
+        }
+    }
+    true
+}
+
 /// Returns where each stands in an order.
 fn places(order: &[u32]) -> Vec<u32> {
     let mut place = vec![0; order.len()];
@@ -319,6 +374,45 @@ mod tests {
         let symbolic = Symbolic::new(pivot::choose(&pattern, &values, How::Paired));
         let factors = symbolic.factorise(&pattern, &values, &mut Lu::default());
         assert!(factors.is_none_or(|f| f.sign == 0));
+    }
+
+    /// What flows between the nodes of a grid is known but for one sum, and known where one node is held.
+    #[test]
+    fn residues_tell_whether_a_grid_floats() {
+        let (side, number) = (25u32, Residue::drawn);
+        for held in [false, true] {
+            let (mut rows, mut values) = (Vec::new(), Vec::new());
+            for i in 0..side * side {
+                let (x, y) = (i % side, i / side);
+                let near = [(x > 0, 1), (y > 0, side)];
+                let before = near.into_iter().filter(|n| n.0).map(|n| (i - n.1, i - n.1));
+                let near = [(x + 1 < side, 1), (y + 1 < side, side)];
+                let after = near.into_iter().filter(|n| n.0).map(|n| (i + n.1, i));
+                // a link has the number of its first node, and of its direction
+                let link = |(j, first): (u32, u32)| {
+                    (j, number(u64::from(first) << 32 | u64::from(i.abs_diff(j))))
+                };
+                let mut row: Vec<(u32, Residue)> = before.chain(after).map(link).collect();
+                let begin = if held && i == 7 { Residue::ONE } else { Residue::ZERO };
+                let own = row.iter().fold(begin, |sum, e| sum.plus(e.1.negated()));
+                row.push((i, own));
+                row.sort_unstable_by_key(|e| e.0);
+                rows.push(row.iter().map(|e| e.0).collect::<Vec<u32>>());
+                values.extend(row.iter().map(|e| e.1));
+            }
+            let pattern = Pattern::of_rows(rows.len(), rows.into_iter());
+            let doubles: Vec<f64> = (0..pattern.height())
+                .flat_map(|r| {
+                    let row = pattern.row(r);
+                    let own = row.len() as f64 - 1.0;
+                    row.iter().map(move |&c| if c as usize == r { own } else { -1.0 })
+                })
+                .collect();
+            for how in [How::Paired, How::Single] {
+                let symbolic = Symbolic::new(pivot::choose(&pattern, &doubles, how));
+                assert_eq!(symbolic.is_regular(&pattern, &values), Some(held), "{how:?}");
+            }
+        }
     }
 
     #[test]
