@@ -27,6 +27,11 @@ mod strips;
 /// Up to this many unknowns least change is tried by the measure too, whose cost is cubic.
 const DENSE: usize = 60;
 
+/// How far a stride may go where least change is hardly the least, in parts of the extent over the number of
+/// slots that move, which counts as at most so many: there a branch may end and another begin close by.
+const SOFT_STRIDE: f64 = 0.05;
+const SOFT_SLOTS: usize = 40;
+
 /// How far apart what lies at one place is taken to be, in parts of the extent: as little as will do.
 const APART: [f64; 2] = [1e-3, 0.5];
 
@@ -476,6 +481,9 @@ impl Run<'_> {
         let result = least.solve(anchor, self.values, scales, self.trust, work, scratch);
         let may_compromise = self.trust != Trust::Branch || least.has_soft_rows();
         match result {
+            Measured::Least if scratch.reach < f64::INFINITY && self.is_wide(step) => {
+                self.fail(step)
+            }
             Measured::Least => Ok(()),
             Measured::Failed if may_compromise && step.targets.len() <= DENSE => {
                 let make = || Measure::new(&least.block.problem(), &|s| self.plan.kind(s));
@@ -483,6 +491,17 @@ impl Run<'_> {
             }
             Measured::Failed => self.fail(step),
         }
+    }
+
+    /// Returns true if a step goes farther from the last state than one may where least change is hardly the least.
+    fn is_wide(&self, step: &Step) -> bool {
+        let most =
+            SOFT_STRIDE * self.buffers.least.reach / step.targets.len().min(SOFT_SLOTS) as f64;
+        let goes_far = |&t: &SlotIndex| {
+            let t = t as usize;
+            (self.values[t] - self.last[t]).abs() > most * self.frame.scales[t]
+        };
+        step.targets.iter().any(goes_far)
     }
 
     fn measure(&mut self, step: &Step, measure: &Measure) -> Result<(), Failure> {

@@ -57,6 +57,9 @@ pub(crate) struct LeastScratch {
     multipliers: Vec<f64>,
     start: Vec<f64>,
     came: Came,
+    /// How far a stride may go that began or ended where the last did, in parts of what one may where the branch
+    /// is soft; without bound where it is firm.
+    pub(crate) reach: f64,
 }
 
 /// The solution that was found last, from where its branch is followed.
@@ -67,6 +70,8 @@ struct Came {
     values: Vec<f64>,
     anchor: Vec<f64>,
     multipliers: Vec<f64>,
+    /// How far a stride may go from there.
+    reach: f64,
     /// True while the factors are those of its last step.
     has_factors: bool,
 }
@@ -146,6 +151,9 @@ const SETTLED: f64 = 1e-13;
 /// this in some direction. At nothing the branch ends, and near there what is free runs ahead of the wish
 /// without bound.
 const FIRM: f64 = 0.125;
+/// Below this curvature a branch is soft: a little farther on it may be left, and farther still be firm again. The
+/// nearer to where it is left, the less far strides go.
+const SOFT: [(f64, f64); 2] = [(0.5, 1.0), (0.16, 0.125)];
 
 impl Least {
     /// Lays a block out; `is_given` tells which slots are given numbers.
@@ -206,6 +214,7 @@ impl Least {
         s: &mut LeastScratch,
     ) -> Measured {
         let asked = Asked { x0, scales, trust };
+        s.reach = f64::INFINITY;
         if self.block.is_linear
             && self.block.unknowns.len() > LARGE
             && self.solve_linear(&asked, values, w, s)
@@ -275,9 +284,14 @@ impl Least {
         s.multipliers.clear();
         s.multipliers.resize(block.height(), 0.0);
         let had_factors = std::mem::take(&mut s.came.has_factors);
+        let mut reach = f64::INFINITY;
         let mut first = if follows { Matrix::Exact } else { Matrix::Flat };
         if follows {
-            match self.take_multipliers(x0, values, s) {
+            let known = self.take_multipliers(x0, values, s);
+            if known == Some(Known::Came) {
+                reach = s.came.reach;
+            }
+            match known {
                 Some(Known::Came) if had_factors && counted == Counted::All => first = Matrix::Kept,
                 Some(Known::Came | Known::None) => {}
                 None => {
@@ -355,7 +369,7 @@ impl Least {
         }
         let is_found = self.holds(values, w, s) && size < 1e-6;
         let may_bend = follows && counted == Counted::All;
-        if !is_found || may_bend && !self.is_firm(s) {
+        if !is_found || may_bend && !self.is_on_branch(reach, s) {
             return Measured::Failed;
         }
         if may_bend {
@@ -411,9 +425,21 @@ impl Least {
         came.has_factors = true;
     }
 
-    /// Returns true if what is least is curved by [`FIRM`] in every direction that the rows leave free, by the
+    /// Returns true if the branch is not left, and finds how far a stride may go that came from where one may go so
+    /// far.
+    fn is_on_branch(&self, before: f64, s: &mut LeastScratch) -> bool {
+        let soft = SOFT.iter().take_while(|(soft, _)| !self.is_firm(*soft, s)).last();
+        if soft.is_some() && !self.is_firm(FIRM, s) {
+            return false;
+        }
+        s.came.reach = soft.map_or(f64::INFINITY, |(_, reach)| *reach);
+        s.reach = before.min(s.came.reach);
+        true
+    }
+
+    /// Returns true if what is least is curved by so much in every direction that the rows leave free, by the
     /// matrix of the last step.
-    fn is_firm(&self, s: &mut LeastScratch) -> bool {
+    fn is_firm(&self, firm: f64, s: &mut LeastScratch) -> bool {
         let (n, m) = (self.block.unknowns.len(), self.block.height());
         let places = self.block.seconds();
         let seconds = s.entries.len() - places.len();
@@ -428,10 +454,10 @@ impl Least {
                 s.start[j] += size;
             }
         }
-        if s.start.iter().all(|&sum| sum < 1.0 - FIRM) {
+        if s.start.iter().all(|&sum| sum < 1.0 - firm) {
             return true;
         }
-        s.entries[..n].iter_mut().zip(&s.pull).for_each(|(d, pull)| *d = (1.0 - FIRM) * pull);
+        s.entries[..n].iter_mut().zip(&s.pull).for_each(|(d, pull)| *d = (1.0 - firm) * pull);
         self.structure().factorise(&s.entries, &mut s.firm) == Some(m)
     }
 

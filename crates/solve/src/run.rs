@@ -6,7 +6,10 @@
 //! the branch ends, soft wishes are met as nearly as they can be, and required ones stop the edit.
 
 mod anchors;
+mod parts;
 pub(crate) mod start;
+
+pub use parts::PATIENCE;
 
 use crate::attempt::others::Other;
 use crate::attempt::{Approach, Attempt, Buffers, Failure, Frame, Held, Motion, Part};
@@ -27,12 +30,6 @@ use std::rc::Rc;
 /// The first stride of a walk, and the shortest, as parts of the whole way.
 const LONGEST: f64 = 0.5;
 const SHORTEST: f64 = 1e-7;
-/// A way longer than this is cut, in parts of the extent, over the number of slots that move.
-const PART: f64 = 0.25;
-/// Into so many ways at most, over the same number.
-const MOST_WORK: usize = 20_000;
-/// What one wish of a drag may cost, in multiplications: the pointer waits for it.
-const PATIENCE: u64 = 300_000_000;
 /// What a stride costs for every slot, in multiplications.
 const STRIDE: usize = 64;
 /// How many strides are tried before a way is given up.
@@ -191,6 +188,9 @@ pub struct Drag {
     is_met: bool,
     /// True while the branch is followed from a state that leans: the press, a little aside.
     leans: bool,
+    /// True if the last wish could not be met: the present state is as near to it as the hard rows allow, and
+    /// the next one is come near to from there.
+    is_near: bool,
     now: Vec<f64>,
 }
 
@@ -230,6 +230,7 @@ impl Drag {
             has_branch,
             is_met,
             leans: false,
+            is_near: false,
         }
     }
 
@@ -263,6 +264,7 @@ impl Drag {
         self.has_branch = false;
         self.is_met = false;
         self.leans = false;
+        self.is_near = false;
         // what the drag does not move has to be computed again from here
         self.has_run = false;
         self.upstream.clear();
@@ -281,52 +283,6 @@ impl Drag {
     /// Returns the slots that the last wish may have changed, where they are not all.
     pub fn moved(&self) -> Option<&[SlotIndex]> {
         self.moved_slice.then_some(&self.slice.targets[..])
-    }
-
-    /// Follows the wish: one target for each input, in their order.
-    ///
-    /// Where the required relations cannot follow, the drag stops at the limit and says so; a wish
-    /// that they do not allow is met as nearly as they do. Later wishes go on from there. A long way is gone in
-    /// short ones, so that how often the pointer is asked plays no part, as long as that is done soon: where
-    /// the way is hard to find the drag stops on it.
-    ///
-    /// # Panics
-    /// If there are not as many targets as inputs.
-    pub fn follow(&mut self, plan: &Plan, targets: &[f64], host: &mut dyn Host) -> Outcome {
-        assert_eq!(targets.len(), self.slice.inputs.len(), "a wish names every input");
-        let parts = self.parts(plan, targets);
-        let until = self.runner.spent() + PATIENCE;
-        if parts > 1 {
-            let from: Vec<f64> =
-                self.slice.inputs.iter().map(|&input| self.now[input as usize]).collect();
-            for part in 1..parts {
-                let part = f64::from(part) / f64::from(parts);
-                let on = from.iter().zip(targets).map(|(a, b)| a + part * (b - a));
-                self.follow_on(plan, &on.collect::<Vec<_>>(), until, host);
-                if self.runner.spent() > until {
-                    break;
-                }
-            }
-        }
-        self.follow_on(plan, targets, until, host)
-    }
-
-    /// Returns into how many ways that to a wish is cut: where least change bends, a stride might pass over the
-    /// end of a branch. The more of a kind moves, the nearer to one another it lies.
-    fn parts(&self, plan: &Plan, targets: &[f64]) -> u32 {
-        if !self.has_branch || !plan.bends {
-            return 1;
-        }
-        let scales = &self.runner.frame.scales;
-        let kind = |slot: SlotIndex| plan.slots()[slot as usize].scale;
-        let part = |(&input, to): (&SlotIndex, &f64)| {
-            let alike = self.slice.targets.iter().filter(|&&t| kind(t) == kind(input)).count();
-            let way = (to - self.now[input as usize]).abs() / scales[input as usize];
-            way * alike.max(1) as f64 / PART
-        };
-        let parts = self.slice.inputs.iter().zip(targets).map(part).fold(1.0, f64::max);
-        let most = (MOST_WORK / self.slice.targets.len().max(1)).max(1);
-        parts.ceil().min(most as f64) as u32
     }
 
     /// Follows a wish that is near.
@@ -376,6 +332,7 @@ impl Drag {
                     way.rest_at(now);
                     self.has_branch = true;
                     self.leans = false;
+                    self.is_near = false;
                 }
             }
             Err(failure) => {
@@ -385,7 +342,10 @@ impl Drag {
                 if self.leans {
                     limit.clone_from(&way.frame.x0);
                 }
-                let approached = fraction < 1.0 && way.approach(&limit, goal, &failure).is_ok();
+                let approached = fraction < 1.0
+                    && (self.is_near && way.approach(now, goal, &failure).is_ok()
+                        || way.approach(&limit, goal, &failure).is_ok());
+                self.is_near = approached;
                 let is_left = fraction < 1.0 && !approached;
                 let searched = is_left && is_rough && way.search(branch, goal).is_ok();
                 // from here on nothing is known to hold because of how it was computed

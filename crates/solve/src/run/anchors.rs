@@ -126,11 +126,15 @@ impl Way<'_> {
         goal: &[f64],
     ) -> Option<Vec<f64>> {
         let turn = passing(slice, &self.frame.scales, anchor, last, goal)?;
-        self.stride(anchor, &turn, 1.0, Trust::Branch, &Approach::Nowhere).ok()?;
-        let state = self.trial.clone();
-        let mut present = last.to_vec();
+        let arrives = |from: &mut [f64], way: &mut Self| {
+            way.walk(from, &turn, Trust::Branch, LONGEST..SHORTEST) == 1.0
+        };
+        let (mut state, mut present) = (anchor.to_vec(), last.to_vec());
+        if !arrives(&mut state, self) {
+            return None;
+        }
         self.frame.anchors.push(anchor.to_vec());
-        let came = self.walk(&mut present, &turn, Trust::Branch, LONGEST..SHORTEST) == 1.0;
+        let came = arrives(&mut present, self);
         self.frame.anchors.pop();
         let is_near = |&t: &SlotIndex| {
             let t = t as usize;
