@@ -9,6 +9,7 @@ use base::Dice;
 use bench::case::{Case, Constraint};
 use bench::document;
 use bench::opened::Opened;
+use kernel::Values;
 use plan::Target;
 
 /// How far two ends may lie apart, of bars of length one: where least change is measured anew on the way, the
@@ -16,6 +17,8 @@ use plan::Target;
 const SAME: f64 = 1e-3;
 /// The same for chains that come to lie on a floor, where that begins depends on the strides as well.
 const SAME_ON_FLOOR: f64 = 1e-2;
+/// Two bars fold on a floor where the joints at their other ends lie on it and are so near to one another.
+const FOLDED: f64 = 1e-2;
 /// Into how many frames a way is cut.
 const FRAMES: [usize; 3] = [100, 5, 1];
 
@@ -54,15 +57,35 @@ fn chain(bars: usize, end: End, dice: &mut Dice) -> Case {
     }
 }
 
-/// Drags a joint straight to a place, with more rules; returns where all joints are then, and whether it was
-/// reached.
-fn dragged(
-    case: &Case,
-    rules: &str,
-    joint: usize,
-    to: [f64; 2],
-    frames: usize,
-) -> (Vec<[f64; 2]>, bool) {
+/// What a drag comes to: where all joints are at first and after each frame, and whether the place was reached.
+struct Dragged {
+    way: Vec<Vec<[f64; 2]>>,
+    reached: bool,
+}
+
+impl Dragged {
+    fn ends(&self) -> &[[f64; 2]] {
+        self.way.last().expect("it begins somewhere")
+    }
+}
+
+/// Whether joints two bars apart that slide along the floor passed through one another from one frame to the next:
+/// then the joint between them may be anywhere around them, and which way it goes on is not decided.
+fn folds(before: &[[f64; 2]], after: &[[f64; 2]], floor: f64) -> bool {
+    let lies = |p: [f64; 2]| p[1] < floor + 1e-3;
+    let between = |p: &[[f64; 2]], i: usize| [p[i + 2][0] - p[i][0], p[i + 2][1] - p[i][1]];
+    let slide = |&i: &usize| [i, i + 2].iter().all(|&j| lies(before[j]) && lies(after[j]));
+    (0..before.len().saturating_sub(2)).filter(slide).any(|i| {
+        let (from, to) = (between(before, i), between(after, i));
+        let way = [to[0] - from[0], to[1] - from[1]];
+        let along = -(from[0] * way[0] + from[1] * way[1]);
+        let part = (along / (way[0] * way[0] + way[1] * way[1]).max(1e-12)).clamp(0.0, 1.0);
+        base::number::hypot(from[0] + part * way[0], from[1] + part * way[1]) < FOLDED
+    })
+}
+
+/// Drags a joint straight to a place, with more rules.
+fn dragged(case: &Case, rules: &str, joint: usize, to: [f64; 2], frames: usize) -> Dragged {
     let text = format!("{}\n{rules}", document::text(case));
     let opened = Opened::new(&text).expect("a chain can be said");
     let (mut planner, mut values, report) = opened.solve();
@@ -71,42 +94,46 @@ fn dragged(
     let (model, host) = (opened.model(), &mut opened.host());
     let press = planner.press(model, &values, &[Target::Thing(thing)]);
     let mut press = press.expect("a joint can be dragged");
-    let mut reached = false;
-    for frame in 1..=frames {
-        let part = frame as f64 / frames as f64;
-        let wish = [0, 1].map(|k| case.start[joint][k] + part * (to[k] - case.start[joint][k]));
-        reached = planner.drag(model, &mut press, &mut values, &wish, host).reached;
-    }
-    let place = |p: usize| {
+    let place = |values: &Values, p: usize| {
         let slots = opened.slots(&format!("p{p}"));
         [values.numbers[slots[0]], values.numbers[slots[1]]]
     };
-    ((0..case.start.len()).map(place).collect(), reached)
+    let places =
+        |values: &Values| -> Vec<_> { (0..case.start.len()).map(|p| place(values, p)).collect() };
+    let mut dragged = Dragged { way: vec![places(&values)], reached: false };
+    for frame in 1..=frames {
+        let part = frame as f64 / frames as f64;
+        let wish = [0, 1].map(|k| case.start[joint][k] + part * (to[k] - case.start[joint][k]));
+        dragged.reached = planner.drag(model, &mut press, &mut values, &wish, host).reached;
+        dragged.way.push(places(&values));
+    }
+    dragged
 }
 
 /// What a drag comes to in many frames, and what is otherwise in few.
 struct Compared {
-    many: Vec<[f64; 2]>,
-    reached: bool,
+    many: Dragged,
     complaints: Vec<String>,
 }
 
 /// Drags a joint in many frames and in few, and complains where joints lie farther apart than `same` then or
 /// one drag reaches what another does not.
 fn compared(case: &Case, rules: &str, joint: usize, to: [f64; 2], same: f64) -> Compared {
-    let [(many, reached), few @ ..] = FRAMES.map(|frames| dragged(case, rules, joint, to, frames));
+    let [many, few @ ..] = FRAMES.map(|frames| dragged(case, rules, joint, to, frames));
     let mut complaints = Vec::new();
-    for ((ends, arrived), frames) in few.into_iter().zip(&FRAMES[1..]) {
+    for (few, frames) in few.iter().zip(&FRAMES[1..]) {
         let off = |(p, q): (&[f64; 2], &[f64; 2])| (p[0] - q[0]).abs().max((p[1] - q[1]).abs());
-        let apart = many.iter().zip(&ends).map(off).fold(0.0, f64::max);
-        if apart > same || arrived != reached {
+        let apart = many.ends().iter().zip(few.ends()).map(off).fold(0.0, f64::max);
+        if apart > same || few.reached != many.reached {
             complaints.push(format!(
-                "{} joints to {to:?} in {frames} frames: {apart:.1e} off, reached: {arrived}, in many: {reached}",
-                case.start.len()
+                "{} joints to {to:?} in {frames} frames: {apart:.1e} off, reached: {}, in many: {}",
+                case.start.len(),
+                few.reached,
+                many.reached
             ));
         }
     }
-    Compared { many, reached, complaints }
+    Compared { many, complaints }
 }
 
 fn seeds() -> u64 {
@@ -126,7 +153,7 @@ fn a_drag_ends_in_the_same_place_in_few_frames_and_in_many() {
         let (far, angle) = (dice.between(0.2, 1.0) * reach, dice.between(-3.2, 3.2));
         let to = [far * base::number::cos(angle), far * base::number::sin(angle)];
         let drags = compared(&case, "", joint, to, SAME);
-        reached += u64::from(drags.reached);
+        reached += u64::from(drags.many.reached);
         wrong.extend(drags.complaints.iter().map(|c| format!("seed {seed}, {end:?}: {c}")));
     }
     assert!(wrong.is_empty(), "{reached} of {} reached\n{}", seeds(), wrong.join("\n"));
@@ -135,7 +162,7 @@ fn a_drag_ends_in_the_same_place_in_few_frames_and_in_many() {
 
 #[test]
 fn a_chain_comes_to_lie_on_its_floor_in_few_frames_as_in_many() {
-    let (mut wrong, mut lie) = (Vec::new(), 0);
+    let (mut wrong, mut lie, mut undecided) = (Vec::new(), 0, 0);
     for seed in 0..seeds() {
         let dice = &mut Dice::new(seed);
         let bars = 2 + seed as usize % 4;
@@ -146,9 +173,14 @@ fn a_chain_comes_to_lie_on_its_floor_in_few_frames_as_in_many() {
             (1..=bars).map(|p| format!("constraint p{p}.y >= {floor}")).collect();
         let to = [dice.between(-1.0, 1.0) * bars as f64, floor - dice.between(0.0, 1.0)];
         let drags = compared(&case, &rules.join("\n"), bars, to, SAME_ON_FLOOR);
-        lie += u64::from(drags.many.iter().any(|p| p[1] < floor + 1e-6));
+        lie += u64::from(drags.many.ends().iter().any(|p| p[1] < floor + 1e-6));
+        if drags.many.way.windows(2).any(|w| folds(&w[0], &w[1], floor)) {
+            undecided += u64::from(!drags.complaints.is_empty());
+            continue;
+        }
         wrong.extend(drags.complaints.iter().map(|c| format!("seed {seed}, floor {floor}: {c}")));
     }
     assert!(wrong.is_empty(), "{lie} of {} lie\n{}", seeds(), wrong.join("\n"));
     assert!(2 * lie > seeds(), "{lie} of {} lie on it", seeds());
+    assert!(50 * undecided <= seeds(), "{undecided} of {} go on in two ways from a fold", seeds());
 }

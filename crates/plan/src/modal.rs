@@ -11,7 +11,8 @@ use crate::run::{Adapter, Ground, Ran, leans, ran, scatter};
 use crate::task::{Course, Task};
 use kernel::{SlotId, Values};
 use solve::{
-    Constants, Decision, Ended, Lean, Mode, Modes, Plan, SlotIndex, Standing, System, Tried, decide,
+    Constants, Decision, Ended, Lean, Mode, Modes, PATIENCE, Plan, SlotIndex, Standing, System,
+    Tried, decide,
 };
 use std::cmp::Ordering;
 use std::collections::BTreeMap;
@@ -282,6 +283,24 @@ struct Followed {
     since: u64,
 }
 
+impl Followed {
+    /// Begins a drag in a mode at the press; `written` says which way blocks lean in which two branches meet.
+    fn begin(
+        modes: &Modes,
+        mode: &Mode,
+        plan: &Plan,
+        x0: &[f64],
+        inputs: &[SlotIndex],
+        written: &[Lean],
+    ) -> Self {
+        let mut drag = solve::Drag::begin(plan, x0, inputs);
+        let mut leans = written.to_vec();
+        leans.extend(within_bounds(modes, mode, plan, x0, written));
+        drag.lean(plan, &leans);
+        Self { drag, wish: 0, since: 1 }
+    }
+}
+
 /// How often the way to where other inequalities act is halved.
 const HALVINGS: u32 = 10;
 
@@ -318,6 +337,16 @@ impl ModalDrag {
     ) -> Ran {
         let texts = values.texts.clone();
         let mut hands = Hands { planner, model, values, host };
+        let from: Vec<f64> = self.inputs.iter().map(|&input| self.now[input as usize]).collect();
+        let (parts, until) = (self.parts(task, targets, &mut hands), self.spent() + PATIENCE);
+        for part in 1..parts {
+            if self.spent() > until {
+                break;
+            }
+            let part = f64::from(part) / f64::from(parts);
+            let on = from.iter().zip(targets).map(|(a, b)| a + part * (b - a));
+            self.go(task, &on.collect::<Vec<_>>(), HALVINGS, &mut hands);
+        }
         let decision = self.go(task, targets, HALVINGS, &mut hands);
         if decision.ended != Ended::Settled {
             values.texts = texts;
@@ -328,6 +357,19 @@ impl ModalDrag {
             Some(_) | None => {}
         }
         told
+    }
+
+    /// Returns into how many ways that to a wish is cut.
+    fn parts(&mut self, task: &Task, targets: &[f64], hands: &mut Hands<'_>) -> u32 {
+        let (_, plan) = hands.planner.plans.in_mode(&self.modes, &self.mode);
+        let Self { modes, x0, inputs, followed, mode, .. } = self;
+        let begin = || Followed::begin(modes, mode, &plan, x0, inputs, &leans(hands.model, task));
+        followed.entry(mode.clone()).or_insert_with(begin).drag.parts(&plan, targets)
+    }
+
+    /// Returns what following has cost in all modes, in multiplications.
+    fn spent(&self) -> u64 {
+        self.followed.values().map(|follow| follow.drag.spent()).sum()
     }
 
     /// Goes to a wish, by halves where other inequalities act there.
@@ -368,13 +410,8 @@ impl ModalDrag {
             let (_, plan) = planner.plans.in_mode(modes, mode);
             values.texts.clone_from(&texts);
             let mut adapter = Adapter { planner, model: *model, task, values, host: *host };
-            let follow = followed.entry(mode.clone()).or_insert_with(|| {
-                let mut drag = solve::Drag::begin(&plan, x0, inputs);
-                let mut leans = leans.clone();
-                leans.extend(within_bounds(modes, mode, &plan, x0, &leans));
-                drag.lean(&plan, &leans);
-                Followed { drag, wish: 0, since: 1 }
-            });
+            let begin = || Followed::begin(modes, mode, &plan, x0, inputs, &leans);
+            let follow = followed.entry(mode.clone()).or_insert_with(begin);
             if follow.wish + 1 < *wishes {
                 follow.drag.stand_at(now);
                 follow.since = *wishes;
