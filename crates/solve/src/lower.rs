@@ -169,18 +169,27 @@ pub(crate) fn lower(analysis: &Analysis<'_>, blocks: &Blocks) -> Lowered {
     let has_soft = (0..analysis.rows.len()).any(is_soft);
     let region_of = if has_soft { regions_of(analysis, blocks) } else { Vec::new() };
     let mut work = Work::default();
+    // members of classes that are written before the end, since a host reads them
+    let mut early: BTreeSet<SlotIndex> = BTreeSet::new();
     for (b, block) in blocks.iter().enumerate() {
         let first = steps.len();
         lower_block(analysis, block, &mut work, &mut steps);
+        if copies > 0 {
+            let mut read = read_by_hosts(analysis, &steps[first..]);
+            read.retain(|&(_, slot)| early.insert(slot));
+            for (before, slot) in read.into_iter().rev() {
+                let root = classes.representative[slot as usize];
+                steps.insert(first + before, copied(told(&equalities, root), slot, root));
+            }
+        }
         if let Some(&region) = region_of.get(b) {
             steps[first..].iter_mut().for_each(|step| step.region = region);
         }
     }
     for (root, members) in classes.members() {
         let relations = told(&equalities, root);
-        for &m in members.iter().filter(|&&m| m != root) {
-            let reads = [root].into_iter().collect();
-            steps.push(alias(relations.clone(), m, Program::Copy, reads));
+        for &m in members.iter().filter(|&&m| m != root && !early.contains(&m)) {
+            steps.push(copied(relations.clone(), m, root));
         }
     }
     Lowered { steps, regions: regions(analysis, blocks, &region_of) }
@@ -191,6 +200,27 @@ fn told(equalities: &Lists, root: SlotIndex) -> Few {
     let mut last = None;
     let own = equalities.of(root).iter().copied();
     own.filter(|&r| last.replace(r) != Some(r)).take(MOST_TOLD).collect()
+}
+
+/// Names what the hosts' methods among steps read, but for representatives: the place of the step, and the slot.
+fn read_by_hosts(analysis: &Analysis<'_>, steps: &[Step]) -> Vec<(usize, SlotIndex)> {
+    let representative = &analysis.classes.representative;
+    let mut read = Vec::new();
+    for (at, step) in steps.iter().enumerate() {
+        if let StepKind::Opaque { relation, method } = step.kind
+            && let stated = &analysis.stated.system.relations[relation as usize]
+            && let MethodBody::Opaque { reads } = &stated.methods[method as usize].body
+        {
+            let others = reads.iter().filter(|&&s| representative[s as usize] != s);
+            read.extend(others.map(|&slot| (at, slot)));
+        }
+    }
+    read
+}
+
+/// Returns the step that copies a slot from the one that stands for all that are equal.
+fn copied(relations: Few, target: SlotIndex, root: SlotIndex) -> Step {
+    alias(relations, target, Program::Copy, [root].into_iter().collect())
 }
 
 fn alias(relations: Few, target: SlotIndex, program: Program, reads: Few) -> Step {
