@@ -6,12 +6,13 @@ use crate::edit::{EditKind, EditReport, RefusalReason, Target, note};
 use crate::host::Host;
 use crate::modal::{Acting, ModalDrag, ModeChange};
 use crate::planner::{Latest, Model, Planner, is_any_new};
-use crate::run::{Adapter, Ground, Ran, leans, or_otherwise, ran, scatter, searched};
+use crate::run::{
+    Adapter, Ground, Ran, Texts, leans, or_otherwise, put_texts, ran, scatter, searched,
+};
 use crate::task::{Course, Task};
 use kernel::{SlotId, Values};
 use solve::{Puzzle, SlotIndex, Stay, Verdict};
 use std::rc::Rc;
-use std::sync::Arc;
 
 /// What a drag keeps from the press to the release.
 ///
@@ -32,7 +33,7 @@ struct Pull {
     /// The numbers at the press, by the slots of the system.
     x0: Vec<f64>,
     /// The texts at the press that the drag may write.
-    texts: Vec<(SlotId, Option<Arc<str>>)>,
+    texts: Texts,
     targets: Vec<f64>,
 }
 
@@ -199,15 +200,6 @@ impl Planner {
     }
 }
 
-fn put_texts(texts: &[(SlotId, Option<Arc<str>>)], values: &mut Values) {
-    for (slot, text) in texts {
-        match text {
-            Some(text) => values.texts.insert(*slot, text.clone()),
-            None => values.texts.remove(slot),
-        };
-    }
-}
-
 impl Pull {
     fn follow(
         &mut self,
@@ -244,7 +236,7 @@ impl Pull {
             }
         };
         let text = |&(slot, _): &(SlotId, _)| (slot, values.texts.get(&slot).cloned());
-        let texts: Vec<(SlotId, Option<Arc<str>>)> = self.texts.iter().map(text).collect();
+        let texts: Texts = self.texts.iter().map(text).collect();
         let mut adapter = Adapter { planner, model, task: &self.task, values, host };
         let outcome = drag.follow(&self.task.plan, targets, &mut adapter);
         if !outcome.is_solved() {
@@ -298,7 +290,8 @@ impl Pull {
         let inputs: Vec<SlotIndex> = self.task.targets().iter().map(|t| t.0).collect();
         let mut local = self.x0.clone();
         inputs.iter().zip(&self.targets).for_each(|(&i, &target)| local[i as usize] = target);
-        let ground = Ground { x0: self.x0.clone(), local, changed: inputs };
+        let (x0, texts) = (self.x0.clone(), self.texts.clone());
+        let ground = Ground { x0, local, texts, changed: inputs };
         or_otherwise(planner, model, &self.task, &ground, ran, values, host)
     }
 }

@@ -211,7 +211,7 @@ pub(crate) fn attempt_in_mode(
     host: &mut dyn Host,
 ) -> Tried {
     let (_, plan) = planner.plans.in_mode(modes, mode);
-    let Ground { x0, local, changed } = ground;
+    let Ground { x0, local, changed, .. } = ground;
     let mut local = local.clone();
     let mut adapter = Adapter { planner, model, task, values, host };
     let mut leans = leans.to_vec();

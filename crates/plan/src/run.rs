@@ -13,6 +13,7 @@ use base::number::Toward;
 use kernel::{SlotId, Value, Values};
 use solve::{Lean, Level, Outcome, Plan, Reason, Scratch, SlotIndex, Status, Verdict};
 use std::collections::BTreeSet;
+use std::sync::Arc;
 
 /// What came of a task.
 #[derive(Debug, Default)]
@@ -41,7 +42,21 @@ pub(crate) struct Ground {
     pub(crate) x0: Vec<f64>,
     /// The same, with what the edit sets.
     pub(crate) local: Vec<f64>,
+    /// Its texts, of that state.
+    pub(crate) texts: Texts,
     pub(crate) changed: Vec<SlotIndex>,
+}
+
+/// What texts were, where there were any.
+pub(crate) type Texts = Vec<(SlotId, Option<Arc<str>>)>;
+
+pub(crate) fn put_texts(texts: &[(SlotId, Option<Arc<str>>)], values: &mut Values) {
+    for (slot, text) in texts {
+        match text {
+            Some(text) => values.texts.insert(*slot, text.clone()),
+            None => values.texts.remove(slot),
+        };
+    }
 }
 
 /// Runs a task of an edit.
@@ -89,6 +104,8 @@ pub(crate) fn or_otherwise(
     let texts = values.texts.clone();
     let numbers: Vec<f64> = task.numbers(&values.numbers).collect();
     let how = (modes, solve::decide_pieces as _);
+    // what was run wrote texts of its own
+    put_texts(&ground.texts, values);
     let found = modal::run(planner, model, task, how, ground, values, host);
     if found.is_solved {
         return found;
@@ -109,7 +126,7 @@ fn by_course(
 ) -> Ran {
     match &task.course {
         Course::Plan => {
-            let Ground { x0, local: began, changed } = ground;
+            let Ground { x0, local: began, changed, .. } = ground;
             let mut runner = planner.take_runner(leans(model, task));
             let mut by_plan = |plan: &Plan| {
                 let mut local = began.clone();
@@ -161,13 +178,17 @@ pub(crate) fn ground(
         changed.push(known);
     }
     let has_texts = !start.texts.is_empty() || !values.texts.is_empty();
+    let mut texts = Texts::new();
     for (i, &slot) in (0..).zip(task.component.slots()) {
         let is_same = start.numbers[slot].to_bits() == values.numbers[slot].to_bits();
         if !is_same || has_texts && start.texts.get(&slot) != values.texts.get(&slot) {
             changed.push(i);
         }
+        if has_texts && !task.system.slots[i as usize].is_number {
+            texts.push((slot, values.texts.get(&slot).cloned()));
+        }
     }
-    Ground { x0, local, changed }
+    Ground { x0, local, texts, changed }
 }
 
 /// Returns what is written of the slots of a task: which way they go from where two branches meet.

@@ -74,8 +74,9 @@ impl Trying<'_> {
         decide(modes, &first, &mut |mode: &Mode| self.attempt(mode, &begun))
     }
     fn begun(&self, with: &[f64]) -> Ground {
-        let Ground { x0, changed: known, .. } = self.ground;
-        Ground { x0: x0.clone(), local: with.to_vec(), changed: changed(x0, with, known) }
+        let Ground { x0, texts, changed: known, .. } = self.ground;
+        let (local, changed) = (with.to_vec(), changed(x0, with, known));
+        Ground { x0: x0.clone(), local, texts: texts.clone(), changed }
     }
     fn attempt(&mut self, mode: &Mode, begun: &Ground) -> Tried {
         self.values.texts.clone_from(&self.texts);
