@@ -185,6 +185,9 @@ impl Square {
             return None;
         }
         let n = self.block.core.len();
+        if n == 1 {
+            return self.turns(values, MEET, scales, w, s).then(|| vec![1.0]);
+        }
         self.block.slopes(values, w, &mut s.local);
         // a distance has no slope where it is nothing
         s.local.jacobian.iter_mut().filter(|d| !d.is_finite()).for_each(|d| *d = 0.0);
@@ -198,7 +201,34 @@ impl Square {
         order.sort_by(|&a, &b| values[a].total_cmp(&values[b]));
         let open = MEET * MEET * values[*order.last()?];
         let is_fork = values[order[0]] <= open && order.get(1).is_none_or(|&i| values[i] > open);
-        (is_fork || n == 1 && values[0] <= MEET * MEET).then(|| vectors[order[0]].clone())
+        is_fork.then(|| vectors[order[0]].clone())
+    }
+
+    /// Returns true if the slope by the one unknown of the core vanishes as near as `meet`, in scaled unknowns: so
+    /// far from there lies the other root.
+    fn turns(
+        &self,
+        values: &[f64],
+        meet: f64,
+        scales: &[f64],
+        w: &mut Workspace,
+        s: &mut SquareScratch,
+    ) -> bool {
+        const ASIDE: f64 = 1e-3;
+        s.weight.clear();
+        s.weight.resize(self.block.height(), 1.0);
+        let mut slope = |by: f64| {
+            let mut at = values.to_vec();
+            self.shift(&mut at, &[1.0], by, scales, w);
+            self.block.slopes(&at, w, &mut s.local);
+            // a distance has no slope where it is nothing
+            s.local.jacobian.iter_mut().filter(|d| !d.is_finite()).for_each(|d| *d = 0.0);
+            s.own = None;
+            self.fill(scales, s);
+            s.matrix[0]
+        };
+        let [here, more, less] = [0.0, ASIDE, -ASIDE].map(&mut slope);
+        here.abs() <= meet * (more - less).abs() / (2.0 * ASIDE)
     }
 
     /// Moves the core by so much of a direction in scaled unknowns, and what it defines with it.

@@ -3,7 +3,7 @@
 /// What counts as nothing, as a part of a vector's length.
 const NOTHING: f64 = 1e-7;
 /// How much of a vector has to point into a new direction.
-const NEARLY: f64 = 1e-4;
+pub(crate) const NEARLY: f64 = 1e-4;
 
 /// The space that some vectors span, by an orthonormal basis.
 #[derive(Debug, Default)]

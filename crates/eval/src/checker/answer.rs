@@ -5,7 +5,7 @@
 //! rules are soft, only that those that are not met could not be met better. Components of more than
 //! [`MOST`] slots are not looked at.
 
-use super::algebra::{Span, length, rest_of_cone, sign_of_determinant};
+use super::algebra::{NEARLY, Span, length, rest_of_cone, sign_of_determinant};
 use super::slopes::{Row, only_read, rows};
 use super::{Edit, shown};
 use crate::evaluator::Evaluator;
@@ -266,6 +266,14 @@ impl Answer<'_> {
         let Some(aside) = slopes(aside) else { return };
         let is_same = |(a, b): (&f64, &f64)| (a - b).abs() <= OFF * a.abs().max(b.abs());
         if after.iter().flatten().zip(aside.iter().flatten()).all(is_same) {
+            return;
+        }
+        // where two sides meet slopes vanish, and what is left of them is rounding
+        let vanishes = |(a, b): (&Vec<f64>, &Vec<f64>)| {
+            let [a, b] = [length(a), length(b)];
+            a.min(b) <= NEARLY * a.max(b)
+        };
+        if before.iter().zip(&after).any(vanishes) {
             return;
         }
         let signs = [before, after].map(sign_of_determinant);
