@@ -41,7 +41,7 @@ struct Pull {
 #[derive(Debug)]
 enum Way {
     Plan(Box<solve::Drag>),
-    Modes(ModalDrag),
+    Modes(Box<ModalDrag>),
     /// Searched anew from where it was at the press.
     Search(Rc<Puzzle>),
 }
@@ -191,7 +191,7 @@ impl Planner {
             }
             Course::Modes(modes, _) => {
                 let texts = slots.iter().copied().filter(|s| values.texts.contains_key(s));
-                let way = Way::Modes(ModalDrag::begin(modes, x0.clone(), inputs));
+                let way = Way::Modes(Box::new(ModalDrag::begin(modes, x0.clone(), inputs)));
                 (way, texts.map(text).collect())
             }
             Course::Search(puzzle) => (Way::Search(puzzle.clone()), Vec::new()),

@@ -11,8 +11,8 @@ use crate::run::{Adapter, Ground, Ran, leans, ran, scatter};
 use crate::task::{Course, Task};
 use kernel::{SlotId, Values};
 use solve::{
-    Constants, Decision, Ended, Lean, Mode, Modes, PATIENCE, Plan, SlotIndex, Standing, System,
-    Tried, decide,
+    Constants, Decision, Ended, Lean, Level, Mode, Modes, PATIENCE, Plan, SlotIndex, Standing,
+    System, Tried, decide,
 };
 use std::cmp::Ordering;
 use std::collections::BTreeMap;
@@ -167,7 +167,49 @@ fn stands(planner: &Planner, modes: &Rc<Modes>, mode: Mode) -> Stands {
 /// How the mode of a task is decided: what is tried first, and how each is tried.
 type Decide = fn(&Modes, &Mode, &mut dyn FnMut(&Mode) -> Tried) -> Decision;
 
-/// Runs a task with modes; where none is found the values are those of the last attempt.
+/// Runs a task in the modes that it has: by a drag of what has changed where one leads there, else at once.
+pub(crate) fn run_on(
+    planner: &Planner,
+    model: Model<'_>,
+    task: &Task,
+    modes: &Rc<Modes>,
+    ground: &Ground,
+    values: &mut Values,
+    host: &mut dyn Host,
+) -> Ran {
+    let texts = values.texts.clone();
+    let numbers: Vec<f64> = task.numbers(&values.numbers).collect();
+    let hands = &mut Hands { planner, model, values, host };
+    if let Some(decision) = dragged(task, modes, ground, hands) {
+        return tell(planner, modes, task, decision);
+    }
+    values.texts = texts;
+    scatter(task, &numbers, values);
+    run(planner, model, task, (modes, decide), ground, values, host)
+}
+
+/// Drags what has changed from a state that holds to what it is to be; nothing where that does not arrive, or
+/// no way leads there.
+fn dragged(
+    task: &Task,
+    modes: &Rc<Modes>,
+    ground: &Ground,
+    hands: &mut Hands<'_>,
+) -> Option<Decision> {
+    let Ground { x0, local, changed, .. } = ground;
+    let mut drag = ModalDrag::begin(modes, x0.clone(), changed.clone());
+    if !drag.leads_on(task, hands) {
+        return None;
+    }
+    let planner = hands.planner;
+    drag.left = planner.left();
+    let targets: Vec<f64> = changed.iter().map(|&slot| local[slot as usize]).collect();
+    let decision = drag.arrive(task, &targets, u64::MAX, hands);
+    planner.spend(drag.spent);
+    (decision.ended == Ended::Settled).then_some(decision)
+}
+
+/// Runs a task with modes at once; where none is found the values are those of the last attempt.
 pub(crate) fn run(
     planner: &Planner,
     model: Model<'_>,
@@ -273,6 +315,9 @@ pub(crate) struct ModalDrag {
     mode: Mode,
     now: Vec<f64>,
     wishes: u64,
+    /// What following has cost in all modes, in multiplications, and what it may have cost.
+    spent: u64,
+    left: Option<u64>,
 }
 
 #[derive(Debug)]
@@ -322,7 +367,27 @@ impl ModalDrag {
             now: x0.clone(),
             x0,
             wishes: 0,
+            spent: 0,
+            left: None,
         }
+    }
+
+    /// Returns true if a way leads on from the press: its rules hold there, and what is moved are real numbers.
+    fn leads_on(&mut self, task: &Task, hands: &mut Hands<'_>) -> bool {
+        let (_, plan) = hands.planner.plans.in_mode(&self.modes, &self.mode);
+        let relations = &task.system.relations;
+        let is_required = |&r: &u32| relations[r as usize].level == Level::Required;
+        let Self { modes, x0, inputs, mode, .. } = self;
+        solve::are_continuous(&plan, inputs)
+            && !modes.broken(mode, x0).iter().any(is_required)
+            && self.at_press(task, &plan, hands).drag.holds()
+    }
+
+    /// Returns the drag in the present mode, begun at the press where it was not.
+    fn at_press(&mut self, task: &Task, plan: &Plan, hands: &Hands<'_>) -> &mut Followed {
+        let Self { modes, x0, inputs, followed, mode, .. } = self;
+        let begin = || Followed::begin(modes, mode, plan, x0, inputs, &leans(hands.model, task));
+        followed.entry(mode.clone()).or_insert_with(begin)
     }
 
     /// Follows a wish; the numbers are put into `values`, and the task into the mode that stands.
@@ -337,17 +402,7 @@ impl ModalDrag {
     ) -> Ran {
         let texts = values.texts.clone();
         let mut hands = Hands { planner, model, values, host };
-        let from: Vec<f64> = self.inputs.iter().map(|&input| self.now[input as usize]).collect();
-        let (parts, until) = (self.parts(task, targets, &mut hands), self.spent() + PATIENCE);
-        for part in 1..parts {
-            if self.spent() > until {
-                break;
-            }
-            let part = f64::from(part) / f64::from(parts);
-            let on = from.iter().zip(targets).map(|(a, b)| a + part * (b - a));
-            self.go(task, &on.collect::<Vec<_>>(), HALVINGS, &mut hands);
-        }
-        let decision = self.go(task, targets, HALVINGS, &mut hands);
+        let decision = self.arrive(task, targets, self.spent + PATIENCE, &mut hands);
         if decision.ended != Ended::Settled {
             values.texts = texts;
         }
@@ -359,17 +414,26 @@ impl ModalDrag {
         told
     }
 
-    /// Returns into how many ways that to a wish is cut.
-    fn parts(&mut self, task: &Task, targets: &[f64], hands: &mut Hands<'_>) -> u32 {
+    /// Goes to a wish in short ways; once so much was spent, in one.
+    fn arrive(
+        &mut self,
+        task: &Task,
+        targets: &[f64],
+        until: u64,
+        hands: &mut Hands<'_>,
+    ) -> Decision {
+        let from: Vec<f64> = self.inputs.iter().map(|&input| self.now[input as usize]).collect();
         let (_, plan) = hands.planner.plans.in_mode(&self.modes, &self.mode);
-        let Self { modes, x0, inputs, followed, mode, .. } = self;
-        let begin = || Followed::begin(modes, mode, &plan, x0, inputs, &leans(hands.model, task));
-        followed.entry(mode.clone()).or_insert_with(begin).drag.parts(&plan, targets)
-    }
-
-    /// Returns what following has cost in all modes, in multiplications.
-    fn spent(&self) -> u64 {
-        self.followed.values().map(|follow| follow.drag.spent()).sum()
+        let parts = self.at_press(task, &plan, hands).drag.parts(&plan, targets);
+        for part in 1..parts {
+            if self.spent > until {
+                break;
+            }
+            let part = f64::from(part) / f64::from(parts);
+            let on = from.iter().zip(targets).map(|(a, b)| a + part * (b - a));
+            self.go(task, &on.collect::<Vec<_>>(), HALVINGS, hands);
+        }
+        self.go(task, targets, HALVINGS, hands)
     }
 
     /// Goes to a wish, by halves where other inequalities act there.
@@ -401,7 +465,7 @@ impl ModalDrag {
     /// Finds the mode that stands at a wish; the host's texts are then of that mode.
     fn decide(&mut self, task: &Task, targets: &[f64], hands: &mut Hands<'_>) -> Decision {
         self.wishes += 1;
-        let Self { modes, x0, inputs, followed, mode, now, wishes } = self;
+        let Self { modes, x0, inputs, followed, mode, now, wishes, spent, left } = self;
         let Hands { planner, model, values, host } = hands;
         let texts = values.texts.clone();
         let leans = leans(*model, task);
@@ -417,7 +481,10 @@ impl ModalDrag {
                 follow.since = *wishes;
             }
             follow.wish = *wishes;
+            let before = follow.drag.spent();
+            follow.drag.end_at(left.map(|left| before + left.saturating_sub(*spent)));
             let outcome = follow.drag.follow(&plan, targets, &mut adapter);
+            *spent += follow.drag.spent() - before;
             Tried { plan, outcome, values: follow.drag.values().to_vec() }
         };
         let decision = decide(modes, &first, &mut attempt);

@@ -128,6 +128,14 @@ impl Planner {
     pub(crate) fn spent(&self) -> u64 {
         self.runner.borrow().as_ref().map_or(0, |runner| runner.spent())
     }
+    /// Counts what was run without that.
+    pub(crate) fn spend(&self, multiplications: u64) {
+        self.runner.borrow_mut().get_or_insert_default().spend(multiplications);
+    }
+    /// Returns what runs may still cost, where that is bounded.
+    pub(crate) fn left(&self) -> Option<u64> {
+        self.runner.borrow().as_ref().and_then(|runner| runner.left())
+    }
     /// Says what runs may cost until then, by what they have cost: those that come to that find no solution.
     pub(crate) fn end_at(&self, bound: Option<u64>) {
         let mut runner = self.runner.borrow_mut();

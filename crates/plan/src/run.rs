@@ -143,9 +143,7 @@ fn by_course(
             scatter(task, &local, values);
             ran(planner, task, &outcome)
         }
-        Course::Modes(modes, _) => {
-            modal::run(planner, model, task, (modes, solve::decide), ground, values, host)
-        }
+        Course::Modes(modes, _) => modal::run_on(planner, model, task, modes, ground, values, host),
         Course::Search(puzzle) => {
             let mut runner = planner.take_runner(Vec::new());
             let verdict = runner.nearest(puzzle, &ground.x0, &ground.local);

@@ -99,6 +99,10 @@ impl Workspace {
     pub(crate) fn end_at(&mut self, bound: Option<u64>) {
         self.bound = bound;
     }
+    /// Returns what may still be spent, where that is bounded.
+    pub(crate) fn left(&self) -> Option<u64> {
+        self.bound.map(|bound| bound.saturating_sub(self.spent))
+    }
     /// Returns true if what may be spent is spent.
     pub(crate) fn is_spent(&self) -> bool {
         self.bound.is_some_and(|bound| self.spent > bound)

@@ -9,7 +9,7 @@ mod anchors;
 mod parts;
 pub(crate) mod start;
 
-pub use parts::PATIENCE;
+pub use parts::{PATIENCE, are_continuous};
 
 use crate::attempt::others::Other;
 use crate::attempt::{Approach, Attempt, Buffers, Failure, Frame, Held, Motion, Part};
@@ -61,6 +61,14 @@ impl Runner {
     pub fn end_at(&mut self, bound: Option<u64>) {
         self.buffers.work.end_at(bound);
     }
+    /// Returns what its runs may still cost, where that is bounded.
+    pub fn left(&self) -> Option<u64> {
+        self.buffers.work.left()
+    }
+    /// Counts what was run without it.
+    pub fn spend(&mut self, multiplications: u64) {
+        self.buffers.work.spend(multiplications as usize);
+    }
     /// Finds the solution of a puzzle [nearest](Puzzle::nearest) to a start; it counts as a run does.
     pub fn nearest(&mut self, puzzle: &Puzzle, start: &[f64], values: &[f64]) -> Verdict {
         self.buffers.work.nearest(puzzle, start, values)
@@ -108,7 +116,8 @@ pub fn others(plan: &Plan, x0: &[f64], most: usize, host: &mut dyn Host) -> Vec<
 /// have there (zero where it is not a number) and measured from it. `values` comes as `x0` with the
 /// `changed` known slots set, and leaves as the solution; where a required relation cannot hold it
 /// is as it came. What is not downstream of a change keeps its bits. In a state that holds, the
-/// solution is the one on the present branch.
+/// solution is the one on the present branch, and where rows bend the one that a [`Drag`] of what has changed
+/// comes to.
 pub fn run(
     plan: &Plan,
     runner: &mut Runner,
@@ -117,6 +126,9 @@ pub fn run(
     changed: &[SlotIndex],
     host: &mut dyn Host,
 ) -> Outcome {
+    if let Some(outcome) = runner.dragged(plan, x0, values, changed, host) {
+        return outcome;
+    }
     runner.came.clear();
     runner.came.extend_from_slice(values);
     start(plan, runner, x0, changed);
@@ -197,7 +209,10 @@ pub struct Drag {
 impl Drag {
     /// Begins a drag at the press, in state `x0`, which moves the known slots `inputs`.
     pub fn begin(plan: &Plan, x0: &[f64], inputs: &[SlotIndex]) -> Self {
-        let mut runner = Runner::new();
+        Self::by(Runner::new(), plan, x0, inputs)
+    }
+
+    fn by(mut runner: Runner, plan: &Plan, x0: &[f64], inputs: &[SlotIndex]) -> Self {
         start(plan, &mut runner, x0, &[]);
         let slice = plan.slice(inputs);
         let Runner { frame, buffers, .. } = &mut runner;
@@ -268,6 +283,11 @@ impl Drag {
         // what the drag does not move has to be computed again from here
         self.has_run = false;
         self.upstream.clear();
+    }
+
+    /// Returns true if a state was seen in which everything required holds.
+    pub fn holds(&self) -> bool {
+        self.has_branch
     }
 
     /// Returns the present state.

@@ -1,9 +1,9 @@
 //! Parts: a long way to a wish is gone in short ones, so that how often the pointer is asked plays no part.
 
-use super::Drag;
+use super::{Drag, Runner};
 use crate::outcome::{Host, Outcome};
 use crate::plan::Plan;
-use crate::system::SlotIndex;
+use crate::system::{SlotIndex, Stay};
 
 /// A way longer than this is cut, in parts of the extent, over the number of slots that move.
 const PART: f64 = 0.25;
@@ -11,6 +11,46 @@ const PART: f64 = 0.25;
 const MOST_WORK: usize = 20_000;
 /// What one wish of a drag may cost, in multiplications: the pointer waits for it.
 pub const PATIENCE: u64 = 300_000_000;
+
+/// Returns true where a way leads from one value of these slots to another: they are known numbers, none of them
+/// whole.
+pub fn are_continuous(plan: &Plan, slots: &[SlotIndex]) -> bool {
+    let is_known = |&slot: &SlotIndex| {
+        let slot = &plan.slots()[slot as usize];
+        slot.is_number && !slot.is_discrete && slot.stay == Stay::Fixed
+    };
+    !slots.is_empty() && slots.iter().all(is_known)
+}
+
+impl Runner {
+    /// Drags the `changed` slots from a state that holds to what they are in `values`, where a long way there has
+    /// to be gone in short ones. Returns nothing, all values as they came, where it has not or does not arrive.
+    pub(super) fn dragged(
+        &mut self,
+        plan: &Plan,
+        x0: &[f64],
+        values: &mut [f64],
+        changed: &[SlotIndex],
+        host: &mut dyn Host,
+    ) -> Option<Outcome> {
+        if !plan.bends || !plan.has_branches || plan.opens() || !are_continuous(plan, changed) {
+            return None;
+        }
+        let leans = std::mem::take(&mut self.leans);
+        let mut drag = Drag::by(std::mem::take(self), plan, x0, changed);
+        drag.lean(plan, &leans);
+        let targets: Vec<f64> = changed.iter().map(|&slot| values[slot as usize]).collect();
+        let has_branch = drag.has_branch;
+        let outcome = has_branch.then(|| drag.follow_until(u64::MAX, plan, &targets, host));
+        let outcome = outcome.filter(Outcome::is_solved);
+        if outcome.is_some() {
+            values.copy_from_slice(&drag.now);
+        }
+        *self = drag.runner;
+        self.leans = leans;
+        outcome
+    }
+}
 
 impl Drag {
     /// Follows the wish: one target for each input, in their order.
@@ -23,10 +63,20 @@ impl Drag {
     /// # Panics
     /// If there are not as many targets as inputs.
     pub fn follow(&mut self, plan: &Plan, targets: &[f64], host: &mut dyn Host) -> Outcome {
+        self.follow_until(self.runner.spent() + PATIENCE, plan, targets, host)
+    }
+
+    /// Follows the wish until so much was spent.
+    fn follow_until(
+        &mut self,
+        until: u64,
+        plan: &Plan,
+        targets: &[f64],
+        host: &mut dyn Host,
+    ) -> Outcome {
         assert_eq!(targets.len(), self.slice.inputs.len(), "a wish names every input");
         let may_leap = self.has_branch && plan.bends;
         let parts = if may_leap { self.parts(plan, targets) } else { 1 };
-        let until = self.runner.spent() + PATIENCE;
         if parts > 1 {
             let from: Vec<f64> =
                 self.slice.inputs.iter().map(|&input| self.now[input as usize]).collect();
@@ -45,6 +95,10 @@ impl Drag {
     /// Returns what following has cost so far, in multiplications, roughly.
     pub fn spent(&self) -> u64 {
         self.runner.spent()
+    }
+    /// Says what following may cost from now on, as [`Runner::end_at`] does.
+    pub fn end_at(&mut self, bound: Option<u64>) {
+        self.runner.end_at(bound);
     }
 
     /// Returns into how many ways that to a wish is cut: where least change bends, a stride might pass over the
