@@ -12,7 +12,7 @@ use crate::task::{Course, Task};
 use kernel::{SlotId, Values};
 use solve::{
     Constants, Decision, Ended, Lean, Level, Mode, Modes, PATIENCE, Plan, SlotIndex, Standing,
-    System, Tried, decide,
+    System, Tried, decide, decide_along,
 };
 use std::cmp::Ordering;
 use std::collections::BTreeMap;
@@ -487,7 +487,7 @@ impl ModalDrag {
             *spent += follow.drag.spent() - before;
             Tried { plan, outcome, values: follow.drag.values().to_vec() }
         };
-        let decision = decide(modes, &first, &mut attempt);
+        let decision = decide_along(modes, &first, &mut attempt);
         if decision.ended == Ended::Settled && has_texts(task) {
             attempt(&decision.mode);
         }

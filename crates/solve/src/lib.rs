@@ -120,7 +120,9 @@ pub use attempt::others::Other;
 pub use conditional::{Condition, Conditional, Demand, DemandKind, Guard, SlotRange};
 pub use few::Few;
 pub use fork::Lean;
-pub use modes::{Decision, Ended, Mode, Modes, Standing, Tried, decide, decide_pieces};
+pub use modes::{
+    Decision, Ended, Mode, Modes, Standing, Tried, decide, decide_along, decide_pieces,
+};
 pub use outcome::{Host, NoHost, Note, Outcome, Reason, Status, Unmet};
 pub use pattern::{Pattern, PatternId, Patterns, Scratch};
 pub use plan::{Plan, Rejected, Report, Step, StepKind, plan};

@@ -11,7 +11,7 @@
 
 mod decide;
 
-pub use decide::{Decision, Ended, MOST_MODES, Tried, decide, decide_pieces};
+pub use decide::{Decision, Ended, MOST_MODES, Tried, decide, decide_along, decide_pieces};
 
 use crate::conditional::{Conditional, DemandKind};
 use crate::pattern::{Pattern, PatternId, Patterns, Scratch};
@@ -36,6 +36,13 @@ pub struct Mode {
     pub active: BTreeSet<u32>,
     /// Which unknowns are constants.
     pub constants: Constants,
+}
+
+impl Mode {
+    /// Returns true if the same is assumed and taken in another mode, whatever acts.
+    fn assumes_as(&self, other: &Self) -> bool {
+        self.assumed == other.assumed && self.taken == other.taken
+    }
 }
 
 /// A conditional system, taken apart.

@@ -56,9 +56,22 @@ pub enum Ended {
     NotDecided(usize),
 }
 
-/// Finds the mode in which everything holds.
+/// So many more modes are tried where one is known, for another in which fewer given numbers yield.
+const MOST_BETTER: usize = 64;
+
+/// Finds the mode in which everything holds; of several, one in which few given numbers yield.
 pub fn decide(modes: &Modes, first: &Mode, attempt: &mut dyn FnMut(&Mode) -> Tried) -> Decision {
-    decide_within(modes, first, attempt, MOST_MODES)
+    decide_within(modes, first, attempt, MOST_MODES, false)
+}
+
+/// Finds the mode in which everything holds at a wish of a drag. What is assumed in the first, in which the drag
+/// is, is kept while nothing more yields in it.
+pub fn decide_along(
+    modes: &Modes,
+    first: &Mode,
+    attempt: &mut dyn FnMut(&Mode) -> Tried,
+) -> Decision {
+    decide_within(modes, first, attempt, MOST_MODES, true)
 }
 
 /// Finds the mode in which everything holds, among fewer where the system is large.
@@ -68,7 +81,7 @@ pub fn decide_pieces(
     attempt: &mut dyn FnMut(&Mode) -> Tried,
 ) -> Decision {
     let slots = modes.conditional.system.slots.len().max(1);
-    decide_within(modes, first, attempt, (MOST_OF_PIECES / slots).clamp(8, MOST_MODES))
+    decide_within(modes, first, attempt, (MOST_OF_PIECES / slots).clamp(8, MOST_MODES), false)
 }
 
 fn decide_within(
@@ -76,6 +89,7 @@ fn decide_within(
     first: &Mode,
     attempt: &mut dyn FnMut(&Mode) -> Tried,
     most: usize,
+    is_along: bool,
 ) -> Decision {
     let mut deciding = Deciding {
         modes,
@@ -84,18 +98,21 @@ fn decide_within(
         tried: BTreeMap::new(),
         blamed: BTreeSet::new(),
         edge: None,
-        spared: None,
+        yielding: Yielding::Any,
     };
-    let yielded = deciding.try_mode(first).plan.report.yielded.iter().copied().collect();
-    deciding.spared = Some(yielded);
-    let sparing = deciding.look(first);
-    if sparing.ended == Ended::Settled {
-        return sparing;
-    }
-    // more given numbers have to yield
-    deciding.spared = None;
-    deciding.look(first)
+    deciding.sparing(first, is_along)
 }
+
+/// Which given numbers may yield in the modes that are looked for.
+#[derive(Debug)]
+enum Yielding {
+    Any,
+    /// Those that do in the first mode.
+    Known(BTreeSet<u32>),
+    /// Fewer than so many.
+    Fewer(usize),
+}
+
 struct Deciding<'a> {
     modes: &'a Modes,
     attempt: &'a mut dyn FnMut(&Mode) -> Tried,
@@ -106,8 +123,7 @@ struct Deciding<'a> {
     blamed: BTreeSet<u32>,
     /// A mode in which every condition that is assumed wrongly is at its bound.
     edge: Option<Mode>,
-    /// While no other given numbers may yield: those that do in the first mode.
-    spared: Option<BTreeSet<u32>>,
+    yielding: Yielding,
 }
 
 /// What came of one set of assumptions.
@@ -121,6 +137,33 @@ enum Inner {
 type Assumption = (usize, u32);
 
 impl Deciding<'_> {
+    /// Finds a mode in which everything holds: one in which nothing yields that does not in the first, where
+    /// there is one, else any; then others in which fewer given numbers yield.
+    fn sparing(&mut self, first: &Mode, is_along: bool) -> Decision {
+        let yielded = self.try_mode(first).plan.report.yielded.iter().copied().collect();
+        self.yielding = Yielding::Known(yielded);
+        let mut found = self.look(first);
+        if found.ended != Ended::Settled {
+            self.yielding = Yielding::Any;
+            found = self.look(first);
+        } else if is_along && found.mode.assumes_as(first) {
+            return found;
+        }
+        if found.ended != Ended::Settled || first.assumed.is_empty() && first.taken.is_empty() {
+            return found;
+        }
+        self.most = self.most.min(self.tried.len() + MOST_BETTER);
+        loop {
+            let yielded = found.tried.plan.report.yielded.len();
+            if yielded == 0 {
+                return found;
+            }
+            self.yielding = Yielding::Fewer(yielded);
+            let Some(better) = self.go_through(first) else { return found };
+            found = self.decision(better, Ended::Settled);
+        }
+    }
+
     /// Finds the mode in which everything holds, the first wrong condition switched first.
     fn look(&mut self, first: &Mode) -> Decision {
         let mut seen = BTreeSet::new();
@@ -134,7 +177,15 @@ impl Deciding<'_> {
             mode = Mode { active: BTreeSet::new(), ..found };
             mode.assumed[first] = !mode.assumed[first];
         }
-        self.go_through(first)
+        if let Some(found) = self.go_through(first).or_else(|| self.edge.take()) {
+            return self.decision(found, Ended::Settled);
+        }
+        let ended = if self.tried.len() < self.most {
+            Ended::Contradiction(self.blamed.iter().copied().collect())
+        } else {
+            Ended::NotDecided(self.most)
+        };
+        self.decision(first.clone(), ended)
     }
 
     fn try_mode(&mut self, mode: &Mode) -> Rc<Tried> {
@@ -186,10 +237,16 @@ impl Deciding<'_> {
 
     /// Returns the relations for which given numbers yield that should not.
     fn behind_yielding(&self, plan: &Plan) -> Option<BTreeSet<u32>> {
-        let spared = self.spared.as_ref()?;
-        let yielding = plan.report.yielded.iter().copied().filter(|s| !spared.contains(s));
-        let yielding: Vec<u32> = yielding.collect();
-        (!yielding.is_empty()).then(|| self.behind(plan, &yielding))
+        let yielded = &plan.report.yielded;
+        let too_many: Vec<u32> = match &self.yielding {
+            Yielding::Any => Vec::new(),
+            Yielding::Known(known) => {
+                yielded.iter().copied().filter(|s| !known.contains(s)).collect()
+            }
+            Yielding::Fewer(count) if yielded.len() < *count => Vec::new(),
+            Yielding::Fewer(_) => yielded.clone(),
+        };
+        (!too_many.is_empty()).then(|| self.behind(plan, &too_many))
     }
 
     /// Lets go of the first acting inequality that would hold if it did not act.
@@ -256,16 +313,14 @@ impl Deciding<'_> {
     }
 
     /// Goes through the assumptions depth first, learning from every failure.
-    fn go_through(&mut self, first: &Mode) -> Decision {
+    fn go_through(&mut self, first: &Mode) -> Option<Mode> {
         let mut learnt: Vec<Vec<Assumption>> = Vec::new();
         while self.tried.len() < self.most {
             let Some(mode) = self.next(first, &learnt) else { break };
             let relevant = match self.act(mode.clone()) {
                 Inner::Holds(found) => {
                     let wrong = self.wrong(&found);
-                    let Some(&first) = wrong.first() else {
-                        return self.decision(found, Ended::Settled);
-                    };
+                    let Some(&first) = wrong.first() else { return Some(found) };
                     let tried = self.try_mode(&found);
                     let behind = self.behind(&tried.plan, &self.modes.conditions[first].arguments);
                     let mut relevant = self.assumptions(&mode, Some(&behind));
@@ -280,15 +335,7 @@ impl Deciding<'_> {
             };
             learnt.push(relevant);
         }
-        if let Some(mode) = self.edge.take() {
-            return self.decision(mode, Ended::Settled);
-        }
-        let ended = if self.tried.len() < self.most {
-            Ended::Contradiction(self.blamed.iter().copied().collect())
-        } else {
-            Ended::NotDecided(self.most)
-        };
-        self.decision(first.clone(), ended)
+        None
     }
 
     fn decision(&mut self, mode: Mode, ended: Ended) -> Decision {
