@@ -126,3 +126,25 @@ fn a_rope_between_anchors_sags_where_one_of_them_is_set_nearer() {
         assert!((x - 0.8 * bars as f64).abs() <= EXACT, "{bars} bars: {x}");
     }
 }
+
+#[test]
+fn a_rope_that_is_given_straight_sags_when_it_is_opened() {
+    // an odd number and an even one, short ropes, and some of which all rows are solved by sparse factors
+    for bars in [2, 3, 10, 40, 77, 120, 200] {
+        for part in [0.99, 0.9, 0.5] {
+            let mut case = chain(bars, [1.0, 0.0], &[]);
+            case.start.iter_mut().for_each(|[x, _]| *x *= part);
+            let ends = [0, bars].map(|p| Constraint::Fix { p, x: case.start[p][0], y: 0.0 });
+            case.constraints.extend(ends);
+            let opened = Opened::new(&document::text(&case)).expect("a rope can be said");
+            let (_, values, report) = opened.solve();
+            let told = format!("{bars} bars, ends at {part} of their length");
+            assert!(report.unmet.is_empty(), "{told}: {} do not hold", report.unmet.len());
+            let off = torn(&opened, &values, bars);
+            assert!(off <= EXACT, "{told}: a bar is off by {off:e}");
+            // bars that together are longer than the way between the ends go up or down
+            let high = (0..=bars).map(|p| place(&opened, &values, p)[1].abs()).fold(0.0, f64::max);
+            assert!(high > 0.05, "{told}: {high}");
+        }
+    }
+}

@@ -485,12 +485,41 @@ impl Run<'_> {
                 self.fail(step)
             }
             Measured::Least => Ok(()),
+            Measured::Failed if self.trust == Trust::Any && self.buckles(step, least) => Ok(()),
             Measured::Failed if may_compromise && step.targets.len() <= DENSE => {
                 let make = || Measure::new(&least.block.problem(), &|s| self.plan.kind(s));
                 self.measure(step, measure.get_or_init(make))
             }
             Measured::Failed => self.fail(step),
         }
+    }
+
+    /// Solves from where a state that no step leads out of to first order goes on, as a straight chain does;
+    /// returns false where it is none.
+    fn buckles(&mut self, step: &Step, least: &Least) -> bool {
+        self.start_from_last(&step.targets);
+        let (anchor, scales) = (self.frame.anchor(), &self.frame.scales);
+        let Buffers { work, least: scratch, .. } = &mut *self.buffers;
+        if !least.buckle(self.values, scales, work, scratch) {
+            return false;
+        }
+        let buckled = self.values.to_vec();
+        let mut is_solved = |from: &[f64], values: &mut [f64], trust| {
+            least.solve(from, values, scales, trust, work, scratch) == Measured::Least
+        };
+        if is_solved(anchor, self.values, self.trust) {
+            return true;
+        }
+        // far from there, what is nearest to where it buckles to is found more surely; it counts from x0 again
+        self.values.copy_from_slice(&buckled);
+        if !is_solved(&buckled, self.values, self.trust) {
+            return false;
+        }
+        let near = self.values.to_vec();
+        if !is_solved(anchor, self.values, Trust::Branch) {
+            self.values.copy_from_slice(&near);
+        }
+        true
     }
 
     /// Returns true if a step goes farther from the last state than one may where least change is hardly the least.
