@@ -77,6 +77,8 @@ pub enum NotDecided {
     Roots(u64),
     /// After so many choices of whole numbers among real unknowns.
     Whole(u64),
+    /// After so much work, in multiplications.
+    Work(u64),
 }
 
 /// Why an edit changed nothing.
@@ -309,7 +311,7 @@ impl Planner {
             let setup = Setup { model, holding: &holding, aim };
             let may_be_tried = match report.not_decided {
                 // every part of it would be searched as long
-                Some(NotDecided::Roots(_) | NotDecided::Whole(_)) => false,
+                Some(NotDecided::Roots(_) | NotDecided::Whole(_) | NotDecided::Work(_)) => false,
                 Some(NotDecided::Search(_) | NotDecided::Modes(_)) | None => !is_dear,
             };
             let conflict = match may_be_tried {

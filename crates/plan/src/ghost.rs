@@ -179,7 +179,7 @@ impl Planner {
             Course::Modes(modes, _) => {
                 let now = task.gather(&values.numbers);
                 let mode = modes.first(&now, &now);
-                let (_, plan) = self.plans.in_mode(modes, &mode);
+                let (_, plan) = self.in_mode(modes, &mode);
                 self.other_roots(model, task, &plan, values, host, found);
                 self.other_alternatives(model, task, modes, values, host, found);
             }

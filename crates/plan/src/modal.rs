@@ -160,7 +160,7 @@ impl Task {
 }
 
 fn stands(planner: &Planner, modes: &Rc<Modes>, mode: Mode) -> Stands {
-    let (system, plan) = planner.plans.in_mode(modes, &mode);
+    let (system, plan) = planner.in_mode(modes, &mode);
     Stands { modes: modes.clone(), system, plan, mode }
 }
 
@@ -201,11 +201,8 @@ fn dragged(
     if !drag.leads_on(task, hands) {
         return None;
     }
-    let planner = hands.planner;
-    drag.left = planner.left();
     let targets: Vec<f64> = changed.iter().map(|&slot| local[slot as usize]).collect();
     let decision = drag.arrive(task, &targets, u64::MAX, hands);
-    planner.spend(drag.spent);
     (decision.ended == Ended::Settled).then_some(decision)
 }
 
@@ -252,7 +249,7 @@ pub(crate) fn attempt_in_mode(
     values: &mut Values,
     host: &mut dyn Host,
 ) -> Tried {
-    let (_, plan) = planner.plans.in_mode(modes, mode);
+    let (_, plan) = planner.in_mode(modes, mode);
     let Ground { x0, local, changed, .. } = ground;
     let mut local = local.clone();
     let mut adapter = Adapter { planner, model, task, values, host };
@@ -315,9 +312,6 @@ pub(crate) struct ModalDrag {
     mode: Mode,
     now: Vec<f64>,
     wishes: u64,
-    /// What following has cost in all modes, in multiplications, and what it may have cost.
-    spent: u64,
-    left: Option<u64>,
 }
 
 #[derive(Debug)]
@@ -367,14 +361,12 @@ impl ModalDrag {
             now: x0.clone(),
             x0,
             wishes: 0,
-            spent: 0,
-            left: None,
         }
     }
 
     /// Returns true if a way leads on from the press: its rules hold there, and what is moved are real numbers.
     fn leads_on(&mut self, task: &Task, hands: &mut Hands<'_>) -> bool {
-        let (_, plan) = hands.planner.plans.in_mode(&self.modes, &self.mode);
+        let (_, plan) = hands.planner.in_mode(&self.modes, &self.mode);
         let relations = &task.system.relations;
         let is_required = |&r: &u32| relations[r as usize].level == Level::Required;
         let Self { modes, x0, inputs, mode, .. } = self;
@@ -402,7 +394,7 @@ impl ModalDrag {
     ) -> Ran {
         let texts = values.texts.clone();
         let mut hands = Hands { planner, model, values, host };
-        let decision = self.arrive(task, targets, self.spent + PATIENCE, &mut hands);
+        let decision = self.arrive(task, targets, planner.spent() + PATIENCE, &mut hands);
         if decision.ended != Ended::Settled {
             values.texts = texts;
         }
@@ -423,10 +415,10 @@ impl ModalDrag {
         hands: &mut Hands<'_>,
     ) -> Decision {
         let from: Vec<f64> = self.inputs.iter().map(|&input| self.now[input as usize]).collect();
-        let (_, plan) = hands.planner.plans.in_mode(&self.modes, &self.mode);
+        let (_, plan) = hands.planner.in_mode(&self.modes, &self.mode);
         let parts = self.at_press(task, &plan, hands).drag.parts(&plan, targets);
         for part in 1..parts {
-            if self.spent > until {
+            if hands.planner.spent() > until || hands.planner.is_spent() {
                 break;
             }
             let part = f64::from(part) / f64::from(parts);
@@ -465,13 +457,13 @@ impl ModalDrag {
     /// Finds the mode that stands at a wish; the host's texts are then of that mode.
     fn decide(&mut self, task: &Task, targets: &[f64], hands: &mut Hands<'_>) -> Decision {
         self.wishes += 1;
-        let Self { modes, x0, inputs, followed, mode, now, wishes, spent, left } = self;
+        let Self { modes, x0, inputs, followed, mode, now, wishes } = self;
         let Hands { planner, model, values, host } = hands;
         let texts = values.texts.clone();
         let leans = leans(*model, task);
         let first = Mode { active: Default::default(), ..mode.clone() };
         let mut attempt = |mode: &Mode| {
-            let (_, plan) = planner.plans.in_mode(modes, mode);
+            let (_, plan) = planner.in_mode(modes, mode);
             values.texts.clone_from(&texts);
             let mut adapter = Adapter { planner, model: *model, task, values, host: *host };
             let begin = || Followed::begin(modes, mode, &plan, x0, inputs, &leans);
@@ -482,9 +474,9 @@ impl ModalDrag {
             }
             follow.wish = *wishes;
             let before = follow.drag.spent();
-            follow.drag.end_at(left.map(|left| before + left.saturating_sub(*spent)));
+            follow.drag.end_at(planner.left().map(|left| before + left));
             let outcome = follow.drag.follow(&plan, targets, &mut adapter);
-            *spent += follow.drag.spent() - before;
+            planner.spend(follow.drag.spent() - before);
             Tried { plan, outcome, values: follow.drag.values().to_vec() }
         };
         let decision = decide_along(modes, &first, &mut attempt);

@@ -11,11 +11,14 @@ use crate::recent::Recent;
 use crate::rule::{Rules, Source};
 use crate::task::{Alike, Holding, Locals, Setting, Task, Wish, at_rest, task};
 use kernel::{Document, Form, SlotId, Structure, Values};
-use solve::{Lean, Level, Runner, Scratch};
+use solve::{Lean, Level, Mode, Modes, Plan, Runner, Scratch, System};
 use std::cell::RefCell;
 use std::collections::btree_map::Entry;
 use std::collections::{BTreeMap, BTreeSet};
 use std::rc::Rc;
+
+/// What planning a mode costs for every slot, in multiplications, roughly.
+const PLANNING: u64 = 1000;
 
 /// A document and its structure: what every question to the planner is about.
 #[derive(Clone, Copy, Debug)]
@@ -128,6 +131,10 @@ impl Planner {
     pub(crate) fn spent(&self) -> u64 {
         self.runner.borrow().as_ref().map_or(0, |runner| runner.spent())
     }
+    /// Returns true if what runs may cost was spent.
+    pub(crate) fn is_spent(&self) -> bool {
+        self.left() == Some(0)
+    }
     /// Counts what was run without that.
     pub(crate) fn spend(&self, multiplications: u64) {
         self.runner.borrow_mut().get_or_insert_default().spend(multiplications);
@@ -188,6 +195,15 @@ impl Planner {
     /// Returns how many systems were planned, and how many found their plan made.
     pub fn plan_counts(&self) -> PlanCounts {
         self.plans.counts()
+    }
+
+    /// Returns the plain system of a mode, and its plan; planning counts as running does.
+    pub(crate) fn in_mode(&self, modes: &Modes, mode: &Mode) -> (Rc<System>, Rc<Plan>) {
+        let (system, plan, is_new) = self.plans.in_mode(modes, mode);
+        if is_new {
+            self.spend(PLANNING * system.slots.len() as u64);
+        }
+        (system, plan)
     }
 
     /// Returns what holds a slot while nothing is edited.

@@ -123,9 +123,11 @@ impl Plans {
         self.wholes.insert(stated, whole.clone());
         whole
     }
-    /// Returns the plain system of a mode, and its plan.
-    pub(crate) fn in_mode(&self, modes: &Modes, mode: &Mode) -> (Rc<System>, Rc<Plan>) {
-        self.plan_later(modes.system(mode))
+    /// Returns the plain system of a mode, its plan, and whether that was made now.
+    pub(crate) fn in_mode(&self, modes: &Modes, mode: &Mode) -> (Rc<System>, Rc<Plan>, bool) {
+        let known = self.in_modes.borrow().len();
+        let (system, plan) = self.plan_later(modes.system(mode));
+        (system, plan, self.in_modes.borrow().len() > known)
     }
     /// Returns the plan in which the given numbers that yield in a plan of numbers alone are constants, or
     /// all that has a value where a place with a value yields to what has none yet; nothing where none

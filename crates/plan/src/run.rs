@@ -59,7 +59,12 @@ pub(crate) fn put_texts(texts: &[(SlotId, Option<Arc<str>>)], values: &mut Value
     }
 }
 
-/// Runs a task of an edit.
+/// What running a task may cost, and for every slot besides, in multiplications: more than ten times what large
+/// documents need.
+const WORK: u64 = 3_000_000_000;
+const SLOT_WORK: u64 = 100_000;
+
+/// Runs a task of an edit: as long as whoever asks says, else as long as its size allows.
 ///
 /// `start` is the state when the edit began; `values` has what the edit sets already in it.
 pub(crate) fn run(
@@ -72,8 +77,20 @@ pub(crate) fn run(
     host: &mut dyn Host,
 ) -> Ran {
     let ground = ground(planner, task, aim, start, values);
+    let bound = WORK + SLOT_WORK * task.system.slots.len() as u64;
+    let has_bound = planner.left().is_some();
+    if !has_bound {
+        planner.end_at(Some(planner.spent() + bound));
+    }
     let ran = by_course(planner, model, task, &ground, values, host);
-    or_otherwise(planner, model, task, &ground, ran, values, host)
+    let mut ran = or_otherwise(planner, model, task, &ground, ran, values, host);
+    if !has_bound {
+        if planner.is_spent() && !ran.is_solved {
+            ran.not_decided = Some(NotDecided::Work(bound));
+        }
+        planner.end_at(None);
+    }
+    ran
 }
 
 /// Looks further where what was run did not come to an end: for whole numbers, where some are looked for and it
@@ -261,6 +278,7 @@ pub(crate) fn ran(planner: &Planner, task: &Task, outcome: &Outcome) -> Ran {
             Reason::Limit { .. }
             | Reason::NoSolution { .. }
             | Reason::NotDecided { .. }
+            | Reason::Spent
             | Reason::Conflict,
         ) => None,
     };

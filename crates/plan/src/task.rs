@@ -237,7 +237,7 @@ fn course(
     } else {
         let modes = plans.modes(conditional);
         let mode = modes.blank();
-        let (system, plan) = plans.in_mode(&modes, &mode);
+        let (system, plan, _) = plans.in_mode(&modes, &mode);
         (system, plan, Course::Modes(modes, Box::new(mode)), None)
     }
 }

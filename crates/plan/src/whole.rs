@@ -102,7 +102,10 @@ pub(crate) fn run(
     let leans = leans(model, task);
     let mut trying = Trying { planner, model, task, modes, ground, leans, texts, values, host };
     let mut trial =
-        |constants: Constants, with: &[f64]| trial(modes, &trying.decided(constants, with));
+        |constants: Constants, with: &[f64]| match trial(modes, &trying.decided(constants, with)) {
+            Trial::NotDecided if planner.is_spent() => Trial::Spent,
+            tried => tried,
+        };
     let looked = whole.wholes(planner.plans.patterns()).look(&ground.x0, &ground.local, &mut trial);
     match looked {
         Looked::Found(constants, with) => {

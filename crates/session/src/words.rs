@@ -91,6 +91,7 @@ pub(crate) fn given_up(bound: NotDecided) -> String {
         NotDecided::Whole(n) => {
             format!("{n} choices of whole numbers, and not all were looked at")
         }
+        NotDecided::Work(n) => format!("{n} multiplications, and there was more to do"),
         NotDecided::Roots(n) => format!("{n} choices among roots, and not all were tried"),
     }
 }

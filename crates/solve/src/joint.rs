@@ -76,7 +76,7 @@ impl Joint {
         let (mut damping, mut factor) = (FIRST, 2.0);
         for _ in 0..STEPS {
             w.spend(200 * self.block.pattern.len());
-            if !now.sum.is_finite() {
+            if !now.sum.is_finite() || w.is_spent() {
                 return false;
             }
             if self.holds(&now.local, values, w) {

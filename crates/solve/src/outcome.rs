@@ -1,5 +1,6 @@
 //! Outcomes: what a run tells, and the host that runs what only it can.
 
+use crate::block::Workspace;
 use crate::system::SlotIndex;
 
 /// What the solver cannot do itself: texts, and methods and rules that the host alone knows.
@@ -63,6 +64,8 @@ pub enum Reason {
         /// How many ways to choose them were tried.
         tried: u32,
     },
+    /// What the run may cost was spent before a solution was found.
+    Spent,
     /// Required relations contradict: they are unmet.
     Conflict,
     /// A host's method failed.
@@ -111,5 +114,11 @@ impl Outcome {
     /// Returns true if every required relation holds.
     pub fn is_solved(&self) -> bool {
         self.status == Status::Solved
+    }
+    /// Says that what may be spent was spent, where that is so and no solution was found.
+    pub(crate) fn note_spent(&mut self, work: &Workspace) {
+        if !self.is_solved() && work.is_spent() {
+            self.status = Status::Stopped(Reason::Spent);
+        }
     }
 }

@@ -22,6 +22,7 @@ use crate::slice::Slice;
 use crate::square::{Side, Trust};
 use crate::system::{Level, SlotIndex, Stay};
 use crate::test::{Failing, Tests};
+use parts::Dragged;
 use start::{required_rows_held, start};
 use std::cell::Cell;
 use std::ops::Range;
@@ -126,9 +127,11 @@ pub fn run(
     changed: &[SlotIndex],
     host: &mut dyn Host,
 ) -> Outcome {
-    if let Some(outcome) = runner.dragged(plan, x0, values, changed, host) {
-        return outcome;
-    }
+    let stopped = match runner.dragged(plan, x0, values, changed, host) {
+        Dragged::There(outcome) => return outcome,
+        Dragged::Stopped(reason) => Some(reason),
+        Dragged::Nowhere => None,
+    };
     runner.came.clear();
     runner.came.extend_from_slice(values);
     start(plan, runner, x0, changed);
@@ -147,11 +150,11 @@ pub fn run(
     }
     let trust = if solved_before && plan.has_branches { Trust::Branch } else { Trust::Any };
     let mut way = Way { plan, frame, buffers, host, trial, part: Part::Whole, until: u64::MAX };
-    let mut result = way.go(last, goal, values, trust);
-    if let Err(Stop::NoWay(Failure {
-        reason: Reason::NoSolution { .. } | Reason::NotDecided { .. },
-        ..
-    })) = result
+    let mut result = match stopped {
+        Some(reason) => Err(reason),
+        None => way.go(last, goal, values, trust),
+    };
+    if let Err(Reason::NoSolution { .. } | Reason::NotDecided { .. }) = result
         && !solved_before
         // whole numbers that come out broken are looked for with everything else as planned
         && !plan.has_whole_unknowns()
@@ -163,13 +166,14 @@ pub fn run(
     }
     let mut outcome = match result {
         Ok(()) => way.test(values, &[]),
-        Err(stop) => Outcome {
-            status: Status::Stopped(stop.reason()),
+        Err(reason) => Outcome {
+            status: Status::Stopped(reason),
             unmet: way.test(goal, &[]).unmet,
             notes: Vec::new(),
         },
     };
     outcome.notes.append(&mut buffers.notes);
+    outcome.note_spent(&buffers.work);
     // On opening there is nothing to go back to: what could be accepted stands.
     let stands = plan.opens() && matches!(outcome.status, Status::Stopped(Reason::Conflict));
     if !outcome.is_solved() && !stands {
@@ -384,7 +388,7 @@ impl Drag {
                 } else {
                     outcome = way.test(&limit, &[]);
                     if fraction < 1.0 {
-                        outcome.status = Status::Stopped(Stop::At(fraction, failure).reason());
+                        outcome.status = Status::Stopped(failure.at(fraction));
                     }
                     if !self.leans {
                         branch.copy_from_slice(&limit);
@@ -403,6 +407,7 @@ impl Drag {
         }
         self.is_met = outcome.is_solved() && outcome.unmet.is_empty();
         outcome.notes.append(&mut buffers.notes);
+        outcome.note_spent(&buffers.work);
         outcome
     }
 }
@@ -423,23 +428,16 @@ fn stands(plan: &Plan, step: u32, x0: &[f64]) -> bool {
     }
 }
 
-/// Where a way stopped.
-enum Stop {
-    At(f64, Failure),
-    NoWay(Failure),
-}
-
-impl Stop {
-    fn reason(self) -> Reason {
-        match self {
-            Self::At(fraction, Failure { reason, .. }) => match reason {
-                Reason::Method { .. } => reason,
-                Reason::Limit { .. }
-                | Reason::NoSolution { .. }
-                | Reason::NotDecided { .. }
-                | Reason::Conflict => Reason::Limit { fraction },
-            },
-            Self::NoWay(failure) => failure.reason,
+impl Failure {
+    /// Returns why a way stopped of which that part was gone.
+    fn at(self, fraction: f64) -> Reason {
+        match self.reason {
+            Reason::Method { .. } => self.reason,
+            Reason::Limit { .. }
+            | Reason::NoSolution { .. }
+            | Reason::NotDecided { .. }
+            | Reason::Spent
+            | Reason::Conflict => Reason::Limit { fraction },
         }
     }
 }
@@ -465,7 +463,7 @@ impl Way<'_> {
         goal: &[f64],
         values: &mut [f64],
         trust: Trust,
-    ) -> Result<(), Stop> {
+    ) -> Result<(), Reason> {
         let is_rough = trust == Trust::Any && self.plan.has_large_core;
         self.buffers.square.is_hasty = is_rough;
         let mut direct = self.direct(last, goal, trust);
@@ -500,9 +498,9 @@ impl Way<'_> {
         let arrived = match self.approach(last, goal, &failure) {
             Ok(()) => Ok(()),
             Err(_) if trust == Trust::Branch => {
-                self.same_orientation(goal).then_some(()).ok_or(Stop::At(fraction, failure))
+                self.same_orientation(goal).then_some(()).ok_or_else(|| failure.at(fraction))
             }
-            Err(_) => self.search(last, goal).map_err(Stop::NoWay),
+            Err(_) => self.search(last, goal).map_err(|failure| failure.reason),
         };
         arrived.map(|()| values.copy_from_slice(self.trial))
     }

@@ -72,6 +72,8 @@ pub enum Trial {
     Fails,
     /// It was given up.
     NotDecided,
+    /// It was given up, and so is everything: what may be spent was spent.
+    Spent,
 }
 
 /// What came of looking for whole numbers.
@@ -217,6 +219,10 @@ impl Looking<'_> {
                     }
                     Trial::Fails => {}
                     Trial::NotDecided => is_complete = false,
+                    Trial::Spent => {
+                        is_complete = false;
+                        self.tried = MOST_TRIALS;
+                    }
                 }
                 continue;
             };

@@ -138,6 +138,9 @@ impl Attempt<'_> {
                 let reason = Reason::NotDecided { tried };
                 return Err(Failure { reason, region: failure.region });
             }
+            if buffers.work.is_spent() {
+                return Err(Failure { reason: Reason::Spent, region: failure.region });
+            }
             if search.choices.is_empty() && !matches!(fault, Fault::Row(_)) {
                 // nothing near by is left: the first step that failed is sought from farther away
                 values.copy_from_slice(begun);

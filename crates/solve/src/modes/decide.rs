@@ -11,7 +11,7 @@
 //! their failure.
 
 use super::{Mode, Modes, Tree};
-use crate::outcome::Outcome;
+use crate::outcome::{Outcome, Reason, Status};
 use crate::plan::{Plan, StepKind};
 use crate::truth::Comparing;
 use std::collections::{BTreeMap, BTreeSet};
@@ -95,6 +95,7 @@ fn decide_within(
         modes,
         attempt,
         most,
+        is_spent: false,
         tried: BTreeMap::new(),
         blamed: BTreeSet::new(),
         edge: None,
@@ -118,6 +119,8 @@ struct Deciding<'a> {
     attempt: &'a mut dyn FnMut(&Mode) -> Tried,
     /// How many modes are tried.
     most: usize,
+    /// True once a try has spent what may be spent: nothing else is tried.
+    is_spent: bool,
     tried: BTreeMap<Mode, Rc<Tried>>,
     /// Relations that took part in failures.
     blamed: BTreeSet<u32>,
@@ -180,12 +183,17 @@ impl Deciding<'_> {
         if let Some(found) = self.go_through(first).or_else(|| self.edge.take()) {
             return self.decision(found, Ended::Settled);
         }
-        let ended = if self.tried.len() < self.most {
+        let ended = if self.may_try() {
             Ended::Contradiction(self.blamed.iter().copied().collect())
         } else {
-            Ended::NotDecided(self.most)
+            Ended::NotDecided(self.tried.len().min(self.most))
         };
         self.decision(first.clone(), ended)
+    }
+
+    /// Returns true while more modes may be tried.
+    fn may_try(&self) -> bool {
+        !self.is_spent && self.tried.len() < self.most
     }
 
     fn try_mode(&mut self, mode: &Mode) -> Rc<Tried> {
@@ -193,6 +201,7 @@ impl Deciding<'_> {
             return tried.clone();
         }
         let tried = Rc::new((self.attempt)(mode));
+        self.is_spent |= tried.outcome.status == Status::Stopped(Reason::Spent);
         self.tried.insert(mode.clone(), tried.clone());
         tried
     }
@@ -201,7 +210,7 @@ impl Deciding<'_> {
     fn act(&mut self, mut mode: Mode) -> Inner {
         let mut seen = BTreeSet::new();
         let mut blamed = BTreeSet::new();
-        while seen.insert(mode.active.clone()) && self.tried.len() < self.most {
+        while seen.insert(mode.active.clone()) && self.may_try() {
             let tried = self.try_mode(&mode);
             if !tried.outcome.is_solved() {
                 let relations = blame(&tried);
@@ -315,7 +324,7 @@ impl Deciding<'_> {
     /// Goes through the assumptions depth first, learning from every failure.
     fn go_through(&mut self, first: &Mode) -> Option<Mode> {
         let mut learnt: Vec<Vec<Assumption>> = Vec::new();
-        while self.tried.len() < self.most {
+        while self.may_try() {
             let Some(mode) = self.next(first, &learnt) else { break };
             let relevant = match self.act(mode.clone()) {
                 Inner::Holds(found) => {

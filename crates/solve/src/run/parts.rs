@@ -1,7 +1,7 @@
 //! Parts: a long way to a wish is gone in short ones, so that how often the pointer is asked plays no part.
 
 use super::{Drag, Runner};
-use crate::outcome::{Host, Outcome};
+use crate::outcome::{Host, Outcome, Reason, Status};
 use crate::plan::Plan;
 use crate::system::{SlotIndex, Stay};
 
@@ -22,9 +22,26 @@ pub fn are_continuous(plan: &Plan, slots: &[SlotIndex]) -> bool {
     !slots.is_empty() && slots.iter().all(is_known)
 }
 
+/// What came of dragging what an edit sets.
+pub(super) enum Dragged {
+    /// It was not dragged.
+    Nowhere,
+    There(Outcome),
+    Stopped(Reason),
+}
+
+/// How long a way is followed.
+#[derive(Clone, Copy)]
+enum Until {
+    /// Until so much was spent.
+    Spent(u64),
+    /// As long as it can be followed.
+    Missed,
+}
+
 impl Runner {
     /// Drags the `changed` slots from a state that holds to what they are in `values`, where a long way there has
-    /// to be gone in short ones. Returns nothing, all values as they came, where it has not or does not arrive.
+    /// to be gone in short ones; where that does not arrive, all values are as they came.
     pub(super) fn dragged(
         &mut self,
         plan: &Plan,
@@ -32,23 +49,27 @@ impl Runner {
         values: &mut [f64],
         changed: &[SlotIndex],
         host: &mut dyn Host,
-    ) -> Option<Outcome> {
+    ) -> Dragged {
         if !plan.bends || !plan.has_branches || plan.opens() || !are_continuous(plan, changed) {
-            return None;
+            return Dragged::Nowhere;
         }
         let leans = std::mem::take(&mut self.leans);
         let mut drag = Drag::by(std::mem::take(self), plan, x0, changed);
         drag.lean(plan, &leans);
         let targets: Vec<f64> = changed.iter().map(|&slot| values[slot as usize]).collect();
         let has_branch = drag.has_branch;
-        let outcome = has_branch.then(|| drag.follow_until(u64::MAX, plan, &targets, host));
-        let outcome = outcome.filter(Outcome::is_solved);
-        if outcome.is_some() {
-            values.copy_from_slice(&drag.now);
-        }
+        let outcome = has_branch.then(|| drag.follow_until(Until::Missed, plan, &targets, host));
+        let dragged = match outcome {
+            None => Dragged::Nowhere,
+            Some(Outcome { status: Status::Stopped(reason), .. }) => Dragged::Stopped(reason),
+            Some(outcome) => {
+                values.copy_from_slice(&drag.now);
+                Dragged::There(outcome)
+            }
+        };
         *self = drag.runner;
         self.leans = leans;
-        outcome
+        dragged
     }
 }
 
@@ -63,13 +84,12 @@ impl Drag {
     /// # Panics
     /// If there are not as many targets as inputs.
     pub fn follow(&mut self, plan: &Plan, targets: &[f64], host: &mut dyn Host) -> Outcome {
-        self.follow_until(self.runner.spent() + PATIENCE, plan, targets, host)
+        self.follow_until(Until::Spent(self.runner.spent() + PATIENCE), plan, targets, host)
     }
 
-    /// Follows the wish until so much was spent.
     fn follow_until(
         &mut self,
-        until: u64,
+        until: Until,
         plan: &Plan,
         targets: &[f64],
         host: &mut dyn Host,
@@ -77,19 +97,25 @@ impl Drag {
         assert_eq!(targets.len(), self.slice.inputs.len(), "a wish names every input");
         let may_leap = self.has_branch && plan.bends;
         let parts = if may_leap { self.parts(plan, targets) } else { 1 };
+        let spent = match until {
+            Until::Spent(bound) => bound,
+            Until::Missed => u64::MAX,
+        };
         if parts > 1 {
             let from: Vec<f64> =
                 self.slice.inputs.iter().map(|&input| self.now[input as usize]).collect();
             for part in 1..parts {
                 let part = f64::from(part) / f64::from(parts);
                 let on = from.iter().zip(targets).map(|(a, b)| a + part * (b - a));
-                self.follow_on(plan, &on.collect::<Vec<_>>(), until, host);
-                if self.runner.spent() > until {
-                    break;
+                let outcome = self.follow_on(plan, &on.collect::<Vec<_>>(), spent, host);
+                match until {
+                    Until::Missed if !outcome.is_solved() => return outcome,
+                    Until::Spent(bound) if self.runner.spent() > bound => break,
+                    Until::Missed | Until::Spent(_) => {}
                 }
             }
         }
-        self.follow_on(plan, targets, until, host)
+        self.follow_on(plan, targets, spent, host)
     }
 
     /// Returns what following has cost so far, in multiplications, roughly.
