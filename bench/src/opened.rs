@@ -45,6 +45,22 @@ impl Opened {
         Ok(Self { lowered, structure, given, made_in })
     }
 
+    /// Returns what the independent checker finds wrong with a drag, in words: `edited` is what was dragged, and
+    /// `wishes` where its numbers were to be at last.
+    pub fn complaints(
+        &self,
+        before: &Values,
+        after: &Values,
+        edited: &str,
+        wishes: &[f64],
+    ) -> Vec<String> {
+        let edited = self.slots(edited);
+        let wishes: Vec<(SlotId, f64)> =
+            edited.iter().copied().zip(wishes.iter().copied()).collect();
+        let edit = eval::checker::Edit { before, after, edited: &edited, wishes: &wishes };
+        eval::checker::check_edit(&self.lowered.document, &self.structure, edit)
+    }
+
     /// Returns what every question to a planner is about.
     pub fn model(&self) -> Model<'_> {
         Model { document: &self.lowered.document, structure: &self.structure }

@@ -61,6 +61,8 @@ fn chain(bars: usize, end: End, dice: &mut Dice) -> Case {
 struct Dragged {
     way: Vec<Vec<[f64; 2]>>,
     reached: bool,
+    /// What the independent checker says of its end.
+    complaints: Vec<String>,
 }
 
 impl Dragged {
@@ -100,13 +102,19 @@ fn dragged(case: &Case, rules: &str, joint: usize, to: [f64; 2], frames: usize) 
     };
     let places =
         |values: &Values| -> Vec<_> { (0..case.start.len()).map(|p| place(values, p)).collect() };
-    let mut dragged = Dragged { way: vec![places(&values)], reached: false };
+    let mut dragged =
+        Dragged { way: vec![places(&values)], reached: false, complaints: Vec::new() };
+    let before = values.clone();
     for frame in 1..=frames {
         let part = frame as f64 / frames as f64;
         let wish = [0, 1].map(|k| case.start[joint][k] + part * (to[k] - case.start[joint][k]));
         dragged.reached = planner.drag(model, &mut press, &mut values, &wish, host).reached;
         dragged.way.push(places(&values));
     }
+    let path = format!("p{joint}");
+    dragged.complaints = opened.complaints(&before, &values, &path, &to);
+    // where least change is measured anew its end is no longer the least from where the drag began
+    dragged.complaints.retain(|complaint| !complaint.contains("more than they had to"));
     dragged
 }
 
@@ -120,9 +128,11 @@ struct Compared {
 /// one drag reaches what another does not.
 fn compared(case: &Case, rules: &str, joint: usize, to: [f64; 2], same: f64) -> Compared {
     let [many, few @ ..] = FRAMES.map(|frames| dragged(case, rules, joint, to, frames));
-    let mut complaints = Vec::new();
+    let mut complaints = many.complaints.clone();
     for (few, frames) in few.iter().zip(&FRAMES[1..]) {
         let off = |(p, q): (&[f64; 2], &[f64; 2])| (p[0] - q[0]).abs().max((p[1] - q[1]).abs());
+        complaints
+            .extend(few.complaints.iter().map(|c| format!("{c}, in {frames} frames to {to:?}")));
         let apart = many.ends().iter().zip(few.ends()).map(off).fold(0.0, f64::max);
         if apart > same || few.reached != many.reached {
             complaints.push(format!(

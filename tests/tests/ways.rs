@@ -207,9 +207,9 @@ impl Stage {
         let report = self.planner.edit(model, values, kind, &targets, &mut self.opened.host());
         report.refusal.is_none() && report.reached
     }
-    /// Drags a thing in many frames; returns whether every wish was reached.
-    fn drag(&mut self, path: &str, to: &[f64]) -> bool {
-        let from = self.numbers(path);
+    /// Drags a thing in many frames; returns whether every wish was reached, and what the independent checker says.
+    fn drag(&mut self, path: &str, to: &[f64]) -> (bool, Vec<String>) {
+        let (from, before) = (self.numbers(path), self.values.clone());
         let thing = self.opened.thing(path).expect("it is there");
         let (model, host) = (self.opened.model(), &mut self.opened.host());
         let press = self.planner.press(model, &self.values, &[Target::Thing(thing)]);
@@ -221,7 +221,10 @@ impl Stage {
             arrives &= self.planner.drag(model, &mut press, &mut self.values, &wish, host).reached;
         }
         self.planner.release(model, press, &mut self.values, host);
-        arrives
+        let mut complaints = self.opened.complaints(&before, &self.values, path, to);
+        // where least change is measured anew its end is no longer the least from where the drag began
+        complaints.retain(|complaint| !complaint.contains("more than they had to"));
+        (arrives, complaints)
     }
 }
 
@@ -243,7 +246,11 @@ fn both_ways(edit: &Edit, count: &mut Count) -> Result<(), String> {
     let began = set.numbers(path);
     for (to, way) in [(to, "out"), (&began, "back")] {
         count.tried += 1;
-        if !dragged.drag(path, to) {
+        let (arrives, complaints) = dragged.drag(path, to);
+        if !complaints.is_empty() {
+            return Err(format!("{way} to {to:?}: {complaints:?}"));
+        }
+        if !arrives {
             return Ok(());
         }
         count.arrived += 1;

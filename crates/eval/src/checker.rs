@@ -7,6 +7,7 @@ mod algebra;
 mod answer;
 mod slopes;
 mod ways;
+mod wish;
 
 use crate::evaluator::Evaluator;
 use base::number::shortest;
@@ -24,6 +25,8 @@ pub struct Edit<'a> {
     pub after: &'a Values,
     /// The slots that the edit itself was about.
     pub edited: &'a [SlotId],
+    /// What the pointer wished of slots at last, where it was a drag or a move.
+    pub wishes: &'a [(SlotId, f64)],
 }
 
 /// Tests a state for itself: rules hold, values are what their slots can hold.

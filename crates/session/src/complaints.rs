@@ -12,7 +12,8 @@ pub(crate) fn of(open: &Open) -> Vec<String> {
     match latest_edit(open) {
         Some(step) => {
             let (before, after) = (&step.state.values, &open.state.values);
-            checker::check_edit(document, structure, Edit { before, after, edited: &step.edited })
+            let (edited, wishes) = (&*step.edited, &*step.wishes);
+            checker::check_edit(document, structure, Edit { before, after, edited, wishes })
         }
         None => checker::check_state(document, structure, open.values()),
     }

@@ -16,6 +16,8 @@ pub(crate) struct Step {
     pub(crate) status: plan::Status,
     /// The slots that an edit of values was about; none for a step of any other kind.
     pub(crate) edited: Vec<SlotId>,
+    /// What the pointer wished of slots at last, where it was a drag.
+    pub(crate) wishes: Vec<(SlotId, f64)>,
 }
 
 /// An open document.
@@ -80,7 +82,7 @@ impl Open {
     ) {
         let state = std::mem::replace(&mut self.state, Rc::new(state));
         let status = std::mem::replace(&mut self.status, status);
-        self.done.push(Step { label, state, status, edited });
+        self.done.push(Step { label, state, status, edited, wishes: Vec::new() });
         self.undone.clear();
         self.planner = planner;
     }
@@ -93,10 +95,11 @@ impl Open {
         let step = from.pop()?;
         let state = std::mem::replace(&mut self.state, step.state);
         let status = std::mem::replace(&mut self.status, step.status);
-        to.push(Step { label: step.label.clone(), state, status, edited: step.edited });
+        let label = step.label.clone();
+        to.push(Step { state, status, ..step });
         let plans = self.planner.take_plans();
         (self.planner, _) = Planner::new(self.state.model(), plans);
-        Some(step.label)
+        Some(label)
     }
     /// Makes the state of the same text anew, from what it uses as that is now.
     pub(crate) fn read_again(&mut self, host: &dyn Host) {

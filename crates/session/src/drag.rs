@@ -28,6 +28,8 @@ pub(crate) struct Drag {
     /// Where each of its numbers was at the press.
     start: Vec<f64>,
     press: Press,
+    /// Where each of them was wished at the last event.
+    wanted: Vec<f64>,
     /// The values as of the last event.
     pub(crate) values: Values,
     /// Where the pointer was then, on the sheet.
@@ -75,7 +77,17 @@ pub(crate) fn press(
     });
     let wish = [start[0], start.get(1).copied().unwrap_or(0.0)];
     let values = state.values.clone();
-    Ok(Drag { path, moved, computed: None, slots: dragged, start, press, values, wish })
+    Ok(Drag {
+        path,
+        moved,
+        computed: None,
+        slots: dragged,
+        wanted: start.clone(),
+        start,
+        press,
+        values,
+        wish,
+    })
 }
 
 /// Begins a drag of a number or a place that is computed.
@@ -106,7 +118,17 @@ pub(crate) fn press_computed(
     )?;
     let wish = [start[0], start.get(1).copied().unwrap_or(0.0)];
     let (slots, values) = (read.into_iter().collect(), state.values.clone());
-    Ok(Drag { path, moved: None, computed: Some(term), slots, start, press, values, wish })
+    Ok(Drag {
+        path,
+        moved: None,
+        computed: Some(term),
+        slots,
+        wanted: start.clone(),
+        start,
+        press,
+        values,
+        wish,
+    })
 }
 
 /// Returns the number that an answer is, or the two of a place.
@@ -226,6 +248,7 @@ impl Drag {
         let report =
             planner.drag(state.model(), &mut self.press, &mut self.values, &to, &mut texts);
         self.wish = [to[0], to.get(1).copied().unwrap_or(0.0)];
+        self.wanted = to;
         let modes = limits::modes(state, &self.press.mode_changes(planner, &self.values));
         if report.reached {
             return DragState { reached: true, modes, ..DragState::default() };
@@ -249,6 +272,15 @@ impl Drag {
             return Err(words::refusal_for(&state, reason, &report));
         }
         let label = format!("move {}", self.path);
-        apply::keep(open, host, label, self.slots, &self.values, &report.undecided)
+        let wishes = match &self.computed {
+            None => self.slots.iter().copied().zip(self.wanted).collect(),
+            Some(_) => Vec::new(),
+        };
+        let steps = open.done.len();
+        let kept = apply::keep(open, host, label, self.slots, &self.values, &report.undecided)?;
+        if let Some(step) = open.done.get_mut(steps) {
+            step.wishes = wishes;
+        }
+        Ok(kept)
     }
 }

@@ -7,7 +7,7 @@
 
 use super::algebra::{NEARLY, Span, length, rest_of_cone, sign_of_determinant};
 use super::slopes::{Row, only_read, rows};
-use super::{Edit, shown};
+use super::{Edit, shown, wish};
 use crate::evaluator::Evaluator;
 use crate::sway::Order;
 use kernel::{ConstraintInstance, Document, Primitive, SlotId, Strength, Structure, Values};
@@ -18,7 +18,7 @@ const MOST: usize = 150;
 /// How many inequalities may act for their signs to be looked at.
 const MOST_ACTING: usize = 8;
 /// How far a gradient may be off, as a part of its length: slopes are found by moving numbers.
-const OFF: f64 = 1e-4;
+pub(super) const OFF: f64 = 1e-4;
 
 pub(crate) fn complaints(
     document: &Document,
@@ -33,7 +33,8 @@ pub(crate) fn complaints(
         (after - before).abs() > 1e-9 * before.abs().max(1.0) && !edit.edited.contains(s)
     };
     let moved: Vec<SlotId> = changed.iter().copied().filter(moves).collect();
-    if moved.is_empty() || connected.len() > MOST {
+    let is_wish_missed = wish::is_missed(edit);
+    if moved.is_empty() && !is_wish_missed || connected.len() > MOST {
         return Vec::new();
     }
     let after = Evaluator::new(document, structure, edit.after);
@@ -55,10 +56,21 @@ pub(crate) fn complaints(
     };
     let aside = aside(edit.after, &moved);
     let states = [&after, &after.in_state(&aside)];
+    if is_wish_missed && soft.is_empty() && stays.is_empty() {
+        own.wish(&after, &required, connected);
+    }
     if soft.is_empty() && stays.is_empty() {
         own.least(states, &required, &moved);
         own.exchange(states, &required, &moved, connected);
-        own.orientation([&before, &after], states[1], &required, &moved);
+        let columns: Vec<SlotId> = connected.iter().copied().collect();
+        // what a bound let go of on the way may have gone over to another side
+        let is_bounded = |state| {
+            acting(state, &required, &columns)
+                .is_none_or(|rows| rows.iter().any(|row| row.order == Order::AtMost))
+        };
+        if ![&before, &after].into_iter().any(is_bounded) {
+            own.orientation([&before, &after], states[1], &required, &moved);
+        }
     } else {
         own.compromise(states, &required, &soft, &stays, connected);
     }
@@ -117,15 +129,15 @@ fn plain(evaluator: &Evaluator<'_>, connected: &BTreeSet<SlotId>) -> Option<Plai
 }
 
 /// What is found of one edit.
-struct Answer<'a> {
-    edit: Edit<'a>,
-    structure: &'a Structure,
-    path: &'a dyn Fn(SlotId) -> String,
-    wrong: Vec<String>,
+pub(super) struct Answer<'a> {
+    pub(super) edit: Edit<'a>,
+    pub(super) structure: &'a Structure,
+    pub(super) path: &'a dyn Fn(SlotId) -> String,
+    pub(super) wrong: Vec<String>,
 }
 
 impl Answer<'_> {
-    fn is_given(&self, slot: SlotId) -> bool {
+    pub(super) fn is_given(&self, slot: SlotId) -> bool {
         let slot = &self.structure.slots[slot];
         slot.given.is_some() && slot.place.is_none()
     }
@@ -330,7 +342,7 @@ impl Answer<'_> {
 }
 
 /// Returns a state a little aside, in which nothing is special.
-fn aside(values: &Values, moved: &[SlotId]) -> Values {
+pub(super) fn aside(values: &Values, moved: &[SlotId]) -> Values {
     let mut aside = values.clone();
     let sizes = moved.iter().map(|&s| values.numbers[s].abs());
     let extent = sizes.fold(1.0, f64::max);
@@ -353,7 +365,7 @@ fn all_rows(
 }
 
 /// Returns the rows that act and speak of some of the columns; nothing where a rule has none.
-fn acting(
+pub(super) fn acting(
     evaluator: &Evaluator<'_>,
     of: &[ConstraintInstance],
     columns: &[SlotId],
@@ -364,7 +376,7 @@ fn acting(
 }
 
 /// Returns how many of some rows are independent.
-fn rank(rows: &[Row]) -> usize {
+pub(super) fn rank(rows: &[Row]) -> usize {
     Span::of(rows.iter().map(|r| r.slopes.clone())).rank()
 }
 
@@ -373,9 +385,7 @@ fn rank(rows: &[Row]) -> usize {
 /// `places` says which columns yield together. Where one of them yields to an inequality alone, another would
 /// have moved if that did not act, and its sign says nothing.
 fn unexplained<P: PartialEq>(rows: &[Row], gradient: &[f64], places: &[P]) -> f64 {
-    let of = |order: Order| rows.iter().filter(move |r| r.order == order).map(|r| r.slopes.clone());
-    let equal: Vec<Vec<f64>> = of(Order::Equal).collect();
-    let count = rows.len() - equal.len();
+    let equal: Vec<Vec<f64>> = slopes_of(rows, Order::Equal).collect();
     let span = Span::of(equal.iter().cloned());
     let yields_to_these = |place: &P| {
         let is_own = |column: usize| places[column] == *place;
@@ -385,10 +395,25 @@ fn unexplained<P: PartialEq>(rows: &[Row], gradient: &[f64], places: &[P]) -> f6
         });
         Span::of(without).rank() < span.rank()
     };
-    if count == 0 || count > MOST_ACTING || !places.iter().all(yields_to_these) {
+    if !places.iter().all(yields_to_these) {
         return length(&Span::of(rows.iter().map(|r| r.slopes.clone())).rest(gradient));
     }
-    let pushing: Vec<Vec<f64>> = of(Order::AtMost)
+    unpushed(rows, gradient)
+}
+
+fn slopes_of(rows: &[Row], order: Order) -> impl Iterator<Item = Vec<f64>> {
+    rows.iter().filter(move |r| r.order == order).map(|r| r.slopes.clone())
+}
+
+/// Returns how much of a gradient no multipliers of the rows explain; those of inequalities push one way.
+pub(super) fn unpushed(rows: &[Row], gradient: &[f64]) -> f64 {
+    let equal: Vec<Vec<f64>> = slopes_of(rows, Order::Equal).collect();
+    let count = rows.len() - equal.len();
+    if count == 0 || count > MOST_ACTING {
+        return length(&Span::of(rows.iter().map(|r| r.slopes.clone())).rest(gradient));
+    }
+    let span = Span::of(equal);
+    let pushing: Vec<Vec<f64>> = slopes_of(rows, Order::AtMost)
         .map(|slopes| span.rest(&slopes).into_iter().map(|x| 0.0 - x).collect())
         .collect();
     rest_of_cone(&span.rest(gradient), &pushing)

@@ -94,7 +94,11 @@ fn an_edit_moves_what_is_connected_and_nothing_else() {
     let before = state(RIGHT, "1");
     let says = |numbers, words, edited: &[SlotId]| {
         let after = state(numbers, words);
-        check_edit(&b.document, &structure, Edit { before: &before, after: &after, edited })
+        check_edit(
+            &b.document,
+            &structure,
+            Edit { before: &before, after: &after, edited, wishes: &[] },
+        )
     };
     let moved = [6.0, 7.0, 3.0, 4.0, 5.0];
     assert_eq!(says(moved, "6", &[SlotId(0)]), [""; 0]);
@@ -130,7 +134,11 @@ fn says(b: &Build, before: &[f64], after: &[f64]) -> Vec<String> {
         values
     });
     let edited = &[SlotId(before.numbers.len() as u32 - 1)];
-    check_edit(&b.document, &structure, Edit { before: &before, after: &after, edited })
+    check_edit(
+        &b.document,
+        &structure,
+        Edit { before: &before, after: &after, edited, wishes: &[] },
+    )
 }
 
 /// x + y = z: of two that may both move neither moves alone, unless a bound holds it.

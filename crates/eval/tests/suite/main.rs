@@ -5,3 +5,4 @@ mod check;
 mod express;
 mod paint;
 mod rules;
+mod wishes;
