@@ -315,7 +315,8 @@ impl Least {
             let matrix = match iteration {
                 0 => first,
                 // what it is off by is the last step times this one, and how much they shrank by how long
-                _ if size * shrank * shrank * shrank <= SETTLED => Matrix::Kept,
+                // but where rows do not hold by that, the matrix is made anew
+                _ if polished < 2 && size * shrank * shrank * shrank <= SETTLED => Matrix::Kept,
                 _ => Matrix::Exact,
             };
             let Some(shift) =

@@ -104,6 +104,9 @@ const FLAT: f64 = 1e-9;
 const SLOPING: f64 = 1e-6;
 /// Steps below this, in parts of the extent, are no steps.
 const SETTLED: f64 = 1e-12;
+/// How many of those are taken all the same where a hard row does not hold yet: what is small beside its scale
+/// has a steep slope.
+const POLISH: usize = 8;
 /// A state from which no step is longer than this is settled.
 const STILL: f64 = 1e-9;
 
@@ -167,7 +170,7 @@ impl Measure {
             };
         }
         let (mut smallest, mut idle) = (f64::INFINITY, 0);
-        let mut settled = false;
+        let (mut settled, mut polished) = (false, 0);
         let mut begun: Option<Begun> = None;
         for iteration in 0..STEPS {
             w.spend(self.cost());
@@ -207,7 +210,11 @@ impl Measure {
             let hard = self.hard_norm(&scaled);
             if size <= SETTLED || (idle >= 4 && smallest < 1e-7) {
                 settled = true;
-                break;
+                let is_polished = size > SETTLED || polished == POLISH;
+                if is_polished || self.hard_rows_hold(&scaled, values, w) {
+                    break;
+                }
+                polished += 1;
             }
             if size < 0.9 * smallest {
                 (smallest, idle) = (size, 0);

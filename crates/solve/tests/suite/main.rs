@@ -11,5 +11,6 @@ mod random;
 mod reach;
 mod roots;
 mod searching;
+mod spread;
 mod ways;
 mod who;
