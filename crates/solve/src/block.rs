@@ -279,6 +279,35 @@ impl Block {
         }
     }
 
+    /// Returns the unknowns, by position and in order, of rows whose slope is others already so near, in parts of
+    /// the extents: the distance of two places that lie at one has none.
+    pub(crate) fn without_slope(
+        &self,
+        values: &[f64],
+        scales: &[f64],
+        near: f64,
+        w: &mut Workspace,
+    ) -> Vec<usize> {
+        let mut local = Local::default();
+        self.slopes(values, w, &mut local);
+        let scale = |unknown: u32| scales[self.unknowns[unknown as usize] as usize];
+        let finite_max = |most: f64, size: f64| size.is_finite().then_some(most.max(size));
+        let mut unknowns = Vec::new();
+        self.each_second(values, w, &mut |row, places, out| {
+            let entries = self.pattern.range(row);
+            let slope = |e: usize| local.jacobian[e].abs() * scale(self.pattern.column(e) as u32);
+            let bend = |p: &SecondPlace| p.of(out).abs() * scale(p.i) * scale(p.j);
+            let slope = entries.clone().map(slope).try_fold(0.0, finite_max);
+            let bend = places.iter().map(bend).try_fold(0.0, finite_max);
+            if slope.zip(bend).is_none_or(|(slope, bend)| bend * near > slope) {
+                unknowns.extend(entries.map(|e| self.pattern.column(e)));
+            }
+        });
+        unknowns.sort_unstable();
+        unknowns.dedup();
+        unknowns
+    }
+
     /// Returns by what part of themselves the numbers of a linear block would have to be others for these
     /// values to be its solution, in the worst of these rows.
     pub(crate) fn backward_error(

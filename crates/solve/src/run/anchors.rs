@@ -12,6 +12,7 @@ use crate::least::Least;
 use crate::lower::Program;
 use crate::outcome::Reason;
 use crate::plan::Step;
+use crate::rows::{Point, generic_number};
 use crate::slice::Slice;
 use crate::square::Trust;
 use crate::system::SlotIndex;
@@ -25,6 +26,10 @@ const ANCHORS: usize = 256;
 const PASSING: f64 = 0.5;
 /// How far a state goes that buckles, in parts of the extent.
 const BUCKLED: f64 = 1e-5;
+/// What lies no farther apart than this lies at one place, in the same parts: rules hold no closer.
+const ONE_PLACE: f64 = 1e-12;
+/// How far apart it goes.
+const APART: f64 = 1e-9;
 /// Two measures agree where no slot differs by more, in parts of the extent.
 const SAME: f64 = 5e-3;
 /// The part of the way on from there that shows whether a measure can go on.
@@ -34,11 +39,15 @@ impl Way<'_> {
     /// Many strides; where least change goes no further on its branch, it is measured anew from there. Returns
     /// the part that was gone.
     pub(super) fn walk_on(&mut self, last: &mut [f64], goal: &[f64], trust: Trust) -> f64 {
-        if trust == Trust::Branch && self.frame.x0 == *last {
+        let is_first = trust == Trust::Branch && self.frame.x0 == *last;
+        if is_first {
             self.buckle(last, goal);
         }
         let mut gone = self.walk(last, goal, trust, LONGEST..SHORTEST);
         if trust != Trust::Branch || !self.plan.has_least {
+            if gone == 0.0 && trust == Trust::Branch && !self.frame.anchors.is_empty() {
+                gone = self.walk(last, goal, trust, SHORTEST..EXACT);
+            }
             return gone;
         }
         while gone < 1.0
@@ -46,7 +55,11 @@ impl Way<'_> {
             && self.buffers.work.spent() <= self.until
         {
             self.frame.anchors.push(last.to_vec());
-            let goes_on = self.stride(last, goal, SHORTEST, trust, &Approach::Nowhere).is_ok();
+            // what is short beside the way, as a bar that hardly has a length, goes on in shorter strides
+            let lengths = if is_first && gone < SHORTEST { 2 } else { 1 };
+            let goes_on = [SHORTEST, EXACT][..lengths]
+                .iter()
+                .any(|&length| self.stride(last, goal, length, trust, &Approach::Nowhere).is_ok());
             self.frame.anchors.pop();
             if !goes_on {
                 break;
@@ -67,21 +80,56 @@ impl Way<'_> {
         let anchors = self.frame.anchors.len();
         let scales = &self.frame.scales;
         let parts = goal.iter().zip(&*last).zip(scales).map(|((to, from), by)| (to - from) / by);
-        let part = (BUCKLED / parts.fold(0.0, |far, part| part.abs().max(far))).min(1.0);
+        let way = parts.fold(0.0, |far, part| part.abs().max(far));
+        let mut part = (BUCKLED / way).min(1.0);
         let mut aside = last.to_vec();
         let mut steps = BTreeSet::new();
+        let mut is_apart = false;
         loop {
             let has_buckled = !steps.is_empty();
             match self.stride(&aside, goal, part, Trust::Branch, &Approach::Nowhere) {
                 Ok(()) if has_buckled => return last.copy_from_slice(self.trial),
-                Err(Failure { reason: Reason::NoSolution { step }, .. })
-                    if steps.insert(step)
-                        && self.buckle_step(&self.plan.steps()[step as usize], &mut aside) => {}
-                Ok(()) | Err(_) => return self.frame.anchors.truncate(anchors),
+                Err(Failure { reason: Reason::NoSolution { step }, .. }) if steps.insert(step) => {
+                    let step = &self.plan.steps()[step as usize];
+                    if !self.buckle_step(step, &mut aside) {
+                        if !self.part_step(step, &mut aside) {
+                            break;
+                        }
+                        is_apart = true;
+                        part = (APART / way).min(1.0);
+                    }
+                }
+                Ok(()) | Err(_) => break,
             }
             self.frame.anchors.truncate(anchors);
             self.frame.anchors.push(aside.clone());
         }
+        // what went apart lies anyhow, perhaps far from where its rows can hold
+        if is_apart && self.stride(&aside, goal, part, Trust::Any, &Approach::Nowhere).is_ok() {
+            last.copy_from_slice(self.trial);
+            aside.copy_from_slice(self.trial);
+            self.frame.anchors.truncate(anchors);
+            return self.frame.anchors.push(aside);
+        }
+        self.frame.anchors.truncate(anchors);
+    }
+
+    /// Moves what lies at one place, where its rows have no slope, a little apart: of all directions that which
+    /// numbers give that nothing could coincide with. Returns false where everything has a slope.
+    fn part_step(&mut self, step: &Step, aside: &mut [f64]) -> bool {
+        let block = match (&step.program, fork::forking(&step.program)) {
+            (Program::Least(least), _) => &least.0.block,
+            (_, Some(square)) => &square.block,
+            (_, None) => return false,
+        };
+        let apart =
+            block.without_slope(aside, &self.frame.scales, ONE_PLACE, &mut self.buffers.work);
+        for &unknown in &apart {
+            let slot = block.unknowns[unknown];
+            let by = generic_number(u64::from(slot), Point::Mixed);
+            aside[slot as usize] += APART * by * self.frame.scales[slot as usize];
+        }
+        !apart.is_empty()
     }
 
     /// Moves the targets of a step that has failed to where it goes on from; returns false where it does not.

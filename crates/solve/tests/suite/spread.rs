@@ -1,6 +1,6 @@
-//! Numbers of other orders of magnitude beside one another.
+//! Numbers of other orders of magnitude beside one another, and places that come to lie at one.
 
-use crate::builder::{Sheet, close};
+use crate::builder::{Sheet, bits, close};
 use solve::SlotIndex;
 
 /// A principal, a rate and `principal * rate^2 - 3.5e-3 * principal = rest`, as it opens.
@@ -43,4 +43,67 @@ fn a_small_computed_number_beside_a_large_one_changes_as_little_as_it_has_to() {
     assert!(outcome.is_solved(), "{outcome:?}");
     close(values[x as usize], 1e6, 1e-6);
     close(values[y as usize], base::number::sqrt(3600.5e-6), 1e-12);
+}
+
+/// A bar of a given length from (100, 30) to a place in direction (0.6, 0.8): the place, and the length.
+fn bar(length: f64) -> (Sheet, [SlotIndex; 2], SlotIndex) {
+    let mut s = Sheet::default();
+    let start = s.anchor(100.0, 30.0);
+    let end = s.place(100.0 + 0.6 * length, 30.0 + 0.8 * length);
+    let size = s.given(length);
+    let (distance, given) = (s.distance(start, end), s.v(size));
+    s.require(distance, given);
+    (s, end, size)
+}
+
+#[test]
+fn a_bar_without_length_gets_one_again() {
+    let (mut s, end, size) = bar(50.0);
+    let (values, outcome, _) = s.set(&[(size, 0.0)]);
+    assert!(outcome.is_solved(), "{outcome:?}");
+    close(values[end[0] as usize], 100.0, 1e-8);
+    close(values[end[1] as usize], 30.0, 1e-8);
+    for x0 in [values, bar(0.0).0.x0] {
+        s.x0 = x0;
+        // no direction is nearer than another, but there is one
+        let (again, outcome, _) = s.set(&[(size, 50.0)]);
+        assert!(outcome.is_solved(), "{outcome:?}");
+        let [dx, dy] = [again[end[0] as usize] - 100.0, again[end[1] as usize] - 30.0];
+        close(base::number::sqrt(dx * dx + dy * dy), 50.0, 1e-7);
+        let (same, ..) = s.set(&[(size, 50.0)]);
+        assert_eq!(bits(&same), bits(&again));
+    }
+}
+
+#[test]
+fn a_joint_of_two_bars_without_length_gets_its_length_again() {
+    // both bars from one place, as long as one another, and a third place as far from the joint
+    let mut s = Sheet::default();
+    let start = s.anchor(100.0, 30.0);
+    let [p, q] = [0, 1].map(|_| s.place(100.0, 30.0));
+    let size = s.given(0.0);
+    for (a, b) in [(start, p), (start, q), (p, q)] {
+        let (distance, given) = (s.distance(a, b), s.v(size));
+        s.require(distance, given);
+    }
+    let (values, outcome, _) = s.set(&[(size, 20.0)]);
+    assert!(outcome.is_solved(), "{outcome:?}");
+    let at = |p: [SlotIndex; 2]| p.map(|i| values[i as usize]);
+    for (a, b) in [(start, p), (start, q), (p, q)] {
+        let [[ax, ay], [bx, by]] = [at(a), at(b)];
+        close(base::number::sqrt((ax - bx) * (ax - bx) + (ay - by) * (ay - by)), 20.0, 1e-7);
+    }
+}
+
+#[test]
+fn a_bar_grows_from_any_length_to_any() {
+    for from in [1e-8, 1e-6, 1e-3, 1.0] {
+        let (s, end, size) = bar(from);
+        let (values, outcome, _) = s.set(&[(size, 5.0)]);
+        assert!(outcome.is_solved(), "{from}: {outcome:?}");
+        // numbers about 100 tell the direction of so short a bar to some digits alone
+        let within = 1e-7f64.max(1e-13 / from);
+        close(values[end[0] as usize], 103.0, within);
+        close(values[end[1] as usize], 34.0, within);
+    }
 }
