@@ -400,6 +400,14 @@ impl Drag {
                 self.moved_slice = false;
             }
         }
+        if outcome.is_solved() && now == branch && way.measure_from_press(branch) {
+            // the branch is followed by the measure that it has
+            let nearer = way.test_trial(&self.upstream);
+            if nearer.is_solved() {
+                outcome = nearer;
+                std::mem::swap(way.trial, now);
+            }
+        }
         if !outcome.is_solved() && slice.has_host {
             // the host's texts follow the state that stands; a failure here says nothing new
             way.part = Part::Whole;
@@ -492,7 +500,8 @@ impl Way<'_> {
             Trust::Any | Trust::Leap => 0.0,
         };
         if fraction == 1.0 {
-            values.copy_from_slice(last);
+            let is_nearer = self.measure_from_press(last);
+            values.copy_from_slice(if is_nearer { self.trial } else { last });
             return Ok(());
         }
         let arrived = match self.approach(last, goal, &failure) {

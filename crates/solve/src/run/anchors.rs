@@ -6,7 +6,7 @@
 //! again. So what a wish leads to depends on the way there and not on its frames, and the way back is the way out.
 
 use super::{LONGEST, SHORTEST, Way};
-use crate::attempt::{Approach, Buffers, Failure};
+use crate::attempt::{Approach, Buffers, Failure, Frame};
 use crate::fork;
 use crate::least::Least;
 use crate::lower::Program;
@@ -30,6 +30,9 @@ const BUCKLED: f64 = 1e-5;
 const ONE_PLACE: f64 = 1e-12;
 /// How far apart it goes.
 const APART: f64 = 1e-9;
+/// How far the least change from the press may be from that from an anchor, in parts of the farthest change: what
+/// follows the pointer jumps no farther.
+const NEAR: f64 = 1e-3;
 /// Two measures agree where no slot differs by more, in parts of the extent.
 const SAME: f64 = 5e-3;
 /// The part of the way on from there that shows whether a measure can go on.
@@ -130,6 +133,23 @@ impl Way<'_> {
             aside[slot as usize] += APART * by * self.frame.scales[slot as usize];
         }
         !apart.is_empty()
+    }
+
+    /// Where least change was measured anew on the way to a state, measures it from the press again: what is least
+    /// near by, put where attempts run. Returns false where there is none.
+    pub(super) fn measure_from_press(&mut self, state: &[f64]) -> bool {
+        if self.frame.anchors.is_empty() {
+            return false;
+        }
+        let anchors = std::mem::take(&mut self.frame.anchors);
+        let is_least = self.direct(state, state, Trust::Branch).is_ok();
+        self.frame.anchors = anchors;
+        let Frame { x0, scales, .. } = &*self.frame;
+        let apart = |a: &[f64], b: &[f64]| {
+            let parts = a.iter().zip(b).zip(scales).map(|((a, b), scale)| (a - b).abs() / scale);
+            parts.fold(0.0, f64::max)
+        };
+        is_least && apart(self.trial, state) <= NEAR * apart(state, x0)
     }
 
     /// Moves the targets of a step that has failed to where it goes on from; returns false where it does not.

@@ -1,7 +1,7 @@
 //! Numbers of other orders of magnitude beside one another, and places that come to lie at one.
 
 use crate::builder::{Sheet, bits, close};
-use solve::SlotIndex;
+use solve::{Drag, NoHost, SlotIndex};
 
 /// A principal, a rate and `principal * rate^2 - 3.5e-3 * principal = rest`, as it opens.
 fn interest(principal: f64) -> (Sheet, [SlotIndex; 3]) {
@@ -105,5 +105,68 @@ fn a_bar_grows_from_any_length_to_any() {
         let within = 1e-7f64.max(1e-13 / from);
         close(values[end[0] as usize], 103.0, within);
         close(values[end[1] as usize], 34.0, within);
+    }
+}
+
+/// Bars a-b of 2 and b-c of 3, free, on a line.
+fn chain() -> (Sheet, [[SlotIndex; 2]; 3]) {
+    let mut s = Sheet::default();
+    let places = [0.0, 2.0, 5.0].map(|x| s.place(x, 0.0));
+    for (ends, length) in [([0, 1], 2.0), ([1, 2], 3.0)] {
+        let (distance, length) = (s.distance(places[ends[0]], places[ends[1]]), s.c(length));
+        s.require(distance, length);
+    }
+    (s, places)
+}
+
+/// How far a state is from the least change of `a` and `b` from the press where `c` stands: the pulls of the two
+/// bars balance what the ends have gone. Each end's change is along its bars.
+fn off_least(x0: &[f64], x: &[f64], [a, b, c]: [[SlotIndex; 2]; 3]) -> f64 {
+    let gone = |p: [SlotIndex; 2]| p.map(|i| x[i as usize] - x0[i as usize]);
+    let bar =
+        |p: [SlotIndex; 2], q: [SlotIndex; 2]| [0, 1].map(|i| x[p[i] as usize] - x[q[i] as usize]);
+    let across = |u: [f64; 2], v: [f64; 2]| (u[0] * v[1] - u[1] * v[0]).abs();
+    let (to_a, to_b) = (bar(a, b), bar(b, c));
+    let both = [0, 1].map(|i| gone(a)[i] + gone(b)[i]);
+    let size = |u: [f64; 2]| base::number::sqrt(u[0] * u[0] + u[1] * u[1]);
+    (across(gone(a), to_a) / 2.0 / size(gone(a))).max(across(both, to_b) / 3.0 / size(both))
+}
+
+#[test]
+fn a_chain_that_is_turned_inside_out_is_as_near_to_the_press_as_it_can_be() {
+    let (mut s, places) = chain();
+    let c = places[2];
+    // out, back through itself, and out again
+    for y in [100.0, 5.0, 100.0, 5.0] {
+        let (values, outcome, _) = s.set(&[(c[0], 2.0), (c[1], y)]);
+        assert!(outcome.is_solved(), "{y}: {outcome:?}");
+        let off = off_least(&s.x0, &values, places);
+        assert!(off < 1e-6, "{y}: {off}");
+        s.x0 = values;
+    }
+}
+
+#[test]
+fn a_chain_that_is_dragged_inside_out_is_as_near_to_the_press_as_it_can_be() {
+    let (mut s, places) = chain();
+    let c = places[2];
+    let (values, outcome, _) = s.set(&[(c[0], 2.0), (c[1], 100.0)]);
+    assert!(outcome.is_solved(), "{outcome:?}");
+    s.x0 = values;
+    for slot in c {
+        s.system.slots[slot as usize].stay = solve::Stay::Fixed;
+    }
+    let plan = s.plan();
+    for frames in [1, 7, 100] {
+        let mut drag: Drag = s.drag(&plan, &c);
+        for k in 1..=frames {
+            let y = 100.0 - 95.0 * f64::from(k) / f64::from(frames);
+            assert!(drag.follow(&plan, &[2.0, y], &mut NoHost).is_solved());
+        }
+        let off = off_least(&s.x0, drag.values(), places);
+        assert!(off < 1e-6, "{frames}: {off}");
+        let [x, y] = places[0].map(|i| drag.values()[i as usize]);
+        close(x, 1.99678, 1e-4);
+        close(y, 10.0, 1e-4);
     }
 }
