@@ -91,7 +91,7 @@ impl Frame {
     pub(crate) fn holds(&self, plan: &Plan, place: Place, work: &mut Workspace) -> bool {
         let held = &self.held[place.row as usize];
         if held.get() == Held::Unknown {
-            let holds = plan.holds(place, &self.x0, work);
+            let holds = plan.holds(place, &self.x0, work) && !plan.is_parted(place, &self.x0);
             held.set(if holds { Held::Yes } else { Held::No });
         }
         held.get() == Held::Yes

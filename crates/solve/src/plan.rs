@@ -153,6 +153,8 @@ pub struct Plan {
     pub(crate) opaque: Vec<u32>,
     /// Classes of several given numbers: the representative and those numbers.
     pub(crate) shared_given: Vec<(SlotIndex, Vec<SlotIndex>)>,
+    /// Slots for which another stands, in order, with that one.
+    pub(crate) stood_for: Vec<(SlotIndex, SlotIndex)>,
     pub(crate) scale_classes: usize,
     /// Stretches of slots that are alike, one after the other.
     pub(crate) alike: Vec<Alike>,
@@ -375,6 +377,7 @@ fn plan_of(stated: Stated, classes: &Classes, report: Report, lowered: Lowered) 
         opaque: (0..relations.len() as u32).filter(is_opaque).collect(),
         relations,
         shared_given: shared_given(system, classes),
+        stood_for: stood_for(classes),
         scale_classes: alike.iter().map(|a| a.scale as usize + 1).max().unwrap_or(0),
         alike,
         has_branches,
@@ -549,6 +552,14 @@ fn shared_given(system: &System, classes: &Classes) -> Vec<(SlotIndex, Vec<SlotI
         .map(|(root, members)| (root, given(members)))
         .filter(|(_, members)| members.len() > 1)
         .collect()
+}
+
+fn stood_for(classes: &Classes) -> Vec<(SlotIndex, SlotIndex)> {
+    let members = classes.members().flat_map(|(root, all)| all.iter().map(move |&s| (s, root)));
+    let mut stood_for: Vec<(SlotIndex, SlotIndex)> =
+        members.filter(|(s, root)| s != root).collect();
+    stood_for.sort_unstable();
+    stood_for
 }
 
 impl Plan {

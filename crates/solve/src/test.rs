@@ -190,6 +190,22 @@ impl Plan {
             || self.is_rounding(Differing { place, left, right }, values, work)
     }
 
+    /// Returns true if slots of an equation that are one to the plan differ in a state: what the equation says
+    /// there is not what is left of it where they are one.
+    pub(crate) fn is_parted(&self, place: Place, values: &[f64]) -> bool {
+        if self.stood_for.is_empty() {
+            return false;
+        }
+        let one = |slot: SlotIndex| {
+            let at = self.stood_for.binary_search_by_key(&slot, |&(slot, _)| slot);
+            at.map_or(slot, |at| self.stood_for[at].1)
+        };
+        let value = |&slot: &SlotIndex| (one(slot), (values[slot as usize] + 0.0).to_bits());
+        let mut all: Vec<(SlotIndex, u64)> = self.arguments(place.row).iter().map(value).collect();
+        all.sort_unstable();
+        all.windows(2).any(|pair| pair[0].0 == pair[1].0 && pair[0].1 != pair[1].1)
+    }
+
     fn arguments(&self, row: u32) -> &[SlotIndex] {
         let system = self.system();
         system.arguments(system.equations[row as usize].arguments)
