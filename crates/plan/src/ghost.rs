@@ -233,7 +233,7 @@ impl Planner {
             let mut attempt = |mode: &solve::Mode| {
                 attempt_in_mode(self, model, task, modes, mode, &ground, &leans, &mut trial, host)
             };
-            let decision = decide(modes, &mode, &mut attempt);
+            let decision = decide(modes, &mode, &ground.x0, &mut attempt);
             if decision.ended == Ended::Settled && decision.mode.taken == mode.taken {
                 let kind = GhostKind::Taken(task.acting_by(self, standing));
                 self.add(model, task, &decision.tried.values, kind, values, host, found);

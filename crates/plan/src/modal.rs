@@ -165,7 +165,7 @@ fn stands(planner: &Planner, modes: &Rc<Modes>, mode: Mode) -> Stands {
 }
 
 /// How the mode of a task is decided: what is tried first, and how each is tried.
-type Decide = fn(&Modes, &Mode, &mut dyn FnMut(&Mode) -> Tried) -> Decision;
+type Decide = fn(&Modes, &Mode, &[f64], &mut dyn FnMut(&Mode) -> Tried) -> Decision;
 
 /// Runs a task in the modes that it has: by a drag of what has changed where one leads there, else at once.
 pub(crate) fn run_on(
@@ -223,7 +223,7 @@ pub(crate) fn run(
         attempt_in_mode(planner, model, task, modes, mode, ground, &leans, values, host)
     };
     let first = modes.first(&ground.x0, &ground.local);
-    let decision = decide(modes, &first, &mut attempt);
+    let decision = decide(modes, &first, &ground.x0, &mut attempt);
     if has_texts(task) {
         // the host's texts are those of the mode that stands
         attempt(&decision.mode);
@@ -479,7 +479,7 @@ impl ModalDrag {
             planner.spend(follow.drag.spent() - before);
             Tried { plan, outcome, values: follow.drag.values().to_vec() }
         };
-        let decision = decide_along(modes, &first, &mut attempt);
+        let decision = decide_along(modes, &first, x0, &mut attempt);
         if decision.ended == Ended::Settled && has_texts(task) {
             attempt(&decision.mode);
         }

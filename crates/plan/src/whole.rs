@@ -71,7 +71,8 @@ impl Trying<'_> {
         let mut first = modes.first(&self.ground.x0, with);
         first.constants = constants;
         let begun = self.begun(with);
-        decide(modes, &first, &mut |mode: &Mode| self.attempt(mode, &begun))
+        let x0 = &self.ground.x0;
+        decide(modes, &first, x0, &mut |mode: &Mode| self.attempt(mode, &begun))
     }
     fn begun(&self, with: &[f64]) -> Ground {
         let Ground { x0, texts, changed: known, .. } = self.ground;
@@ -182,8 +183,8 @@ fn trial(modes: &Modes, decision: &Decision) -> Trial {
     }
     let mut unmet = [0.0; Level::SOFT.len()];
     for u in &decision.tried.outcome.unmet {
-        let relation = &modes.conditional().system.relations[u.relation as usize];
-        let Some(rank) = relation.level.rank() else { return Trial::Fails };
+        let relation = modes.conditional().system.relations.get(u.relation as usize);
+        let Some(rank) = relation.and_then(|r| r.level.rank()) else { return Trial::Fails };
         unmet[rank] += u.error * u.error;
     }
     Trial::Holds(unmet)

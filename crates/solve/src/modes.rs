@@ -3,13 +3,16 @@
 //! In: a [`Conditional`] system. In every [`Mode`] it is a plain system, whose plan is a pure function
 //! of it: values only choose the mode. An inequality says nothing while it holds; where the answer
 //! would break it, it becomes an equation at its bound. A condition is assumed as the values have it,
-//! tested after solving, and switched where it was wrong. Of alternatives the one that held when the
-//! edit began is taken first.
+//! tested after solving, and switched where it was wrong; where nothing holds so, or a wish is left
+//! unmet, what is assumed is an inequality too and acts at its bound. Of alternatives the one that
+//! held when the edit began is taken first.
 //!
 //! A strict inequality stops twice the tolerance of its relation short of the bound; `!=` is tested, never made to
 //! hold.
 
+mod bounds;
 mod decide;
+mod nearest;
 
 pub use decide::{Decision, Ended, MOST_MODES, Tried, decide, decide_along, decide_pieces};
 
@@ -52,6 +55,9 @@ pub struct Modes {
     wants: Vec<Want>,
     comparisons: Vec<Sides>,
     conditions: Vec<Formula>,
+    /// What every condition says where it is false and where it is true, if numbers that are not whole decide
+    /// it.
+    bounds: Vec<Option<[Tree; 2]>>,
     /// For every choice, the relation that it is of and the number of its alternatives.
     choices: Vec<(u32, u32)>,
     scratch: RefCell<Scratch>,
@@ -68,12 +74,18 @@ struct Want {
 enum Tree {
     Holds(u32),
     All(Vec<Tree>),
-    Any { choice: u32, ways: Vec<Tree> },
+    Any {
+        choice: u32,
+        ways: Vec<Tree>,
+    },
+    /// In a condition: one at least, and it is not asked which.
+    Either(Vec<Tree>),
 }
 
 /// A comparison over slots of the system.
 #[derive(Debug)]
 struct Sides {
+    /// Which relation it is of: those of conditions count on from those of the system.
     relation: u32,
     comparing: Comparing,
     within: Tolerance,
@@ -82,6 +94,9 @@ struct Sides {
     bound: PatternId,
     /// Of which slots.
     arguments: Vec<SlotIndex>,
+    /// Of a condition that holds at its bound: the comparison that acts a little short of it where rounding
+    /// misses the bound.
+    short: Option<u32>,
 }
 
 #[derive(Debug)]
@@ -129,7 +144,7 @@ impl Modes {
     }
 
     fn with(conditional: Conditional, patterns: Interning<'_>) -> Option<Self> {
-        let mut making = Making { patterns, comparisons: Vec::new(), choices: Vec::new() };
+        let mut making = Making::new(patterns);
         let mut wants = Vec::new();
         let system = &conditional.system;
         for demand in &conditional.demands {
@@ -149,10 +164,15 @@ impl Modes {
             pattern: making.patterns.all().get(c.pattern).clone(),
             arguments: system.arguments(c.arguments).to_vec(),
         });
-        let conditions = conditions.collect();
+        let conditions: Vec<Formula> = conditions.collect();
+        making.is_of_condition = true;
+        let relations = system.relations.len() as u32..;
+        let bounds =
+            relations.zip(&conditions).map(|(relation, c)| making.bounds(system, relation, c));
+        let bounds = bounds.collect::<Option<_>>()?;
         let Making { comparisons, choices, .. } = making;
         let scratch = RefCell::default();
-        Some(Self { conditional, wants, comparisons, conditions, choices, scratch })
+        Some(Self { conditional, wants, comparisons, conditions, bounds, choices, scratch })
     }
 
     /// Returns the mode before any value is known.
@@ -218,6 +238,7 @@ impl Modes {
             let len = system.equations.len() as u32 - start;
             system.relations[index as usize].body = RelationBody::Equations(Span { start, len });
         }
+        self.add_bounds(mode, &mut system);
         system
     }
 
@@ -269,10 +290,12 @@ impl Modes {
     /// Returns a mode in which those inequalities act, and no others, that are at their bound in
     /// `values`.
     pub fn at_bounds(&self, mode: &Mode, values: &[f64]) -> Mode {
+        let relations = self.conditional.system.relations.len() as u32;
         let is_at_bound = |sides: &Sides| {
             let mut scratch = self.scratch.borrow_mut();
             let both = sides.sides.evaluate(values, &mut scratch);
-            let bounded = matches!(sides.comparing, Comparing::AtMost | Comparing::Less);
+            let bounded = matches!(sides.comparing, Comparing::AtMost | Comparing::Less)
+                && sides.relation < relations;
             // a strict one stops twice its tolerance short
             let size = both[0].abs().max(both[1].abs()).max(1.0);
             bounded && (both[0] - both[1]).abs() <= 4.0 * RULE_TOLERANCE * size
@@ -303,16 +326,21 @@ impl Modes {
     fn acting(&self, tree: &Tree, mode: &Mode, acting: &mut Vec<u32>) {
         match tree {
             Tree::Holds(c) => {
-                let acts = match self.comparisons[*c as usize].comparing {
+                let sides = &self.comparisons[*c as usize];
+                let acts = match sides.comparing {
                     Comparing::Equal => true,
                     Comparing::AtMost | Comparing::Less => mode.active.contains(c),
                     Comparing::Differ => false,
                 };
-                if acts {
-                    acting.push(*c);
+                match sides.short.filter(|short| mode.active.contains(short)) {
+                    Some(short) => acting.push(short),
+                    None if acts => acting.push(*c),
+                    None => {}
                 }
             }
-            Tree::All(parts) => parts.iter().for_each(|p| self.acting(p, mode, acting)),
+            Tree::All(parts) | Tree::Either(parts) => {
+                parts.iter().for_each(|p| self.acting(p, mode, acting));
+            }
             Tree::Any { choice, ways } => {
                 if let Some(way) = ways.get(mode.taken[*choice as usize] as usize) {
                     self.acting(way, mode, acting);
@@ -324,7 +352,7 @@ impl Modes {
     /// Takes the first alternative of every choice that holds.
     fn take(&self, tree: &Tree, values: &[f64], taken: &mut [u32]) {
         match tree {
-            Tree::Holds(_) => {}
+            Tree::Holds(_) | Tree::Either(_) => {}
             Tree::All(parts) => parts.iter().for_each(|p| self.take(p, values, taken)),
             Tree::Any { choice, ways } => {
                 let holds = ways.iter().position(|w| self.tree_holds(w, values));
@@ -338,7 +366,9 @@ impl Modes {
         match tree {
             Tree::Holds(c) => self.comparison_holds(*c, values),
             Tree::All(parts) => parts.iter().all(|p| self.tree_holds(p, values)),
-            Tree::Any { ways, .. } => ways.iter().any(|w| self.tree_holds(w, values)),
+            Tree::Any { ways, .. } | Tree::Either(ways) => {
+                ways.iter().any(|w| self.tree_holds(w, values))
+            }
         }
     }
 
@@ -446,7 +476,7 @@ fn all_differ(expressions: &[ExprId]) -> Truth {
 
 fn choices_of(tree: &Tree, choices: &mut BTreeSet<u32>) {
     match tree {
-        Tree::Holds(_) => {}
+        Tree::Holds(_) | Tree::Either(_) => {}
         Tree::All(parts) => parts.iter().for_each(|p| choices_of(p, choices)),
         Tree::Any { choice, ways } => {
             choices.insert(*choice);
@@ -460,7 +490,7 @@ pub(crate) fn add(patterns: &mut Patterns, pattern: PatternId) {
     let mut arena = patterns.get(pattern).arena().clone();
     let truth = truth(&mut arena, patterns.get(pattern).roots()[0], true);
     let patterns = Interning::Adding(patterns);
-    let mut making = Making { patterns, comparisons: Vec::new(), choices: Vec::new() };
+    let mut making = Making::new(patterns);
     making.tree(&mut arena, 0, Tolerance::Relative, truth);
 }
 
@@ -490,9 +520,15 @@ struct Making<'p> {
     patterns: Interning<'p>,
     comparisons: Vec<Sides>,
     choices: Vec<(u32, u32)>,
+    /// True while what is made is of a condition: it is compared exactly, and nothing is chosen.
+    is_of_condition: bool,
 }
 
-impl Making<'_> {
+impl<'p> Making<'p> {
+    fn new(patterns: Interning<'p>) -> Self {
+        Self { patterns, comparisons: Vec::new(), choices: Vec::new(), is_of_condition: false }
+    }
+
     /// Returns nothing where a pattern is to be found that is not there.
     fn tree(
         &mut self,
@@ -506,6 +542,10 @@ impl Making<'_> {
             Truth::All(parts) => {
                 let parts = parts.into_iter().map(|p| self.tree(arena, relation, within, p));
                 Tree::All(parts.collect::<Option<_>>()?)
+            }
+            Truth::Any(parts) if self.is_of_condition => {
+                let parts = parts.into_iter().map(|p| self.tree(arena, relation, within, p));
+                Tree::Either(parts.collect::<Option<_>>()?)
             }
             Truth::Any(parts) => {
                 let choice = self.choices.len() as u32;
@@ -535,7 +575,14 @@ impl Making<'_> {
         let (bound, variables) = self.patterns.intern(arena, &[c.left, right])?;
         let arguments = variables.into_iter().map(|v| v.0).collect();
         let comparing = c.comparing;
-        let made = Sides { relation, comparing, within, sides, bound, arguments };
+        let short = match comparing {
+            Comparing::AtMost if self.is_of_condition => {
+                let less = Comparison { comparing: Comparing::Less, ..c };
+                Some(self.comparison(arena, relation, within, less)?)
+            }
+            Comparing::Equal | Comparing::AtMost | Comparing::Less | Comparing::Differ => None,
+        };
+        let made = Sides { relation, comparing, within, sides, bound, arguments, short };
         self.comparisons.push(made);
         Some(self.comparisons.len() as u32 - 1)
     }

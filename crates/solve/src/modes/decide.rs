@@ -4,13 +4,15 @@
 //! the answer breaks acts from then on, the first by declaration; one that would hold without acting
 //! is let go. Conditions: the first that was assumed wrongly is switched. Where that comes back to
 //! where it was, or where a mode contradicts itself, assumptions are gone through depth first, and a
-//! set of assumptions that was seen to fail is never tried again.
+//! set of assumptions that was seen to fail is never tried again. Where that finds nothing, or leaves a
+//! wish unmet, conditions act at their bounds too (`nearest.rs`).
 //!
 //! **Source:** Goldfarb and Idnani (1983), for what acts; Murty, *Linear Complementarity* (1988), §4.1,
 //! for the first wrong condition; Stallman and Sussman (1977), for assumptions and what is learnt from
 //! their failure.
 
 use super::{Mode, Modes, Tree};
+use crate::conditional::Conditional;
 use crate::outcome::{Outcome, Reason, Status};
 use crate::plan::{Plan, StepKind};
 use crate::truth::Comparing;
@@ -56,12 +58,21 @@ pub enum Ended {
     NotDecided(usize),
 }
 
+/// How many are tried before conditions act at their bounds too.
+const MOST_WITHOUT_BOUNDS: usize = 256;
+
 /// So many more modes are tried where one is known, for another in which fewer given numbers yield.
 const MOST_BETTER: usize = 64;
 
 /// Finds the mode in which everything holds; of several, one in which few given numbers yield.
-pub fn decide(modes: &Modes, first: &Mode, attempt: &mut dyn FnMut(&Mode) -> Tried) -> Decision {
-    decide_within(modes, first, attempt, MOST_MODES, false)
+/// What changed is measured from `start`.
+pub fn decide(
+    modes: &Modes,
+    first: &Mode,
+    start: &[f64],
+    attempt: &mut dyn FnMut(&Mode) -> Tried,
+) -> Decision {
+    decide_within(modes, first, start, attempt, MOST_MODES, false)
 }
 
 /// Finds the mode in which everything holds at a wish of a drag. What is assumed in the first, in which the drag
@@ -69,44 +80,59 @@ pub fn decide(modes: &Modes, first: &Mode, attempt: &mut dyn FnMut(&Mode) -> Tri
 pub fn decide_along(
     modes: &Modes,
     first: &Mode,
+    start: &[f64],
     attempt: &mut dyn FnMut(&Mode) -> Tried,
 ) -> Decision {
-    decide_within(modes, first, attempt, MOST_MODES, true)
+    decide_within(modes, first, start, attempt, MOST_MODES, true)
 }
 
 /// Finds the mode in which everything holds, among fewer where the system is large.
 pub fn decide_pieces(
     modes: &Modes,
     first: &Mode,
+    start: &[f64],
     attempt: &mut dyn FnMut(&Mode) -> Tried,
 ) -> Decision {
     let slots = modes.conditional.system.slots.len().max(1);
-    decide_within(modes, first, attempt, (MOST_OF_PIECES / slots).clamp(8, MOST_MODES), false)
+    let most = (MOST_OF_PIECES / slots).clamp(8, MOST_MODES);
+    decide_within(modes, first, start, attempt, most, false)
 }
 
 fn decide_within(
     modes: &Modes,
     first: &Mode,
+    start: &[f64],
     attempt: &mut dyn FnMut(&Mode) -> Tried,
     most: usize,
     is_along: bool,
 ) -> Decision {
+    let has_bounds = modes.bounds.iter().any(Option::is_some);
     let mut deciding = Deciding {
         modes,
         attempt,
-        most,
+        most: if has_bounds { most.min(MOST_WITHOUT_BOUNDS) } else { most },
         is_spent: false,
         tried: BTreeMap::new(),
         blamed: BTreeSet::new(),
         edge: None,
         yielding: Yielding::Any,
+        at_bounds: false,
+        keeps_taken: false,
+        is_hopeless: false,
     };
+    let decided = deciding.sparing(first, is_along);
+    let is_cut = has_bounds && matches!(decided.ended, Ended::NotDecided(_));
+    let nearest = deciding.nearest(first, start, decided);
+    if !is_cut || nearest.ended == Ended::Settled {
+        return nearest;
+    }
+    (deciding.most, deciding.at_bounds) = (most, false);
     deciding.sparing(first, is_along)
 }
 
 /// Which given numbers may yield in the modes that are looked for.
 #[derive(Debug)]
-enum Yielding {
+pub(super) enum Yielding {
     Any,
     /// Those that do in the first mode.
     Known(BTreeSet<u32>),
@@ -114,19 +140,25 @@ enum Yielding {
     Fewer(usize),
 }
 
-struct Deciding<'a> {
-    modes: &'a Modes,
+pub(super) struct Deciding<'a> {
+    pub(super) modes: &'a Modes,
     attempt: &'a mut dyn FnMut(&Mode) -> Tried,
     /// How many modes are tried.
-    most: usize,
+    pub(super) most: usize,
     /// True once a try has spent what may be spent: nothing else is tried.
     is_spent: bool,
-    tried: BTreeMap<Mode, Rc<Tried>>,
+    pub(super) tried: BTreeMap<Mode, Rc<Tried>>,
     /// Relations that took part in failures.
     blamed: BTreeSet<u32>,
     /// A mode in which every condition that is assumed wrongly is at its bound.
     edge: Option<Mode>,
-    yielding: Yielding,
+    pub(super) yielding: Yielding,
+    /// True where conditions act at their bounds.
+    pub(super) at_bounds: bool,
+    /// True where no other alternative is taken.
+    pub(super) keeps_taken: bool,
+    /// True if something fails whatever is assumed.
+    pub(super) is_hopeless: bool,
 }
 
 /// What came of one set of assumptions.
@@ -137,7 +169,7 @@ enum Inner {
 }
 
 /// A choice of a mode: a condition or an alternative.
-type Assumption = (usize, u32);
+pub(super) type Assumption = (usize, u32);
 
 impl Deciding<'_> {
     /// Finds a mode in which everything holds: one in which nothing yields that does not in the first, where
@@ -184,7 +216,8 @@ impl Deciding<'_> {
             return self.decision(found, Ended::Settled);
         }
         let ended = if self.may_try() {
-            Ended::Contradiction(self.blamed.iter().copied().collect())
+            let relations = self.modes.conditional.system.relations.len() as u32;
+            Ended::Contradiction(self.blamed.range(..relations).copied().collect())
         } else {
             Ended::NotDecided(self.tried.len().min(self.most))
         };
@@ -192,11 +225,11 @@ impl Deciding<'_> {
     }
 
     /// Returns true while more modes may be tried.
-    fn may_try(&self) -> bool {
+    pub(super) fn may_try(&self) -> bool {
         !self.is_spent && self.tried.len() < self.most
     }
 
-    fn try_mode(&mut self, mode: &Mode) -> Rc<Tried> {
+    pub(super) fn try_mode(&mut self, mode: &Mode) -> Rc<Tried> {
         if let Some(tried) = self.tried.get(mode) {
             return tried.clone();
         }
@@ -288,7 +321,8 @@ impl Deciding<'_> {
                 None => {}
             }
         }
-        Broken::Nothing
+        let bound = self.at_bounds.then(|| self.modes.bound_to_act(mode, values)).flatten();
+        bound.map_or(Broken::Nothing, Broken::Comparison)
     }
 
     /// Returns the first inequality that does not act and does not hold, among those taken.
@@ -306,6 +340,7 @@ impl Deciding<'_> {
                 let way = ways.get(mode.taken[*choice as usize] as usize)?;
                 self.breaks_in(way, mode, values)
             }
+            Tree::Either(_) => None,
         }
     }
 
@@ -323,9 +358,20 @@ impl Deciding<'_> {
 
     /// Goes through the assumptions depth first, learning from every failure.
     fn go_through(&mut self, first: &Mode) -> Option<Mode> {
-        let mut learnt: Vec<Vec<Assumption>> = Vec::new();
+        let mut learnt = Vec::new();
+        let found = self.explore(first, &mut learnt);
+        self.is_hopeless = learnt.iter().any(Vec::is_empty);
+        found
+    }
+
+    /// Returns the next mode in which everything holds, but for what is known to fail.
+    pub(super) fn explore(
+        &mut self,
+        first: &Mode,
+        learnt: &mut Vec<Vec<Assumption>>,
+    ) -> Option<Mode> {
         while self.may_try() {
-            let Some(mode) = self.next(first, &learnt) else { break };
+            let mode = self.next(first, learnt)?;
             let relevant = match self.act(mode.clone()) {
                 Inner::Holds(found) => {
                     let wrong = self.wrong(&found);
@@ -347,7 +393,7 @@ impl Deciding<'_> {
         None
     }
 
-    fn decision(&mut self, mode: Mode, ended: Ended) -> Decision {
+    pub(super) fn decision(&mut self, mode: Mode, ended: Ended) -> Decision {
         let tried = self.try_mode(&mode);
         Decision { mode, tried, ended }
     }
@@ -360,6 +406,8 @@ impl Deciding<'_> {
         let ways = |i: usize, turn: u32| -> Option<u32> {
             let (own, of) = if i < conditions {
                 (u32::from(first.assumed[i]), 2)
+            } else if self.keeps_taken {
+                (first.taken[i - conditions], 1)
             } else {
                 (first.taken[i - conditions], self.modes.choices[i - conditions].1)
             };
@@ -411,11 +459,18 @@ impl Deciding<'_> {
     }
 
     /// Returns the assumptions of a mode on which relations depend; all where they are not known.
-    fn assumptions(&self, mode: &Mode, relations: Option<&BTreeSet<u32>>) -> Vec<Assumption> {
+    pub(super) fn assumptions(
+        &self,
+        mode: &Mode,
+        relations: Option<&BTreeSet<u32>>,
+    ) -> Vec<Assumption> {
         let concerns = |r: u32| relations.is_none_or(|all| all.contains(&r));
-        let guards = &self.modes.conditional.guards;
+        let Conditional { guards, system, .. } = &self.modes.conditional;
+        // the bound of a condition is a relation after all others
+        let own = |c: usize| (system.relations.len() + c) as u32;
+        let guards = |c: usize| guards.iter().filter(move |g| g.condition as usize == c);
         let conditions = (0..mode.assumed.len())
-            .filter(|&c| guards.iter().any(|g| g.condition as usize == c && concerns(g.relation)))
+            .filter(|&c| concerns(own(c)) || guards(c).any(|g| concerns(g.relation)))
             .map(|c| (c, u32::from(mode.assumed[c])));
         let choices = self.modes.choices.iter().enumerate();
         let taken = choices
@@ -452,7 +507,7 @@ enum Broken {
 }
 
 /// Returns the relations that stand against each other in a failed attempt, where that is known.
-fn blame(tried: &Tried) -> Option<BTreeSet<u32>> {
+pub(super) fn blame(tried: &Tried) -> Option<BTreeSet<u32>> {
     let unmet: BTreeSet<u32> = tried.outcome.unmet.iter().map(|u| u.relation).collect();
     if unmet.is_empty() {
         return None;
