@@ -171,7 +171,12 @@ impl Lowerer<'_> {
             Kind::Picture => builtin::PICTURE_MESSAGES.iter().map(|b| b.name.into()).collect(),
             Kind::Bool | Kind::Tuple(_) | Kind::Function | Kind::Unknown => Vec::new(),
         };
+        let of_each = match receiver {
+            Kind::List(element) => self.is_part_of_each(element, word),
+            _ => false,
+        };
         d = match self.nearest(word.text(), names.iter().map(String::as_str)) {
+            _ if of_each => d.meant(&format!("map(each => each.{})", word.text())),
             Some(near) => d.meant(near),
             None if names.is_empty() => d,
             None if names.len() > MOST_LISTED => {
@@ -180,6 +185,14 @@ impl Lowerer<'_> {
             None => d.hint(format!("it has {}", names.join(", "))),
         };
         self.report(d);
+    }
+
+    /// Returns true if what a list has none of is a part or message of its elements.
+    fn is_part_of_each(&self, element: &Kind, word: &ast::Word) -> bool {
+        match element {
+            Kind::Thing(class) => self.names_of(*class).iter().any(|n| n == word.text()),
+            _ => false,
+        }
     }
 
     /// Returns the names of the parts and messages of a class.

@@ -308,6 +308,8 @@ fn hints_name_what_is_near_or_what_there_is() {
     let hint = |text: &str| lower(text).diagnostics[0].hint.clone().unwrap_or_default();
     assert_eq!(hint("use shapes\na: Line\nx: Real = a.lenght"), "did you mean `length`?");
     assert_eq!(hint("use shapes\np: Pont"), "did you mean `Point`?");
+    let of_each = "use shapes\nrows: List of 3 Line\nx: Real\nconstraint x = rows.length.sum";
+    assert_eq!(hint(of_each), "did you mean `map(each => each.length)`?");
     let asked = "class P { x, y: Real  apart(to p: P) => x - p.x }\na, b: P\n";
     let said = hint(&format!("{asked}c: Real = apart(a, b)"));
     assert_eq!(said, "it is asked of a thing: `a.apart(to: b)`");
