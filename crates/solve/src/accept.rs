@@ -81,9 +81,11 @@ pub(crate) struct Factored {
 }
 
 impl Acceptance {
-    /// Returns how many given numbers yield, and how many slots in all: the fewer the better, in this order.
-    pub(crate) fn yields(&self) -> (usize, usize) {
-        (self.yielded.len(), self.unknown.iter().filter(|u| **u).count())
+    /// Returns how many given numbers yield, how many slots in all, and how many motions are taken away: the fewer the
+    /// better, in this order.
+    pub(crate) fn yields(&self) -> (usize, usize, usize) {
+        let unknown = self.unknown.iter().filter(|u| **u).count();
+        (self.yielded.len(), unknown, self.determined)
     }
     /// Returns the pivots that suit a block, where it is one of those that were factorised.
     pub(crate) fn pivots(&self, rows: &[usize], unknowns: &[SlotIndex]) -> Option<&Factored> {
