@@ -54,14 +54,15 @@ pub(crate) fn complaints(
         path: &|slot| structure.path(document, structure.slots[slot].thing).to_string(),
         wrong: Vec::new(),
     };
-    let aside = aside(edit.after, &moved);
+    let extent = extents(structure, edit.after, connected);
+    let aside = aside(edit.after, &moved, &extent);
     let states = [&after, &after.in_state(&aside)];
     if is_wish_missed && soft.is_empty() && stays.is_empty() {
-        own.wish(&after, &required, connected);
+        own.wish(&after, &required, connected, &extent);
     }
     if soft.is_empty() && stays.is_empty() {
         own.least(states, &required, &moved);
-        own.exchange(states, &required, &moved, connected);
+        own.exchange(states, &required, &moved, connected, &extent);
         let columns: Vec<SlotId> = connected.iter().copied().collect();
         // what a bound let go of on the way may have gone over to another side
         let is_bounded = |state| {
@@ -304,6 +305,7 @@ impl Answer<'_> {
         of: &[ConstraintInstance],
         moved: &[SlotId],
         connected: &BTreeSet<SlotId>,
+        extent: &dyn Fn(SlotId) -> f64,
     ) {
         let yielded: Vec<SlotId> = moved.iter().copied().filter(|s| self.is_given(*s)).collect();
         if yielded.is_empty() {
@@ -313,11 +315,14 @@ impl Answer<'_> {
             connected.iter().copied().filter(|&s| self.is_weaker(s)).collect();
         let columns: Vec<SlotId> = weaker.iter().chain(&yielded).copied().collect();
         let spared = states.map(|state| {
-            let rows = acting(state, of, &columns)?;
-            // rows of length one: what they measure differs by orders of magnitude
-            let column = |i: usize| -> Vec<f64> {
-                rows.iter().map(|r| r.slopes[i] / length(&r.slopes)).collect()
-            };
+            let mut rows = acting(state, of, &columns)?;
+            // without units, and of length one: what numbers and rows measure differs by orders of magnitude
+            for row in &mut rows {
+                row.slopes.iter_mut().zip(&columns).for_each(|(x, &slot)| *x *= extent(slot));
+                let size = length(&row.slopes);
+                row.slopes.iter_mut().for_each(|x| *x /= size);
+            }
+            let column = |i: usize| -> Vec<f64> { rows.iter().map(|r| r.slopes[i]).collect() };
             let span = Span::of((0..weaker.len()).map(column));
             let is_spared = |i: usize| {
                 let own = column(i);
@@ -341,15 +346,34 @@ impl Answer<'_> {
     }
 }
 
+/// Returns what numbers of each kind come to, of those that are connected: one where all are nothing.
+fn extents<'a>(
+    structure: &'a Structure,
+    values: &Values,
+    connected: &BTreeSet<SlotId>,
+) -> impl Fn(SlotId) -> f64 + 'a {
+    let mut extents: Vec<(Primitive, f64)> = Vec::new();
+    for &slot in connected {
+        let (kind, size) = (structure.slots[slot].primitive, values.numbers[slot].abs());
+        match extents.iter_mut().find(|known| known.0 == kind) {
+            Some(known) => known.1 = known.1.max(size),
+            None => extents.push((kind, size)),
+        }
+    }
+    move |slot| {
+        let kind = structure.slots[slot].primitive;
+        let known = extents.iter().find(|known| known.0 == kind && known.1 > 0.0);
+        known.map_or(1.0, |known| known.1)
+    }
+}
+
 /// Returns a state a little aside, in which nothing is special.
-pub(super) fn aside(values: &Values, moved: &[SlotId]) -> Values {
+pub(super) fn aside(values: &Values, moved: &[SlotId], extent: &dyn Fn(SlotId) -> f64) -> Values {
     let mut aside = values.clone();
-    let sizes = moved.iter().map(|&s| values.numbers[s].abs());
-    let extent = sizes.fold(1.0, f64::max);
     for (i, &slot) in (1..).zip(moved) {
         // the fractional parts of multiples of the golden ratio lie evenly
         let part = (f64::from(i) * 0.618_033_988_749_895).fract() - 0.5;
-        aside.numbers[slot] += 0.02 * extent * part;
+        aside.numbers[slot] += 0.02 * extent(slot) * part;
     }
     aside
 }

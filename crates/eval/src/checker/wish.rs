@@ -28,6 +28,7 @@ impl Answer<'_> {
         after: &Evaluator<'_>,
         of: &[ConstraintInstance],
         connected: &BTreeSet<SlotId>,
+        extent: &dyn Fn(SlotId) -> f64,
     ) {
         let slots = &self.structure.slots;
         let wished = |slot: SlotId| self.edit.wishes.iter().find(|(s, _)| *s == slot);
@@ -44,7 +45,7 @@ impl Answer<'_> {
         if !all || yielded.into_iter().any(|slot| self.is_given(slot) && wished(slot).is_none()) {
             return;
         }
-        let state = aside(self.edit.after, &columns);
+        let state = aside(self.edit.after, &columns, extent);
         let [here, aside] = [after, &after.in_state(&state)].map(|s| acting(s, of, &columns));
         let (Some(here), Some(aside)) = (here, aside) else { return };
         // where rules depend on one another only here slopes prove nothing
