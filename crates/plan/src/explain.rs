@@ -154,13 +154,19 @@ impl Planner {
         let mut all = None;
         let mut among_reals = None;
         for task in self.resting() {
-            let Course::Search(puzzle) = &task.course else {
-                let whole = task.whole().and_then(|whole| whole.slots().next());
-                let slot = whole.map(|local| task.component.slots()[local as usize]);
-                among_reals = among_reals.or(slot);
-                continue;
+            let numbers = task.gather(&values.numbers);
+            let one = match (&task.course, task.whole()) {
+                (Course::Search(puzzle), _) => puzzle.count(&numbers),
+                (_, None) => continue,
+                (_, Some(whole)) => {
+                    let Some(puzzle) = whole.puzzle(self.plans.patterns()) else {
+                        let slot = whole.slots().next().map(|s| task.component.slots()[s as usize]);
+                        among_reals = among_reals.or(slot);
+                        continue;
+                    };
+                    puzzle.count(&numbers)
+                }
             };
-            let one = puzzle.count(&task.gather(&values.numbers));
             let Count { solutions, is_complete } =
                 all.unwrap_or(Count { solutions: 1, is_complete: true });
             all = Some(Count {

@@ -12,8 +12,8 @@ use crate::run::{Ground, Ran, ground, leans, scatter};
 use crate::task::Task;
 use kernel::{SlotId, Values};
 use solve::{
-    Conditional, Constants, Decision, Ended, Lean, Level, Looked, Mode, Modes, Patterns, SlotIndex,
-    Trial, Tried, Wholes, decide,
+    Conditional, Constants, Decision, Ended, Lean, Level, Looked, Mode, Modes, Patterns, Puzzle,
+    SlotIndex, Trial, Tried, Wholes, decide,
 };
 use std::cell::OnceCell;
 use std::collections::{BTreeMap, BTreeSet};
@@ -33,6 +33,11 @@ impl Whole {
     }
     fn wholes(&self, patterns: &Patterns) -> &Wholes {
         self.wholes.get_or_init(|| Wholes::new(self.modes.conditional(), patterns))
+    }
+    /// Returns the search for all its solutions, where nothing but whole numbers is unknown.
+    pub(crate) fn puzzle(&self, patterns: &Patterns) -> Option<Puzzle> {
+        let conditional = self.modes.conditional();
+        conditional.is_of_whole_numbers().then(|| Puzzle::new(conditional, patterns))
     }
     /// Returns the slots of whole numbers that are not known.
     pub(crate) fn slots(&self) -> impl Iterator<Item = SlotIndex> + '_ {

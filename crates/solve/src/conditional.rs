@@ -153,10 +153,13 @@ impl Conditional {
     /// Returns true if nothing but whole numbers is unknown, and not equations alone decide them. Where
     /// they are summed up with what is not whole, their ranges have to be finite.
     pub fn is_searched(&self) -> bool {
+        !self.is_plain() && self.is_of_whole_numbers()
+    }
+    /// Returns true if nothing but whole numbers is unknown, and it can be searched.
+    pub fn is_of_whole_numbers(&self) -> bool {
         let is_unknown = |s: &&Slot| s.stay != Stay::Fixed;
         let mut unknown = self.system.slots.iter().filter(is_unknown).peekable();
-        !self.is_plain()
-            && unknown.peek().is_some()
+        unknown.peek().is_some()
             && unknown.all(|s| s.is_number && s.is_discrete)
             && self.system.slots.iter().all(|s| s.is_number)
             && (self.system.slots.iter().all(|s| s.is_discrete) || self.has_finite_ranges())
