@@ -70,7 +70,8 @@ impl Planner {
                 beyond = part;
             }
         }
-        Some(gone)
+        // where every part of the way can be gone, no limit stands in it
+        (beyond < 1.0).then_some(gone)
     }
 
     /// Returns an aim that goes a part of the way.

@@ -31,6 +31,10 @@ use std::rc::Rc;
 /// The first stride of a walk, and the shortest, as parts of the whole way.
 const LONGEST: f64 = 0.5;
 const SHORTEST: f64 = 1e-7;
+/// How far a stride over a crest goes, as a part of what is left of the way, and how far what it finds may lie off,
+/// in parts of the extent.
+const CREST: f64 = 1e-3;
+const NEAR: f64 = 0.1;
 /// What a stride costs for every slot, in multiplications.
 const STRIDE: usize = 64;
 /// How many strides are tried before a way is given up.
@@ -507,7 +511,10 @@ impl Way<'_> {
         let arrived = match self.approach(last, goal, &failure) {
             Ok(()) => Ok(()),
             Err(_) if trust == Trust::Branch => {
-                self.same_orientation(goal).then_some(()).ok_or_else(|| failure.at(fraction))
+                let x0 = self.frame.x0.clone();
+                self.same_orientation(&x0, goal, 1.0)
+                    .then_some(())
+                    .ok_or_else(|| failure.at(fraction))
             }
             Err(_) => self.search(last, goal).map_err(|failure| failure.reason),
         };
@@ -574,11 +581,28 @@ impl Way<'_> {
             } else {
                 length = length.min(1.0 - gone) * 0.5;
                 if length < strides.end {
-                    break;
+                    let part = CREST * (1.0 - gone);
+                    if trust != Trust::Branch || !self.crosses(last, goal) {
+                        break;
+                    }
+                    last.copy_from_slice(self.trial);
+                    gone += part;
+                    length = part;
                 }
             }
         }
         gone
+    }
+
+    /// Goes a little on over a place where a row has no slope, as `q |q|` has none at nothing, but no branch ends.
+    fn crosses(&mut self, last: &[f64], goal: &[f64]) -> bool {
+        self.same_orientation(last, goal, CREST) && {
+            let near = |&t: &SlotIndex| {
+                let t = t as usize;
+                (self.trial[t] - last[t]).abs() <= NEAR * self.frame.scales[t]
+            };
+            self.plan.branching().iter().flat_map(|step| &step.targets).all(near)
+        }
     }
 
     /// Comes as near to soft wishes as the hard rows allow, from the limit of the branch.
@@ -623,19 +647,18 @@ impl Way<'_> {
         plan.has_branches && attempt.broken(self.trial, self.buffers).is_some()
     }
 
-    /// Tries to arrive without a way: allowed where every block lies as it did.
-    fn same_orientation(&mut self, goal: &[f64]) -> bool {
-        let x0 = self.frame.x0.clone();
-        if self.stride(&x0, goal, 1.0, Trust::Any, &Approach::Nowhere).is_err() {
+    /// Tries to arrive so far on without a way: allowed where every block lies as it did, if the values told.
+    fn same_orientation(&mut self, from: &[f64], goal: &[f64], part: f64) -> bool {
+        if self.stride(from, goal, part, Trust::Any, &Approach::Nowhere).is_err() {
             return false;
         }
         let Buffers { work, square: scratch, .. } = &mut *self.buffers;
         let scales = &self.frame.scales;
         self.plan.steps().iter().all(|step| match &step.program {
             Program::Square(square) if !square.block.is_linear => {
-                let before = square.orientation(&x0, scales, work, scratch);
+                let before = square.orientation(from, scales, work, scratch);
                 let after = square.orientation(self.trial, scales, work, scratch);
-                before == after && before != 0
+                after != 0 && (before == 0 || before == after)
             }
             Program::Measure(_) | Program::Least(_) => false,
             Program::Square(_)

@@ -110,6 +110,8 @@ const REFINEMENTS: usize = 10;
 const LEAPS: usize = 60;
 /// A step this long, in parts of the extent, leads away from what is near.
 const WIDE: f64 = 0.1;
+/// How far aside a row is left that has no slope, in parts of the extent.
+const NUDGES: [f64; 2] = [1e-3, -1e-3];
 /// A step that has to be cut this short, in a large core, goes across a narrow valley.
 const SHORT: f64 = 0.1;
 /// The largest core whose linear algebra is dense.
@@ -437,13 +439,38 @@ impl Square {
                 solved @ (Solved::Regular | Solved::Double(_)) => return solved,
             }
         }
+        let Some((factors, size)) = self.iterate(branch, trust, values, scales, w, s) else {
+            return Solved::Failed;
+        };
+        if !self.holds(values, w, s)
+            || size > WIDE && !is_linear && self.runs_away(values, scales, w, s)
+        {
+            return Solved::Failed;
+        }
+        side.newton = branch.unwrap_or(side.newton);
+        if factors.ratio < 1e-6 { self.least_determined(s) } else { Solved::Regular }
+    }
+
+    /// Takes steps until they do no better, on the `branch` of this orientation if there is one; returns the last
+    /// factors and how long the last step was, or nothing where they lead nowhere.
+    fn iterate(
+        &self,
+        branch: Option<i8>,
+        trust: Trust,
+        values: &mut [f64],
+        scales: &[f64],
+        w: &mut Workspace,
+        s: &mut SquareScratch,
+    ) -> Option<(Factors, f64)> {
+        let is_linear = self.block.is_linear;
         self.evaluate(values, w, s);
         self.weigh(scales, s);
         let mut norm = self.weighted_norm(s);
         if !norm.is_finite() {
-            return Solved::Failed;
+            return None;
         }
-        let (mut first_size, mut damping) = (0.0, 0.0f64);
+        let (mut first_size, mut last_size, mut damping) = (0.0, 0.0, 0.0f64);
+        let mut nudges = NUDGES.iter();
         let mut factors = Factors { sign: 0, ratio: 1.0 };
         for iteration in 0..STEPS {
             if norm == 0.0 && iteration > 0 {
@@ -456,7 +483,7 @@ impl Square {
                 factors = self.factorise(s);
             }
             if branch.is_some_and(|sign| sign != factors.sign || sign == 0) && norm > 0.0 {
-                return Solved::Failed;
+                return None;
             }
             if norm == 0.0 {
                 break;
@@ -468,10 +495,11 @@ impl Square {
                 self.damped_direction(scales, damping.max(1e-12), s);
             }
             let size = self.step_size(scales, s);
+            last_size = size;
             match iteration {
                 0 => first_size = size,
                 1 if branch.is_some() && size > 0.5 * first_size && size > 1e-7 => {
-                    return Solved::Failed;
+                    return None;
                 }
                 _ => {}
             }
@@ -483,13 +511,13 @@ impl Square {
             };
             let is_cut = found.is_none_or(|(length, _)| length < 1.0);
             if (is_cut || size > WIDE) && !was_held && s.is_hasty && self.is_large() {
-                return Solved::Failed;
+                return None;
             }
             match found {
                 Some((length, better)) => {
                     let leaves = branch.is_some() && length < 1.0 && !was_held;
                     if leaves || !better.is_finite() || w.is_spent() {
-                        return Solved::Failed;
+                        return None;
                     }
                     let slow = better > 0.5 * norm;
                     norm = better;
@@ -508,16 +536,16 @@ impl Square {
                 None => {
                     damping = (damping * 10.0).max(1e-6);
                     if damping > 1e8 {
-                        return Solved::Failed;
+                        if !nudges.by_ref().any(|&by| self.leaves_crest(by, values, scales, w, s)) {
+                            return None;
+                        }
+                        norm = self.weighted_norm(s);
+                        damping = 0.0;
                     }
                 }
             }
         }
-        if !self.holds(values, w, s) {
-            return Solved::Failed;
-        }
-        side.newton = branch.unwrap_or(side.newton);
-        if factors.ratio < 1e-6 { self.least_determined(s) } else { Solved::Regular }
+        Some((factors, last_size))
     }
 
     /// Solves a linear block that has factors: all unknowns at once, those that rows define too, and
@@ -568,6 +596,67 @@ impl Square {
             }
         }
         if self.holds(values, w, s) { Solved::Regular } else { Solved::Failed }
+    }
+
+    /// Moves the core a little aside from where a row has no slope though it does not hold, as `q²` has none at
+    /// nothing, and weighs rows anew there; returns false, with all as it was, where no row has much more of a slope.
+    fn leaves_crest(
+        &self,
+        by: f64,
+        values: &mut [f64],
+        scales: &[f64],
+        w: &mut Workspace,
+        s: &mut SquareScratch,
+    ) -> bool {
+        const STEEPER: f64 = 1e3;
+        if !self.is_dense() {
+            return false;
+        }
+        let n = self.block.core.len();
+        let slopes = |s: &mut SquareScratch| -> Vec<f64> {
+            s.weight.iter_mut().for_each(|weight| *weight = 1.0);
+            self.fill(scales, s);
+            let size = |row: &[f64]| row.iter().fold(0.0f64, |most, d| most.max(d.abs()));
+            s.matrix.chunks_exact(n).map(size).collect()
+        };
+        let (start, weight) = (values.to_vec(), s.weight.clone());
+        let here = slopes(s);
+        let direction: Vec<f64> =
+            (0..n as u64).map(|i| generic_number(i, Point::Positive)).collect();
+        self.shift(values, &direction, by, scales, w);
+        self.evaluate(values, w, s);
+        let there = slopes(s);
+        let leaves = here.iter().zip(&there).any(|(here, there)| *there > STEEPER * *here);
+        if leaves && there.iter().all(|slope| slope.is_finite()) {
+            s.own = None;
+            self.weigh(scales, s);
+            return true;
+        }
+        values.copy_from_slice(&start);
+        self.evaluate(values, w, s);
+        s.weight = weight;
+        false
+    }
+
+    /// Returns true if rows hold only because an unknown has gone so far that nothing depends on it any more:
+    /// Newton's step from there is no smaller than what it has come to, as where `1 / r` is to vanish.
+    fn runs_away(
+        &self,
+        values: &[f64],
+        scales: &[f64],
+        w: &mut Workspace,
+        s: &mut SquareScratch,
+    ) -> bool {
+        self.block.slopes(values, w, &mut s.local);
+        self.fill(scales, s);
+        if self.factorise(s).ratio == 0.0 {
+            return false;
+        }
+        self.newton(scales, s);
+        (0..s.step.len()).any(|c| {
+            let slot = self.slot(c);
+            s.step[c].abs() > WIDE * values[slot].abs().max(scales[slot])
+        })
     }
 
     /// Takes the whole step, but not more than half the extent; returns the norm there.

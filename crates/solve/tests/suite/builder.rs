@@ -12,7 +12,7 @@ use std::rc::Rc;
 pub(crate) struct Sheet {
     pub(crate) system: System,
     patterns: Patterns,
-    arena: Arena,
+    pub(crate) arena: Arena,
     pub(crate) x0: Vec<f64>,
     groups: u32,
 }

@@ -3,6 +3,7 @@ mod bridge;
 mod builder;
 mod closed;
 mod contradictions;
+mod crests;
 mod drags;
 mod idle;
 mod measure;
