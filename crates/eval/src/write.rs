@@ -48,9 +48,10 @@ impl<'a> Evaluator<'a> {
         Ok(written)
     }
 
-    /// Computes what makes the sides of a constraint's `=` alike: one takes the other's value.
+    /// Computes what makes the sides of an `=` in a constraint's rule alike: one takes the other's value.
     ///
-    /// A rule that is a message is opened first. Nothing is written here.
+    /// To the `=` lead `turns`: at every `and` to its second part, at every `if` to what holds where the condition
+    /// is false, where the turn is true. Messages are opened. Nothing is written here.
     ///
     /// # Errors
     /// A rule without `=`, a side that is no stored part, a value that does not fit; named by the
@@ -58,12 +59,13 @@ impl<'a> Evaluator<'a> {
     pub fn copy_side(
         &self,
         constraint: ConstraintInstance,
+        turns: impl Iterator<Item = bool>,
         taker: Side,
     ) -> Result<Vec<(SlotId, Value)>> {
         let class = &self.document.classes[constraint.class];
         let written = &class.constraints[constraint.index as usize];
         self.begin();
-        self.copy_in(&written.rule, &Frame::of(constraint.owner), taker)
+        self.copy_in(&written.rule, &Frame::of(constraint.owner), &mut turns.fuse(), taker)
             .map_err(|f| f.within(written.origin))
     }
 
@@ -71,14 +73,25 @@ impl<'a> Evaluator<'a> {
         &self,
         rule: &'a Term,
         frame: &Frame<'a>,
+        turns: &mut dyn Iterator<Item = bool>,
         taker: Side,
     ) -> Result<Vec<(SlotId, Value)>> {
+        if let Term::Binary(BinaryOperator::And, first, second) | Term::If(_, first, second) = rule
+            && let Some(is_second) = turns.next()
+        {
+            let part = if is_second { second } else { first };
+            return self.deeper(|| self.copy_in(part, frame, turns, taker));
+        }
+        if let Term::Let(name, bound, body) = rule {
+            let inner = frame.bind(name, self.term(bound, frame)?);
+            return self.deeper(|| self.copy_in(body, &inner, turns, taker));
+        }
         if let Term::Send { to, name, arguments, search } = rule {
             let to = self.term(to, frame)?;
             if let Some(message) = self.message(&to, name, *search) {
                 let arguments = self.arguments(arguments, frame)?;
                 let inner = self.bind(Frame::sent(to, frame.nearest), message, arguments)?;
-                return self.deeper(|| self.copy_in(&message.answer, &inner, taker));
+                return self.deeper(|| self.copy_in(&message.answer, &inner, turns, taker));
             }
         }
         let Term::Binary(BinaryOperator::Equal, left, right) = rule else {

@@ -6,8 +6,8 @@
 use crate::evaluate::Opening;
 use crate::fault::{Fault, Trouble};
 use crate::meaning::{Frame, Meaning, collect_slots};
-use crate::rule::{Body, Formula, How, RuleMethod, Rules, Shape, Source, Way, When};
-use crate::say::{Said, Standing, say};
+use crate::rule::{Body, Formula, How, RuleMethod, Rules, Shape, Source, Turns, Way, When};
+use crate::say::{Said, say};
 use base::number::Tolerance;
 use expr::ExprId;
 use kernel::{
@@ -229,7 +229,7 @@ fn lower_parts<'a>(
     me: &Frame<'a>,
 ) -> Result<Parts, Trouble> {
     let mut said = Said::default();
-    say(opening, &constraint.rule, me, Standing::Whole, &mut said)?;
+    say(opening, &constraint.rule, me, Some(Turns::NONE), &mut said)?;
     let mut reads = BTreeSet::new();
     for path in &constraint.reads {
         let meaning = meaning_of_path(opening, &me.me, path)?;

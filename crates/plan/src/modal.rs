@@ -336,6 +336,10 @@ impl Followed {
         let mut leans = written.to_vec();
         leans.extend(within_bounds(modes, mode, plan, x0, written));
         drag.lean(plan, &leans);
+        if plan.asks_host() && *mode != modes.first(x0, x0) {
+            // what the host told holds at the press, but may do so in the mode of that
+            drag.run_anew();
+        }
         Self { drag, wish: 0, since: 1 }
     }
 }

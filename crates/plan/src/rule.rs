@@ -27,10 +27,35 @@ pub enum Source {
 pub enum Way {
     /// The written method of this index.
     Written(u32),
-    /// The left side of its `=` takes the value of the right side.
-    Left,
+    /// The left side of the `=` to which these turns lead takes the value of the right side.
+    Left(Turns),
     /// The right side takes the value of the left side.
-    Right,
+    Right(Turns),
+}
+
+/// How one comes from a rule to an `=` in it: at every `and` to its first or second part, at every `if` to what
+/// holds where the condition is true or where it is false. What a `let` binds and a message answers is gone into.
+#[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Debug)]
+pub struct Turns {
+    /// The turns, the latest lowest; a one is to the second.
+    taken: u32,
+    count: u8,
+}
+
+impl Turns {
+    /// None: the rule itself is the `=`.
+    pub const NONE: Self = Self { taken: 0, count: 0 };
+    /// Adds a turn, to the second or to the first; nothing where there are too many.
+    pub(crate) fn then(self, second: bool) -> Option<Self> {
+        let Self { taken, count } = self;
+        let is_room = u32::from(count) < u32::BITS;
+        is_room.then(|| Self { taken: taken << 1 | u32::from(second), count: count + 1 })
+    }
+    /// Returns the turns in order, true for those to the second.
+    pub fn each(self) -> impl Iterator<Item = bool> {
+        let Self { taken, count } = self;
+        (0..count).rev().map(move |i| taken >> i & 1 == 1)
+    }
 }
 
 define_id!(ShapeId, "h", "What rules of one kind say.");

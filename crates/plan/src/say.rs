@@ -7,7 +7,7 @@
 use crate::evaluate::{Opening, bind_arguments};
 use crate::fault::{FaultKind, Trouble};
 use crate::meaning::{Frame, Meaning, Opaque, collect_slots};
-use crate::rule::{How, RuleMethod, Way};
+use crate::rule::{How, RuleMethod, Turns, Way};
 use expr::{ExprId, Node, Unary};
 use kernel::{BinaryOperator, SlotId, Term, ThingId, UnaryOperator};
 use std::collections::BTreeSet;
@@ -34,41 +34,34 @@ pub(crate) struct OpaqueRow {
     pub(crate) methods: Vec<RuleMethod<SlotId>>,
 }
 
-/// Whether a term is the whole rule, or a part of it or of a message that it opens into.
-#[derive(Clone, Copy, PartialEq, Eq)]
-pub(crate) enum Standing {
-    Whole,
-    Part,
-}
-
-/// Collects what must hold where `term` is true.
+/// Collects what must hold where `term` is true, a part of a rule to which these turns lead, if any do.
 pub(crate) fn say<'a>(
     opening: &mut Opening<'a>,
     term: &'a Term,
     frame: &Frame<'a>,
-    standing: Standing,
+    turns: Option<Turns>,
     said: &mut Said,
 ) -> Result<(), Trouble> {
     match term {
         Term::Binary(BinaryOperator::Equal, a, b) => {
             let a = opening.meaning(a, frame)?;
             let b = opening.meaning(b, frame)?;
-            equate(opening, &a, &b, standing, said)
+            equate(opening, &a, &b, turns, said)
         }
         Term::Binary(BinaryOperator::And, a, b) => {
-            say(opening, a, frame, Standing::Part, said)?;
-            say(opening, b, frame, Standing::Part, said)
+            say(opening, a, frame, first(turns), said)?;
+            say(opening, b, frame, second(turns), said)
         }
         Term::Let(name, bound, body) => {
             let bound = opening.meaning(bound, frame)?;
-            say(opening, body, &frame.bind(name.clone(), bound), Standing::Part, said)
+            say(opening, body, &frame.bind(name.clone(), bound), turns, said)
         }
         Term::If(condition, then, otherwise) => {
             let condition = opening.meaning(condition, frame)?;
             match opening.decided(&condition) {
-                Some(true) => say(opening, then, frame, Standing::Part, said),
-                Some(false) => say(opening, otherwise, frame, Standing::Part, said),
-                None => branch(opening, &condition, [then, otherwise], frame, said),
+                Some(true) => say(opening, then, frame, first(turns), said),
+                Some(false) => say(opening, otherwise, frame, second(turns), said),
+                None => branch(opening, &condition, [then, otherwise], frame, turns, said),
             }
         }
         Term::Call { name, arguments } if *name == "allDifferent" => {
@@ -96,7 +89,7 @@ pub(crate) fn say<'a>(
                     given.push((a.label.clone(), opening.meaning(&a.value, frame)?));
                 }
                 let frame = bind_arguments(Frame::new(to), message, &given)?;
-                return opening.deeper(|o| say(o, &message.answer, &frame, Standing::Part, said));
+                return opening.deeper(|o| say(o, &message.answer, &frame, turns, said));
             }
             if let ("all", [function], Ok(items)) =
                 (name.as_str(), arguments.as_slice(), opening.items(&to))
@@ -132,6 +125,15 @@ pub(crate) fn say<'a>(
     }
 }
 
+/// Returns how one comes to the first of two parts of a rule: of an `and`, or what holds if a condition does.
+fn first(turns: Option<Turns>) -> Option<Turns> {
+    turns.and_then(|turns| turns.then(false))
+}
+/// Returns how one comes to the second of two.
+fn second(turns: Option<Turns>) -> Option<Turns> {
+    turns.and_then(|turns| turns.then(true))
+}
+
 /// Returns true if the name is not that of a stored part.
 fn is_message(opening: &mut Opening<'_>, to: &Meaning<'_>, name: &str) -> bool {
     match to {
@@ -154,7 +156,7 @@ fn say_all<'a>(
     };
     for item in items {
         let frame = opening.closure_frame(&closure, std::slice::from_ref(item))?;
-        say(opening, closure.body, &frame, Standing::Part, said)?;
+        say(opening, closure.body, &frame, None, said)?;
     }
     Ok(())
 }
@@ -165,11 +167,13 @@ fn branch<'a>(
     condition: &Meaning<'a>,
     ways: [&'a Term; 2],
     frame: &Frame<'a>,
+    turns: Option<Turns>,
     said: &mut Said,
 ) -> Result<(), Trouble> {
     let mut cases = [Said::default(), Said::default()];
-    for (way, case) in ways.into_iter().zip(&mut cases) {
-        say(opening, way, frame, Standing::Part, case)?;
+    let turns = [first(turns), second(turns)];
+    for ((way, case), turns) in ways.into_iter().zip(&mut cases).zip(turns) {
+        say(opening, way, frame, turns, case)?;
     }
     match condition {
         Meaning::Number(id) => said.branches.push((*id, cases)),
@@ -265,7 +269,7 @@ fn equate<'a>(
     opening: &mut Opening<'a>,
     a: &Meaning<'a>,
     b: &Meaning<'a>,
-    standing: Standing,
+    turns: Option<Turns>,
     said: &mut Said,
 ) -> Result<(), Trouble> {
     for (left, right) in opening.leaves(a, b)? {
@@ -284,15 +288,15 @@ fn equate<'a>(
         if let (Some(l), Some(r)) = (l, r) {
             methods.push(RuleMethod { targets: vec![l], reads: vec![r], how: How::Copy });
             methods.push(RuleMethod { targets: vec![r], reads: vec![l], how: How::Copy });
-        } else if standing == Standing::Whole {
+        } else if let Some(turns) = turns {
             let mut way = |target: Option<SlotId>, from: &BTreeSet<SlotId>, way: Way| {
                 if let Some(target) = target.filter(|t| !from.contains(t)) {
                     let reads = from.iter().copied().collect();
                     methods.push(RuleMethod { targets: vec![target], reads, how: How::Host(way) });
                 }
             };
-            way(l, &rs, Way::Left);
-            way(r, &ls, Way::Right);
+            way(l, &rs, Way::Left(turns));
+            way(r, &ls, Way::Right(turns));
         }
         let slots = ls.union(&rs).copied().collect();
         said.opaque.push(OpaqueRow { slots, methods });

@@ -43,8 +43,8 @@ impl Host for Texts<'_> {
         let evaluator = Evaluator::new(self.document, self.structure, values);
         let written = match way {
             Way::Written(index) => evaluator.method(constraint, index as usize),
-            Way::Left => evaluator.copy_side(constraint, Side::Left),
-            Way::Right => evaluator.copy_side(constraint, Side::Right),
+            Way::Left(turns) => evaluator.copy_side(constraint, turns.each(), Side::Left),
+            Way::Right(turns) => evaluator.copy_side(constraint, turns.each(), Side::Right),
         };
         written.map_err(|f| f.message)
     }

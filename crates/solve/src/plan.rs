@@ -699,6 +699,10 @@ impl Plan {
     pub fn opens(&self) -> bool {
         self.slots().iter().any(|s| s.stay == Stay::Free)
     }
+    /// Returns true if some of its relations are tested by the host.
+    pub fn asks_host(&self) -> bool {
+        !self.opaque.is_empty()
+    }
     /// Returns true if a whole number is unknown.
     pub(crate) fn has_whole_unknowns(&self) -> bool {
         self.slots().iter().any(|s| s.is_number && s.is_discrete && s.stay != Stay::Fixed)

@@ -289,6 +289,11 @@ impl Drag {
         self.leans = false;
         self.is_near = false;
         // what the drag does not move has to be computed again from here
+        self.run_anew();
+    }
+
+    /// Lets everything run at the next wish, what the drag does not move as well.
+    pub fn run_anew(&mut self) {
         self.has_run = false;
         self.upstream.clear();
     }

@@ -186,7 +186,7 @@ fn a_side_takes_the_value_of_the_other() {
     let state = state(&structure, &[x(4.0), x(2.0), t("hot")]);
     let evaluator = Evaluator::new(&b.document, &structure, &state);
     let copy = |i: usize, side| {
-        let found = evaluator.copy_side(structure.constraints[i], side);
+        let found = evaluator.copy_side(structure.constraints[i], std::iter::empty(), side);
         found.map_err(|f| f.message).map(|w| w.into_iter().map(|(_, v)| v).collect::<Vec<_>>())
     };
     assert_eq!(copy(0, Side::Left), Ok(vec![x(1.0), x(2.0)]));

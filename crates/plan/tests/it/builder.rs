@@ -332,11 +332,11 @@ impl Host for Terms<'_> {
                 let target = self.structure.follow(me, &method.targets[0]);
                 (target.expect("the target is there"), &method.values[0])
             }
-            Way::Left => {
+            Way::Left(_) => {
                 let (left, right) = self.sides(constraint);
                 (self.part(me, left), right)
             }
-            Way::Right => {
+            Way::Right(_) => {
                 let (left, right) = self.sides(constraint);
                 (self.part(me, right), left)
             }
