@@ -402,11 +402,11 @@ fn is_curved_and_short(system: &System, rows: &Rows) -> bool {
 }
 
 /// Returns true if places may yield to a row that says nothing new where the linear ones hold: only where some
-/// that tie three slots or more stand among curved ones, and everything has a value to stay at.
+/// that tie slots stand among curved ones, and everything has a value to stay at.
 fn may_imply(system: &System, rows: &Rows) -> bool {
     let is_required = |r: &usize| rows[*r].level == Level::Required;
     let required = || (0..rows.len()).filter(is_required);
-    let ties = |r: usize| !rows[r].curved && rows.kernel(r).is_some() && rows.columns(r).len() > 2;
+    let ties = |r: usize| !rows[r].curved && rows.kernel(r).is_some() && rows.columns(r).len() > 1;
     system.slots.iter().all(|s| s.stay != Stay::Free)
         && required().any(ties)
         && required().filter(|&r| rows[r].curved).nth(1).is_some()
