@@ -336,10 +336,6 @@ impl Followed {
         let mut leans = written.to_vec();
         leans.extend(within_bounds(modes, mode, plan, x0, written));
         drag.lean(plan, &leans);
-        if plan.asks_host() && *mode != modes.first(x0, x0) {
-            // what the host told holds at the press, but may do so in the mode of that
-            drag.run_anew();
-        }
         Self { drag, wish: 0, since: 1 }
     }
 }
@@ -465,18 +461,23 @@ impl ModalDrag {
         let Hands { planner, model, values, host } = hands;
         let texts = values.texts.clone();
         let leans = leans(*model, task);
-        let first = Mode { active: Default::default(), ..mode.clone() };
-        let mut attempt = |mode: &Mode| {
-            let (_, plan) = planner.in_mode(modes, mode);
+        let standing = &*mode;
+        let first = Mode { active: Default::default(), ..standing.clone() };
+        let mut attempt = |attempted: &Mode| {
+            let (_, plan) = planner.in_mode(modes, attempted);
             values.texts.clone_from(&texts);
             let mut adapter = Adapter { planner, model: *model, task, values, host: *host };
-            let begin = || Followed::begin(modes, mode, &plan, x0, inputs, &leans);
-            let follow = followed.entry(mode.clone()).or_insert_with(begin);
+            let begin = || Followed::begin(modes, attempted, &plan, x0, inputs, &leans);
+            let follow = followed.entry(attempted.clone()).or_insert_with(begin);
             if follow.wish + 1 < *wishes {
                 follow.drag.stand_at(now);
                 follow.since = *wishes;
             }
             follow.wish = *wishes;
+            if plan.asks_host() && attempted != standing {
+                // the host's texts are those of the mode that stands
+                follow.drag.run_anew();
+            }
             let before = follow.drag.spent();
             follow.drag.end_at(planner.left().map(|left| before + left));
             let outcome = follow.drag.follow(&plan, targets, &mut adapter);

@@ -6,7 +6,7 @@ use crate::holds::fails;
 use crate::host::{Failure, Host};
 use crate::modal::{self, Stands};
 use crate::planner::{Model, Planner};
-use crate::rule::{How, Source};
+use crate::rule::{How, Rule, Source};
 use crate::task::{Course, Origin, Task};
 use crate::whole;
 use base::number::Toward;
@@ -355,6 +355,9 @@ impl solve::Host for Adapter<'_> {
         let Origin::Rule(rule) = self.task.origin(source) else { return true };
         scatter(self.task, values, self.values);
         let rule = self.planner.rules.get(rule);
+        if let Some(holds) = self.holds_in_branch(rule) {
+            return holds;
+        }
         let structure = self.model.structure;
         let patterns = self.planner.plans.patterns();
         let scratch = &mut Scratch::default();
@@ -363,6 +366,26 @@ impl solve::Host for Adapter<'_> {
 }
 
 impl Adapter<'_> {
+    /// Returns true if a rule under a condition holds, whether that is true or not: the mode says that it is, and it
+    /// may hang on what is computed later. Nothing for other rules, and for those that no method of the host makes hold.
+    fn holds_in_branch(&mut self, rule: Rule<'_>) -> Option<bool> {
+        let method = rule.shape.methods.first()?;
+        if rule.shape.when.is_empty() {
+            return None;
+        }
+        let value = |position: u32| self.values.get(rule.slots[position as usize]);
+        match (&method.how, rule.source) {
+            (How::Copy, _) => Some(value(method.targets[0]).same_bits(&value(method.reads[0]))),
+            (How::Host(way), Source::Constraint(c)) => {
+                let constraint = self.model.structure.constraints[c as usize];
+                let written = self.host.compute(constraint, *way, self.values);
+                let stands = |(slot, v): &(SlotId, Value)| self.values.get(*slot).same_bits(v);
+                Some(written.is_ok_and(|all| all.iter().all(stands)))
+            }
+            (How::Host(_) | How::Formulas(_), _) => None,
+        }
+    }
+
     fn write(
         &mut self,
         targets: &[SlotId],

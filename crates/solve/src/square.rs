@@ -532,7 +532,7 @@ impl Square {
                 }
                 None if was_held && damping == 0.0 => break,
                 None if was_held => damping = 0.0,
-                None if branch.is_some() => return Solved::Failed,
+                None if branch.is_some() => return None,
                 None => {
                     damping = (damping * 10.0).max(1e-6);
                     if damping > 1e8 {
