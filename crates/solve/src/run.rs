@@ -409,7 +409,8 @@ impl Drag {
                 self.moved_slice = false;
             }
         }
-        if outcome.is_solved() && now == branch && way.measure_from_press(branch) {
+        let was_measured_anew = !way.frame.anchors.is_empty() && outcome.is_solved();
+        if was_measured_anew && now == branch && way.measure_from_press(branch) {
             // the branch is followed by the measure that it has
             let nearer = way.test_trial(&self.upstream);
             if nearer.is_solved() {
