@@ -351,19 +351,23 @@ impl Routes {
             }
         }
         let mut unlike = self.unlike[route.unlike.range()].iter();
-        let mut others = (0..).zip(&*things).flat_map(|(number, &thing)| {
-            structure.unlike(thing).iter().map(move |&t| (number, class(t)))
-        });
-        if !others.all(|other| unlike.next() == Some(&other)) || unlike.next().is_some() {
+        for (number, &thing) in (0..).zip(&*things) {
+            for &other in structure.unlike(thing) {
+                if unlike.next() != Some(&(number, class(other))) {
+                    return false;
+                }
+            }
+        }
+        if unlike.next().is_some() {
             return false;
         }
         let slot = |n: Reached| structure.slot_of(things[n as usize]);
-        let stored = &self.stored[route.stored.range()];
-        slots.extend(stored.iter().filter_map(|&n| slot(n)));
+        for &n in &self.stored[route.stored.range()] {
+            let Some(slot) = slot(n) else { return false };
+            slots.push(slot);
+        }
         let again = &self.again[route.again.range()];
-        slots.len() == stored.len()
-            && are_distinct(slots)
-            && again.iter().all(|&(n, at)| slot(n) == Some(slots[at as usize]))
+        are_distinct(slots) && again.iter().all(|&(n, at)| slot(n) == Some(slots[at as usize]))
     }
 }
 

@@ -15,6 +15,9 @@ pub(crate) struct Factors {
 /// Factorises `a` (`n` by `n`) in place; `swaps[k]` is the row that was exchanged with row `k`.
 pub(crate) fn factorise(a: &mut [f64], n: usize, swaps: &mut Vec<usize>) -> Factors {
     swaps.clear();
+    if let (2, Some(a)) = (n, a.first_chunk_mut()) {
+        return factorise_two(a, swaps);
+    }
     let a = &mut a[..n * n];
     let mut sign = 1i8;
     let (mut least, mut most) = (f64::INFINITY, 0.0f64);
@@ -50,6 +53,33 @@ pub(crate) fn factorise(a: &mut [f64], n: usize, swaps: &mut Vec<usize>) -> Fact
         }
     }
     Factors { sign, ratio: if n == 0 { 1.0 } else { least / most } }
+}
+
+/// The same of two by two.
+fn factorise_two(a: &mut [f64; 4], swaps: &mut Vec<usize>) -> Factors {
+    const SINGULAR: Factors = Factors { sign: 0, ratio: 0.0 };
+    let is_swapped = a[2].abs() > a[0].abs();
+    if is_swapped {
+        *a = [a[2], a[3], a[0], a[1]];
+    }
+    swaps.push(usize::from(is_swapped));
+    let first = a[0];
+    if first == 0.0 || !first.is_finite() {
+        return SINGULAR;
+    }
+    let factor = a[2] / first;
+    a[2] = factor;
+    if factor != 0.0 {
+        a[3] += -factor * a[1];
+    }
+    swaps.push(1);
+    let second = a[3];
+    if second == 0.0 || !second.is_finite() {
+        return SINGULAR;
+    }
+    let is_negative = is_swapped ^ (first < 0.0) ^ (second < 0.0);
+    let (least, most) = (first.abs().min(second.abs()), first.abs().max(second.abs()));
+    Factors { sign: if is_negative { -1 } else { 1 }, ratio: least / most }
 }
 
 /// Solves with the factors; `b` becomes the solution.

@@ -197,8 +197,13 @@ pub(crate) fn lower(analysis: &Analysis<'_>, blocks: &Blocks) -> Lowered {
 
 /// Returns the first of the relations that make a class of slots one.
 fn told(equalities: &Lists, root: SlotIndex) -> Few {
+    let own = equalities.of(root);
+    let first = &own[..own.len().min(MOST_TOLD)];
+    if first.is_sorted_by(|a, b| a < b) {
+        return first.into();
+    }
     let mut last = None;
-    let own = equalities.of(root).iter().copied();
+    let own = own.iter().copied();
     own.filter(|&r| last.replace(r) != Some(r)).take(MOST_TOLD).collect()
 }
 
@@ -341,15 +346,21 @@ impl Work {
 }
 
 fn reads_of(analysis: &Analysis<'_>, block: Block<'_>, reads: &mut Reads) -> Few {
-    let all = block.rows.iter().flat_map(|&r| analysis.reads_of_row(r)).copied();
     let Reads { list, met } = reads;
     list.clear();
     if block.unknowns.len() < MARKED {
-        list.extend(all.filter(|s| block.unknowns.binary_search(s).is_err()));
+        for &r in block.rows {
+            for &slot in analysis.reads_of_row(r) {
+                if !block.unknowns.contains(&slot) {
+                    list.push(slot);
+                }
+            }
+        }
         list.sort_unstable();
         list.dedup();
         return list[..].into();
     }
+    let all = block.rows.iter().flat_map(|&r| analysis.reads_of_row(r)).copied();
     met.resize(analysis.stated.system.slots.len(), false);
     block.unknowns.iter().for_each(|&s| met[s as usize] = true);
     list.extend(all.filter(|&s| !std::mem::replace(&mut met[s as usize], true)));

@@ -79,9 +79,11 @@ pub(super) const KNOWN: u32 = u32::MAX;
 pub(super) fn positions(problem: &Problem, positions: &mut Vec<u32>) {
     positions.reserve(problem.rows.iter().map(|row| row.arguments.len()).sum());
     if problem.unknowns.len() <= SMALL {
-        let unknown = |s| problem.unknowns.binary_search(s).map_or(KNOWN, |at| at as u32);
         for row in &problem.rows {
-            positions.extend(row.arguments.iter().map(unknown));
+            for slot in &row.arguments {
+                let at = problem.unknowns.iter().position(|unknown| unknown == slot);
+                positions.push(at.map_or(KNOWN, |at| at as u32));
+            }
         }
         return;
     }
