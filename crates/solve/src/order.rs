@@ -48,8 +48,12 @@ impl Blocks {
         let (first_row, first_unknown) = (self.rows.len(), self.unknowns.len());
         self.rows.extend(rows);
         self.unknowns.extend(unknowns);
-        self.rows[first_row..].sort_unstable();
-        self.unknowns[first_unknown..].sort_unstable();
+        if self.rows.len() > first_row + 1 {
+            self.rows[first_row..].sort_unstable();
+        }
+        if self.unknowns.len() > first_unknown + 1 {
+            self.unknowns[first_unknown..].sort_unstable();
+        }
         self.ends.push((self.rows.len() as u32, self.unknowns.len() as u32));
     }
     /// Returns how many there are.
@@ -113,6 +117,92 @@ pub(crate) fn order(incidence: &Incidence<'_>) -> Blocks {
 
 /// No node, no row.
 const NONE: u32 = u32::MAX;
+
+/// The largest block in which it is looked who can be exchanged for whom, round by round.
+const SMALL: usize = 16;
+
+/// For every slot that the plan may write: no row determines it, or it can be exchanged for one that none does.
+/// In: the blocks that rows and the slots that these determine fall into, each after those that it reads. None
+/// where one of them is large.
+pub(crate) fn exchangeable(
+    blocks: &Blocks,
+    rows: &Rows,
+    unknown: &[bool],
+    direction: &Direction,
+) -> Option<Vec<bool>> {
+    let is_free = |(&unknown, row): (&bool, &Option<usize>)| unknown && row.is_none();
+    let mut free: Vec<bool> = unknown.iter().zip(&direction.row_of_slot).map(is_free).collect();
+    for block in blocks.iter() {
+        if block.rows.len() > SMALL {
+            return None;
+        }
+        let mut grows = true;
+        while grows {
+            grows = false;
+            for &r in block.rows {
+                let own = direction.slot_of_row[r]? as usize;
+                if !free[own] && rows.columns(r).iter().any(|e| free[e.0 as usize]) {
+                    free[own] = true;
+                    grows = block.rows.len() > 1;
+                }
+            }
+        }
+    }
+    Some(free)
+}
+
+/// Splits and orders as [`order`] does, where every row has a slot, no method is written and the blocks without
+/// what is free are known: what is free comes last. None where that takes more.
+pub(crate) fn beside_free(
+    blocks: &Blocks,
+    rows: &Rows,
+    unknown: &[bool],
+    direction: &Direction,
+) -> Option<Blocks> {
+    let free = exchangeable(blocks, rows, unknown, direction)?;
+    let is_free = |r: usize| direction.slot_of_row[r].is_some_and(|s| free[s as usize]);
+    let mut union = Union::new(rows.len());
+    let mut home = vec![NONE; unknown.len()];
+    let mut all = Blocks::with_room(rows.len(), unknown.len(), blocks.len() + 1);
+    for block in blocks.iter() {
+        for &r in block.rows {
+            let mut shown = 0;
+            for &(slot, _) in rows.columns(r) {
+                shown += usize::from(unknown[slot as usize]);
+                if free[slot as usize] {
+                    match &mut home[slot as usize] {
+                        home if *home == NONE => *home = r as u32,
+                        home => union.unite(*home as usize, r),
+                    }
+                }
+            }
+            // what a row mentions and does not show might be free, or what is free might read it
+            if shown != rows.mentions(r).iter().filter(|s| unknown[**s as usize]).count() {
+                return None;
+            }
+        }
+        if !block.rows.iter().any(|&r| is_free(r)) {
+            all.add(block.rows.iter().copied(), block.unknowns.iter().copied());
+        }
+    }
+    let free_rows = || (0..rows.len()).filter(|&r| is_free(r));
+    let free_slots = || (0..).zip(&home).filter(|(_, home)| **home != NONE).map(|(s, _)| s);
+    let pieces: Vec<usize> = free_rows().filter(|&r| union.find(r) == r).collect();
+    if let [_] = pieces[..] {
+        all.add(free_rows(), free_slots());
+        return Some(all);
+    }
+    let mut piece = |r: usize| pieces.binary_search(&union.find(r)).map_or(0, |at| at as u32);
+    let row_pairs: Vec<(u32, u32)> = free_rows().map(|r| (piece(r), r as u32)).collect();
+    let slot_pairs: Vec<(u32, SlotIndex)> =
+        free_slots().map(|s| (piece(home[s as usize] as usize), s)).collect();
+    let rows_of = Lists::new(pieces.len(), row_pairs.iter().copied());
+    let slots_of = Lists::new(pieces.len(), slot_pairs.iter().copied());
+    for piece in 0..pieces.len() as u32 {
+        all.add(rows_of.of(piece).iter().map(|&r| r as usize), slots_of.of(piece).iter().copied());
+    }
+    Some(all)
+}
 
 /// Unites every piece of the under-determined part; a slot that no row determines finds its `home` there.
 fn unite_free(incidence: &Incidence<'_>, union: &mut Union, home: &mut [u32]) {

@@ -9,8 +9,9 @@
 //! these tie nothing; nor does a row that determines a lone number.
 
 use crate::accept::Acceptance;
-use crate::direct::Direction;
+use crate::direct::{self, Direction};
 use crate::lists::Lists;
+use crate::order;
 use crate::rows::Rows;
 use crate::substitute::Classes;
 use crate::system::{SlotIndex, Stay, System};
@@ -31,7 +32,10 @@ pub(crate) fn tie(
     if !acceptance.accepted.iter().any(may_tie) {
         return false;
     }
-    let free = with_freedom(rows, direction, acceptance);
+    let known = acceptance.matched.as_ref().filter(|_| direct::is_settled(system, acceptance));
+    let free = known
+        .and_then(|m| order::exchangeable(&m.blocks, rows, &acceptance.unknown, direction))
+        .unwrap_or_else(|| with_freedom(rows, direction, acceptance));
     let Acceptance { places, unknown, accepted, .. } = acceptance;
     let place = |slot: SlotIndex| match classes.stay[slot as usize] {
         Stay::Kept { group } => {
