@@ -257,6 +257,7 @@ impl Kernel {
     pub(crate) fn complete(&self) {
         self.second();
         self.stated().for_each(drop);
+        self.shown().for_each(drop);
         for argument in 0..self.arity() as u32 {
             self.solved(argument);
         }

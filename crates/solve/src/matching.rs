@@ -15,7 +15,7 @@ use crate::echelon::{Echelon, Row};
 use crate::lists::Lists;
 use crate::order::{Blocks, strong_components};
 use crate::residue::Residue;
-use crate::rows::Rows;
+use crate::rows::{REGULAR, Rows};
 use crate::sparse::lu::POOR;
 use crate::sparse::pivot::{self, How};
 use crate::sparse::{Lu, Pattern, Symbolic};
@@ -26,8 +26,8 @@ use std::rc::Rc;
 
 /// Up to this many unknowns a block is factorised densely.
 const DENSE: usize = 16;
-/// Pivots smaller than this part of the largest leave the verdict to elimination.
-const REGULAR: f64 = 1e-11;
+/// Up to this many unknowns the columns of a block are found by looking at all.
+const FEW: usize = 4;
 
 /// From so many unknowns on a chain may be too long for doubles to tell.
 const LONG: usize = 100;
@@ -359,14 +359,19 @@ impl<'a> Matcher<'a> {
         columns.extend(block.iter().map(|&r| self.slot_of_row[r as usize]));
         columns.sort_unstable();
         let n = block.len();
-        place.resize(self.row_of_slot.len(), NONE);
-        for (&slot, at) in columns.iter().zip(0..) {
-            place[slot as usize] = at;
+        if n > FEW {
+            place.resize(self.row_of_slot.len(), NONE);
+            for (&slot, at) in columns.iter().zip(0..) {
+                place[slot as usize] = at;
+            }
         }
         let entries = |r: u32| {
             let own = self.rows.columns(r as usize).iter();
-            // what is left of another block does no harm
             let at = |slot: SlotIndex| {
+                if n <= FEW {
+                    return columns.iter().position(|&c| c == slot);
+                }
+                // what is left of another block does no harm
                 let at = place[slot as usize] as usize;
                 (columns.get(at) == Some(&slot)).then_some(at)
             };

@@ -261,7 +261,7 @@ fn plan_stated(stated: Stated) -> Plan {
     let system = &*stated.system;
     let classes = substitute::substitute(&stated);
     let rows = rows::stated_rows(&stated, &classes);
-    let rows = if is_curved_and_short(system, &rows) {
+    let rows = if may_imply_somewhere(system, &classes, &rows) {
         rows
     } else {
         match peel::peel(system, &classes, rows) {
@@ -330,14 +330,10 @@ fn plan_peeled(stated: Stated, classes: &Classes, peeled: Peeled) -> Plan {
 
 /// Lowers rows that are solved one after the other.
 fn lower_peeled(stated: &Stated, classes: &Classes, peeled: &Peeled) -> Lowered {
-    let Peeled { rows, order, .. } = peeled;
-    let mut blocks = Blocks::with_room(order.len(), order.len(), order.len());
-    for &solved in order {
-        blocks.add([solved.row as usize].into_iter(), [peeled.target(solved)].into_iter());
-    }
     let (acceptance, direction, method_reads) = Default::default();
+    let rows = &peeled.rows;
     let analysis = Analysis { stated, classes, rows, acceptance, direction, method_reads };
-    lower::lower(&analysis, &blocks)
+    lower::lower(&analysis, &peeled.blocks())
 }
 
 fn plan_of(stated: Stated, classes: &Classes, report: Report, lowered: Lowered) -> Plan {
@@ -391,14 +387,18 @@ fn plan_of(stated: Stated, classes: &Classes, report: Report, lowered: Lowered) 
     }
 }
 
-/// Returns true if it is looked at whether places may yield to rows that say nothing new.
-fn is_curved_and_short(system: &System, rows: &Rows) -> bool {
-    let is_curved = |r: &usize| {
-        rows[*r].level == Level::Required && rows.kernel(*r).is_some_and(|k| !k.is_linear())
+/// Returns true if places may yield to a row that says nothing new, as far as rows without coefficients tell.
+fn may_imply_somewhere(system: &System, classes: &Classes, rows: &Rows) -> bool {
+    let says = |r: &usize, is_linear: bool| {
+        rows[*r].level == Level::Required
+            && rows.kernel(*r).is_some_and(|k| k.is_linear() == is_linear)
     };
+    let moves = |slot: &&SlotIndex| classes.stay[**slot as usize] != Stay::Fixed;
+    let ties = |r: usize| rows.mentions(r).iter().filter(moves).nth(2).is_some();
     rows.len() <= IMPLIED_ROWS
         && system.slots.iter().all(|s| s.stay != Stay::Free)
-        && (0..rows.len()).filter(is_curved).nth(1).is_some()
+        && (0..rows.len()).filter(|r| says(r, false)).nth(1).is_some()
+        && (0..rows.len()).filter(|r| says(r, true)).any(ties)
 }
 
 /// Returns true if places may yield to a row that says nothing new where the linear ones hold: only where some

@@ -4,6 +4,8 @@
 //! an opaque relation). The point is the same for every row, so no value is consulted: a
 //! coefficient is zero there only if it is zero everywhere.
 
+use crate::dense;
+use crate::few::Few;
 use crate::kernel::exact::Exact;
 use crate::kernel::{Form, Kernel};
 use crate::lanes::{LaneScratch, Out, Outs, WIDE};
@@ -34,6 +36,9 @@ pub(crate) struct Row {
     mentions: Span,
     columns: Span,
 }
+
+/// Pivots smaller than this part of the largest may be a matter of rounding.
+pub(crate) const REGULAR: f64 = 1e-11;
 
 /// The kernel of an opaque row.
 const OPAQUE: u32 = u32::MAX;
@@ -94,16 +99,14 @@ impl Rows {
     /// coordinates it is of the first degree, as that of a point at equal distances from two others is.
     pub(crate) fn is_line(&self, row: usize, place: &[SlotIndex]) -> bool {
         let mentions = self.mentions(row);
-        let is_own = |a: &u32| place.contains(&mentions[*a as usize]);
+        let own: Few =
+            (0..).zip(mentions).filter(|m| place.contains(m.1)).map(|m: (u32, _)| m.0).collect();
         self.kernel(row).is_some_and(|kernel| {
-            let mut of_own = kernel.entries.iter().filter(|entry| is_own(&entry.argument));
-            if !of_own.any(|entry| entry.depends.iter().any(is_own)) {
+            let mut of_own = kernel.entries.iter().filter(|entry| own.contains(&entry.argument));
+            if !of_own.any(|entry| entry.depends.iter().any(|a| own.contains(a))) {
                 return true;
             }
-            let mut own = (0..mentions.len() as u32).filter(is_own);
-            let (Some(first), Some(second), None) = (own.next(), own.next(), own.next()) else {
-                return false;
-            };
+            let [first, second] = own[..] else { return false };
             kernel.curve([first, second]).is_some_and(|c| c.form == Form::Line)
         })
     }
@@ -319,6 +322,37 @@ fn slopes(rows: &Rows, slots: usize) -> (Point, Vec<f64>) {
     best.1
 }
 
+/// Returns true if every two of these rows are independent at a generic point, each two with the two slots that
+/// they are to determine.
+pub(crate) fn are_independent(rows: &Rows, slots: usize, twos: &[[(u32, SlotIndex); 2]]) -> bool {
+    if twos.is_empty() {
+        return true;
+    }
+    let (_, slopes) = slopes(rows, slots);
+    let counts = (0..rows.len()).map(|r| rows.kernel(r).map_or(0, |k| k.entries.len()));
+    let first: Vec<usize> =
+        counts.scan(0, |next, count| Some(std::mem::replace(next, *next + count))).collect();
+    let mut swaps = Vec::new();
+    twos.iter().all(|two| {
+        let mut matrix = [0.0; 4];
+        for (i, &(row, _)) in two.iter().enumerate() {
+            let mentions = rows.mentions(row as usize);
+            let Some(kernel) = rows.kernel(row as usize) else { return false };
+            let slopes = &slopes[first[row as usize]..][..kernel.entries.len()];
+            let largest = slopes.iter().fold(0.0f64, |m, slope| m.max(slope.abs()));
+            for (entry, slope) in kernel.entries.iter().zip(slopes) {
+                let slot = mentions[entry.argument as usize];
+                if let Some(at) = two.iter().position(|own| own.1 == slot) {
+                    matrix[2 * i + at] = slope / largest;
+                }
+            }
+        }
+        // one that is not a number is not regular
+        let factors = dense::factorise(&mut matrix, 2, &mut swaps);
+        factors.sign != 0 && factors.ratio > REGULAR
+    })
+}
+
 /// What rows come to at a point.
 struct Evaluated {
     /// For every row, where its derivatives begin.
@@ -390,6 +424,7 @@ fn evaluate_kernel(
 fn set_columns(system: &System, classes: &Classes, rows: &mut Rows, slopes: &[f64]) {
     let mut columns: Vec<Entry> = Vec::with_capacity(slopes.len());
     let mut slopes = slopes.iter();
+    let mut may: Vec<bool> = Vec::new();
     let mut next = 0;
     while next < rows.len() {
         let relation_index = rows[next].relation;
@@ -401,13 +436,14 @@ fn set_columns(system: &System, classes: &Classes, rows: &mut Rows, slopes: &[f6
             let mut curved = false;
             if let Some(kernel) = rows.kernel(next) {
                 let mentions = rows.mentions(next);
+                may.clear();
+                may.extend(mentions.iter().map(|&slot| writable.allows(slot)));
                 for (entry, &value) in kernel.entries.iter().zip(slopes.by_ref()) {
-                    let slot = mentions[entry.argument as usize];
-                    if !writable.allows(slot) {
+                    if !may[entry.argument as usize] {
                         continue;
                     }
-                    let may = |&a: &u32| writable.allows(mentions[a as usize]);
-                    curved = curved || entry.depends.iter().any(may);
+                    let slot = mentions[entry.argument as usize];
+                    curved = curved || entry.depends.iter().any(|&a| may[a as usize]);
                     let by_branch = value == 0.0 && entry.branches;
                     let value = if value.is_finite() && !by_branch {
                         value
@@ -420,7 +456,9 @@ fn set_columns(system: &System, classes: &Classes, rows: &mut Rows, slopes: &[f6
                 }
             }
             let own = &mut columns[start..];
-            own.sort_unstable_by_key(|e| e.0);
+            if !own.is_sorted_by_key(|e| e.0) {
+                own.sort_unstable_by_key(|e| e.0);
+            }
             let largest = own.iter().fold(0.0f64, |m, e| m.max(e.1.abs()));
             own.iter_mut().for_each(|e| e.1 /= largest);
             let len = (columns.len() - start) as u32;
@@ -477,20 +515,29 @@ struct Writable<'a> {
     classes: &'a Classes,
     /// True if these are the targets of its methods alone.
     only_targets: bool,
+    /// True if these are all that may move.
+    is_any: bool,
+    /// What it never writes.
+    reads: &'a [SlotIndex],
 }
 
 impl<'a> Writable<'a> {
     fn of(relation: &'a Relation, classes: &'a Classes) -> Self {
         let written = !relation.derived && !relation.methods.is_empty();
         let opaque = matches!(relation.body, RelationBody::Opaque { .. });
-        Self { relation, classes, only_targets: written || opaque }
+        let only_targets = written || opaque;
+        let reads = &relation.reads[..];
+        let is_any = !only_targets && reads.is_empty();
+        Self { relation, classes, only_targets, is_any, reads }
     }
     fn allows(&self, slot: SlotIndex) -> bool {
+        self.classes.stay[slot as usize] != Stay::Fixed && (self.is_any || self.is_named(slot))
+    }
+    /// Returns true if the relation does not say that it never writes a slot.
+    fn is_named(&self, slot: SlotIndex) -> bool {
         let is = |s: &SlotIndex| self.classes.representative[*s as usize] == slot;
         let mut targets = self.relation.methods.iter().flat_map(|m| &m.targets);
-        self.classes.stay[slot as usize] != Stay::Fixed
-            && !self.relation.reads.iter().any(is)
-            && (!self.only_targets || targets.any(is))
+        !self.reads.iter().any(is) && (!self.only_targets || targets.any(is))
     }
 }
 

@@ -1,14 +1,15 @@
 use super::*;
 use crate::deflate::Deflated;
+use crate::direct::Direction;
 use crate::few::Few;
 use crate::pattern::{PatternId, Patterns};
 use crate::peel::{Found, peel};
 use crate::stated::Stated;
 use crate::system::{Level, Relation, RelationBody, Slot};
-use crate::{rows, substitute};
+use crate::{order, rows, substitute};
 use expr::{Arena, ExprId, Var};
 use proptest::prelude::*;
-use std::collections::BTreeSet;
+use std::collections::{BTreeMap, BTreeSet};
 use std::rc::Rc;
 
 /// What a row of a random net says, of three slots.
@@ -198,6 +199,11 @@ impl Net {
     }
 }
 
+/// Returns the rows and unknowns of blocks, in any order.
+fn told(blocks: &Blocks) -> BTreeSet<(Vec<usize>, Vec<u32>)> {
+    blocks.iter().map(|b| (b.rows.to_vec(), b.unknowns.to_vec())).collect()
+}
+
 proptest! {
     #![proptest_config(ProptestConfig::with_cases(400))]
 
@@ -230,19 +236,23 @@ proptest! {
     fn what_is_peeled_is_what_acceptance_finds(
         known in prop::array::uniform3(0u8..3),
         rows in prop::collection::vec(
-            (0u8..5, prop::array::uniform2(0usize..14), 0u8..8, prop::bool::weighted(0.2)), 1..12),
+            (0u8..5, prop::array::uniform2(0usize..14), 0u8..8, prop::array::uniform2(0u8..5)), 1..12),
         again in prop::option::of(0usize..12),
     ) {
         let mut stays: Vec<u8> = known.to_vec();
         stays.extend(rows.iter().map(|_| 4));
-        let slots = |i: usize, reads: [usize; 2]| [reads[0] % (3 + i), reads[1] % (3 + i), 3 + i];
-        let stated = |&(i, (kind, reads, _, soft)): &(usize, (u8, [usize; 2], u8, bool))| {
-            (kind, slots(i, reads), soft)
+        // one and the next may each read what the other is to determine
+        let is_mutual = |i: usize| rows.get(i).is_some_and(|row| row.3[1] < 2 && i.is_multiple_of(2));
+        let slots = |i: usize, reads: [usize; 2]| match i {
+            _ if is_mutual(i) && i + 1 < rows.len() => [reads[0] % (3 + i), 4 + i, 3 + i],
+            1.. if is_mutual(i - 1) => [reads[0] % (2 + i), 2 + i, 3 + i],
+            _ => [reads[0] % (3 + i), reads[1] % (3 + i), 3 + i],
         };
         // declared in any order
-        let mut order: Vec<_> = rows.iter().copied().enumerate().collect();
+        let mut order: Vec<_> = rows.iter().enumerate().collect();
         order.sort_by_key(|(_, row)| row.2);
-        let mut relations: Vec<_> = order.iter().map(stated).collect();
+        let stated = order.iter().map(|&(i, &(kind, reads, _, [soft, _]))| (kind, slots(i, reads), soft == 0));
+        let mut relations: Vec<_> = stated.collect();
         if let Some(again) = again.and_then(|again| relations.get(again).copied()) {
             relations.push(again);
         }
@@ -253,23 +263,51 @@ proptest! {
         let peeled = match peel(system, &net.classes, stated) {
             Found::All(peeled) => peeled,
             Found::Not(_) => {
-                let blocks = found.matched.map_or(0, |matched| matched.blocks.len());
-                prop_assert!(blocks < relations.len(), "some are solved together, or say the same");
+                let is_large = |m: Matched| m.blocks.iter().any(|block| block.rows.len() > 2);
+                prop_assert!(found.matched.is_none_or(is_large), "some are solved together");
                 return Ok(());
             }
         };
         prop_assert_eq!(relations.len(), rows.len(), "two rows say of one slot what it is");
         let matched = found.matched.as_ref().expect("every row has a slot of its own");
+        prop_assert_eq!(told(&peeled.blocks()), told(&matched.blocks));
         let mut is_determined = vec![false; stays.len()];
-        for &solved in &peeled.order {
-            let (row, target) = (solved.row as usize, peeled.target(solved));
-            prop_assert_eq!(matched.slot_of_row[row], Some(target));
-            is_determined[target as usize] = true;
+        for block in peeled.blocks().iter() {
+            block.unknowns.iter().for_each(|&s| is_determined[s as usize] = true);
             let is_there = |&s: &u32| is_determined[s as usize] || stays[s as usize] < 4;
-            prop_assert!(peeled.rows.mentions(row).iter().all(is_there));
+            prop_assert!(block.rows.iter().all(|&r| peeled.rows.mentions(r).iter().all(is_there)));
         }
         let made = super::peeled(system, &net.classes, &peeled.rows, &is_determined);
         prop_assert_eq!(made.yields(), found.yields());
         prop_assert_eq!((made.freedom, made.unknown), (found.freedom, found.unknown));
+    }
+    #[test]
+    fn what_is_free_is_ordered_by_the_blocks_that_acceptance_found(
+        stays in prop::collection::vec(2u8..9, 6..16),
+        relations in prop::collection::vec(
+            (0u8..5, prop::array::uniform3(0usize..16), prop::bool::weighted(0.2)), 1..7),
+    ) {
+        let net = net(&stays, &relations);
+        let found = accept(&net.stated.system, &net.classes, &net.rows);
+        let Some(matched) = found.matched else { return Ok(()) };
+        let Matched { slot_of_row, row_of_slot, blocks } = matched;
+        let direction = Direction { slot_of_row, row_of_slot, ..Direction::default() };
+        let all = order::order(&order::Incidence {
+            rows: &net.rows,
+            taking_part: &found.accepted,
+            unknown: &found.unknown,
+            direction: &direction,
+            method_reads: &BTreeMap::new(),
+            together: &[],
+        });
+        let beside = order::beside_free(&blocks, &net.rows, &found.unknown, &direction);
+        let beside = beside.expect("every row shows what it mentions");
+        prop_assert_eq!(told(&beside), told(&all));
+        let mut is_there: Vec<bool> = found.unknown.iter().map(|unknown| !unknown).collect();
+        for block in beside.iter() {
+            block.unknowns.iter().for_each(|&s| is_there[s as usize] = true);
+            let mut read = block.rows.iter().flat_map(|&r| net.rows.mentions(r));
+            prop_assert!(read.all(|&s| is_there[s as usize]));
+        }
     }
 }

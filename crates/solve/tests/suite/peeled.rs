@@ -1,7 +1,9 @@
-//! Rows that are solved one after the other, whichever way they are declared.
+//! Rows that are solved one after the other or two by two, whichever way they are declared.
 
-use crate::builder::{Sheet, bits, close};
-use solve::{NoHost, SlotIndex};
+use crate::builder::{Sheet, bits, close, lines};
+use base::Dice;
+use solve::{NoHost, Plan, SlotIndex};
+use std::collections::BTreeSet;
 
 const ROWS: usize = 40;
 
@@ -94,4 +96,97 @@ fn of_two_roots_the_one_at_hand_is_followed() {
         assert!(drag.follow(&plan, &[16.0], &mut NoHost).is_solved());
         close(drag.values()[side as usize], 4.0 * sign, 1e-12);
     }
+}
+
+/// Joints that hang by two bars each from two earlier ones, bars that are longer the larger a given number is,
+/// and numbers that follow from these; all rows in any order. Returns the number, and where the joints are.
+fn frame(seed: u64) -> (Sheet, SlotIndex, Vec<[SlotIndex; 2]>) {
+    let mut dice = Dice::new(seed);
+    let mut s = Sheet::default();
+    let given = s.given(1.0);
+    let mut joints = vec![s.anchor(0.0, 0.0), s.anchor(4.0, 0.5)];
+    let mut bars: Vec<([SlotIndex; 2], [SlotIndex; 2], SlotIndex)> = Vec::new();
+    for _ in 0..2 + dice.below(12) {
+        let first = dice.below(joints.len());
+        let second = (first + 1 + dice.below(joints.len() - 1)) % joints.len();
+        let [from, to] = [joints[first], joints[second]];
+        let at = |s: &Sheet, p: [SlotIndex; 2]| p.map(|slot| s.x0[slot as usize]);
+        let ([ax, ay], [bx, by]) = (at(&s, from), at(&s, to));
+        let (along, aside) = (dice.between(0.2, 0.8), dice.between(0.5, 1.5));
+        let place = [
+            ax + along * (bx - ax) - aside * (by - ay),
+            ay + along * (by - ay) + aside * (bx - ax),
+        ];
+        let joint = s.place(place[0], place[1]);
+        for other in [from, to] {
+            let [ox, oy] = at(&s, other);
+            let [dx, dy] = [place[0] - ox, place[1] - oy];
+            let length = (dx * dx + dy * dy).sqrt();
+            let bar = s.kept(length);
+            bars.push((other, joint, bar));
+        }
+        joints.push(joint);
+    }
+    dice.shuffle(&mut bars);
+    for &(from, to, bar) in &bars {
+        let length = s.x0[bar as usize];
+        let distance = s.distance(from, to);
+        let (own, number, rest) = (s.v(bar), s.v(given), s.c(length - 1.0));
+        let stated = s.add(number, rest);
+        for (left, right) in if dice.below(2) == 0 {
+            [(distance, own), (own, stated)]
+        } else {
+            [(own, stated), (distance, own)]
+        } {
+            s.require(left, right);
+        }
+    }
+    (s, given, joints)
+}
+
+/// What every step does, but for those that write one of these.
+fn steps(plan: &Plan, without: &[SlotIndex]) -> BTreeSet<String> {
+    let others = plan.steps().iter().filter(|s| !s.targets.iter().any(|t| without.contains(t)));
+    let told =
+        |s: &solve::Step| format!("{:?} {:?} {:?} {:?}", s.kind, s.targets, s.reads, s.relations);
+    others.map(told).collect()
+}
+
+#[test]
+fn what_goes_two_by_two_is_planned_as_it_is_beside_what_does_not() {
+    for seed in 0..60 {
+        let (s, given, joints) = frame(seed);
+        let plan = s.plan();
+        assert_eq!(plan.step_count(), 3 * (joints.len() - 2), "{}", lines(&plan));
+        let (mut beside, ..) = frame(seed);
+        // one row with two slots left: nothing goes one after the other to its end
+        let free = [beside.kept(9.0), beside.kept(3.0)];
+        let [square, root] = free.map(|slot| beside.v(slot));
+        let product = beside.mul(root, root);
+        beside.require(square, product);
+        let other = beside.plan();
+        assert_eq!(steps(&plan, &free), steps(&other, &free), "seed {seed}");
+        assert_eq!((plan.report.freedom, other.report.freedom), (0, 1));
+        assert!(plan.report.rejected.is_empty() && other.report.rejected.is_empty());
+        for value in [1.0, 1.01, 0.97] {
+            let (came, outcome, _) = s.set(&[(given, value)]);
+            let (came_too, outcome_too, _) = beside.set(&[(given, value)]);
+            assert_eq!(outcome.is_solved(), outcome_too.is_solved(), "seed {seed}: {outcome:?}");
+            assert_eq!(bits(&came), bits(&came_too[..came.len()]), "seed {seed}");
+        }
+    }
+}
+
+#[test]
+fn two_rows_that_say_the_same_of_a_place_do_not_determine_it() {
+    let mut s = Sheet::default();
+    let (anchor, place) = (s.anchor(0.0, 0.0), s.place(3.0, 4.0));
+    let lengths = [s.fixed(5.0), s.fixed(5.0)];
+    for length in lengths {
+        let (distance, length) = (s.distance(anchor, place), s.v(length));
+        s.require(distance, length);
+    }
+    let plan = s.plan();
+    assert_eq!(plan.report.rejected.len(), 1, "{}", lines(&plan));
+    assert_eq!(plan.report.freedom, 1);
 }
