@@ -329,12 +329,16 @@ impl<'s> Making<'s> {
         let mut latest: (Option<Primitive>, u16) = (None, 0);
         let mut groups = 0;
         let mut system = System::default();
-        system.slots.reserve(component.slots().len());
         let rules = component.rules();
-        system.relations.reserve(rules.len());
-        system.equations.reserve(rules.len());
-        let mentioned = rules.iter().map(|&r| setting.rules.get(r).slots.len()).sum();
-        system.arguments.reserve(mentioned);
+        let mentioned: usize = rules.iter().map(|&r| setting.rules.get(r).slots.len()).sum();
+        // what wishes add has room too, so that nothing is moved for the last few
+        let wishes = setting.wishes;
+        let coordinates: usize = wishes.iter().map(|w| w.formulas.len()).sum();
+        let wished = wishes.iter().flat_map(|w| &w.formulas).map(|f| f.slots.len() + 1);
+        system.slots.reserve(component.slots().len() + coordinates);
+        system.relations.reserve(rules.len() + wishes.len());
+        system.equations.reserve(rules.len() + coordinates);
+        system.arguments.reserve(mentioned + wished.sum::<usize>());
         for &slot in component.slots() {
             let s = &setting.structure.slots[slot];
             let stay = match (setting.holding)(slot) {
@@ -380,7 +384,7 @@ impl<'s> Making<'s> {
             conditional: Conditional { system, ..Conditional::default() },
             holds: Vec::new(),
             targets: Vec::new(),
-            relations: Vec::with_capacity(rules.len()),
+            relations: Vec::with_capacity(rules.len() + wishes.len()),
         }
     }
 
