@@ -192,71 +192,96 @@ fn order(
         return None;
     }
     let rows_of = Lists::new(classes.stay.len(), pairs.iter().copied());
-    let with =
-        |count| (0..).zip(&left).filter(move |l: &(u32, &Left)| l.1.count == count).map(|l| l.0);
     let mut next: Vec<u32> = Vec::with_capacity(rows.len());
-    next.extend(with(1));
-    let mut twos: Vec<u32> = with(2).collect();
+    next.extend((0..).zip(&left).filter(|(_, left)| left.count == 1).map(|(r, _)| r));
+    // what is determined is open again
+    let is_determined = is_open;
+    let order = Vec::with_capacity(rows.len());
+    let mut peeling = Peeling { rows, rows_of, left, is_determined, next, twos: None, order };
     let (mut done, mut looked) = (0, 0);
-    let mut order: Vec<Solved> = Vec::with_capacity(rows.len());
-    let mut found: Vec<(u32, SlotIndex)> = Vec::with_capacity(2);
-    while order.len() < rows.len() {
-        found.clear();
-        if let Some(&row) = next.get(done) {
+    while peeling.order.len() < rows.len() {
+        if let Some(&row) = peeling.next.get(done) {
             done += 1;
-            let Left { count: 1, slots: slot } = left[row as usize] else { return None };
-            found.push((row, slot));
-        } else {
-            let row = *twos.get(looked)?;
-            looked += 1;
-            // what is determined is open again
-            let is_left = |slot: SlotIndex| !is_open[slot as usize] && !rows_of.of(slot).is_empty();
-            let two = two_alike(row, &left, &rows_of, rows.mentions(row as usize), &is_left);
-            found.extend(two.into_iter().flatten());
+            let Left { count: 1, slots: slot } = peeling.left[row as usize] else { return None };
+            peeling.determine(row, slot, false)?;
+            peeling.release(slot);
+            continue;
         }
-        let is_two = found.len() > 1;
-        for (at, &(row, slot)) in found.iter().enumerate() {
-            let argument = rows.mentions(row as usize).iter().position(|&s| s == slot)? as u32;
-            order.push(Solved { row, argument, is_first_of_two: is_two && at == 0 });
-            left[row as usize].count = 0;
-            is_open[slot as usize] = true;
+        let row = *peeling.twos().get(looked)?;
+        looked += 1;
+        if let Some([first, second]) = peeling.two_alike(row) {
+            peeling.determine(first.0, first.1, true)?;
+            peeling.determine(second.0, second.1, false)?;
+            [first, second].iter().for_each(|two| peeling.release(two.1));
         }
-        for &(_, slot) in &found {
-            for &r in rows_of.of(slot) {
-                let left = &mut left[r as usize];
-                if left.count > 0 {
-                    *left = Left { count: left.count - 1, slots: left.slots ^ slot };
-                    match left.count {
-                        1 => next.push(r),
-                        2 => twos.push(r),
-                        _ => {}
-                    }
-                }
+    }
+    Some(peeling.order)
+}
+
+/// Rows that are being put in order.
+struct Peeling<'a> {
+    rows: &'a Rows,
+    /// For every slot, the rows that may be solved for it.
+    rows_of: Lists,
+    left: Vec<Left>,
+    is_determined: Vec<bool>,
+    /// Rows that have one slot left, in order.
+    next: Vec<u32>,
+    /// Rows that came to have two, once somebody has asked for them.
+    twos: Option<Vec<u32>>,
+    order: Vec<Solved>,
+}
+
+impl Peeling<'_> {
+    /// Puts a row next, for one of its slots.
+    fn determine(&mut self, row: u32, slot: SlotIndex, is_first_of_two: bool) -> Option<()> {
+        let mentions = self.rows.mentions(row as usize);
+        let argument = mentions.iter().position(|&s| s == slot)? as u32;
+        self.order.push(Solved { row, argument, is_first_of_two });
+        self.left[row as usize].count = 0;
+        self.is_determined[slot as usize] = true;
+        Some(())
+    }
+    /// Takes a slot that is determined from the rows that are left.
+    fn release(&mut self, slot: SlotIndex) {
+        for &r in self.rows_of.of(slot) {
+            let left = &mut self.left[r as usize];
+            if left.count == 0 {
+                continue;
+            }
+            *left = Left { count: left.count - 1, slots: left.slots ^ slot };
+            match left.count {
+                1 => self.next.push(r),
+                2 => self.twos.iter_mut().for_each(|twos| twos.push(r)),
+                _ => {}
             }
         }
     }
-    Some(order)
-}
-
-/// Finds another row with the same two slots left as this one has, if it still has two: both, each with one of
-/// the slots.
-fn two_alike(
-    row: u32,
-    left: &[Left],
-    rows_of: &Lists,
-    mentions: &[SlotIndex],
-    is_left: &dyn Fn(SlotIndex) -> bool,
-) -> Option<[(u32, SlotIndex); 2]> {
-    let own = left[row as usize];
-    let with = |slot: SlotIndex| {
-        // many rows may speak of one of them
-        let pair = [slot, slot ^ own.slots].map(|s| rows_of.of(s));
-        let least = pair.into_iter().min_by_key(|rows| rows.len())?;
-        let is_alike = |r: &&u32| **r != row && left[**r as usize] == own;
-        let other = least.iter().find(is_alike).filter(|_| least.contains(&row))?;
-        Some([(row, slot), (*other, slot ^ own.slots)])
-    };
-    let may_be = |&slot: &SlotIndex| is_left(slot) && mentions.contains(&(slot ^ own.slots));
-    let slots = || mentions.iter().copied();
-    (own.count == 2).then(|| slots().filter(may_be).find_map(with)).flatten()
+    /// Returns the rows that have, or had, two slots left.
+    fn twos(&mut self) -> &[u32] {
+        let left = &self.left;
+        let all = || (0..).zip(left).filter(|(_, left)| left.count == 2).map(|(r, _)| r).collect();
+        self.twos.get_or_insert_with(all)
+    }
+    /// Finds another row with the same two slots left as this one has, if it still has two: both, each with
+    /// one of the slots.
+    fn two_alike(&self, row: u32) -> Option<[(u32, SlotIndex); 2]> {
+        let Self { rows, rows_of, left, is_determined, .. } = self;
+        let own = left[row as usize];
+        let mentions = rows.mentions(row as usize);
+        let may_be = |&slot: &SlotIndex| {
+            let is_left = !is_determined[slot as usize] && !rows_of.of(slot).is_empty();
+            is_left && mentions.contains(&(slot ^ own.slots))
+        };
+        let with = |slot: SlotIndex| {
+            // many rows may speak of one of them
+            let pair = [slot, slot ^ own.slots].map(|s| rows_of.of(s));
+            let least = pair.into_iter().min_by_key(|rows| rows.len())?;
+            let is_alike = |r: &&u32| **r != row && left[**r as usize] == own;
+            let other = least.iter().find(is_alike).filter(|_| least.contains(&row))?;
+            Some([(row, slot), (*other, slot ^ own.slots)])
+        };
+        let slots = || mentions.iter().copied();
+        (own.count == 2).then(|| slots().filter(may_be).find_map(with)).flatten()
+    }
 }
