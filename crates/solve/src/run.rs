@@ -8,11 +8,12 @@
 mod anchors;
 mod parts;
 pub(crate) mod start;
+mod way;
 
 pub use parts::{PATIENCE, are_continuous};
 
 use crate::attempt::others::Other;
-use crate::attempt::{Approach, Attempt, Buffers, Failure, Frame, Held, Motion, Part};
+use crate::attempt::{Attempt, Buffers, Failure, Frame, Held, Motion, Part};
 use crate::fork::{self, Lean};
 use crate::lower::Program;
 use crate::outcome::{Host, Outcome, Reason, Status, Unmet};
@@ -20,25 +21,12 @@ use crate::plan::Plan;
 use crate::search::{Puzzle, Verdict};
 use crate::slice::Slice;
 use crate::square::{Side, Trust};
-use crate::system::{Level, SlotIndex, Stay};
-use crate::test::{Failing, Tests};
+use crate::system::{SlotIndex, Stay};
 use parts::Dragged;
 use start::{required_rows_held, start};
 use std::cell::Cell;
-use std::ops::Range;
 use std::rc::Rc;
-
-/// The first stride of a walk, and the shortest, as parts of the whole way.
-const LONGEST: f64 = 0.5;
-const SHORTEST: f64 = 1e-7;
-/// How far a stride over a crest goes, as a part of what is left of the way, and how far what it finds may lie off,
-/// in parts of the extent.
-const CREST: f64 = 1e-3;
-const NEAR: f64 = 0.1;
-/// What a stride costs for every slot, in multiplications.
-const STRIDE: usize = 64;
-/// How many strides are tried before a way is given up.
-const STRIDES: usize = 600;
+use way::Way;
 
 /// Reusable storage for runs. One serves any number of plans, one after the other.
 #[derive(Clone, Debug, Default)]
@@ -456,272 +444,6 @@ impl Failure {
             | Reason::NotDecided { .. }
             | Reason::Spent
             | Reason::Conflict => Reason::Limit { fraction },
-        }
-    }
-}
-
-/// The way from one state to another.
-struct Way<'a> {
-    plan: &'a Plan,
-    frame: &'a mut Frame,
-    buffers: &'a mut Buffers,
-    host: &'a mut dyn Host,
-    /// Where attempts put their values.
-    trial: &'a mut Vec<f64>,
-    part: Part<'a>,
-    /// A walk ends where it stands when so much was spent.
-    until: u64,
-}
-
-impl Way<'_> {
-    /// Goes from `last` to where the known slots are as in `goal`; the solution is put in `values`.
-    fn go(
-        &mut self,
-        last: &mut [f64],
-        goal: &[f64],
-        values: &mut [f64],
-        trust: Trust,
-    ) -> Result<(), Reason> {
-        let is_rough = trust == Trust::Any && self.plan.has_large_core;
-        self.buffers.square.is_hasty = is_rough;
-        let mut direct = self.direct(last, goal, trust);
-        self.buffers.square.is_hasty = false;
-        if is_rough && direct.is_err() {
-            // what a large block finds alone by small steps lies farther off than what all rows find together
-            if self.all_at_once(last, goal) {
-                values.copy_from_slice(self.trial);
-                return Ok(());
-            }
-            direct = self.direct(last, goal, trust);
-        }
-        let failure = match direct {
-            Ok(()) => {
-                values.copy_from_slice(self.trial);
-                // on another root a surplus row may hold
-                if trust != Trust::Branch && self.is_broken() && self.search(last, goal).is_ok() {
-                    values.copy_from_slice(self.trial);
-                }
-                return Ok(());
-            }
-            Err(failure) => failure,
-        };
-        let fraction = match trust {
-            Trust::Branch => self.walk_on(last, goal, trust),
-            Trust::Any | Trust::Leap => 0.0,
-        };
-        if fraction == 1.0 {
-            let is_nearer = self.measure_from_press(last);
-            values.copy_from_slice(if is_nearer { self.trial } else { last });
-            return Ok(());
-        }
-        let arrived = match self.approach(last, goal, &failure) {
-            Ok(()) => Ok(()),
-            Err(_) if trust == Trust::Branch => {
-                let x0 = self.frame.x0.clone();
-                self.same_orientation(&x0, goal, 1.0)
-                    .then_some(())
-                    .ok_or_else(|| failure.at(fraction))
-            }
-            Err(_) => self.search(last, goal).map_err(|failure| failure.reason),
-        };
-        arrived.map(|()| values.copy_from_slice(self.trial))
-    }
-
-    /// One stride.
-    fn direct(&mut self, last: &[f64], goal: &[f64], trust: Trust) -> Result<(), Failure> {
-        self.stride(last, goal, 1.0, trust, &Approach::Nowhere)
-    }
-
-    fn stride(
-        &mut self,
-        last: &[f64],
-        goal: &[f64],
-        part: f64,
-        trust: Trust,
-        approach: &Approach,
-    ) -> Result<(), Failure> {
-        self.set_out(last, goal, part);
-        self.buffers.work.spend(STRIDE * self.trial.len());
-        let Self { plan, part, .. } = *self;
-        let attempt = Attempt { plan, frame: self.frame, last, trust, part };
-        attempt.run(self.trial, approach, self.buffers, self.host)
-    }
-
-    /// Puts the last state and the known slots, that part of the way on, where attempts run.
-    fn set_out(&mut self, last: &[f64], goal: &[f64], part: f64) {
-        self.trial.clear();
-        self.trial.extend_from_slice(last);
-        let mut move_known = |i: usize| {
-            if goal[i].to_bits() != last[i].to_bits() {
-                self.trial[i] =
-                    if part == 1.0 { goal[i] } else { last[i] + (goal[i] - last[i]) * part };
-            }
-        };
-        match self.part {
-            Part::Whole => (0..goal.len())
-                .filter(|&i| self.plan.slots()[i].stay == Stay::Fixed)
-                .for_each(&mut move_known),
-            Part::Downstream(slice) => {
-                slice.inputs.iter().for_each(|&slot| move_known(slot as usize));
-            }
-        }
-    }
-
-    /// Many strides, each as long as the branch allows, the first and the shortest so long; returns the part
-    /// that was gone.
-    fn walk(&mut self, last: &mut [f64], goal: &[f64], trust: Trust, strides: Range<f64>) -> f64 {
-        let mut gone = 0.0;
-        let mut length = strides.start;
-        for _ in 0..STRIDES {
-            if self.buffers.work.spent() > self.until || self.buffers.work.is_spent() {
-                break;
-            }
-            let part = if gone + length >= 1.0 { 1.0 } else { length / (1.0 - gone) };
-            if self.stride(last, goal, part, trust, &Approach::Nowhere).is_ok() {
-                last.copy_from_slice(self.trial);
-                if part == 1.0 {
-                    return 1.0;
-                }
-                gone += length;
-                length *= 2.0;
-            } else {
-                length = length.min(1.0 - gone) * 0.5;
-                if length < strides.end {
-                    let part = CREST * (1.0 - gone);
-                    if trust != Trust::Branch || !self.crosses(last, goal) {
-                        break;
-                    }
-                    last.copy_from_slice(self.trial);
-                    gone += part;
-                    length = part;
-                }
-            }
-        }
-        gone
-    }
-
-    /// Goes a little on over a place where a row has no slope, as `q |q|` has none at nothing, but no branch ends.
-    fn crosses(&mut self, last: &[f64], goal: &[f64]) -> bool {
-        self.same_orientation(last, goal, CREST) && {
-            let near = |&t: &SlotIndex| {
-                let t = t as usize;
-                (self.trial[t] - last[t]).abs() <= NEAR * self.frame.scales[t]
-            };
-            self.plan.branching().iter().flat_map(|step| &step.targets).all(near)
-        }
-    }
-
-    /// Comes as near to soft wishes as the hard rows allow, from the limit of the branch.
-    fn approach(&mut self, limit: &[f64], goal: &[f64], failure: &Failure) -> Result<(), Failure> {
-        let mut failure = failure.clone();
-        let mut regions = Vec::new();
-        loop {
-            let region = failure.region;
-            let possible = self.plan.regions().get(region as usize).is_some_and(|r| r.can_approach);
-            if !possible || regions.contains(&region) {
-                return Err(failure);
-            }
-            regions.push(region);
-            let approach = Approach::In(regions.clone());
-            match self.stride(limit, goal, 1.0, Trust::Any, &approach) {
-                Ok(()) => return Ok(()),
-                Err(next) => failure = next,
-            }
-        }
-    }
-
-    /// One stride, going back to other roots where a step has no solution.
-    fn search(&mut self, last: &[f64], goal: &[f64]) -> Result<(), Failure> {
-        self.set_out(last, goal, 1.0);
-        let Self { plan, part, .. } = *self;
-        let attempt = Attempt { plan, frame: self.frame, last, trust: Trust::Any, part };
-        attempt.search(self.trial, self.buffers, self.host)
-    }
-
-    /// One stride, from where all rows together err least; returns true if everything then holds.
-    fn all_at_once(&mut self, last: &[f64], goal: &[f64]) -> bool {
-        self.set_out(last, goal, 1.0);
-        let Self { plan, part, .. } = *self;
-        let attempt = Attempt { plan, frame: self.frame, last, trust: Trust::Any, part };
-        attempt.run_from_near(self.trial, self.buffers, self.host)
-    }
-
-    /// Returns true if a required row that depends on others does not hold, but may on another root.
-    fn is_broken(&mut self) -> bool {
-        let Self { plan, part, .. } = *self;
-        let attempt = Attempt { plan, frame: self.frame, last: &[], trust: Trust::Any, part };
-        plan.has_branches && attempt.broken(self.trial, self.buffers).is_some()
-    }
-
-    /// Tries to arrive so far on without a way: allowed where every block lies as it did, if the values told.
-    fn same_orientation(&mut self, from: &[f64], goal: &[f64], part: f64) -> bool {
-        if self.stride(from, goal, part, Trust::Any, &Approach::Nowhere).is_err() {
-            return false;
-        }
-        let Buffers { work, square: scratch, .. } = &mut *self.buffers;
-        let scales = &self.frame.scales;
-        self.plan.steps().iter().all(|step| match &step.program {
-            Program::Square(square) if !square.block.is_linear => {
-                let before = square.orientation(from, scales, work, scratch);
-                let after = square.orientation(self.trial, scales, work, scratch);
-                after != 0 && (before == 0 || before == after)
-            }
-            Program::Measure(_) | Program::Least(_) => false,
-            Program::Square(_)
-            | Program::Inverse(_)
-            | Program::Constant(_)
-            | Program::Copy
-            | Program::Formulas(..)
-            | Program::Host { .. } => true,
-        })
-    }
-
-    fn test_trial(&mut self, upstream: &[Unmet]) -> Outcome {
-        let trial = std::mem::take(self.trial);
-        let outcome = self.test(&trial, upstream);
-        *self.trial = trial;
-        outcome
-    }
-
-    /// Tests the relations, each against its own tolerance; what is not met `upstream` is known.
-    fn test(&mut self, values: &[f64], upstream: &[Unmet]) -> Outcome {
-        let mut unmet = Vec::new();
-        match self.part {
-            Part::Whole => {
-                self.failing(self.plan.tests(), &self.plan.opaque, values, &mut unmet);
-            }
-            Part::Downstream(slice) => {
-                self.failing(&slice.tests, &slice.opaque, values, &mut unmet);
-                unmet.extend(upstream);
-            }
-        }
-        unmet.sort_unstable_by_key(|u| u.relation);
-        let required =
-            |u: &Unmet| self.plan.relations[u.relation as usize].level == Level::Required;
-        let conflict = unmet.iter().any(required);
-        let status = if conflict { Status::Stopped(Reason::Conflict) } else { Status::Solved };
-        Outcome { status, unmet, notes: Vec::new() }
-    }
-
-    /// Adds the relations that do not hold: those of equations, and those that only the host can test.
-    fn failing(&mut self, tests: &Tests, opaque: &[u32], values: &[f64], unmet: &mut Vec<Unmet>) {
-        let mut add = |f: Failing| match unmet.last_mut() {
-            Some(last) if last.relation == f.relation => {
-                if f.error > last.error {
-                    (last.error, last.tolerance) = (f.error, f.tolerance);
-                }
-            }
-            Some(_) | None => {
-                let Failing { relation, error, tolerance, .. } = f;
-                unmet.push(Unmet { relation, error, tolerance });
-            }
-        };
-        let Buffers { work, test, .. } = &mut *self.buffers;
-        self.plan.each_failing(tests, values, work, test, &mut add);
-        for &relation in opaque {
-            if !self.host.holds(self.plan.relations[relation as usize].source, values) {
-                unmet.push(Unmet { relation, error: 1.0, tolerance: 0.0 });
-            }
         }
     }
 }

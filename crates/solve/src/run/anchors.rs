@@ -5,7 +5,7 @@
 //! from there: the state is an anchor. Where the wish comes back past it, the former measure is taken up
 //! again. So what a wish leads to depends on the way there and not on its frames, and the way back is the way out.
 
-use super::{LONGEST, SHORTEST, Way};
+use super::way::{LONGEST, SHORTEST, Way};
 use crate::attempt::{Approach, Buffers, Failure, Frame};
 use crate::fork;
 use crate::least::Least;

@@ -1,0 +1,153 @@
+//! What lies a little aside of a state: where two branches meet, where a row has no slope, and where one holds only
+//! because an unknown has run away.
+
+use super::{Square, SquareScratch, WIDE, normal};
+use crate::block::Workspace;
+use crate::dense;
+use crate::rows::{Point, generic_number};
+
+/// How far aside a row is left that has no slope, in parts of the extent.
+pub(super) const NUDGES: [f64; 2] = [1e-3, -1e-3];
+
+impl Square {
+    /// Returns the direction that the core is free to go in to first order, in scaled unknowns, where the
+    /// Jacobian is so nearly singular that two solutions meet to the tolerance of rules. Nothing where
+    /// values decide between them, where more than one direction is open, and in a core too large for
+    /// dense algebra.
+    pub(crate) fn fork(
+        &self,
+        values: &[f64],
+        scales: &[f64],
+        w: &mut Workspace,
+        s: &mut SquareScratch,
+    ) -> Option<Vec<f64>> {
+        // two solutions that lie nearer than this are solutions where the other one is: their
+        // residual is the square of it
+        const MEET: f64 = 3e-5;
+        if self.block.is_linear || !self.is_dense() {
+            return None;
+        }
+        let n = self.block.core.len();
+        if n == 1 {
+            return self.turns(values, MEET, scales, w, s).then(|| vec![1.0]);
+        }
+        self.block.slopes(values, w, &mut s.local);
+        // a distance has no slope where it is nothing
+        s.local.jacobian.iter_mut().filter(|d| !d.is_finite()).for_each(|d| *d = 0.0);
+        s.own = None;
+        self.weigh(scales, s);
+        if self.factorise(s).ratio > 1e-2 {
+            return None;
+        }
+        let (values, vectors) = dense::eigen(normal(&s.matrix, n), n);
+        let mut order: Vec<usize> = (0..n).collect();
+        order.sort_by(|&a, &b| values[a].total_cmp(&values[b]));
+        let open = MEET * MEET * values[*order.last()?];
+        let is_fork = values[order[0]] <= open && order.get(1).is_none_or(|&i| values[i] > open);
+        is_fork.then(|| vectors[order[0]].clone())
+    }
+
+    /// Returns true if the slope by the one unknown of the core vanishes as near as `meet`, in scaled unknowns: so
+    /// far from there lies the other root.
+    fn turns(
+        &self,
+        values: &[f64],
+        meet: f64,
+        scales: &[f64],
+        w: &mut Workspace,
+        s: &mut SquareScratch,
+    ) -> bool {
+        const ASIDE: f64 = 1e-3;
+        s.weight.clear();
+        s.weight.resize(self.block.height(), 1.0);
+        let mut slope = |by: f64| {
+            let mut at = values.to_vec();
+            self.shift(&mut at, &[1.0], by, scales, w);
+            self.block.slopes(&at, w, &mut s.local);
+            // a distance has no slope where it is nothing
+            s.local.jacobian.iter_mut().filter(|d| !d.is_finite()).for_each(|d| *d = 0.0);
+            s.own = None;
+            self.fill(scales, s);
+            s.matrix[0]
+        };
+        let [here, more, less] = [0.0, ASIDE, -ASIDE].map(&mut slope);
+        here.abs() <= meet * (more - less).abs() / (2.0 * ASIDE)
+    }
+
+    /// Moves the core by so much of a direction in scaled unknowns, and what it defines with it.
+    pub(crate) fn shift(
+        &self,
+        values: &mut [f64],
+        direction: &[f64],
+        by: f64,
+        scales: &[f64],
+        w: &mut Workspace,
+    ) {
+        for (core, d) in direction.iter().enumerate() {
+            let slot = self.slot(core);
+            values[slot] += by * d * scales[slot];
+        }
+        self.block.compute_defined(values, w);
+    }
+
+    /// Moves the core a little aside from where a row has no slope though it does not hold, as `q²` has none at
+    /// nothing, and weighs rows anew there; returns false, with all as it was, where no row has much more of a slope.
+    pub(super) fn leaves_crest(
+        &self,
+        by: f64,
+        values: &mut [f64],
+        scales: &[f64],
+        w: &mut Workspace,
+        s: &mut SquareScratch,
+    ) -> bool {
+        const STEEPER: f64 = 1e3;
+        if !self.is_dense() {
+            return false;
+        }
+        let n = self.block.core.len();
+        let slopes = |s: &mut SquareScratch| -> Vec<f64> {
+            s.weight.iter_mut().for_each(|weight| *weight = 1.0);
+            self.fill(scales, s);
+            let size = |row: &[f64]| row.iter().fold(0.0f64, |most, d| most.max(d.abs()));
+            s.matrix.chunks_exact(n).map(size).collect()
+        };
+        let (start, weight) = (values.to_vec(), s.weight.clone());
+        let here = slopes(s);
+        let direction: Vec<f64> =
+            (0..n as u64).map(|i| generic_number(i, Point::Positive)).collect();
+        self.shift(values, &direction, by, scales, w);
+        self.evaluate(values, w, s);
+        let there = slopes(s);
+        let leaves = here.iter().zip(&there).any(|(here, there)| *there > STEEPER * *here);
+        if leaves && there.iter().all(|slope| slope.is_finite()) {
+            s.own = None;
+            self.weigh(scales, s);
+            return true;
+        }
+        values.copy_from_slice(&start);
+        self.evaluate(values, w, s);
+        s.weight = weight;
+        false
+    }
+
+    /// Returns true if rows hold only because an unknown has gone so far that nothing depends on it any more:
+    /// Newton's step from there is no smaller than what it has come to, as where `1 / r` is to vanish.
+    pub(super) fn runs_away(
+        &self,
+        values: &[f64],
+        scales: &[f64],
+        w: &mut Workspace,
+        s: &mut SquareScratch,
+    ) -> bool {
+        self.block.slopes(values, w, &mut s.local);
+        self.fill(scales, s);
+        if self.factorise(s).ratio == 0.0 {
+            return false;
+        }
+        self.newton(scales, s);
+        (0..s.step.len()).any(|c| {
+            let slot = self.slot(c);
+            s.step[c].abs() > WIDE * values[slot].abs().max(scales[slot])
+        })
+    }
+}
