@@ -61,6 +61,8 @@ pub enum Ended {
 /// How many are tried before conditions act at their bounds too.
 const MOST_WITHOUT_BOUNDS: usize = 256;
 
+/// How many are looked at in which nothing yields that does not in the first, before others are.
+const MOST_SPARING: usize = 128;
 /// So many more modes are tried where one is known, for another in which fewer given numbers yield.
 const MOST_BETTER: usize = 64;
 
@@ -177,7 +179,10 @@ impl Deciding<'_> {
     fn sparing(&mut self, first: &Mode, is_along: bool) -> Decision {
         let yielded = self.try_mode(first).plan.report.yielded.iter().copied().collect();
         self.yielding = Yielding::Known(yielded);
+        let most = self.most;
+        self.most = most.min(MOST_SPARING);
         let mut found = self.look(first);
+        self.most = most;
         if found.ended != Ended::Settled {
             self.yielding = Yielding::Any;
             found = self.look(first);
