@@ -18,6 +18,8 @@ use crate::square::Trust;
 use crate::system::SlotIndex;
 use std::collections::BTreeSet;
 
+/// Up to so many slots what was measured anew is measured from the press again.
+const MOST_MEASURED_TWICE: usize = 200;
 /// The shortest stride where the end of a branch is to be found exactly.
 const EXACT: f64 = 1e-11;
 /// How often least change is measured anew in one drag.
@@ -136,9 +138,10 @@ impl Way<'_> {
     }
 
     /// Where least change was measured anew on the way to a state, measures it from the press again: what is least
-    /// near by, put where attempts run. Returns false where there is none.
+    /// near by, put where attempts run. Returns false where there is none, and in large systems: it costs another
+    /// step of the drag.
     pub(super) fn measure_from_press(&mut self, state: &[f64]) -> bool {
-        if self.frame.anchors.is_empty() {
+        if self.frame.anchors.is_empty() || state.len() > MOST_MEASURED_TWICE {
             return false;
         }
         let anchors = std::mem::take(&mut self.frame.anchors);
