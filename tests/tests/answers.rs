@@ -226,7 +226,7 @@ fn the_checker_has_no_complaint_and_order_plays_no_part() {
     let shown: Vec<&str> = wrong.iter().take(4).map(String::as_str).collect();
     assert!(wrong.is_empty(), "{} of {seeds}\n{}", wrong.len(), shown.join("\n\n"));
     // past a fold least change is measured anew, and its end is no longer the least from where the edit began
-    assert!(250 * anew.len() as u64 <= seeds, "more than had to be has changed in {anew:?}");
+    assert!(500 * anew.len() as u64 <= seeds, "more than had to be has changed in {anew:?}");
     let wanted = seeds as usize * EDITS;
     assert!(2 * made > wanted, "{made} of {wanted} edits were made: too few are tested");
 }

@@ -59,7 +59,7 @@ fn plant(family: Family, name: &str, size: usize, seed: u64, told: &mut Told) {
 
 #[test]
 fn a_planted_contradiction_is_named() {
-    let seeds = if std::env::var_os("THINGLAB_LONG").is_some() { 10 } else { 2 };
+    let seeds = if std::env::var_os("THINGLAB_LONG").is_some() { 40 } else { 2 };
     let mut told = Told::default();
     for (name, family) in FAMILIES {
         for seed in 0..seeds {

@@ -64,12 +64,13 @@ pub(crate) fn complaints(
         own.least(states, &required, &moved);
         own.exchange(states, &required, &moved, connected, &extent);
         let columns: Vec<SlotId> = connected.iter().copied().collect();
-        // what a bound let go of on the way may have gone over to another side
-        let is_bounded = |state| {
-            acting(state, &required, &columns)
-                .is_none_or(|rows| rows.iter().any(|row| row.order == Order::AtMost))
+        // where other bounds act than before, what they let go of may have gone over to another side
+        let bounds = |state| -> Option<Vec<Vec<bool>>> {
+            let rows = acting(state, &required, &columns)?.into_iter();
+            let bounds = rows.filter(|row| row.order == Order::AtMost);
+            Some(bounds.map(|row| row.slopes.iter().map(|x| *x != 0.0).collect()).collect())
         };
-        if ![&before, &after].into_iter().any(is_bounded) {
+        if bounds(&before).is_some_and(|acted| bounds(&after) == Some(acted)) {
             own.orientation([&before, &after], states[1], &required, &moved);
         }
     } else {
