@@ -60,7 +60,7 @@ fn figures(case: &Case) -> Result<[f64; 2], String> {
     let step = least(|| {
         let begin = Instant::now();
         for wish in &way {
-            missed += usize::from(!sketch.follow(&planner, &mut press, &mut values, wish));
+            missed += usize::from(!sketch.follow(&mut planner, &mut press, &mut values, wish));
         }
         (begin.elapsed().as_secs_f64(), way.len())
     });

@@ -71,7 +71,7 @@ impl Sketch {
     /// Follows one step of a drag; returns true if what was wished for was reached.
     pub fn follow(
         &self,
-        planner: &Planner,
+        planner: &mut Planner,
         press: &mut Press,
         values: &mut Values,
         wanted: &[f64],

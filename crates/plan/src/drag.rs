@@ -11,7 +11,7 @@ use crate::run::{
 };
 use crate::task::{Course, Task};
 use kernel::{SlotId, Values};
-use solve::{Puzzle, SlotIndex, Stay, Verdict};
+use solve::{PATIENCE, Puzzle, SlotIndex, Stay, Verdict};
 use std::rc::Rc;
 
 /// What a drag keeps from the press to the release.
@@ -35,6 +35,8 @@ struct Pull {
     /// The texts at the press that the drag may write.
     texts: Texts,
     targets: Vec<f64>,
+    /// True once it was asked which of its rules others imply at the press.
+    knows_implied: bool,
 }
 
 /// How a component follows a drag.
@@ -112,12 +114,13 @@ impl Planner {
     /// Follows the pointer: `wanted` are the targets' numbers, one after the other.
     ///
     /// The report says whether the wish is reached and what stands in its way; what changed is told
-    /// at the release. Cost: what is downstream of the targets.
+    /// at the release. Cost: what is downstream of the targets; that of asking once what is superfluous in
+    /// their components, where a wish is not reached.
     ///
     /// # Panics
     /// If there are not as many numbers as were pressed.
     pub fn drag(
-        &self,
+        &mut self,
         model: Model<'_>,
         press: &mut Press,
         values: &mut Values,
@@ -178,32 +181,39 @@ impl Planner {
             let formula = &aim.wishes[wish as usize].formulas[coordinate as usize];
             x0[known as usize] = formula.value(self.plans.patterns(), &values.numbers);
         }
-        let inputs: Vec<u32> = task.targets().iter().map(|t| t.0).collect();
-        let targets = vec![0.0; inputs.len()];
+        let (way, texts) = Way::of(&task, &x0, model, values);
+        let targets = vec![0.0; task.targets().len()];
+        Pull { task, planned: None, way, x0, texts, targets, knows_implied: false }
+    }
+}
+
+impl Way {
+    /// Begins at the press; returns as well the texts there that the drag may write.
+    fn of(task: &Task, x0: &[f64], model: Model<'_>, values: &Values) -> (Self, Texts) {
+        let inputs: Vec<SlotIndex> = task.targets().iter().map(|t| t.0).collect();
         let slots = task.component.slots();
         let text = |slot: SlotId| (slot, values.texts.get(&slot).cloned());
-        let (way, texts) = match &task.course {
+        match &task.course {
             Course::Plan => {
-                let mut drag = solve::Drag::begin(&task.plan, &x0, &inputs);
-                drag.lean(&task.plan, &leans(model, &task));
+                let mut drag = solve::Drag::begin(&task.plan, x0, &inputs);
+                drag.lean(&task.plan, &leans(model, task));
                 let texts = drag.texts().iter().map(|&t| text(slots[t as usize])).collect();
-                (Way::Plan(Box::new(drag)), texts)
+                (Self::Plan(Box::new(drag)), texts)
             }
             Course::Modes(modes, _) => {
                 let texts = slots.iter().copied().filter(|s| values.texts.contains_key(s));
-                let way = Way::Modes(Box::new(ModalDrag::begin(modes, x0.clone(), inputs)));
+                let way = Self::Modes(Box::new(ModalDrag::begin(modes, x0.to_vec(), inputs)));
                 (way, texts.map(text).collect())
             }
-            Course::Search(puzzle) => (Way::Search(puzzle.clone()), Vec::new()),
-        };
-        Pull { task, planned: None, way, x0, texts, targets }
+            Course::Search(puzzle) => (Self::Search(puzzle.clone()), Vec::new()),
+        }
     }
 }
 
 impl Pull {
     fn follow(
         &mut self,
-        planner: &Planner,
+        planner: &mut Planner,
         model: Model<'_>,
         aim: &Aim,
         values: &mut Values,
@@ -221,6 +231,9 @@ impl Pull {
             Way::Plan(drag) => drag,
             Way::Modes(drag) => {
                 let ran = drag.follow(planner, model, &mut self.task, targets, values, host);
+                if ran.falls_short() && self.leave_implied(planner, model, values, host) {
+                    return self.follow(planner, model, aim, values, host, report);
+                }
                 let ran = self.or_otherwise(planner, model, ran, values, host);
                 return self.note(report, ran);
             }
@@ -255,9 +268,42 @@ impl Pull {
         }
         if !outcome.is_solved() || !outcome.unmet.is_empty() || self.task.whole().is_some() {
             let ran = ran(planner, &self.task, &outcome);
+            if ran.falls_short() && self.leave_implied(planner, model, values, host) {
+                return self.follow(planner, model, aim, values, host, report);
+            }
             let ran = self.or_otherwise(planner, model, ran, values, host);
             self.note(report, ran);
         }
+    }
+
+    /// Begins again at the press with what others imply there left to the test; returns false where that is
+    /// nothing, or was done. To the plan it says something, and may hold what it does not hold.
+    fn leave_implied(
+        &mut self,
+        planner: &mut Planner,
+        model: Model<'_>,
+        values: &mut Values,
+        host: &mut dyn Host,
+    ) -> bool {
+        if std::mem::replace(&mut self.knows_implied, true) {
+            return false;
+        }
+        let mut press = values.clone();
+        scatter(&self.task, &self.x0, &mut press);
+        put_texts(&self.texts, &mut press);
+        let has_bound = planner.left().is_some();
+        if !has_bound {
+            planner.end_at(Some(planner.spent() + PATIENCE));
+        }
+        let implied = planner.implied_rules(model, &self.task, &press, host);
+        if !has_bound {
+            planner.end_at(None);
+        }
+        let Some(task) = self.task.with_tested(&implied, &mut planner.plans) else { return false };
+        *values = press;
+        (self.way, self.texts) = Way::of(&task, &self.x0, model, values);
+        self.task = task;
+        true
     }
 
     /// Ends the drag of a component; returns the task that stands.

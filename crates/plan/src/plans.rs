@@ -24,8 +24,8 @@ pub struct Plans {
     modes: IndexMap<Conditional, Rc<Modes>, BuildHasherDefault<Mixer>>,
     puzzles: IndexMap<Conditional, (Rc<System>, Rc<Puzzle>), BuildHasherDefault<Mixer>>,
     wholes: IndexMap<Conditional, Rc<Whole>, BuildHasherDefault<Mixer>>,
-    /// Plans of systems in a mode: which mode, or that given numbers hold, is seen only
-    /// when an edit runs.
+    /// Plans of systems in a mode: which mode, that given numbers hold, or that rules are but tested, is
+    /// seen only when an edit runs.
     in_modes: RefCell<IndexMap<Rc<System>, Rc<Plan>, BuildHasherDefault<Mixer>>>,
     reused: usize,
     /// What plans came to.
@@ -154,7 +154,8 @@ impl Plans {
         }
         Some(self.plan_later(held).1)
     }
-    fn plan_later(&self, system: System) -> (Rc<System>, Rc<Plan>) {
+    /// Returns the plan of a system that is met only when an edit runs, and a system that it is the plan of.
+    pub(crate) fn plan_later(&self, system: System) -> (Rc<System>, Rc<Plan>) {
         if let Some((system, plan)) = self.in_modes.borrow().get_key_value(&system) {
             return (system.clone(), plan.clone());
         }

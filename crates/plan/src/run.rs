@@ -36,6 +36,13 @@ pub(crate) struct Ran {
     pub(crate) not_decided: Option<NotDecided>,
 }
 
+impl Ran {
+    /// Returns true if what it was for is not reached, and no method failed.
+    pub(crate) fn falls_short(&self) -> bool {
+        self.is_missed || !self.is_solved && self.failure.is_none()
+    }
+}
+
 /// Where a task starts from, in the slots of its system.
 pub(crate) struct Ground {
     /// The state when the edit began.

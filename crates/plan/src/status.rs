@@ -58,7 +58,7 @@ impl Planner {
         let mut redundancy = Redundancy::default();
         for (i, task) in tasks.iter().enumerate().filter(|(i, _)| !is_quiet[*i]) {
             let found = self.redundant(model, task, values, &is_unmet, host);
-            if found.is_empty()
+            if found.0.is_empty()
                 && let (Some(Some(came)), Some(plan)) = (self.came.get(i), task.number())
             {
                 self.plans.past.note_quiet(*came, plan, task.numbers(&values.numbers));
@@ -66,7 +66,7 @@ impl Planner {
             redundancy.add(i, found);
         }
         let mut slots = IdVec::filled(SlotState::Fixed, structure.slots.len());
-        let mut freedom = redundancy.theorem_rows();
+        let mut freedom = redundancy.theorem_motions();
         for (slot, s) in structure.slots.iter() {
             let lone = self.net.rules_of(slot).is_empty();
             if lone && Self::resting_hold(structure, slot) == Holding::Kept {

@@ -224,7 +224,7 @@ impl Drag {
     }
     /// Follows the pointer to a place on the sheet; a number follows the first of its coordinates.
     /// The first place goes there, the others as far and in the same direction.
-    pub(crate) fn to(&mut self, state: &State, planner: &Planner, to: (f64, f64)) -> DragState {
+    pub(crate) fn to(&mut self, state: &State, planner: &mut Planner, to: (f64, f64)) -> DragState {
         let mut texts = Texts::new(&state.lowered.document, &state.structure);
         let (x0, y0) = self.handle();
         let there = self.moved.and_then(|(t, _)| general::moved(state, t, (to.0 - x0, to.1 - y0)));

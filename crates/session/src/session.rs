@@ -174,7 +174,7 @@ impl Session {
         let open = self.document_mut(id);
         let state = open.state.clone();
         match &mut open.drag {
-            Some(drag) => drag.to(&state, &open.planner, to),
+            Some(drag) => drag.to(&state, &mut open.planner, to),
             None => DragState::default(),
         }
     }

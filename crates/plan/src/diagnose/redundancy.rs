@@ -44,26 +44,25 @@ pub enum RedundantKind {
 pub struct Redundancy {
     /// The constraints, in order of declaration.
     pub constraints: Vec<Redundant>,
-    /// For every component that has any, how many of its rows are so by a theorem.
+    /// For every component in which some are so by a theorem, how many more motions it has than its form says.
     pub(crate) theorems: BTreeMap<usize, usize>,
 }
 
 impl Redundancy {
     /// Adds what is superfluous in one component.
-    pub(crate) fn add(&mut self, component: usize, found: Vec<(Redundant, usize)>) {
-        let rows = found.iter().map(|r| r.1).sum();
-        if rows > 0 {
-            self.theorems.insert(component, rows);
+    pub(crate) fn add(&mut self, component: usize, (found, motions): (Vec<Redundant>, usize)) {
+        if motions > 0 {
+            self.theorems.insert(component, motions);
         }
-        self.constraints.extend(found.into_iter().map(|r| r.0));
+        self.constraints.extend(found);
     }
     /// Puts the constraints in order of declaration.
     pub(crate) fn sorted(mut self) -> Self {
         self.constraints.sort();
         self
     }
-    /// Returns how many rows are superfluous that structure counts as saying something.
-    pub(crate) fn theorem_rows(&self) -> usize {
+    /// Returns how many more motions there are than form says.
+    pub(crate) fn theorem_motions(&self) -> usize {
         self.theorems.values().sum()
     }
 }
@@ -93,8 +92,8 @@ impl Planner {
         out.sorted()
     }
 
-    /// Finds the required constraints of one component at rest that say nothing new, each with the
-    /// number of its rows that are so by a theorem; those that do not hold are `unmet`.
+    /// Finds the required constraints of one component at rest that say nothing new, and how many more motions
+    /// there are than its form says; those that do not hold are `unmet`.
     pub(crate) fn redundant(
         &mut self,
         model: Model<'_>,
@@ -102,31 +101,44 @@ impl Planner {
         values: &Values,
         unmet: &BTreeSet<Source>,
         host: &mut dyn Host,
-    ) -> Vec<(Redundant, usize)> {
+    ) -> (Vec<Redundant>, usize) {
         let in_mode = task.by_values(self, values);
         let task = in_mode.as_ref().unwrap_or(task);
-        let by_form = surplus(self, task).into_iter().filter(|r| !unmet.contains(&r.source));
-        let mut found: Vec<(Redundant, usize)> = by_form.map(|r| (r, 0)).collect();
         let fails = |&r: &u32| unmet.contains(&self.rules.source(r));
-        if unmet.is_empty() || !task.component.rules().iter().any(fails) {
-            let candidates = candidates(self, model, task, values, &mut Scratch::default());
-            found.extend(self.theorems(model, task, candidates, values, host));
-        }
-        found
+        let theorems = match !unmet.is_empty() && task.component.rules().iter().any(fails) {
+            true => BTreeMap::new(),
+            false => self.theorems(model, task, values, host),
+        };
+        let rules: BTreeSet<u32> = theorems.keys().copied().collect();
+        // what one of these stood against may say something once that is left out
+        let left = task.with_tested(&rules, &mut self.plans);
+        let left = left.map(|left| left.by_values(self, values).unwrap_or(left));
+        let left = left.as_ref().unwrap_or(task);
+        let is_theorem = |source: Source| rules.iter().any(|&r| self.rules.source(r) == source);
+        let mut found = surplus(self, left);
+        found.retain(|r| !unmet.contains(&r.source) && !is_theorem(r.source));
+        found.extend(theorems.into_iter().map(|(rule, circuit)| {
+            let source = self.rules.source(rule);
+            let implied_by: BTreeSet<Source> =
+                circuit.into_iter().map(|r| self.rules.source(r)).collect();
+            let implied_by = implied_by.into_iter().filter(|s| *s != source).collect();
+            Redundant { source, kind: RedundantKind::Theorem, implied_by }
+        }));
+        (found, left.plan.report.freedom.saturating_sub(task.plan.report.freedom))
     }
 
-    /// Returns the candidates that hold after the rest is solved without them from elsewhere, each
-    /// with the number of its rows.
+    /// Returns the rules of a component that depend on others at the present state alone and hold after the rest is
+    /// solved without them from elsewhere, each with those that its rows are combinations of.
     fn theorems(
         &mut self,
         model: Model<'_>,
         task: &Task,
-        candidates: BTreeMap<u32, Candidate>,
         values: &Values,
         host: &mut dyn Host,
-    ) -> Vec<(Redundant, usize)> {
+    ) -> BTreeMap<u32, BTreeSet<u32>> {
+        let mut candidates = candidates(self, model, task, values, &mut Scratch::default());
         if candidates.is_empty() {
-            return Vec::new();
+            return candidates;
         }
         let is_left = |r: &u32| {
             self.rules.get(*r).shape.level == Level::Required && !candidates.contains_key(r)
@@ -136,43 +148,42 @@ impl Planner {
         let holding = |s| Self::resting_hold(model.structure, s);
         let setup = Setup { model, holding: &holding, aim: &Aim::default() };
         if self.try_rules(&setup, &rest, &mut elsewhere, host) != Trial::Holds {
-            return Vec::new();
+            return BTreeMap::new();
         }
-        let mut found = Vec::new();
-        for (rule, candidate) in candidates {
-            if self.unmet(model, [rule], &elsewhere, host).is_empty() {
-                let implied_by = candidate.circuit.iter().map(|&r| self.rules.source(r));
-                let implied_by: BTreeSet<Source> = implied_by.collect();
-                let source = self.rules.source(rule);
-                let redundant = Redundant {
-                    source,
-                    kind: RedundantKind::Theorem,
-                    implied_by: implied_by.into_iter().filter(|s| *s != source).collect(),
-                };
-                found.push((redundant, candidate.rows));
-            }
+        candidates.retain(|&rule, _| self.unmet(model, [rule], &elsewhere, host).is_empty());
+        candidates
+    }
+
+    /// Returns the rules of a component that follow from the others by a theorem, in a state in which all that is
+    /// required holds; nothing in any other.
+    pub(crate) fn implied_rules(
+        &mut self,
+        model: Model<'_>,
+        task: &Task,
+        values: &Values,
+        host: &mut dyn Host,
+    ) -> BTreeSet<u32> {
+        let required = |&r: &u32| self.rules.get(r).shape.level == Level::Required;
+        let required = task.component.rules().iter().copied().filter(required);
+        if !self.unmet(model, required, values, host).is_empty() {
+            return BTreeSet::new();
         }
-        found
+        let in_mode = task.by_values(self, values);
+        let task = in_mode.as_ref().unwrap_or(task);
+        self.theorems(model, task, values, host).into_keys().collect()
     }
 }
 
-/// A rule with rows that depend on others at the present state alone.
-#[derive(Default)]
-struct Candidate {
-    rows: usize,
-    /// The rules that these rows are combinations of.
-    circuit: BTreeSet<u32>,
-}
-
-/// Finds the rules with rows that depend on others here, though not everywhere.
+/// Finds the rules with rows that depend on others here, though not everywhere, each with those that these are
+/// combinations of.
 fn candidates(
     planner: &Planner,
     model: Model<'_>,
     task: &Task,
     values: &Values,
     scratch: &mut Scratch,
-) -> BTreeMap<u32, Candidate> {
-    let mut found: BTreeMap<u32, Candidate> = BTreeMap::new();
+) -> BTreeMap<u32, BTreeSet<u32>> {
+    let mut found: BTreeMap<u32, BTreeSet<u32>> = BTreeMap::new();
     let core = task.core(|| core(planner, model, task));
     if core.is_empty() {
         return found;
@@ -200,9 +211,8 @@ fn candidates(
     }
     for Dependent { row, circuit } in Echelon::new(&rows, task.component.slots().len()).dependent()
     {
-        let candidate = found.entry(rule_of_row[row as usize]).or_default();
-        candidate.rows += 1;
-        candidate.circuit.extend(circuit.iter().map(|&r| rule_of_row[r as usize]));
+        let of_rule = found.entry(rule_of_row[row as usize]).or_default();
+        of_rule.extend(circuit.iter().map(|&r| rule_of_row[r as usize]));
     }
     found
 }
