@@ -27,6 +27,12 @@ pub(crate) struct Stands {
     mode: Mode,
 }
 
+impl Stands {
+    pub(crate) fn plan(&self) -> &Rc<Plan> {
+        &self.plan
+    }
+}
+
 /// What acts in the mode of a component: what a reader may want to know of it.
 #[derive(Clone, Copy, PartialEq, Debug)]
 pub struct Acting {

@@ -118,7 +118,10 @@ pub(crate) fn or_otherwise(
         if ran.is_solved && whole.is_whole(task, values) {
             return ran;
         }
-        let found = whole::run(planner, model, task, ground, values, host);
+        // structure decides who may yield to a wish: what would if whole numbers were real ones
+        let plan = ran.stands.as_ref().map_or(&task.plan, Stands::plan);
+        let may_yield = !plan.report.yielded.is_empty();
+        let found = whole::run(planner, model, task, ground, may_yield, values, host);
         return found.unwrap_or(Ran { is_solved: false, ..ran });
     }
     if ran.is_solved && !ran.is_missed {

@@ -13,7 +13,7 @@ use crate::task::Task;
 use kernel::{SlotId, Values};
 use solve::{
     Conditional, Constants, Decision, Ended, Lean, Level, Looked, Mode, Modes, Patterns, Puzzle,
-    SlotIndex, Trial, Tried, Wholes, decide,
+    SlotIndex, Trial, Tried, Wholes, decide, moved,
 };
 use std::cell::OnceCell;
 use std::collections::{BTreeMap, BTreeSet};
@@ -92,12 +92,14 @@ impl Trying<'_> {
 }
 
 /// Looks for whole numbers with which everything required holds, and puts what comes of them into
-/// `values`. Returns nothing where there are none; else what to tell.
+/// `values`; given numbers change for wishes as well where they may yield to them. Returns nothing where there
+/// are none; else what to tell.
 pub(crate) fn run(
     planner: &Planner,
     model: Model<'_>,
     task: &Task,
     ground: &Ground,
+    may_yield: bool,
     values: &mut Values,
     host: &mut dyn Host,
 ) -> Option<Ran> {
@@ -107,12 +109,16 @@ pub(crate) fn run(
     let numbers: Vec<f64> = task.numbers(&values.numbers).collect();
     let leans = leans(model, task);
     let mut trying = Trying { planner, model, task, modes, ground, leans, texts, values, host };
-    let mut trial =
-        |constants: Constants, with: &[f64]| match trial(modes, &trying.decided(constants, with)) {
-            Trial::NotDecided if planner.is_spent() => Trial::Spent,
-            tried => tried,
-        };
-    let looked = whole.wholes(planner.plans.patterns()).look(&ground.x0, &ground.local, &mut trial);
+    let mut trial = |constants: Constants, with: &[f64]| match trial(
+        modes,
+        &trying.decided(constants, with),
+        &ground.x0,
+    ) {
+        Trial::NotDecided if planner.is_spent() => Trial::Spent,
+        tried => tried,
+    };
+    let wholes = whole.wholes(planner.plans.patterns());
+    let looked = wholes.look(&ground.x0, &ground.local, may_yield, &mut trial);
     match looked {
         Looked::Found(constants, with) => {
             let decision = trying.decided(constants, &with);
@@ -161,7 +167,8 @@ pub(crate) fn others(
         let mut ranges = modes.conditional().ranges.iter().filter(|r| r.slot == slot);
         if ranges.all(|r| r.holds(with[slot as usize])) {
             let decision = trying.decided(Constants::WholeAndGiven, &with);
-            if trial(modes, &decision) == Trial::Holds([0.0; Level::SOFT.len()]) {
+            let tried = trial(modes, &decision, &ground.x0);
+            if matches!(tried, Trial::Holds(unmet, _) if unmet == [0.0; Level::SOFT.len()]) {
                 found.push(decision.tried.values.clone());
             }
         }
@@ -179,20 +186,22 @@ fn changed(x0: &[f64], with: &[f64], known: &[SlotIndex]) -> Vec<SlotIndex> {
     changed
 }
 
-/// Says how much of the wishes a decision leaves unmet.
-fn trial(modes: &Modes, decision: &Decision) -> Trial {
+/// Says how much of the wishes a decision leaves unmet, and how far given numbers went.
+fn trial(modes: &Modes, decision: &Decision, start: &[f64]) -> Trial {
     match decision.ended {
         Ended::Settled => {}
         Ended::Contradiction(_) => return Trial::Fails,
         Ended::NotDecided(_) => return Trial::NotDecided,
     }
+    let system = &modes.conditional().system;
     let mut unmet = [0.0; Level::SOFT.len()];
     for u in &decision.tried.outcome.unmet {
-        let relation = modes.conditional().system.relations.get(u.relation as usize);
+        let relation = system.relations.get(u.relation as usize);
         let Some(rank) = relation.and_then(|r| r.level.rank()) else { return Trial::Fails };
         unmet[rank] += u.error * u.error;
     }
-    Trial::Holds(unmet)
+    let [given, _] = moved(&system.slots, start, &decision.tried.values);
+    Trial::Holds(unmet, given)
 }
 
 /// Returns what a component is besides its course, if whole numbers are among its unknowns.

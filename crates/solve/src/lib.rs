@@ -104,6 +104,8 @@ pub mod fork;
 
 pub mod run;
 
+mod moved;
+
 pub mod conditional;
 
 mod truth;
@@ -123,6 +125,7 @@ pub use fork::Lean;
 pub use modes::{
     Decision, Ended, Mode, Modes, Standing, Tried, decide, decide_along, decide_pieces,
 };
+pub use moved::{Moved, moved};
 pub use outcome::{Host, NoHost, Note, Outcome, Reason, Status, Unmet};
 pub use pattern::{Pattern, PatternId, Patterns, Scratch};
 pub use plan::{Plan, Rejected, Report, Step, StepKind, plan};

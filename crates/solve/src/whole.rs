@@ -7,9 +7,10 @@
 //! has a plan of its own ([`Constants`]).
 //!
 //! Near is the sum of the squared changes of given whole numbers, then that of the others. What has a value
-//! is held first while something has none, given numbers in any case; then given whole numbers may
-//! change, at last the real ones as well. Where wishes are left
-//! unmet, a few more trials look for whole numbers that leave less of them.
+//! is held first while something has none, given numbers in any case. Then given whole numbers may change, at
+//! last the real ones as well; in an edit given real numbers first, or the whole ones where these have less far
+//! to go. Where wishes are left unmet, a few more trials look for whole numbers that leave less of them, and
+//! given numbers may change for them too where structure has these yield.
 //!
 //! **Source:** van Hentenryck, Michel and Deville, *Numerica* (1997), §3, for the narrowing; the order is
 //! best-first.
@@ -19,19 +20,22 @@ mod net;
 
 use crate::conditional::Conditional;
 use crate::pattern::Patterns;
-use crate::system::{Level, SlotIndex, Stay};
+use crate::system::{Level, Slot, SlotIndex, Stay};
 use expr::Interval;
 use near::{Boxes, Near, Open};
 use net::Net;
+use std::cmp::Ordering;
 use std::collections::BinaryHeap;
 
-/// How many trials are made before the matter is left undecided.
+/// How many trials are made of what may change, before it is left undecided.
 const MOST_TRIALS: usize = 1_000;
 /// How many more are made in search of whole numbers that leave less of the wishes unmet.
 const IMPROVING: usize = 64;
-/// How many boxes are looked at, and how many numbers in all of them.
+/// How many boxes are looked at for it, and how many numbers in all of them.
 const MOST_BOXES: usize = 20_000;
 const MOST_NUMBERS: usize = 2_000_000;
+/// Errors whose squares differ by less than this part of them count as equal.
+const ALIKE: f64 = 1e-6;
 
 /// Which unknowns are constants in a mode.
 #[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, Debug, Default)]
@@ -66,8 +70,8 @@ pub type Missing = [f64; Level::SOFT.len()];
 /// What came of a trial.
 #[derive(Clone, Copy, PartialEq, Debug)]
 pub enum Trial {
-    /// Everything required holds; by how much wishes do not, by level.
-    Holds(Missing),
+    /// Everything required holds; by how much wishes do not, by level, and how far given numbers went.
+    Holds(Missing, f64),
     /// Not everything required holds.
     Fails,
     /// It was given up.
@@ -91,7 +95,7 @@ pub enum Looked {
 #[derive(Debug)]
 pub struct Wholes {
     net: Net,
-    stays: Vec<Stay>,
+    slots: Vec<Slot>,
     /// The unknown whole numbers.
     whole: Vec<SlotIndex>,
 }
@@ -102,7 +106,36 @@ enum Released {
     Nothing,
     NotGiven,
     GivenWhole,
+    GivenReal,
     All,
+}
+
+/// Whole numbers with which everything required holds, what are constants then, and what is missing.
+struct Best {
+    constants: Constants,
+    values: Vec<f64>,
+    missing: Missing,
+    /// How far given numbers went ([`moved`](crate::moved())).
+    moved: f64,
+}
+
+impl Best {
+    fn is_perfect(&self) -> bool {
+        self.missing == [0.0; Level::SOFT.len()]
+    }
+    /// Compares what is missing.
+    fn leaves(&self, other: &Self) -> Ordering {
+        let mut levels = self.missing.iter().zip(&other.missing);
+        let differ = |(a, b): (&f64, &f64)| (a - b).abs() > ALIKE * a.max(*b);
+        levels.find(|&pair| differ(pair)).map_or(Ordering::Equal, |(a, b)| a.total_cmp(b))
+    }
+    fn is_better(&self, other: &Self) -> bool {
+        match self.leaves(other) {
+            Ordering::Less => true,
+            Ordering::Equal => self.moved < other.moved * (1.0 - ALIKE),
+            Ordering::Greater => false,
+        }
+    }
 }
 
 impl Wholes {
@@ -112,7 +145,7 @@ impl Wholes {
         let is_whole = |&i: &SlotIndex| conditional.is_whole_unknown(i);
         Self {
             net: Net::new(conditional, patterns),
-            stays: slots.iter().map(|s| s.stay).collect(),
+            slots: slots.clone(),
             whole: (0..slots.len() as SlotIndex).filter(is_whole).collect(),
         }
     }
@@ -124,36 +157,54 @@ impl Wholes {
 
     /// Looks for the whole numbers nearest to those at the start with which a trial succeeds.
     ///
-    /// `start` is the state when the edit began; `values` is the same with what the edit set.
+    /// `start` is the state when the edit began; `values` is the same with what the edit set. Given numbers
+    /// change for what is required; where they may yield to wishes as well, for these too.
     pub fn look(
         &self,
         start: &[f64],
         values: &[f64],
+        may_yield: bool,
         attempt: &mut dyn FnMut(Constants, &[f64]) -> Trial,
     ) -> Looked {
-        let is_given = |i: &SlotIndex| self.stays[*i as usize] == Stay::Given;
-        let given = self.whole.iter().copied().filter(is_given).count();
-        let all_given = self.stays.iter().filter(|s| **s == Stay::Given).count();
-        let mut looking = Looking { wholes: self, start, values, attempt, tried: 0, boxes: 0 };
+        let stays = || self.slots.iter().map(|s| s.stay);
+        let given = stays().filter(|&s| s == Stay::Given).count();
+        let is_given = |i: &&SlotIndex| self.slots[**i as usize].stay == Stay::Given;
+        let given_whole = self.whole.iter().filter(is_given).count();
+        let (has_whole, has_real) = (given_whole > 0, given > given_whole);
+        let opens = stays().any(|s| s == Stay::Free);
+        let turns = [
+            opens.then_some(Released::Nothing),
+            Some(Released::NotGiven),
+            (has_real && !opens).then_some(Released::GivenReal),
+            has_whole.then_some(Released::GivenWhole),
+            (has_real && (opens || has_whole)).then_some(Released::All),
+        ];
+        let mut looking =
+            Looking { wholes: self, start, values, attempt, boxes: 0, is_spent: false };
         let mut is_complete = true;
-        for released in [Released::Nothing, Released::NotGiven, Released::GivenWhole, Released::All]
-        {
-            let is_new = match released {
-                Released::Nothing => self.stays.contains(&Stay::Free),
-                Released::NotGiven => true,
-                Released::GivenWhole => given > 0,
-                Released::All => all_given > given,
-            };
-            if !is_new {
-                continue;
+        let mut best: Option<Best> = None;
+        for released in turns.into_iter().flatten() {
+            let is_first = best.is_none();
+            let within = best.as_ref().filter(|b| b.is_perfect()).map(|b| b.moved);
+            let (found, is_all) = looking.among(released, within);
+            is_complete &= is_all;
+            if let Some(found) = found
+                && best.as_ref().is_none_or(|best| found.is_better(best))
+            {
+                best = Some(found);
             }
-            match looking.among(released) {
-                Looked::Impossible => {}
-                found @ Looked::Found(..) => return found,
-                Looked::NotDecided(_) => is_complete = false,
+            // whole numbers may have less far to go than real ones had
+            let may_be_nearer = released == Released::GivenReal && is_first;
+            let is_done = |best: &Best| !may_be_nearer && (!may_yield || best.is_perfect());
+            if best.as_ref().is_some_and(is_done) || looking.is_spent {
+                break;
             }
         }
-        if is_complete { Looked::Impossible } else { Looked::NotDecided(looking.boxes) }
+        match best {
+            Some(best) => Looked::Found(best.constants, best.values),
+            None if is_complete => Looked::Impossible,
+            None => Looked::NotDecided(looking.boxes),
+        }
     }
 }
 
@@ -162,39 +213,47 @@ struct Looking<'a> {
     start: &'a [f64],
     values: &'a [f64],
     attempt: &'a mut dyn FnMut(Constants, &[f64]) -> Trial,
-    tried: usize,
     boxes: usize,
+    /// True once a trial has spent what may be spent.
+    is_spent: bool,
 }
 
 impl Looking<'_> {
-    fn among(&mut self, released: Released) -> Looked {
+    /// Returns the nearest that leave nothing unmet, else those among a few that leave least; and whether
+    /// everything was looked at that is nearer than `within`.
+    fn among(&mut self, released: Released, within: Option<f64>) -> (Option<Best>, bool) {
         let constants = match released {
             Released::Nothing => Constants::WholeAndValued,
             Released::NotGiven | Released::GivenWhole => Constants::WholeAndGiven,
-            Released::All => Constants::Whole,
+            Released::GivenReal | Released::All => Constants::Whole,
         };
+        let is_whole = |i: usize| self.wholes.whole.contains(&(i as SlotIndex));
         let is_known = |i: usize, stay: Stay| match stay {
             Stay::Fixed => true,
             Stay::Free => false,
             Stay::Kept { .. } => released == Released::Nothing,
             Stay::Given => match released {
                 Released::Nothing | Released::NotGiven => true,
-                Released::GivenWhole => !self.wholes.whole.contains(&(i as SlotIndex)),
+                Released::GivenWhole => !is_whole(i),
+                Released::GivenReal => is_whole(i),
                 Released::All => false,
             },
         };
-        let stays = self.wholes.stays.iter().copied().enumerate();
+        let stays = self.wholes.slots.iter().map(|s| s.stay).enumerate();
         let known = stays.map(|(i, stay)| is_known(i, stay).then(|| self.values[i]));
-        let Some(whole) = self.wholes.net.ground(known) else { return Looked::Impossible };
-        let near = Near::new(&self.wholes.whole, &self.wholes.stays, self.start);
-        let most = MOST_BOXES.min(MOST_NUMBERS / whole.len().max(1));
+        let Some(whole) = self.wholes.net.ground(known) else { return (None, true) };
+        let near = Near::new(&self.wholes.whole, &self.wholes.slots, self.start);
+        let most = self.boxes + MOST_BOXES.min(MOST_NUMBERS / whole.len().max(1));
         let mut open = BinaryHeap::from([Open::new(Boxes::from(whole), &near, 0)]);
-        let mut best: Option<(Missing, Vec<f64>)> = None;
+        let mut best: Option<Best> = None;
         let mut left = MOST_TRIALS;
         let mut is_complete = true;
         let mut made = 0;
-        while let Some(Open { boxes, .. }) = open.pop() {
-            if self.tried >= MOST_TRIALS || self.boxes >= most || left == 0 {
+        while let Some(Open { boxes, distance, .. }) = open.pop() {
+            if within.is_some_and(|within| distance[0] >= within) {
+                break;
+            }
+            if self.is_spent || self.boxes >= most || left == 0 {
                 is_complete = false;
                 break;
             }
@@ -202,18 +261,18 @@ impl Looking<'_> {
             let Some((slot, first)) = near.choice(&boxes) else {
                 let mut values = self.values.to_vec();
                 self.wholes.whole.iter().for_each(|&i| values[i as usize] = boxes[i as usize].low);
-                self.tried += 1;
                 left -= 1;
                 match (self.attempt)(constants, &values) {
-                    Trial::Holds(unmet) => {
-                        let is_better = best.as_ref().is_none_or(|(b, _)| unmet < *b);
+                    Trial::Holds(missing, moved) => {
+                        let found = Best { constants, values, missing, moved };
                         if best.is_none() {
                             left = IMPROVING;
                         }
-                        if is_better {
-                            best = Some((unmet, values));
+                        let is_perfect = found.is_perfect();
+                        if best.as_ref().is_none_or(|best| found.leaves(best) == Ordering::Less) {
+                            best = Some(found);
                         }
-                        if unmet == [0.0; Level::SOFT.len()] {
+                        if is_perfect {
                             break;
                         }
                     }
@@ -221,7 +280,7 @@ impl Looking<'_> {
                     Trial::NotDecided => is_complete = false,
                     Trial::Spent => {
                         is_complete = false;
-                        self.tried = MOST_TRIALS;
+                        self.is_spent = true;
                     }
                 }
                 continue;
@@ -233,11 +292,7 @@ impl Looking<'_> {
                 }
             }
         }
-        match best {
-            Some((_, values)) => Looked::Found(constants, values),
-            None if is_complete => Looked::Impossible,
-            None => Looked::NotDecided(self.boxes),
-        }
+        (best, is_complete)
     }
 }
 

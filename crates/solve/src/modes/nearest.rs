@@ -6,7 +6,8 @@
 
 use super::decide::{Assumption, Deciding, Decision, Ended, Tried, Yielding, blame};
 use super::{Mode, Modes};
-use crate::system::{Level, Stay};
+use crate::moved::{Moved, moved};
+use crate::system::Level;
 use crate::truth::Comparing;
 
 /// So many more modes are tried where none is known.
@@ -24,7 +25,7 @@ struct Worth {
     unmet: [f64; Level::SOFT.len()],
     yielded: usize,
     /// How far given numbers moved, then all others: squared, in parts of the extent of what is measured alike.
-    moved: [f64; 2],
+    moved: Moved,
     /// How many bounds are stopped short of.
     short: usize,
 }
@@ -54,22 +55,7 @@ impl Modes {
                 unmet[rank] += u.error * u.error;
             }
         }
-        let measured = || {
-            let slots = system.slots.iter().zip(start.iter().zip(&tried.values));
-            slots.filter(|(s, _)| s.is_number && matches!(s.stay, Stay::Given | Stay::Kept { .. }))
-        };
-        let classes = system.slots.iter().map(|s| s.scale as usize + 1).max().unwrap_or(0);
-        let mut extents = vec![0.0_f64; classes];
-        for (slot, (from, _)) in measured() {
-            let extent = &mut extents[slot.scale as usize];
-            *extent = extent.max(from.abs());
-        }
-        let mut moved = [0.0; 2];
-        for (slot, (from, to)) in measured() {
-            let extent = extents[slot.scale as usize];
-            let part = (to - from) / if extent > 0.0 { extent } else { 1.0 };
-            moved[usize::from(slot.stay != Stay::Given)] += part * part;
-        }
+        let moved = moved(&system.slots, start, &tried.values);
         let is_strict = |c: &&u32| self.comparisons[**c as usize].comparing == Comparing::Less;
         let short = mode.active.iter().filter(is_strict).count();
         Worth { unmet, yielded: tried.plan.report.yielded.len(), moved, short }

@@ -1,6 +1,7 @@
 //! Boxes by how near their whole numbers may be to those at the start.
 
-use crate::system::{SlotIndex, Stay};
+use crate::moved::Extents;
+use crate::system::{Slot, SlotIndex, Stay};
 use expr::Interval;
 use std::cmp::Ordering;
 use std::rc::Rc;
@@ -10,26 +11,36 @@ pub(crate) type Boxes = Rc<[Interval]>;
 
 /// Where whole numbers should be near to.
 pub(crate) struct Near {
-    /// Slot, what it should be near to, and whether that is given.
-    cells: Vec<(SlotIndex, f64, bool)>,
+    cells: Vec<Cell>,
 }
 
-/// How far whole numbers are from those at the start: given ones, then the others.
+/// A whole number.
+struct Cell {
+    slot: SlotIndex,
+    /// What it should be near to, and whether that is given.
+    near: f64,
+    is_given: bool,
+    extent: f64,
+}
+
+/// How far whole numbers are from those at the start, squared, in parts of their extent: given ones, then the
+/// others.
 type Distance = [f64; 2];
 
 /// A box that is to be looked at.
 pub(crate) struct Open {
     pub(crate) boxes: Boxes,
-    distance: Distance,
+    pub(crate) distance: Distance,
     made: usize,
 }
 
 impl Near {
-    pub(crate) fn new(whole: &[SlotIndex], stays: &[Stay], start: &[f64]) -> Self {
-        let cell = |&slot: &SlotIndex| match stays[slot as usize] {
-            Stay::Free => (slot, 0.0, false),
-            Stay::Given => (slot, start[slot as usize], true),
-            Stay::Fixed | Stay::Kept { .. } => (slot, start[slot as usize], false),
+    pub(crate) fn new(whole: &[SlotIndex], slots: &[Slot], start: &[f64]) -> Self {
+        let extents = Extents::of(slots, start);
+        let cell = |&slot: &SlotIndex| {
+            let own = &slots[slot as usize];
+            let near = if own.stay == Stay::Free { 0.0 } else { start[slot as usize] };
+            Cell { slot, near, is_given: own.stay == Stay::Given, extent: extents.at(own) }
         };
         Self { cells: whole.iter().map(cell).collect() }
     }
@@ -37,9 +48,10 @@ impl Near {
     /// Returns a distance that no whole numbers in the boxes come below.
     fn distance(&self, boxes: &[Interval]) -> Distance {
         let mut distance = [0.0; 2];
-        for &(slot, near, is_given) in &self.cells {
-            let away = nearest(boxes[slot as usize], near) - near;
-            distance[usize::from(!is_given)] += away * away;
+        for cell in &self.cells {
+            let away = nearest(boxes[cell.slot as usize], cell.near) - cell.near;
+            let part = away / cell.extent;
+            distance[usize::from(!cell.is_given)] += part * part;
         }
         distance
     }
@@ -48,9 +60,9 @@ impl Near {
     /// are known.
     pub(crate) fn choice(&self, boxes: &[Interval]) -> Option<(SlotIndex, f64)> {
         let width = |slot: SlotIndex| boxes[slot as usize].high - boxes[slot as usize].low;
-        let open = self.cells.iter().filter(|c| width(c.0) > 0.0);
-        let (slot, near, _) = open.min_by(|a, b| width(a.0).total_cmp(&width(b.0)))?;
-        Some((*slot, nearest(boxes[*slot as usize], *near)))
+        let open = self.cells.iter().filter(|c| width(c.slot) > 0.0);
+        let cell = open.min_by(|a, b| width(a.slot).total_cmp(&width(b.slot)))?;
+        Some((cell.slot, nearest(boxes[cell.slot as usize], cell.near)))
     }
 }
 
