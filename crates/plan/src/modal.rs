@@ -171,7 +171,7 @@ fn stands(planner: &Planner, modes: &Rc<Modes>, mode: Mode) -> Stands {
 }
 
 /// How the mode of a task is decided: what is tried first, and how each is tried.
-type Decide = fn(&Modes, &Mode, &[f64], &mut dyn FnMut(&Mode) -> Tried) -> Decision;
+pub(crate) type Decide = fn(&Modes, &Mode, &[f64], &mut dyn FnMut(&Mode) -> Tried) -> Decision;
 
 /// Runs a task in the modes that it has: by a drag of what has changed where one leads there, else at once.
 pub(crate) fn run_on(

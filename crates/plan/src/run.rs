@@ -4,11 +4,11 @@ use crate::aim::Aim;
 use crate::edit::{Conflict, NotDecided};
 use crate::holds::fails;
 use crate::host::{Failure, Host};
-use crate::modal::{self, Stands};
+use crate::modal::{self, Decide, Stands};
 use crate::planner::{Model, Planner};
 use crate::rule::{How, Rule, Source};
 use crate::task::{Course, Origin, Task};
-use crate::whole;
+use crate::whole::{self, Looking};
 use base::number::Toward;
 use kernel::{SlotId, Value, Values};
 use solve::{Lean, Level, Outcome, Plan, Reason, Scratch, SlotIndex, Status, Verdict};
@@ -101,7 +101,7 @@ pub(crate) fn run(
 }
 
 /// Looks further where what was run did not come to an end: for whole numbers, where some are looked for and it
-/// made none; else for other pieces of equations, where it did not reach what is wished as well.
+/// made none; then for other pieces of equations, where it did not reach what is wished as well.
 pub(crate) fn or_otherwise(
     planner: &Planner,
     model: Model<'_>,
@@ -114,26 +114,32 @@ pub(crate) fn or_otherwise(
     if ran.failure.is_some() {
         return ran;
     }
-    if let Some(whole) = task.whole() {
-        if ran.is_solved && whole.is_whole(task, values) {
-            return ran;
+    let ran = match task.whole() {
+        Some(whole) if !(ran.is_solved && whole.is_whole(task, values)) => {
+            // structure decides who may yield to a wish: what would if whole numbers were real ones
+            let plan = ran.stands.as_ref().map_or(&task.plan, Stands::plan);
+            let may_yield = !plan.report.yielded.is_empty();
+            let looking = Looking { whole, decide: solve::decide, may_yield };
+            let found = whole::run(planner, model, task, looking, ground, values, host);
+            found.unwrap_or(Ran { is_solved: false, ..ran })
         }
-        // structure decides who may yield to a wish: what would if whole numbers were real ones
-        let plan = ran.stands.as_ref().map_or(&task.plan, Stands::plan);
-        let may_yield = !plan.report.yielded.is_empty();
-        let found = whole::run(planner, model, task, ground, may_yield, values, host);
-        return found.unwrap_or(Ran { is_solved: false, ..ran });
-    }
+        Some(_) | None => ran,
+    };
     if ran.is_solved && !ran.is_missed {
         return ran;
     }
-    let Some(modes) = task.pieces(planner.plans.patterns()) else { return ran };
+    let Some(pieces) = task.pieces(planner.plans.patterns()) else { return ran };
     let texts = values.texts.clone();
     let numbers: Vec<f64> = task.numbers(&values.numbers).collect();
-    let how = (modes, solve::decide_pieces as _);
     // what was run wrote texts of its own
     put_texts(&ground.texts, values);
-    let found = modal::run(planner, model, task, how, ground, values, host);
+    let decide: Decide = solve::decide_pieces;
+    let found = if task.whole().is_some() {
+        let looking = Looking { whole: pieces, decide, may_yield: true };
+        whole::run(planner, model, task, looking, ground, values, host).unwrap_or_default()
+    } else {
+        modal::run(planner, model, task, (&pieces.modes, decide), ground, values, host)
+    };
     if found.is_solved {
         return found;
     }

@@ -94,7 +94,7 @@ struct Stated {
     whole: Option<Rc<Whole>>,
     /// What it is with every equation with an `if` taken apart, where some have; found when first asked
     /// for.
-    pieces: OnceCell<Option<Rc<Modes>>>,
+    pieces: OnceCell<Option<Whole>>,
     /// The component's slots that can move while nothing is edited; found when first asked for.
     movable: OnceCell<Vec<SlotIndex>>,
     /// The rows that may depend on others at some state; found when first asked for.
@@ -641,13 +641,14 @@ impl Task {
         self.stated.whole.as_ref()
     }
     /// Returns what it is with every equation with an `if` taken apart, where some have one, and wishes have to
-    /// be met. Asked of tasks alone in which no whole numbers are looked for.
-    pub(crate) fn pieces(&self, patterns: &Patterns) -> Option<&Rc<Modes>> {
+    /// be met.
+    pub(crate) fn pieces(&self, patterns: &Patterns) -> Option<&Whole> {
         let find = || {
-            let stated = match &self.course {
-                Course::Search(_) => return None,
-                Course::Modes(modes, _) => modes.conditional().clone(),
-                Course::Plan => {
+            let stated = match (self.whole(), &self.course) {
+                (Some(whole), _) => whole.modes.conditional().clone(),
+                (None, Course::Search(_)) => return None,
+                (None, Course::Modes(modes, _)) => modes.conditional().clone(),
+                (None, Course::Plan) => {
                     Conditional { system: (*self.system).clone(), ..Conditional::default() }
                 }
             };
@@ -658,7 +659,7 @@ impl Task {
                     Origin::Rule(_) => {}
                 }
             }
-            Modes::known(apart, patterns).map(Rc::new)
+            Modes::known(apart, patterns).map(|modes| Whole::new(Rc::new(modes)))
         };
         self.stated.pieces.get_or_init(find).as_ref()
     }

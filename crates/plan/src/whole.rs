@@ -6,21 +6,21 @@
 use crate::aim::Aim;
 use crate::edit::NotDecided;
 use crate::host::Host;
-use crate::modal::{attempt_in_mode, has_texts, tell};
+use crate::modal::{Decide, attempt_in_mode, has_texts, tell};
 use crate::planner::{Model, Planner};
 use crate::run::{Ground, Ran, ground, leans, scatter};
 use crate::task::Task;
 use kernel::{SlotId, Values};
 use solve::{
     Conditional, Constants, Decision, Ended, Lean, Level, Looked, Mode, Modes, Patterns, Puzzle,
-    SlotIndex, Trial, Tried, Wholes, decide, moved,
+    SlotIndex, Trial, Tried, Wholes, moved,
 };
 use std::cell::OnceCell;
 use std::collections::{BTreeMap, BTreeSet};
 use std::rc::Rc;
 use std::sync::Arc;
 
-/// The whole numbers of a component among its real unknowns.
+/// The modes of a component, and the whole numbers among its real unknowns.
 #[derive(Debug)]
 pub(crate) struct Whole {
     pub(crate) modes: Rc<Modes>,
@@ -62,6 +62,7 @@ struct Trying<'a> {
     model: Model<'a>,
     task: &'a Task,
     modes: &'a Rc<Modes>,
+    decide: Decide,
     ground: &'a Ground,
     leans: Vec<Lean>,
     texts: BTreeMap<SlotId, Arc<str>>,
@@ -77,7 +78,7 @@ impl Trying<'_> {
         first.constants = constants;
         let begun = self.begun(with);
         let x0 = &self.ground.x0;
-        decide(modes, &first, x0, &mut |mode: &Mode| self.attempt(mode, &begun))
+        (self.decide)(modes, &first, x0, &mut |mode: &Mode| self.attempt(mode, &begun))
     }
     fn begun(&self, with: &[f64]) -> Ground {
         let Ground { x0, texts, changed: known, .. } = self.ground;
@@ -91,24 +92,33 @@ impl Trying<'_> {
     }
 }
 
+/// How whole numbers are looked for.
+pub(crate) struct Looking<'a> {
+    /// In which modes.
+    pub(crate) whole: &'a Whole,
+    /// How the mode is decided, of given whole numbers.
+    pub(crate) decide: Decide,
+    /// True if given numbers change for wishes too.
+    pub(crate) may_yield: bool,
+}
+
 /// Looks for whole numbers with which everything required holds, and puts what comes of them into
-/// `values`; given numbers change for wishes as well where they may yield to them. Returns nothing where there
-/// are none; else what to tell.
+/// `values`. Returns nothing where there are none; else what to tell.
 pub(crate) fn run(
     planner: &Planner,
     model: Model<'_>,
     task: &Task,
+    Looking { whole, decide, may_yield }: Looking<'_>,
     ground: &Ground,
-    may_yield: bool,
     values: &mut Values,
     host: &mut dyn Host,
 ) -> Option<Ran> {
-    let whole = task.whole()?;
     let modes = &whole.modes;
     let texts = values.texts.clone();
     let numbers: Vec<f64> = task.numbers(&values.numbers).collect();
     let leans = leans(model, task);
-    let mut trying = Trying { planner, model, task, modes, ground, leans, texts, values, host };
+    let mut trying =
+        Trying { planner, model, task, modes, decide, ground, leans, texts, values, host };
     let mut trial = |constants: Constants, with: &[f64]| match trial(
         modes,
         &trying.decided(constants, with),
@@ -159,7 +169,9 @@ pub(crate) fn others(
     let own = whole.slots().filter(|&s| own.contains(&task.component.slots()[s as usize]));
     let own: Vec<SlotIndex> = own.collect();
     let (ground, values) = (&ground, &mut values.clone());
-    let mut trying = Trying { planner, model, task, modes, ground, leans, texts, values, host };
+    let decide = solve::decide;
+    let mut trying =
+        Trying { planner, model, task, modes, decide, ground, leans, texts, values, host };
     let mut found = Vec::new();
     for (&slot, step) in own.iter().flat_map(|slot| STEPS.map(|step| (slot, step))) {
         let mut with = ground.local.clone();
