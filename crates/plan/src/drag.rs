@@ -266,7 +266,10 @@ impl Pull {
             Some(moved) => moved.iter().copied().for_each(put),
             None => self.task.plan.steps().iter().flat_map(|s| &s.targets).copied().for_each(put),
         }
-        if !outcome.is_solved() || !outcome.unmet.is_empty() || self.task.whole().is_some() {
+        let patterns = planner.plans.patterns();
+        let is_met = outcome.is_solved() && outcome.unmet.is_empty();
+        let may_go_on = self.task.whole().is_some() || self.task.may_yield_in_pieces(patterns);
+        if !is_met || may_go_on {
             let ran = ran(planner, &self.task, &outcome);
             if ran.falls_short() && self.leave_implied(planner, model, values, host) {
                 return self.follow(planner, model, aim, values, host, report);
@@ -320,8 +323,8 @@ impl Pull {
         note(report, &mut self.task, ran);
     }
 
-    /// Looks for other pieces of equations where the drag comes to no end on those at hand, and for whole
-    /// numbers where it made none, both from where it began.
+    /// Looks for other pieces of equations where the drag comes to no end on those at hand, or to others, and for
+    /// whole numbers where it made none, both from where it began.
     fn or_otherwise(
         &self,
         planner: &Planner,
@@ -330,7 +333,9 @@ impl Pull {
         values: &mut Values,
         host: &mut dyn Host,
     ) -> Ran {
-        if ran.is_solved && !ran.is_missed && self.task.whole().is_none() {
+        let is_reached = ran.is_solved && !ran.is_missed;
+        let may_go_on = || self.task.may_yield_in_pieces(planner.plans.patterns());
+        if is_reached && self.task.whole().is_none() && !may_go_on() {
             return ran;
         }
         let inputs: Vec<SlotIndex> = self.task.targets().iter().map(|t| t.0).collect();

@@ -11,7 +11,7 @@ use crate::task::{Course, Origin, Task};
 use crate::whole::{self, Looking};
 use base::number::Toward;
 use kernel::{SlotId, Value, Values};
-use solve::{Lean, Level, Outcome, Plan, Reason, Scratch, SlotIndex, Status, Verdict};
+use solve::{Lean, Level, Outcome, Plan, Reason, Scratch, SlotIndex, Status, Verdict, moved};
 use std::collections::BTreeSet;
 use std::sync::Arc;
 
@@ -101,7 +101,8 @@ pub(crate) fn run(
 }
 
 /// Looks further where what was run did not come to an end: for whole numbers, where some are looked for and it
-/// made none; then for other pieces of equations, where it did not reach what is wished as well.
+/// made none; then for other pieces of equations, where it did not reach what is wished as well, or came to others
+/// than it began on and something nearer may do.
 pub(crate) fn or_otherwise(
     planner: &Planner,
     model: Model<'_>,
@@ -125,27 +126,40 @@ pub(crate) fn or_otherwise(
         }
         Some(_) | None => ran,
     };
-    if ran.is_solved && !ran.is_missed {
+    let is_reached = ran.is_solved && !ran.is_missed;
+    if is_reached && !may_be_nearer(task, ground, &ran) {
         return ran;
     }
     let Some(pieces) = task.pieces(planner.plans.patterns()) else { return ran };
-    let texts = values.texts.clone();
     let numbers: Vec<f64> = task.numbers(&values.numbers).collect();
+    if is_reached && !pieces.is_on_others(ground, &numbers) {
+        return ran;
+    }
+    let texts = values.texts.clone();
     // what was run wrote texts of its own
     put_texts(&ground.texts, values);
-    let decide: Decide = solve::decide_pieces;
+    let decide: Decide =
+        if is_reached { solve::decide_nearest_pieces } else { solve::decide_pieces };
     let found = if task.whole().is_some() {
         let looking = Looking { whole: pieces, decide, may_yield: true };
         whole::run(planner, model, task, looking, ground, values, host).unwrap_or_default()
     } else {
         modal::run(planner, model, task, (&pieces.modes, decide), ground, values, host)
     };
-    if found.is_solved {
+    let moved = |numbers: &[f64]| moved(&task.system.slots, &ground.x0, numbers);
+    let is_nearer = || moved(&task.numbers(&values.numbers).collect::<Vec<_>>()) < moved(&numbers);
+    if found.is_solved && (!is_reached || is_nearer()) {
         return found;
     }
     values.texts = texts;
     scatter(task, &numbers, values);
     Ran { not_decided: ran.not_decided.or(found.not_decided), ..ran }
+}
+
+/// Returns true if given numbers yielded to an edit, so that others nearer to where they were may do as well.
+pub(crate) fn may_be_nearer(task: &Task, ground: &Ground, ran: &Ran) -> bool {
+    let plan = ran.stands.as_ref().map_or(&task.plan, Stands::plan);
+    !ground.changed.is_empty() && !plan.report.yielded.is_empty()
 }
 
 /// Runs a task by its plan, its modes or its search.

@@ -663,6 +663,10 @@ impl Task {
         };
         self.stated.pieces.get_or_init(find).as_ref()
     }
+    /// Returns true if given numbers yield in it, and equations have pieces: on others the same may be nearer.
+    pub(crate) fn may_yield_in_pieces(&self, patterns: &Patterns) -> bool {
+        !self.plan.report.yielded.is_empty() && self.pieces(patterns).is_some()
+    }
     /// Returns the number of its plan, where what that comes to depends on numbers alone.
     pub(crate) fn number(&self) -> Option<u32> {
         self.stated.number

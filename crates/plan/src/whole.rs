@@ -39,6 +39,13 @@ impl Whole {
         let conditional = self.modes.conditional();
         conditional.is_of_whole_numbers().then(|| Puzzle::new(conditional, patterns))
     }
+    /// Returns true if other alternatives hold with these numbers than where an edit began.
+    pub(crate) fn is_on_others(&self, ground: &Ground, numbers: &[f64]) -> bool {
+        let mut now = ground.local.clone();
+        now[..numbers.len()].copy_from_slice(numbers);
+        let [before, now] = [&ground.x0, &now].map(|state| self.modes.first(state, state).taken);
+        before != now
+    }
     /// Returns the slots of whole numbers that are not known.
     pub(crate) fn slots(&self) -> impl Iterator<Item = SlotIndex> + '_ {
         let conditional = self.modes.conditional();

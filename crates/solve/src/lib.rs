@@ -123,7 +123,8 @@ pub use conditional::{Condition, Conditional, Demand, DemandKind, Guard, SlotRan
 pub use few::Few;
 pub use fork::Lean;
 pub use modes::{
-    Decision, Ended, Mode, Modes, Standing, Tried, decide, decide_along, decide_pieces,
+    Decision, Ended, Mode, Modes, Standing, Tried, decide, decide_along, decide_nearest_pieces,
+    decide_pieces,
 };
 pub use moved::{Moved, moved};
 pub use outcome::{Host, NoHost, Note, Outcome, Reason, Status, Unmet};

@@ -14,7 +14,9 @@ mod bounds;
 mod decide;
 mod nearest;
 
-pub use decide::{Decision, Ended, MOST_MODES, Tried, decide, decide_along, decide_pieces};
+pub use decide::{
+    Decision, Ended, MOST_MODES, Tried, decide, decide_along, decide_nearest_pieces, decide_pieces,
+};
 
 use crate::conditional::{Conditional, DemandKind};
 use crate::pattern::{Pattern, PatternId, Patterns, Scratch};

@@ -24,6 +24,8 @@ pub const MOST_MODES: usize = 2_000;
 
 /// So many slots are planned in all the modes of the pieces of equations, before it is.
 const MOST_OF_PIECES: usize = 200_000;
+/// So many where one is known, for another that is nearer.
+const MOST_OF_BETTER_PIECES: usize = 20_000;
 
 /// What came of trying a mode.
 #[derive(Clone, Debug)]
@@ -95,9 +97,20 @@ pub fn decide_pieces(
     start: &[f64],
     attempt: &mut dyn FnMut(&Mode) -> Tried,
 ) -> Decision {
-    let slots = modes.conditional.system.slots.len().max(1);
-    let most = (MOST_OF_PIECES / slots).clamp(8, MOST_MODES);
-    decide_within(modes, first, start, attempt, most, false)
+    let most = MOST_OF_PIECES / modes.conditional.system.slots.len().max(1);
+    decide_within(modes, first, start, attempt, most.clamp(8, MOST_MODES), false)
+}
+
+/// Finds the nearest mode in which everything holds among a few, where the state has come to other pieces of
+/// equations than it began on.
+pub fn decide_nearest_pieces(
+    modes: &Modes,
+    first: &Mode,
+    start: &[f64],
+    attempt: &mut dyn FnMut(&Mode) -> Tried,
+) -> Decision {
+    let most = MOST_OF_BETTER_PIECES / modes.conditional.system.slots.len().max(1);
+    Deciding::new(modes, attempt, most.clamp(8, MOST_BETTER)).nearest_of(first, start)
 }
 
 fn decide_within(
@@ -109,19 +122,8 @@ fn decide_within(
     is_along: bool,
 ) -> Decision {
     let has_bounds = modes.bounds.iter().any(Option::is_some);
-    let mut deciding = Deciding {
-        modes,
-        attempt,
-        most: if has_bounds { most.min(MOST_WITHOUT_BOUNDS) } else { most },
-        is_spent: false,
-        tried: BTreeMap::new(),
-        blamed: BTreeSet::new(),
-        edge: None,
-        yielding: Yielding::Any,
-        at_bounds: false,
-        keeps_taken: false,
-        is_hopeless: false,
-    };
+    let without_bounds = if has_bounds { most.min(MOST_WITHOUT_BOUNDS) } else { most };
+    let mut deciding = Deciding::new(modes, attempt, without_bounds);
     let decided = deciding.sparing(first, is_along);
     let is_cut = has_bounds && matches!(decided.ended, Ended::NotDecided(_));
     let nearest = deciding.nearest(first, start, decided);
@@ -172,6 +174,24 @@ enum Inner {
 
 /// A choice of a mode: a condition or an alternative.
 pub(super) type Assumption = (usize, u32);
+
+impl<'a> Deciding<'a> {
+    fn new(modes: &'a Modes, attempt: &'a mut dyn FnMut(&Mode) -> Tried, most: usize) -> Self {
+        Self {
+            modes,
+            attempt,
+            most,
+            is_spent: false,
+            tried: BTreeMap::new(),
+            blamed: BTreeSet::new(),
+            edge: None,
+            yielding: Yielding::Any,
+            at_bounds: false,
+            keeps_taken: false,
+            is_hopeless: false,
+        }
+    }
+}
 
 impl Deciding<'_> {
     /// Finds a mode in which everything holds: one in which nothing yields that does not in the first, where

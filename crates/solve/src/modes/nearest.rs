@@ -101,6 +101,23 @@ impl Deciding<'_> {
         }
     }
 
+    /// Returns the best of the modes in which everything holds, among as many as are tried.
+    pub(super) fn nearest_of(&mut self, first: &Mode, start: &[f64]) -> Decision {
+        let mut best: Option<(Worth, Mode)> = None;
+        let mut learnt = Vec::new();
+        while let Some(found) = self.explore(first, &mut learnt) {
+            let worth = self.modes.worth(&found, &self.try_mode(&found), start);
+            learnt.push(self.assumptions(&found, None));
+            if best.as_ref().is_none_or(|(best, _)| worth.is_better(best)) {
+                best = Some((worth, found));
+            }
+        }
+        match best {
+            Some((_, mode)) => self.decision(mode, Ended::Settled),
+            None => self.decision(first.clone(), Ended::NotDecided(self.tried.len())),
+        }
+    }
+
     /// Returns the assumptions with which a mode leaves unmet what it does: all where that is not known, or where
     /// everything is met.
     fn behind_unmet(&self, mode: &Mode, tried: &Tried) -> Vec<Assumption> {
