@@ -11,7 +11,7 @@ use crate::run::{
 };
 use crate::task::{Course, Task};
 use kernel::{SlotId, Values};
-use solve::{PATIENCE, Puzzle, SlotIndex, Stay, Verdict};
+use solve::{Level, PATIENCE, Puzzle, Rejected, SlotIndex, Stay, Verdict};
 use std::rc::Rc;
 
 /// What a drag keeps from the press to the release.
@@ -37,6 +37,10 @@ struct Pull {
     targets: Vec<f64>,
     /// True once it was asked which of its rules others imply at the press.
     knows_implied: bool,
+    /// The same with the numbers let go that the plan holds, once a wish fell short; nothing where it holds none.
+    free: Option<Option<Box<Pull>>>,
+    /// What it came to itself, while that is shown.
+    short: Option<(Vec<f64>, Texts)>,
 }
 
 /// How a component follows a drag.
@@ -183,7 +187,17 @@ impl Planner {
         }
         let (way, texts) = Way::of(&task, &x0, model, values);
         let targets = vec![0.0; task.targets().len()];
-        Pull { task, planned: None, way, x0, texts, targets, knows_implied: false }
+        Pull {
+            task,
+            planned: None,
+            way,
+            x0,
+            texts,
+            targets,
+            knows_implied: false,
+            free: None,
+            short: None,
+        }
     }
 }
 
@@ -219,7 +233,11 @@ impl Pull {
         values: &mut Values,
         host: &mut dyn Host,
         report: &mut EditReport,
-    ) {
+    ) -> bool {
+        if let Some((numbers, texts)) = self.short.take() {
+            scatter(&self.task, &numbers, values);
+            put_texts(&texts, values);
+        }
         for (target, &(_, wish, coordinate)) in self.targets.iter_mut().zip(self.task.targets()) {
             *target = aim.wanted[wish as usize][coordinate as usize];
         }
@@ -231,11 +249,7 @@ impl Pull {
             Way::Plan(drag) => drag,
             Way::Modes(drag) => {
                 let ran = drag.follow(planner, model, &mut self.task, targets, values, host);
-                if ran.falls_short() && self.leave_implied(planner, model, values, host) {
-                    return self.follow(planner, model, aim, values, host, report);
-                }
-                let ran = self.or_otherwise(planner, model, ran, values, host);
-                return self.note(report, ran);
+                return self.came_to(ran, planner, model, aim, values, host, report);
             }
             Way::Search(puzzle) => {
                 let mut wanted = self.x0.clone();
@@ -245,7 +259,10 @@ impl Pull {
                 if let Verdict::Found(found) = &verdict {
                     scatter(&self.task, found, values);
                 }
-                return note(report, &mut self.task, searched(&verdict));
+                let ran = searched(&verdict);
+                let falls_short = ran.falls_short();
+                note(report, &mut self.task, ran);
+                return !falls_short;
             }
         };
         let text = |&(slot, _): &(SlotId, _)| (slot, values.texts.get(&slot).cloned());
@@ -269,31 +286,130 @@ impl Pull {
         let patterns = planner.plans.patterns();
         let is_met = outcome.is_solved() && outcome.unmet.is_empty();
         let may_go_on = self.task.whole().is_some() || self.task.may_yield_in_pieces(patterns);
-        if !is_met || may_go_on {
-            let ran = ran(planner, &self.task, &outcome);
-            if ran.falls_short() && self.leave_implied(planner, model, values, host) {
-                return self.follow(planner, model, aim, values, host, report);
-            }
-            let ran = self.or_otherwise(planner, model, ran, values, host);
-            self.note(report, ran);
+        if is_met && !may_go_on {
+            return true;
         }
+        let ran = ran(planner, &self.task, &outcome);
+        self.came_to(ran, planner, model, aim, values, host, report)
     }
 
-    /// Begins again at the press with what others imply there left to the test; returns false where that is
-    /// nothing, or was done. To the plan it says something, and may hold what it does not hold.
-    fn leave_implied(
+    /// Notes what a wish came to by the plan at hand, and where it fell short what it comes to otherwise: with what
+    /// others imply at the press left to the test, by other pieces or whole numbers, with numbers let go that the plan
+    /// holds. Returns true if the wish is reached.
+    #[expect(clippy::too_many_arguments, reason = "it is the second half of following")]
+    fn came_to(
+        &mut self,
+        ran: Ran,
+        planner: &mut Planner,
+        model: Model<'_>,
+        aim: &Aim,
+        values: &mut Values,
+        host: &mut dyn Host,
+        report: &mut EditReport,
+    ) -> bool {
+        if ran.falls_short()
+            && let Some(task) = self.without_implied(planner, model, values, host)
+        {
+            self.back(values);
+            (self.way, self.texts) = Way::of(&task, &self.x0, model, values);
+            self.task = task;
+            return self.follow(planner, model, aim, values, host, report);
+        }
+        let ran = self.or_otherwise(planner, model, ran, values, host);
+        let is_reached = !ran.falls_short();
+        if !is_reached && self.lets_go(planner, model, aim, values, host, report) {
+            return true;
+        }
+        self.note(report, ran);
+        is_reached
+    }
+
+    /// Follows a wish that fell short with the numbers let go that the plan holds. Returns false where there are none
+    /// or it falls short all the same; the values are then as they were.
+    fn lets_go(
         &mut self,
         planner: &mut Planner,
         model: Model<'_>,
+        aim: &Aim,
         values: &mut Values,
         host: &mut dyn Host,
+        report: &mut EditReport,
     ) -> bool {
+        if self.free.is_none() {
+            let free = self.letting_go(planner, model, values);
+            self.free = Some(free.map(Box::new));
+        }
+        let Some(Some(free)) = &mut self.free else { return false };
+        let numbers: Vec<f64> = self.task.numbers(&values.numbers).collect();
+        let text = |(slot, _): &(SlotId, _)| (*slot, values.texts.get(slot).cloned());
+        let texts: Texts = free.texts.iter().map(text).collect();
+        let mut noted = EditReport::default();
+        free.back(values);
+        let is_reached = free.follow(planner, model, aim, values, host, &mut noted);
+        if is_reached {
+            free.shows(values);
+            self.short = Some((numbers, texts));
+            report.double_roots.append(&mut noted.double_roots);
+        } else {
+            scatter(&self.task, &numbers, values);
+            put_texts(&texts, values);
+        }
+        is_reached
+    }
+
+    /// Puts all its numbers where they are to be seen.
+    fn shows(&self, values: &mut Values) {
+        if let Way::Plan(drag) = &self.way {
+            scatter(&self.task, drag.values(), values);
+        }
+    }
+
+    /// Puts back what was at the press.
+    fn back(&self, values: &mut Values) {
+        scatter(&self.task, &self.x0, values);
+        put_texts(&self.texts, values);
+    }
+
+    /// Returns the same drag with the numbers let go that the plan holds; nothing where it holds none, or the wish
+    /// falls short whatever they do.
+    fn letting_go(&self, planner: &Planner, model: Model<'_>, values: &Values) -> Option<Self> {
+        let relations = &self.task.system.relations;
+        let is_wish = |r: &Rejected| relations[r.relation as usize].level == Level::Move;
+        if self.task.plan.report.rejected.iter().any(is_wish) {
+            return None;
+        }
+        let task = self.task.letting_go(&planner.plans)?;
+        let mut press = values.clone();
+        self.back(&mut press);
+        let (way, texts) = Way::of(&task, &self.x0, model, &press);
+        let (x0, targets) = (self.x0.clone(), self.targets.clone());
+        let (planned, free) = (None, Some(None));
+        Some(Self {
+            task,
+            planned,
+            way,
+            x0,
+            texts,
+            targets,
+            knows_implied: true,
+            free,
+            short: None,
+        })
+    }
+
+    /// Returns the task with what others imply at the press left to the test.
+    fn without_implied(
+        &mut self,
+        planner: &mut Planner,
+        model: Model<'_>,
+        values: &Values,
+        host: &mut dyn Host,
+    ) -> Option<Task> {
         if std::mem::replace(&mut self.knows_implied, true) {
-            return false;
+            return None;
         }
         let mut press = values.clone();
-        scatter(&self.task, &self.x0, &mut press);
-        put_texts(&self.texts, &mut press);
+        self.back(&mut press);
         let has_bound = planner.left().is_some();
         if !has_bound {
             planner.end_at(Some(planner.spent() + PATIENCE));
@@ -302,11 +418,7 @@ impl Pull {
         if !has_bound {
             planner.end_at(None);
         }
-        let Some(task) = self.task.with_tested(&implied, &mut planner.plans) else { return false };
-        *values = press;
-        (self.way, self.texts) = Way::of(&task, &self.x0, model, values);
-        self.task = task;
-        true
+        self.task.with_tested(&implied, &mut planner.plans)
     }
 
     /// Ends the drag of a component; returns the task that stands.

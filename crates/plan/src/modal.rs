@@ -134,6 +134,11 @@ impl Task {
         self.system = stands.system;
         self.plan = stands.plan;
     }
+    /// Returns the mode of the same task with other stays as one of this task's.
+    pub(crate) fn stands_as(&self, planner: &Planner, stands: &Stands) -> Option<Stands> {
+        let Course::Modes(modes, _) = &self.course else { return None };
+        Some(self::stands(planner, modes, stands.mode.clone()))
+    }
     /// Returns a task in the mode that values choose, no inequality acting; none without modes.
     pub(crate) fn by_values(&self, planner: &Planner, values: &Values) -> Option<Self> {
         let Course::Modes(modes, _) = &self.course else { return None };

@@ -90,7 +90,8 @@ pub(crate) fn run(
         planner.end_at(Some(planner.spent() + bound));
     }
     let ran = by_course(planner, model, task, &ground, values, host);
-    let mut ran = or_otherwise(planner, model, task, &ground, ran, values, host);
+    let ran = or_otherwise(planner, model, task, &ground, ran, values, host);
+    let mut ran = or_letting_go(planner, model, task, &ground, ran, values, host);
     if !has_bound {
         if planner.is_spent() && !ran.is_solved {
             ran.not_decided = Some(NotDecided::Work(bound));
@@ -98,6 +99,34 @@ pub(crate) fn run(
         planner.end_at(None);
     }
     ran
+}
+
+/// Lets the computed numbers go that the plan holds, where an edit came to no end with them held.
+fn or_letting_go(
+    planner: &Planner,
+    model: Model<'_>,
+    task: &Task,
+    ground: &Ground,
+    ran: Ran,
+    values: &mut Values,
+    host: &mut dyn Host,
+) -> Ran {
+    let is_refused = !ran.is_solved && ran.failure.is_none() && ran.not_decided.is_none();
+    if !is_refused || ground.changed.is_empty() {
+        return ran;
+    }
+    let Some(free) = task.letting_go(&planner.plans) else { return ran };
+    let texts = values.texts.clone();
+    let numbers: Vec<f64> = task.numbers(&values.numbers).collect();
+    put_texts(&ground.texts, values);
+    let mut found = by_course(planner, model, &free, ground, values, host);
+    if !found.is_solved {
+        values.texts = texts;
+        scatter(task, &numbers, values);
+        return ran;
+    }
+    found.stands = found.stands.and_then(|stands| task.stands_as(planner, &stands));
+    found
 }
 
 /// Looks further where what was run did not come to an end: for whole numbers, where some are looked for and it

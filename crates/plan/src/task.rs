@@ -3,6 +3,8 @@
 //! Equal components have equal systems whatever their slots and rules are called in the document,
 //! so that one plan serves all of them.
 
+mod restated;
+
 use crate::component::{Component, Net};
 use crate::planner::Planner;
 use crate::plans::Plans;
@@ -80,7 +82,7 @@ pub(crate) enum Course {
 }
 
 /// How a system speaks of a component: the same for all components that are alike.
-#[derive(Debug)]
+#[derive(Debug, Default)]
 struct Stated {
     /// Slots of the system that hold what another had when the edit began.
     holds: Vec<(SlotIndex, SlotIndex)>,
@@ -101,6 +103,8 @@ struct Stated {
     core: OnceCell<Vec<(u32, u32)>>,
     /// Where what such components are at rest is known among all; noted when first asked for.
     at_rest: OnceCell<u32>,
+    /// What it is where numbers let go that its plan holds; found when first asked for.
+    letting_go: OnceCell<Option<Known>>,
 }
 
 /// What components without wishes were stated as, by what there is to see of them.
@@ -201,9 +205,7 @@ fn state(
     plans.patterns_mut().take_apart(&conditional.system);
     let (system, plan, course, number) = course(plans, conditional);
     let number = number.filter(|_| whole.is_none() && !has_host(&system));
-    let (pieces, movable, core, at_rest) = Default::default();
-    let stated =
-        Stated { holds, targets, relations, number, whole, pieces, movable, core, at_rest };
+    let stated = Stated { holds, targets, relations, number, whole, ..Stated::default() };
     (system, plan, course, Rc::new(stated))
 }
 
@@ -561,57 +563,6 @@ impl<'s> Making<'s> {
 impl Task {
     fn of((system, plan, course, stated): Known, component: Component) -> Self {
         Self { system, plan, course, component, stated }
-    }
-    /// Returns what it is with these rules tested after each step and never solved for; nothing where it speaks of
-    /// none of them, or is searched.
-    pub(crate) fn with_tested(&self, rules: &BTreeSet<u32>, plans: &mut Plans) -> Option<Self> {
-        let is_one = |r: &Relation| match self.origin(r.source) {
-            Origin::Rule(rule) => rules.contains(&rule),
-            Origin::Wish(_) => false,
-        };
-        if !self.system.relations.iter().any(is_one) {
-            return None;
-        }
-        let leave_to_test = |system: &mut System| {
-            for i in (0..system.relations.len()).filter(|&i| is_one(&self.system.relations[i])) {
-                let equations = system.equations_of(&system.relations[i]).iter();
-                let slots = equations.flat_map(|e| system.arguments(e.arguments));
-                let slots: BTreeSet<SlotIndex> = slots.copied().collect();
-                let relation = &mut system.relations[i];
-                relation.body = RelationBody::Opaque { slots: slots.into_iter().collect() };
-                relation.methods.clear();
-            }
-        };
-        let (system, plan, course) = match &self.course {
-            Course::Plan => {
-                let mut system = (*self.system).clone();
-                leave_to_test(&mut system);
-                let (system, plan) = plans.plan_later(system);
-                (system, plan, Course::Plan)
-            }
-            Course::Modes(modes, _) => {
-                let mut stated = modes.conditional().clone();
-                leave_to_test(&mut stated.system);
-                let modes = plans.modes(stated);
-                let mode = modes.blank();
-                let (system, plan, _) = plans.in_mode(&modes, &mode);
-                (system, plan, Course::Modes(modes, Box::new(mode)))
-            }
-            Course::Search(_) => return None,
-        };
-        let Stated { holds, targets, relations, whole, .. } = &*self.stated;
-        let (holds, targets, relations) = (holds.clone(), targets.clone(), relations.clone());
-        let (pieces, movable, core, at_rest) = Default::default();
-        let (number, whole) = (None, whole.clone());
-        let stated =
-            Stated { holds, targets, relations, number, whole, pieces, movable, core, at_rest };
-        Some(Self {
-            system,
-            plan,
-            course,
-            component: self.component.clone(),
-            stated: Rc::new(stated),
-        })
     }
     /// Returns what a source of the system is.
     pub(crate) fn origin(&self, source: u32) -> Origin {

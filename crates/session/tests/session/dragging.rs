@@ -163,3 +163,34 @@ fn a_place_with_more_than_its_coordinates_is_moved_by_two_numbers() {
     assert_eq!((desk.number("point.x"), desk.number("point.y")), (63.0, 80.0));
     assert!((desk.number("point.p.r") - base::number::hypot(63.0, 80.0)).abs() < 1e-9);
 }
+
+#[test]
+fn a_computed_number_that_let_go_is_held_again_within_its_reach() {
+    const TEXT: &str = "\
+use geometry
+c: Point = (30, 40)
+diagonal, half: Length
+constraint c.x^2 + c.y^2 = diagonal^2
+constraint half = c.x + c.y
+";
+    let at = |along: &[f64]| {
+        let mut desk = Desk::of(TEXT);
+        let along: Vec<(f64, f64)> = along.iter().map(|&x| (x, 0.0)).collect();
+        let state = desk.hold("diagonal", &along);
+        assert!(state.reached, "{along:?}: {state:?}");
+        ["diagonal", "half", "c.x", "c.y"].map(|path| desk.number(path))
+    };
+    // 70 is the sum of two numbers as long as these are 70 / sqrt(2) together at least
+    for back in [49.9, 50.0, 55.0] {
+        let (there, again) = (at(&[back]), at(&[47.0, 45.0, 48.0, back]));
+        assert_eq!(again[1], 70.0);
+        for (a, b) in there.iter().zip(again) {
+            assert!((a - b).abs() < 1e-7, "{back}: {there:?} and {again:?}");
+        }
+    }
+    let (at_once, step_by_step) = (at(&[45.0]), at(&[49.9, 49.0, 48.0, 47.0, 46.0, 45.0]));
+    assert!(at_once[1] < 45.0 * base::number::sqrt(2.0));
+    for (a, b) in at_once.iter().zip(step_by_step) {
+        assert!((a - b).abs() < 1e-7, "{at_once:?} and {step_by_step:?}");
+    }
+}

@@ -1,0 +1,118 @@
+//! Tasks stated otherwise, when an edit runs and shows that it has to be: with rules that are tested and never solved
+//! for, or with numbers that let go.
+
+use super::{Course, Known, Origin, Stated, Task};
+use crate::plans::Plans;
+use solve::{Modes, Relation, RelationBody, Slot, SlotIndex, Stay, System};
+use std::collections::BTreeSet;
+use std::rc::Rc;
+
+/// Up to this many slots numbers let go.
+const LETTING_GO: usize = 200;
+
+impl Task {
+    /// Returns what it is with these rules tested after each step and never solved for; nothing where it speaks of
+    /// none of them, or is searched.
+    pub(crate) fn with_tested(&self, rules: &BTreeSet<u32>, plans: &mut Plans) -> Option<Self> {
+        let is_one = |r: &Relation| match self.origin(r.source) {
+            Origin::Rule(rule) => rules.contains(&rule),
+            Origin::Wish(_) => false,
+        };
+        if !self.system.relations.iter().any(is_one) {
+            return None;
+        }
+        let leave_to_test = |system: &mut System| {
+            for i in (0..system.relations.len()).filter(|&i| is_one(&self.system.relations[i])) {
+                let equations = system.equations_of(&system.relations[i]).iter();
+                let slots = equations.flat_map(|e| system.arguments(e.arguments));
+                let slots: BTreeSet<SlotIndex> = slots.copied().collect();
+                let relation = &mut system.relations[i];
+                relation.body = RelationBody::Opaque { slots: slots.into_iter().collect() };
+                relation.methods.clear();
+            }
+        };
+        let (system, plan, course) = match &self.course {
+            Course::Plan => {
+                let mut system = (*self.system).clone();
+                leave_to_test(&mut system);
+                let (system, plan) = plans.plan_later(system);
+                (system, plan, Course::Plan)
+            }
+            Course::Modes(modes, _) => {
+                let mut stated = modes.conditional().clone();
+                leave_to_test(&mut stated.system);
+                let modes = plans.modes(stated);
+                let mode = modes.blank();
+                let (system, plan, _) = plans.in_mode(&modes, &mode);
+                (system, plan, Course::Modes(modes, Box::new(mode)))
+            }
+            Course::Search(_) => return None,
+        };
+        let stated = self.stated.again();
+        Some(Self::of((system, plan, course, Rc::new(stated)), self.component.clone()))
+    }
+
+    /// Returns what it is where the computed numbers that its plan holds yield as well, as one place with what does.
+    /// Nothing where it holds none or lets nothing computed yield, where it opens, is large or is searched.
+    pub(crate) fn letting_go(&self, plans: &Plans) -> Option<Self> {
+        let find = || self.with_numbers_free(plans);
+        let known = match self.course {
+            Course::Plan => self.stated.letting_go.get_or_init(find).clone(),
+            // the mode at hand, which need not be the one that was stated
+            Course::Modes(..) => find(),
+            Course::Search(_) => None,
+        };
+        known.map(|known| Self::of(known, self.component.clone()))
+    }
+    fn with_numbers_free(&self, plans: &Plans) -> Option<Known> {
+        let slots = &self.system.slots[..self.component.slots().len()];
+        if slots.len() > LETTING_GO || slots.iter().any(|s| s.stay == Stay::Free) {
+            return None;
+        }
+        let mut yields = vec![false; self.system.slots.len()];
+        let written = self.plan.steps().iter().flat_map(|step| &step.targets);
+        written.for_each(|&slot| yields[slot as usize] = true);
+        let is_kept = |slot: &Slot| matches!(slot.stay, Stay::Kept { .. });
+        let (_, with) =
+            yields.iter().zip(slots).find(|(yields, slot)| **yields && is_kept(slot))?;
+        let is_alone = |slot: &Slot| slots.iter().filter(|s| s.stay == slot.stay).nth(1).is_none();
+        let lets_go = |i: usize| {
+            let slot = &slots[i];
+            !yields[i] && is_kept(slot) && slot.is_number && !slot.is_discrete && is_alone(slot)
+        };
+        let held: Vec<usize> = (0..slots.len()).filter(|&i| lets_go(i)).collect();
+        if held.is_empty() {
+            return None;
+        }
+        let let_go = |system: &mut System| {
+            held.iter().for_each(|&i| system.slots[i].stay = with.stay);
+        };
+        let (system, plan, course) = match &self.course {
+            Course::Plan => {
+                let mut system = (*self.system).clone();
+                let_go(&mut system);
+                let (system, plan) = plans.plan_later(system);
+                (system, plan, Course::Plan)
+            }
+            Course::Modes(modes, _) => {
+                let mut conditional = modes.conditional().clone();
+                let_go(&mut conditional.system);
+                let modes = Rc::new(Modes::known(conditional, plans.patterns())?);
+                let mode = modes.blank();
+                let (system, plan, _) = plans.in_mode(&modes, &mode);
+                (system, plan, Course::Modes(modes, Box::new(mode)))
+            }
+            Course::Search(_) => return None,
+        };
+        Some((system, plan, course, Rc::new(self.stated.again())))
+    }
+}
+
+impl Stated {
+    /// Says the same of a system that is stated otherwise.
+    fn again(&self) -> Self {
+        let Self { holds, targets, relations, whole, .. } = self;
+        let (holds, targets, relations) = (holds.clone(), targets.clone(), relations.clone());
+        Self { holds, targets, relations, whole: whole.clone(), ..Self::default() }
+    }
+}
