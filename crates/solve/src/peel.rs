@@ -1,13 +1,13 @@
 //! Peeling: rows that are solved one after the other, or two by two.
 //!
-//! In: rows without coefficients. Out: for every row the one slot that it determines, in an order in which
-//! each reads only what stands before it; nothing where some rows do not go so. A row with one slot left that
-//! may move without a given number's yielding says something of it that no row before does: it is accepted,
-//! it is solved for that slot, and it comes next. Where no row has one slot left, two rows with the same two
-//! left, as those of two bars that meet, come next together, if they are independent at the generic point.
-//! Where all rows go so, no row can be given a slot of another block, no place can be held that a row
-//! determines, and every block is one row or two: acceptance, direction and order are found in one pass, in
-//! time linear in what the rows speak of.
+//! In: rows without coefficients. Out: for every row the one slot that it determines, in an order in which each
+//! reads only what stands before it; nothing where some rows do not go so, or only read what is not known
+//! before. A row with one slot left that may move without a given number's yielding says something of it that
+//! no row before does: it is accepted, it is solved for that slot, and it comes next. Where no row has one slot
+//! left, two rows with the same two left, as those of two bars that meet, come next together, if they are
+//! independent at the generic point. Where all rows go so, no row can be given a slot of another block, no
+//! place can be held that a row determines, and every block is one row or two: acceptance, direction and order
+//! are found in one pass, in time linear in what the rows speak of.
 
 use crate::kernel::Kernel;
 use crate::lists::Lists;
@@ -174,8 +174,9 @@ fn order(
         let reads = &relation.reads[..];
         for (way, &slot) in own.iter().zip(rows.mentions(r as usize)) {
             let is = |s: &SlotIndex| classes.representative[*s as usize] == slot;
-            if way.shows && is_open[slot as usize] && !reads.iter().any(is) {
-                if !system.slots[slot as usize].is_number {
+            if way.shows && is_open[slot as usize] {
+                // what is read only has to be known before, and not by this row
+                if reads.iter().any(is) || !system.slots[slot as usize].is_number {
                     return None;
                 }
                 *left = Left { count: left.count + 1, slots: left.slots ^ slot };
