@@ -71,6 +71,24 @@ struct Scaled {
     gradients: Vec<f64>,
 }
 
+/// How far rows are off: norms of what they lack.
+#[derive(Clone, Copy, Default)]
+struct Off {
+    /// Of those that must hold.
+    hard: f64,
+    /// Of those of the highest level else.
+    soft: f64,
+}
+
+impl Off {
+    /// Returns true if a step from `before` may lead here.
+    fn follows(self, before: Self) -> bool {
+        // what is wished may get worse while what must hold gets better
+        let soft = 1.01 * before.soft + before.hard;
+        self.hard <= 0.1f64.max(2.0 * before.hard) && self.soft <= 0.1f64.max(soft)
+    }
+}
+
 /// What the rows should come to after the first step, were they straight.
 struct Begun {
     residual: Vec<f64>,
@@ -102,6 +120,8 @@ const LARGE: usize = 120;
 const FLAT: f64 = 1e-9;
 /// A slope above this is one, even where there is no curvature.
 const SLOPING: f64 = 1e-6;
+/// Rows whose slopes in free directions come to more than this part of their squares can be met there.
+const STEEP: f64 = 1e-2;
 /// Steps below this, in parts of the extent, are no steps.
 const SETTLED: f64 = 1e-12;
 /// How many of those are taken all the same where a hard row does not hold yet: what is small beside its scale
@@ -207,7 +227,7 @@ impl Measure {
                     *d *= 0.5 / size;
                 }
             }
-            let hard = self.hard_norm(&scaled);
+            let off = self.off(&scaled);
             if size <= SETTLED || (idle >= 4 && smallest < 1e-7) {
                 settled = true;
                 let is_polished = size > SETTLED || polished == POLISH;
@@ -224,7 +244,7 @@ impl Measure {
                     return Measured::Failed;
                 }
             }
-            let length = self.advance(values, &step, &scale, hard, &weights, w);
+            let length = self.advance(values, &step, &scale, off, &weights, w);
             if trust == Trust::Branch && curved && iteration == 0 && self.large.is_none() {
                 step.iter_mut().for_each(|d| *d *= length);
                 begun = Some(Begun::new(&scaled, &step));
@@ -279,14 +299,18 @@ impl Measure {
             .filter(hard)
             .all(|r| self.block.row_holds(&scaled.local, r, values, w))
     }
-    fn hard_norm(&self, local: &Scaled) -> f64 {
-        let mut sum = 0.0;
+    /// Computes how far rows are off.
+    fn off(&self, local: &Scaled) -> Off {
+        let highest = self.levels.iter().filter(|l| **l != Level::Required).min();
+        let mut off = Off::default();
         for (r, level) in local.residual.iter().zip(&self.levels) {
             if *level == Level::Required {
-                sum += r * r;
+                off.hard += r * r;
+            } else if Some(level) == highest {
+                off.soft += r * r;
             }
         }
-        base::number::sqrt(sum)
+        Off { hard: base::number::sqrt(off.hard), soft: base::number::sqrt(off.soft) }
     }
 
     /// What makes each row dimensionless, taken at x0 so that it does not change during the edit: of what must hold
@@ -441,12 +465,14 @@ impl Measure {
                     }
                 }
             }
-            let mut factor = self.multipliers(local, &above, &gradient);
-            for &r in &own {
-                factor[r] += local.residual[r];
-            }
             let flat = hessian.clone();
-            self.add_curvature(local, &factor, weights, values, w, &mut hessian);
+            if !self.can_be_met(&own, &free, local) {
+                let mut factor = self.multipliers(local, &above, &gradient);
+                for &r in &own {
+                    factor[r] += local.residual[r];
+                }
+                self.add_curvature(local, &factor, weights, values, w, &mut hessian);
+            }
             free = descend(&mut step, &free, &gradient, [&hessian, &flat], n);
             above.extend(own);
         }
@@ -466,6 +492,24 @@ impl Measure {
             free = descend(&mut step, &free, &gradient, [&hessian, &flat], n);
         }
         step
+    }
+
+    /// Returns true if rows can be met in the free directions as far as their slopes tell: then these tell the way,
+    /// and curvature, which counts where rows cannot be met, would lead across it. What is left of a quotient's
+    /// wish, say, would lead both numbers to nothing.
+    fn can_be_met(&self, rows: &[usize], free: &[Vec<f64>], local: &Scaled) -> bool {
+        if rows.len() > free.len() {
+            return false;
+        }
+        let along = |&r: &usize| -> Vec<f64> {
+            free.iter().map(|z| dense::dot(z, &local.jacobian[r])).collect()
+        };
+        let along: Vec<Vec<f64>> = rows.iter().map(along).collect();
+        let gram = along.iter().flat_map(|a| along.iter().map(|b| dense::dot(a, b))).collect();
+        let (values, _) = dense::eigen(gram, rows.len());
+        let size = |&r: &usize| dense::dot(&local.jacobian[r], &local.jacobian[r]);
+        let largest = rows.iter().map(size).fold(0.0, f64::max);
+        values.iter().all(|value| *value > STEEP * largest)
     }
 
     /// Multipliers of the rows above that best balance a gradient, by row.
@@ -535,13 +579,13 @@ impl Measure {
         });
     }
 
-    /// Goes along the step, shortened until the hard rows are not torn apart; returns by how much.
+    /// Goes along the step, shortened until rows are not torn apart; returns by how much.
     fn advance(
         &self,
         values: &mut [f64],
         step: &[f64],
         scale: &[f64],
-        hard: f64,
+        off: Off,
         weights: &[f64],
         w: &mut Workspace,
     ) -> f64 {
@@ -551,10 +595,8 @@ impl Measure {
             for (i, &u) in self.unknowns.iter().enumerate() {
                 values[u as usize] = start[i] + length * step[i] * scale[i];
             }
-            let now = self
-                .evaluate(values, scale, weights, w)
-                .map_or(f64::INFINITY, |local| self.hard_norm(&local));
-            if now <= 0.1f64.max(2.0 * hard) || length < 1e-6 {
+            let now = self.evaluate(values, scale, weights, w).map(|local| self.off(&local));
+            if now.is_some_and(|now| now.follows(off)) || length < 1e-6 {
                 return length;
             }
             length *= 0.5;
