@@ -89,8 +89,9 @@ pub(crate) fn add(patterns: &mut Patterns, equation: PatternId) {
 fn alternatives(equation: &Pattern) -> (Arena, ExprId) {
     let mut arena = equation.arena().clone();
     let [left, right] = equation.roots() else { unreachable!("an equation has two sides") };
+    let known = arena.constant(1.0);
     let mut lifting = Lifting { arena: &mut arena, assumed: Vec::new(), left: MOST_PIECES };
-    let truth = lifting.lift(*left, *right);
+    let truth = lifting.lift(known, [*left, *right]);
     (arena, truth)
 }
 
@@ -103,36 +104,43 @@ struct Lifting<'a> {
 }
 
 impl Lifting<'_> {
-    /// Returns what is true where two sides are equal, without pieces in them.
-    fn lift(&mut self, left: ExprId, right: ExprId) -> ExprId {
+    /// Returns what is true where two sides are equal, without pieces in them, and they are on the piece that is
+    /// `known` of them. Every piece is one alternative, of which what is known is a part.
+    fn lift(&mut self, known: ExprId, sides: [ExprId; 2]) -> ExprId {
+        let [left, right] = sides;
         for (side, other) in [(left, right), (right, left)] {
             if let Node::Unary(op @ (Unary::Floor | Unary::Round), x) = self.arena.node(side) {
-                return self.between(op, x, other);
+                let holds = self.between(op, x, other);
+                return self.arena.binary(Binary::And, known, holds);
             }
         }
-        let piecewise = self.arena.last(&[left, right], is_piecewise);
+        let piecewise = self.arena.last(&sides, is_piecewise);
         let (Some(whole), true) = (piecewise, self.left > 1) else {
-            return self.arena.binary(Binary::Equal, left, right);
+            let holds = self.arena.binary(Binary::Equal, left, right);
+            return self.arena.binary(Binary::And, known, holds);
         };
         if let Node::Select { condition, then, otherwise } = self.arena.node(whole) {
-            let known = self.assumed.iter().find(|(c, _)| *c == condition);
-            if let Some(&(_, truth)) = known {
-                return self.on(whole, if truth { then } else { otherwise }, [left, right]);
+            let assumed = self.assumed.iter().find(|(c, _)| *c == condition);
+            if let Some(&(_, truth)) = assumed {
+                return self.on(whole, if truth { then } else { otherwise }, known, sides);
             }
             self.left -= 1;
-            self.assumed.push((condition, true));
-            let first = self.on(whole, then, [left, right]);
-            self.assumed.pop();
-            self.assumed.push((condition, false));
-            let second = self.on(whole, otherwise, [left, right]);
-            self.assumed.pop();
-            return self.arena.select(condition, first, second);
+            let fails = self.arena.unary(Unary::Not, condition);
+            let mut on = |truth, condition_holds, piece| {
+                self.assumed.push((condition, truth));
+                let known = self.arena.binary(Binary::And, known, condition_holds);
+                let holds = self.on(whole, piece, known, sides);
+                self.assumed.pop();
+                holds
+            };
+            let first = on(true, condition, then);
+            let second = on(false, fails, otherwise);
+            return self.arena.binary(Binary::Or, first, second);
         }
         self.left -= 1;
-        let [first, second] = self.halves(whole);
-        let [first, second] = [first, second].map(|(condition, value)| {
-            let holds = self.on(whole, value, [left, right]);
-            self.arena.binary(Binary::And, condition, holds)
+        let [first, second] = self.halves(whole).map(|(condition, value)| {
+            let known = self.arena.binary(Binary::And, known, condition);
+            self.on(whole, value, known, sides)
         });
         self.arena.binary(Binary::Or, first, second)
     }
@@ -149,10 +157,24 @@ impl Lifting<'_> {
     }
 
     /// Returns what is true where two sides are equal with one piece for a part of theirs.
-    fn on(&mut self, whole: ExprId, piece: ExprId, sides: [ExprId; 2]) -> ExprId {
+    fn on(&mut self, whole: ExprId, piece: ExprId, known: ExprId, sides: [ExprId; 2]) -> ExprId {
         let replacement = |_: &Arena, part: ExprId| (part == whole).then_some(piece);
-        let [left, right] = sides.map(|side| self.arena.replace(side, &replacement));
-        self.lift(left, right)
+        let [known, left, right] =
+            [known, sides[0], sides[1]].map(|e| self.arena.replace(e, &replacement));
+        self.lift(known, [left, right])
+    }
+
+    /// Returns what is true where one number is at most another, of which every piece is asked where that is as
+    /// much.
+    fn at_most(&mut self, low: ExprId, high: ExprId) -> ExprId {
+        let pairs = match (self.arena.node(low), self.arena.node(high)) {
+            (Node::Binary(Binary::Max, a, b), _) => [(a, high), (b, high)],
+            (_, Node::Binary(Binary::Min, a, b)) => [(low, a), (low, b)],
+            (Node::Unary(Unary::Abs, a), _) => [(a, high), (self.arena.unary(Unary::Neg, a), high)],
+            _ => return self.arena.binary(Binary::LessEqual, low, high),
+        };
+        let [first, second] = pairs.map(|(low, high)| self.at_most(low, high));
+        self.arena.binary(Binary::And, first, second)
     }
 
     /// Returns both pieces of a larger, a smaller or a size: where each is, and what it is there.
@@ -170,8 +192,7 @@ impl Lifting<'_> {
                 unreachable!("these have no halves")
             }
         };
-        let above = arena.binary(Binary::LessEqual, low, high);
-        let below = arena.binary(Binary::LessEqual, high, low);
+        let [above, below] = [self.at_most(low, high), self.at_most(high, low)];
         [(above, over), (below, under)]
     }
 }

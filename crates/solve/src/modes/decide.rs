@@ -124,14 +124,14 @@ fn decide_within(
     let has_bounds = modes.bounds.iter().any(Option::is_some);
     let without_bounds = if has_bounds { most.min(MOST_WITHOUT_BOUNDS) } else { most };
     let mut deciding = Deciding::new(modes, attempt, without_bounds);
-    let decided = deciding.sparing(first, is_along);
+    let decided = deciding.sparing(first, start, is_along);
     let is_cut = has_bounds && matches!(decided.ended, Ended::NotDecided(_));
     let nearest = deciding.nearest(first, start, decided);
     if !is_cut || nearest.ended == Ended::Settled {
         return nearest;
     }
     (deciding.most, deciding.at_bounds) = (most, false);
-    deciding.sparing(first, is_along)
+    deciding.sparing(first, start, is_along)
 }
 
 /// Which given numbers may yield in the modes that are looked for.
@@ -195,8 +195,8 @@ impl<'a> Deciding<'a> {
 
 impl Deciding<'_> {
     /// Finds a mode in which everything holds: one in which nothing yields that does not in the first, where
-    /// there is one, else any; then others in which fewer given numbers yield.
-    fn sparing(&mut self, first: &Mode, is_along: bool) -> Decision {
+    /// there is one, else any; then others in which fewer given numbers yield, and no further.
+    fn sparing(&mut self, first: &Mode, start: &[f64], is_along: bool) -> Decision {
         let yielded = self.try_mode(first).plan.report.yielded.iter().copied().collect();
         self.yielding = Yielding::Known(yielded);
         let most = self.most;
@@ -219,8 +219,23 @@ impl Deciding<'_> {
                 return found;
             }
             self.yielding = Yielding::Fewer(yielded);
-            let Some(better) = self.go_through(first) else { return found };
+            let Some(better) = self.go_through_to_less(first, start, &found.tried) else {
+                return found;
+            };
             found = self.decision(better, Ended::Settled);
+        }
+    }
+
+    /// Goes through the assumptions for a mode in which given numbers move no further than at another try.
+    fn go_through_to_less(&mut self, first: &Mode, start: &[f64], than: &Tried) -> Option<Mode> {
+        let mut learnt = Vec::new();
+        loop {
+            let mode = self.explore(first, &mut learnt)?;
+            let tried = self.try_mode(&mode);
+            if self.modes.moves_no_more(&tried, than, start) {
+                return Some(mode);
+            }
+            learnt.push(self.assumptions(&mode, None));
         }
     }
 

@@ -61,6 +61,13 @@ impl Modes {
         Worth { unmet, yielded: tried.plan.report.yielded.len(), moved, short }
     }
 
+    /// Returns true if given numbers move no further than at another try.
+    pub(super) fn moves_no_more(&self, tried: &Tried, than: &Tried, start: &[f64]) -> bool {
+        let slots = &self.conditional.system.slots;
+        let [moved, most] = [tried, than].map(|t| moved(slots, start, &t.values)[0].sqrt());
+        moved <= most + ALIKE
+    }
+
     /// Returns true if something that is wished is not reached.
     fn is_missed(&self, tried: &Tried) -> bool {
         let relations = &self.conditional.system.relations;
