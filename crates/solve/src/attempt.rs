@@ -75,6 +75,8 @@ pub(crate) struct Frame {
     pub(crate) held: Vec<Cell<Held>>,
     /// Texts that the edit changed.
     pub(crate) changed_texts: Vec<SlotIndex>,
+    /// How many times larger what an edit sets is than what was there of its kind, where that is small beside it.
+    pub(crate) growth: f64,
 }
 
 /// Whether a row holds in x0.

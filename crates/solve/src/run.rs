@@ -23,7 +23,7 @@ use crate::slice::Slice;
 use crate::square::{Side, Trust};
 use crate::system::{SlotIndex, Stay};
 use parts::Dragged;
-use start::{required_rows_held, start};
+use start::{measure_what_is_set, required_rows_held, start};
 use std::cell::Cell;
 use std::rc::Rc;
 use way::Way;
@@ -128,6 +128,7 @@ pub fn run(
     runner.came.extend_from_slice(values);
     start(plan, runner, x0, changed);
     let Runner { frame, buffers, last, goal, came, trial, leans } = runner;
+    measure_what_is_set(plan, frame, came, changed);
     let solved_before =
         frame.changed_texts.is_empty() && !plan.opens() && required_rows_held(plan, frame, buffers);
     last.clear();

@@ -48,7 +48,8 @@ impl Way<'_> {
         if is_first {
             self.buckle(last, goal);
         }
-        let mut gone = self.walk(last, goal, trust, LONGEST..SHORTEST);
+        let strides = self.strides(last, goal);
+        let mut gone = self.walk(last, goal, trust, strides);
         if trust != Trust::Branch || !self.plan.has_least {
             if gone == 0.0 && trust == Trust::Branch && !self.frame.anchors.is_empty() {
                 gone = self.walk(last, goal, trust, SHORTEST..EXACT);
@@ -83,9 +84,7 @@ impl Way<'_> {
     /// opposite.
     fn buckle(&mut self, last: &mut [f64], goal: &[f64]) {
         let anchors = self.frame.anchors.len();
-        let scales = &self.frame.scales;
-        let parts = goal.iter().zip(&*last).zip(scales).map(|((to, from), by)| (to - from) / by);
-        let way = parts.fold(0.0, |far, part| part.abs().max(far));
+        let way = self.distance(last, goal);
         let mut part = (BUCKLED / way).min(1.0);
         let mut aside = last.to_vec();
         let mut steps = BTreeSet::new();

@@ -1,5 +1,6 @@
 //! Parts: a long way to a wish is gone in short ones, so that how often the pointer is asked plays no part.
 
+use super::start::measure_what_is_set;
 use super::{Drag, Runner};
 use crate::outcome::{Host, Outcome, Reason, Status};
 use crate::plan::Plan;
@@ -56,6 +57,7 @@ impl Runner {
         let leans = std::mem::take(&mut self.leans);
         let mut drag = Drag::by(std::mem::take(self), plan, x0, changed);
         drag.lean(plan, &leans);
+        measure_what_is_set(plan, &mut drag.runner.frame, values, changed);
         let targets: Vec<f64> = changed.iter().map(|&slot| values[slot as usize]).collect();
         let has_branch = drag.has_branch;
         let outcome = has_branch.then(|| drag.follow_until(Until::Missed, plan, &targets, host));
@@ -96,23 +98,25 @@ impl Drag {
     ) -> Outcome {
         assert_eq!(targets.len(), self.slice.inputs.len(), "a wish names every input");
         let may_leap = self.has_branch && plan.bends;
-        let parts = if may_leap { self.parts(plan, targets) } else { 1 };
+        let mut parts = if may_leap { self.parts(plan, targets) } else { 1 };
         let spent = match until {
             Until::Spent(bound) => bound,
             Until::Missed => u64::MAX,
         };
         if parts > 1 {
-            let from: Vec<f64> =
+            let mut at: Vec<f64> =
                 self.slice.inputs.iter().map(|&input| self.now[input as usize]).collect();
-            for part in 1..parts {
-                let part = f64::from(part) / f64::from(parts);
-                let on = from.iter().zip(targets).map(|(a, b)| a + part * (b - a));
-                let outcome = self.follow_on(plan, &on.collect::<Vec<_>>(), spent, host);
+            while parts > 1 {
+                let part = 1.0 / f64::from(parts);
+                at.iter_mut().zip(targets).for_each(|(at, to)| *at += part * (to - *at));
+                let outcome = self.follow_on(plan, &at, spent, host);
                 match until {
                     Until::Missed if !outcome.is_solved() => return outcome,
                     Until::Spent(bound) if self.runner.spent() > bound => break,
                     Until::Missed | Until::Spent(_) => {}
                 }
+                // what was small and has grown has a shorter way to go
+                parts = (parts - 1).min(self.parts_from(plan, &at, targets));
             }
         }
         self.follow_on(plan, targets, spent, host)
@@ -131,17 +135,22 @@ impl Drag {
     /// end of a branch, and where inequalities wait, over them. The more of a kind moves, the nearer to one another
     /// it lies.
     pub fn parts(&self, plan: &Plan, targets: &[f64]) -> u32 {
+        let at = self.slice.inputs.iter().map(|&input| self.now[input as usize]);
+        self.parts_from(plan, &at.collect::<Vec<_>>(), targets)
+    }
+    fn parts_from(&self, plan: &Plan, at: &[f64], targets: &[f64]) -> u32 {
         if !plan.has_branches {
             return 1;
         }
         let scales = &self.runner.frame.scales;
         let kind = |slot: SlotIndex| plan.slots()[slot as usize].scale;
-        let part = |(&input, to): (&SlotIndex, &f64)| {
-            let alike = self.slice.targets.iter().filter(|&&t| kind(t) == kind(input)).count();
-            let way = (to - self.now[input as usize]).abs() / scales[input as usize];
-            way * alike.max(1) as f64 / PART
+        let part = |((&input, at), to): ((&SlotIndex, &f64), &f64)| {
+            let alike = || self.slice.targets.iter().filter(|&&t| kind(t) == kind(input));
+            let sizes = alike().map(|&t| self.now[t as usize].abs());
+            let extent = sizes.fold(scales[input as usize], f64::max);
+            (to - at).abs() / extent * alike().count().max(1) as f64 / PART
         };
-        let parts = self.slice.inputs.iter().zip(targets).map(part).fold(1.0, f64::max);
+        let parts = self.slice.inputs.iter().zip(at).zip(targets).map(part).fold(1.0, f64::max);
         let most = (MOST_WORK / self.slice.targets.len().max(1)).max(1);
         parts.ceil().min(most as f64) as u32
     }

@@ -38,6 +38,11 @@ impl Alike {
     }
 }
 
+/// What is no larger is nothing: rules hold no closer.
+const NOTHING: f64 = 1e-9;
+/// What is no larger, in parts of what an edit sets of its kind, is small beside it.
+const SMALL: f64 = 1e-3;
+
 /// Fixes what does not change during the edit.
 pub(super) fn start(plan: &Plan, runner: &mut Runner, x0: &[f64], changed: &[SlotIndex]) {
     let Runner { frame, buffers, .. } = runner;
@@ -45,6 +50,7 @@ pub(super) fn start(plan: &Plan, runner: &mut Runner, x0: &[f64], changed: &[Slo
     frame.x0.clear();
     frame.x0.extend(x0.iter().map(|&v| if v.is_finite() { v } else { 0.0 }));
     frame.anchors.clear();
+    frame.growth = 1.0;
     measure_scales(plan, frame);
     frame.changed_texts.clear();
     frame
@@ -78,7 +84,7 @@ pub(super) fn required_rows_held(plan: &Plan, frame: &Frame, buffers: &mut Buffe
     true
 }
 
-/// The extent of every class of slots that have a value; at least their size, one where all is zero.
+/// The extent of every class of slots that have a value; at least their size, one where all is nothing.
 fn measure_scales(plan: &Plan, frame: &mut Frame) {
     let mut ranges = vec![(f64::INFINITY, f64::NEG_INFINITY); plan.scale_classes];
     let mut start = 0;
@@ -93,7 +99,7 @@ fn measure_scales(plan: &Plan, frame: &mut Frame) {
     }
     for (low, high) in &mut ranges {
         let extent = (*high - *low).max(high.abs()).max(low.abs());
-        *low = if extent.is_finite() && extent > 0.0 { extent } else { 1.0 };
+        *low = if extent.is_finite() && extent > NOTHING { extent } else { 1.0 };
     }
     frame.scales.clear();
     frame.scales.reserve(plan.slots().len());
@@ -101,6 +107,24 @@ fn measure_scales(plan: &Plan, frame: &mut Frame) {
         frame.scales.resize(alike.end as usize, ranges[alike.scale as usize].0);
     }
     plan.shares.iter().for_each(|&(slot, share)| frame.scales[slot as usize] *= share);
+}
+
+/// Measures what is small beside what an edit sets by that: it grows so far.
+pub(super) fn measure_what_is_set(
+    plan: &Plan,
+    frame: &mut Frame,
+    values: &[f64],
+    changed: &[SlotIndex],
+) {
+    for &slot in changed.iter().filter(|&&slot| plan.slots()[slot as usize].is_number) {
+        let more = SMALL * values[slot as usize].abs() / frame.scales[slot as usize];
+        if more.is_finite() && more > 1.0 {
+            let kind = plan.slots()[slot as usize].scale;
+            let alike = frame.scales.iter_mut().zip(plan.slots()).filter(|(_, s)| s.scale == kind);
+            alike.for_each(|(scale, _)| *scale *= more / SMALL);
+            frame.growth = frame.growth.max(more / SMALL);
+        }
+    }
 }
 
 /// Returns the least and the largest of finite numbers.

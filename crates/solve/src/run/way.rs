@@ -13,10 +13,14 @@ use std::ops::Range;
 /// The first stride of a walk, and the shortest, as parts of the whole way.
 pub(super) const LONGEST: f64 = 0.5;
 pub(super) const SHORTEST: f64 = 1e-7;
+/// The same in parts of the extent, where that is farther: what is small grows in strides as small.
+const SMALL: f64 = 1e-3;
 /// How far a stride over a crest goes, as a part of what is left of the way, and how far what it finds may lie off,
 /// in parts of the extent.
 const CREST: f64 = 1e-3;
 const NEAR: f64 = 0.1;
+/// How far what ends at the goal may come from, in parts of how far that is.
+const ENDS: f64 = 100.0;
 /// What a stride costs for every slot, in multiplications.
 const STRIDE: usize = 64;
 /// How many strides are tried before a way is given up.
@@ -134,6 +138,29 @@ impl Way<'_> {
         }
     }
 
+    /// Returns how far the wish lies, in parts of the extent.
+    pub(super) fn distance(&self, last: &[f64], goal: &[f64]) -> f64 {
+        let parts = goal.iter().zip(last).zip(&self.frame.scales);
+        parts.map(|((to, from), by)| (to - from) / by).fold(0.0, |far, part| part.abs().max(far))
+    }
+
+    /// Returns how long the strides of a walk are, from the first to the shortest, as parts of the whole way.
+    pub(super) fn strides(&self, last: &[f64], goal: &[f64]) -> Range<f64> {
+        LONGEST..SHORTEST.min(SMALL / (self.distance(last, goal) * self.frame.growth))
+    }
+
+    /// Arrives from next to the goal where the branch ends there, as what shrinks to nothing does: no block has a
+    /// side any more.
+    fn ends(&mut self, last: &[f64], goal: &[f64]) -> bool {
+        let near = ENDS * self.distance(last, goal);
+        self.stride(last, goal, 1.0, Trust::Any, &Approach::Nowhere).is_ok() && {
+            let scales = &self.frame.scales;
+            let gone =
+                self.trial.iter().zip(last).zip(scales).map(|((to, from), by)| (to - from) / by);
+            gone.fold(0.0, |far: f64, part| part.abs().max(far)) <= near
+        }
+    }
+
     /// Many strides, each as long as the branch allows, the first and the shortest so long; returns the part
     /// that was gone.
     pub(super) fn walk(
@@ -160,6 +187,10 @@ impl Way<'_> {
             } else {
                 length = length.min(1.0 - gone) * 0.5;
                 if length < strides.end {
+                    if 1.0 - gone <= 4.0 * strides.end && self.ends(last, goal) {
+                        last.copy_from_slice(self.trial);
+                        return 1.0;
+                    }
                     let part = CREST * (1.0 - gone);
                     if trust != Trust::Branch || !self.crosses(last, goal) {
                         break;

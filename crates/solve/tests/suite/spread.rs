@@ -96,6 +96,31 @@ fn a_joint_of_two_bars_without_length_gets_its_length_again() {
 }
 
 #[test]
+fn a_triangle_that_came_to_nothing_gets_its_shape_again() {
+    // two corners as far from the first as a given length, and 1.2 of it from one another
+    let mut s = Sheet::default();
+    let hub = s.anchor(0.0, 0.0);
+    let [p, q] = [6.0, -6.0].map(|x| s.place(x, 8.0));
+    let radius = s.given(10.0);
+    let factor = s.c(1.2);
+    for (a, b) in [(hub, p), (hub, q), (p, q)] {
+        let (distance, given) = (s.distance(a, b), s.v(radius));
+        let wanted = if a == hub { given } else { s.mul(factor, given) };
+        s.require(distance, wanted);
+    }
+    for length in [0.0, 10.0, 1e-3, 10.0, 1e-8, 5.0, 1e-6, 1e6] {
+        let within = 1e-8_f64.max(1e-9 * length);
+        let (values, outcome, _) = s.set(&[(radius, length)]);
+        assert!(outcome.is_solved(), "{length}: {outcome:?}");
+        for (a, b, wanted) in [(hub, p, length), (hub, q, length), (p, q, 1.2 * length)] {
+            let [dx, dy] = [0, 1].map(|i| values[a[i] as usize] - values[b[i] as usize]);
+            close(base::number::sqrt(dx * dx + dy * dy), wanted, within);
+        }
+        s.x0 = values;
+    }
+}
+
+#[test]
 fn a_bar_grows_from_any_length_to_any() {
     for from in [1e-8, 1e-6, 1e-3, 1.0] {
         let (s, end, size) = bar(from);
