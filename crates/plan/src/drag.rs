@@ -11,7 +11,7 @@ use crate::run::{
 };
 use crate::task::{Course, Task};
 use kernel::{SlotId, Values};
-use solve::{Level, PATIENCE, Puzzle, Rejected, SlotIndex, Stay, Verdict};
+use solve::{Level, Puzzle, Rejected, SlotIndex, Stay, Verdict};
 use std::rc::Rc;
 
 /// What a drag keeps from the press to the release.
@@ -410,15 +410,7 @@ impl Pull {
         }
         let mut press = values.clone();
         self.back(&mut press);
-        let has_bound = planner.left().is_some();
-        if !has_bound {
-            planner.end_at(Some(planner.spent() + PATIENCE));
-        }
-        let implied = planner.implied_rules(model, &self.task, &press, host);
-        if !has_bound {
-            planner.end_at(None);
-        }
-        self.task.with_tested(&implied, &mut planner.plans)
+        planner.without_implied(model, &self.task, &press, host)
     }
 
     /// Ends the drag of a component; returns the task that stands.

@@ -290,7 +290,7 @@ impl Planner {
         let mut report = EditReport::default();
         let began = self.spent();
         for task in &mut tasks {
-            let ran = run(self, model, task, aim, values, &mut scratch, host);
+            let ran = self.run_or_without_implied(model, task, aim, values, &mut scratch, host);
             note(&mut report, task, ran);
         }
         let is_dear = self.spent() - began > DEAR;
@@ -334,6 +334,33 @@ impl Planner {
             *values = scratch;
         }
         report
+    }
+
+    /// Runs a task; where it falls short, what others imply where the edit began is left to the test.
+    fn run_or_without_implied(
+        &mut self,
+        model: Model<'_>,
+        task: &mut Task,
+        aim: &Aim,
+        start: &Values,
+        values: &mut Values,
+        host: &mut dyn Host,
+    ) -> Ran {
+        let before = task.component.slots().iter().map(|&s| (s, values.get(s)));
+        let before: Vec<(SlotId, Value)> = before.collect();
+        let ran = run(self, model, task, aim, start, values, host);
+        if !ran.falls_short() || ran.not_decided.is_some() {
+            return ran;
+        }
+        let Some(left) = self.without_implied(model, task, start, host) else { return ran };
+        let mut again = values.clone();
+        before.into_iter().for_each(|(slot, value)| again.put(slot, value));
+        let found = run(self, model, &left, aim, start, &mut again, host);
+        if found.falls_short() {
+            return ran;
+        }
+        (*task, *values) = (left, again);
+        found
     }
 
     /// Plans what an edit starts.

@@ -16,7 +16,7 @@ use crate::rule::{Body, Rule, Source};
 use crate::task::{Holding, Origin, Task};
 use kernel::{SlotId, Values};
 use solve::echelon::{Dependent, Echelon, Row};
-use solve::{Level, Scratch};
+use solve::{Level, PATIENCE, Scratch};
 use std::collections::{BTreeMap, BTreeSet};
 
 /// A required constraint that holds and says nothing new.
@@ -66,6 +66,11 @@ impl Redundancy {
         self.theorems.values().sum()
     }
 }
+
+/// Up to so many slots of a component it is asked which rules imply another.
+const MOST_ASKED: usize = 60;
+/// Of so many rules of a component.
+const MOST_ASKED_RULES: usize = 16;
 
 impl Planner {
     /// Finds the required constraints that say nothing new; `values` are those of the document at rest,
@@ -117,13 +122,17 @@ impl Planner {
         let is_theorem = |source: Source| rules.iter().any(|&r| self.rules.source(r) == source);
         let mut found = surplus(self, left);
         found.retain(|r| !unmet.contains(&r.source) && !is_theorem(r.source));
-        found.extend(theorems.into_iter().map(|(rule, circuit)| {
+        let may_ask = task.component.slots().len() <= MOST_ASKED;
+        for (count, (rule, circuit)) in theorems.into_iter().enumerate() {
+            let implied_by = match may_ask && count < MOST_ASKED_RULES {
+                true => self.implying(model, task, (rule, circuit), &rules, values, host),
+                false => circuit,
+            };
             let source = self.rules.source(rule);
-            let implied_by: BTreeSet<Source> =
-                circuit.into_iter().map(|r| self.rules.source(r)).collect();
-            let implied_by = implied_by.into_iter().filter(|s| *s != source).collect();
-            Redundant { source, kind: RedundantKind::Theorem, implied_by }
-        }));
+            let implied_by = implied_by.into_iter().map(|r| self.rules.source(r));
+            let implied_by = implied_by.filter(|s| *s != source).collect();
+            found.push(Redundant { source, kind: RedundantKind::Theorem, implied_by });
+        }
         (found, left.plan.report.freedom.saturating_sub(task.plan.report.freedom))
     }
 
@@ -136,9 +145,28 @@ impl Planner {
         values: &Values,
         host: &mut dyn Host,
     ) -> BTreeMap<u32, BTreeSet<u32>> {
-        let mut candidates = candidates(self, model, task, values, &mut Scratch::default());
+        let core_of_accepted = task.core(|| core(self, model, task, &rejected_rows(task)));
+        let found = self.theorems_of(model, task, &core_of_accepted, values, host);
+        if found.is_some() || task.plan.report.rejected.is_empty() {
+            return found.unwrap_or_default();
+        }
+        // what depends on others at a generic point may say here what these do not say
+        let core = core(self, model, task, &BTreeSet::new());
+        self.theorems_of(model, task, &core, values, host).unwrap_or_default()
+    }
+
+    /// The same of some rows; nothing where no solution of the others is found elsewhere.
+    fn theorems_of(
+        &mut self,
+        model: Model<'_>,
+        task: &Task,
+        core: &[(u32, u32)],
+        values: &Values,
+        host: &mut dyn Host,
+    ) -> Option<BTreeMap<u32, BTreeSet<u32>>> {
+        let mut candidates = candidates(self, model, task, core, values, &mut Scratch::default());
         if candidates.is_empty() {
-            return candidates;
+            return Some(candidates);
         }
         let is_left = |r: &u32| {
             self.rules.get(*r).shape.level == Level::Required && !candidates.contains_key(r)
@@ -148,15 +176,69 @@ impl Planner {
         let holding = |s| Self::resting_hold(model.structure, s);
         let setup = Setup { model, holding: &holding, aim: &Aim::default() };
         if self.try_rules(&setup, &rest, &mut elsewhere, host) != Trial::Holds {
-            return BTreeMap::new();
+            return None;
         }
         candidates.retain(|&rule, _| self.unmet(model, [rule], &elsewhere, host).is_empty());
-        candidates
+        Some(candidates)
+    }
+
+    /// Returns rules that imply another by a theorem, and none that could be spared: those of its circuit if they do
+    /// elsewhere too; else of all that are not theorems themselves.
+    fn implying(
+        &mut self,
+        model: Model<'_>,
+        task: &Task,
+        (rule, circuit): (u32, BTreeSet<u32>),
+        theorems: &BTreeSet<u32>,
+        values: &Values,
+        host: &mut dyn Host,
+    ) -> BTreeSet<u32> {
+        let may_imply =
+            |&r: &u32| !theorems.contains(&r) && self.rules.get(r).shape.level == Level::Required;
+        let mut left: Vec<u32> = task.component.rules().iter().copied().filter(may_imply).collect();
+        let holding = |s| Self::resting_hold(model.structure, s);
+        let setup = Setup { model, holding: &holding, aim: &Aim::default() };
+        let mut imply = |rules: &[u32]| {
+            let mut elsewhere = perturbed(model, task.component.slots(), values);
+            self.try_rules(&setup, rules, &mut elsewhere, host) == Trial::Holds
+                && self.unmet(model, [rule], &elsewhere, host).is_empty()
+        };
+        let own: Vec<u32> = circuit.iter().copied().filter(|&r| r != rule).collect();
+        if imply(&own) {
+            return circuit;
+        }
+        for r in left.clone().into_iter().rev() {
+            let without: Vec<u32> = left.iter().copied().filter(|&q| q != r).collect();
+            if imply(&without) {
+                left = without;
+            }
+        }
+        left.into_iter().collect()
+    }
+
+    /// Returns a task with the rules left to the test that others imply by a theorem in a state, if some do. To the
+    /// plan they say something, and may hold what they do not hold.
+    pub(crate) fn without_implied(
+        &mut self,
+        model: Model<'_>,
+        task: &Task,
+        state: &Values,
+        host: &mut dyn Host,
+    ) -> Option<Task> {
+        let has_bound = self.left().is_some();
+        if !has_bound {
+            self.end_at(Some(self.spent() + PATIENCE));
+        }
+        let implied = self.implied_rules(model, task, state, host);
+        if !has_bound {
+            self.end_at(None);
+        }
+        task.with_tested(&implied, &mut self.plans)
     }
 
     /// Returns the rules of a component that follow from the others by a theorem, in a state in which all that is
     /// required holds; nothing in any other.
-    pub(crate) fn implied_rules(
+    fn implied_rules(
         &mut self,
         model: Model<'_>,
         task: &Task,
@@ -180,11 +262,11 @@ fn candidates(
     planner: &Planner,
     model: Model<'_>,
     task: &Task,
+    core: &[(u32, u32)],
     values: &Values,
     scratch: &mut Scratch,
 ) -> BTreeMap<u32, BTreeSet<u32>> {
     let mut found: BTreeMap<u32, BTreeSet<u32>> = BTreeMap::new();
-    let core = task.core(|| core(planner, model, task));
     if core.is_empty() {
         return found;
     }
@@ -192,7 +274,7 @@ fn candidates(
     let column = |s: SlotId| task.component.slots().binary_search(&s).ok().map(|i| i as u32);
     let mut rows: Vec<Row> = Vec::with_capacity(core.len());
     let mut rule_of_row: Vec<u32> = Vec::with_capacity(core.len());
-    for &(position, e) in core.iter() {
+    for &(position, e) in core {
         let index = task.component.rules()[position as usize];
         let rule = planner.rules.get(index);
         let Body::Equations(equations) = &rule.shape.body else { continue };
@@ -217,18 +299,23 @@ fn candidates(
     found
 }
 
-/// Finds the rows that may depend on others at some state: rule of the component and equation.
+/// Finds the rows, but for those that are left out, that may depend on others at some state: rule of the component
+/// and equation.
 ///
 /// A row that alone of those left mentions a slot, with a derivative that is never zero, depends on
 /// none of them, nor they on it: it is left out, and so on. Where every rule is linear what depends
 /// does so everywhere.
-fn core(planner: &Planner, model: Model<'_>, task: &Task) -> Vec<(u32, u32)> {
+fn core(
+    planner: &Planner,
+    model: Model<'_>,
+    task: &Task,
+    left_out: &BTreeSet<(u32, u32)>,
+) -> Vec<(u32, u32)> {
     let patterns = planner.plans.patterns();
     let rules = || (0..).zip(task.component.rules()).map(|(i, &r)| (i, r, planner.rules.get(r)));
     if rules().all(|(_, _, rule)| is_linear(patterns, rule)) {
         return Vec::new();
     }
-    let rejected = rejected_rows(task);
     let mut rows: Vec<(u32, u32)> = Vec::new();
     // every slot of every row, and whether its derivative is the same everywhere
     let mut mentions: Vec<(SlotId, u32, bool)> = Vec::new();
@@ -239,7 +326,7 @@ fn core(planner: &Planner, model: Model<'_>, task: &Task) -> Vec<(u32, u32)> {
             Planner::resting_hold(model.structure, s) != Holding::Fixed
                 && writable.as_ref().is_none_or(|w| w.contains(&s))
         };
-        for (e, equation) in (0..).zip(equations).filter(|(e, _)| !rejected.contains(&(index, *e)))
+        for (e, equation) in (0..).zip(equations).filter(|(e, _)| !left_out.contains(&(index, *e)))
         {
             let number = rows.len() as u32;
             rows.push((position, e));
