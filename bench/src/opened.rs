@@ -2,7 +2,7 @@
 
 use kernel::{ConstraintInstance, DOCUMENT, SlotId, Structure, ThingId, Value, Values};
 use lang::Lowered;
-use plan::{EditReport, Host, Model, Planner, Plans, Templates, Way};
+use plan::{EditReport, Host, Model, Planner, Plans, SideOf, Templates, Way};
 use web_time::Instant;
 
 /// A document with its things made, before anything is solved.
@@ -125,6 +125,9 @@ impl Host for Given<'_> {
         _: Way,
         _: &Values,
     ) -> Result<Vec<(SlotId, Value)>, String> {
+        Err("there are no texts here".into())
+    }
+    fn number(&mut self, _: ConstraintInstance, _: SideOf, _: &Values) -> Result<f64, String> {
         Err("there are no texts here".into())
     }
     fn holds(&mut self, _: ConstraintInstance, _: &Values) -> bool {

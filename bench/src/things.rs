@@ -264,6 +264,14 @@ impl plan::Host for Zero {
     ) -> Result<Vec<(kernel::SlotId, kernel::Value)>, String> {
         Err("widgets have no methods of the host".into())
     }
+    fn number(
+        &mut self,
+        _: kernel::ConstraintInstance,
+        _: plan::SideOf,
+        _: &Values,
+    ) -> Result<f64, String> {
+        Err("widgets have no texts".into())
+    }
     fn holds(&mut self, _: kernel::ConstraintInstance, _: &Values) -> bool {
         false
     }

@@ -65,46 +65,82 @@ impl<'a> Evaluator<'a> {
         let class = &self.document.classes[constraint.class];
         let written = &class.constraints[constraint.index as usize];
         self.begin();
-        self.copy_in(&written.rule, &Frame::of(constraint.owner), &mut turns.fuse(), taker)
-            .map_err(|f| f.within(written.origin))
+        let mut written_by = Vec::new();
+        let mut copy = |rule: &'a Term, frame: &Frame<'a>| {
+            let Term::Binary(BinaryOperator::Equal, left, right) = rule else {
+                return Err(Fault::wrong("a rule that is no equation"));
+            };
+            let (target, source) = match taker {
+                Side::Left => (left, right),
+                Side::Right => (right, left),
+            };
+            let target = self.target(target, frame)?;
+            self.share(target, &self.term(source, frame)?, &mut written_by)
+        };
+        let frame = Frame::of(constraint.owner);
+        self.part_of_rule(&written.rule, &frame, &mut turns.fuse(), &mut copy)
+            .map_err(|f| f.within(written.origin))?;
+        Ok(written_by)
     }
 
-    fn copy_in(
+    /// Computes a side of a comparison in a constraint's rule, to which `turns` lead as for [`Self::copy_side`].
+    ///
+    /// # Errors
+    /// A rule without a comparison, a side that is no number; named by the constraint.
+    pub fn side(
+        &self,
+        constraint: ConstraintInstance,
+        turns: impl Iterator<Item = bool>,
+        side: Side,
+    ) -> Result<f64> {
+        let class = &self.document.classes[constraint.class];
+        let written = &class.constraints[constraint.index as usize];
+        self.begin();
+        let mut number = 0.0;
+        let mut compute = |rule: &'a Term, frame: &Frame<'a>| {
+            let Term::Binary(_, left, right) = rule else {
+                return Err(Fault::wrong("a rule that compares nothing"));
+            };
+            let term = match side {
+                Side::Left => left,
+                Side::Right => right,
+            };
+            (number, _) = self.number(&self.term(term, frame)?)?;
+            Ok(())
+        };
+        let frame = Frame::of(constraint.owner);
+        self.part_of_rule(&written.rule, &frame, &mut turns.fuse(), &mut compute)
+            .map_err(|f| f.within(written.origin))?;
+        Ok(number)
+    }
+
+    /// Does something with the part of a rule to which turns lead.
+    fn part_of_rule(
         &self,
         rule: &'a Term,
         frame: &Frame<'a>,
         turns: &mut dyn Iterator<Item = bool>,
-        taker: Side,
-    ) -> Result<Vec<(SlotId, Value)>> {
+        with: &mut dyn FnMut(&'a Term, &Frame<'a>) -> Result<()>,
+    ) -> Result<()> {
         if let Term::Binary(BinaryOperator::And, first, second) | Term::If(_, first, second) = rule
             && let Some(is_second) = turns.next()
         {
             let part = if is_second { second } else { first };
-            return self.deeper(|| self.copy_in(part, frame, turns, taker));
+            return self.deeper(|| self.part_of_rule(part, frame, turns, with));
         }
         if let Term::Let(name, bound, body) = rule {
             let inner = frame.bind(name, self.term(bound, frame)?);
-            return self.deeper(|| self.copy_in(body, &inner, turns, taker));
+            return self.deeper(|| self.part_of_rule(body, &inner, turns, with));
         }
         if let Term::Send { to, name, arguments, search } = rule {
             let to = self.term(to, frame)?;
             if let Some(message) = self.message(&to, name, *search) {
                 let arguments = self.arguments(arguments, frame)?;
                 let inner = self.bind(Frame::sent(to, frame.nearest), message, arguments)?;
-                return self.deeper(|| self.copy_in(&message.answer, &inner, turns, taker));
+                return self.deeper(|| self.part_of_rule(&message.answer, &inner, turns, with));
             }
         }
-        let Term::Binary(BinaryOperator::Equal, left, right) = rule else {
-            return Err(Fault::wrong("a rule that is no equation"));
-        };
-        let (target, source) = match taker {
-            Side::Left => (left, right),
-            Side::Right => (right, left),
-        };
-        let target = self.target(target, frame)?;
-        let mut written = Vec::new();
-        self.share(target, &self.term(source, frame)?, &mut written)?;
-        Ok(written)
+        with(rule, frame)
     }
 
     /// Finds the part that a term names, stored and not computed.

@@ -7,7 +7,7 @@ use crate::host::Host;
 use crate::modal::{Acting, ModalDrag, ModeChange};
 use crate::planner::{Latest, Model, Planner, is_any_new};
 use crate::run::{
-    Adapter, Ground, Ran, Texts, leans, or_otherwise, put_texts, ran, scatter, searched,
+    Adapter, Ground, Ran, Texts, compute, leans, or_otherwise, put_texts, ran, scatter, searched,
 };
 use crate::task::{Course, Task};
 use kernel::{SlotId, Values};
@@ -32,6 +32,8 @@ struct Pull {
     way: Way,
     /// The numbers at the press, by the slots of the system.
     x0: Vec<f64>,
+    /// False until what the host computes at the press is known: it is asked at the first wish.
+    is_begun: bool,
     /// The texts at the press that the drag may write.
     texts: Texts,
     targets: Vec<f64>,
@@ -187,11 +189,13 @@ impl Planner {
         }
         let (way, texts) = Way::of(&task, &x0, model, values);
         let targets = vec![0.0; task.targets().len()];
+        let is_begun = task.computed().len() == 0;
         Pull {
             task,
             planned: None,
             way,
             x0,
+            is_begun,
             texts,
             targets,
             knows_implied: false,
@@ -243,6 +247,10 @@ impl Pull {
         }
         if let Some(planned) = self.planned.take() {
             self.task = *planned;
+        }
+        if !std::mem::replace(&mut self.is_begun, true) {
+            compute(planner, model, &self.task, values, host, &mut self.x0);
+            (self.way, self.texts) = Way::of(&self.task, &self.x0, model, values);
         }
         let targets = &self.targets;
         let drag = match &mut self.way {
@@ -389,6 +397,7 @@ impl Pull {
             planned,
             way,
             x0,
+            is_begun: true,
             texts,
             targets,
             knows_implied: true,

@@ -588,7 +588,7 @@ pub(crate) fn kind(meaning: &Meaning<'_>) -> &'static str {
 }
 
 /// Returns true for `<` and its like.
-fn is_order(operator: BinaryOperator) -> bool {
+pub(crate) fn is_order(operator: BinaryOperator) -> bool {
     use BinaryOperator as B;
     matches!(operator, B::Less | B::LessEqual | B::Greater | B::GreaterEqual)
 }

@@ -3,7 +3,7 @@
 use crate::edit::Conflict;
 use crate::modal::Acting;
 use crate::planner::{Model, Planner};
-use crate::rule::Source;
+use crate::rule::{Body, Source};
 use crate::task::{Course, Holding, Task};
 use kernel::{SlotId, Values};
 use solve::{Count, Proofs, Rejected, Step, StepKind, System};
@@ -129,7 +129,7 @@ impl Planner {
         let mut explained = Vec::new();
         for task in &self.latest.tasks {
             explained.extend(self.search_in_words(task));
-            explained.extend(self.ran(task).map(|step| self.in_words(task, step)));
+            explained.extend(self.ran(task).filter_map(|step| self.in_words(task, step)));
         }
         explained
     }
@@ -232,7 +232,7 @@ impl Planner {
                 wanted.remove(t);
             });
             wanted.extend(&step.reads);
-            steps.push(self.in_words(task, step));
+            steps.extend(self.in_words(task, step));
         }
         if let Some(search) =
             search.filter(|_| task.looked_for().iter().any(|s| wanted.contains(s)))
@@ -354,10 +354,23 @@ impl Planner {
         Some(ExplainedStep { kind, targets: of(targets), reads: of(reads), sources })
     }
 
-    fn in_words(&self, task: &Task, step: &Step) -> ExplainedStep {
+    /// Returns what a step computes from what; nothing for one that computes only what stands beside a rule, which
+    /// others read from where it does.
+    fn in_words(&self, task: &Task, step: &Step) -> Option<ExplainedStep> {
         let known = |slots: &[u32]| -> Vec<SlotId> {
             slots.iter().filter_map(|&i| task.component.slots().get(i as usize).copied()).collect()
         };
+        let targets = known(&step.targets);
+        if targets.is_empty() {
+            return None;
+        }
+        let mut reads = known(&step.reads);
+        for (_, rule) in task.computed().filter(|(slot, _)| step.reads.contains(slot)) {
+            let rule = self.rules.get(rule);
+            if let Body::Beside(beside) = &rule.shape.body {
+                reads.extend(rule.slots_at(&beside.reads));
+            }
+        }
         let mut sources: Vec<Source> = Vec::new();
         for &relation in &step.relations {
             let source = task.source(&self.rules, relation);
@@ -365,12 +378,7 @@ impl Planner {
                 sources.push(source);
             }
         }
-        ExplainedStep {
-            kind: kind(&task.system, step),
-            targets: known(&step.targets),
-            reads: known(&step.reads),
-            sources,
-        }
+        Some(ExplainedStep { kind: kind(&task.system, step), targets, reads, sources })
     }
 }
 

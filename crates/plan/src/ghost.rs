@@ -9,7 +9,7 @@ use crate::aim::Aim;
 use crate::host::Host;
 use crate::modal::{Acting, attempt_in_mode};
 use crate::planner::{Model, Planner, is_any_new};
-use crate::run::{Adapter, ground, leans, scatter};
+use crate::run::{Adapter, compute, ground, leans, scatter};
 use crate::task::{Course, Holding, Task};
 use crate::whole;
 use kernel::{SlotId, Structure, ThingId, Values};
@@ -206,7 +206,8 @@ impl Planner {
         host: &mut dyn Host,
         found: &mut Vec<Ghost>,
     ) {
-        let x0 = ground(self, task, &Aim::default(), values, values).x0;
+        let mut x0 = ground(self, task, &Aim::default(), values, values).x0;
+        compute(self, model, task, values, host, &mut x0);
         let mut trial = values.clone();
         let mut adapter = Adapter { planner: self, model, task, values: &mut trial, host };
         for other in solve::others(plan, &x0, MOST, &mut adapter) {
@@ -226,7 +227,8 @@ impl Planner {
         host: &mut dyn Host,
         found: &mut Vec<Ghost>,
     ) {
-        let ground = ground(self, task, &Aim::default(), values, values);
+        let mut ground = ground(self, task, &Aim::default(), values, values);
+        ground.compute(self, model, task, values, host);
         let leans = leans(model, task);
         for (mode, standing) in modes.other_ways(&modes.first(&ground.x0, &ground.x0)) {
             let mut trial = values.clone();

@@ -60,7 +60,7 @@ pub(crate) fn fails(
             all.sort_by(f64::total_cmp);
             all.windows(2).any(|w| rule.shape.within.is_met(w[0], w[1])).then_some(None)
         }
-        Body::Opaque(_) => {
+        Body::Opaque(_) | Body::Beside(_) => {
             let holds = match (rule.shape.methods.as_slice(), rule.source) {
                 ([copy, ..], _) if matches!(copy.how, How::Copy) => {
                     let slot = |position: u32| values.get(rule.slots[position as usize]);

@@ -2,7 +2,7 @@
 //!
 //! `plan` knows numbers and their equations. Texts, given terms and rules over them it asks for.
 
-use crate::rule::{Source, Way};
+use crate::rule::{SideOf, Source, Way};
 use kernel::{ConstraintInstance, SlotId, Value, Values};
 
 /// What the planner asks of whoever evaluates expressions.
@@ -20,6 +20,16 @@ pub trait Host {
         way: Way,
         values: &Values,
     ) -> Result<Vec<(SlotId, Value)>, String>;
+    /// Computes a side of a comparison in the constraint's rule: how wide a text is.
+    ///
+    /// # Errors
+    /// Why it cannot, in the words for the user.
+    fn number(
+        &mut self,
+        constraint: ConstraintInstance,
+        side: SideOf,
+        values: &Values,
+    ) -> Result<f64, String>;
     /// Returns true if the constraint's rule is true.
     fn holds(&mut self, constraint: ConstraintInstance, values: &Values) -> bool;
 }

@@ -88,6 +88,6 @@ pub use host::{Failure, Host};
 pub use modal::{Acting, ActingKind, ModeChange};
 pub use planner::{Latest, Model, Planner, Unmet};
 pub use plans::{PlanCounts, Plans};
-pub use rule::{Source, Turns, Way};
+pub use rule::{SideOf, Source, Turns, Way};
 pub use status::{SlotState, Status};
 pub use template::Templates;

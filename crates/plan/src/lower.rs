@@ -6,8 +6,8 @@
 use crate::evaluate::Opening;
 use crate::fault::{Fault, Trouble};
 use crate::meaning::{Frame, Meaning, collect_slots};
-use crate::rule::{Body, Formula, How, RuleMethod, Rules, Shape, Source, Turns, Way, When};
-use crate::say::{Said, say};
+use crate::rule::{Beside, Body, Formula, How, RuleMethod, Rules, Shape, Source, Turns, Way, When};
+use crate::say::{self, Said, say};
 use base::number::Tolerance;
 use expr::ExprId;
 use kernel::{
@@ -135,6 +135,7 @@ fn assemble(
     let mut lowered = Lowered::default();
     let is_plain = said.branches.is_empty()
         && said.truths.is_empty()
+        && said.beside.is_empty()
         && said.different.is_empty()
         && said.opaque.is_empty();
     if !shape.methods.is_empty() && !is_plain {
@@ -160,8 +161,20 @@ fn add_rules(
     said: Said,
     lowered: &mut Lowered,
 ) {
-    let mut formula = |roots: &[ExprId]| Formula::of(patterns, &opening.arena, roots);
     let mut add = |body| lowered.shapes.push(Shape { body, ..like.clone() });
+    for said in said.beside {
+        let (pattern, mut arguments) = patterns.intern(&opening.arena, &[said.truth]);
+        let place = arguments.iter().position(|&v| v == say::Beside::NUMBER).unwrap_or(0);
+        arguments.remove(place);
+        let slots = arguments.into_iter().map(|v| SlotId(v.0)).collect();
+        add(Body::Beside(Beside {
+            truth: Formula { pattern, slots },
+            place: place as u32,
+            side: said.side,
+            reads: said.reads.into_iter().collect(),
+        }));
+    }
+    let mut formula = |roots: &[ExprId]| Formula::of(patterns, &opening.arena, roots);
     if !said.equations.is_empty() {
         add(Body::Equations(said.equations.iter().map(|e| formula(e)).collect()));
     }

@@ -58,6 +58,15 @@ impl Turns {
     }
 }
 
+/// A side of a comparison in a rule.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub struct SideOf {
+    /// How one comes to the comparison.
+    pub turns: Turns,
+    /// True for the right side.
+    pub is_right: bool,
+}
+
 define_id!(ShapeId, "h", "What rules of one kind say.");
 
 /// Where a slot stands among those of a rule.
@@ -90,12 +99,27 @@ pub(crate) enum Body<S = Position> {
     Equations(Vec<Formula<S>>),
     /// The one expression is true: an inequality, alternatives, anything but an equation.
     True(Formula<S>),
+    /// The same, with a number in it that the host computes.
+    Beside(Beside<S>),
     /// No two of the expressions are equal.
     Different(Formula<S>),
     /// Something that only the host can test.
     Opaque(Vec<S>),
     /// The slots keep the values that they had when the edit began.
     Hold(Vec<S>),
+}
+
+/// What is true of numbers and of one that the host computes, as of how wide a text is.
+#[derive(Clone, Debug)]
+pub(crate) struct Beside<S = Position> {
+    /// The one expression; its arguments without that number.
+    pub(crate) truth: Formula<S>,
+    /// Where that number stands among the arguments.
+    pub(crate) place: u32,
+    /// What it is.
+    pub(crate) side: SideOf,
+    /// The slots that it is computed from.
+    pub(crate) reads: Vec<S>,
 }
 
 /// A way to make a rule hold.
@@ -199,6 +223,12 @@ impl Shape<SlotId> {
                 Body::Equations(equations.iter().map(|e| n.formula(e)).collect())
             }
             Body::True(formula) => Body::True(n.formula(formula)),
+            Body::Beside(beside) => Body::Beside(Beside {
+                truth: n.formula(&beside.truth),
+                place: beside.place,
+                side: beside.side,
+                reads: n.all(&beside.reads),
+            }),
             Body::Different(formula) => Body::Different(n.formula(formula)),
             Body::Opaque(slots) => Body::Opaque(n.all(slots)),
             Body::Hold(slots) => Body::Hold(n.all(slots)),
@@ -225,7 +255,11 @@ impl<S> Shape<S> {
     pub(crate) fn equations(&self) -> impl Iterator<Item = &Formula<S>> {
         match &self.body {
             Body::Equations(equations) => equations.iter(),
-            Body::True(_) | Body::Different(_) | Body::Opaque(_) | Body::Hold(_) => [].iter(),
+            Body::True(_)
+            | Body::Beside(_)
+            | Body::Different(_)
+            | Body::Opaque(_)
+            | Body::Hold(_) => [].iter(),
         }
     }
 }

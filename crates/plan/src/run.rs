@@ -6,7 +6,7 @@ use crate::holds::fails;
 use crate::host::{Failure, Host};
 use crate::modal::{self, Decide, Stands};
 use crate::planner::{Model, Planner};
-use crate::rule::{How, Rule, Source};
+use crate::rule::{Body, How, Rule, Source};
 use crate::task::{Course, Origin, Task};
 use crate::whole::{self, Looking};
 use base::number::Toward;
@@ -54,6 +54,53 @@ pub(crate) struct Ground {
     pub(crate) changed: Vec<SlotIndex>,
 }
 
+impl Ground {
+    /// Puts in what the host computes at the start.
+    pub(crate) fn compute(
+        &mut self,
+        planner: &Planner,
+        model: Model<'_>,
+        task: &Task,
+        start: &Values,
+        host: &mut dyn Host,
+    ) {
+        compute(planner, model, task, start, host, &mut self.x0);
+        task.computed().for_each(|(at, _)| self.local[at as usize] = self.x0[at as usize]);
+    }
+}
+
+/// Puts what the host computes from values into the slots of a task that hold it.
+pub(crate) fn compute(
+    planner: &Planner,
+    model: Model<'_>,
+    task: &Task,
+    values: &Values,
+    host: &mut dyn Host,
+    local: &mut [f64],
+) {
+    for (at, rule) in task.computed() {
+        let number = computed(planner, model, rule, values, host);
+        local[at as usize] = number.unwrap_or(0.0);
+    }
+}
+
+/// Computes what the host computes beside a rule.
+fn computed(
+    planner: &Planner,
+    model: Model<'_>,
+    rule: u32,
+    values: &Values,
+    host: &mut dyn Host,
+) -> Result<f64, String> {
+    let rule = planner.rules.get(rule);
+    let (Body::Beside(beside), Source::Constraint(c)) = (&rule.shape.body, rule.source) else {
+        return Err("nothing is computed beside this".into());
+    };
+    let constraint = model.structure.constraints[c as usize];
+    let number = host.number(constraint, beside.side, values)?;
+    if number.is_finite() { Ok(number + 0.0) } else { Err(format!("{number} does not fit")) }
+}
+
 /// What texts were, where there were any.
 pub(crate) type Texts = Vec<(SlotId, Option<Arc<str>>)>;
 
@@ -83,7 +130,8 @@ pub(crate) fn run(
     values: &mut Values,
     host: &mut dyn Host,
 ) -> Ran {
-    let ground = ground(planner, task, aim, start, values);
+    let mut ground = ground(planner, task, aim, start, values);
+    ground.compute(planner, model, task, start, host);
     let bound = WORK + SLOT_WORK * task.system.slots.len() as u64;
     let has_bound = planner.left().is_some();
     if !has_bound {
@@ -384,8 +432,14 @@ impl solve::Host for Adapter<'_> {
         values: &[f64],
         out: &mut [f64],
     ) -> Result<(), String> {
-        let Origin::Rule(rule) = self.task.origin(source) else {
-            return Err("a wish has no methods".into());
+        let rule = match self.task.origin(source) {
+            Origin::Rule(rule) => rule,
+            Origin::Number(rule) => {
+                scatter(self.task, values, self.values);
+                out[0] = computed(self.planner, self.model, rule, self.values, self.host)?;
+                return Ok(());
+            }
+            Origin::Wish(_) => return Err("a wish has no methods".into()),
         };
         let rule = self.planner.rules.get(rule);
         scatter(self.task, values, self.values);
@@ -411,7 +465,16 @@ impl solve::Host for Adapter<'_> {
     }
 
     fn holds(&mut self, source: u32, values: &[f64]) -> bool {
-        let Origin::Rule(rule) = self.task.origin(source) else { return true };
+        let rule = match self.task.origin(source) {
+            Origin::Rule(rule) => rule,
+            Origin::Number(rule) => {
+                scatter(self.task, values, self.values);
+                let now = computed(self.planner, self.model, rule, self.values, self.host);
+                let mut known = self.task.computed().filter(|&(_, of)| of == rule);
+                return known.all(|(at, _)| now == Ok(values[at as usize]));
+            }
+            Origin::Wish(_) => return true,
+        };
         scatter(self.task, values, self.values);
         let rule = self.planner.rules.get(rule);
         if let Some(holds) = self.holds_in_branch(rule) {

@@ -4,11 +4,11 @@
 //! equality (an inequality, alternatives) stays a truth; what stands under a condition is said for
 //! either case.
 
-use crate::evaluate::{Opening, bind_arguments};
+use crate::evaluate::{Opening, bind_arguments, is_order};
 use crate::fault::{FaultKind, Trouble};
-use crate::meaning::{Frame, Meaning, Opaque, collect_slots};
-use crate::rule::{How, RuleMethod, Turns, Way};
-use expr::{ExprId, Node, Unary};
+use crate::meaning::{Frame, Meaning, Opaque, collect_slots, slots_of_expression};
+use crate::rule::{How, RuleMethod, SideOf, Turns, Way};
+use expr::{ExprId, Node, Unary, Var};
 use kernel::{BinaryOperator, SlotId, Term, ThingId, UnaryOperator};
 use std::collections::BTreeSet;
 
@@ -20,12 +20,28 @@ pub(crate) struct Said {
     pub(crate) opaque: Vec<OpaqueRow>,
     /// Expressions that are true.
     pub(crate) truths: Vec<ExprId>,
+    /// Expressions that are true, each with a number in it that the host computes.
+    pub(crate) beside: Vec<Beside>,
     /// Expressions of which no two are equal.
     pub(crate) different: Vec<Vec<ExprId>>,
     /// What is said where a condition is true, and where it is false.
     pub(crate) branches: Vec<(ExprId, [Said; 2])>,
     /// Things whose own rules hold.
     pub(crate) things: Vec<ThingId>,
+}
+
+/// A comparison with a side that only the host can compute.
+pub(crate) struct Beside {
+    /// It, that side being the variable [`Beside::NUMBER`].
+    pub(crate) truth: ExprId,
+    pub(crate) side: SideOf,
+    /// What the side is computed from.
+    pub(crate) reads: BTreeSet<SlotId>,
+}
+
+impl Beside {
+    /// Stands for the side that the host computes: no slot of a document.
+    pub(crate) const NUMBER: Var = Var(u32::MAX);
 }
 
 /// Something in a rule that only the host can test.
@@ -74,6 +90,20 @@ pub(crate) fn say<'a>(
                 }
             }
             say_different(opening, &items, said)
+        }
+        Term::Binary(operator, a, b) if is_order(*operator) => {
+            let a = opening.meaning(a, frame)?;
+            let b = opening.meaning(b, frame)?;
+            match turns.and_then(|turns| beside(opening, *operator, [&a, &b], turns)) {
+                Some(beside) => {
+                    said.beside.push(beside);
+                    Ok(())
+                }
+                None => {
+                    let truth = opening.binary(*operator, &a, &b)?;
+                    want(opening, &truth, 1.0, said)
+                }
+            }
         }
         Term::Unary(UnaryOperator::Not, operand) => {
             let operand = opening.meaning(operand, frame)?;
@@ -161,6 +191,31 @@ fn say_all<'a>(
     Ok(())
 }
 
+/// Returns a comparison of a number with what only the host can compute, if it is one, and the number is computed
+/// from nothing of that.
+fn beside<'a>(
+    opening: &mut Opening<'a>,
+    operator: BinaryOperator,
+    sides: [&Meaning<'a>; 2],
+    turns: Turns,
+) -> Option<Beside> {
+    let (number, other, is_right) = match sides {
+        [Meaning::Number(number), Meaning::Opaque(other)] => (*number, other, true),
+        [Meaning::Opaque(other), Meaning::Number(number)] => (*number, other, false),
+        _ => return None,
+    };
+    let own = slots_of_expression(&opening.arena, number);
+    if own.is_empty() || own.iter().any(|slot| other.slots.contains(slot)) {
+        return None;
+    }
+    let computed = Meaning::Number(opening.arena.var(Beside::NUMBER));
+    let number = Meaning::Number(number);
+    let [left, right] = if is_right { [&number, &computed] } else { [&computed, &number] };
+    let Meaning::Number(truth) = opening.binary(operator, left, right).ok()? else { return None };
+    let reads = (*other.slots).clone();
+    Some(Beside { truth, side: SideOf { turns, is_right }, reads })
+}
+
 /// Says what holds in either case of a condition that depends on values.
 fn branch<'a>(
     opening: &mut Opening<'a>,
@@ -222,6 +277,11 @@ impl Said {
         let others = self.truths.iter().chain(self.different.iter().flatten()).copied();
         for id in sides.chain(others).chain(conditions) {
             slots.extend(opening.arena.variables(id).into_iter().map(|v| SlotId(v.0)));
+        }
+        for beside in &self.beside {
+            let variables = opening.arena.variables(beside.truth).into_iter();
+            slots.extend(variables.filter(|&v| v != Beside::NUMBER).map(|v| SlotId(v.0)));
+            slots.extend(&beside.reads);
         }
         self.opaque.iter().for_each(|o| slots.extend(&o.slots));
         self.branches.iter().flat_map(|b| &b.1).for_each(|s| s.collect_slots(opening, slots));

@@ -8,7 +8,7 @@ mod restated;
 use crate::component::{Component, Net};
 use crate::planner::Planner;
 use crate::plans::Plans;
-use crate::rule::{Body, Formula, How, Position, Rule, Rules, Source, When};
+use crate::rule::{Beside, Body, Formula, How, Position, Rule, Rules, Source, When};
 use crate::whole::{self, Whole};
 use base::number::Tolerance;
 use base::{IdVec, Mixer};
@@ -18,7 +18,8 @@ use kernel::{Primitive, SlotId, Structure};
 use solve::pieces::taken_apart;
 use solve::{
     Condition, Conditional, Demand, DemandKind, Few, Guard, Level, Method, MethodBody, Mode, Modes,
-    Patterns, Plan, Puzzle, Relation, RelationBody, SlotIndex, SlotRange, Span, Stay, System,
+    PatternId, Patterns, Plan, Puzzle, Relation, RelationBody, SlotIndex, SlotRange, Span, Stay,
+    System,
 };
 use std::borrow::Cow;
 use std::cell::OnceCell;
@@ -88,6 +89,8 @@ struct Stated {
     holds: Vec<(SlotIndex, SlotIndex)>,
     /// Slots of the system that hold coordinates of wishes: wish and coordinate.
     targets: Vec<(SlotIndex, u32, u32)>,
+    /// Slots of the system that hold what the host computes beside rules, each with the rule of the component.
+    numbers: Vec<(SlotIndex, u32)>,
     /// For every source in the system, the rule of the component or the wish that it is.
     relations: Vec<Origin>,
     /// The number of its plan, where what that comes to depends on numbers alone.
@@ -124,6 +127,8 @@ type Known = (Rc<System>, Rc<Plan>, Course, Rc<Stated>);
 pub(crate) enum Origin {
     /// The rule of this index.
     Rule(u32),
+    /// The number that the host computes beside the rule of this index.
+    Number(u32),
     /// The wish of this index in the edit.
     Wish(u32),
 }
@@ -200,12 +205,12 @@ fn state(
         making.wish(plans.patterns_mut(), index, wish);
     }
     making.ranges();
-    let Making { conditional, holds, targets, relations, .. } = making;
+    let Making { conditional, holds, targets, numbers, relations, .. } = making;
     let whole = whole::stated(&conditional).then(|| plans.whole(conditional.clone()));
     plans.patterns_mut().take_apart(&conditional.system);
     let (system, plan, course, number) = course(plans, conditional);
     let number = number.filter(|_| whole.is_none() && !has_host(&system));
-    let stated = Stated { holds, targets, relations, number, whole, ..Stated::default() };
+    let stated = Stated { holds, targets, numbers, relations, number, whole, ..Stated::default() };
     (system, plan, course, Rc::new(stated))
 }
 
@@ -322,6 +327,7 @@ struct Making<'s> {
     conditional: Conditional,
     holds: Vec<(SlotIndex, SlotIndex)>,
     targets: Vec<(SlotIndex, u32, u32)>,
+    numbers: Vec<(SlotIndex, u32)>,
     relations: Vec<Origin>,
 }
 
@@ -386,6 +392,7 @@ impl<'s> Making<'s> {
             conditional: Conditional { system, ..Conditional::default() },
             holds: Vec::new(),
             targets: Vec::new(),
+            numbers: Vec::new(),
             relations: Vec::with_capacity(rules.len() + wishes.len()),
         }
     }
@@ -419,8 +426,20 @@ impl<'s> Making<'s> {
                     ),
                 )
             }
-            Body::True(formula) => self.demand(rule, formula, DemandKind::True),
-            Body::Different(formula) => self.demand(rule, formula, DemandKind::Different),
+            Body::True(formula) => {
+                let slots = self.locals(rule, &formula.slots);
+                self.demand(formula.pattern, slots, DemandKind::True)
+            }
+            Body::Beside(beside) => {
+                let mut slots = self.locals(rule, &beside.truth.slots);
+                let number = self.number(rule, position, beside);
+                slots.insert(beside.place as usize, number);
+                self.demand(beside.truth.pattern, slots, DemandKind::True)
+            }
+            Body::Different(formula) => {
+                let slots = self.locals(rule, &formula.slots);
+                self.demand(formula.pattern, slots, DemandKind::Different)
+            }
             Body::Opaque(slots) => RelationBody::Opaque { slots: self.locals(rule, slots) },
             Body::Hold(slots) => {
                 // What has no value yet cannot be held.
@@ -476,17 +495,45 @@ impl<'s> Making<'s> {
     }
 
     /// Demands what no equation says, of the relation that is added next.
-    fn demand(&mut self, rule: Rule<'_>, formula: &Formula, kind: DemandKind) -> RelationBody {
+    fn demand(
+        &mut self,
+        pattern: PatternId,
+        slots: Vec<SlotIndex>,
+        kind: DemandKind,
+    ) -> RelationBody {
         let relation = self.conditional.system.relations.len() as u32;
-        let slots = self.locals(rule, &formula.slots);
         let arguments = self.conditional.system.add_arguments(slots);
-        self.conditional.demands.push(Demand {
-            relation,
-            kind,
-            pattern: formula.pattern,
-            arguments,
-        });
+        self.conditional.demands.push(Demand { relation, kind, pattern, arguments });
         RelationBody::Equations(Span::default())
+    }
+
+    /// Adds a slot for what the host computes beside a rule, and the relation that computes it.
+    fn number(&mut self, rule: Rule<'_>, position: u32, beside: &Beside) -> SlotIndex {
+        let reads = self.locals(rule, &beside.reads);
+        let like = self.local(rule.slots[beside.truth.slots[0] as usize]);
+        let number = self.known_like(like);
+        let slots = &mut self.conditional.system.slots;
+        let group = |s: &solve::Slot| match s.stay {
+            Stay::Kept { group } => Some(group),
+            Stay::Fixed | Stay::Given | Stay::Free => None,
+        };
+        let group = slots.iter().filter_map(group).max().map_or(0, |latest| latest + 1);
+        let own = &mut slots[number as usize];
+        (own.stay, own.is_discrete) = (Stay::Kept { group }, false);
+        self.numbers.push((number, position));
+        let source = self.relations.len() as u32;
+        self.relations.push(Origin::Number(position));
+        let body = MethodBody::Opaque { reads: reads.clone() };
+        self.conditional.system.relations.push(Relation {
+            level: Level::Required,
+            body: RelationBody::Opaque { slots: reads.into_iter().chain([number]).collect() },
+            methods: vec![Method { targets: vec![number], body }],
+            derived: false,
+            reads: Few::default(),
+            within: Tolerance::Relative,
+            source,
+        });
+        number
     }
 
     /// Makes the relation that is added next hold under a condition alone.
@@ -568,6 +615,7 @@ impl Task {
     pub(crate) fn origin(&self, source: u32) -> Origin {
         match self.stated.relations[source as usize] {
             Origin::Rule(position) => Origin::Rule(self.component.rules()[position as usize]),
+            Origin::Number(position) => Origin::Number(self.component.rules()[position as usize]),
             Origin::Wish(wish) => Origin::Wish(wish),
         }
     }
@@ -576,6 +624,11 @@ impl Task {
         let slots = self.component.slots();
         self.stated.holds.iter().map(|&(known, local)| (known, slots[local as usize]))
     }
+    /// Returns the slots of the system that hold what the host computes, each with its rule.
+    pub(crate) fn computed(&self) -> impl ExactSizeIterator<Item = (SlotIndex, u32)> {
+        let rules = self.component.rules();
+        self.stated.numbers.iter().map(|&(slot, position)| (slot, rules[position as usize]))
+    }
     /// Returns the slots of the system that hold coordinates of wishes: wish and coordinate.
     pub(crate) fn targets(&self) -> &[(SlotIndex, u32, u32)] {
         &self.stated.targets
@@ -583,7 +636,7 @@ impl Task {
     /// Returns what a relation of the system comes from.
     pub(crate) fn source(&self, rules: &Rules, relation: u32) -> Source {
         match self.origin(self.system.relations[relation as usize].source) {
-            Origin::Rule(r) => rules.source(r),
+            Origin::Rule(r) | Origin::Number(r) => rules.source(r),
             Origin::Wish(w) => Source::Wish(w),
         }
     }
@@ -607,7 +660,7 @@ impl Task {
             for relation in &mut apart.system.relations {
                 match self.stated.relations[relation.source as usize] {
                     Origin::Wish(_) => relation.level = Level::Required,
-                    Origin::Rule(_) => {}
+                    Origin::Rule(_) | Origin::Number(_) => {}
                 }
             }
             Modes::known(apart, patterns).map(|modes| Whole::new(Rc::new(modes)))

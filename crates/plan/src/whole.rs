@@ -171,7 +171,8 @@ pub(crate) fn others(
     const STEPS: [f64; 6] = [1.0, -1.0, 2.0, -2.0, 3.0, -3.0];
     let Some(whole) = task.whole() else { return Vec::new() };
     let modes = &whole.modes;
-    let ground = ground(planner, task, &Aim::default(), values, values);
+    let mut ground = ground(planner, task, &Aim::default(), values, values);
+    ground.compute(planner, model, task, values, host);
     let (leans, texts) = (leans(model, task), values.texts.clone());
     let own = whole.slots().filter(|&s| own.contains(&task.component.slots()[s as usize]));
     let own: Vec<SlotIndex> = own.collect();

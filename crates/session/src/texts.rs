@@ -2,7 +2,7 @@
 
 use eval::{Evaluator, Side};
 use kernel::{ConstraintInstance, Document, SlotId, Structure, Value, Values};
-use plan::{Host, Way};
+use plan::{Host, SideOf, Way};
 use std::borrow::Cow;
 
 /// Answers the planner's questions about texts and given terms.
@@ -47,6 +47,16 @@ impl Host for Texts<'_> {
             Way::Right(turns) => evaluator.copy_side(constraint, turns.each(), Side::Right),
         };
         written.map_err(|f| f.message)
+    }
+    fn number(
+        &mut self,
+        constraint: ConstraintInstance,
+        side: SideOf,
+        values: &Values,
+    ) -> Result<f64, String> {
+        let evaluator = Evaluator::new(self.document, self.structure, values);
+        let of = if side.is_right { Side::Right } else { Side::Left };
+        evaluator.side(constraint, side.turns.each(), of).map_err(|f| f.message)
     }
     fn holds(&mut self, constraint: ConstraintInstance, values: &Values) -> bool {
         let evaluator = Evaluator::new(self.document, self.structure, values);

@@ -387,7 +387,7 @@ impl Run<'_> {
                         self.frame.holds(self.plan, place, &mut self.buffers.work)
                     })
                 }
-                Program::Host { source, .. } => self.host.holds(*source, self.values),
+                Program::Host { source, .. } => self.host_holds(step, *source),
                 Program::Measure(_) | Program::Least(_) => unreachable!("asked above"),
             };
         }
@@ -405,7 +405,7 @@ impl Run<'_> {
                     work.sway(&row.kernel, &row.arguments, self.values)
                 });
             }
-            Program::Host { source, .. } => return self.host.holds(*source, self.values),
+            Program::Host { source, .. } => return self.host_holds(step, *source),
             Program::Formulas(pattern, arguments) => {
                 let out = self.buffers.work.run(
                     pattern.values(),
@@ -424,6 +424,19 @@ impl Run<'_> {
             }
         };
         square.holds_at(self.values, &mut self.buffers.work, &mut self.buffers.square)
+    }
+
+    /// Returns true if a relation that only the host can test holds with x0's targets, and with them in all slots
+    /// that they stand for.
+    fn host_holds(&mut self, step: &Step, source: u32) -> bool {
+        for &t in &step.targets {
+            self.values[t as usize] = self.frame.x0[t as usize];
+        }
+        let is_target = |root: &SlotIndex| step.targets.contains(root);
+        for (slot, root) in self.plan.stood_for.iter().filter(|(_, root)| is_target(root)) {
+            self.values[*slot as usize] = self.values[*root as usize];
+        }
+        self.host.holds(source, self.values)
     }
 
     fn compute(&mut self, step: &Step) -> Result<(), Failure> {

@@ -125,7 +125,9 @@ impl Planner {
                     rows.push(Row { is_bound, ..row });
                 }
             }
-            Body::Different(_) | Body::Opaque(_) | Body::Hold(_) => return None,
+            Body::Beside(_) | Body::Different(_) | Body::Opaque(_) | Body::Hold(_) => {
+                return None;
+            }
         }
         Some(())
     }

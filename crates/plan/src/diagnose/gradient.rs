@@ -12,7 +12,9 @@ use solve::{Patterns, Scratch};
 pub(crate) fn is_linear(patterns: &Patterns, rule: Rule<'_>) -> bool {
     match &rule.shape.body {
         Body::Equations(equations) => equations.iter().all(|e| patterns.get(e.pattern).is_linear()),
-        Body::True(_) | Body::Different(_) | Body::Opaque(_) | Body::Hold(_) => true,
+        Body::True(_) | Body::Beside(_) | Body::Different(_) | Body::Opaque(_) | Body::Hold(_) => {
+            true
+        }
     }
 }
 

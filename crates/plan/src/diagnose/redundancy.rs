@@ -384,7 +384,7 @@ fn rejected_rows(task: &Task) -> BTreeSet<(u32, u32)> {
     let source = |relation: u32| task.system.relations[relation as usize].source;
     let rule = |relation: u32| match task.origin(source(relation)) {
         Origin::Rule(r) => Some(r),
-        Origin::Wish(_) => None,
+        Origin::Number(_) | Origin::Wish(_) => None,
     };
     let rejected = &task.plan.report.rejected;
     rejected.iter().filter_map(|r| Some((rule(r.relation)?, r.row))).collect()

@@ -16,7 +16,7 @@ impl Task {
     pub(crate) fn with_tested(&self, rules: &BTreeSet<u32>, plans: &mut Plans) -> Option<Self> {
         let is_one = |r: &Relation| match self.origin(r.source) {
             Origin::Rule(rule) => rules.contains(&rule),
-            Origin::Wish(_) => false,
+            Origin::Number(_) | Origin::Wish(_) => false,
         };
         if !self.system.relations.iter().any(is_one) {
             return None;
@@ -111,8 +111,9 @@ impl Task {
 impl Stated {
     /// Says the same of a system that is stated otherwise.
     fn again(&self) -> Self {
-        let Self { holds, targets, relations, whole, .. } = self;
+        let Self { holds, targets, numbers, relations, whole, .. } = self;
         let (holds, targets, relations) = (holds.clone(), targets.clone(), relations.clone());
-        Self { holds, targets, relations, whole: whole.clone(), ..Self::default() }
+        let (numbers, whole) = (numbers.clone(), whole.clone());
+        Self { holds, targets, numbers, relations, whole, ..Self::default() }
     }
 }

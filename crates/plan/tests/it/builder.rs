@@ -8,7 +8,9 @@ use kernel::{
     Stay, Step, Strength, Structure, Superclass, Term, ThingId, Value, Values, Vertical,
     instantiate,
 };
-use plan::{EditKind, EditReport, Fault, Host, Model, Planner, Plans, Target, Templates, Way};
+use plan::{
+    EditKind, EditReport, Fault, Host, Model, Planner, Plans, SideOf, Target, Templates, Way,
+};
 use std::rc::Rc;
 use std::sync::Arc;
 
@@ -343,6 +345,21 @@ impl Host for Terms<'_> {
         };
         let slot = self.structure.slot_of(target).expect("the target is primitive");
         Ok(vec![(slot, self.term(me, value, values)?)])
+    }
+    fn number(
+        &mut self,
+        constraint: ConstraintInstance,
+        side: SideOf,
+        values: &Values,
+    ) -> Result<f64, String> {
+        let Term::Binary(_, left, right) = &self.rule(constraint).rule else {
+            return Err("nothing is compared".into());
+        };
+        let term = if side.is_right { right } else { left };
+        match self.term(constraint.owner, term, values)? {
+            Value::Number(x) => Ok(x),
+            Value::Text(text) => Err(format!("{text} is no number")),
+        }
     }
     fn holds(&mut self, constraint: ConstraintInstance, values: &Values) -> bool {
         let (left, right) = self.sides(constraint);
