@@ -1,0 +1,304 @@
+//! Stating: a component in an edit, its slots, rules and wishes numbered within it, as a conditional system.
+
+use super::{Holding, Locals, Origin, Setting, Wish};
+use crate::component::Component;
+use crate::rule::{Beside, Body, How, Position, Rule, When};
+use base::number::Tolerance;
+use expr::Dimension;
+use kernel::{Primitive, SlotId};
+use solve::{
+    Condition, Conditional, Demand, DemandKind, Few, Guard, Level, Method, MethodBody, PatternId,
+    Patterns, Relation, RelationBody, SlotIndex, SlotRange, Span, Stay, System,
+};
+
+/// A system in the making.
+pub(super) struct Making<'s> {
+    setting: &'s Setting<'s>,
+    component: &'s Component,
+    locals: &'s mut Locals,
+    pub(super) conditional: Conditional,
+    pub(super) holds: Vec<(SlotIndex, SlotIndex)>,
+    pub(super) targets: Vec<(SlotIndex, u32, u32)>,
+    pub(super) numbers: Vec<(SlotIndex, u32)>,
+    pub(super) relations: Vec<Origin>,
+}
+
+impl<'s> Making<'s> {
+    pub(super) fn new(
+        setting: &'s Setting<'s>,
+        locals: &'s mut Locals,
+        component: &'s Component,
+    ) -> Self {
+        let mut dimensions: Vec<Dimension> = Vec::new();
+        let mut latest: (Option<Primitive>, u16) = (None, 0);
+        let mut groups = 0;
+        let mut system = System::default();
+        let rules = component.rules();
+        let mentioned: usize = rules.iter().map(|&r| setting.rules.get(r).slots.len()).sum();
+        // what wishes add has room too, so that nothing is moved for the last few
+        let wishes = setting.wishes;
+        let coordinates: usize = wishes.iter().map(|w| w.formulas.len()).sum();
+        let wished = wishes.iter().flat_map(|w| &w.formulas).map(|f| f.slots.len() + 1);
+        system.slots.reserve(component.slots().len() + coordinates);
+        system.relations.reserve(rules.len() + wishes.len());
+        system.equations.reserve(rules.len() + coordinates);
+        system.arguments.reserve(mentioned + wished.sum::<usize>());
+        for &slot in component.slots() {
+            let s = &setting.structure.slots[slot];
+            let stay = match (setting.holding)(slot) {
+                Holding::Fixed => Stay::Fixed,
+                Holding::Given => Stay::Given,
+                Holding::Free => Stay::Free,
+                held @ (Holding::Kept | Holding::Alone) => {
+                    // the coordinates of a place have the group of the first that is kept with it
+                    let place =
+                        if held == Holding::Kept { setting.net.place_of(slot) } else { &[] };
+                    let first = place
+                        .iter()
+                        .take_while(|&&s| s < slot)
+                        .find(|&&s| {
+                            (setting.holding)(s) == Holding::Kept
+                                && component.slots().get(locals.0[s] as usize) == Some(&s)
+                        })
+                        .map(|&s| system.slots[locals.0[s] as usize].stay);
+                    first.unwrap_or_else(|| {
+                        groups += 1;
+                        Stay::Kept { group: groups - 1 }
+                    })
+                }
+            };
+            let is_discrete = s.primitive.is_whole();
+            let is_number = s.primitive.is_number();
+            // of a kind there are many, as a rule
+            if latest.0 != Some(s.primitive) {
+                let dimension = s.primitive.dimension();
+                let scale = dimensions.iter().position(|&d| d == dimension).unwrap_or_else(|| {
+                    dimensions.push(dimension);
+                    dimensions.len() - 1
+                }) as u16;
+                latest = (Some(s.primitive), scale);
+            }
+            let scale = latest.1;
+            system.slots.push(solve::Slot { stay, scale, is_number, is_discrete });
+        }
+        Self {
+            setting,
+            component,
+            locals,
+            conditional: Conditional { system, ..Conditional::default() },
+            holds: Vec::new(),
+            targets: Vec::new(),
+            numbers: Vec::new(),
+            relations: Vec::with_capacity(rules.len() + wishes.len()),
+        }
+    }
+
+    /// Returns where a slot of the component stands in it.
+    fn local(&self, slot: SlotId) -> SlotIndex {
+        self.locals.0[slot]
+    }
+    fn locals(&self, rule: Rule<'_>, positions: &[Position]) -> Vec<SlotIndex> {
+        rule.slots_at(positions).map(|s| self.local(s)).collect()
+    }
+
+    /// Adds a known slot of the same kind as another.
+    fn known_like(&mut self, slot: SlotIndex) -> SlotIndex {
+        let like = self.conditional.system.slots[slot as usize].clone();
+        self.conditional.system.slots.push(solve::Slot { stay: Stay::Fixed, ..like });
+        self.conditional.system.slots.len() as SlotIndex - 1
+    }
+
+    pub(super) fn rule(&mut self, position: u32, index: u32) {
+        let rule = self.setting.rules.get(index);
+        let shape = rule.shape;
+        let body = match &shape.body {
+            Body::Equations(equations) => {
+                let locals = &self.locals.0;
+                RelationBody::Equations(
+                    self.conditional.system.add_equations(
+                        equations
+                            .iter()
+                            .map(|e| (e.pattern, rule.slots_at(&e.slots).map(|s| locals[s]))),
+                    ),
+                )
+            }
+            Body::True(formula) => {
+                let slots = self.locals(rule, &formula.slots);
+                self.demand(formula.pattern, slots, DemandKind::True)
+            }
+            Body::Beside(beside) => {
+                let mut slots = self.locals(rule, &beside.truth.slots);
+                let number = self.number(rule, position, beside);
+                slots.insert(beside.place as usize, number);
+                self.demand(beside.truth.pattern, slots, DemandKind::True)
+            }
+            Body::Different(formula) => {
+                let slots = self.locals(rule, &formula.slots);
+                self.demand(formula.pattern, slots, DemandKind::Different)
+            }
+            Body::Opaque(slots) => RelationBody::Opaque { slots: self.locals(rule, slots) },
+            Body::Hold(slots) => {
+                // What has no value yet cannot be held.
+                let held: Vec<SlotId> = rule
+                    .slots_at(slots)
+                    .filter(|&s| (self.setting.holding)(s) != Holding::Free)
+                    .collect();
+                if held.is_empty() {
+                    return;
+                }
+                let mut equations = Vec::new();
+                for slot in held {
+                    let local = self.local(slot);
+                    let known = self.known_like(local);
+                    self.holds.push((known, local));
+                    equations.push((Patterns::SAME, [local, known]));
+                }
+                RelationBody::Equations(self.conditional.system.add_equations(equations))
+            }
+        };
+        let mut methods = Vec::with_capacity(shape.methods.len());
+        for m in &shape.methods {
+            let body = match &m.how {
+                How::Formulas(f) => {
+                    let locals = &self.locals.0;
+                    let slots = rule.slots_at(&f.slots).map(|s| locals[s]);
+                    let arguments = self.conditional.system.add_arguments(slots);
+                    MethodBody::Formulas { pattern: f.pattern, arguments }
+                }
+                How::Host(_) | How::Copy => {
+                    MethodBody::Opaque { reads: self.locals(rule, &m.reads) }
+                }
+            };
+            methods.push(Method { targets: self.locals(rule, &m.targets), body });
+        }
+        for when in &shape.when {
+            self.guard(rule, when);
+        }
+        let source = self.relations.len() as u32;
+        self.relations.push(Origin::Rule(position));
+        self.conditional.system.relations.push(Relation {
+            level: shape.level,
+            body,
+            methods,
+            derived: shape.derived,
+            reads: match shape.reads[..] {
+                [] => Few::default(),
+                _ => rule.slots_at(&shape.reads).map(|s| self.local(s)).collect(),
+            },
+            within: shape.within,
+            source,
+        });
+    }
+
+    /// Demands what no equation says, of the relation that is added next.
+    fn demand(
+        &mut self,
+        pattern: PatternId,
+        slots: Vec<SlotIndex>,
+        kind: DemandKind,
+    ) -> RelationBody {
+        let relation = self.conditional.system.relations.len() as u32;
+        let arguments = self.conditional.system.add_arguments(slots);
+        self.conditional.demands.push(Demand { relation, kind, pattern, arguments });
+        RelationBody::Equations(Span::default())
+    }
+
+    /// Adds a slot for what the host computes beside a rule, and the relation that computes it.
+    fn number(&mut self, rule: Rule<'_>, position: u32, beside: &Beside) -> SlotIndex {
+        let reads = self.locals(rule, &beside.reads);
+        let like = self.local(rule.slots[beside.truth.slots[0] as usize]);
+        let number = self.known_like(like);
+        let slots = &mut self.conditional.system.slots;
+        let group = |s: &solve::Slot| match s.stay {
+            Stay::Kept { group } => Some(group),
+            Stay::Fixed | Stay::Given | Stay::Free => None,
+        };
+        let group = slots.iter().filter_map(group).max().map_or(0, |latest| latest + 1);
+        let own = &mut slots[number as usize];
+        (own.stay, own.is_discrete) = (Stay::Kept { group }, false);
+        self.numbers.push((number, position));
+        let source = self.relations.len() as u32;
+        self.relations.push(Origin::Number(position));
+        let body = MethodBody::Opaque { reads: reads.clone() };
+        self.conditional.system.relations.push(Relation {
+            level: Level::Required,
+            body: RelationBody::Opaque { slots: reads.into_iter().chain([number]).collect() },
+            methods: vec![Method { targets: vec![number], body }],
+            derived: false,
+            reads: Few::default(),
+            within: Tolerance::Relative,
+            source,
+        });
+        number
+    }
+
+    /// Makes the relation that is added next hold under a condition alone.
+    fn guard(&mut self, rule: Rule<'_>, when: &When) {
+        let relation = self.conditional.system.relations.len() as u32;
+        let pattern = when.condition.pattern;
+        let slots = self.locals(rule, &when.condition.slots);
+        let same = |c: &Condition| {
+            c.pattern == pattern && self.conditional.system.arguments(c.arguments) == slots
+        };
+        let condition = match self.conditional.conditions.iter().position(same) {
+            Some(known) => known,
+            None => {
+                let arguments = self.conditional.system.add_arguments(slots);
+                self.conditional.conditions.push(Condition { pattern, arguments });
+                self.conditional.conditions.len() - 1
+            }
+        } as u32;
+        self.conditional.guards.push(Guard { relation, condition, truth: when.truth });
+    }
+
+    /// States what the component's whole numbers may be.
+    pub(super) fn ranges(&mut self) {
+        let structure = self.setting.structure;
+        for (&slot, local) in self.component.slots().iter().zip(0..) {
+            let is_by_class = structure.slots[slot].primitive == Primitive::Bool;
+            let by_class = is_by_class.then_some((0, 1));
+            if let Some((low, high)) = structure.ranges.get(&slot).copied().or(by_class) {
+                self.conditional.ranges.push(SlotRange { slot: local, low, high, is_by_class });
+            }
+        }
+    }
+
+    /// Returns where a slot stands in the component, if it does.
+    fn find(&self, slot: SlotId) -> Option<SlotIndex> {
+        let local = self.locals.0[slot];
+        (self.component.slots().get(local as usize) == Some(&slot)).then_some(local)
+    }
+
+    /// Adds a wish if it speaks of this component.
+    pub(super) fn wish(&mut self, patterns: &mut Patterns, index: u32, wish: &Wish) {
+        let mut equations = Vec::new();
+        for (coordinate, formula) in (0..).zip(&wish.formulas) {
+            let locals: Option<Vec<SlotIndex>> =
+                formula.slots.iter().map(|&s| self.find(s)).collect();
+            let moves =
+                |&&i: &&SlotIndex| self.conditional.system.slots[i as usize].stay != Stay::Fixed;
+            let Some(locals) = locals else { continue };
+            let Some(&first) = locals.iter().find(moves) else { continue };
+            let known = self.known_like(first);
+            self.targets.push((known, index, coordinate));
+            let mut arguments = locals;
+            arguments.push(known);
+            equations.push((patterns.wanting(formula.pattern), arguments));
+        }
+        if equations.is_empty() {
+            return;
+        }
+        let equations = self.conditional.system.add_equations(equations);
+        let source = self.relations.len() as u32;
+        self.relations.push(Origin::Wish(index));
+        self.conditional.system.relations.push(Relation {
+            level: wish.level,
+            body: RelationBody::Equations(equations),
+            methods: Vec::new(),
+            derived: true,
+            reads: Few::default(),
+            within: Tolerance::Relative,
+            source,
+        });
+    }
+}
