@@ -10,6 +10,8 @@ pub const RULE_TOLERANCE: f64 = 1e-9;
 
 /// How far a stored number may be from the one that is meant, as a part of it: some roundings.
 pub const ROUNDING: f64 = 64.0 * f64::EPSILON;
+/// What rounding may explain at most, in parts of the larger side, at least of the unit.
+pub const MOST_ROUNDING: f64 = 1e-3;
 
 /// Joins a list to one, as a sum joins its terms: a few one after the other, more in groups of a few, so that
 /// the roundings of a long sum do not add up. None of nothing.
@@ -37,14 +39,15 @@ pub fn joined<T>(mut items: Vec<T>, mut join: impl FnMut(T, T) -> T) -> Option<T
 
 /// Returns true if `a` and `b` agree to [`RULE_TOLERANCE`] of the larger side, at least of the unit.
 pub fn close(a: f64, b: f64) -> bool {
-    a == b || (a - b).abs() <= RULE_TOLERANCE * a.abs().max(b.abs()).max(1.0)
+    Tolerance::Relative.is_met(a, b)
 }
 
 /// How far the two sides of a rule may differ.
 ///
 /// The *sway* of a rule is how far its sides move apart where every number that it is made of moves by its
 /// own size, each to the worse: the sum of `|x| |d(left - right)/dx|`. A rule whose sides differ by
-/// [`ROUNDING`] of its sway holds for numbers that nobody can tell from those that are stored.
+/// [`ROUNDING`] of its sway holds for numbers that nobody can tell from those that are stored; but where that is
+/// more than [`MOST_ROUNDING`] of its sides, as of the sine of 1e16, they say nothing and it does not.
 ///
 /// **Source:** Oettli and Prager, *Compatibility of approximate solution of linear equations with given
 /// error bounds*, Numer. Math. 6 (1964).
@@ -58,6 +61,8 @@ pub fn close(a: f64, b: f64) -> bool {
 /// assert!(!Tolerance::Relative.is_met(1e-6, 0.0));
 /// assert!(Tolerance::Relative.is_met_with(1e-6, 0.0, || 2e9));
 /// assert!(!Tolerance::Relative.is_met_with(1e-3, 0.0, || 2e9));
+/// assert!(!Tolerance::Relative.is_met_with(0.5, 0.0, || 1e16));
+/// assert!(!Tolerance::Relative.is_met(f64::INFINITY, 5.0));
 /// ```
 #[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, Debug, Default)]
 pub enum Tolerance {
@@ -76,7 +81,7 @@ impl Tolerance {
     /// Returns the difference that two sides may have. The written measure itself is met up to rounding.
     pub fn allowed(self, left: f64, right: f64) -> f64 {
         match self {
-            Self::Relative => RULE_TOLERANCE * left.abs().max(right.abs()).max(1.0),
+            Self::Relative => RULE_TOLERANCE * size(left, right),
             Self::Within(bits) => f64::from_bits(bits) * (1.0 + RULE_TOLERANCE),
         }
     }
@@ -84,7 +89,9 @@ impl Tolerance {
     pub fn allowed_with(self, left: f64, right: f64, sway: f64) -> f64 {
         let allowed = self.allowed(left, right);
         match self {
-            Self::Relative if sway.is_finite() => allowed.max(ROUNDING * sway),
+            Self::Relative if sway.is_finite() => {
+                allowed.max((ROUNDING * sway).min(MOST_ROUNDING * size(left, right)))
+            }
             Self::Relative | Self::Within(_) => allowed,
         }
     }
@@ -95,10 +102,16 @@ impl Tolerance {
             || self == Self::Relative
                 && (left - right).abs() <= self.allowed_with(left, right, sway())
     }
-    /// Returns true if two sides agree whatever they are made of.
+    /// Returns true if two sides agree whatever they are made of. A side without a value agrees with none.
     pub fn is_met(self, left: f64, right: f64) -> bool {
-        left == right || (left - right).abs() <= self.allowed(left, right)
+        left == right && left.is_finite() || (left - right).abs() <= self.allowed(left, right)
     }
+}
+
+/// Returns the size of the larger side, at least the unit; zero where one has no value.
+fn size(left: f64, right: f64) -> f64 {
+    let size = left.abs().max(right.abs()).max(1.0);
+    if size.is_finite() { size } else { 0.0 }
 }
 
 /// Returns the shortest decimal that reads back as `x`, without `.0`; exponents where they are shorter.
