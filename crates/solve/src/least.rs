@@ -23,6 +23,7 @@ use crate::measure::Measured;
 use crate::sparse::{Ldl, Symmetric};
 use crate::square::Trust;
 use crate::system::{Level, SlotIndex};
+use base::number::ROUNDING;
 use std::sync::OnceLock;
 
 /// A block of fewer rows than unknowns.
@@ -473,7 +474,10 @@ impl Least {
                 let d = s.local.jacobian[e] * s.scale[pattern.column(e)];
                 sum += d * d;
             }
-            s.steepness.push(if sum > 0.0 && sum.is_finite() { sum } else { 1.0 });
+            // a slope that rounding of its sides makes is none
+            let rounding = ROUNDING * s.local.left[r].abs().max(s.local.right[r].abs());
+            let is_slope = sum > rounding * rounding && sum.is_finite();
+            s.steepness.push(if is_slope { sum } else { 1.0 });
         }
     }
 

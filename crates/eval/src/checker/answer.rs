@@ -54,7 +54,7 @@ pub(crate) fn complaints(
         path: &|slot| structure.path(document, structure.slots[slot].thing).to_string(),
         wrong: Vec::new(),
     };
-    let extent = extents(structure, edit.after, connected);
+    let extent = extents(structure, [edit.before, edit.after], connected);
     let aside = aside(edit.after, &moved, &extent);
     let states = [&after, &after.in_state(&aside)];
     if is_wish_missed && soft.is_empty() && stays.is_empty() {
@@ -347,15 +347,17 @@ impl Answer<'_> {
     }
 }
 
-/// Returns what numbers of each kind come to, of those that are connected: one where all are nothing.
+/// Returns what numbers of each kind come to in these states, of those that are connected: one where all are nothing.
 fn extents<'a>(
     structure: &'a Structure,
-    values: &Values,
+    states: [&Values; 2],
     connected: &BTreeSet<SlotId>,
 ) -> impl Fn(SlotId) -> f64 + 'a {
     let mut extents: Vec<(Primitive, f64)> = Vec::new();
     for &slot in connected {
-        let (kind, size) = (structure.slots[slot].primitive, values.numbers[slot].abs());
+        let kind = structure.slots[slot].primitive;
+        let size = states.map(|values| values.numbers[slot].abs());
+        let size = size[0].max(size[1]);
         match extents.iter_mut().find(|known| known.0 == kind) {
             Some(known) => known.1 = known.1.max(size),
             None => extents.push((kind, size)),
