@@ -14,7 +14,7 @@ use crate::host::Host;
 use crate::planner::{Model, Planner, Unmet};
 use crate::rule::{Body, Rule, Source};
 use crate::task::{Holding, Origin, Task};
-use kernel::{SlotId, Values};
+use kernel::{SlotId, Structure, Values};
 use solve::echelon::{Dependent, Echelon, Row};
 use solve::{Level, PATIENCE, Scratch};
 use std::collections::{BTreeMap, BTreeSet};
@@ -71,6 +71,8 @@ impl Redundancy {
 const MOST_ASKED: usize = 60;
 /// Of so many rules of a component.
 const MOST_ASKED_RULES: usize = 16;
+/// Up to so many slots it is asked whether rules follow from others for the given numbers as they are.
+const MOST_WITH_GIVEN: usize = 400;
 
 impl Planner {
     /// Finds the required constraints that say nothing new; `values` are those of the document at rest,
@@ -110,11 +112,16 @@ impl Planner {
         let in_mode = task.by_values(self, values);
         let task = in_mode.as_ref().unwrap_or(task);
         let fails = |&r: &u32| unmet.contains(&self.rules.source(r));
-        let theorems = match !unmet.is_empty() && task.component.rules().iter().any(fails) {
+        let fails = !unmet.is_empty() && task.component.rules().iter().any(fails);
+        let theorems = match fails {
             true => BTreeMap::new(),
-            false => self.theorems(model, task, values, host),
+            false => self.theorems(model, task, Self::resting_hold, values, host),
         };
         let rules: BTreeSet<u32> = theorems.keys().copied().collect();
+        let with_given = match fails {
+            true => 0,
+            false => self.motions_of_given(model, task, &rules, values, host),
+        };
         // what one of these stood against may say something once that is left out
         let left = task.with_tested(&rules, &mut self.plans);
         let left = left.map(|left| left.by_values(self, values).unwrap_or(left));
@@ -123,7 +130,7 @@ impl Planner {
         let mut found = surplus(self, left);
         found.retain(|r| !unmet.contains(&r.source) && !is_theorem(r.source));
         let may_ask = task.component.slots().len() <= MOST_ASKED;
-        for (count, (rule, circuit)) in theorems.into_iter().enumerate() {
+        for (count, (rule, Candidate { circuit, .. })) in theorems.into_iter().enumerate() {
             let implied_by = match may_ask && count < MOST_ASKED_RULES {
                 true => self.implying(model, task, (rule, circuit), &rules, values, host),
                 false => circuit,
@@ -133,38 +140,62 @@ impl Planner {
             let implied_by = implied_by.filter(|s| *s != source).collect();
             found.push(Redundant { source, kind: RedundantKind::Theorem, implied_by });
         }
-        (found, left.plan.report.freedom.saturating_sub(task.plan.report.freedom))
+        let motions = left.plan.report.freedom.saturating_sub(task.plan.report.freedom);
+        (found, motions + with_given)
+    }
+
+    /// Returns how many motions there are because rules follow from others for the given numbers as they are: a ball
+    /// as thick as the gap between a ring and a hub rolls round.
+    fn motions_of_given(
+        &mut self,
+        model: Model<'_>,
+        task: &Task,
+        theorems: &BTreeSet<u32>,
+        values: &Values,
+        host: &mut dyn Host,
+    ) -> usize {
+        if !may_follow_from_given(model, task) {
+            return 0;
+        }
+        let found = self.theorems(model, task, hold_given, values, host).into_iter();
+        found.filter(|(rule, _)| !theorems.contains(rule)).map(|(_, c)| c.rows).sum()
     }
 
     /// Returns the rules of a component that depend on others at the present state alone and hold after the rest is
-    /// solved without them from elsewhere, each with those that its rows are combinations of.
+    /// solved without them from elsewhere, slots held so.
     fn theorems(
         &mut self,
         model: Model<'_>,
         task: &Task,
+        hold: Hold,
         values: &Values,
         host: &mut dyn Host,
-    ) -> BTreeMap<u32, BTreeSet<u32>> {
-        let core_of_accepted = task.core(|| core(self, model, task, &rejected_rows(task)));
-        let found = self.theorems_of(model, task, &core_of_accepted, values, host);
+    ) -> BTreeMap<u32, Candidate> {
+        let setting = (task, hold);
+        let find = || core(self, model, setting, &rejected_rows(task));
+        let is_resting = std::ptr::fn_addr_eq(hold, Self::resting_hold as Hold);
+        let core_of_accepted = if is_resting { task.core(find) } else { find().into() };
+        let found = self.theorems_of(model, setting, &core_of_accepted, values, host);
         if found.is_some() || task.plan.report.rejected.is_empty() {
             return found.unwrap_or_default();
         }
         // what depends on others at a generic point may say here what these do not say
-        let core = core(self, model, task, &BTreeSet::new());
-        self.theorems_of(model, task, &core, values, host).unwrap_or_default()
+        let core = core(self, model, setting, &BTreeSet::new());
+        self.theorems_of(model, setting, &core, values, host).unwrap_or_default()
     }
 
     /// The same of some rows; nothing where no solution of the others is found elsewhere.
     fn theorems_of(
         &mut self,
         model: Model<'_>,
-        task: &Task,
+        (task, hold): (&Task, Hold),
         core: &[(u32, u32)],
         values: &Values,
         host: &mut dyn Host,
-    ) -> Option<BTreeMap<u32, BTreeSet<u32>>> {
-        let mut candidates = candidates(self, model, task, core, values, &mut Scratch::default());
+    ) -> Option<BTreeMap<u32, Candidate>> {
+        let setting = (task, hold);
+        let mut candidates =
+            candidates(self, model, setting, core, values, &mut Scratch::default());
         if candidates.is_empty() {
             return Some(candidates);
         }
@@ -172,8 +203,11 @@ impl Planner {
             self.rules.get(*r).shape.level == Level::Required && !candidates.contains_key(r)
         };
         let rest: Vec<u32> = task.component.rules().iter().copied().filter(is_left).collect();
+        let holding = |s| hold(model.structure, s);
         let mut elsewhere = perturbed(model, task.component.slots(), values);
-        let holding = |s| Self::resting_hold(model.structure, s);
+        for &s in task.component.slots().iter().filter(|&&s| holding(s) == Holding::Fixed) {
+            elsewhere.numbers[s] = values.numbers[s];
+        }
         let setup = Setup { model, holding: &holding, aim: &Aim::default() };
         if self.try_rules(&setup, &rest, &mut elsewhere, host) != Trial::Holds {
             return None;
@@ -252,21 +286,53 @@ impl Planner {
         }
         let in_mode = task.by_values(self, values);
         let task = in_mode.as_ref().unwrap_or(task);
-        self.theorems(model, task, values, host).into_keys().collect()
+        let mut implied: BTreeSet<u32> =
+            self.theorems(model, task, Self::resting_hold, values, host).into_keys().collect();
+        if may_follow_from_given(model, task) {
+            implied.extend(self.theorems(model, task, hold_given, values, host).into_keys());
+        }
+        implied
     }
 }
 
-/// Finds the rules with rows that depend on others here, though not everywhere, each with those that these are
-/// combinations of.
+/// How slots are held.
+type Hold = fn(&Structure, SlotId) -> Holding;
+
+/// Holds given numbers as they are.
+fn hold_given(structure: &Structure, slot: SlotId) -> Holding {
+    match Planner::resting_hold(structure, slot) {
+        Holding::Given => Holding::Fixed,
+        other => other,
+    }
+}
+
+/// Returns true for a component of few slots in which a given number stands and none yields.
+fn may_follow_from_given(model: Model<'_>, task: &Task) -> bool {
+    let slots = task.component.slots();
+    let is_given = |&s: &SlotId| Planner::resting_hold(model.structure, s) == Holding::Given;
+    slots.len() <= MOST_WITH_GIVEN
+        && task.plan.report.yielded.is_empty()
+        && slots.iter().any(is_given)
+}
+
+/// A rule with rows that depend on others.
+#[derive(Default)]
+struct Candidate {
+    rows: usize,
+    /// The rules that these rows are combinations of.
+    circuit: BTreeSet<u32>,
+}
+
+/// Finds the rules with rows that depend on others here, though not everywhere.
 fn candidates(
     planner: &Planner,
     model: Model<'_>,
-    task: &Task,
+    (task, hold): (&Task, Hold),
     core: &[(u32, u32)],
     values: &Values,
     scratch: &mut Scratch,
-) -> BTreeMap<u32, BTreeSet<u32>> {
-    let mut found: BTreeMap<u32, BTreeSet<u32>> = BTreeMap::new();
+) -> BTreeMap<u32, Candidate> {
+    let mut found: BTreeMap<u32, Candidate> = BTreeMap::new();
     if core.is_empty() {
         return found;
     }
@@ -283,7 +349,7 @@ fn candidates(
         }
         let writable = writable(rule);
         let moves = |s: SlotId| {
-            Planner::resting_hold(model.structure, s) != Holding::Fixed
+            hold(model.structure, s) != Holding::Fixed
                 && writable.as_ref().is_none_or(|w| w.contains(&s))
         };
         let row = gradient(patterns, rule, &equations[e as usize], &values.numbers, scratch);
@@ -293,8 +359,9 @@ fn candidates(
     }
     for Dependent { row, circuit } in Echelon::new(&rows, task.component.slots().len()).dependent()
     {
-        let of_rule = found.entry(rule_of_row[row as usize]).or_default();
-        of_rule.extend(circuit.iter().map(|&r| rule_of_row[r as usize]));
+        let candidate = found.entry(rule_of_row[row as usize]).or_default();
+        candidate.rows += 1;
+        candidate.circuit.extend(circuit.iter().map(|&r| rule_of_row[r as usize]));
     }
     found
 }
@@ -308,7 +375,7 @@ fn candidates(
 fn core(
     planner: &Planner,
     model: Model<'_>,
-    task: &Task,
+    (task, hold): (&Task, Hold),
     left_out: &BTreeSet<(u32, u32)>,
 ) -> Vec<(u32, u32)> {
     let patterns = planner.plans.patterns();
@@ -323,7 +390,7 @@ fn core(
         let Body::Equations(equations) = &rule.shape.body else { continue };
         let writable = writable(rule);
         let moves = |s: SlotId| {
-            Planner::resting_hold(model.structure, s) != Holding::Fixed
+            hold(model.structure, s) != Holding::Fixed
                 && writable.as_ref().is_none_or(|w| w.contains(&s))
         };
         for (e, equation) in (0..).zip(equations).filter(|(e, _)| !left_out.contains(&(index, *e)))
