@@ -138,10 +138,7 @@ pub struct Form {
     /// For every thing, the next that it is merged with, in order of declaration; the first again
     /// after the last.
     pub(crate) next_merged: IdVec<ThingId, ThingId>,
-    /// For every first thing of a merge of unlike things, the first of each class, in order.
-    pub(crate) unlike: BTreeMap<ThingId, Vec<ThingId>>,
-    /// For every thing, whether it is among the keys of `unlike`; empty where nothing is.
-    pub(crate) is_unlike: IdVec<ThingId, bool>,
+    pub(crate) unlike: Unlike,
     /// For every primitive thing, its slot; [`NO_SLOT`] for others. It is asked by [`Form::slot_of`].
     pub(crate) own_slots: IdVec<ThingId, SlotId>,
     /// Every slot, in order of declaration of its first thing.
@@ -170,6 +167,66 @@ pub struct Form {
     pub(crate) grown: Option<Rc<Grown>>,
     /// True if all could be made as it is written.
     pub(crate) is_faultless: bool,
+}
+
+/// Merges of things of several classes.
+#[derive(Clone, Debug, Default)]
+pub(crate) struct Unlike {
+    /// For every thing, one more than the place of its merge; zero where all are of its class. Empty where
+    /// there is no such merge.
+    place: IdVec<ThingId, u32>,
+    /// Of every such merge, the first thing of each class, in order.
+    merges: Vec<Vec<ThingId>>,
+}
+
+impl Unlike {
+    /// Takes the merges, each with its first thing; `merged` names for every thing the first that it is merged
+    /// with.
+    pub(crate) fn new(
+        merges: impl Iterator<Item = (ThingId, Vec<ThingId>)>,
+        merged: &IdVec<ThingId, ThingId>,
+    ) -> Self {
+        let (firsts, merges): (Vec<ThingId>, Vec<_>) = merges.unzip();
+        if merges.is_empty() {
+            return Self::default();
+        }
+        let mut place = IdVec::filled(0, merged.len());
+        firsts.iter().zip(1..).for_each(|(&first, at)| place[first] = at);
+        for (thing, &first) in merged.iter().filter(|(thing, first)| thing != *first) {
+            place[thing] = place[first];
+        }
+        Self { place, merges }
+    }
+    fn of(&self, thing: ThingId) -> &[ThingId] {
+        match self.place.get(thing) {
+            None | Some(0) => &[],
+            Some(&at) => &self.merges[at as usize - 1],
+        }
+    }
+}
+
+/// Where merges of unlike things are looked up by their first thing.
+#[derive(Clone, Copy)]
+pub(crate) enum Unlikes<'s> {
+    /// While things are made.
+    Growing(&'s BTreeMap<ThingId, Vec<ThingId>>),
+    /// Once they are.
+    Made(&'s Unlike),
+}
+
+impl<'s> Unlikes<'s> {
+    fn of(self, first: ThingId) -> &'s [ThingId] {
+        match self {
+            Self::Growing(unlike) => unlike.get(&first).map_or(&[], |all| all),
+            Self::Made(unlike) => unlike.of(first),
+        }
+    }
+    fn is_empty(self) -> bool {
+        match self {
+            Self::Growing(unlike) => unlike.is_empty(),
+            Self::Made(unlike) => unlike.merges.is_empty(),
+        }
+    }
 }
 
 /// The layouts of classes, each made when its first thing is.
@@ -231,7 +288,7 @@ pub(crate) struct Paths<'s> {
     pub(crate) things: &'s IdVec<ThingId, Thing>,
     /// For every thing, one that it is merged with and that stands before it, or itself.
     pub(crate) merged: &'s IdVec<ThingId, ThingId>,
-    pub(crate) unlike: &'s BTreeMap<ThingId, Vec<ThingId>>,
+    pub(crate) unlike: Unlikes<'s>,
     pub(crate) layouts: &'s Layouts,
     pub(crate) references: &'s BTreeMap<ThingId, ThingId>,
 }
@@ -255,7 +312,7 @@ impl Paths<'_> {
         if own.is_some() || self.unlike.is_empty() {
             return own;
         }
-        let unlike = self.unlike.get(&self.identity(thing))?;
+        let unlike = self.unlike.of(self.identity(thing));
         unlike.iter().find_map(|&t| self.own_part_named(t, name))
     }
     fn own_part_named(&self, thing: ThingId, name: &str) -> Option<ThingId> {
@@ -369,14 +426,7 @@ impl Form {
     /// nothing where all are of its own class.
     #[inline]
     pub fn unlike(&self, thing: ThingId) -> &[ThingId] {
-        if self.unlike.is_empty() {
-            return &[];
-        }
-        let first = self.merged[thing];
-        if self.is_unlike.get(first) != Some(&true) {
-            return &[];
-        }
-        self.unlike.get(&first).map_or(&[], |all| all)
+        self.unlike.of(thing)
     }
     /// Returns the slot that is meant where a thing goes some way: a coordinate of a place, or a number.
     pub fn slot_of_side(&self, thing: ThingId, way: SideWay) -> Option<SlotId> {
@@ -408,7 +458,7 @@ impl Form {
     }
     fn paths(&self) -> Paths<'_> {
         let Self { things, merged, unlike, layouts, references, .. } = self;
-        Paths { things, merged, unlike, layouts, references }
+        Paths { things, merged, unlike: Unlikes::Made(unlike), layouts, references }
     }
     /// Returns the part of `thing` named `name`, looking at what it is merged with as well.
     ///

@@ -4,7 +4,7 @@
 //! step: the third part of the owner, four members of the set. Another thing of the same class for
 //! which the same steps lead to things of the same classes says the same of those.
 
-use base::Mixer;
+use base::{IdVec, Mixer};
 use indexmap::{IndexMap, IndexSet};
 use kernel::{ClassId, DOCUMENT, Path, SlotId, Step as PathStep, Structure, ThingId};
 use solve::Span;
@@ -53,6 +53,7 @@ pub(crate) struct Routes {
     classes: Vec<ClassId>,
     unlike: Vec<(Reached, ClassId)>,
     steps: Vec<Step>,
+    parts: Vec<(Reached, u32)>,
     stored: Vec<Reached>,
     again: Vec<(Reached, u32)>,
 }
@@ -60,14 +61,25 @@ pub(crate) struct Routes {
 /// One of them.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Route {
+    /// The class of the thing where it begins.
+    owner: ClassId,
     classes: Span,
     /// The classes of what is merged with things unlike it, which answers messages too.
     unlike: Span,
-    steps: Span,
+    way: Way,
     /// Where slots were met for the first time.
     stored: Span,
     /// Where a slot was met again: its place among the stored.
     again: Span,
+}
+
+/// The steps of a route.
+#[derive(Clone, Copy, Debug)]
+enum Way {
+    /// From things to parts of theirs alone: what a thing has for parts, its class says.
+    Parts(Span),
+    /// Any.
+    Steps(Span),
 }
 
 /// Adds a list to others; returns where it is.
@@ -265,10 +277,19 @@ impl<'a> Reach<'a> {
         again.dedup();
         let class = |t: &ThingId| self.structure.things[*t].class;
         let others = |(n, &t)| self.structure.unlike(t).iter().map(move |t| (n, class(t)));
+        let part = |step: &Step| {
+            let Step::Part(n, place) = *step else { return None };
+            Some((n, place))
+        };
+        let way = match self.steps.iter().map(part).collect::<Option<Vec<_>>>() {
+            Some(parts) => Way::Parts(put(&mut routes.parts, parts)),
+            None => Way::Steps(put(&mut routes.steps, self.steps.iter().copied())),
+        };
         Some(Route {
+            owner: class(self.things.first()?),
+            way,
             classes: put(&mut routes.classes, self.things.iter().map(class)),
             unlike: put(&mut routes.unlike, (0..).zip(&self.things).flat_map(others)),
-            steps: put(&mut routes.steps, self.steps.iter().copied()),
             stored: Span { start: stored, len: slots.len() as u32 },
             again: put(&mut routes.again, again),
         })
@@ -279,77 +300,57 @@ fn members(structure: &Structure, set: ThingId) -> &[ThingId] {
     structure.sets.get(&structure.merged[set]).map_or(&[], |m| m)
 }
 
+/// Where a way led; serves any number of ways of one structure, one after the other.
+#[derive(Debug)]
+pub(crate) struct Trail {
+    things: Vec<ThingId>,
+    /// The slots that it led to, each once.
+    pub(crate) slots: Vec<SlotId>,
+    /// For every slot, the way that met it last.
+    met: IdVec<SlotId, u32>,
+    way: u32,
+}
+
+impl Trail {
+    pub(crate) fn new(structure: &Structure) -> Self {
+        // a rule speaks of a handful of things, as a rule
+        let (things, slots) = (Vec::with_capacity(32), Vec::with_capacity(32));
+        Self { things, slots, met: IdVec::filled(0, structure.slots.len()), way: 0 }
+    }
+    fn begin(&mut self) {
+        self.things.clear();
+        self.slots.clear();
+        self.way += 1;
+    }
+}
+
 impl Routes {
-    /// Goes a way from another thing; the slots that it leads to are left in `slots`. False where
-    /// something on the way is not as it was.
+    /// Goes a way from another thing; where it leads is left in `trail`. False where something on the way is
+    /// not as it was.
     pub(crate) fn follow(
         &self,
         route: &Route,
         structure: &Structure,
         owner: ThingId,
-        things: &mut Vec<ThingId>,
-        slots: &mut Vec<SlotId>,
+        trail: &mut Trail,
     ) -> bool {
-        things.clear();
-        slots.clear();
+        trail.begin();
         let class = |t: ThingId| structure.things[t].class;
-        let classes = &self.classes[route.classes.range()];
-        let fits = |thing: ThingId, number: usize| class(thing) == classes[number];
-        if !fits(owner, 0) {
+        if class(owner) != route.owner {
             return false;
         }
-        things.push(owner);
-        for step in &self.steps[route.steps.range()] {
-            let of = |n: &Reached| things[*n as usize];
-            let at = things.len();
-            let holds = match step {
-                Step::Document => {
-                    things.push(DOCUMENT);
-                    fits(DOCUMENT, at)
-                }
-                Step::Owner(n) => {
-                    let owner = structure.owner(of(n)).filter(|&owner| fits(owner, at));
-                    things.extend(owner);
-                    owner.is_some()
-                }
-                // what a thing has for parts, its class says
-                Step::Part(n, place) => {
-                    let t = &structure.things[of(n)];
-                    things.push(ThingId(t.first_part.0 + place));
-                    *place < t.parts
-                }
-                Step::Parts(n, count) => {
-                    let parts = structure.parts(of(n));
-                    let is_like = parts.len() == *count as usize;
-                    things.extend(parts);
-                    is_like
-                }
-                Step::Count(n, count) => structure.parts(of(n)).len() == *count as usize,
-                Step::Element(n, place) => {
-                    let list = &structure.things[of(n)];
-                    let element = ThingId(list.first_part.0 + place);
-                    things.push(element);
-                    *place < list.parts && fits(element, at)
-                }
-                Step::Members(n, count) => {
-                    let members = members(structure, of(n));
-                    things.extend_from_slice(members);
-                    members.len() == *count as usize
-                        && members.iter().zip(at..).all(|(&t, number)| fits(t, number))
-                }
-                Step::Referent(n) => {
-                    let target = structure.references.get(&of(n)).filter(|&&t| fits(t, at));
-                    things.extend(target);
-                    target.is_some()
-                }
-                Step::Same(a, b, same) => {
-                    (structure.merged[of(a)] == structure.merged[of(b)]) == *same
-                }
-            };
-            if !holds {
-                return false;
+        trail.things.push(owner);
+        let holds = match route.way {
+            Way::Parts(parts) => self.go_to_parts(parts, structure, &mut trail.things),
+            Way::Steps(steps) => {
+                let classes = &self.classes[route.classes.range()];
+                self.go(steps, classes, structure, &mut trail.things)
             }
+        };
+        if !holds {
+            return false;
         }
+        let Trail { things, slots, met, way } = trail;
         let mut unlike = self.unlike[route.unlike.range()].iter();
         for (number, &thing) in (0..).zip(&*things) {
             for &other in structure.unlike(thing) {
@@ -364,21 +365,87 @@ impl Routes {
         let slot = |n: Reached| structure.slot_of(things[n as usize]);
         for &n in &self.stored[route.stored.range()] {
             let Some(slot) = slot(n) else { return false };
+            if std::mem::replace(&mut met[slot], *way) == *way {
+                return false;
+            }
             slots.push(slot);
         }
         let again = &self.again[route.again.range()];
-        are_distinct(slots) && again.iter().all(|&(n, at)| slot(n) == Some(slots[at as usize]))
+        again.iter().all(|&(n, at)| slot(n) == Some(slots[at as usize]))
     }
-}
 
-fn are_distinct(slots: &[SlotId]) -> bool {
-    if slots.windows(2).all(|pair| pair[0] < pair[1]) {
-        return true;
+    /// Goes from things to parts of theirs; false where one is not there.
+    fn go_to_parts(&self, parts: Span, structure: &Structure, things: &mut Vec<ThingId>) -> bool {
+        let all = structure.things.as_slice();
+        for &(n, place) in &self.parts[parts.range()] {
+            let t = &all[things[n as usize].0 as usize];
+            if place >= t.parts {
+                return false;
+            }
+            things.push(ThingId(t.first_part.0 + place));
+        }
+        true
     }
-    if slots.len() > 16 {
-        let mut sorted = slots.to_vec();
-        sorted.sort_unstable();
-        return sorted.windows(2).all(|pair| pair[0] != pair[1]);
+
+    /// Takes steps; false where one leads elsewhere than to a thing of its class.
+    fn go(
+        &self,
+        steps: Span,
+        classes: &[ClassId],
+        structure: &Structure,
+        things: &mut Vec<ThingId>,
+    ) -> bool {
+        let fits = |thing: ThingId, number: usize| structure.things[thing].class == classes[number];
+        for step in &self.steps[steps.range()] {
+            let of = |n: Reached| things[n as usize];
+            let at = things.len();
+            let holds = match *step {
+                Step::Part(n, place) => {
+                    let t = &structure.things[of(n)];
+                    things.push(ThingId(t.first_part.0 + place));
+                    place < t.parts
+                }
+                Step::Same(a, b, same) => {
+                    (structure.merged[of(a)] == structure.merged[of(b)]) == same
+                }
+                Step::Document => {
+                    things.push(DOCUMENT);
+                    fits(DOCUMENT, at)
+                }
+                Step::Owner(n) => {
+                    let owner = structure.owner(of(n)).filter(|&owner| fits(owner, at));
+                    things.extend(owner);
+                    owner.is_some()
+                }
+                Step::Parts(n, count) => {
+                    let parts = structure.parts(of(n));
+                    let is_like = parts.len() == count as usize;
+                    things.extend(parts);
+                    is_like
+                }
+                Step::Count(n, count) => structure.parts(of(n)).len() == count as usize,
+                Step::Element(n, place) => {
+                    let list = &structure.things[of(n)];
+                    let element = ThingId(list.first_part.0 + place);
+                    things.push(element);
+                    place < list.parts && fits(element, at)
+                }
+                Step::Members(n, count) => {
+                    let members = members(structure, of(n));
+                    things.extend_from_slice(members);
+                    members.len() == count as usize
+                        && members.iter().zip(at..).all(|(&t, number)| fits(t, number))
+                }
+                Step::Referent(n) => {
+                    let target = structure.references.get(&of(n)).filter(|&&t| fits(t, at));
+                    things.extend(target);
+                    target.is_some()
+                }
+            };
+            if !holds {
+                return false;
+            }
+        }
+        true
     }
-    slots.iter().enumerate().all(|(i, s)| !slots[..i].contains(s))
 }

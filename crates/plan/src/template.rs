@@ -11,7 +11,7 @@ use crate::evaluate::Opening;
 use crate::fault::Fault;
 use crate::lower::{guard, held, hold, lower_constraint};
 use crate::planner::Model;
-use crate::reach::{Route, Routes};
+use crate::reach::{Route, Routes, Trail};
 use crate::rule::{Formula, Position, Rules, Shape, ShapeId, Source};
 use base::IdVec;
 use kernel::{ClassId, ConstraintInstance, Document, SlotId, Strength, Structure};
@@ -40,8 +40,8 @@ pub(crate) struct Known {
     shapes: IdVec<ShapeId, Shape>,
     /// For every class, where its constraints begin in `latest`.
     first: IdVec<ClassId, u32>,
-    /// For every constraint, the template that was made last of it.
-    latest: Vec<u32>,
+    /// For every constraint, the template that served last, and how many there are.
+    latest: Vec<(u32, u32)>,
     list: Vec<Template>,
     routes: Routes,
     rules: Vec<(ShapeId, Span)>,
@@ -54,9 +54,8 @@ struct Template {
     route: Route,
     /// Its rules: what they say, of which of the slots that the route leads to.
     rules: Span,
-    /// The one made before of the same constraint, and how many there are so far.
+    /// The one of the same constraint that served before it.
     before: u32,
-    count: u32,
 }
 
 impl Templates {
@@ -110,36 +109,43 @@ impl Known {
             first
         };
         let first = document.classes.iter().map(|(_, class)| class).map(begin).collect();
-        Self { first, latest: vec![NONE; count as usize], ..Self::default() }
+        Self { first, latest: vec![(NONE, 0); count as usize], ..Self::default() }
     }
     /// Returns where the templates of a constraint begin.
     fn place(&self, instance: ConstraintInstance) -> usize {
         (self.first[instance.class] + instance.index) as usize
     }
     fn has_room(&self, instance: ConstraintInstance) -> bool {
-        let latest = self.latest[self.place(instance)];
-        self.list.get(latest as usize).is_none_or(|t| t.count < REMEMBERED)
+        self.latest[self.place(instance)].1 < REMEMBERED
     }
     /// Adds the rules that a template says of an instance, if there is one that was built alike.
     fn follow(
-        &self,
+        &mut self,
         structure: &Structure,
         instance: ConstraintInstance,
         source: Source,
-        way: &mut Way,
+        trail: &mut Trail,
         rules: &mut Rules,
     ) -> bool {
-        let mut at = self.latest[self.place(instance)];
+        let place = self.place(instance);
+        let (latest, _) = self.latest[place];
+        let (mut at, mut last) = (latest, NONE);
         while let Some(template) = self.list.get(at as usize) {
-            let Way { things, slots } = way;
-            if self.routes.follow(&template.route, structure, instance.owner, things, slots) {
+            let before = template.before;
+            if self.routes.follow(&template.route, structure, instance.owner, trail) {
                 for &(shape, positions) in &self.rules[template.rules.range()] {
                     let positions = &self.positions[positions.range()];
-                    rules.add(source, shape, positions.iter().map(|&p| slots[p as usize]));
+                    rules.add(source, shape, positions.iter().map(|&p| trail.slots[p as usize]));
+                }
+                // neighbours are built alike, as a rule: it is asked first from now on
+                if let Some(last) = self.list.get_mut(last as usize) {
+                    last.before = before;
+                    self.list[at as usize].before = latest;
+                    self.latest[place].0 = at;
                 }
                 return true;
             }
-            at = template.before;
+            (last, at) = (at, before);
         }
         false
     }
@@ -171,18 +177,14 @@ impl Known {
             self.positions.truncate(start);
             return;
         }
+        let next = self.list.len() as u32;
         let place = self.place(instance);
-        let before = std::mem::replace(&mut self.latest[place], self.list.len() as u32);
-        let count = self.list.get(before as usize).map_or(0, |t| t.count) + 1;
+        let (latest, count) = &mut self.latest[place];
+        let before = std::mem::replace(latest, next);
+        *count += 1;
         let rules = Span { start: first as u32, len: made.len() as u32 };
-        self.list.push(Template { route, rules, before, count });
+        self.list.push(Template { route, rules, before });
     }
-}
-
-/// The things and slots on a way.
-struct Way {
-    things: Vec<kernel::ThingId>,
-    slots: Vec<SlotId>,
 }
 
 /// Lowers every constraint that is not switched off and every declared stay. What cannot be planned is left
@@ -203,8 +205,7 @@ pub(crate) fn lower_all(
     if known.first.len() != model.document.classes.len() {
         *known = Known::of(model.document);
     }
-    // a rule speaks of a handful of things, as a rule
-    let mut way = Way { things: Vec::with_capacity(32), slots: Vec::with_capacity(32) };
+    let mut trail = Trail::new(structure);
     for (index, &instance) in (0..).zip(structure.constraints.iter()) {
         if !structure.is_on(instance) {
             continue;
@@ -213,7 +214,7 @@ pub(crate) fn lower_all(
         // what is set of one constraint alone says nothing of others
         let is_set = structure.conditions.contains_key(&instance)
             || structure.strengths.contains_key(&instance);
-        if !is_set && known.follow(structure, instance, source, &mut way, &mut rules) {
+        if !is_set && known.follow(structure, instance, source, &mut trail, &mut rules) {
             continue;
         }
         let (lowered, guards) = match lower_constraint(&mut opening, patterns, instance) {

@@ -1,7 +1,9 @@
 //! Bodies: a thing with all that is below it, numbered from the thing, to be copied.
 
 use crate::class::ClassId;
-use crate::structure::{ConstraintInstance, GivenIn, Layouts, Paths, StayInstance, Thing, ThingId};
+use crate::structure::{
+    ConstraintInstance, GivenIn, Layouts, Paths, StayInstance, Thing, ThingId, Unlikes,
+};
 use base::IdVec;
 use std::collections::{BTreeMap, BTreeSet};
 use std::rc::Rc;
@@ -78,6 +80,7 @@ impl Body {
 
     pub(super) fn paths<'s>(&'s self, layouts: &'s Layouts) -> Paths<'s> {
         let Self { things, merged, unlike, .. } = self;
+        let unlike = Unlikes::Growing(unlike);
         Paths { things, merged, unlike, layouts, references: &NO_REFERENCES }
     }
 

@@ -6,7 +6,7 @@ use super::refer::refer;
 use super::{FaultKind, Maker};
 use crate::class::{Class, ClassId, ClassKind};
 use crate::document::{Document, Side};
-use crate::structure::{Form, GivenIn, Givens, NO_SLOT, Slot, ThingId};
+use crate::structure::{Form, GivenIn, Givens, NO_SLOT, Slot, ThingId, Unlike};
 use crate::term::OriginId;
 use base::IdVec;
 use std::collections::BTreeMap;
@@ -37,11 +37,8 @@ pub(super) fn finish(maker: &mut Maker<'_>, body: Body, givens: &Givens) -> Form
     structure.merged = body.merged;
     structure.constraints = body.constraints;
     structure.stays = body.stays;
-    structure.unlike = body.unlike.keys().map(|&t| (t, first_of_each(&structure, t))).collect();
-    if !structure.unlike.is_empty() {
-        structure.is_unlike = IdVec::filled(false, structure.things.len());
-        structure.unlike.keys().for_each(|&t| structure.is_unlike[t] = true);
-    }
+    let unlike = body.unlike.keys().map(|&t| (t, first_of_each(&structure, t)));
+    structure.unlike = Unlike::new(unlike, &structure.merged);
     for index in 0..structure.stays.len() {
         let stay = structure.stays[index];
         if stay.strength.is_none() {
