@@ -393,8 +393,13 @@ fn may_imply_somewhere(system: &System, classes: &Classes, rows: &Rows) -> bool 
         rows[*r].level == Level::Required
             && rows.kernel(*r).is_some_and(|k| k.is_linear() == is_linear)
     };
-    let moves = |slot: &&SlotIndex| classes.stay[**slot as usize] != Stay::Fixed;
-    let ties = |r: usize| rows.mentions(r).iter().filter(moves).nth(1).is_some();
+    let ties = |r: usize| {
+        let reads = &system.relations[rows[r].relation as usize].reads;
+        let is_read = |slot| reads.iter().any(|&s| classes.representative[s as usize] == slot);
+        let moves =
+            |&&slot: &&SlotIndex| classes.stay[slot as usize] != Stay::Fixed && !is_read(slot);
+        rows.mentions(r).iter().filter(moves).nth(1).is_some()
+    };
     rows.len() <= IMPLIED_ROWS
         && system.slots.iter().all(|s| s.stay != Stay::Free)
         && (0..rows.len()).filter(|r| says(r, false)).nth(1).is_some()

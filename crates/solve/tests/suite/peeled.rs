@@ -138,7 +138,8 @@ fn frame(seed: u64) -> (Sheet, SlotIndex, Vec<[SlotIndex; 2]>) {
         } else {
             [(own, stated), (distance, own)]
         } {
-            s.require(left, right);
+            let relation = s.require(left, right);
+            s.reads(relation, given);
         }
     }
     (s, given, joints)
@@ -159,11 +160,12 @@ fn what_goes_two_by_two_is_planned_as_it_is_beside_what_does_not() {
         let plan = s.plan();
         assert_eq!(plan.step_count(), 3 * (joints.len() - 2), "{}", lines(&plan));
         let (mut beside, ..) = frame(seed);
-        // one row with two slots left: nothing goes one after the other to its end
+        // a written method: nothing is peeled
         let free = [beside.kept(9.0), beside.kept(3.0)];
         let [square, root] = free.map(|slot| beside.v(slot));
         let product = beside.mul(root, root);
-        beside.require(square, product);
+        let written = beside.require(square, product);
+        beside.method(written, free[0], product);
         let other = beside.plan();
         assert_eq!(steps(&plan, &free), steps(&other, &free), "seed {seed}");
         assert_eq!((plan.report.freedom, other.report.freedom), (0, 1));
