@@ -565,11 +565,8 @@ fn shared_given(system: &System, classes: &Classes) -> Vec<(SlotIndex, Vec<SlotI
 }
 
 fn stood_for(classes: &Classes) -> Vec<(SlotIndex, SlotIndex)> {
-    let members = classes.members().flat_map(|(root, all)| all.iter().map(move |&s| (s, root)));
-    let mut stood_for: Vec<(SlotIndex, SlotIndex)> =
-        members.filter(|(s, root)| s != root).collect();
-    stood_for.sort_unstable();
-    stood_for
+    let all = (0..).zip(classes.representative.iter().copied());
+    all.filter(|(slot, root)| slot != root).collect()
 }
 
 impl Plan {
