@@ -1,13 +1,14 @@
 //! Peeling: rows that are solved one after the other, or two by two.
 //!
-//! In: rows without coefficients. Out: for every row the one slot that it determines, in an order in which each
-//! reads only what stands before it; nothing where some rows do not go so, or only read what is not known
-//! before. A row with one slot left that may move without a given number's yielding says something of it that
-//! no row before does: it is accepted, it is solved for that slot, and it comes next. Where no row has one slot
-//! left, two rows with the same two left, as those of two bars that meet, come next together, if they are
-//! independent at the generic point. Where all rows go so, no row can be given a slot of another block, no
-//! place can be held that a row determines, and every block is one row or two: acceptance, direction and order
-//! are found in one pass, in time linear in what the rows speak of.
+//! In: rows without coefficients. Out: for every row the one slot that it determines, in an order in which
+//! each reads only what stands before it; nothing where some rows do not go so. A row with one slot left that
+//! may move without a given number's yielding says something of it that no row before does: it is accepted,
+//! it is solved for that slot, and it comes next; what it only reads, or what shows in no derivative of it, it
+//! waits for where another row determines it. Where no row has one slot left, two rows with the same two
+//! left, as those of two bars that meet, come next together, if they are independent at the generic point.
+//! Where all rows go so, no row can be given a slot of another block, no place can be held that a row
+//! determines, and every block is one row or two: acceptance, direction and order are found in one pass, in
+//! time linear in what the rows speak of.
 
 use crate::kernel::Kernel;
 use crate::lists::Lists;
@@ -152,6 +153,12 @@ struct Left {
     slots: u32,
 }
 
+impl Left {
+    fn add(&mut self, slot: SlotIndex) {
+        *self = Self { count: self.count + 1, slots: self.slots ^ slot };
+    }
+}
+
 /// Orders the rows; nothing where some do not go one after the other.
 fn order(
     system: &System,
@@ -164,6 +171,8 @@ fn order(
     let mut pairs: Vec<(SlotIndex, u32)> = Vec::with_capacity(2 * rows.len());
     let mut is_open: Vec<bool> =
         classes.stay.iter().map(|stay| matches!(stay, Stay::Kept { .. } | Stay::Free)).collect();
+    // what a row reads and is never solved for
+    let mut reading: Vec<(SlotIndex, u32)> = Vec::new();
     for (r, left) in (0..).zip(&mut left) {
         let row = rows[r as usize];
         let relation = &system.relations[row.relation as usize];
@@ -173,15 +182,19 @@ fn order(
         }
         let reads = &relation.reads[..];
         for (way, &slot) in own.iter().zip(rows.mentions(r as usize)) {
-            let is = |s: &SlotIndex| classes.representative[*s as usize] == slot;
-            if way.shows && is_open[slot as usize] {
-                // what is read only has to be known before, and not by this row
-                if reads.iter().any(is) || !system.slots[slot as usize].is_number {
-                    return None;
-                }
-                *left = Left { count: left.count + 1, slots: left.slots ^ slot };
-                pairs.push((slot, r));
+            if !is_open[slot as usize] {
+                continue;
             }
+            let is = |s: &SlotIndex| classes.representative[*s as usize] == slot;
+            if !way.shows || reads.iter().any(is) {
+                reading.push((slot, r));
+                continue;
+            }
+            if !system.slots[slot as usize].is_number {
+                return None;
+            }
+            left.add(slot);
+            pairs.push((slot, r));
         }
     }
     // a slot for each row, and none left over
@@ -192,13 +205,21 @@ fn order(
     if slots != rows.len() {
         return None;
     }
+    // what some row is solved for comes before those that read it
+    reading.retain(|&(slot, _)| !is_open[slot as usize]);
+    reading.sort_unstable();
+    for &(slot, r) in &reading {
+        left[r as usize].add(slot);
+        pairs.push((slot, r));
+    }
     let rows_of = Lists::new(classes.stay.len(), pairs.iter().copied());
     let mut next: Vec<u32> = Vec::with_capacity(rows.len());
     next.extend((0..).zip(&left).filter(|(_, left)| left.count == 1).map(|(r, _)| r));
     // what is determined is open again
     let is_determined = is_open;
     let order = Vec::with_capacity(rows.len());
-    let mut peeling = Peeling { rows, rows_of, left, is_determined, next, twos: None, order };
+    let twos = None;
+    let mut peeling = Peeling { rows, rows_of, reading, left, is_determined, next, twos, order };
     let (mut done, mut looked) = (0, 0);
     while peeling.order.len() < rows.len() {
         if let Some(&row) = peeling.next.get(done) {
@@ -222,8 +243,10 @@ fn order(
 /// Rows that are being put in order.
 struct Peeling<'a> {
     rows: &'a Rows,
-    /// For every slot, the rows that may be solved for it.
+    /// For every slot, the rows that may be solved for it, or wait for it.
     rows_of: Lists,
+    /// The slots that rows wait for and are never solved for, in order.
+    reading: Vec<(SlotIndex, u32)>,
     left: Vec<Left>,
     is_determined: Vec<bool>,
     /// Rows that have one slot left, in order.
@@ -234,8 +257,15 @@ struct Peeling<'a> {
 }
 
 impl Peeling<'_> {
-    /// Puts a row next, for one of its slots.
+    /// Returns true if a row is never solved for a slot.
+    fn only_reads(&self, row: u32, slot: SlotIndex) -> bool {
+        self.reading.binary_search(&(slot, row)).is_ok()
+    }
+    /// Puts a row next, for one of its slots; nothing where it only reads that.
     fn determine(&mut self, row: u32, slot: SlotIndex, is_first_of_two: bool) -> Option<()> {
+        if self.only_reads(row, slot) {
+            return None;
+        }
         let mentions = self.rows.mentions(row as usize);
         let argument = mentions.iter().position(|&s| s == slot)? as u32;
         self.order.push(Solved { row, argument, is_first_of_two });
@@ -280,7 +310,8 @@ impl Peeling<'_> {
             let least = pair.into_iter().min_by_key(|rows| rows.len())?;
             let is_alike = |r: &&u32| **r != row && left[**r as usize] == own;
             let other = least.iter().find(is_alike).filter(|_| least.contains(&row))?;
-            Some([(row, slot), (*other, slot ^ own.slots)])
+            let two = [(row, slot), (*other, slot ^ own.slots)];
+            two.iter().all(|&(row, slot)| !self.only_reads(row, slot)).then_some(two)
         };
         let slots = || mentions.iter().copied();
         (own.count == 2).then(|| slots().filter(may_be).find_map(with)).flatten()

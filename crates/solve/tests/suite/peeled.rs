@@ -2,6 +2,7 @@
 
 use crate::builder::{Sheet, bits, close, lines};
 use base::Dice;
+use expr::Unary;
 use solve::{NoHost, Plan, SlotIndex};
 use std::collections::BTreeSet;
 
@@ -191,4 +192,46 @@ fn two_rows_that_say_the_same_of_a_place_do_not_determine_it() {
     let plan = s.plan();
     assert_eq!(plan.report.rejected.len(), 1, "{}", lines(&plan));
     assert_eq!(plan.report.freedom, 1);
+}
+
+#[test]
+fn what_a_row_only_reads_is_computed_before_it() {
+    let mut s = Sheet::default();
+    let [number, half, whole, below] = [3.0, 6.5, 13.0, 6.0].map(|x| s.kept(x));
+    let [n, h, w, b] = [number, half, whole, below].map(|slot| s.v(slot));
+    let (two, rest) = (s.c(2.0), s.c(0.5));
+    let doubled = s.mul(two, h);
+    let first = s.require(w, doubled);
+    s.reads(first, half);
+    // a step that shows in no derivative
+    let floor = s.arena.unary(Unary::Floor, h);
+    s.require(b, floor);
+    let product = s.mul(two, n);
+    let stated = s.add(product, rest);
+    let last = s.require(h, stated);
+    s.reads(last, number);
+    let (came, outcome, plan) = s.set(&[(number, 5.0)]);
+    assert!(outcome.is_solved(), "{outcome:?}\n{}", lines(&plan));
+    assert!(outcome.unmet.is_empty(), "{outcome:?}");
+    assert_eq!([half, whole, below].map(|slot| came[slot as usize]), [10.5, 21.0, 10.0]);
+}
+
+#[test]
+fn rows_that_read_each_other_are_solved_together() {
+    // a = b / 2 + 1 and b = a / 2 + k, each solved for its left side alone
+    let mut s = Sheet::default();
+    let [a, b, k] = [2.0, 2.0, 1.0].map(|x| s.kept(x));
+    let (two, one) = (s.c(2.0), s.c(1.0));
+    let [left, right, number] = [a, b, k].map(|slot| s.v(slot));
+    for (own, other, more, read) in [(left, right, one, b), (right, left, number, a)] {
+        let half = s.div(other, two);
+        let stated = s.add(half, more);
+        let row = s.require(own, stated);
+        s.reads(row, read);
+        s.reads(row, k);
+    }
+    let (came, outcome, plan) = s.set(&[(k, 4.0)]);
+    assert!(outcome.is_solved() && outcome.unmet.is_empty(), "{outcome:?}\n{}", lines(&plan));
+    close(came[a as usize], 4.0, 1e-9);
+    close(came[b as usize], 6.0, 1e-9);
 }
