@@ -102,6 +102,9 @@ pub(crate) enum Found {
 
 /// Peels rows, where all go one after the other and no method is written for any.
 pub(crate) fn peel(system: &System, classes: &Classes, rows: Rows) -> Found {
+    if !has_slot_for_each(system, classes, &rows) {
+        return Found::Not(rows);
+    }
     let mut first = Vec::with_capacity(rows.kernels().len() + 1);
     let mut ways = Vec::new();
     for kernel in rows.kernels() {
@@ -123,6 +126,29 @@ pub(crate) fn peel(system: &System, classes: &Classes, rows: Rows) -> Found {
         find_formulas(&rows, &order, &first, &mut ways);
     }
     Found::All(Peeled { rows, order, ways, first })
+}
+
+/// Returns true if rows speak of as many slots that may move as there are rows; most that do not all go one after
+/// the other speak of more, which is quickly seen.
+fn has_slot_for_each(system: &System, classes: &Classes, rows: &Rows) -> bool {
+    let mut is_open: Vec<bool> = classes.stay.iter().map(|&stay| is_open(stay)).collect();
+    let mut slots = 0;
+    for r in 0..rows.len() {
+        let reads = &system.relations[rows[r].relation as usize].reads[..];
+        for &slot in rows.mentions(r) {
+            let is = |s: &SlotIndex| classes.representative[*s as usize] == slot;
+            if is_open[slot as usize] && !reads.iter().any(is) {
+                is_open[slot as usize] = false;
+                slots += 1;
+            }
+        }
+    }
+    slots == rows.len()
+}
+
+/// Returns true if a slot may move without a given number's yielding.
+fn is_open(stay: Stay) -> bool {
+    matches!(stay, Stay::Kept { .. } | Stay::Free)
 }
 
 /// Finds out which rows have one formula for what they determine.
@@ -169,8 +195,7 @@ fn order(
 ) -> Option<Vec<Solved>> {
     let mut left = vec![Left::default(); rows.len()];
     let mut pairs: Vec<(SlotIndex, u32)> = Vec::with_capacity(2 * rows.len());
-    let mut is_open: Vec<bool> =
-        classes.stay.iter().map(|stay| matches!(stay, Stay::Kept { .. } | Stay::Free)).collect();
+    let mut is_open: Vec<bool> = classes.stay.iter().map(|&stay| is_open(stay)).collect();
     // what a row reads and is never solved for
     let mut reading: Vec<(SlotIndex, u32)> = Vec::new();
     for (r, left) in (0..).zip(&mut left) {
