@@ -95,7 +95,7 @@ pub fn edits_for(
         }
     };
     let carry = |e: TextEdit| Some(TextEdit { span: lowered.in_text(e.span)?, insert: e.insert });
-    let edits = text.joined(done.edits);
+    let edits = edit::joined(&lowered.effective, done.edits);
     let carried: Option<Vec<TextEdit>> = edits.into_iter().map(carry).collect();
     done.edits = carried.ok_or_else(|| {
         let message = "a line that has an error would have to be changed".to_string();
@@ -150,45 +150,6 @@ fn must_lead(text: &Text<'_>, structure: &Structure, path: &Path) -> Result<(), 
 }
 
 impl Text<'_> {
-    /// Joins edits that overlap, as deletions of neighbours on one line do.
-    fn joined(&self, mut edits: Vec<TextEdit>) -> Vec<TextEdit> {
-        edits.sort_by_key(|e| (e.span.start, std::cmp::Reverse(e.span.end)));
-        let mut joined: Vec<TextEdit> = Vec::new();
-        for edit in edits {
-            let overlaps = |last: &&mut TextEdit| edit.span.start < last.span.end;
-            let Some(last) = joined.last_mut().filter(overlaps) else {
-                joined.push(edit);
-                continue;
-            };
-            let says = |e: &TextEdit| !e.insert.trim().is_empty();
-            match (says(last), says(&edit)) {
-                // what is said where something else goes is divided from its neighbours as that was
-                (false, true) => {
-                    let text = |from: u32, to: u32| {
-                        self.lowered.effective.get(from as usize..to as usize).unwrap_or_default()
-                    };
-                    let behind = text(edit.span.end, last.span.end);
-                    let divides = behind.chars().all(|c| c == ';' || c.is_whitespace());
-                    let begins = text(0, last.span.start).chars().last();
-                    last.insert = match begins.is_none_or(char::is_whitespace) {
-                        true => edit.insert.trim_start().to_string(),
-                        false => edit.insert,
-                    };
-                    last.insert.push_str(if divides { behind } else { "" });
-                }
-                (true, true) => last.insert.push_str(&edit.insert),
-                (false, false) if edit.span.end > last.span.end => {
-                    let before = self.lowered.effective.get(..last.span.start as usize);
-                    let divided = before.is_some_and(|b| b.ends_with(char::is_whitespace));
-                    last.insert = if divided { String::new() } else { edit.insert };
-                }
-                (_, false) => {}
-            }
-            last.span = last.span.join(edit.span);
-        }
-        joined
-    }
-
     /// Adds members to the document, to a class, or to the body of a thing.
     fn insert(&self, target: &Path, members: &str) -> Result<Restructuring, Diagnostic> {
         let home = self.home(target)?;

@@ -39,24 +39,66 @@ pub enum Spot {
     EndOf(SyntaxNode),
 }
 
-/// Makes the text that edits turn `text` into. Edits do not overlap; insertions at one place come in
-/// the order of the list.
+/// Makes the text that edits turn `text` into. Insertions at one place come in the order of the list;
+/// edits that overlap are [`joined`].
 ///
 /// # Panics
 /// If an edit lies outside the text or inside a character.
 pub fn apply(text: &str, edits: &[TextEdit]) -> String {
-    let mut sorted: Vec<&TextEdit> = edits.iter().collect();
+    let mut sorted = edits.to_vec();
     sorted.sort_by_key(|edit| edit.span);
+    if sorted.windows(2).any(|two| two[1].span.start < two[0].span.end) {
+        sorted = joined(text, sorted);
+    }
     let mut out = String::with_capacity(text.len() + 64);
     let mut at = 0;
-    for edit in sorted {
+    for edit in &sorted {
         let range = edit.span.range();
-        assert!(at <= range.start, "edits of a text do not overlap");
         out += &text[at..range.start];
         out += &edit.insert;
         at = range.end;
     }
     out + &text[at..]
+}
+
+/// Joins edits that overlap, so that none of them does any more: deletions of neighbours on one line are
+/// one, and what is said where something else goes is said in its place. The edits come in the order of the text.
+pub fn joined(text: &str, mut edits: Vec<TextEdit>) -> Vec<TextEdit> {
+    edits.sort_by_key(|e| (e.span.start, std::cmp::Reverse(e.span.end)));
+    let mut joined: Vec<TextEdit> = Vec::new();
+    for edit in edits {
+        let overlaps = |last: &&mut TextEdit| edit.span.start < last.span.end;
+        let Some(last) = joined.last_mut().filter(overlaps) else {
+            joined.push(edit);
+            continue;
+        };
+        let says = |e: &TextEdit| !e.insert.trim().is_empty();
+        match (says(last), says(&edit)) {
+            // what is said where something else goes is divided from its neighbours as that was
+            (false, true) => {
+                let between =
+                    |from: u32, to: u32| text.get(from as usize..to as usize).unwrap_or_default();
+                let behind = between(edit.span.end, last.span.end);
+                let divides = behind.chars().all(|c| c == ';' || c.is_whitespace());
+                let begins = between(0, last.span.start).chars().last();
+                last.insert = match begins.is_none_or(char::is_whitespace) {
+                    true => edit.insert.trim_start().to_string(),
+                    false => edit.insert,
+                };
+                last.insert.push_str(if divides { behind } else { "" });
+            }
+            (true, true) if *last == edit => {}
+            (true, true) => last.insert.push_str(&edit.insert),
+            (false, false) if edit.span.end > last.span.end => {
+                let before = text.get(..last.span.start as usize);
+                let divided = before.is_some_and(|b| b.ends_with(char::is_whitespace));
+                last.insert = if divided { String::new() } else { edit.insert };
+            }
+            (_, false) => {}
+        }
+        last.span = last.span.join(edit.span);
+    }
+    joined
 }
 
 /// Replaces a node, doc comments included, by a text.

@@ -183,3 +183,17 @@ proptest! {
         prop_assert_eq!(list(&less), expected);
     }
 }
+
+#[test]
+fn edits_that_overlap_are_joined() {
+    let text = "a: Real\nside a: up\nb: Real\n";
+    let gone = delete_member(&find(text, "side"));
+    let new = insert_member(&Spot::After(find(text, "side")), "side b: down");
+    let joined = "a: Real\nside b: down\nb: Real\n";
+    assert_eq!(apply(text, &[gone.clone(), new.clone()]), joined);
+    assert_eq!(apply(text, &[new, gone]), joined);
+    // the same said twice is said once
+    let text = "a: Real = 1";
+    let again = replace(&find(text, "1"), "2");
+    assert_eq!(apply(text, &[again.clone(), again]), "a: Real = 2");
+}

@@ -106,6 +106,20 @@ fn a_root_goes_back_to_its_own_side_of_zero() {
 }
 
 #[test]
+fn a_side_that_is_written_makes_way_for_another() {
+    // on a circle of radius 5, from where it is widest in x to where it is widest in y
+    let mut desk = Desk::of("x: Real = 3\ny: Real\nconstraint x^2 + y^2 = 25\nend: Real = 1\n");
+    desk.set("x", 5.0).expect("the circle is 5 wide");
+    assert_eq!(sides(&desk), ["side y: more"], "{}", desk.text());
+    desk.set("y", 5.0).expect("the circle is 5 high");
+    assert_eq!(sides(&desk), ["side x: more"], "{}", desk.text());
+    assert!(desk.number("x").abs() < 1e-9, "{}", desk.text());
+    desk.set("y", 3.0).expect("it lies on the circle");
+    assert!((desk.number("x") - 4.0).abs() < 1e-9, "{}", desk.text());
+    assert_eq!(sides(&desk), [""; 0]);
+}
+
+#[test]
 fn a_side_stays_while_nothing_moves_what_it_speaks_of() {
     let mut desk = Desk::of(&triangle("(3, 0)", "side c: up\nelse_where: Real = 1\n"));
     desk.set("else_where", 2.0).expect("nothing forbids it");
