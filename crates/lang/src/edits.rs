@@ -156,7 +156,7 @@ impl Text<'_> {
         if home.path == *target {
             return Ok(self.said_in(&home, SyntaxKind::Error, members));
         }
-        let rest = Path(target.0[home.path.0.len()..].to_vec());
+        let rest = home.within(target);
         let Some(class) = self.class_at(target) else {
             return Err(self.unknown(target));
         };
@@ -175,7 +175,7 @@ impl Text<'_> {
             Some(_) => self.home(&Path(path.0[..1].to_vec()))?,
             None => Home::document(self),
         };
-        let rest = Path(path.0[home.path.0.len()..].to_vec());
+        let rest = home.within(path);
         Ok(self.said_in(&home, SyntaxKind::Anchor, &format!("anchor {rest}")))
     }
 

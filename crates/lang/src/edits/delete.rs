@@ -237,12 +237,10 @@ impl Text<'_> {
             return self.delete_merge(path, unknown);
         };
         let home = self.home(&owner)?;
-        if home.path != owner {
-            return Err(self.of_a_class(path));
-        }
         let here = home.members().into_iter().find(|m| {
             let span = ast::span_without_doc(m.syntax());
-            class == self.class_at(&owner).unwrap_or(class)
+            home.path == owner
+                && class == self.class_at(&owner).unwrap_or(class)
                 && span == self.lowered.origins.place(constraint.origin).span
         });
         let implied = self.implied_by(&home);
@@ -257,7 +255,8 @@ impl Text<'_> {
             Some(name) => name.clone(),
             None => self.name_given(constraint.origin, "constraint", "rule", &mut done)?,
         };
-        let said = self.said_in(&home, SyntaxKind::Without, &format!("without {name}"));
+        let mask = format!("without {}", home.within(&owner).then(Step::Part(name)));
+        let said = self.said_in(&home, SyntaxKind::Without, &mask);
         let edits = done.edits.into_iter().chain(said.edits).collect();
         Ok(Restructuring { edits, ..said })
     }
@@ -273,10 +272,8 @@ impl Text<'_> {
             return Err(unknown);
         }
         let home = self.home(&owner)?;
-        match home.path == owner {
-            true => Ok(self.said_in(&home, SyntaxKind::Without, &format!("without {name}"))),
-            false => Err(self.of_a_class(path)),
-        }
+        let mask = format!("without {}", home.within(&owner).then(Step::Part(name.clone())));
+        Ok(self.said_in(&home, SyntaxKind::Without, &mask))
     }
 
     /// Deletes a class that nothing is made of.

@@ -32,6 +32,10 @@ impl Home {
     pub(super) fn document(text: &Text<'_>) -> Self {
         Self { path: Path::default(), site: Site::Document(text.file.clone()) }
     }
+    /// Returns the path from the thing whose body it is to one below it.
+    pub(super) fn within(&self, path: &Path) -> Path {
+        Path(path.0[self.path.0.len()..].to_vec())
+    }
     /// Returns the members that stand in the body.
     pub(super) fn members(&self) -> Vec<Member> {
         match &self.site {

@@ -1,23 +1,36 @@
 //! Merges made and undone.
 
 use super::Restructuring;
-use super::home::{Home, common_owner};
+use super::home::{Home, Site, common_owner};
 use crate::lower::OWN;
 use crate::uses::{Text, refused};
 use base::{Diagnostic, Name, Place};
-use indexmap::IndexSet;
-use kernel::{Merge, Path, Step};
+use indexmap::{IndexMap, IndexSet};
+use kernel::{ClassId, Merge, Path, Step};
 use syntax::ast::{AstNode, Expr, Member, span_without_doc};
 use syntax::edit::{self, Spot, TextEdit};
 use syntax::{SyntaxKind, SyntaxNode};
 
+/// The members that bodies have to say, by the paths of their things: a body is opened once.
+type Sayings = IndexMap<Path, (Home, Vec<String>)>;
+
+fn saying(said: &mut Sayings, home: Home) -> &mut Vec<String> {
+    let known = said.entry(home.path.clone()).or_insert_with(|| (home, Vec::new()));
+    &mut known.1
+}
+
 impl Text<'_> {
     /// Merges parts, in the body of the thing that has them all.
     pub(super) fn merge(&self, paths: &[Path]) -> Restructuring {
+        let (home, member) = self.merge_at_home(paths);
+        self.said_in(&home, SyntaxKind::Merge, &member)
+    }
+
+    /// Returns the body that has to say that parts are merged, and what it says.
+    fn merge_at_home(&self, paths: &[Path]) -> (Home, String) {
         let home = self.home(&common_owner(paths)).unwrap_or_else(|_| Home::document(self));
-        let n = home.path.0.len();
-        let paths: Vec<Path> = paths.iter().map(|p| Path(p.0[n..].to_vec())).collect();
-        self.said_in(&home, SyntaxKind::Merge, &merging(&paths))
+        let member = merging(paths.iter().map(|p| home.within(p)));
+        (home, member)
     }
 
     /// Takes a path out of the merges that name it; the rest of them all stay merged.
@@ -41,14 +54,23 @@ impl Text<'_> {
         }
         let before = left.len();
         self.unmerge_repeated(path, &mut done, &mut left);
-        self.unmerge_inherited(path, &mut done, &mut left)?;
+        let mut said = Sayings::new();
+        self.unmerge_inherited(path, &mut done, &mut left, &mut said)?;
         if !is_named && left.len() == before {
             return Err(self.not_merged(path));
         }
         let ends: IndexSet<Path> = left.into_iter().collect();
         if ends.len() > 1 {
             let ends: Vec<Path> = ends.into_iter().collect();
-            done.edits.extend(self.merge(&ends).edits);
+            let (home, member) = self.merge_at_home(&ends);
+            saying(&mut said, home).push(member);
+        }
+        for (home, members) in said.into_values() {
+            let divider = if matches!(home.site, Site::Document(_)) { "\n" } else { "  " };
+            let said = self.said_in(&home, SyntaxKind::Merge, &members.join(divider));
+            done.edits.extend(said.edits);
+            done.class_of_one = done.class_of_one.or(said.class_of_one);
+            done.class = done.class.or(said.class);
         }
         Ok(done)
     }
@@ -121,7 +143,7 @@ impl Text<'_> {
                     continue;
                 }
                 if kept.len() > 1 {
-                    said.push(merging(kept.iter().copied()));
+                    said.push(merging(&kept));
                 }
                 left.extend(kept.first().map(|&p| owner.join(p)));
                 done.edits.extend(written_out(each, &gone, &said));
@@ -131,13 +153,14 @@ impl Text<'_> {
 
     /// Says why nothing can be taken out of a merge: by what it is merged, if it is.
     fn not_merged(&self, path: &Path) -> Diagnostic {
-        if self.is_merged(path) {
-            let d = refused("not-merged", format!("the merges of {path} are made by a `for`"));
-            return d.hint("write them out instead, then one can be taken away");
+        if let Some(merge) = self.merges_of(path).next() {
+            let said = self.lowered.source_of(merge.origin);
+            let d = refused("not-merged", format!("`{said}` is not said of {path} alone"));
+            return d.hint("give its thing a declaration of its own, then it can be taken out");
         }
         let d = refused("not-merged", format!("no merge names {path}"));
         let whole = (1..path.0.len()).rev().map(|n| Path(path.0[..n].to_vec()));
-        let mut whole = whole.filter(|p| self.is_merged(p));
+        let mut whole = whole.filter(|p| self.merges_of(p).next().is_some());
         match whole.next() {
             Some(whole) => d.hint(format!("it is a part of {whole}, which is merged as a whole")),
             None => {
@@ -146,46 +169,54 @@ impl Text<'_> {
         }
     }
 
-    /// Returns true if a merge of the text or of a class names exactly this path.
-    fn is_merged(&self, path: &Path) -> bool {
-        let document = &self.lowered.document;
-        let says = |n: usize| {
+    /// Returns the merges of the text and of classes that name exactly this path.
+    fn merges_of(&self, path: &Path) -> impl Iterator<Item = &Merge> {
+        (0..path.0.len()).flat_map(|n| {
             let (owner, rest) = (Path(path.0[..n].to_vec()), Path(path.0[n..].to_vec()));
-            let line = self.class_at(&owner).map(|c| document.primary_line(c)).unwrap_or_default();
-            let mut merges = line.iter().flat_map(|&c| &document.classes[c].merges);
-            merges.any(|m| m.paths.contains(&rest))
-        };
-        (0..path.0.len()).any(says)
+            let merges = self.class_at(&owner).map(|c| self.merges_in_force(c, 0));
+            merges.unwrap_or_default().into_iter().filter(move |m| m.paths.contains(&rest))
+        })
     }
 
-    /// Masks the merges of classes that name a path, at the thing that has them.
+    /// Returns the merges that the line of a class says from its `first` class upwards and that none nearer
+    /// masks.
+    fn merges_in_force(&self, class: ClassId, first: usize) -> Vec<&Merge> {
+        let document = &self.lowered.document;
+        let line = document.primary_line(class);
+        let of = |i: usize| document.classes[line[i]].merges.iter().map(move |m| (i, m));
+        let all = (first..line.len()).flat_map(of);
+        all.filter(|(i, m)| !document.is_masked(&line[..*i], m.name.as_ref()))
+            .map(|(_, m)| m)
+            .collect()
+    }
+
+    /// Masks the merges of classes that name a path, at the thing that has them; where that has no body of
+    /// its own, at the one around it.
     fn unmerge_inherited(
         &self,
         path: &Path,
         done: &mut Restructuring,
         left: &mut Vec<Path>,
+        said: &mut Sayings,
     ) -> Result<(), Diagnostic> {
         for n in (0..path.0.len()).rev() {
             let (owner, rest) = (Path(path.0[..n].to_vec()), Path(path.0[n..].to_vec()));
             let Some(class) = self.class_at(&owner) else { continue };
-            let document = &self.lowered.document;
-            let own = self.home(&owner).ok().filter(|home| home.path == owner);
-            let above = document.primary_line(class).into_iter();
-            let above =
-                above.skip(usize::from(!own.as_ref().is_some_and(|h| self.is_inherited(h))));
-            let all: Vec<&Merge> = above.flat_map(|c| document.classes[c].merges.iter()).collect();
-            let merges: Vec<Merge> =
-                all.iter().filter(|m| m.paths.contains(&rest)).map(|&m| m.clone()).collect();
+            let home = self.home(&owner)?;
+            let within = home.within(&owner);
+            // what its own body says is taken out of that
+            let is_own = within.is_empty() && !self.is_inherited(&home);
+            let all = self.merges_in_force(class, usize::from(is_own));
+            let merges: Vec<&Merge> =
+                all.iter().copied().filter(|m| m.paths.contains(&rest)).collect();
             if merges.is_empty() {
                 continue;
             }
-            let Some(home) = own else {
-                return Err(self.of_a_class(path));
-            };
             let mut members = Vec::new();
-            let mut kept: Vec<&Path> = Vec::new();
+            let mut kept: IndexSet<&Path> = IndexSet::new();
             for merge in &merges {
-                let mask = format!("without {}", self.name_of_merge(merge, done)?);
+                let name = self.name_of_merge(merge, done)?;
+                let mask = format!("without {}", within.then(Step::Part(name)));
                 if !members.contains(&mask) {
                     members.push(mask);
                     // the other turns of a loop have the same name, and go on
@@ -193,19 +224,15 @@ impl Text<'_> {
                     let others = all.iter().filter(|m| {
                         self.lowered.origins.place(m.origin) == place && !merges.contains(m)
                     });
-                    members.extend(others.map(|m| merging(&m.paths)));
+                    members.extend(others.map(|m| merging(m.paths.iter().map(|p| within.join(p)))));
                 }
-                let others = merge.paths.iter().filter(|p| **p != rest);
-                others.for_each(|p| kept.extend((!kept.contains(&p)).then_some(p)));
+                kept.extend(merge.paths.iter().filter(|p| **p != rest));
             }
             if kept.len() > 1 {
-                members.push(merging(kept.iter().copied()));
+                members.push(merging(kept.iter().map(|p| within.join(p))));
             }
             left.extend(kept.first().map(|&p| owner.join(p)));
-            let said = self.said_in(&home, SyntaxKind::Merge, &members.join("  "));
-            done.edits.extend(said.edits);
-            done.class_of_one = said.class_of_one;
-            done.class = done.class.or(said.class);
+            saying(said, home).extend(members);
         }
         Ok(())
     }
@@ -256,7 +283,7 @@ fn outermost_loop(member: &SyntaxNode) -> Option<SyntaxNode> {
 }
 
 /// Writes a merge of some paths.
-fn merging<'p>(paths: impl IntoIterator<Item = &'p Path>) -> String {
-    let paths: Vec<String> = paths.into_iter().map(ToString::to_string).collect();
+fn merging(paths: impl IntoIterator<Item = impl ToString>) -> String {
+    let paths: Vec<String> = paths.into_iter().map(|p| p.to_string()).collect();
     format!("merge {}", paths.join(" = "))
 }

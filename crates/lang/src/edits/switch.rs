@@ -89,7 +89,7 @@ impl Text<'_> {
             Some(name) => name.clone(),
             None => self.name_given(constraint.origin, "constraint", "rule", done)?,
         };
-        let rest = Path(owner.0[home.path.0.len()..].to_vec()).then(Step::Part(name));
+        let rest = home.within(&owner).then(Step::Part(name));
         Ok(rest.then(Step::Part(aspect.into())))
     }
 
@@ -156,14 +156,21 @@ impl Text<'_> {
             let message = format!("`{source}` has no name, and belongs to a library");
             return Err(refused("of-a-class", message).hint("give it a name there"));
         };
+        let end = place.span.start + (at + keyword.len()) as u32;
+        let span = Span::new(end, end);
+        if let Some(named) = done.edits.iter().find(|e| e.span == span) {
+            return Ok(Name::new(named.insert.trim().trim_end_matches(':')));
+        }
         let taken = |name: &str| {
+            if done.edits.iter().any(|e| e.insert == format!(" {name}:")) {
+                return true;
+            }
             let mut tokens = self.file.syntax().descendants_with_tokens();
             tokens.any(|t| t.into_token().is_some_and(|t| t.text() == name))
         };
         let names = std::iter::once(base.to_string()).chain((2..).map(|i| format!("{base}{i}")));
         let name = names.into_iter().find(|n| !taken(n)).unwrap_or_else(|| base.to_string());
-        let end = place.span.start + (at + keyword.len()) as u32;
-        done.edits.push(TextEdit { span: Span::new(end, end), insert: format!(" {name}:") });
+        done.edits.push(TextEdit { span, insert: format!(" {name}:") });
         Ok(Name::new(&name))
     }
 }

@@ -241,6 +241,57 @@ fn what_a_class_merges_is_masked_at_one_thing() {
 }
 
 #[test]
+fn what_has_no_body_of_its_own_is_masked_by_the_thing_around_it() {
+    let class = "class Two { q: Quad }\n";
+    assert_becomes(
+        &format!("{class}t: Two\n"),
+        &unmerge("t.q.side1.p2"),
+        &format!("{class}t: Two {{ without q.corner }}\n"),
+    );
+    assert_becomes(
+        &format!("{class}t: Two {{ without q.corner }}\n"),
+        &edit("t", "q.side1.p1 = (1, 2)"),
+        &format!("{class}t: Two {{ without q.corner  q.side1.p1 = (1, 2) }}\n"),
+    );
+    let masked = format!("use shapes\n{class}t: Two {{ without q.corner }}\n");
+    assert_eq!(apply(&masked, &unmerge("t.q.side1.p2")), Err("not-merged"));
+    assert_becomes(
+        &format!("{class}t: Two\n"),
+        &delete("t.q.corner"),
+        &format!("{class}t: Two {{ without q.corner }}\n"),
+    );
+    let line = "class Sign { h: HorizontalLine }\n";
+    assert_becomes(
+        &format!("{line}s: Sign\n"),
+        &delete("s.h.level"),
+        &format!("{line}s: Sign {{ without h.level }}\n"),
+    );
+    // an element's class is the list's to say
+    assert_becomes(
+        "l: List of 2 Quad\n",
+        &Command::Unmerge(Path(vec![
+            kernel::Step::Part("l".into()),
+            kernel::Step::Index(1),
+            kernel::Step::Part("side1".into()),
+            kernel::Step::Part("p2".into()),
+        ])),
+        "l: List of 2 Quad\nwithout l[1].corner\n",
+    );
+    // two levels merge it: the body that says so is opened once
+    assert_becomes(
+        "class Three { a, b, c: Point  merge joint: a = b }\nclass Four { t: Three  d: Point  merge end: t.a = d }\nf: Four\n",
+        &unmerge("f.t.a"),
+        "class Three { a, b, c: Point  merge joint: a = b }\nclass Four { t: Three  d: Point  merge end: t.a = d }\nf: Four { without t.joint  without end  merge t.b = d }\n",
+    );
+    // what a loop merges with one has one name
+    assert_becomes(
+        "class Star { hub: Point  l: List of 3 Line  for a in l { merge a.p1 = hub } }\ns: Star\n",
+        &unmerge("s.hub"),
+        "class Star { hub: Point  l: List of 3 Line  for a in l { merge hub2: a.p1 = hub } }\ns: Star { without hub2  merge l[0].p1 = l[1].p1 = l[2].p1 }\n",
+    );
+}
+
+#[test]
 fn a_merge_within_one_thing_is_said_in_its_body() {
     let merge = |a: &str, b: &str| Command::Merge(vec![at(a), at(b)]);
     assert_becomes(
