@@ -8,7 +8,7 @@
 use crate::host::Host;
 use crate::state::State;
 use base::number::{Toward, close};
-use kernel::{Literal, Path, Primitive, SideWay, SlotId, ThingId, Value, Values};
+use kernel::{GivenIn, Literal, Path, Primitive, SideWay, SlotId, ThingId, Value, Values};
 use plan::{Planner, Plans};
 use std::collections::{BTreeMap, BTreeSet};
 
@@ -23,6 +23,7 @@ pub(crate) fn write_back(
     host: &dyn Host,
     mut plans: Plans,
 ) -> (State, Planner) {
+    let unit = |slot: SlotId| unit_of_change(state, wanted, slot);
     let mut written: BTreeSet<ThingId> = state
         .structure
         .slots
@@ -34,7 +35,7 @@ pub(crate) fn write_back(
             given.is_some_and(|g| is_lone || state.lowered.is_own_given(g.origin))
                 && !wanted.get(slot).same_bits(&state.values.get(slot))
         })
-        .map(|slot| unit_of_writing(state, slot))
+        .map(unit)
         .collect();
     let mut more = 1;
     loop {
@@ -57,15 +58,14 @@ pub(crate) fn write_back(
             None if edited.contains(slot) => 1,
             None => 2,
         };
-        let mut missing: Vec<SlotId> = differing(&next, wanted)
-            .filter(|&slot| !written.contains(&unit_of_writing(state, slot)))
-            .collect();
+        let mut missing: Vec<SlotId> =
+            differing(&next, wanted).filter(|&slot| !written.contains(&unit(slot))).collect();
         missing.sort_by_key(rank);
         missing.truncate(more);
         if missing.is_empty() {
             return (next, planner);
         }
-        written.extend(missing.into_iter().map(|slot| unit_of_writing(state, slot)));
+        written.extend(missing.into_iter().map(unit));
         // One at a time while there are few: the first may determine the others.
         more = if written.len() < 8 { 1 } else { more * 2 };
         plans = planner.into_plans();
@@ -138,6 +138,24 @@ pub(crate) fn unit_of_writing(state: &State, slot: SlotId) -> ThingId {
         state.structure.slots_under(place).iter().all(of_place)
     };
     slots[slot].place.filter(is_all).unwrap_or(slots[slot].thing)
+}
+
+/// Returns what is written where a slot changes: a place as a whole, but for one whose class gives a
+/// coordinate that stays as it is. Of that the others are written by their names.
+fn unit_of_change(state: &State, wanted: &Values, slot: SlotId) -> ThingId {
+    let structure = &state.structure;
+    let unit = unit_of_writing(state, slot);
+    let stays = |&s: &SlotId| {
+        let of_class = |g: GivenIn| {
+            g.me == unit && !state.lowered.is_own_given(structure.givens[g.value].origin)
+        };
+        structure.slots[s].given.is_some_and(of_class)
+            && wanted.get(s).same_bits(&state.values.get(s))
+    };
+    match structure.slots_under(unit).iter().any(stays) {
+        true => structure.slots[slot].thing,
+        false => unit,
+    }
 }
 
 /// Returns the thing by whose path a thing's value is written: of merged ones the one that gives it, if the

@@ -1,6 +1,7 @@
 //! Saving: the text after an edit differs from the text before by the fewest numbers.
 
-use crate::desk::{Desk, edited, gallery};
+use crate::desk::{Desk, at, edited, gallery};
+use session::Command;
 
 /// Opens a text, does something, and returns the text after it; opening that gives the same values.
 fn after(text: &str, act: impl FnOnce(&mut Desk) -> session::view::Change) -> String {
@@ -73,6 +74,27 @@ fn a_negative_number_may_follow_a_positive_one() {
     let text = "use geometry\np: Point = (1, -2) // there\n";
     let saved = after(text, |d| d.drag("p", &[(-3.0, 4.0)]));
     assert_eq!(saved, "use geometry\np: Point = (-3, 4) // there\n");
+}
+
+#[test]
+fn what_a_class_gives_of_a_place_is_not_written_again() {
+    let text =
+        "class Spot { x: Real = 10  y: Real = 5 }\na: Spot\nb: Spot { y = 6 } // the other\n";
+    let mut desk = Desk::of(text);
+    desk.set("a.x", 30.0).expect("it is free");
+    assert_eq!(desk.text(), text.replace("a: Spot", "a: Spot { x = 30 }"));
+    desk.set("b.y", 7.0).expect("it is free");
+    assert_eq!(
+        desk.text(),
+        text.replace("a: Spot", "a: Spot { x = 30 }").replace("y = 6", "y = 7")
+    );
+    // so that the class may have one part more
+    let more = Command::Edit { target: at("Spot"), members: "label: Text = \"here\"".into() };
+    desk.apply(&more).expect("no value stands for a part by its position");
+    assert_eq!((desk.number("a.x"), desk.number("b.y")), (30.0, 7.0));
+    // where all of it changes, it is a place
+    let saved = after(text, |d| d.type_in("a", "(1, 2)").expect("it is free"));
+    assert_eq!(saved, text.replace("a: Spot", "a: Spot = (1, 2)"));
 }
 
 #[test]
