@@ -199,20 +199,22 @@ impl Planner {
     /// Returns the steps that lead to a slot's value, and where they begin.
     ///
     /// The plan of the latest edit is asked where it computed the slot, else that of the document at
-    /// rest, which [`Planner::status`] makes.
-    pub fn why(&self, model: Model<'_>, slot: SlotId) -> Why {
+    /// rest, which [`Planner::status`] makes. There a given number needs no other reason, but for those that
+    /// gave way to constraints: they have other values than they are given.
+    pub fn why(&self, model: Model<'_>, slot: SlotId, gave_way: &BTreeSet<SlotId>) -> Why {
         let computes = |t: &&Task| {
             let is_searched =
                 |s| matches!(t.course, Course::Search(_)) || t.looked_for().contains(&s);
             local(t, slot).is_some_and(|s| is_searched(s) || producer(t, s).is_some())
         };
-        let task = self
-            .latest
-            .tasks
-            .iter()
-            .find(computes)
-            .or_else(|| self.resting().iter().find(|t| local(t, slot).is_some()));
-        let Some(task) = task else {
+        let latest = self.latest.tasks.iter().find(computes);
+        let is_edited = latest.is_some() && self.latest.edited.is_some();
+        let is_as_given = |s: SlotId| {
+            let is_given = Self::resting_hold(model.structure, s) == Holding::Given;
+            is_given && !is_edited && !gave_way.contains(&s)
+        };
+        let task = latest.or_else(|| self.resting().iter().find(|t| local(t, slot).is_some()));
+        let Some(task) = task.filter(|_| !is_as_given(slot)) else {
             return Why { steps: Vec::new(), roots: vec![self.root(model, slot)] };
         };
         let search = self.search_in_words(task);
@@ -222,8 +224,11 @@ impl Planner {
             return Why { steps: vec![search], roots };
         }
         let mut wanted: BTreeSet<u32> = local(task, slot).into_iter().collect();
-        let mut roots = Vec::new();
+        let mut begins: BTreeSet<u32> = BTreeSet::new();
         let mut steps = Vec::new();
+        let stays = |local: &u32| {
+            task.component.slots().get(*local as usize).is_some_and(|&s| is_as_given(s))
+        };
         for step in task.plan.steps().iter().rev() {
             if !step.targets.iter().any(|t| wanted.contains(t)) {
                 continue;
@@ -231,7 +236,8 @@ impl Planner {
             step.targets.iter().for_each(|t| {
                 wanted.remove(t);
             });
-            wanted.extend(&step.reads);
+            begins.extend(step.targets.iter().chain(&step.reads).filter(|&l| stays(l)));
+            wanted.extend(step.reads.iter().filter(|&l| !stays(l)));
             steps.extend(self.in_words(task, step));
         }
         if let Some(search) =
@@ -243,11 +249,10 @@ impl Planner {
             steps.push(search);
         }
         steps.reverse();
-        for local in wanted {
-            if let Some(&slot) = task.component.slots().get(local as usize) {
-                roots.push(self.root(model, slot));
-            }
-        }
+        begins.extend(wanted);
+        let slots = task.component.slots();
+        let begins = begins.into_iter().filter_map(|local| slots.get(local as usize));
+        let roots = begins.map(|&slot| self.root(model, slot)).collect();
         Why { steps, roots }
     }
 

@@ -176,7 +176,7 @@ impl Lab {
     }
     pub(crate) fn why(&mut self, slot: SlotId) -> plan::Why {
         let model = Model { document: &self.document, structure: &self.structure };
-        self.planner.why(model, slot)
+        self.planner.why(model, slot, &std::collections::BTreeSet::new())
     }
     pub(crate) fn why_not(&mut self, slot: SlotId) -> Vec<plan::Conflict> {
         let model = Model { document: &self.document, structure: &self.structure };

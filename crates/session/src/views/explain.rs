@@ -84,8 +84,9 @@ fn why(open: &Open, path: &Path) -> Explanation {
     };
     let mut steps: Vec<plan::ExplainedStep> = Vec::new();
     let mut roots: Vec<Root> = Vec::new();
+    let gave_way = state.yielded.iter().map(|(slot, _)| *slot).collect();
     for &slot in &slots {
-        let why = open.planner.why(state.model(), slot);
+        let why = open.planner.why(state.model(), slot, &gave_way);
         for step in why.steps {
             if !steps.contains(&step) {
                 steps.push(step);
@@ -99,7 +100,7 @@ fn why(open: &Open, path: &Path) -> Explanation {
     }
     let summary = match (roots.as_slice(), steps.is_empty()) {
         ([], true) => format!("{opening}."),
-        ([], false) => format!("{opening}: the constraints alone decide it."),
+        ([], false) => format!("{opening}: {}.", decided_by(&steps)),
         ([only], true) if slots == [only.slot] && state.slot_path(only.slot) == *path => {
             format!("{opening}: it {}.", held_by(only.kind, 1))
         }
@@ -111,6 +112,18 @@ fn why(open: &Open, path: &Path) -> Explanation {
     let summary = if sides.is_empty() { summary } else { format!("{summary} {sides}") };
     let steps = steps.iter().map(|s| step(open, s)).collect();
     Explanation { about, summary, steps, warnings }
+}
+
+/// Says what decides a value that begins nowhere.
+fn decided_by(steps: &[plan::ExplainedStep]) -> &'static str {
+    let is = |kind: fn(ExplainedKind) -> bool| steps.iter().any(|s| kind(s.kind));
+    if is(|k| matches!(k, ExplainedKind::Compromise { .. })) {
+        "a compromise of what the constraints ask for"
+    } else if is(|k| matches!(k, ExplainedKind::LeastChange { .. })) {
+        "the least change with which the constraints hold"
+    } else {
+        "the constraints alone decide it"
+    }
 }
 
 /// Says on which side these slots go on, where their values do not.

@@ -69,6 +69,30 @@ fn why_a_given_number_is_what_it_is() {
 }
 
 #[test]
+fn a_given_number_among_constraints_is_given() {
+    let summary = |desk: &Desk, path: &str| desk.session.explain(desk.id, Some(&at(path))).summary;
+    let text = "a: Real = 3\nb: Real = 4\nc: Real = 7\nd: Real\nconstraint one: c = a + b\nconstraint two: d = 2 * c\n";
+    let mut desk = Desk::of(text);
+    for (path, value) in [("a", 3), ("b", 4), ("c", 7)] {
+        assert_eq!(summary(&desk, path), format!("{path} is {value}: it is given in the text."));
+    }
+    let wanted = "d is 14, because a = 3, b = 4 and c = 7 are given in the text.";
+    assert_eq!(summary(&desk, "d"), wanted);
+    // what an edit computed has that for its reason
+    desk.set("c", 9.0).expect("a and b can give way");
+    assert_eq!(summary(&desk, "d"), "d is 18, because c = 9 is what the edit wanted.");
+    // a rule said twice takes nothing from what is given
+    let text = "net: Real = 100\nrate: Real = 1.2\ngross: Real\nconstraint gross = net * rate\nconstraint net = gross / rate\n";
+    let desk = Desk::of(text);
+    assert_eq!(summary(&desk, "rate"), "rate is 1.2: it is given in the text.");
+    let wanted = "gross is 120, because net = 100 and rate = 1.2 are given in the text.";
+    assert_eq!(summary(&desk, "gross"), wanted);
+    // numbers that gave way are not as they are given
+    let desk = Desk::of("a: Real = 13\nb: Real = 4\nconstraint sum: a + b = 100\n");
+    assert_eq!(summary(&desk, "a"), "a is 54.5: the least change with which the constraints hold.");
+}
+
+#[test]
 fn equations_that_are_solved_together() {
     let desk =
         Desk::of("x: Real\ny: Real\nconstraint sum: x + y = 5\nconstraint product: x * y = 6\n");
