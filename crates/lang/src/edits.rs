@@ -10,6 +10,7 @@ mod delete;
 mod elements;
 mod home;
 mod merge;
+mod named;
 mod promote;
 mod rename;
 mod sides;
@@ -19,7 +20,7 @@ use crate::lower::Lowered;
 use crate::uses::{Text, refused};
 use base::{Diagnostic, Span};
 pub use counts::is_count;
-use home::Home;
+use home::{Home, Site};
 use kernel::{ClassId, Command, Literal, Path, Step, Structure};
 pub use sides::write_sides;
 pub use switch::of_constraint;
@@ -154,7 +155,12 @@ impl Text<'_> {
     fn insert(&self, target: &Path, members: &str) -> Result<Restructuring, Diagnostic> {
         let home = self.home(target)?;
         if home.path == *target {
-            return Ok(self.said_in(&home, SyntaxKind::Error, members));
+            let mut done = self.said_in(&home, SyntaxKind::Error, members);
+            let class = done.class.filter(|_| matches!(home.site, Site::Class(_)));
+            if let Some(class) = class.filter(|_| named::declares_parts(members)) {
+                done.edits.extend(self.given_by_name(class));
+            }
+            return Ok(done);
         }
         let rest = home.within(target);
         let Some(class) = self.class_at(target) else {

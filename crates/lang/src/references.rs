@@ -27,6 +27,8 @@ pub(crate) struct References {
     pub(crate) words: BTreeSet<(Span, Symbol)>,
     /// Every value that stands for one by its position in `(a, b)` or `C(a, b)`.
     pub(crate) positions: BTreeSet<(Span, Symbol)>,
+    /// Every `(a, b)` that gives a thing its parts by position, and the thing's class.
+    pub(crate) things: BTreeSet<(Span, ClassId)>,
 }
 
 impl Lowerer<'_> {
@@ -44,9 +46,8 @@ impl Lowerer<'_> {
     /// Notes which parts of a class's thing the values of an expression stand for by position.
     pub(crate) fn refer_by_position(&mut self, file: FileId, e: &Expr, wanted: &Kind) {
         let (Expr::Tuple(tuple), Kind::Thing(class)) = (e, wanted) else { return };
-        if self.references.is_none() || file != OWN {
-            return;
-        }
+        let Some(references) = self.references.as_mut().filter(|_| file == OWN) else { return };
+        references.things.insert((e.span(), *class));
         let fields = self.document.layout(*class);
         for (value, field) in tuple.elements().zip(fields) {
             let name = self.document.field_name(field).clone();

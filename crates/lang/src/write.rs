@@ -461,7 +461,7 @@ pub(crate) fn quoted(text: &str) -> String {
 }
 
 /// Puts members in one line; a `;` where a number would take the next name for its unit.
-fn joined(texts: &[String]) -> String {
+pub(crate) fn joined(texts: &[String]) -> String {
     let mut out = String::new();
     for text in texts {
         if !out.is_empty() {

@@ -177,6 +177,24 @@ fn members_are_added() {
 }
 
 #[test]
+fn a_part_added_to_a_class_has_values_by_position_written_by_name() {
+    let class = "class Spot { x, m: Real  label: Text }\n";
+    let more = edit("Spot", "z: Real = 7");
+    assert_becomes(
+        &format!(
+            "{class}a: Spot = (1, 2, \"one\") // here\nb, c: Spot = (3, 4, \"two\")\nd: Spot\nd = (5, 6, \"three\")\np: Point = (8, 9)\n"
+        ),
+        &more,
+        "class Spot { x, m: Real  label: Text  z: Real = 7 }\na: Spot { x = 1; m = 2; label = \"one\" } // here\nb, c: Spot = Spot(x: 3, m: 4, label: \"two\")\nd: Spot\nd = Spot(x: 5, m: 6, label: \"three\")\np: Point = (8, 9)\n",
+    );
+    // what adds no value leaves them
+    let text = format!("{class}a: Spot = (1, 2, \"one\")\n");
+    let still =
+        "class Spot { x, m: Real  label: Text  twice => 2 * x }\na: Spot = (1, 2, \"one\")\n";
+    assert_becomes(&text, &edit("Spot", "twice => 2 * x"), still);
+}
+
+#[test]
 fn adding_to_one_of_several_names_gives_it_a_declaration_of_its_own() {
     assert_becomes(
         "a, b, c: Line\n",
