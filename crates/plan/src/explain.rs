@@ -270,6 +270,19 @@ impl Planner {
         tasks.iter().flat_map(|task| self.conflicts(task, |r| is_wish(task, r))).collect()
     }
 
+    /// Returns what a rule only reads: the slots that no method of its computes, where it is no equation that
+    /// could be solved for them.
+    pub fn only_read(&self, source: Source) -> BTreeSet<SlotId> {
+        let of_source = self.rules.iter().filter(|r| r.source == source);
+        let opaque = of_source.filter(|r| matches!(r.shape.body, Body::Opaque(_)));
+        let read = opaque.flat_map(|rule| {
+            let targets = rule.shape.methods.iter().flat_map(|m| rule.slots_at(&m.targets));
+            let computed: BTreeSet<SlotId> = targets.collect();
+            rule.slots.iter().copied().filter(move |s| !computed.contains(s))
+        });
+        read.collect()
+    }
+
     /// Returns what some rejected rows of a task conflict with: the accepted rows and the equalities
     /// that they depend on.
     pub(crate) fn conflicts(

@@ -101,7 +101,8 @@ fn edit(
     let mut texts = Texts::new(&state.lowered.document, &state.structure);
     let report = open.planner.edit(state.model(), &mut values, kind, &targets, &mut texts);
     if let Some(reason) = &report.refusal {
-        let refusal = of_computed(words::refusal_for(&state, reason, &report), &aims);
+        let refusal = words::refusal_for(&state, reason, &report);
+        let refusal = of_computed(one_way(open, refusal, &report, &aims), &aims);
         return Err(match report.limit {
             Some(part) => limited(&state, refusal, &aims, part),
             None => refusal,
@@ -109,6 +110,26 @@ fn edit(
     }
     let edited = aims.iter().flat_map(|(aim, _)| slots_of(&state, aim)).collect();
     keep(open, host, label, edited, &values, &report.undecided)
+}
+
+/// Says of the one constraint that would not hold what it has no method for: there is no way back to that.
+fn one_way(
+    open: &Open,
+    refusal: Refusal,
+    report: &plan::EditReport,
+    aims: &[(Aim, Vec<Value>)],
+) -> Refusal {
+    let [name] = refusal.constraints.as_slice() else { return refusal };
+    let is_it = |s: &plan::Source| words::source_name(&open.state, *s).as_ref() == Some(name);
+    let Some(source) = report.unmet.iter().map(|u| u.source).find(is_it) else { return refusal };
+    let aimed: Vec<SlotId> = aims.iter().flat_map(|(aim, _)| slots_of(&open.state, aim)).collect();
+    let read: Vec<SlotId> = open.planner.only_read(source).into_iter().collect();
+    if !read.iter().any(|s| aimed.contains(s)) && !read.is_empty() {
+        let read = words::listed(&words::slots_listed(&open.state, &read));
+        let message = format!("{}: it has no method for {read}", refusal.message);
+        return Refusal { message, ..refusal };
+    }
+    refusal
 }
 
 /// Returns what an edit of a whole says of its parts: by the name of a primary superclass, of those that come

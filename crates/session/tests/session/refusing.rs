@@ -123,3 +123,10 @@ fn a_refusal_says_what_a_rule_without_a_name_says() {
     );
     assert_eq!(refusal.constraints, ["constraint1", "constraint3"]);
 }
+
+#[test]
+fn a_text_of_a_number_names_what_it_has_no_method_for() {
+    let text = "n: Real = 3.25\nt: Text\nconstraint told: t = n.text\n";
+    let refusal = refused(&mut Desk::of(text), |d| d.type_in("t", "1.5"));
+    assert_eq!(refusal.message, "refused: told would not hold: it has no method for n");
+}
