@@ -120,10 +120,13 @@ impl Planner {
         motion: &Motion,
         host: &mut dyn Host,
     ) -> bool {
-        /// How far, as a part of the largest number that moves, and how much of it must remain.
+        /// How far, as a part of the largest number of its kind around it, and how much of it must remain.
         const PART: f64 = 1e-3;
         const REMAINS: f64 = 0.5;
-        let size = motion.moves.iter().map(|m| values.numbers[m.0].abs()).fold(1.0, f64::max);
+        let kind = |s: &SlotId| model.structure.slots[*s].primitive;
+        let moves = |s: &&SlotId| motion.moves.iter().any(|m| kind(&m.0) == kind(s));
+        let alike = task.component.slots().iter().filter(moves);
+        let size = alike.map(|s| values.numbers[*s].abs()).fold(1.0, f64::max);
         let mut there = values.clone();
         for &(s, v) in &motion.moves {
             there.numbers[s] += PART * size * v;

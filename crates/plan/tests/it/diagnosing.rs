@@ -199,3 +199,21 @@ fn a_pinned_bar_turns_and_a_free_one_moves_as_one() {
     assert_eq!((swing[0].0, swing[1].0), (lab.slot("p1.x"), lab.slot("p1.y")));
     assert!((swing[0].1 * x + swing[1].1 * y).abs() < 1e-9);
 }
+
+#[test]
+fn what_gives_way_to_first_order_alone_is_no_motion() {
+    let mut b = Builder::new();
+    let root = b.class("document", &[("p0", POINT), ("p1", POINT), ("p2", POINT)]);
+    // two bars of 50 stretched between posts 100 apart
+    for (name, x) in [("p0", 0.0), ("p1", 50.0), ("p2", 100.0)] {
+        b.given(root, name, pair(x, 0.0));
+    }
+    b.stay(root, "p0", None);
+    b.stay(root, "p2", None);
+    b.constraint(root, equal(distance(0, 1), n(50.0)));
+    b.constraint(root, equal(distance(1, 2), n(50.0)));
+    let mut lab = b.open(root);
+    let analysis = lab.analyse();
+    assert_eq!(analysis.freedom, 0);
+    assert_eq!(analysis.motions, []);
+}
