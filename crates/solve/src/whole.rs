@@ -6,11 +6,14 @@
 //! nearest whole numbers is looked at first. In a trial the whole numbers are constants, so that the system
 //! has a plan of its own ([`Constants`]).
 //!
-//! Near is the sum of the squared changes of given whole numbers, then that of the others. What has a value
-//! is held first while something has none, given numbers in any case. Then given whole numbers may change, at
-//! last the real ones as well; in an edit given real numbers first, or the whole ones where these have less far
-//! to go. Where wishes are left unmet, a few more trials look for whole numbers that leave less of them, and
-//! given numbers may change for them too where structure has these yield.
+//! Near is the sum of the squared changes of given whole numbers, then that of the others, at last how far
+//! from zero those lie that had no value. While something has none, given real numbers count as given whole
+//! ones do: a box tells how far they have to go at least, so that looking ends where no other can hold
+//! anything nearer. What has a value is held first while something has none, given numbers in any case. Then
+//! given whole numbers may change, at last the real ones as well; in an edit given real numbers first, or the
+//! whole ones where these have less far to go. Where wishes are left unmet, a few more trials look for whole
+//! numbers that leave less of them, and given numbers may change for them too where structure has these
+//! yield.
 //!
 //! **Source:** van Hentenryck, Michel and Deville, *Numerica* (1997), §3, for the narrowing; the order is
 //! best-first.
@@ -21,7 +24,7 @@ mod net;
 use crate::conditional::Conditional;
 use crate::pattern::Patterns;
 use crate::system::{Level, Slot, SlotIndex, Stay};
-use expr::Interval;
+use base::number::RULE_TOLERANCE;
 use near::{Boxes, Near, Open};
 use net::Net;
 use std::cmp::Ordering;
@@ -36,6 +39,8 @@ const MOST_BOXES: usize = 20_000;
 const MOST_NUMBERS: usize = 2_000_000;
 /// Errors whose squares differ by less than this part of them count as equal.
 const ALIKE: f64 = 1e-6;
+/// The square of what is no change to a number.
+const NOTHING: f64 = RULE_TOLERANCE * RULE_TOLERANCE;
 
 /// Which unknowns are constants in a mode.
 #[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, Debug, Default)]
@@ -180,7 +185,7 @@ impl Wholes {
             (has_real && (opens || has_whole)).then_some(Released::All),
         ];
         let mut looking =
-            Looking { wholes: self, start, values, attempt, boxes: 0, is_spent: false };
+            Looking { wholes: self, start, values, opens, attempt, boxes: 0, is_spent: false };
         let mut is_complete = true;
         let mut best: Option<Best> = None;
         for released in turns.into_iter().flatten() {
@@ -212,6 +217,8 @@ struct Looking<'a> {
     wholes: &'a Wholes,
     start: &'a [f64],
     values: &'a [f64],
+    /// True if something has no value yet.
+    opens: bool,
     attempt: &'a mut dyn FnMut(Constants, &[f64]) -> Trial,
     boxes: usize,
     /// True once a trial has spent what may be spent.
@@ -242,7 +249,7 @@ impl Looking<'_> {
         let stays = self.wholes.slots.iter().map(|s| s.stay).enumerate();
         let known = stays.map(|(i, stay)| is_known(i, stay).then(|| self.values[i]));
         let Some(whole) = self.wholes.net.ground(known) else { return (None, true) };
-        let near = Near::new(&self.wholes.whole, &self.wholes.slots, self.start);
+        let near = Near::new(&self.wholes.whole, &self.wholes.slots, self.start, self.opens);
         let most = self.boxes + MOST_BOXES.min(MOST_NUMBERS / whole.len().max(1));
         let mut open = BinaryHeap::from([Open::new(Boxes::from(whole), &near, 0)]);
         let mut best: Option<Best> = None;
@@ -250,7 +257,9 @@ impl Looking<'_> {
         let mut is_complete = true;
         let mut made = 0;
         while let Some(Open { boxes, distance, .. }) = open.pop() {
-            if within.is_some_and(|within| distance[0] >= within) {
+            let perfect = best.as_ref().filter(|b| b.is_perfect()).map(|b| b.moved);
+            let mut known = within.into_iter().chain(perfect);
+            if known.any(|moved| distance[0] + NOTHING >= moved * (1.0 - ALIKE)) {
                 break;
             }
             if self.is_spent || self.boxes >= most || left == 0 {
@@ -258,7 +267,7 @@ impl Looking<'_> {
                 break;
             }
             self.boxes += 1;
-            let Some((slot, first)) = near.choice(&boxes) else {
+            let Some((slot, parts)) = near.parts(&boxes) else {
                 let mut values = self.values.to_vec();
                 self.wholes.whole.iter().for_each(|&i| values[i as usize] = boxes[i as usize].low);
                 left -= 1;
@@ -268,11 +277,15 @@ impl Looking<'_> {
                         if best.is_none() {
                             left = IMPROVING;
                         }
-                        let is_perfect = found.is_perfect();
-                        if best.as_ref().is_none_or(|best| found.leaves(best) == Ordering::Less) {
+                        let is_last = !self.opens && found.is_perfect();
+                        let replaces = |best: &Best| match found.leaves(best) {
+                            Ordering::Equal => self.opens && found.is_better(best),
+                            other => other == Ordering::Less,
+                        };
+                        if best.as_ref().is_none_or(replaces) {
                             best = Some(found);
                         }
-                        if is_perfect {
+                        if is_last {
                             break;
                         }
                     }
@@ -285,7 +298,7 @@ impl Looking<'_> {
                 }
                 continue;
             };
-            for part in around(boxes[slot as usize], first) {
+            for part in parts.into_iter().filter(|part| !part.is_none()) {
                 if let Some(smaller) = self.wholes.net.with(&boxes, slot, part) {
                     made += 1;
                     open.push(Open::new(Boxes::from(smaller), &near, made));
@@ -294,11 +307,4 @@ impl Looking<'_> {
         }
         (best, is_complete)
     }
-}
-
-/// Parts an interval of whole numbers at one of them.
-fn around(own: Interval, at: f64) -> impl Iterator<Item = Interval> {
-    let below = Interval { low: own.low, high: at - 1.0 };
-    let above = Interval { low: at + 1.0, high: own.high };
-    [above, below, Interval::point(at)].into_iter().filter(|part| !part.is_none())
 }
