@@ -46,11 +46,11 @@ impl Planner {
                 trial.put(slot, value.clone());
             }
             // one that takes longer than there is goes nowhere
-            self.end_at(Some(until));
+            self.try_until(Some(until));
             for task in tasks {
                 run(self, model, task, &at, values, &mut trial, host);
             }
-            self.end_at(None);
+            self.try_until(None);
             let rules = tasks.iter().flat_map(|t| t.component.rules().iter().copied());
             let unmet = self.unmet(model, rules, &trial, host);
             !is_any_new(&unmet, was_unmet) && self.reached(&at, &trial)

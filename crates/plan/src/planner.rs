@@ -148,6 +148,11 @@ impl Planner {
         let mut runner = self.runner.borrow_mut();
         runner.get_or_insert_default().end_at(bound);
     }
+    /// Does the same for trials: of solutions that are searched for any will do.
+    pub(crate) fn try_until(&self, bound: Option<u64>) {
+        let mut runner = self.runner.borrow_mut();
+        runner.get_or_insert_default().try_until(bound);
+    }
 
     /// Returns the slots that rules tie to these, and these themselves.
     pub fn tied_to(&self, slots: impl IntoIterator<Item = SlotId>) -> BTreeSet<SlotId> {

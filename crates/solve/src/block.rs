@@ -17,7 +17,7 @@ use crate::lanes::{LaneScratch, Out, Outs, WIDE};
 use crate::lower::{Definers, Problem, ProblemRow};
 use crate::residue::Residue;
 use crate::rows::Point;
-use crate::search::{Effort, Puzzle, Verdict};
+use crate::search::{Effort, IMPROVING, Puzzle, Verdict};
 use crate::system::SlotIndex;
 use expr::{Arena, ExprId, LANES, Var};
 use layout::{Group, KNOWN, positions};
@@ -84,6 +84,8 @@ pub(crate) struct Workspace {
     spent: u64,
     /// What may be spent: iteration ends there.
     bound: Option<u64>,
+    /// True if any solution will do.
+    is_trial: bool,
 }
 
 impl Workspace {
@@ -98,6 +100,12 @@ impl Workspace {
     /// Says up to what iteration goes on; without a bound it ends where it ends.
     pub(crate) fn end_at(&mut self, bound: Option<u64>) {
         self.bound = bound;
+        self.is_trial = false;
+    }
+    /// Does the same for trials, of which any solution will do.
+    pub(crate) fn try_until(&mut self, bound: Option<u64>) {
+        self.bound = bound;
+        self.is_trial = bound.is_some();
     }
     /// Returns what may still be spent, where that is bounded.
     pub(crate) fn left(&self) -> Option<u64> {
@@ -107,12 +115,11 @@ impl Workspace {
     pub(crate) fn is_spent(&self) -> bool {
         self.bound.is_some_and(|bound| self.spent > bound)
     }
-    /// Searches, which counts as iterating does; where there is a bound, any solution will do.
+    /// Searches, which counts as iterating does.
     pub(crate) fn nearest(&mut self, puzzle: &Puzzle, start: &[f64], values: &[f64]) -> Verdict {
-        let mut effort = match self.bound {
-            Some(most) => Effort { spent: self.spent, most, improving: 0 },
-            None => Effort { spent: self.spent, ..Effort::default() },
-        };
+        let improving = if self.is_trial { 0 } else { IMPROVING };
+        let most = self.bound.unwrap_or(u64::MAX);
+        let mut effort = Effort { spent: self.spent, most, improving };
         let verdict = puzzle.nearest_within(start, values, &mut effort);
         self.spent = effort.spent;
         verdict

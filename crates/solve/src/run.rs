@@ -54,6 +54,10 @@ impl Runner {
     pub fn end_at(&mut self, bound: Option<u64>) {
         self.buffers.work.end_at(bound);
     }
+    /// Does the same for trials: of solutions that are searched for any will do.
+    pub fn try_until(&mut self, bound: Option<u64>) {
+        self.buffers.work.try_until(bound);
+    }
     /// Returns what its runs may still cost, where that is bounded.
     pub fn left(&self) -> Option<u64> {
         self.buffers.work.left()

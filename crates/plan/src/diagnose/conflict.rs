@@ -129,12 +129,12 @@ impl Planner {
                 let is_spared =
                     |u: &Unit| (0..).zip(&spared).any(|(j, s)| j != i && *s == u.source);
                 let whole: Vec<Unit> = units.iter().filter(|u| !is_spared(u)).cloned().collect();
-                self.end_at(Some(self.spent() + REPAIR));
+                self.try_until(Some(self.spent() + REPAIR));
                 let mut suspects =
                     Suspects { planner: self, setup: &setup, values, set: &set, whole: &whole };
                 let anchors = suspects.anchors(host);
                 let repairs = suspects.repairs(&anchors, host);
-                self.end_at(None);
+                self.try_until(None);
                 let constraints = set.iter().map(|u| u.source).collect();
                 let proof = self.combination(&setup, &set, values);
                 let certainty = if proof.is_some() { Certainty::Contradiction } else { certainty };
@@ -264,9 +264,9 @@ impl Search<'_> {
 
     /// Tries rules. One that takes longer than there is says nothing: then the search has ended.
     fn try_out(&mut self, rules: &[u32]) -> Trial {
-        self.planner.end_at(Some(self.until));
+        self.planner.try_until(Some(self.until));
         let trial = self.planner.can_hold(self.setup, rules, self.values, self.host);
-        self.planner.end_at(None);
+        self.planner.try_until(None);
         trial
     }
 

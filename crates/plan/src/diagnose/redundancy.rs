@@ -261,11 +261,11 @@ impl Planner {
     ) -> Option<Task> {
         let has_bound = self.left().is_some();
         if !has_bound {
-            self.end_at(Some(self.spent() + PATIENCE));
+            self.try_until(Some(self.spent() + PATIENCE));
         }
         let implied = self.implied_rules(model, task, state, host);
         if !has_bound {
-            self.end_at(None);
+            self.try_until(None);
         }
         task.with_tested(&implied, &mut self.plans)
     }
