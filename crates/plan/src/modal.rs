@@ -3,6 +3,8 @@
 //! In: a task whose course are modes. Each mode is tried by its own plan, in an edit from where the
 //! edit began, in a drag from where the drag was; `solve` decides which one stands.
 
+mod limit;
+
 use crate::edit::{Conflict, NotDecided};
 use crate::host::Host;
 use crate::planner::{Model, Planner};
@@ -393,7 +395,8 @@ impl ModalDrag {
         followed.entry(mode.clone()).or_insert_with(begin)
     }
 
-    /// Follows a wish; the numbers are put into `values`, and the task into the mode that stands.
+    /// Follows a wish, as far as a mode stands on the way to it; the numbers are put into `values`, and the task into
+    /// the mode that stands.
     pub(crate) fn follow(
         &mut self,
         planner: &Planner,
@@ -403,16 +406,15 @@ impl ModalDrag {
         values: &mut Values,
         host: &mut dyn Host,
     ) -> Ran {
-        let texts = values.texts.clone();
-        let mut hands = Hands { planner, model, values, host };
-        let decision = self.arrive(task, targets, planner.spent() + PATIENCE, &mut hands);
+        let until = planner.spent() + PATIENCE;
+        let hands = &mut Hands { planner, model, values, host };
+        let decision = self.arrive(task, targets, until, hands);
         if decision.ended != Ended::Settled {
-            values.texts = texts;
+            self.come_near(task, targets, until, hands);
         }
         let mut told = tell(planner, &self.modes, task, decision);
-        match told.stands.take() {
-            Some(stands) if told.is_solved => task.stand(stands),
-            Some(_) | None => {}
+        if told.stands.take().is_some() {
+            task.stand(stands(planner, &self.modes, self.mode.clone()));
         }
         told
     }
@@ -434,7 +436,10 @@ impl ModalDrag {
             }
             let part = f64::from(part) / f64::from(parts);
             let on = from.iter().zip(targets).map(|(a, b)| a + part * (b - a));
-            self.go(task, &on.collect::<Vec<_>>(), HALVINGS, hands);
+            let decision = self.go(task, &on.collect::<Vec<_>>(), HALVINGS, hands);
+            if decision.ended != Ended::Settled {
+                break;
+            }
         }
         self.go(task, targets, HALVINGS, hands)
     }
@@ -459,13 +464,18 @@ impl ModalDrag {
             self.go(task, &middle, halvings - 1, hands);
             return self.go(task, targets, halvings - 1, hands);
         }
-        self.now.clone_from(&decision.tried.values);
-        self.mode.clone_from(&decision.mode);
-        scatter(task, &self.now, hands.values);
+        self.stand_in(task, &decision, hands);
         decision
     }
 
-    /// Finds the mode that stands at a wish; the host's texts are then of that mode.
+    /// Goes on from what a wish came to.
+    fn stand_in(&mut self, task: &Task, decision: &Decision, hands: &mut Hands<'_>) {
+        self.now.clone_from(&decision.tried.values);
+        self.mode.clone_from(&decision.mode);
+        scatter(task, &self.now, hands.values);
+    }
+
+    /// Finds the mode that stands at a wish; the host's texts are then of that mode, where there is none as they were.
     fn decide(&mut self, task: &Task, targets: &[f64], hands: &mut Hands<'_>) -> Decision {
         self.wishes += 1;
         let Self { modes, x0, inputs, followed, mode, now, wishes } = self;
@@ -496,8 +506,10 @@ impl ModalDrag {
             Tried { plan, outcome, values: follow.drag.values().to_vec() }
         };
         let decision = decide_along(modes, &first, x0, &mut attempt);
-        if decision.ended == Ended::Settled && has_texts(task) {
-            attempt(&decision.mode);
+        match decision.ended == Ended::Settled {
+            true if has_texts(task) => drop(attempt(&decision.mode)),
+            true => {}
+            false => values.texts = texts,
         }
         decision
     }

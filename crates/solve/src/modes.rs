@@ -313,6 +313,28 @@ impl Modes {
         broken.map(|w| w.relation).collect()
     }
 
+    /// Returns true if an inequality that a mode takes and that does not act in it is passed between two states: it
+    /// is broken in the second, however little, and less or not at all in the first.
+    pub fn passes(&self, mode: &Mode, from: &[f64], to: &[f64]) -> bool {
+        self.wants_in(mode).any(|want| self.tree_passes(&want.tree, mode, from, to))
+    }
+    fn tree_passes(&self, tree: &Tree, mode: &Mode, from: &[f64], to: &[f64]) -> bool {
+        match tree {
+            Tree::Holds(c) => {
+                let sides = &self.comparisons[*c as usize];
+                let may_act = matches!(sides.comparing, Comparing::AtMost | Comparing::Less);
+                let excess = |values| sides.excess(values, &mut self.scratch.borrow_mut());
+                may_act && !mode.active.contains(c) && excess(to) > excess(from).max(0.0)
+            }
+            Tree::All(parts) => parts.iter().any(|p| self.tree_passes(p, mode, from, to)),
+            Tree::Any { choice, ways } => {
+                let way = ways.get(mode.taken[*choice as usize] as usize);
+                way.is_some_and(|way| self.tree_passes(way, mode, from, to))
+            }
+            Tree::Either(_) => false,
+        }
+    }
+
     /// The demands of relations whose guards are as assumed.
     fn wants_in<'m>(&'m self, mode: &'m Mode) -> impl Iterator<Item = &'m Want> {
         self.wants.iter().filter(|w| self.counts(w.relation, mode))
@@ -406,6 +428,18 @@ impl Modes {
 
     fn is_required(&self, relation: u32) -> bool {
         self.conditional.system.relations[relation as usize].level == Level::Required
+    }
+}
+
+impl Sides {
+    /// Returns by how much the left side is more than where it acts.
+    fn excess(&self, values: &[f64], scratch: &mut Scratch) -> f64 {
+        let both = self.sides.evaluate(values, scratch);
+        let short = match self.comparing {
+            Comparing::Less => 2.0 * RULE_TOLERANCE * both[1].abs().max(1.0),
+            Comparing::Equal | Comparing::AtMost | Comparing::Differ => 0.0,
+        };
+        both[0] - both[1] + short
     }
 }
 
