@@ -466,12 +466,15 @@ impl Measure {
                 }
             }
             let flat = hessian.clone();
-            if !self.can_be_met(&own, &free, local) {
-                let mut factor = self.multipliers(local, &above, &gradient);
-                for &r in &own {
-                    factor[r] += local.residual[r];
-                }
-                self.add_curvature(local, &factor, weights, values, w, &mut hessian);
+            let mut factor = self.multipliers(local, &above, &gradient);
+            for &r in &own {
+                factor[r] += local.residual[r];
+            }
+            self.add_curvature(local, &factor, weights, values, w, &mut hessian);
+            let to_meet = meeting_step(&own, &free, local);
+            let meets = |step: &Vec<f64>| can_be_met(&own, local, step, [&hessian, &flat]);
+            if to_meet.as_ref().is_some_and(meets) {
+                hessian.clone_from(&flat);
             }
             free = descend(&mut step, &free, &gradient, [&hessian, &flat], n);
             above.extend(own);
@@ -492,24 +495,6 @@ impl Measure {
             free = descend(&mut step, &free, &gradient, [&hessian, &flat], n);
         }
         step
-    }
-
-    /// Returns true if rows can be met in the free directions as far as their slopes tell: then these tell the way,
-    /// and curvature, which counts where rows cannot be met, would lead across it. What is left of a quotient's
-    /// wish, say, would lead both numbers to nothing.
-    fn can_be_met(&self, rows: &[usize], free: &[Vec<f64>], local: &Scaled) -> bool {
-        if rows.len() > free.len() {
-            return false;
-        }
-        let along = |&r: &usize| -> Vec<f64> {
-            free.iter().map(|z| dense::dot(z, &local.jacobian[r])).collect()
-        };
-        let along: Vec<Vec<f64>> = rows.iter().map(along).collect();
-        let gram = along.iter().flat_map(|a| along.iter().map(|b| dense::dot(a, b))).collect();
-        let (values, _) = dense::eigen(gram, rows.len());
-        let size = |&r: &usize| dense::dot(&local.jacobian[r], &local.jacobian[r]);
-        let largest = rows.iter().map(size).fold(0.0, f64::max);
-        values.iter().all(|value| *value > STEEP * largest)
     }
 
     /// Multipliers of the rows above that best balance a gradient, by row.
@@ -634,6 +619,51 @@ fn least_norm(rows: &[usize], local: &Scaled, range: &[Vec<f64>], n: usize) -> V
         dense::add(&mut step, *y, q);
     }
     step
+}
+
+/// Returns the shortest step in the free directions that meets rows as far as their slopes tell; nothing where these
+/// tell of none.
+fn meeting_step(rows: &[usize], free: &[Vec<f64>], local: &Scaled) -> Option<Vec<f64>> {
+    if rows.len() > free.len() {
+        return None;
+    }
+    let along = |&r: &usize| -> Vec<f64> {
+        free.iter().map(|z| dense::dot(z, &local.jacobian[r])).collect()
+    };
+    let along: Vec<Vec<f64>> = rows.iter().map(along).collect();
+    let gram = along.iter().flat_map(|a| along.iter().map(|b| dense::dot(a, b))).collect();
+    let (values, vectors) = dense::eigen(gram, rows.len());
+    let size = |&r: &usize| dense::dot(&local.jacobian[r], &local.jacobian[r]);
+    let largest = rows.iter().map(size).fold(0.0, f64::max);
+    if values.iter().any(|value| *value <= STEEP * largest) {
+        return None;
+    }
+    let residual: Vec<f64> = rows.iter().map(|&r| local.residual[r]).collect();
+    let mut step = vec![0.0; local.jacobian[rows[0]].len()];
+    for (value, v) in values.iter().zip(&vectors) {
+        let part = -dense::dot(v, &residual) / value;
+        for (row, by) in along.iter().zip(v) {
+            for (z, slope) in free.iter().zip(row) {
+                dense::add(&mut step, part * by * slope, z);
+            }
+        }
+    }
+    Some(step)
+}
+
+/// Returns true if what is left of rows comes to nothing on the way of a step, by their slopes and curvatures: then
+/// the slopes tell the way, and curvature, which counts where rows cannot be met, would lead across it. What is left
+/// of a quotient's wish, say, would lead both numbers to nothing. The Hessian comes with and without curvature.
+fn can_be_met(rows: &[usize], local: &Scaled, step: &[f64], [hessian, flat]: [&[f64]; 2]) -> bool {
+    let left: f64 = rows.iter().map(|&r| local.residual[r] * local.residual[r]).sum();
+    let n = step.len();
+    let row = |i: usize| {
+        let (with, without) = (&hessian[i * n..][..n], &flat[i * n..][..n]);
+        step[i] * (dense::dot(with, step) - dense::dot(without, step))
+    };
+    // 1 - t + (bend / left) t² / 2 has a root
+    let bend: f64 = (0..n).map(row).sum();
+    2.0 * bend <= left
 }
 
 /// Adds the step that is best for one level in the free directions; returns those it leaves free. The

@@ -363,7 +363,7 @@ impl Drag {
             }
             Err(failure) => {
                 let mut limit = branch.clone();
-                let fraction = way.walk_on(&mut limit, goal, trust);
+                let mut fraction = way.walk_on(&mut limit, goal, trust);
                 self.leans &= fraction == 0.0;
                 if self.leans {
                     limit.clone_from(&way.frame.x0);
@@ -388,6 +388,9 @@ impl Drag {
                         }
                     }
                 } else {
+                    if fraction < 1.0 {
+                        fraction += (1.0 - fraction) * way.to_the_end(&mut limit, goal, trust);
+                    }
                     outcome = way.test(&limit, &[]);
                     if fraction < 1.0 {
                         outcome.status = Status::Stopped(failure.at(fraction));

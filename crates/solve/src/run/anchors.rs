@@ -79,6 +79,15 @@ impl Way<'_> {
         gone
     }
 
+    /// Goes on to exactly where a branch ends that many strides followed, where they do not find that themselves;
+    /// returns the part that was gone.
+    pub(super) fn to_the_end(&mut self, last: &mut [f64], goal: &[f64], trust: Trust) -> f64 {
+        match trust {
+            Trust::Branch if !self.plan.has_least => self.walk(last, goal, trust, SHORTEST..EXACT),
+            Trust::Branch | Trust::Any | Trust::Leap => 0.0,
+        }
+    }
+
     /// Where the press is a state that no branch leads out of to first order, as a straight chain is one, goes a
     /// little way on out of it, and measures from where that begins: from the press no direction is nearer than its
     /// opposite.
