@@ -346,6 +346,10 @@ impl Drag {
         match direct {
             Ok(()) => {
                 outcome = way.test_trial(&self.upstream);
+                if self.has_branch && !outcome.is_solved() && way.goes_beside(branch, goal) {
+                    outcome = way.test_trial(&[]);
+                    self.moved_slice = false;
+                }
                 if outcome.is_solved() {
                     if !self.has_run {
                         let upstream =
@@ -373,7 +377,8 @@ impl Drag {
                         || way.approach(&limit, goal, &failure).is_ok());
                 self.is_near = approached;
                 let is_left = fraction < 1.0 && !approached;
-                let searched = is_left && is_rough && way.search(branch, goal).is_ok();
+                let searched = is_left && is_rough && way.search(branch, goal).is_ok()
+                    || fraction == 1.0 && way.goes_beside(branch, goal);
                 // from here on nothing is known to hold because of how it was computed
                 way.part = Part::Whole;
                 if approached || searched {
@@ -395,10 +400,13 @@ impl Drag {
                     if fraction < 1.0 {
                         outcome.status = Status::Stopped(failure.at(fraction));
                     }
-                    if !self.leans {
-                        branch.copy_from_slice(&limit);
+                    // a state that breaks something is none to stand in, where one is known that does not
+                    if !(self.has_branch && outcome.status == Status::Stopped(Reason::Conflict)) {
+                        if !self.leans {
+                            branch.copy_from_slice(&limit);
+                        }
+                        now.copy_from_slice(&limit);
                     }
-                    now.copy_from_slice(&limit);
                 }
                 // a region that was approached is not downstream alone
                 self.has_run = false;

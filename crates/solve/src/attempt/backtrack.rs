@@ -160,8 +160,14 @@ impl Attempt<'_> {
         }
     }
 
-    /// Finds a required surplus row that does not hold; returns its slots.
-    pub(crate) fn broken(self, values: &[f64], buffers: &mut Buffers) -> Option<Vec<SlotIndex>> {
+    /// Finds a required relation that does not hold, of those with surplus rows and those that are tested alone;
+    /// returns its slots.
+    pub(crate) fn broken(
+        self,
+        values: &[f64],
+        buffers: &mut Buffers,
+        host: &mut dyn Host,
+    ) -> Option<Vec<SlotIndex>> {
         let plan = self.plan;
         let mut rejected = plan.report.rejected.iter().map(|r| r.relation);
         let broken = rejected.find(|&r| {
@@ -169,6 +175,11 @@ impl Attempt<'_> {
             planned.level == Level::Required
                 && !planned.places(r).all(|place| plan.holds(place, values, &mut buffers.work))
         });
+        let is_untrue = |&r: &u32| {
+            let planned = &plan.relations[r as usize];
+            planned.level == Level::Required && !host.holds(planned.source, values)
+        };
+        let broken = broken.or_else(|| plan.opaque.iter().copied().find(is_untrue));
         Some(plan.mentions(broken?).collect())
     }
 }
@@ -191,7 +202,7 @@ impl Search<'_> {
             let ran = self.attempt.step(index, values, &Approach::Nowhere, buffers, host);
             ran.map_err(|failure| (Fault::Step(index), failure))?;
         }
-        match self.attempt.broken(values, buffers) {
+        match self.attempt.broken(values, buffers, host) {
             None => Ok(()),
             Some(slots) => {
                 let failure = Failure { reason: Reason::Conflict, region: u32::MAX };

@@ -70,7 +70,7 @@ impl Attempt<'_> {
                     && rest
                         .into_iter()
                         .all(|i| self.step(i, values, &Approach::Nowhere, buffers, *host).is_ok())
-                    && self.broken(values, buffers).is_none();
+                    && self.broken(values, buffers, *host).is_none();
                 if goes_on {
                     found.push(Other { step: index as u32, values: values.to_vec() });
                 }

@@ -36,7 +36,7 @@ impl Attempt<'_> {
             values.copy_from_slice(&near);
             let attempt = Attempt { last: &near, ..self };
             attempt.run(values, &Approach::Nowhere, buffers, host).is_ok()
-                && self.broken(values, buffers).is_none()
+                && self.broken(values, buffers, host).is_none()
         })
     }
 

@@ -103,6 +103,14 @@ impl Drag {
             Until::Spent(bound) => bound,
             Until::Missed => u64::MAX,
         };
+        if !may_leap {
+            let outcome = self.follow_on(plan, targets, spent, host);
+            if !self.has_branch || outcome.status != Status::Stopped(Reason::Conflict) {
+                return outcome;
+            }
+            // what is tested alone may hold all the way on roots that are met in short ones
+            parts = self.parts(plan, targets);
+        }
         if parts > 1 {
             let mut at: Vec<f64> =
                 self.slice.inputs.iter().map(|&input| self.now[input as usize]).collect();

@@ -206,13 +206,25 @@ impl Way<'_> {
 
     /// Goes a little on over a place where a row has no slope, as `q |q|` has none at nothing, but no branch ends.
     pub(super) fn crosses(&mut self, last: &[f64], goal: &[f64]) -> bool {
-        self.same_orientation(last, goal, CREST) && {
-            let near = |&t: &SlotIndex| {
-                let t = t as usize;
-                (self.trial[t] - last[t]).abs() <= NEAR * self.frame.scales[t]
-            };
-            self.plan.branching().iter().flat_map(|step| &step.targets).all(near)
+        self.same_orientation(last, goal, CREST) && self.is_near(last)
+    }
+
+    /// Arrives on other roots beside those that were followed, where a required row that is tested alone does not
+    /// hold on these, as past a place where two branches meet.
+    pub(super) fn goes_beside(&mut self, last: &[f64], goal: &[f64]) -> bool {
+        self.is_broken() && {
+            self.part = Part::Whole;
+            self.search(last, goal).is_ok() && self.is_near(last)
         }
+    }
+
+    /// Returns true if nothing that has branches lies far from a state where attempts ran.
+    fn is_near(&self, state: &[f64]) -> bool {
+        let near = |&t: &SlotIndex| {
+            let t = t as usize;
+            (self.trial[t] - state[t]).abs() <= NEAR * self.frame.scales[t]
+        };
+        self.plan.branching().iter().flat_map(|step| &step.targets).all(near)
     }
 
     /// Comes as near to soft wishes as the hard rows allow, from the limit of the branch.
@@ -255,11 +267,12 @@ impl Way<'_> {
         attempt.run_from_near(self.trial, self.buffers, self.host)
     }
 
-    /// Returns true if a required row that depends on others does not hold, but may on another root.
+    /// Returns true if a required row that depends on others, or is tested alone, does not hold, but may on another
+    /// root.
     pub(super) fn is_broken(&mut self) -> bool {
         let Self { plan, part, .. } = *self;
         let attempt = Attempt { plan, frame: self.frame, last: &[], trust: Trust::Any, part };
-        plan.has_branches && attempt.broken(self.trial, self.buffers).is_some()
+        plan.has_branches && attempt.broken(self.trial, self.buffers, self.host).is_some()
     }
 
     /// Tries to arrive so far on without a way: allowed where every block lies as it did, if the values told.
