@@ -367,7 +367,7 @@ impl Drag {
             }
             Err(failure) => {
                 let mut limit = branch.clone();
-                let mut fraction = way.walk_on(&mut limit, goal, trust);
+                let fraction = way.walk_on(&mut limit, goal, trust);
                 self.leans &= fraction == 0.0;
                 if self.leans {
                     limit.clone_from(&way.frame.x0);
@@ -393,13 +393,7 @@ impl Drag {
                         }
                     }
                 } else {
-                    if fraction < 1.0 {
-                        fraction += (1.0 - fraction) * way.to_the_end(&mut limit, goal, trust);
-                    }
-                    outcome = way.test(&limit, &[]);
-                    if fraction < 1.0 {
-                        outcome.status = Status::Stopped(failure.at(fraction));
-                    }
+                    outcome = way.stop(&mut limit, goal, trust, fraction, failure);
                     // a state that breaks something is none to stand in, where one is known that does not
                     if !(self.has_branch && outcome.status == Status::Stopped(Reason::Conflict)) {
                         if !self.leans {

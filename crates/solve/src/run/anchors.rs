@@ -10,7 +10,7 @@ use crate::attempt::{Approach, Buffers, Failure, Frame};
 use crate::fork;
 use crate::least::Least;
 use crate::lower::Program;
-use crate::outcome::Reason;
+use crate::outcome::{Outcome, Reason, Status};
 use crate::plan::Step;
 use crate::rows::{Point, generic_number};
 use crate::slice::Slice;
@@ -79,13 +79,24 @@ impl Way<'_> {
         gone
     }
 
-    /// Goes on to exactly where a branch ends that many strides followed, where they do not find that themselves;
-    /// returns the part that was gone.
-    pub(super) fn to_the_end(&mut self, last: &mut [f64], goal: &[f64], trust: Trust) -> f64 {
-        match trust {
-            Trust::Branch if !self.plan.has_least => self.walk(last, goal, trust, SHORTEST..EXACT),
-            Trust::Branch | Trust::Any | Trust::Leap => 0.0,
+    /// Says what holds at the limit of a way of which that part was gone: where strides do not find exactly where the
+    /// branch ends, it goes on to there first.
+    pub(super) fn stop(
+        &mut self,
+        limit: &mut [f64],
+        goal: &[f64],
+        trust: Trust,
+        mut fraction: f64,
+        failure: Failure,
+    ) -> Outcome {
+        if fraction < 1.0 && trust == Trust::Branch && !self.plan.has_least {
+            fraction += (1.0 - fraction) * self.walk(limit, goal, trust, SHORTEST..EXACT);
         }
+        let mut outcome = self.test(limit, &[]);
+        if fraction < 1.0 {
+            outcome.status = Status::Stopped(failure.at(fraction));
+        }
+        outcome
     }
 
     /// Where the press is a state that no branch leads out of to first order, as a straight chain is one, goes a
