@@ -58,7 +58,7 @@ impl Planner {
         let mut redundancy = Redundancy::default();
         for (i, task) in tasks.iter().enumerate().filter(|(i, _)| !is_quiet[*i]) {
             let found = self.redundant(model, task, values, &is_unmet, host);
-            if found.0.is_empty()
+            if matches!(&found, (redundant, 0) if redundant.is_empty())
                 && let (Some(Some(came)), Some(plan)) = (self.came.get(i), task.number())
             {
                 self.plans.past.note_quiet(*came, plan, task.numbers(&values.numbers));

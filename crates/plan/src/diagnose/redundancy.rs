@@ -123,7 +123,7 @@ impl Planner {
             false => self.motions_of_given(model, task, &rules, values, host),
         };
         // what one of these stood against may say something once that is left out
-        let left = task.with_tested(&rules, &mut self.plans);
+        let left = task.with_tested(&rules, &self.plans);
         let left = left.map(|left| left.by_values(self, values).unwrap_or(left));
         let left = left.as_ref().unwrap_or(task);
         let is_theorem = |source: Source| rules.iter().any(|&r| self.rules.source(r) == source);
@@ -267,7 +267,7 @@ impl Planner {
         if !has_bound {
             self.try_until(None);
         }
-        task.with_tested(&implied, &mut self.plans)
+        task.with_tested(&implied, &self.plans)
     }
 
     /// Returns the rules of a component that follow from the others by a theorem, in a state in which all that is

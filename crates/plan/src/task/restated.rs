@@ -13,7 +13,7 @@ const LETTING_GO: usize = 200;
 impl Task {
     /// Returns what it is with these rules tested after each step and never solved for; nothing where it speaks of
     /// none of them, or is searched.
-    pub(crate) fn with_tested(&self, rules: &BTreeSet<u32>, plans: &mut Plans) -> Option<Self> {
+    pub(crate) fn with_tested(&self, rules: &BTreeSet<u32>, plans: &Plans) -> Option<Self> {
         let is_one = |r: &Relation| match self.origin(r.source) {
             Origin::Rule(rule) => rules.contains(&rule),
             Origin::Number(_) | Origin::Wish(_) => false,
@@ -31,25 +31,8 @@ impl Task {
                 relation.methods.clear();
             }
         };
-        let (system, plan, course) = match &self.course {
-            Course::Plan => {
-                let mut system = (*self.system).clone();
-                leave_to_test(&mut system);
-                let (system, plan) = plans.plan_later(system);
-                (system, plan, Course::Plan)
-            }
-            Course::Modes(modes, _) => {
-                let mut stated = modes.conditional().clone();
-                leave_to_test(&mut stated.system);
-                let modes = plans.modes(stated);
-                let mode = modes.blank();
-                let (system, plan, _) = plans.in_mode(&modes, &mode);
-                (system, plan, Course::Modes(modes, Box::new(mode)))
-            }
-            Course::Search(_) => return None,
-        };
-        let stated = self.stated.again();
-        Some(Self::of((system, plan, course, Rc::new(stated)), self.component.clone()))
+        let known = self.restated(plans, leave_to_test)?;
+        Some(Self::of(known, self.component.clone()))
     }
 
     /// Returns what it is where the computed numbers that its plan holds yield as well, as one place with what does.
@@ -87,16 +70,20 @@ impl Task {
         let let_go = |system: &mut System| {
             held.iter().for_each(|&i| system.slots[i].stay = with.stay);
         };
+        self.restated(plans, let_go)
+    }
+    /// Plans it with its system changed, all that is told of it the same; nothing where it is searched.
+    fn restated(&self, plans: &Plans, change: impl Fn(&mut System)) -> Option<Known> {
         let (system, plan, course) = match &self.course {
             Course::Plan => {
                 let mut system = (*self.system).clone();
-                let_go(&mut system);
+                change(&mut system);
                 let (system, plan) = plans.plan_later(system);
                 (system, plan, Course::Plan)
             }
             Course::Modes(modes, _) => {
                 let mut conditional = modes.conditional().clone();
-                let_go(&mut conditional.system);
+                change(&mut conditional.system);
                 let modes = Rc::new(Modes::known(conditional, plans.patterns())?);
                 let mode = modes.blank();
                 let (system, plan, _) = plans.in_mode(&modes, &mode);
