@@ -65,8 +65,10 @@ pub(crate) struct Buffers {
 /// What does not change during an edit.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct Frame {
-    /// The state when the edit began.
+    /// The state when the edit began; slots that are one lie in their middle.
     pub(crate) x0: Vec<f64>,
+    /// True if slots that are one lay apart when the edit began.
+    pub(crate) are_shared_apart: bool,
     /// The states that least change was measured from anew, each where the branch from the one before ended.
     pub(crate) anchors: Vec<Vec<f64>>,
     /// The measure of every slot.
@@ -219,11 +221,9 @@ impl Attempt<'_> {
 }
 
 pub(crate) fn begin(plan: &Plan, frame: &Frame, values: &mut [f64], buffers: &mut Buffers) {
-    for (root, members) in &plan.shared_given {
-        let first = frame.x0[members[0] as usize];
-        if members.iter().any(|&m| frame.x0[m as usize].to_bits() != first.to_bits()) {
-            let sum: f64 = members.iter().map(|&m| frame.x0[m as usize]).sum();
-            values[*root as usize] = sum / members.len() as f64;
+    for &(root, _) in &plan.shares {
+        if matches!(plan.slots()[root as usize].stay, Stay::Given | Stay::Kept { .. }) {
+            values[root as usize] = frame.x0[root as usize];
         }
     }
     buffers.motion.clear();

@@ -1,10 +1,11 @@
-//! Pieces: an equation with an `if` in an expression, as alternatives.
+//! Pieces: an equation with an `if` or a comparison in an expression, as alternatives.
 //!
-//! In: a system. Out: a conditional one in which each equation with an `if`, a larger, a smaller or a
-//! size is a choice: of the piece that it is on, where that piece ends being inequalities. So what
+//! In: a system. Out: a conditional one in which each equation with an `if`, a larger, a smaller, a size or a
+//! comparison is a choice: of the piece that it is on, where that piece ends being inequalities. So what
 //! Newton's steps cannot leave, a piece that is flat, another mode is not on.
 //!
-//! `y = max(a, b)` says `b <= a and y = a or a <= b and y = b`.
+//! `y = max(a, b)` says `b <= a and y = a or a <= b and y = b`; `t = (a < b)` says `a < b and t = 1 or
+//! b <= a and t = 0`.
 
 use crate::conditional::{Conditional, Demand, DemandKind};
 use crate::modes;
@@ -31,9 +32,15 @@ fn is_piecewise(node: Node) -> bool {
     match node {
         Node::Select { .. } => true,
         Node::Unary(op, _) => op == Unary::Abs,
-        Node::Binary(op, ..) => matches!(op, Binary::Min | Binary::Max),
+        Node::Binary(op, ..) => matches!(op, Binary::Min | Binary::Max) || is_comparison(op),
         Node::Constant(_) | Node::Var(_) => false,
     }
+}
+
+/// Returns true for what says how two numbers compare: true is one piece, false another.
+fn is_comparison(op: Binary) -> bool {
+    use Binary::{Equal, Less, LessEqual, NotEqual};
+    matches!(op, Less | LessEqual | Equal | NotEqual)
 }
 
 /// Takes the equations of a system apart that have pieces. Returns nothing where none has, or too many
@@ -138,6 +145,10 @@ impl Lifting<'_> {
             return self.arena.binary(Binary::Or, first, second);
         }
         self.left -= 1;
+        if matches!(self.arena.node(whole), Node::Binary(op, ..) if is_comparison(op)) {
+            let [first, second] = [true, false].map(|truth| self.told(whole, truth, known, sides));
+            return self.arena.binary(Binary::Or, first, second);
+        }
         let [first, second] = self.halves(whole).map(|(condition, value)| {
             let known = self.arena.binary(Binary::And, known, condition);
             self.on(whole, value, known, sides)
@@ -154,6 +165,17 @@ impl Lifting<'_> {
         let low = arena.binary(Binary::LessEqual, low, x);
         let high = arena.binary(Binary::Less, x, high);
         arena.binary(Binary::And, low, high)
+    }
+
+    /// Returns what is true where two sides are equal and a comparison in them is so.
+    fn told(&mut self, whole: ExprId, truth: bool, known: ExprId, sides: [ExprId; 2]) -> ExprId {
+        let value = self.arena.constant(f64::from(u8::from(truth)));
+        let replacement = |_: &Arena, part: ExprId| (part == whole).then_some(value);
+        let [known, left, right] =
+            [known, sides[0], sides[1]].map(|e| self.arena.replace(e, &replacement));
+        let holds = if truth { whole } else { self.arena.unary(Unary::Not, whole) };
+        let known = self.arena.binary(Binary::And, known, holds);
+        self.lift(known, [left, right])
     }
 
     /// Returns what is true where two sides are equal with one piece for a part of theirs.

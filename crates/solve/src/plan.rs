@@ -151,8 +151,6 @@ pub struct Plan {
     pub(crate) relations: Vec<PlannedRelation>,
     /// The relations that only the host can test.
     pub(crate) opaque: Vec<u32>,
-    /// Classes of several given numbers: the representative and those numbers.
-    pub(crate) shared_given: Vec<(SlotIndex, Vec<SlotIndex>)>,
     /// Slots for which another stands, in order, with that one.
     pub(crate) stood_for: Vec<(SlotIndex, SlotIndex)>,
     pub(crate) scale_classes: usize,
@@ -372,7 +370,6 @@ fn plan_of(stated: Stated, classes: &Classes, report: Report, lowered: Lowered) 
         shares: shares(system, classes),
         opaque: (0..relations.len() as u32).filter(is_opaque).collect(),
         relations,
-        shared_given: shared_given(system, classes),
         stood_for: stood_for(classes),
         scale_classes: alike.iter().map(|a| a.scale as usize + 1).max().unwrap_or(0),
         alike,
@@ -550,18 +547,6 @@ fn blocks_of(analysis: &mut Analysis<'_>, together: &[Vec<usize>]) -> Blocks {
         method_reads: &analysis.method_reads,
         together,
     })
-}
-
-fn shared_given(system: &System, classes: &Classes) -> Vec<(SlotIndex, Vec<SlotIndex>)> {
-    let given = |members: &[SlotIndex]| -> Vec<SlotIndex> {
-        members.iter().copied().filter(|&s| system.slots[s as usize].stay == Stay::Given).collect()
-    };
-    classes
-        .members()
-        .filter(|(root, _)| classes.stay[*root as usize] == Stay::Given)
-        .map(|(root, members)| (root, given(members)))
-        .filter(|(_, members)| members.len() > 1)
-        .collect()
 }
 
 fn stood_for(classes: &Classes) -> Vec<(SlotIndex, SlotIndex)> {

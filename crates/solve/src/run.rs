@@ -23,7 +23,7 @@ use crate::slice::Slice;
 use crate::square::{Side, Trust};
 use crate::system::{SlotIndex, Stay};
 use parts::Dragged;
-use start::{measure_what_is_set, required_rows_held, start};
+use start::{Begins, measure_what_is_set, required_rows_held, start};
 use std::cell::Cell;
 use std::rc::Rc;
 use way::Way;
@@ -83,7 +83,7 @@ impl Runner {
 /// core is of more than a dozen unknowns are not looked at.
 pub fn leaning(plan: &Plan, x0: &[f64], leans: &[Lean], values: &[f64]) -> Vec<Lean> {
     let mut runner = Runner::new();
-    start(plan, &mut runner, x0, &[]);
+    start(plan, &mut runner, x0, &[], Begins::Rest);
     fork::leaning(plan, &runner.frame, &mut runner.buffers, leans, values)
 }
 
@@ -91,7 +91,7 @@ pub fn leaning(plan: &Plan, x0: &[f64], leans: &[Lean], values: &[f64]) -> Vec<L
 /// that way a little aside: the rules do not hold in it exactly.
 pub fn forks(plan: &Plan, x0: &[f64]) -> Vec<[(Lean, Vec<f64>); 2]> {
     let mut runner = Runner::new();
-    start(plan, &mut runner, x0, &[]);
+    start(plan, &mut runner, x0, &[], Begins::Rest);
     fork::asides(plan, &runner.frame, &mut runner.buffers, x0)
 }
 
@@ -99,7 +99,7 @@ pub fn forks(plan: &Plan, x0: &[f64]) -> Vec<[(Lean, Vec<f64>); 2]> {
 /// its roots, and the rest follows. At `most` so many; steps of more than a dozen unknowns are not asked.
 pub fn others(plan: &Plan, x0: &[f64], most: usize, host: &mut dyn Host) -> Vec<Other> {
     let mut runner = Runner::new();
-    start(plan, &mut runner, x0, &[]);
+    start(plan, &mut runner, x0, &[], Begins::Rest);
     let Runner { frame, buffers, .. } = &mut runner;
     let mut values = frame.x0.clone();
     let last = frame.x0.clone();
@@ -130,7 +130,8 @@ pub fn run(
     };
     runner.came.clear();
     runner.came.extend_from_slice(values);
-    start(plan, runner, x0, changed);
+    let begins = if changed.is_empty() { Begins::Rest } else { Begins::Edit };
+    start(plan, runner, x0, changed, begins);
     let Runner { frame, buffers, last, goal, came, trial, leans } = runner;
     measure_what_is_set(plan, frame, came, changed);
     let solved_before =
@@ -214,7 +215,7 @@ impl Drag {
     }
 
     fn by(mut runner: Runner, plan: &Plan, x0: &[f64], inputs: &[SlotIndex]) -> Self {
-        start(plan, &mut runner, x0, &[]);
+        start(plan, &mut runner, x0, &[], Begins::Edit);
         let slice = plan.slice(inputs);
         let Runner { frame, buffers, .. } = &mut runner;
         let mut is_met = plan.is_met_at(&frame.x0);

@@ -106,11 +106,7 @@ impl Slice {
         let writers = Writers::of(plan);
         let mut is_settled = vec![false; plan.system().equations.len()];
         let is_free = plan.slots().iter().any(|s| s.stay == Stay::Free);
-        let mut made = Self {
-            inputs: inputs.to_vec(),
-            is_held: !is_free && plan.shared_given.is_empty(),
-            ..Self::default()
-        };
+        let mut made = Self { inputs: inputs.to_vec(), is_held: !is_free, ..Self::default() };
         let mut steps: Vec<u32> = Vec::new();
         for (index, step) in (0..).zip(plan.steps()) {
             if matches!(step.program, Program::Host { .. }) {

@@ -9,6 +9,7 @@ use crate::system::{SlotIndex, Stay, System};
 use crate::test::{Differing, Place};
 use expr::LANES;
 use std::cell::Cell;
+use std::collections::BTreeMap;
 use std::ops::ControlFlow;
 
 /// Slots one after the other whose numbers are measured alike.
@@ -43,12 +44,26 @@ const NOTHING: f64 = 1e-9;
 /// What is no larger, in parts of what an edit sets of its kind, is small beside it.
 const SMALL: f64 = 1e-3;
 
+/// What begins: whether something is set or moved, or what is there is looked at.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub(super) enum Begins {
+    Edit,
+    Rest,
+}
+
 /// Fixes what does not change during the edit.
-pub(super) fn start(plan: &Plan, runner: &mut Runner, x0: &[f64], changed: &[SlotIndex]) {
+pub(super) fn start(
+    plan: &Plan,
+    runner: &mut Runner,
+    x0: &[f64],
+    changed: &[SlotIndex],
+    begins: Begins,
+) {
     let Runner { frame, buffers, .. } = runner;
     buffers.least.forget();
     frame.x0.clear();
     frame.x0.extend(x0.iter().map(|&v| if v.is_finite() { v } else { 0.0 }));
+    frame.are_shared_apart = share(plan, &mut frame.x0, begins);
     frame.anchors.clear();
     frame.growth = 1.0;
     measure_scales(plan, frame);
@@ -62,8 +77,46 @@ pub(super) fn start(plan: &Plan, runner: &mut Runner, x0: &[f64], changed: &[Slo
     frame.held.resize(plan.system().equations.len(), Cell::new(Held::Unknown));
 }
 
+/// Has slots that one stands for begin in their middle: what is nearest to it is nearest to all of them. Only those
+/// count that hold as firmly as the one does, and where nothing is edited given numbers alone: of others the first
+/// stands. Returns true if some lay apart.
+fn share(plan: &Plan, x0: &mut [f64], begins: Begins) -> bool {
+    if plan.shares.is_empty() {
+        return false;
+    }
+    let stay = |slot: SlotIndex| plan.slots()[slot as usize].stay;
+    let counts = |slot, root| match (stay(slot), stay(root)) {
+        (Stay::Given, Stay::Given) => true,
+        (Stay::Kept { .. }, Stay::Kept { .. }) => begins == Begins::Edit,
+        _ => false,
+    };
+    let shared = plan.stood_for.iter().copied().filter(|&(slot, root)| counts(slot, root));
+    let differs = |&(s, root): &(SlotIndex, SlotIndex)| {
+        x0[s as usize].to_bits() != x0[root as usize].to_bits()
+    };
+    let mut middles: BTreeMap<SlotIndex, (f64, f64)> =
+        shared.clone().filter(differs).map(|(_, root)| (root, (x0[root as usize], 1.0))).collect();
+    let mut are_apart = false;
+    for (slot, root) in shared.clone() {
+        if let Some((sum, count)) = middles.get_mut(&root) {
+            let x = x0[slot as usize];
+            are_apart |= !base::number::close(x, x0[root as usize]);
+            (*sum, *count) = (*sum + x, *count + 1.0);
+        }
+    }
+    for (slot, root) in shared {
+        if let Some(&(sum, count)) = middles.get(&root) {
+            (x0[slot as usize], x0[root as usize]) = (sum / count, sum / count);
+        }
+    }
+    are_apart
+}
+
 /// Returns true if every required row holds in x0. Where that is so it is known of the others too.
 pub(super) fn required_rows_held(plan: &Plan, frame: &Frame, buffers: &mut Buffers) -> bool {
+    if frame.are_shared_apart {
+        return false;
+    }
     let work = &mut buffers.work;
     let mut differs = |differing: Differing, work: &mut Workspace| {
         let Place { relation, row } = differing.place;
