@@ -5,6 +5,7 @@
 
 mod algebra;
 mod answer;
+mod blocks;
 mod slopes;
 mod ways;
 mod wish;

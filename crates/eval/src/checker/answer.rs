@@ -6,6 +6,7 @@
 //! [`MOST`] slots are not looked at.
 
 use super::algebra::{NEARLY, Span, length, rest_of_cone, sign_of_determinant};
+use super::blocks::{Block, blocks};
 use super::slopes::{Row, only_read, rows};
 use super::{Edit, shown, wish};
 use crate::evaluator::Evaluator;
@@ -71,7 +72,7 @@ pub(crate) fn complaints(
             Some(bounds.map(|row| row.slopes.iter().map(|x| *x != 0.0).collect()).collect())
         };
         if bounds(&before).is_some_and(|acted| bounds(&after) == Some(acted)) {
-            own.orientation([&before, &after], states[1], &required, &moved);
+            own.orientation([&before, &after], &required, &moved, &extent);
         }
     } else {
         own.compromise(states, &required, &soft, &stays, connected);
@@ -261,14 +262,15 @@ impl Answer<'_> {
             && !self.edit.edited.contains(&slot)
     }
 
-    /// What rules determine lies on the side where it lay: the determinant of their slopes has its sign. Where
-    /// they are linear, with the same slopes aside, there is no other side.
+    /// What rules determine lies on the side where it lay: the determinant of their slopes has its sign. That is
+    /// asked of what has to be found together; where its rows are linear in what is found, with the same slopes
+    /// aside, the values decide it and there is no other side.
     fn orientation(
         &mut self,
-        states: [&Evaluator<'_>; 2],
-        aside: &Evaluator<'_>,
+        [before, after]: [&Evaluator<'_>; 2],
         of: &[ConstraintInstance],
         moved: &[SlotId],
+        extent: &dyn Fn(SlotId) -> f64,
     ) {
         let slopes = |state: &Evaluator<'_>| -> Option<Vec<Vec<f64>>> {
             let rows = acting(state, of, moved)?;
@@ -276,26 +278,38 @@ impl Answer<'_> {
             let is_plain = is_square && rows.iter().all(|r| r.order == Order::Equal);
             is_plain.then(|| rows.into_iter().map(|r| r.slopes).collect())
         };
-        let [Some(before), Some(after)] = states.map(slopes) else { return };
-        let Some(aside) = slopes(aside) else { return };
-        let is_same = |(a, b): (&f64, &f64)| (a - b).abs() <= OFF * a.abs().max(b.abs());
-        if after.iter().flatten().zip(aside.iter().flatten()).all(is_same) {
-            return;
-        }
-        // where two sides meet slopes vanish, and what is left of them is rounding
-        let vanishes = |(a, b): (&Vec<f64>, &Vec<f64>)| {
-            let [a, b] = [length(a), length(b)];
-            a.min(b) <= NEARLY * a.max(b)
+        let [Some(then), Some(now)] = [before, after].map(slopes) else { return };
+        let speaks = |(a, b): (&Vec<f64>, &Vec<f64>)| {
+            a.iter().zip(b).map(|(a, b)| *a != 0.0 || *b != 0.0).collect()
         };
-        if before.iter().zip(&after).any(vanishes) {
-            return;
-        }
-        let signs = [before, after].map(sign_of_determinant);
-        if let [Some(before), Some(after)] = signs
-            && before != after
-        {
-            let paths: Vec<String> = moved.iter().map(|&s| (self.path)(s)).collect();
-            self.wrong.push(format!("{} lie on another side than before", paths.join(", ")));
+        let speaks: Vec<Vec<bool>> = then.iter().zip(&now).map(speaks).collect();
+        for Block { rows, columns } in blocks(&speaks).unwrap_or_default() {
+            let slots: Vec<SlotId> = columns.iter().map(|&column| moved[column]).collect();
+            let aside = aside(self.edit.after, &slots, extent);
+            let Some(aside) = slopes(&after.in_state(&aside)) else { continue };
+            let [then, now, aside] = [&then, &now, &aside].map(|all| -> Vec<Vec<f64>> {
+                let own = |&row: &usize| columns.iter().map(|&column| all[row][column]).collect();
+                rows.iter().map(own).collect()
+            });
+            let is_same = |(a, b): (&f64, &f64)| (a - b).abs() <= OFF * a.abs().max(b.abs());
+            if now.iter().flatten().zip(aside.iter().flatten()).all(is_same) {
+                continue;
+            }
+            // where two sides meet slopes vanish, and what is left of them is rounding
+            let vanishes = |(a, b): (&Vec<f64>, &Vec<f64>)| {
+                let [a, b] = [length(a), length(b)];
+                a.min(b) <= NEARLY * a.max(b)
+            };
+            if then.iter().zip(&now).any(vanishes) {
+                continue;
+            }
+            let signs = [then, now].map(sign_of_determinant);
+            if let [Some(then), Some(now)] = signs
+                && then != now
+            {
+                let paths: Vec<String> = slots.iter().map(|&s| (self.path)(s)).collect();
+                self.wrong.push(format!("{} lie on another side than before", paths.join(", ")));
+            }
         }
     }
 
