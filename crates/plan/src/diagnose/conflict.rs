@@ -288,7 +288,8 @@ fn without(units: &[Unit], unit: Option<&Unit>) -> Vec<Unit> {
 }
 
 impl Planner {
-    /// Tries rules from the present values and, where a row has several solutions, from elsewhere.
+    /// Tries rules from the present values and, where a row has several solutions, from elsewhere; given numbers
+    /// that do not yield are what they are.
     pub(crate) fn can_hold(
         &mut self,
         setup: &Setup<'_>,
@@ -296,13 +297,19 @@ impl Planner {
         values: &Values,
         host: &mut dyn Host,
     ) -> Trial {
-        let first = self.try_rules(setup, rules, &mut values.clone(), host);
+        let mut yielding = BTreeSet::new();
+        let here = &mut values.clone();
+        let first = self.try_rules_noting(setup, rules, here, &mut yielding, host);
         let patterns = self.plans.patterns();
         let all_linear = rules.iter().all(|&r| is_linear(patterns, self.rules.get(r)));
         if first == Trial::Holds || (all_linear && first == Trial::Contradicts) {
             return first;
         }
-        let moves = |s: &SlotId| (setup.holding)(*s) != Holding::Fixed;
+        let moves = |s: &SlotId| match (setup.holding)(*s) {
+            Holding::Fixed => false,
+            Holding::Given => yielding.contains(s),
+            Holding::Kept | Holding::Alone | Holding::Free => true,
+        };
         let slots: BTreeSet<SlotId> =
             rules.iter().flat_map(|&r| self.rules.get(r).slots.to_vec()).filter(moves).collect();
         let slots: Vec<SlotId> = slots.into_iter().collect();

@@ -3,6 +3,7 @@
 use crate::aim::Aim;
 use crate::component::Component;
 use crate::host::Host;
+use crate::modal::Stands;
 use crate::planner::{Model, Planner};
 use crate::run::{Ran, run};
 use crate::task::{Holding, Wish};
@@ -39,6 +40,18 @@ impl Planner {
         values: &mut Values,
         host: &mut dyn Host,
     ) -> Trial {
+        self.try_rules_noting(setup, rules, values, &mut BTreeSet::new(), host)
+    }
+
+    /// Does the same, and notes which given numbers may yield in it.
+    pub(crate) fn try_rules_noting(
+        &mut self,
+        setup: &Setup<'_>,
+        rules: &[u32],
+        values: &mut Values,
+        yielding: &mut BTreeSet<SlotId>,
+        host: &mut dyn Host,
+    ) -> Trial {
         let wished = setup.aim.wishes.iter().flat_map(Wish::slots);
         let slots: BTreeSet<SlotId> =
             rules.iter().flat_map(|&r| self.rules.get(r).slots.to_vec()).chain(wished).collect();
@@ -55,6 +68,10 @@ impl Planner {
         let mut trial = Trial::Holds;
         for task in &tasks {
             let ran = run(self, setup.model, task, setup.aim, &start, values, host);
+            let plan = ran.stands.as_ref().map_or(&task.plan, Stands::plan);
+            let slots = task.component.slots();
+            let yielded = plan.report.yielded.iter();
+            yielding.extend(yielded.filter_map(|&s| slots.get(s as usize)));
             trial = match ran {
                 Ran { is_solved: true, .. } => trial,
                 Ran { is_conflict: true, .. } => Trial::Contradicts,

@@ -51,3 +51,14 @@ fn what_was_searched_to_its_end_contradicts() {
     // 1 and 2 are taken by a and b, so that c is 3
     assert_eq!(told(text), ["all, sum, low contradict each other"]);
 }
+
+#[test]
+fn what_comes_to_nothing_for_the_given_numbers_contradicts() {
+    // v = 30 and w = 20, so that the last says 0 = 400; with any other number given it could hold
+    let text = "u: Real = 15\nv, w, image: Real\nconstraint first: v * (u - 10) = u * 10\n\
+        constraint between: w = 50 - v\nconstraint second: image * (w - 20) = w * 20\n\
+        free: Real\nconstraint other: free = u + v\n";
+    let found = ["no solution of first, between, second together was found, from 2 starts"];
+    assert_eq!(told(text), found);
+    assert_eq!(told(&text.replace("= 15", "= 16")), [""; 0]);
+}

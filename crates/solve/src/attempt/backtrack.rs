@@ -134,7 +134,7 @@ impl Attempt<'_> {
             }
             let (fault, failure, begun, motion) =
                 first.get_or_insert((fault, failure, values_then, motion_then));
-            if search.work(buffers) > (ROUNDS * branching).min(WORK) {
+            if search.work(buffers) > (ROUNDS * branching.max(1)).min(WORK) {
                 let reason = Reason::NotDecided { tried };
                 return Err(Failure { reason, region: failure.region });
             }
