@@ -39,8 +39,9 @@ fn a_set_that_comes_to_no_end_is_given_up_and_says_where() {
         panic!("{far:?}")
     };
     let slots = 2 * u64::from(bars);
-    assert!(bound > 3_000_000_000 + 100_000 * slots, "it grows with what is solved: {bound}");
-    assert!(bound < 4_000_000_000, "{bound}");
+    // one part of the way alone comes to no end
+    assert!(bound > 300_000_000 + 100_000 * slots, "it grows with what is solved: {bound}");
+    assert!(bound < 400_000_000, "{bound}");
     // what was given up once is no hindrance to what comes next
     let near = set([0.5 * f64::from(bars), 3.0]);
     assert_eq!((near.refusal, near.not_decided), (None, None));

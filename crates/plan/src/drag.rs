@@ -2,7 +2,7 @@
 
 use crate::aim::{Aim, with_present_values};
 use crate::component::{Component, rules_of};
-use crate::edit::{EditKind, EditReport, RefusalReason, Target, note};
+use crate::edit::{EditKind, EditReport, NotDecided, RefusalReason, Target, note};
 use crate::host::Host;
 use crate::modal::{Acting, ModalDrag, ModeChange};
 use crate::planner::{Latest, Model, Planner, is_any_new};
@@ -11,7 +11,7 @@ use crate::run::{
 };
 use crate::task::{Course, Task};
 use kernel::{SlotId, Values};
-use solve::{Level, Puzzle, Rejected, SlotIndex, Stay, Verdict};
+use solve::{Level, PATIENCE, Puzzle, Rejected, SlotIndex, Stay, Verdict};
 use std::rc::Rc;
 
 /// What a drag keeps from the press to the release.
@@ -277,6 +277,9 @@ impl Pull {
         let texts: Texts = self.texts.iter().map(text).collect();
         let mut adapter = Adapter { planner, model, task: &self.task, values, host };
         let outcome = drag.follow(&self.task.plan, targets, &mut adapter);
+        if drag.is_cut() {
+            report.not_decided = Some(NotDecided::Work(PATIENCE));
+        }
         if !outcome.is_solved() {
             put_texts(&texts, values);
         }

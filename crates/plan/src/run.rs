@@ -386,11 +386,13 @@ pub(crate) fn ran(planner: &Planner, task: &Task, outcome: &Outcome) -> Ran {
             | Reason::NoSolution { .. }
             | Reason::NotDecided { .. }
             | Reason::Spent
+            | Reason::GivenUp { .. }
             | Reason::Conflict,
         ) => None,
     };
     let not_decided = match outcome.status {
         Status::Stopped(Reason::NotDecided { tried }) => Some(NotDecided::Roots(tried.into())),
+        Status::Stopped(Reason::GivenUp { bound }) => Some(NotDecided::Work(bound)),
         Status::Solved | Status::Stopped(_) => None,
     };
     let double_roots = outcome.notes.iter().filter_map(|n| match n {

@@ -2,7 +2,7 @@
 
 use crate::difference::difference;
 use crate::document::{Direction, Open};
-use crate::drag::coordinates;
+use crate::drag::{self, coordinates};
 use crate::general;
 use crate::host::Host;
 use crate::limits;
@@ -11,12 +11,12 @@ use crate::placing::place_new_parts;
 use crate::prototype;
 use crate::state::State;
 use crate::texts::Texts;
-use crate::view::{Change, Choice, Limit, Question, Refusal};
+use crate::view::{Change, Choice, DragState, Limit, Question, Refusal};
 use crate::words;
 use crate::write_back::{differing, sides_after, write_back, write_sides};
 use base::number::Toward;
 use kernel::{Command, DOCUMENT, Literal, Path, SlotId, Step, Term, ThingId, Value, Values};
-use plan::{EditKind, Planner, Target};
+use plan::{EditKind, NotDecided, Planner, RefusalReason, Target};
 use std::sync::Arc;
 
 /// Applies a command to a document.
@@ -105,7 +105,12 @@ fn edit(
         let refusal = of_computed(one_way(open, refusal, &report, &aims), &aims);
         return Err(match report.limit {
             Some(part) => limited(&state, refusal, &aims, part),
-            None => refusal,
+            None => match (reason, &aims[..]) {
+                (RefusalReason::NotDecided(NotDecided::Work(_)), [(Aim::Thing(thing), wanted)]) => {
+                    as_dragged(&state, &mut open.planner, refusal, *thing, wanted)
+                }
+                _ => refusal,
+            },
         });
     }
     let edited = aims.iter().flat_map(|(aim, _)| slots_of(&state, aim)).collect();
@@ -194,6 +199,38 @@ fn limited(state: &State, refusal: Refusal, aims: &[(Aim, Vec<Value>)], part: f6
     let why = refusal.message.strip_prefix("refused: ").unwrap_or(&refusal.message);
     let message = format!("refused: {}; {why}", limits::in_words(&limit));
     Refusal { message, limit: Some(Box::new(limit)), ..refusal }
+}
+
+/// How many wishes of a drag are tried to say how far an edit could have gone that was given up.
+const WISHES: usize = 4;
+
+/// Says in a refusal of an edit that was given up how far the hand would come, where it soon comes to an end.
+fn as_dragged(
+    state: &State,
+    planner: &mut Planner,
+    refusal: Refusal,
+    thing: ThingId,
+    wanted: &[Value],
+) -> Refusal {
+    let to = match *wanted {
+        [Value::Number(x)] => (x, 0.0),
+        [Value::Number(x), Value::Number(y)] => (x, y),
+        _ => return refusal,
+    };
+    let latest = planner.take_latest();
+    let path = state.structure.path(&state.lowered.document, thing);
+    let ended = drag::press(state, planner, thing, path).ok().and_then(|mut drag| {
+        let mut wishes = (0..WISHES).map(|_| drag.to(state, planner, to));
+        wishes.find(|came| came.reached || came.limit.is_some())
+    });
+    planner.restore_latest(latest);
+    match ended {
+        Some(DragState { message: Some(words), limit: Some(limit), .. }) => {
+            let message = format!("{}; by hand: {words}", refusal.message);
+            Refusal { message, limit: Some(Box::new(limit)), ..refusal }
+        }
+        Some(_) | None => refusal,
+    }
 }
 
 /// Returns the slots that an aim is about: those of a thing, or those that an expression reads.

@@ -12,7 +12,7 @@ use crate::words;
 use eval::Answer;
 use expr::Dimension;
 use kernel::{DOCUMENT, Path, SlotId, Structure, Term, ThingId, Values};
-use plan::{Planner, Press, RefusalReason, Target};
+use plan::{NotDecided, Planner, Press, RefusalReason, Target};
 use std::collections::BTreeSet;
 
 /// A drag between press and release.
@@ -254,6 +254,12 @@ impl Drag {
             return DragState { reached: true, modes, ..DragState::default() };
         }
         let (limit, words) = limits::of_drag(state, self);
+        let is_cut = matches!(report.not_decided, Some(NotDecided::Work(_)));
+        if is_cut && limits::reach(state, self).is_none() {
+            let came = limit.value;
+            let message = format!("{came} is as far as it has come: the way is long, and goes on");
+            return DragState { reached: false, message: Some(message), limit: None, modes };
+        }
         let message = match words::what_holds(state, &report, &self.press.acting(planner)) {
             Some(holds) => format!("{words}; {holds}"),
             None => words,

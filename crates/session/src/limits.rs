@@ -87,15 +87,24 @@ pub(crate) fn of_drag(state: &State, drag: &Drag) -> (Limit, String) {
         .map(|(slot, start)| show(state, slot, drag.values.numbers[slot], start))
         .collect();
     let limit = Limit { path, value: tuple(&shown) };
-    let slots: Vec<SlotId> = drag.handle_slots().map(|(slot, _)| slot).collect();
-    let &[x, y] = slots.as_slice() else {
+    let Some((x, at)) = place_of(drag) else {
         let words = in_words(&limit);
         return (limit, words);
     };
-    let at = [drag.values.numbers[x], drag.values.numbers[y]];
+    let short = away(at, drag.wish);
+    let words = reach(state, drag).unwrap_or_else(|| {
+        format!("{} is as far as it goes, {} short", limit.value, show(state, x, short, short))
+    });
+    (limit, words)
+}
+
+/// Says how far a place that is dragged reaches from an anchored place, where it lies straight between that and the
+/// pointer.
+pub(crate) fn reach(state: &State, drag: &Drag) -> Option<String> {
+    let (x, at) = place_of(drag)?;
     let short = away(at, drag.wish);
     let place = |length: f64, from: f64| show(state, x, length, from);
-    let reach = anchored_places(state, drag).find_map(|(thing, from)| {
+    anchored_places(state, drag).find_map(|(thing, from)| {
         let (reach, wanted) = (away(from, at), away(from, drag.wish));
         let aside =
             (at[0] - from[0]) * (drag.wish[1] - at[1]) - (at[1] - from[1]) * (drag.wish[0] - at[0]);
@@ -105,11 +114,14 @@ pub(crate) fn of_drag(state: &State, drag: &Drag) -> (Limit, String) {
             let (reach, wanted) = (place(reach, 0.0), place(wanted, wanted));
             format!("reach {reach} of {wanted} from {name}")
         })
-    });
-    let words = reach.unwrap_or_else(|| {
-        format!("{} is as far as it goes, {} short", limit.value, place(short, short))
-    });
-    (limit, words)
+    })
+}
+
+/// Returns where a place is that is dragged, with the slot of its first coordinate.
+fn place_of(drag: &Drag) -> Option<(SlotId, [f64; 2])> {
+    let slots: Vec<SlotId> = drag.handle_slots().map(|(slot, _)| slot).collect();
+    let &[x, y] = slots.as_slice() else { return None };
+    Some((x, [drag.values.numbers[x], drag.values.numbers[y]]))
 }
 
 /// The places that a drag depends on and cannot move.

@@ -371,7 +371,7 @@ pub struct DragState {
     pub reached: bool,
     /// Why not, in one sentence.
     pub message: Option<String>,
-    /// Where it stopped, if it did.
+    /// Where it stopped, if it did; nothing where it was left on a long way, which the next wish goes on.
     pub limit: Option<Limit>,
     /// What acts otherwise than at the press.
     pub modes: Vec<ModeView>,

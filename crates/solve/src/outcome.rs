@@ -66,6 +66,11 @@ pub enum Reason {
     },
     /// What the run may cost was spent before a solution was found.
     Spent,
+    /// A part of the way cost what it may before it was gone.
+    GivenUp {
+        /// How much, in multiplications.
+        bound: u64,
+    },
     /// Required relations contradict: they are unmet.
     Conflict,
     /// A host's method failed.

@@ -205,6 +205,8 @@ pub struct Drag {
     /// True if the last wish could not be met: the present state is as near to it as the hard rows allow, and
     /// the next one is come near to from there.
     is_near: bool,
+    /// True if the last wish was left on the way to it: that cost too much.
+    is_cut: bool,
     now: Vec<f64>,
 }
 
@@ -248,6 +250,7 @@ impl Drag {
             is_met,
             leans: false,
             is_near: false,
+            is_cut: false,
         }
     }
 
@@ -295,6 +298,11 @@ impl Drag {
     /// Returns true if a state was seen in which everything required holds.
     pub fn holds(&self) -> bool {
         self.has_branch
+    }
+
+    /// Returns true if the last wish was left on the way to it, since that cost too much: the next goes on from there.
+    pub fn is_cut(&self) -> bool {
+        self.is_cut
     }
 
     /// Returns the present state.
@@ -454,6 +462,7 @@ impl Failure {
             | Reason::NoSolution { .. }
             | Reason::NotDecided { .. }
             | Reason::Spent
+            | Reason::GivenUp { .. }
             | Reason::Conflict => Reason::Limit { fraction },
         }
     }

@@ -55,6 +55,36 @@ fn a_number_that_cannot_be_set_says_how_far_it_could_go() {
     assert_eq!(refusal.limit, Some(limit), "where it is at its limit, the limit is where it is");
 }
 
+/// A chain of bars of length 1 from an anchored place, each at an angle that is up to `rough` off the first axis.
+fn chain(bars: u32, rough: f64) -> String {
+    let mut text = String::from("use geometry\np0: Point = (0, 0)\nanchor p0\n");
+    let (mut x, mut y) = (0.0, 0.0);
+    for k in 1..=bars {
+        let angle = rough * base::number::sin(f64::from(k * k));
+        (x, y) = (x + base::number::cos(angle), y + base::number::sin(angle));
+        let before = k - 1;
+        text += &format!("p{k}: Point = ({x}, {y})\n");
+        text += &format!("constraint p{before}.distance(to: p{k}) = 1\n");
+    }
+    text
+}
+
+#[test]
+fn a_long_chain_set_out_of_reach_tells_its_reach() {
+    for (bars, rough) in [(40_u32, 0.3), (80, 2.5), (120, 0.3), (320, 0.3)] {
+        let mut desk = Desk::of(&chain(bars, rough));
+        let end = format!("p{bars}");
+        let x = desk.number(&format!("{end}.x"));
+        let wanted = 1.1 * f64::from(bars);
+        let place = Literal::Tuple(vec![Literal::Number(wanted), Literal::Number(0.0)]);
+        let command = Command::Set(vec![(at(&end), place)]);
+        let refusal = desk.apply(&command).expect_err("it is out of reach");
+        let reach = format!("by hand: reach {bars} of {wanted} from p0");
+        assert!(refusal.message.contains(&reach), "{}", refusal.message);
+        assert_eq!(desk.number(&format!("{end}.x")).to_bits(), x.to_bits());
+    }
+}
+
 #[test]
 fn what_cannot_move_at_all_has_no_limit() {
     let mut desk = Desk::of("a: Real = 1\nanchor a\nb: Real\nconstraint b = a + 1\n");

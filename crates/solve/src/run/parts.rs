@@ -12,6 +12,8 @@ const PART: f64 = 0.25;
 const MOST_WORK: usize = 20_000;
 /// What one wish of a drag may cost, in multiplications: the pointer waits for it.
 pub const PATIENCE: u64 = 300_000_000;
+/// What a part of the way may cost that an edit drags, for every slot besides that.
+const SLOT: u64 = 100_000;
 
 /// Returns true where a way leads from one value of these slots to another: they are known numbers, none of them
 /// whole.
@@ -86,7 +88,11 @@ impl Drag {
     /// # Panics
     /// If there are not as many targets as inputs.
     pub fn follow(&mut self, plan: &Plan, targets: &[f64], host: &mut dyn Host) -> Outcome {
-        self.follow_until(Until::Spent(self.runner.spent() + PATIENCE), plan, targets, host)
+        let bound = self.runner.spent() + PATIENCE;
+        let outcome = self.follow_until(Until::Spent(bound), plan, targets, host);
+        let is_met = outcome.is_solved() && outcome.unmet.is_empty();
+        self.is_cut = !is_met && self.runner.spent() > bound;
+        outcome
     }
 
     fn follow_until(
@@ -99,12 +105,8 @@ impl Drag {
         assert_eq!(targets.len(), self.slice.inputs.len(), "a wish names every input");
         let may_leap = self.has_branch && plan.bends;
         let mut parts = if may_leap { self.parts(plan, targets) } else { 1 };
-        let spent = match until {
-            Until::Spent(bound) => bound,
-            Until::Missed => u64::MAX,
-        };
         if !may_leap {
-            let outcome = self.follow_on(plan, targets, spent, host);
+            let outcome = self.follow_part(until, plan, targets, host);
             if !self.has_branch || outcome.status != Status::Stopped(Reason::Conflict) {
                 return outcome;
             }
@@ -117,7 +119,7 @@ impl Drag {
             while parts > 1 {
                 let part = 1.0 / f64::from(parts);
                 at.iter_mut().zip(targets).for_each(|(at, to)| *at += part * (to - *at));
-                let outcome = self.follow_on(plan, &at, spent, host);
+                let outcome = self.follow_part(until, plan, &at, host);
                 match until {
                     Until::Missed if !outcome.is_solved() => return outcome,
                     Until::Spent(bound) if self.runner.spent() > bound => break,
@@ -127,7 +129,28 @@ impl Drag {
                 parts = (parts - 1).min(self.parts_from(plan, &at, targets));
             }
         }
-        self.follow_on(plan, targets, spent, host)
+        self.follow_part(until, plan, targets, host)
+    }
+
+    /// Follows a wish that is near, until it is known to be missed or that costs too much.
+    fn follow_part(
+        &mut self,
+        until: Until,
+        plan: &Plan,
+        targets: &[f64],
+        host: &mut dyn Host,
+    ) -> Outcome {
+        if let Until::Spent(bound) = until {
+            return self.follow_on(plan, targets, bound, host);
+        }
+        let bound = PATIENCE + SLOT * plan.slots().len() as u64;
+        let end = self.runner.spent() + bound;
+        let mut outcome = self.follow_on(plan, targets, end, host);
+        let is_limit = matches!(outcome.status, Status::Stopped(Reason::Limit { .. }));
+        if is_limit && self.runner.spent() > end {
+            outcome.status = Status::Stopped(Reason::GivenUp { bound });
+        }
+        outcome
     }
 
     /// Returns what following has cost so far, in multiplications, roughly.
