@@ -1,14 +1,14 @@
 //! Least change: fewer rows than unknowns, all to hold, and the distance from x0 to be least; first that
-//! of given numbers, then that of everything else.
+//! of given numbers, then that of everything else that has a value, then that of what has none.
 //!
 //! In: the block, the state x0 that distance is measured from, a start. Out: the unknowns, in place.
 //! Newton's method on the Lagrangian with exact second derivatives, `[H Jᵀ; J -δ]`, sparse and
 //! symmetric. Where the Hessian, reduced to what the rows leave free, is not positive (the factors have
 //! other than one negative pivot a row), its diagonal grows until it is. The small `-δ` is that of the
 //! proximal method of multipliers: it keeps the factors tame and disappears with the change of the
-//! multipliers. While given numbers are counted the others are held a little to where they are, which
-//! leaves no trace once they have settled; while the others are counted given numbers are constants. A large
-//! linear block is solved by elimination.
+//! multipliers. While some are counted those that come after are held a little to where they are, which
+//! leaves no trace once they have settled, and those before are constants. A large linear block is solved by
+//! elimination.
 //!
 //! **Source:** Nocedal and Wright, *Numerical Optimization*, 2nd ed., §18.1 and §16.3; Friedlander and
 //! Orban, *A primal-dual regularized interior-point method*, Math. Prog. Comp. 4 (2012).
@@ -22,7 +22,7 @@ use crate::lower::{Definers, Problem};
 use crate::measure::Measured;
 use crate::sparse::{Ldl, Symmetric};
 use crate::square::Trust;
-use crate::system::{Level, SlotIndex};
+use crate::system::{Level, SlotIndex, Turn};
 use base::number::ROUNDING;
 use std::sync::OnceLock;
 
@@ -30,8 +30,8 @@ use std::sync::OnceLock;
 #[derive(Debug)]
 pub(crate) struct Least {
     pub(crate) block: Block,
-    /// For every unknown: it is a given number that yields. Empty where all are or none is.
-    given: Vec<bool>,
+    /// When the change of every unknown counts; empty where all count together.
+    turns: Vec<Turn>,
     /// Of unknowns, then rows; made when it is first needed.
     structure: OnceLock<Symmetric>,
     /// Of a large linear block; made when it is first needed.
@@ -96,10 +96,8 @@ impl LeastScratch {
 enum Counted {
     /// Every unknown's.
     All,
-    /// That of given numbers; the others go along.
-    Given,
-    /// That of the others; given numbers are constants.
-    Others,
+    /// That of those whose turn it is; those after them go along, those before are constants.
+    These(Turn),
 }
 
 /// What distance is measured from and how, and how far the solution may be.
@@ -157,14 +155,14 @@ const FIRM: f64 = 0.125;
 const SOFT: [(f64, f64); 2] = [(0.5, 1.0), (0.16, 0.125)];
 
 impl Least {
-    /// Lays a block out; `is_given` tells which slots are given numbers.
-    pub(crate) fn new(problem: &Problem, is_given: &dyn Fn(SlotIndex) -> bool) -> Self {
+    /// Lays a block out; `turn` tells when the change of a slot counts.
+    pub(crate) fn new(problem: &Problem, turn: &dyn Fn(SlotIndex) -> Turn) -> Self {
         let block = Block::new(problem, Definers::None);
-        let mut given: Vec<bool> = block.unknowns.iter().map(|&s| is_given(s)).collect();
-        if given.iter().all(|&g| g == given[0]) {
-            given.clear();
+        let mut turns: Vec<Turn> = block.unknowns.iter().map(|&s| turn(s)).collect();
+        if turns.iter().all(|&t| t == turns[0]) {
+            turns.clear();
         }
-        Self { block, given, structure: OnceLock::new(), basic: OnceLock::new() }
+        Self { block, turns, structure: OnceLock::new(), basic: OnceLock::new() }
     }
 
     /// Returns true if a row may give way.
@@ -222,13 +220,15 @@ impl Least {
         {
             return Measured::Least;
         }
-        if self.given.is_empty() {
+        if self.turns.is_empty() {
             return self.least(Counted::All, &asked, values, w, s);
         }
-        match self.least(Counted::Given, &asked, values, w, s) {
-            Measured::Least => self.least(Counted::Others, &asked, values, w, s),
-            Measured::Failed => Measured::Failed,
+        for turn in Turn::ALL.into_iter().filter(|turn| self.turns.contains(turn)) {
+            if self.least(Counted::These(turn), &asked, values, w, s) == Measured::Failed {
+                return Measured::Failed;
+            }
         }
+        Measured::Least
     }
     /// Solves by elimination, by what holds for any numbers or else for these; where that is not possible, all is
     /// as it was.
@@ -242,10 +242,17 @@ impl Least {
         let before: Vec<f64> = self.block.unknowns.iter().map(|&u| values[u as usize]).collect();
         let scale = |&u: &SlotIndex| asked.scales[u as usize];
         let scale: Vec<f64> = self.block.unknowns.iter().map(scale).collect();
-        let structure = || linear::Structure::of_block(&self.block, &self.given);
+        // those whose turn is first are told apart from all the others
+        let first = self.turns.iter().min();
+        let last = self.turns.iter().max();
+        if self.turns.iter().any(|turn| Some(turn) != first && Some(turn) != last) {
+            return false;
+        }
+        let is_first: Vec<bool> = self.turns.iter().map(|turn| Some(turn) == first).collect();
+        let structure = || linear::Structure::of_block(&self.block, &is_first);
         let structure = self.basic.get_or_init(structure).as_ref();
         for structure in structure.map(Some).into_iter().chain([None]) {
-            let asked = (&*self.given, &*scale, asked.x0);
+            let asked = (&*is_first, &*scale, asked.x0);
             let is_solved = linear::solve(&self.block, asked, structure, values, w, &mut s.local)
                 && self.holds_at(values, w, s);
             if is_solved {
@@ -258,11 +265,10 @@ impl Least {
         false
     }
     fn part(&self, counted: Counted, unknown: usize) -> Part {
-        match (counted, self.given.get(unknown)) {
-            (Counted::All, _) | (_, None) => Part::Counted,
-            (Counted::Given, Some(true)) | (Counted::Others, Some(false)) => Part::Counted,
-            (Counted::Given, Some(false)) => Part::GoesAlong,
-            (Counted::Others, Some(true)) => Part::Constant,
+        match (counted, self.turns.get(unknown)) {
+            (Counted::These(now), Some(own)) if own > &now => Part::GoesAlong,
+            (Counted::These(now), Some(own)) if own < &now => Part::Constant,
+            (Counted::All | Counted::These(_), _) => Part::Counted,
         }
     }
 
@@ -395,7 +401,7 @@ impl Least {
         }
     }
     fn has_constants(&self, counted: Counted) -> bool {
-        counted == Counted::Others && !self.given.is_empty()
+        matches!(counted, Counted::These(now) if self.turns.iter().any(|&own| own < now))
     }
 
     /// Takes the multipliers of the state that the values are still in, if they are known: those of the solution

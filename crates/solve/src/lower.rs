@@ -14,7 +14,7 @@ use crate::pattern::Pattern;
 use crate::plan::{Analysis, Step, StepKind};
 use crate::rows::{Row, Rows};
 use crate::square::Square;
-use crate::system::{Level, MethodBody, RelationBody, SlotIndex, Stay, System};
+use crate::system::{Level, MethodBody, RelationBody, SlotIndex, System, Turn};
 use crate::union::Union;
 use base::number::Tolerance;
 use std::cell::OnceCell;
@@ -477,11 +477,11 @@ const MEASURED: usize = 60;
 /// Makes the program that handles rows and unknowns of any number.
 fn measure(analysis: &Analysis<'_>, problem: &Problem, step: StepKind) -> Program {
     let kind = |s: SlotIndex| {
-        let given = analysis.classes.stay[s as usize] == Stay::Given;
-        (analysis.stated.system.slots[s as usize].scale, given)
+        let turn = analysis.classes.stay[s as usize].turn();
+        (analysis.stated.system.slots[s as usize].scale, turn)
     };
-    let alike = problem.unknowns.iter().all(|&u| !kind(u).1);
-    if step == StepKind::LeastChange && (alike || problem.unknowns.len() > MEASURED) {
+    let has_given = problem.unknowns.iter().any(|&u| kind(u).1 == Turn::Given);
+    if step == StepKind::LeastChange && (!has_given || problem.unknowns.len() > MEASURED) {
         let least = Least::new(problem, &|s| kind(s).1);
         return Program::Least(Box::new((least, OnceCell::new())));
     }

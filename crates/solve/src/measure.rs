@@ -3,7 +3,7 @@
 //! In: rows with their levels, unknowns, the state x0 that distance is measured from, a start. Out: the
 //! unknowns, in place: hard rows hold; then, level by level and never at the cost of a higher one,
 //! the sum of squares of the soft rows is least; then the distance of given numbers from x0, then that of
-//! everything else.
+//! everything else that has a value, then that of what has none.
 //!
 //! Newton's method on the Lagrangian of every level, each in the directions that the levels above
 //! leave free. A direction is left free where the level above has no curvature, the curvature of the
@@ -20,7 +20,7 @@ use crate::block::{Block, Local, Workspace};
 use crate::dense::{self, Spaces};
 use crate::lower::{Definers, Problem, ProblemRow};
 use crate::square::Trust;
-use crate::system::{Level, SlotIndex};
+use crate::system::{Level, SlotIndex, Turn};
 use curved::Curved;
 use levels::{Asked, Levels};
 use std::collections::BTreeMap;
@@ -35,8 +35,8 @@ pub(crate) struct Measure {
     levels: Vec<Level>,
     /// For every row of the core, the scale of the slots that it speaks of, where they have one.
     classes: Vec<Option<u16>>,
-    /// For every unknown of the core: it is a given number that yields.
-    given: Vec<bool>,
+    /// For every unknown of the core, when its change counts.
+    turns: Vec<Turn>,
     /// True if no second derivative is there.
     pub(crate) is_linear: bool,
     /// What solves a large block.
@@ -131,8 +131,8 @@ const POLISH: usize = 8;
 const STILL: f64 = 1e-9;
 
 impl Measure {
-    /// Lays a block out; `kind` tells a slot's scale, and whether it is a given number.
-    pub(crate) fn new(problem: &Problem, kind: &dyn Fn(SlotIndex) -> (u16, bool)) -> Self {
+    /// Lays a block out; `kind` tells a slot's scale, and when its change counts.
+    pub(crate) fn new(problem: &Problem, kind: &dyn Fn(SlotIndex) -> (u16, Turn)) -> Self {
         // Where the rows leave a choice, distance decides, and counts every unknown.
         let has_choice = problem.rows.len() < problem.unknowns.len();
         let is_large = problem.unknowns.len() >= LARGE;
@@ -144,7 +144,7 @@ impl Measure {
         Self {
             levels: rows().map(|r| block.levels[r]).collect(),
             classes: rows().map(|r| common_scale(&problem.rows[r], kind)).collect(),
-            given: unknowns.iter().map(|&s| kind(s).1).collect(),
+            turns: unknowns.iter().map(|&s| kind(s).1).collect(),
             is_linear: block.is_linear,
             large: is_large.then(|| match block.is_linear {
                 true => Large::Linear(Levels::new(&block.pattern)),
@@ -181,8 +181,8 @@ impl Measure {
         let scale: Vec<f64> = self.unknowns.iter().map(|&u| scales[u as usize]).collect();
         let weights = self.weights(x0, values, scales, w);
         if let Some(Large::Curved(curved)) = &self.large {
-            let (block, given, weights, scale) = (&self.block, &self.given, &weights, &scale);
-            let asked = curved::Asked { block, given, weights, x0, scale, trust };
+            let (block, turns, weights, scale) = (&self.block, &self.turns, &weights, &scale);
+            let asked = curved::Asked { block, turns, weights, x0, scale, trust };
             let result = curved.solve(asked, values, w);
             return match self.evaluate(values, scale, weights, w) {
                 Some(local) if self.hard_rows_hold(&local, values, w) => result,
@@ -438,7 +438,7 @@ impl Measure {
                 slopes: &local.slopes,
                 residual: &local.residual,
                 levels: &self.levels,
-                given: &self.given,
+                turns: &self.turns,
                 away,
             });
         }
@@ -479,15 +479,20 @@ impl Measure {
             free = descend(&mut step, &free, &gradient, [&hessian, &flat], n);
             above.extend(own);
         }
-        for given in [true, false] {
+        for turn in Turn::ALL {
             if free.is_empty() {
                 break;
             }
             let mut gradient = vec![0.0; n];
             let mut hessian = vec![0.0; n * n];
-            for i in (0..n).filter(|&i| self.given[i] == given) {
+            let mut is_empty = true;
+            for i in (0..n).filter(|&i| self.turns[i] == turn) {
+                is_empty = false;
                 gradient[i] = away[i];
                 hessian[i * n + i] = 1.0;
+            }
+            if is_empty {
+                continue;
             }
             let factor = self.multipliers(local, &above, &gradient);
             let flat = hessian.clone();
@@ -589,7 +594,7 @@ impl Measure {
     }
 }
 
-fn common_scale(row: &ProblemRow, kind: &dyn Fn(SlotIndex) -> (u16, bool)) -> Option<u16> {
+fn common_scale(row: &ProblemRow, kind: &dyn Fn(SlotIndex) -> (u16, Turn)) -> Option<u16> {
     let mut scales = row.arguments.iter().map(|&s| kind(s).0);
     let first = scales.next()?;
     scales.all(|s| s == first).then_some(first)

@@ -16,7 +16,7 @@ use crate::run::start::Alike;
 use crate::slice::Slice;
 use crate::stated::Stated;
 use crate::substitute::{self, Classes};
-use crate::system::{Level, RelationBody, Slot, SlotIndex, Span, Stay, System};
+use crate::system::{Level, RelationBody, Slot, SlotIndex, Span, Stay, System, Turn};
 use crate::test::{Place, Tests};
 use crate::tie;
 use crate::view::{self, Exchange};
@@ -585,10 +585,10 @@ impl Plan {
     pub(crate) fn peeled(&self) -> Option<&Peeled> {
         self.peeled.as_deref()
     }
-    /// Returns the scale of a slot, and whether it is a given number.
-    pub(crate) fn kind(&self, slot: SlotIndex) -> (u16, bool) {
+    /// Returns the scale of a slot, and when its change counts.
+    pub(crate) fn kind(&self, slot: SlotIndex) -> (u16, Turn) {
         let slot = &self.slots()[slot as usize];
-        (slot.scale, slot.stay == Stay::Given)
+        (slot.scale, slot.stay.turn())
     }
     /// Returns the slots of the system.
     pub(crate) fn slots(&self) -> &[Slot] {

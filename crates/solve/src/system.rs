@@ -71,6 +71,33 @@ pub enum Stay {
     Free,
 }
 
+/// Where an unknown stands among those whose change is to be least, first come first.
+#[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, Debug)]
+pub(crate) enum Turn {
+    /// Given numbers that yield.
+    Given,
+    /// Everything else that has a value to stay at.
+    Valued,
+    /// What has none: it is nearest to zero where the others leave that open.
+    Open,
+}
+
+impl Turn {
+    /// All of them, in order.
+    pub(crate) const ALL: [Self; 3] = [Self::Given, Self::Valued, Self::Open];
+}
+
+impl Stay {
+    /// Returns whose change counts along with that of what is held so.
+    pub(crate) fn turn(self) -> Turn {
+        match self {
+            Self::Given => Turn::Given,
+            Self::Fixed | Self::Kept { .. } => Turn::Valued,
+            Self::Free => Turn::Open,
+        }
+    }
+}
+
 /// One slot.
 #[derive(Clone, PartialEq, Eq, PartialOrd, Ord, Hash, Debug)]
 pub struct Slot {

@@ -1,7 +1,8 @@
 //! Least change of a large linear block, by elimination.
 //!
 //! In: the block, x0, a start. Out: the unknowns, in place, or nothing where the rows are dependent for these
-//! numbers or leave too much free. Rows are eliminated over what is not given, in a finite field, once:
+//! numbers or leave too much free. Rows are eliminated over what is not given
+//! (or, where nothing given yields, what has no value yet), in a finite field, once:
 //! which of them and which unknowns make a square system does not hang on the numbers, and doubles lose
 //! it in long chains. Rows that are left over depend on that system but for given numbers, and bind those:
 //! these go to the nearest point of x0 that is allowed. Of rows that depend on each other the one with the

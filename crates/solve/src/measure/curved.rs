@@ -2,7 +2,8 @@
 //!
 //! In: rows with their levels and weights, a start, the state x0. Out: the unknowns, in place. Required rows
 //! hold; of the others each level counts for a small part of the one above, the distance of given numbers
-//! for as small a part of the last level, and that of everything else for as small a part again. The part
+//! for as small a part of the last level, and that of everything else for as small a part again, those with a
+//! value first. The part
 //! comes down in stages, each of which begins where the one before ended, so that far from a wish
 //! distance still tells which way. One matrix `[H Jᵀ; J -E]` of unknowns and rows, with exact second
 //! derivatives; where it has other than one negative pivot a row, the diagonal of `H` grows. `E` is what a soft row
@@ -16,7 +17,7 @@ use crate::block::{Block, Local, Workspace};
 use crate::dense;
 use crate::sparse::{Ldl, Symmetric};
 use crate::square::Trust;
-use crate::system::Level;
+use crate::system::{Level, Turn};
 
 /// The part that a level counts for of the one above, stage after stage, as a power of the last.
 const STAGES: [f64; 4] = [0.25, 0.5, 0.75, 1.0];
@@ -45,8 +46,8 @@ pub(crate) struct Curved {
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Asked<'a> {
     pub(crate) block: &'a Block,
-    /// For every unknown: it is a given number.
-    pub(crate) given: &'a [bool],
+    /// For every unknown, when its change counts.
+    pub(crate) turns: &'a [Turn],
     /// What makes each row dimensionless.
     pub(crate) weights: &'a [f64],
     /// The state that distance is measured from.
@@ -198,16 +199,18 @@ impl Asked<'_> {
         let levels = &self.block.levels;
         let soft: Vec<Level> =
             Level::SOFT.into_iter().filter(|level| levels.contains(level)).collect();
-        let given = usize::from(self.given.contains(&true));
-        let depth = (soft.len() + given) as f64;
+        let turns: Vec<Turn> =
+            Turn::ALL.into_iter().filter(|turn| self.turns.contains(turn)).collect();
+        let depth = (soft.len() + turns.len().saturating_sub(1)) as f64;
         let least = PART.max(base::number::pow(ALL_PARTS, 1.0 / depth.max(1.0)));
         let part = base::number::pow(least, stage);
         let power = |k: usize| (0..k).map(|_| part).product::<f64>();
         let give = |level: &Level| soft.iter().position(|l| l == level).map(|k| 1.0 / power(k));
-        let distance = |&is_given: &bool| power(soft.len() + usize::from(!is_given) * given);
+        let place = |own: &Turn| turns.iter().position(|turn| turn == own).unwrap_or(0);
+        let distance = |own: &Turn| power(soft.len() + place(own));
         Counts {
             gives: levels.iter().map(|level| give(level).unwrap_or(0.0)).collect(),
-            distance: self.given.iter().map(distance).collect(),
+            distance: self.turns.iter().map(distance).collect(),
         }
     }
 
@@ -284,7 +287,7 @@ mod tests {
         let place = |k: u32| [6.0 * f64::from(k), 8.0 * f64::from(k % 2)];
         let x0: Vec<f64> = (0..=bars).flat_map(place).collect();
         let problem = Problem { rows, unknowns: (2..2 * bars + 2).collect() };
-        let measure = Measure::new(&problem, &|_| (0, false));
+        let measure = Measure::new(&problem, &|_| (0, Turn::Valued));
         assert!(measure.large.is_some());
         let (mut values, scales) = (x0.clone(), vec![6.0 * f64::from(bars); x0.len()]);
         let result =

@@ -11,7 +11,8 @@
 //! (2012); Siciliano and Slotine, *A general framework for managing multiple tasks*, ICAR (1991).
 
 use crate::sparse::{Ldl, Pattern, Symmetric};
-use crate::system::Level;
+use crate::system::{Level, Turn};
+use std::cmp::Ordering;
 
 /// What stands on the diagonal of an unknown that the level at hand does not move.
 const EPSILON: f64 = 1e-7;
@@ -37,8 +38,8 @@ pub(crate) struct Asked<'a> {
     pub(crate) residual: &'a [f64],
     /// For every row, how strongly it wants to.
     pub(crate) levels: &'a [Level],
-    /// For every unknown: it is a given number.
-    pub(crate) given: &'a [bool],
+    /// For every unknown, when its change counts.
+    pub(crate) turns: &'a [Turn],
     /// For every unknown, how far it is from where it was.
     pub(crate) away: &'a [f64],
 }
@@ -84,16 +85,20 @@ impl Levels {
             }
         }
         let back: Vec<f64> = asked.away.iter().map(|away| -away).collect();
-        if !asked.given.contains(&true) {
-            return self.solve(asked, &parts, &vec![1.0; n], &back);
+        let mut near = back;
+        for turn in Turn::ALL.into_iter().filter(|turn| asked.turns.contains(turn)) {
+            // those before are held where they came to, those after go along
+            let weight = |own: &Turn| match own.cmp(&turn) {
+                Ordering::Less => 1.0 / EPSILON,
+                Ordering::Equal => 1.0,
+                Ordering::Greater => 0.0,
+            };
+            let weights: Vec<f64> = asked.turns.iter().map(weight).collect();
+            step = self.solve(asked, &parts, &weights, &near);
+            let own = asked.turns.iter().zip(near.iter_mut().zip(&step));
+            own.filter(|(own, _)| **own == turn).for_each(|(_, (near, came))| *near = *came);
         }
-        let weights = |computed: f64, given: f64| -> Vec<f64> {
-            asked.given.iter().map(|&is_given| if is_given { given } else { computed }).collect()
-        };
-        step = self.solve(asked, &parts, &weights(0.0, 1.0), &back);
-        let to = step.iter().zip(&back).zip(asked.given);
-        let to: Vec<f64> = to.map(|((s, b), &given)| if given { *s } else { *b }).collect();
-        self.solve(asked, &parts, &weights(1.0, 1.0 / EPSILON), &to)
+        step
     }
 
     /// Finds the step of least squares for the rows that tend and for unknowns that are to go so far, each

@@ -15,7 +15,7 @@ use crate::plan::Step;
 use crate::rows::{Point, generic_number};
 use crate::slice::Slice;
 use crate::square::Trust;
-use crate::system::SlotIndex;
+use crate::system::{SlotIndex, Turn};
 use std::collections::BTreeSet;
 
 /// Up to so many slots what was measured anew is measured from the press again.
@@ -182,7 +182,7 @@ impl Way<'_> {
         let buckles = match (&step.program, fork::forking(&step.program)) {
             (Program::Least(least), _) => least.0.buckle(self.trial, scales, work, scratch),
             (_, Some(square)) => {
-                let least = Least::new(&square.block.problem(), &|_| false);
+                let least = Least::new(&square.block.problem(), &|_| Turn::Valued);
                 least.buckle(self.trial, scales, work, scratch)
             }
             (_, None) => false,
