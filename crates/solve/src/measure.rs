@@ -8,7 +8,9 @@
 //! Newton's method on the Lagrangian of every level, each in the directions that the levels above
 //! leave free. A direction is left free where the level above has no curvature, the curvature of the
 //! stronger rows included (exact second derivatives): an elbow that is stretched to its limit is
-//! held there by curvature alone. Where curvature is negative the step goes downhill. A large block is solved by
+//! held there by curvature alone. Where curvature is negative the step goes downhill; where a wish is met worst, and
+//! no slope says which way is down, it goes to one side: that on which the unknown that moves most grows. A large
+//! block is solved by
 //! sparse factors, a linear one level by level ([`levels`]), a curved one with all levels together ([`curved`]).
 //!
 //! **Source:** Nocedal and Wright, *Numerical Optimization*, 2nd ed., §18.1 and §3.4.
@@ -96,6 +98,26 @@ struct Begun {
     way: f64,
 }
 
+/// What all levels together ask for, in scaled unknowns.
+struct Direction {
+    step: Vec<f64>,
+    /// Where the highest level that is bent down somewhere is.
+    crest: Option<Crest>,
+}
+
+/// A direction in which the errors of a level grow less to both sides.
+struct Crest {
+    level: Level,
+    along: Vec<f64>,
+}
+
+/// A state at the crest of a level's errors that was left, and what they came to there.
+struct Left {
+    at: Vec<f64>,
+    level: Level,
+    errors: f64,
+}
+
 impl Begun {
     fn new(from: &Scaled, step: &[f64]) -> Self {
         let along: Vec<f64> = from.jacobian.iter().map(|row| dense::dot(row, step)).collect();
@@ -127,6 +149,10 @@ const SETTLED: f64 = 1e-12;
 /// How many of those are taken all the same where a hard row does not hold yet: what is small beside its scale
 /// has a steep slope.
 const POLISH: usize = 8;
+/// A wish is at its worst, and not at its best, where it is bent down more than this, where ordinary curvature is one.
+const CREST: f64 = 1e-6;
+/// How far aside it goes from there, in parts of the extent.
+const ASIDE: f64 = 1e-3;
 /// A state from which no step is longer than this is settled.
 const STILL: f64 = 1e-9;
 
@@ -192,6 +218,7 @@ impl Measure {
         let (mut smallest, mut idle) = (f64::INFINITY, 0);
         let (mut settled, mut polished) = (false, 0);
         let mut begun: Option<Begun> = None;
+        let mut left: Option<Left> = None;
         for iteration in 0..STEPS {
             w.spend(self.cost());
             if w.is_spent() {
@@ -206,7 +233,7 @@ impl Measure {
                 .zip(&scale)
                 .map(|(&u, s)| (values[u as usize] - x0[u as usize]) / s)
                 .collect();
-            let mut step = self.direction(&scaled, &away, &weights, values, w);
+            let Direction { mut step, crest } = self.direction(&scaled, &away, &weights, values, w);
             let size = step.iter().fold(0.0f64, |m, d| m.max(d.abs()));
             if !size.is_finite() {
                 return Measured::Failed;
@@ -218,7 +245,7 @@ impl Measure {
                 _ => false,
             };
             let bends = iteration == 1 && begun.as_ref().is_some_and(|b| b.bends_to(&scaled));
-            if trust == Trust::Branch && curved && (leaps || bends) {
+            if trust == Trust::Branch && curved && left.is_none() && (leaps || bends) {
                 return Measured::Failed;
             }
             // longer steps than half the extent are not believed
@@ -232,7 +259,15 @@ impl Measure {
                 settled = true;
                 let is_polished = size > SETTLED || polished == POLISH;
                 if is_polished || self.hard_rows_hold(&scaled, values, w) {
-                    break;
+                    let Some(crest) = crest.filter(|_| left.is_none()) else { break };
+                    let at = self.unknowns.iter().map(|&u| values[u as usize]).collect();
+                    let errors = self.errors(&scaled, crest.level);
+                    left = Some(Left { at, level: crest.level, errors });
+                    for ((&u, d), s) in self.unknowns.iter().zip(&crest.along).zip(&scale) {
+                        values[u as usize] += ASIDE * d * s;
+                    }
+                    (smallest, idle, settled, polished) = (f64::INFINITY, 0, false, 0);
+                    continue;
                 }
                 polished += 1;
             }
@@ -241,7 +276,7 @@ impl Measure {
             } else {
                 idle += 1;
                 if idle > 60 {
-                    return Measured::Failed;
+                    break;
                 }
             }
             let length = self.advance(values, &step, &scale, off, &weights, w);
@@ -250,10 +285,17 @@ impl Measure {
                 begun = Some(Begun::new(&scaled, &step));
             }
         }
-        match self.evaluate(values, &scale, &weights, w) {
-            Some(local) if settled && self.hard_rows_hold(&local, values, w) => Measured::Least,
-            Some(_) | None => Measured::Failed,
+        let end = self.evaluate(values, &scale, &weights, w);
+        let end = end.filter(|end| settled && self.hard_rows_hold(end, values, w));
+        let Some(left) = left else {
+            return if end.is_some() { Measured::Least } else { Measured::Failed };
+        };
+        if end.is_none_or(|end| self.errors(&end, left.level) >= left.errors) {
+            // there is nothing better beside it
+            self.unknowns.iter().zip(&left.at).for_each(|(&u, x)| values[u as usize] = *x);
+            self.block.compute_defined(values, w);
         }
+        Measured::Least
     }
 
     /// Returns true if the state, as it is, is what solving would leave: hard rows hold and no level
@@ -289,7 +331,7 @@ impl Measure {
             .zip(&scale)
             .map(|(&u, s)| (values[u as usize] - x0[u as usize]) / s)
             .collect();
-        let step = self.direction(&local, &away, &weights, values, w);
+        let Direction { step, .. } = self.direction(&local, &away, &weights, values, w);
         self.hard_rows_hold(&local, values, w) && step.iter().all(|d| d.abs() <= STILL)
     }
 
@@ -298,6 +340,11 @@ impl Measure {
         (0..self.block.height())
             .filter(hard)
             .all(|r| self.block.row_holds(&scaled.local, r, values, w))
+    }
+    /// Returns the sum of squares of the errors of a level.
+    fn errors(&self, scaled: &Scaled, level: Level) -> f64 {
+        let errors = scaled.residual.iter().zip(&self.levels).filter(|(_, own)| **own == level);
+        errors.map(|(r, _)| r * r).sum()
     }
     /// Computes how far rows are off.
     fn off(&self, local: &Scaled) -> Off {
@@ -431,9 +478,9 @@ impl Measure {
         weights: &[f64],
         values: &[f64],
         w: &mut Workspace,
-    ) -> Vec<f64> {
+    ) -> Direction {
         if let Some(Large::Linear(large)) = &self.large {
-            return large.step(Asked {
+            let step = large.step(Asked {
                 pattern: &self.block.pattern,
                 slopes: &local.slopes,
                 residual: &local.residual,
@@ -441,6 +488,7 @@ impl Measure {
                 turns: &self.turns,
                 away,
             });
+            return Direction { step, crest: None };
         }
         let n = self.unknowns.len();
         let of_level =
@@ -450,6 +498,7 @@ impl Measure {
         let Spaces { range, null } = dense::spaces(&hard, n);
         let mut step = least_norm(&above, local, &range, n);
         let mut free = null;
+        let mut crest = None;
         for level in Level::SOFT {
             let own: Vec<usize> = of_level(level).collect();
             if own.is_empty() || free.is_empty() {
@@ -476,7 +525,9 @@ impl Measure {
             if to_meet.as_ref().is_some_and(meets) {
                 hessian.clone_from(&flat);
             }
-            free = descend(&mut step, &free, &gradient, [&hessian, &flat], n);
+            let descended = descend(&mut step, &free, &gradient, [&hessian, &flat], n);
+            free = descended.left;
+            crest = crest.or_else(|| Some(Crest { level, along: descended.crest? }));
             above.extend(own);
         }
         for turn in Turn::ALL {
@@ -497,9 +548,9 @@ impl Measure {
             let factor = self.multipliers(local, &above, &gradient);
             let flat = hessian.clone();
             self.add_curvature(local, &factor, weights, values, w, &mut hessian);
-            free = descend(&mut step, &free, &gradient, [&hessian, &flat], n);
+            free = descend(&mut step, &free, &gradient, [&hessian, &flat], n).left;
         }
-        step
+        Direction { step, crest }
     }
 
     /// Multipliers of the rows above that best balance a gradient, by row.
@@ -671,7 +722,15 @@ fn can_be_met(rows: &[usize], local: &Scaled, step: &[f64], [hessian, flat]: [&[
     2.0 * bend <= left
 }
 
-/// Adds the step that is best for one level in the free directions; returns those it leaves free. The
+/// What a level's step leaves.
+struct Descended {
+    /// The directions that it leaves free.
+    left: Vec<Vec<f64>>,
+    /// The direction, of length one, in which it is bent down most, if it is.
+    crest: Option<Vec<f64>>,
+}
+
+/// Adds the step that is best for one level in the free directions. The
 /// Hessian comes with and without the curvature of the rows: where both slopes and curvatures balance to
 /// nothing but a slope (a crank a quarter turn from its wish), the level's own curvature decides.
 fn descend(
@@ -680,7 +739,7 @@ fn descend(
     gradient: &[f64],
     [hessian, own]: [&[f64]; 2],
     n: usize,
-) -> Vec<Vec<f64>> {
+) -> Descended {
     let k = free.len();
     let apply =
         |v: &[f64]| -> Vec<f64> { (0..n).map(|i| dense::dot(&hessian[i * n..][..n], v)).collect() };
@@ -695,10 +754,14 @@ fn descend(
     }
     let (values, vectors) = dense::eigen(reduced, k);
     let mut left = Vec::new();
+    let (mut lowest, mut crest) = (-CREST, None);
     for (value, v) in values.iter().zip(&vectors) {
         let mut along = vec![0.0; n];
         for (z, part) in free.iter().zip(v) {
             dense::add(&mut along, *part, z);
+        }
+        if *value < lowest {
+            (lowest, crest) = (*value, Some(along.clone()));
         }
         let down = -dense::dot(&along, &slope);
         if value.abs() > FLAT {
@@ -715,5 +778,14 @@ fn descend(
             left.push(along);
         }
     }
-    left
+    Descended { left, crest: crest.map(to_grow) }
+}
+
+/// Returns a direction or its opposite: that in which the unknown that moves most grows, of several the first.
+fn to_grow(mut along: Vec<f64>) -> Vec<f64> {
+    let largest = along.iter().fold(0.0f64, |size, d| size.max(d.abs()));
+    if along.iter().find(|d| d.abs() > 0.999 * largest).is_some_and(|first| *first < 0.0) {
+        along.iter_mut().for_each(|d| *d = -*d);
+    }
+    along
 }
