@@ -13,6 +13,7 @@ pub mod held;
 pub mod motion;
 pub mod redundancy;
 pub mod repair;
+pub(crate) mod second;
 pub(crate) mod trial;
 
 use crate::host::Host;

@@ -52,11 +52,11 @@ pub struct Dependent {
 
 /// Rows whose sum vanishes, each so many times.
 #[derive(Clone, PartialEq, Debug)]
-pub(crate) struct Vanishing<N = f64> {
+pub struct Vanishing<N = f64> {
     /// The last of them, there once.
-    pub(crate) last: u32,
+    pub last: u32,
     /// How much of each row there is, in order.
-    pub(crate) sum: Row<N>,
+    pub sum: Row<N>,
 }
 
 impl<N: Number> Echelon<N> {
@@ -100,7 +100,7 @@ impl<N: Number> Echelon<N> {
 
     /// Returns the sums of rows that vanish, each row scaled so that the largest of its numbers is one, in
     /// order of their last rows; the last row of each is in no other.
-    pub(crate) fn vanishing(&self) -> Vec<Vanishing<N>> {
+    pub fn vanishing(&self) -> Vec<Vanishing<N>> {
         let mut reduced: Vec<Vanishing<N>> = Vec::new();
         for &row in &self.vanished {
             let mut own = self.combination(row);

@@ -3,11 +3,13 @@
 //! They are the null space of the rows at the present state, with anchors and given numbers held. Any
 //! basis would do; a readable one has the motions of one place first, then those of the whole as a
 //! rigid body, then what is left, shortest first. Where two curves only touch, the null space is
-//! larger than the freedom: then a motion counts if a small step along it can be completed.
+//! larger than the freedom: then it is that of what rows say to second order as well (`second`), and where that
+//! does not tell either, a motion counts if a small step along it can be completed as it is.
 
 use crate::aim::Aim;
 use crate::diagnose::gradient::gradient;
 use crate::diagnose::redundancy::Redundancy;
+use crate::diagnose::second;
 use crate::diagnose::trial::{Setup, Trial, scattered};
 use crate::holds::counts;
 use crate::host::Host;
@@ -15,7 +17,7 @@ use crate::planner::{Model, Planner};
 use crate::rule::{Body, Source};
 use crate::task::{Course, Holding, Task};
 use kernel::{Primitive, SlotId, ThingId, Values};
-use solve::echelon::{Basis, Echelon, Row};
+use solve::echelon::{Basis, Echelon, Row, Vanishing};
 use solve::{Level, Scratch};
 use std::collections::{BTreeMap, BTreeSet};
 
@@ -95,10 +97,17 @@ impl Planner {
             let wanted = task.plan.report.freedom
                 + redundancy.theorems.get(&index).copied().unwrap_or_default();
             out.freedom += wanted;
-            let space = Space::new(self, model, task, values, &superfluous, &mut scratch);
+            let mut space = Space::new(self, model, task, values, &superfluous, &mut scratch);
+            if space.free.len() > wanted
+                && let Some(bent) = space.to_second_order(self, model, values, &mut scratch)
+                && bent.free.len() == wanted
+            {
+                space = bent;
+            }
             let mut motions = space.motions(model, values);
             if space.free.len() > wanted {
                 motions.retain(|m| self.goes_on(model, task, values, m, host));
+                motions.truncate(wanted);
                 out.free.extend(motions.iter().flat_map(|m| m.moves.iter().map(|e| e.0)));
             } else {
                 out.free.extend(space.movable());
@@ -111,7 +120,7 @@ impl Planner {
         out
     }
 
-    /// Returns true if a small step along a motion can be completed to one that holds.
+    /// Returns true if a small step along a motion can be completed to one that holds, by next to nothing.
     fn goes_on(
         &mut self,
         model: Model<'_>,
@@ -120,17 +129,15 @@ impl Planner {
         motion: &Motion,
         host: &mut dyn Host,
     ) -> bool {
-        /// How far, as a part of the largest number of its kind around it, and how much of it must remain.
+        /// How far, as a part of the largest number of its kind around it, and which part of that it may be off.
         const PART: f64 = 1e-3;
-        const REMAINS: f64 = 0.5;
-        let kind = |s: &SlotId| model.structure.slots[*s].primitive;
-        let moves = |s: &&SlotId| motion.moves.iter().any(|m| kind(&m.0) == kind(s));
-        let alike = task.component.slots().iter().filter(moves);
-        let size = alike.map(|s| values.numbers[*s].abs()).fold(1.0, f64::max);
+        const OFF: f64 = 0.1;
+        let size = size_around(model, task.component.slots(), &motion.moves, values);
         let mut there = values.clone();
         for &(s, v) in &motion.moves {
             there.numbers[s] += PART * size * v;
         }
+        let asked = there.clone();
         let is_required = |r: &u32| self.rules.get(*r).shape.level == Level::Required;
         let rules: Vec<u32> = task.component.rules().iter().copied().filter(is_required).collect();
         let holding = |s| Self::resting_hold(model.structure, s);
@@ -138,13 +145,22 @@ impl Planner {
         if self.try_rules(&setup, &rules, &mut there, host) != Trial::Holds {
             return false;
         }
-        let (mut along, mut whole) = (0.0, 0.0);
-        for &(s, v) in &motion.moves {
-            along += (there.numbers[s] - values.numbers[s]) * v;
-            whole += PART * size * v * v;
-        }
-        along >= REMAINS * whole
+        let is_near =
+            |s: &SlotId| (there.numbers[*s] - asked.numbers[*s]).abs() <= OFF * PART * size;
+        task.component.slots().iter().all(is_near)
     }
+}
+
+/// Returns the largest of the numbers of the kinds that move, one at least.
+fn size_around(
+    model: Model<'_>,
+    slots: &[SlotId],
+    moves: &[(SlotId, f64)],
+    values: &Values,
+) -> f64 {
+    let kind = |s: &SlotId| model.structure.slots[*s].primitive;
+    let is_alike = |s: &&SlotId| moves.iter().any(|m| kind(&m.0) == kind(s));
+    slots.iter().filter(is_alike).map(|s| values.numbers[*s].abs()).fold(1.0, f64::max)
 }
 
 /// The null space of the required rows of a component.
@@ -152,12 +168,19 @@ struct Space {
     /// The slots that may move: the columns.
     columns: Vec<SlotId>,
     rows: Vec<Row>,
+    /// For every row, which equation of which rule it is.
+    stated: Vec<(u32, usize)>,
     echelon: Echelon,
     /// The columns without a pivot.
     free: Vec<u32>,
     /// Where places of the component stand that cannot move.
     held: Vec<[f64; 2]>,
 }
+
+/// Of so many motions what rows say to second order is looked at.
+const BENT: usize = 64;
+/// By how much numbers are moved to find how slopes turn, in parts of the largest of their kind.
+const NUDGE: f64 = 1e-5;
 
 impl Space {
     fn new(
@@ -176,7 +199,7 @@ impl Space {
         let columns: Vec<SlotId> = task.component.slots().iter().copied().filter(moves).collect();
         let column = |s: SlotId| columns.binary_search(&s).ok().map(|i| i as u32);
         let patterns = planner.plans.patterns();
-        let mut rows: Vec<Row> = Vec::new();
+        let (mut rows, mut stated) = (Vec::<Row>::new(), Vec::new());
         for &index in task.component.rules() {
             let rule = planner.rules.get(index);
             let Body::Equations(equations) = &rule.shape.body else { continue };
@@ -186,7 +209,8 @@ impl Space {
             {
                 continue;
             }
-            for equation in equations {
+            for (place, equation) in equations.iter().enumerate() {
+                stated.push((index, place));
                 let row = gradient(patterns, rule, equation, &values.numbers, scratch);
                 rows.push(row.into_iter().filter_map(|(s, v)| Some((column(s)?, v))).collect());
             }
@@ -200,7 +224,60 @@ impl Space {
             }
         }
         let held = held.into_values().filter_map(|c| <[f64; 2]>::try_from(c).ok()).collect();
-        Self { columns, rows, echelon, free, held }
+        Self { columns, rows, stated, echelon, free, held }
+    }
+
+    /// Returns the same with what the rows say to second order; nothing where too much is free.
+    fn to_second_order(
+        &self,
+        planner: &Planner,
+        model: Model<'_>,
+        values: &Values,
+        scratch: &mut Scratch,
+    ) -> Option<Self> {
+        if self.free.len() > BENT {
+            return None;
+        }
+        let slope = |r: u32| self.rows[r as usize].iter().fold(0.0f64, |m, e| m.max(e.1.abs()));
+        let motion = |&c: &u32| (c, self.echelon.complete(&[(c, 1.0)]));
+        let motions: Vec<(u32, Row)> = self.free.iter().map(motion).collect();
+        let slots = |motion: &Row| -> Vec<(SlotId, f64)> {
+            motion.iter().map(|&(c, v)| (self.columns[c as usize], v)).collect()
+        };
+        let all: Vec<(SlotId, f64)> = motions.iter().flat_map(|m| slots(&m.1)).collect();
+        let size = size_around(model, &self.columns, &all, values);
+        // sums are of rows whose largest slope is one
+        let sums: Vec<(Vanishing, f64)> =
+            self.echelon.vanishing().into_iter().map(|sum| (sum, 1.0 / size)).collect();
+        let patterns = planner.plans.patterns();
+        let turned = |sum: &Vanishing, motion: &Row| -> Row {
+            let largest = motion.iter().fold(0.0f64, |m, e| m.max(e.1.abs()));
+            let by = NUDGE * size / largest;
+            let mut turned = vec![0.0; self.columns.len()];
+            for by in [by, -by] {
+                let mut there = values.numbers.clone();
+                slots(motion).into_iter().for_each(|(s, v)| there[s] += by * v);
+                for &(r, share) in &sum.sum {
+                    let (rule, place) = self.stated[r as usize];
+                    let rule = planner.rules.get(rule);
+                    let Body::Equations(equations) = &rule.shape.body else { continue };
+                    let share = share / slope(r);
+                    for (s, v) in gradient(patterns, rule, &equations[place], &there, scratch) {
+                        if let Ok(c) = self.columns.binary_search(&s) {
+                            turned[c] += share * v / (2.0 * by);
+                        }
+                    }
+                }
+            }
+            (0..).zip(turned).filter(|e| e.1 != 0.0).collect()
+        };
+        let equations = second::equations(&motions, &sums, turned);
+        let rows = [self.rows.clone(), equations].concat();
+        let echelon = Echelon::new(&rows, self.columns.len());
+        let free = (0..self.columns.len() as u32).filter(|&c| !echelon.has_pivot(c)).collect();
+        let (columns, stated, held) =
+            (self.columns.clone(), self.stated.clone(), self.held.clone());
+        Some(Self { columns, rows, stated, echelon, free, held })
     }
 
     /// Returns the slots that some motion moves: those that a motion of no particular kind does.

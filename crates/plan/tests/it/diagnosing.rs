@@ -217,3 +217,25 @@ fn what_gives_way_to_first_order_alone_is_no_motion() {
     assert_eq!(analysis.freedom, 0);
     assert_eq!(analysis.motions, []);
 }
+
+#[test]
+fn what_touches_moves_with_what_it_touches() {
+    let mut b = Builder::new();
+    let root = b.class("document", &[("p0", POINT), ("p1", POINT), ("p2", POINT)]);
+    // circles of 3 and 5 that touch in p2
+    for (name, x) in [("p0", 0.0), ("p1", 8.0), ("p2", 3.0)] {
+        b.given(root, name, pair(x, 0.0));
+    }
+    b.stay(root, "p0", None);
+    b.constraint(root, equal(distance(0, 1), n(8.0)));
+    b.constraint(root, equal(distance(0, 2), n(3.0)));
+    b.constraint(root, equal(distance(1, 2), n(5.0)));
+    let mut lab = b.open(root);
+    let analysis = lab.analyse();
+    assert_eq!(analysis.freedom, 1);
+    let [motion] = &analysis.motions[..] else { panic!("one motion: {:?}", analysis.motions) };
+    assert_eq!(motion.kind, MotionKind::Rotation { center: [0.0, 0.0] });
+    let [(far, one), (near, part)] = motion.moves[..] else { panic!("two numbers move") };
+    assert_eq!([far, near], [lab.slot("p1.y"), lab.slot("p2.y")]);
+    assert_eq!([one, part], [1.0, 0.375]);
+}
