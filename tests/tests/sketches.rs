@@ -114,8 +114,9 @@ fn sketches_of_every_family_are_solved_whatever_their_seed() {
         for &size in sizes {
             for seed in seeds.clone() {
                 let case = generate(family, size, seed);
-                for shortfall in shortfalls(&case.name, &case) {
-                    failures += &format!("{} of seed {seed}: {shortfall}\n", case.name);
+                let name = format!("{} of seed {seed}", case.name);
+                for shortfall in shortfalls(&name, &case) {
+                    failures += &format!("{name}: {shortfall}\n");
                 }
             }
         }

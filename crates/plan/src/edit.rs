@@ -148,7 +148,7 @@ impl Planner {
         } else {
             self.net.all(&self.rules, &|s| holding(s) == Holding::Fixed).components
         };
-        let mut tasks = self.tasks(model.structure, components, &holding, &[]);
+        let mut tasks = self.tasks(model.structure, components, &holding, &[], None);
         let mut report = EditReport { reached: true, ..EditReport::default() };
         let before = values.clone();
         self.plans.past.begin();
@@ -386,7 +386,8 @@ impl Planner {
             let is_fixed = |s| holding(s) == Holding::Fixed;
             self.net.around(start, &self.rules, &is_fixed, &tied)
         };
-        let tasks = self.tasks(structure, components, &holding, &aim.wishes);
+        let is_edited = |slot: SlotId| aim.fixed.contains_key(&slot);
+        let tasks = self.tasks(structure, components, &holding, &aim.wishes, Some(&is_edited));
         self.recent.add(aim, &tasks);
         tasks
     }
@@ -410,7 +411,7 @@ impl Planner {
         }
         let holding = |s| Self::resting_hold(model.structure, s);
         let components = self.resting_around(model.structure, &soft, &[]);
-        let tasks = self.tasks(model.structure, components, &holding, &[]);
+        let tasks = self.tasks(model.structure, components, &holding, &[], None);
         let start = values.clone();
         let aim = Aim::default();
         tasks

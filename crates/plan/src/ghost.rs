@@ -130,7 +130,7 @@ impl Planner {
         let is_fixed = |slot| holding(slot) == Holding::Fixed;
         let mut components = self.net.around(own.iter().copied(), &self.rules, &is_fixed, &[]);
         components.retain(|c| c.slots().len() <= most);
-        for task in self.tasks(structure, components, &holding, &[]) {
+        for task in self.tasks(structure, components, &holding, &[], None) {
             self.ghosts_of(model, &task, own, values, host, found);
         }
     }

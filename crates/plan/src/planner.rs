@@ -230,8 +230,10 @@ impl Planner {
         components: Vec<Component>,
         holding: &dyn Fn(SlotId) -> Holding,
         wishes: &[Wish],
+        is_edited: Option<&dyn Fn(SlotId) -> bool>,
     ) -> Vec<Task> {
-        let setting = Setting { structure, rules: &self.rules, net: &self.net, holding, wishes };
+        let (rules, net) = (&self.rules, &self.net);
+        let setting = Setting { structure, rules, net, holding, wishes, is_edited };
         let mut locals = Locals::new(structure);
         // what is planned first and alone is like nothing else
         let is_first = components.len() == 1 && self.plans.mark() == 0;
@@ -245,8 +247,9 @@ impl Planner {
         if self.resting.is_none() {
             let holding = &|s| Self::resting_hold(structure, s);
             let components = self.whole(structure).components.clone();
-            let setting =
-                Setting { structure, rules: &self.rules, net: &self.net, holding, wishes: &[] };
+            let (rules, net) = (&self.rules, &self.net);
+            let (wishes, is_edited) = (&[][..], None);
+            let setting = Setting { structure, rules, net, holding, wishes, is_edited };
             let (plans, alike, mut locals) = (&mut self.plans, &mut self.alike, None);
             let opened = self.latest.tasks.iter().map(Some).chain(std::iter::repeat(None));
             let task = |known| at_rest(plans, alike, &setting, &mut locals, known);

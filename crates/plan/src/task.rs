@@ -140,6 +140,8 @@ pub(crate) struct Setting<'s> {
     pub(crate) holding: &'s dyn Fn(SlotId) -> Holding,
     /// Wishes by their index in the edit.
     pub(crate) wishes: &'s [Wish],
+    /// Which slots the edit gives a value, where the rules hold when it begins.
+    pub(crate) is_edited: Option<&'s dyn Fn(SlotId) -> bool>,
 }
 
 /// States a component as a system and plans it, unless one was that is alike.
@@ -153,7 +155,8 @@ pub(crate) fn task(
     for (&slot, local) in component.slots().iter().zip(0..) {
         locals.0[slot] = local;
     }
-    let Some(alike) = alike.filter(|_| setting.wishes.is_empty()) else {
+    let Some(alike) = alike.filter(|_| setting.wishes.is_empty() && setting.is_edited.is_none())
+    else {
         return Task::of(state(plans, setting, locals, &component), component);
     };
     alike.sign(setting, locals, &component);

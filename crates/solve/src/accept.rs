@@ -4,7 +4,8 @@
 //! cannot, and the slots that may move. A given number is a constant unless a row could not be
 //! accepted otherwise. Of the rest, a place or lone number stays if the accepted rows can do without
 //! it, asked in order of declaration, all its coordinates at once; but no given number that yields takes
-//! its part in them: it changes least first, and what is computed follows.
+//! its part in them: it changes least first, and what is computed follows. A place that rows determine all the same
+//! stays too where those rest: they hold where the edit begins, and nothing that it speaks of moves them.
 //!
 //! All rows are first tried by matching, which is linear as a rule and certain where it says yes. Where it does
 //! not, rows that share no slot that may move, by way of places either, are decided apart: a piece by matching
@@ -17,6 +18,7 @@ use crate::lists::Lists;
 use crate::matching::Matcher;
 use crate::number::Number;
 use crate::order::Blocks;
+use crate::rest::Resting;
 use crate::rows::Rows;
 use crate::sparse::{Pattern, Symbolic};
 use crate::substitute::Classes;
@@ -50,6 +52,8 @@ pub(crate) struct Acceptance {
     pub(crate) determined: usize,
     /// The large blocks that were found regular.
     pub(crate) factored: Vec<Factored>,
+    /// Rows that were accepted and hold where they are: all that they speak of stays.
+    pub(crate) resting: Vec<usize>,
     /// A slot for every row, where all were accepted by matching at once.
     pub(crate) matched: Option<Matched>,
     /// The slots of every place that may be held, by its group, over representatives.
@@ -59,7 +63,7 @@ pub(crate) struct Acceptance {
 /// A slot of its own for every row, among those that may move.
 #[derive(Clone, PartialEq, Eq, Debug)]
 pub(crate) struct Matched {
-    /// For every row, its slot.
+    /// For every row, its slot; none for one that rests.
     pub(crate) slot_of_row: Vec<Option<SlotIndex>>,
     /// For every slot, its row.
     pub(crate) row_of_slot: Vec<Option<usize>>,
@@ -86,6 +90,19 @@ impl Acceptance {
     pub(crate) fn yields(&self) -> (usize, usize, usize) {
         let unknown = self.unknown.iter().filter(|u| **u).count();
         (self.yielded.len(), unknown, self.determined)
+    }
+    /// Takes from the accepted rows those that hold where they are.
+    fn let_rest(&mut self, rows: &Rows, resting: &Resting) {
+        if resting.is_empty() {
+            return;
+        }
+        let Self { accepted, unknown, resting: own, .. } = self;
+        accepted.retain(|&r| {
+            let rests = resting.has(r) && !rows.columns(r).iter().any(|e| unknown[e.0 as usize]);
+            own.extend(rests.then_some(r));
+            !rests
+        });
+        own.sort_unstable();
     }
     /// Returns the pivots that suit a block, where it is one of those that were factorised.
     pub(crate) fn pivots(&self, rows: &[usize], unknowns: &[SlotIndex]) -> Option<&Factored> {
@@ -141,11 +158,17 @@ impl Asked {
     }
 }
 
-/// Decides which rows are accepted and which slots stay.
-pub(crate) fn accept(system: &System, classes: &Classes, rows: &Rows) -> Acceptance {
+/// Decides which rows are accepted and which slots stay; of some rows it may be known that nothing moves them
+/// while what they speak of stays.
+pub(crate) fn accept(
+    system: &System,
+    classes: &Classes,
+    rows: &Rows,
+    resting: &Resting,
+) -> Acceptance {
     let asked = Asked::new(system, classes, rows);
     let mut out = undecided(classes);
-    let mut matcher = Matcher::new(system, classes, rows);
+    let mut matcher = Matcher::new(system, classes, rows, resting);
     if matcher.accept(asked.all(), &mut out) {
         out.matched = Some(matcher.into_matched());
     } else {
@@ -158,12 +181,13 @@ pub(crate) fn accept(system: &System, classes: &Classes, rows: &Rows) -> Accepta
             }
             let near = rows.doubles(piece.rows);
             let most = (piece.rows.len() > LARGE).then_some(MOST_WORK);
-            let came = exact::accept(system, classes, rows, &near, piece, most, out);
+            let given = Given { system, classes, rows, resting };
+            let came = exact::accept(&given, &near, piece, most, out);
             if came == Came::All {
                 return;
             }
             let is_too_much = came == Came::TooMuch;
-            let mut eliminate = Eliminating { system, classes, rows, matcher: &mut matcher, piece };
+            let mut eliminate = Eliminating { given, matcher: &mut matcher, piece };
             match rows.residues(piece.rows) {
                 Some(exact) => eliminate.with(&exact, is_too_much, out),
                 None => eliminate.with(&near, true, out),
@@ -171,6 +195,7 @@ pub(crate) fn accept(system: &System, classes: &Classes, rows: &Rows) -> Accepta
         });
     }
     count(system, classes, &mut out);
+    out.let_rest(rows, resting);
     out.places = asked.all_places;
     out
 }
@@ -212,11 +237,18 @@ fn count(system: &System, classes: &Classes, out: &mut Acceptance) {
     out.yielded = (0..n as u32).filter(|&s| is_given(s) && out.unknown[s as usize]).collect();
 }
 
+/// What acceptance is asked about.
+#[derive(Clone, Copy)]
+pub(crate) struct Given<'a> {
+    pub(crate) system: &'a System,
+    pub(crate) classes: &'a Classes,
+    pub(crate) rows: &'a Rows,
+    pub(crate) resting: &'a Resting,
+}
+
 /// A large piece that is decided by elimination.
 struct Eliminating<'a, 'p> {
-    system: &'a System,
-    classes: &'a Classes,
-    rows: &'a Rows,
+    given: Given<'a>,
     matcher: &'p mut Matcher<'a>,
     piece: Piece<'p>,
 }
@@ -230,9 +262,10 @@ impl Eliminating<'_, '_> {
         is_too_much: bool,
         out: &mut Acceptance,
     ) {
-        let Self { system, classes, rows, ref mut matcher, piece } = *self;
+        let Self { given, ref mut matcher, piece } = *self;
+        let Given { classes, rows, .. } = given;
         let tableau = |most, out: &mut Acceptance| {
-            exact::accept(system, classes, rows, coefficients, piece, most, out) == Came::All
+            exact::accept(&given, coefficients, piece, most, out) == Came::All
         };
         let is_decided = !is_too_much && tableau(Some(MOST_WORK), out)
             || deflate::accept(classes, rows, coefficients, matcher, piece, out);
@@ -288,7 +321,7 @@ fn apart(
 
 /// Returns the slots of every place that may be held, by its group, over representatives.
 ///
-/// A coordinate that equals an earlier or firmer one has yielded, and its place with it.
+/// A coordinate that equals an earlier or firmer one is that one's, and stays where that does.
 fn places(system: &System, classes: &Classes) -> Lists {
     let grouped = || {
         (0..).zip(&system.slots).filter_map(|(s, slot)| match slot.stay {
@@ -297,11 +330,8 @@ fn places(system: &System, classes: &Classes) -> Lists {
         })
     };
     let count = grouped().map(|g: (u32, u32)| g.0 as usize + 1).max().unwrap_or(0);
-    let mut is_own = vec![true; count];
-    for (group, slot) in grouped() {
-        is_own[group as usize] &= classes.stay[slot as usize] == Stay::Kept { group };
-    }
-    Lists::new(count, grouped().filter(|g| is_own[g.0 as usize]))
+    let is_own = |&(group, slot): &(u32, u32)| classes.stay[slot as usize] == Stay::Kept { group };
+    Lists::new(count, grouped().filter(is_own))
 }
 
 #[cfg(test)]

@@ -3,12 +3,11 @@
 //! In: the rows of a piece in order of acceptance, the places that touch it. Out: the same as by
 //! matching, found by a fully reduced tableau at a generic point. Cost: up to cubic in the piece.
 
-use crate::accept::{Acceptance, Dependent, Piece};
+use crate::accept::{Acceptance, Dependent, Given, Piece};
 use crate::echelon::Row;
 use crate::number::Number;
-use crate::rows::Rows;
 use crate::substitute::Classes;
-use crate::system::{Level, SlotIndex, Stay, System};
+use crate::system::{Level, SlotIndex, Stay};
 use crate::tableau::{Reduced, Tableau};
 use std::collections::{BTreeMap, BTreeSet};
 
@@ -36,24 +35,33 @@ pub(crate) enum Came {
     Doubtful,
 }
 
+/// The first of the columns that are no slots: each tells that a row which does not rest takes part.
+const MOVING: u32 = 1 << 31;
+
 /// Decides for one piece with these coefficients, row by row, unless that takes more work than some times what
 /// the rows hold; then also not where rounding may decide something.
 pub(crate) fn accept<N: Number>(
-    system: &System,
-    classes: &Classes,
-    rows: &Rows,
+    given: &Given<'_>,
     coefficients: &[Row<N>],
     piece: Piece<'_>,
     most: Option<usize>,
     out: &mut Acceptance,
 ) -> Came {
+    let Given { system, classes, rows, resting } = *given;
+    let may_rest = piece.rows.iter().any(|&r| resting.has(r as usize));
     let size: usize = coefficients.iter().map(Row::len).sum();
     let is_bounded = most.is_some();
     let most = most.map_or(usize::MAX, |times| times * size);
     let mut state = State::new(classes, coefficients, piece);
     let (mut accepted, mut dependent, mut determined) = (Vec::new(), Vec::new(), 0);
     for (r, own) in piece.rows.iter().map(|&r| r as usize).zip(coefficients) {
-        let reduced = state.tableau.reduce(own);
+        let reduced = if may_rest && !resting.has(r) {
+            let mut marked = own.clone();
+            marked.push((MOVING + r as u32, N::ONE));
+            state.tableau.reduce(&marked)
+        } else {
+            state.tableau.reduce(own)
+        };
         match state.pivot(&reduced.row) {
             Some(column) => {
                 if rows[r].level == Level::Required
@@ -75,8 +83,11 @@ pub(crate) fn accept<N: Number>(
         }
     }
     hold_given(&mut state);
+    // what yields may be read
+    let may_rest = may_rest && !state.columns.values().any(|&column| column == Column::Yields);
+    let mut some_rest = false;
     for place in piece.places() {
-        hold(&mut state, place);
+        some_rest |= hold(&mut state, place, may_rest);
         if state.tableau.work() > most {
             return Came::TooMuch;
         }
@@ -86,6 +97,21 @@ pub(crate) fn accept<N: Number>(
     }
     for (&slot, &column) in &state.columns {
         out.unknown[slot as usize] = matches!(column, Column::Open | Column::Yields);
+    }
+    if some_rest {
+        // of rows over what still moves, those that others imply say nothing more
+        let mut left = Tableau::default();
+        let own: BTreeMap<u32, &Row<N>> = piece.rows.iter().copied().zip(coefficients).collect();
+        accepted.retain(|r| {
+            let moves = own[&(*r as u32)].iter().filter(|e| out.unknown[e.0 as usize]).copied();
+            let reduced = left.reduce(&moves.collect::<Row<N>>());
+            let pivot = state.best(&reduced.row, Column::Open);
+            match pivot {
+                Some(column) => drop(left.accept(reduced, column)),
+                None => out.resting.push(*r),
+            }
+            pivot.is_some()
+        });
     }
     out.accepted.extend(accepted);
     out.dependent.extend(dependent);
@@ -126,6 +152,11 @@ impl<N: Number> State<N> {
     fn pivot(&self, row: &Row<N>) -> Option<u32> {
         self.best(row, Column::Open).or_else(|| self.best(row, Column::Given))
     }
+    /// Returns true if everything that a row depends on stays, and only rows that rest take part in it.
+    fn rests(&self, row: u32) -> bool {
+        let stays = |c: u32| self.columns.get(&c).is_none_or(|&column| column == Column::Stays);
+        self.tableau.row(row).iter().all(|e| e.0 < MOVING && stays(e.0))
+    }
     /// Returns the most willing of these columns among those that are not small.
     fn best(&self, row: &Row<N>, kind: Column) -> Option<u32> {
         let own = || row.iter().filter(|(c, _)| self.columns.get(c) == Some(&kind));
@@ -146,7 +177,7 @@ fn hold_given<N: Number>(state: &mut State<N>) {
     for &c in &given {
         let Some(row) = state.tableau.row_with_pivot(c) else { continue };
         // what is not given yields first, however small
-        let others = state.tableau.row(row).iter().filter(|e| !is_given(e.0));
+        let others = state.tableau.row(row).iter().filter(|e| e.0 < MOVING && !is_given(e.0));
         let other = others.max_by(|a, b| a.1.size().total_cmp(&b.1.size())).map(|e| e.0);
         if let Some(other) = other {
             state.tableau.exchange(row, other);
@@ -164,24 +195,28 @@ fn hold_given<N: Number>(state: &mut State<N>) {
     }
 }
 
-/// Holds the columns if the others that are not given leave the rows their rank; else changes nothing.
+/// Holds the columns if the others that are not given leave the rows their rank, or rows that rest determine them;
+/// else changes nothing. Returns true if some rest.
 ///
 /// A given number that yields is no other: how much it changes is decided before what is computed is
 /// asked to stay.
-fn hold<N: Number>(state: &mut State<N>, columns: &[u32]) {
+fn hold<N: Number>(state: &mut State<N>, columns: &[u32], may_rest: bool) -> bool {
     for &c in columns {
         state.columns.insert(c, Column::Stays);
     }
+    let mut some_rest = false;
     for &c in columns {
         let Some(row) = state.tableau.row_with_pivot(c) else { continue };
         match state.best(state.tableau.row(row), Column::Open) {
             Some(other) => state.tableau.exchange(row, other),
+            None if may_rest && state.rests(row) => some_rest = true,
             None => {
                 for &c in columns {
                     state.columns.insert(c, Column::Open);
                 }
-                return;
+                return false;
             }
         }
     }
+    some_rest
 }

@@ -27,6 +27,7 @@
 //!     reads: Few::default(),
 //!     within: Default::default(),
 //!     source: 0,
+//!     rests: false,
 //! }];
 //! let plan = solve::plan(&system.into(), &patterns);
 //! let mut values = [100.0, 68.0];
@@ -52,6 +53,7 @@ pub mod proof;
 
 mod number;
 mod residue;
+mod rest;
 
 mod tableau;
 

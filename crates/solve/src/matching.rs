@@ -15,6 +15,7 @@ use crate::echelon::{Echelon, Row};
 use crate::lists::Lists;
 use crate::order::{Blocks, strong_components};
 use crate::residue::Residue;
+use crate::rest::Resting;
 use crate::rows::{REGULAR, Rows};
 use crate::sparse::lu::POOR;
 use crate::sparse::pivot::{self, How};
@@ -22,6 +23,7 @@ use crate::sparse::{Lu, Pattern, Symbolic};
 use crate::substitute::Classes;
 use crate::system::{Level, SlotIndex, Stay, System};
 use std::borrow::Cow;
+use std::collections::{BTreeMap, BTreeSet};
 use std::rc::Rc;
 
 /// Up to this many unknowns a block is factorised densely.
@@ -40,6 +42,7 @@ pub(crate) struct Matcher<'a> {
     system: &'a System,
     classes: &'a Classes,
     rows: &'a Rows,
+    resting: &'a Resting,
     /// Where a row stands in its piece.
     position: Vec<u32>,
     slot_of_row: Vec<SlotIndex>,
@@ -79,7 +82,7 @@ enum Use {
     Closed,
     /// A row may take it.
     Open,
-    /// It is a row's, and no other way is left for that row.
+    /// It is a row's, no other way is left for that row, and it leads to one that does not rest.
     Rigid,
 }
 
@@ -94,13 +97,19 @@ impl Use {
 }
 
 impl<'a> Matcher<'a> {
-    pub(crate) fn new(system: &'a System, classes: &'a Classes, rows: &'a Rows) -> Self {
+    pub(crate) fn new(
+        system: &'a System,
+        classes: &'a Classes,
+        rows: &'a Rows,
+        resting: &'a Resting,
+    ) -> Self {
         let n = system.slots.len();
         let state = classes.stay.iter().map(|&stay| Use::by(stay));
         Self {
             system,
             classes,
             rows,
+            resting,
             position: vec![NONE; rows.len()],
             slot_of_row: vec![NONE; rows.len()],
             row_of_slot: vec![NONE; n],
@@ -201,6 +210,10 @@ impl<'a> Matcher<'a> {
             self.hold_place(place);
         }
         let before = out.factored.len();
+        let mut rows = Cow::Borrowed(rows);
+        if !self.resting.is_empty() {
+            rows.to_mut().retain(|&r| self.slot_of_row[r as usize] != NONE);
+        }
         if !self.is_regular(rows, &mut out.factored) {
             out.factored.truncate(before);
             return false;
@@ -281,37 +294,90 @@ impl<'a> Matcher<'a> {
         false
     }
 
-    /// Holds a place if every row finds a slot without it; else changes nothing that matters.
+    /// Holds a place if every row finds a slot without it, or rests; else changes nothing that matters.
     fn hold_place(&mut self, place: &[SlotIndex]) {
         if place.iter().any(|&s| self.state[s as usize] == Use::Rigid) {
             return;
         }
+        // what was closed, and the rows that came to rest with the slots that they had
+        let (mut closed, mut rested) = (Vec::new(), Vec::new());
         for (i, &slot) in place.iter().enumerate() {
-            let was_open = std::mem::replace(&mut self.state[slot as usize], Use::Closed);
+            if std::mem::replace(&mut self.state[slot as usize], Use::Closed) == Use::Closed {
+                continue;
+            }
+            closed.push(slot);
             let row = std::mem::replace(&mut self.row_of_slot[slot as usize], NONE);
-            if was_open == Use::Closed || row == NONE || self.find(row) {
+            if row == NONE || self.find(row) {
+                continue;
+            }
+            if self.may_rest(row) {
+                rested.push((row, slot));
+                for slot in std::mem::take(&mut self.met) {
+                    let row = std::mem::replace(&mut self.row_of_slot[slot as usize], NONE);
+                    self.state[slot as usize] = Use::Closed;
+                    rested.push((row, slot));
+                }
                 continue;
             }
             // what was closed before opens again; rows that found other slots may keep them
             self.give(row, slot);
-            for &s in &place[..=i] {
-                self.state[s as usize] = Use::Open;
+            for &(row, slot) in &rested {
+                self.give(row, slot);
+                self.state[slot as usize] = Use::Open;
             }
+            closed.iter().for_each(|&s| self.state[s as usize] = Use::Open);
             if i == 0 {
-                // whatever was met leads to nothing but what was met
-                self.state[slot as usize] = Use::Rigid;
-                for s in std::mem::take(&mut self.met) {
-                    self.state[s as usize] = Use::Rigid;
-                }
+                self.stiffen(row, slot);
             }
             return;
         }
+        rested.iter().for_each(|&(row, _)| self.slot_of_row[row as usize] = NONE);
+    }
+    /// Returns true if a row that found no slot rests, and all rows that were met do: they hold where everything
+    /// that they speak of stays.
+    fn may_rest(&self, row: u32) -> bool {
+        let owners = self.met.iter().map(|&s| self.row_of_slot[s as usize]);
+        std::iter::once(row).chain(owners).all(|r| self.may_rest_alone(r))
+    }
+    /// Returns true if a row rests, whatever those do that it leads to, unless they are known not to.
+    fn may_rest_alone(&self, row: u32) -> bool {
+        let is_stiff = |e: &(SlotIndex, f64)| self.state[e.0 as usize] == Use::Rigid;
+        let row = row as usize;
+        self.resting.has(row) && !self.rows.columns(row).iter().any(is_stiff)
+    }
+    /// Notes that whatever was met leads to nothing but what was met, once a row could not do without its slot;
+    /// where rows rest, only what leads to one that does not.
+    fn stiffen(&mut self, row: u32, slot: SlotIndex) {
+        let mut stiff = std::mem::take(&mut self.met);
+        stiff.push(slot);
+        if !self.resting.is_empty() {
+            let owner = |s: SlotIndex| self.row_of_slot[s as usize];
+            let own: BTreeMap<u32, SlotIndex> = stiff.iter().map(|&s| (owner(s), s)).collect();
+            let mut from: BTreeMap<u32, Vec<u32>> = BTreeMap::new();
+            for &r in own.keys() {
+                for &(s, _) in self.rows.columns(r as usize) {
+                    let next = owner(s);
+                    if next != r && own.contains_key(&next) {
+                        from.entry(next).or_default().push(r);
+                    }
+                }
+            }
+            let mut reached: BTreeSet<u32> =
+                own.keys().copied().filter(|&r| !self.may_rest_alone(r)).collect();
+            let mut next: Vec<u32> = reached.iter().copied().collect();
+            while let Some(r) = next.pop() {
+                let before = from.get(&r).into_iter().flatten();
+                next.extend(before.copied().filter(|&r| reached.insert(r)));
+            }
+            debug_assert!(reached.contains(&row), "it met one that does not rest");
+            stiff.retain(|&s| reached.contains(&owner(s)));
+        }
+        stiff.into_iter().for_each(|s| self.state[s as usize] = Use::Rigid);
     }
 
     /// Returns true if every block of rows and their slots is regular at the generic point.
-    fn is_regular(&mut self, rows: &[u32], factored: &mut Vec<Factored>) -> bool {
+    fn is_regular(&mut self, mut rows: Cow<'_, [u32]>, factored: &mut Vec<Factored>) -> bool {
         // numbered in order of declaration, as blocks are
-        let mut rows = Cow::Borrowed(rows);
         if !rows.is_sorted() {
             rows.to_mut().sort_unstable();
         }

@@ -11,6 +11,7 @@ use crate::lower::{self, Lowered, Problem, Program, Region};
 use crate::order::{self, Blocks, Incidence};
 use crate::pattern::{Pattern, Patterns};
 use crate::peel::{self, Found, Peeled};
+use crate::rest::Resting;
 use crate::rows::{self, Rows};
 use crate::run::start::Alike;
 use crate::slice::Slice;
@@ -268,19 +269,26 @@ fn plan_stated(stated: Stated) -> Plan {
         }
     };
     let mut rows = rows::with_columns(&stated, &classes, rows);
-    let mut acceptance = accept::accept(system, &classes, &rows);
+    let resting = Resting::new(system, &classes, &rows);
+    let mut acceptance = accept::accept(system, &classes, &rows, &resting);
     if (!acceptance.yielded.is_empty() || may_imply(system, &rows))
         && rows.len() <= IMPLIED_ROWS
         && let Some(there) = rows::rows_where_linear_hold(&stated, &classes)
     {
         // nothing yields to a row that says nothing new
-        let again = accept::accept(system, &classes, &there);
+        let again = accept::accept(system, &classes, &there, &resting);
         if again.yields() < acceptance.yields() {
             (rows, acceptance) = (there, again);
         }
     }
     let mut direction = direct::direct(system, &classes, &rows, &mut acceptance);
-    let is_tied = tie::tie(system, &classes, &rows, &direction, &mut acceptance);
+    let mut is_tied = tie::tie(system, &classes, &rows, &direction, &mut acceptance);
+    if is_tied && !acceptance.resting.is_empty() {
+        // what yields along a chain may take with it what would rest
+        acceptance = accept::accept(system, &classes, &rows, &Resting::default());
+        direction = direct::direct(system, &classes, &rows, &mut acceptance);
+        is_tied = tie::tie(system, &classes, &rows, &direction, &mut acceptance);
+    }
     if is_tied && !direct::is_settled(system, &acceptance) {
         direction = direct::direct(system, &classes, &rows, &mut acceptance);
     }

@@ -192,6 +192,9 @@ pub struct Relation {
     pub within: Tolerance,
     /// What the caller calls it: the index of a constraint, a wish or a stay in the caller's table.
     pub source: u32,
+    /// True if it holds where the edit begins and speaks of nothing that the edit gives a value: it moves nothing
+    /// by itself.
+    pub rests: bool,
 }
 
 /// One connected component.

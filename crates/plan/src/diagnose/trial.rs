@@ -62,7 +62,7 @@ impl Planner {
         let alike = std::mem::take(&mut self.alike);
         let structure = setup.model.structure;
         let components = vec![component];
-        let tasks = self.tasks(structure, components, setup.holding, &setup.aim.wishes);
+        let tasks = self.tasks(structure, components, setup.holding, &setup.aim.wishes, None);
         self.alike = alike;
         let start = values.clone();
         let mut trial = Trial::Holds;

@@ -174,6 +174,7 @@ impl<'s> Making<'s> {
         for when in &shape.when {
             self.guard(rule, when);
         }
+        let rests = shape.when.is_empty() && self.rests(rule);
         let source = self.relations.len() as u32;
         self.relations.push(Origin::Rule(position));
         self.conditional.system.relations.push(Relation {
@@ -187,7 +188,19 @@ impl<'s> Making<'s> {
             },
             within: shape.within,
             source,
+            rests,
         });
+    }
+
+    /// Returns true if equations hold where an edit begins, and speak of nothing that it gives a value.
+    fn rests(&self, rule: Rule<'_>) -> bool {
+        let Some(is_edited) = self.setting.is_edited else { return false };
+        let holds = match rule.shape.body {
+            Body::Equations(_) => rule.shape.level == Level::Required,
+            Body::Hold(_) => true,
+            Body::True(_) | Body::Beside(_) | Body::Different(_) | Body::Opaque(_) => false,
+        };
+        holds && !rule.slots.iter().any(|&slot| is_edited(slot))
     }
 
     /// Demands what no equation says, of the relation that is added next.
@@ -228,6 +241,7 @@ impl<'s> Making<'s> {
             reads: Few::default(),
             within: Tolerance::Relative,
             source,
+            rests: false,
         });
         number
     }
@@ -299,6 +313,7 @@ impl<'s> Making<'s> {
             reads: Few::default(),
             within: Tolerance::Relative,
             source,
+            rests: false,
         });
     }
 }

@@ -72,6 +72,7 @@ fn net(stays: &[u8], relations: &[(u8, [usize; 3], bool)]) -> Net {
             reads: Few::default(),
             within: base::number::Tolerance::Relative,
             source: 0,
+            rests: false,
         });
     }
     let stated = Stated::new(&Rc::new(system), &patterns);
@@ -169,6 +170,8 @@ impl Net {
     fn by_elimination<N: Number>(&self, of: impl Fn(&[u32]) -> Vec<Row<N>>) -> [Acceptance; 3] {
         let (system, classes, rows) = (&*self.stated.system, &self.classes, &self.rows);
         let asked = Asked::new(system, classes, rows);
+        let resting = Resting::default();
+        let given = Given { system, classes, rows, resting: &resting };
         let decide = |piece: &mut dyn FnMut(Piece<'_>, &mut Acceptance)| {
             let mut out = undecided(classes);
             apart(classes, rows, asked.all(), &mut out, piece);
@@ -176,10 +179,10 @@ impl Net {
             out
         };
         let by_tableau = decide(&mut |piece, out| {
-            exact::accept(system, classes, rows, &of(piece.rows), piece, None, out);
+            exact::accept(&given, &of(piece.rows), piece, None, out);
         });
         let [of_slots, by_pivots] = [true, false].map(|of_slots| {
-            let mut matcher = Matcher::new(system, classes, rows);
+            let mut matcher = Matcher::new(system, classes, rows, &resting);
             decide(&mut |piece, out| {
                 let own = of(piece.rows);
                 let deflated = Deflated::new(classes, &own, piece);
@@ -191,7 +194,7 @@ impl Net {
                 if is_held {
                     deflated.accept(rows, out);
                 } else {
-                    exact::accept(system, classes, rows, &own, piece, None, out);
+                    exact::accept(&given, &own, piece, None, out);
                 }
             })
         });
@@ -215,7 +218,7 @@ proptest! {
     ) {
         let net = net(&stays, &relations);
         let system = &net.stated.system;
-        let found = accept(system, &net.classes, &net.rows);
+        let found = accept(system, &net.classes, &net.rows, &Resting::default());
         let found = Acceptance { matched: None, places: Lists::default(), ..found };
         for other in net.by_elimination(|rows| net.rows.doubles(rows)) {
             prop_assert_eq!(&found, &other);
@@ -258,7 +261,7 @@ proptest! {
         }
         let net = net(&stays, &relations);
         let system = &net.stated.system;
-        let found = accept(system, &net.classes, &net.rows);
+        let found = accept(system, &net.classes, &net.rows, &Resting::default());
         let stated = rows::stated_rows(&net.stated, &net.classes);
         let peeled = match peel(system, &net.classes, stated) {
             Found::All(peeled) => peeled,
@@ -288,7 +291,7 @@ proptest! {
             (0u8..5, prop::array::uniform3(0usize..16), prop::bool::weighted(0.2)), 1..7),
     ) {
         let net = net(&stays, &relations);
-        let found = accept(&net.stated.system, &net.classes, &net.rows);
+        let found = accept(&net.stated.system, &net.classes, &net.rows, &Resting::default());
         let Some(matched) = found.matched else { return Ok(()) };
         let Matched { slot_of_row, row_of_slot, blocks } = matched;
         let direction = Direction { slot_of_row, row_of_slot, ..Direction::default() };

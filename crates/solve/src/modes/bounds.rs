@@ -65,6 +65,7 @@ impl Modes {
                 reads: Default::default(),
                 within: Tolerance::Relative,
                 source: system.relations[guarded].source,
+                rests: false,
             });
         }
     }

@@ -100,6 +100,7 @@ impl Sheet {
             reads: Few::default(),
             within: base::number::Tolerance::Relative,
             source: index,
+            rests: false,
         });
         index
     }

@@ -27,6 +27,7 @@ fn puzzle(stays: &[Stay], most: i64, arena: &Arena, truths: &[ExprId]) -> Puzzle
             reads: Few::default(),
             within: base::number::Tolerance::Relative,
             source: relation,
+            rests: false,
         });
     }
     assert!(stated.is_searched());

@@ -175,6 +175,7 @@ fn a_caption_and_a_height_follow_each_other() {
         reads: Few::default(),
         within: base::number::Tolerance::within(0.0),
         source: 0,
+        rests: false,
     });
     let mut host = Caption { text: String::new(), height, caption };
     let plan = s.plan();

@@ -1,0 +1,53 @@
+//! Rest: rows that hold where an edit begins, and that nothing it speaks of moves by itself.
+//!
+//! In: the system, its classes and rows. Out: which rows rest. A place on a rail or at the end of a bar stays where
+//! it is, and what is measured from it follows, though a row determines one of its coordinates.
+
+use crate::rows::Rows;
+use crate::substitute::Classes;
+use crate::system::{SlotIndex, Stay, System};
+
+/// Which rows rest.
+#[derive(Clone, Debug, Default)]
+pub(crate) struct Resting {
+    /// For every row; empty where none does.
+    is: Vec<bool>,
+}
+
+impl Resting {
+    /// Finds them: their relations rest, and so do those that make slots equal which they speak of; what they only
+    /// read is constant, and no whole number is tried out in them.
+    pub(crate) fn new(system: &System, classes: &Classes, rows: &Rows) -> Self {
+        if !system.relations.iter().any(|r| r.rests) {
+            return Self::default();
+        }
+        let equalities = classes.equalities(system);
+        let rests = |&r: &u32| system.relations[r as usize].rests;
+        let row = |r: usize| {
+            let relation = &system.relations[rows[r].relation as usize];
+            let stands = |&slot: &SlotIndex| {
+                let root = classes.representative[slot as usize];
+                let is_constant = match classes.stay[root as usize] {
+                    Stay::Fixed | Stay::Given => true,
+                    Stay::Kept { .. } | Stay::Free => false,
+                };
+                let is_written = || rows.columns(r).iter().any(|e| e.0 == root);
+                !system.slots[slot as usize].is_discrete
+                    && equalities.of(root).iter().all(rests)
+                    && (is_constant || is_written())
+            };
+            let equations = system.equations_of(relation).iter();
+            let mut slots = equations.flat_map(|e| system.arguments(e.arguments));
+            relation.rests && slots.all(stands)
+        };
+        Self { is: (0..rows.len()).map(row).collect() }
+    }
+    /// Returns true if no row rests.
+    pub(crate) fn is_empty(&self) -> bool {
+        self.is.is_empty()
+    }
+    /// Returns true if this row rests.
+    pub(crate) fn has(&self, row: usize) -> bool {
+        self.is.get(row).is_some_and(|&is| is)
+    }
+}
