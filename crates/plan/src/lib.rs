@@ -63,6 +63,7 @@ pub mod drag;
 pub mod edit;
 mod limit;
 mod run;
+mod vanish;
 
 pub mod modal;
 mod whole;

@@ -8,6 +8,7 @@ use crate::modal::{self, Decide, Stands};
 use crate::planner::{Model, Planner};
 use crate::rule::{Body, How, Rule, Source};
 use crate::task::{Course, Origin, Task};
+use crate::vanish::vanished;
 use crate::whole::{self, Looking};
 use base::number::Toward;
 use kernel::{SlotId, Value, Values};
@@ -139,7 +140,8 @@ pub(crate) fn run(
     }
     let ran = by_course(planner, model, task, &ground, values, host);
     let ran = or_otherwise(planner, model, task, &ground, ran, values, host);
-    let mut ran = or_letting_go(planner, model, task, &ground, ran, values, host);
+    let ran = or_letting_go(planner, model, task, &ground, ran, values, host);
+    let mut ran = or_kept_apart(planner, model, task, &ground, ran, (start, values), host);
     if !has_bound {
         if planner.is_spent() && !ran.is_solved {
             ran.not_decided = Some(NotDecided::Work(bound));
@@ -173,6 +175,35 @@ fn or_letting_go(
         scatter(task, &numbers, values);
         return ran;
     }
+    found.stands = found.stands.and_then(|stands| task.stands_as(planner, &stands));
+    found
+}
+
+/// Has places stay apart that came together, where the answer holds by that alone: what has no answer then has none.
+fn or_kept_apart(
+    planner: &Planner,
+    model: Model<'_>,
+    task: &Task,
+    ground: &Ground,
+    ran: Ran,
+    (start, values): (&Values, &mut Values),
+    host: &mut dyn Host,
+) -> Ran {
+    let plan = ran.stands.as_ref().map_or(&task.plan, Stands::plan);
+    if !ran.is_solved || !plan.is_curved() {
+        return ran;
+    }
+    let vanished = vanished(planner, model, task, start, values);
+    if vanished.is_empty() {
+        return ran;
+    }
+    let Some(kept) = task.kept_apart(&vanished, &planner.plans) else { return ran };
+    let apart = || vanished.iter().map(|pair| pair.apart);
+    let Ground { x0, local, texts, changed } = ground;
+    let [x0, local] = [x0, local].map(|all| all.iter().copied().chain(apart()).collect());
+    let ground = Ground { x0, local, texts: texts.clone(), changed: changed.clone() };
+    put_texts(&ground.texts, values);
+    let mut found = by_course(planner, model, &kept, &ground, values, host);
     found.stands = found.stands.and_then(|stands| task.stands_as(planner, &stands));
     found
 }

@@ -279,6 +279,15 @@ impl Default for Patterns {
         let mut arena = Arena::for_nodes(2);
         let (a, b) = (arena.var(Var(0)), arena.var(Var(1)));
         patterns.intern(&arena, &[a, b]);
+        let mut arena = Arena::new();
+        let [x1, y1, x2, y2, length] = [0, 1, 2, 3, 4].map(|v| arena.var(Var(v)));
+        let [across, up] = [(x2, x1), (y2, y1)].map(|(to, from)| {
+            let way = arena.sub(to, from);
+            arena.mul(way, way)
+        });
+        let square = arena.add(across, up);
+        let apart = arena.sqrt(square);
+        patterns.intern(&arena, &[apart, length]);
         patterns
     }
 }
@@ -286,6 +295,8 @@ impl Default for Patterns {
 impl Patterns {
     /// The pattern that says that two arguments are equal.
     pub const SAME: PatternId = PatternId(0);
+    /// The pattern that says how far two places, each of two coordinates, are apart.
+    pub const APART: PatternId = PatternId(1);
 
     /// Finds or adds the pattern of these expressions; returns it and the variables that are its
     /// arguments.

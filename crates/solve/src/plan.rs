@@ -574,6 +574,10 @@ impl Plan {
             None => self.steps(),
         }
     }
+    /// Returns true if rows that bend are solved for several unknowns at once, or by one of several roots.
+    pub fn is_curved(&self) -> bool {
+        self.has_branches || self.bends
+    }
     /// Returns how many steps there are.
     pub fn step_count(&self) -> usize {
         self.peeled().map_or_else(|| self.steps().len(), |peeled| peeled.order.len())

@@ -3,7 +3,10 @@
 
 use super::{Course, Known, Origin, Stated, Task};
 use crate::plans::Plans;
-use solve::{Modes, Relation, RelationBody, Slot, SlotIndex, Stay, System};
+use crate::vanish::Vanished;
+use base::number::Tolerance;
+use kernel::SlotId;
+use solve::{Level, Modes, Patterns, Relation, RelationBody, Slot, SlotIndex, Stay, System};
 use std::collections::BTreeSet;
 use std::rc::Rc;
 
@@ -32,6 +35,39 @@ impl Task {
             }
         };
         let known = self.restated(plans, leave_to_test)?;
+        Some(Self::of(known, self.component.clone()))
+    }
+
+    /// Returns what it is where places stay as far apart as a known number says, one for each pair, after its slots.
+    /// Nothing where it is searched.
+    pub(crate) fn kept_apart(&self, pairs: &[Vanished], plans: &Plans) -> Option<Self> {
+        let local = |slot: SlotId| {
+            self.component.slots().iter().position(|&s| s == slot).map(|at| at as SlotIndex)
+        };
+        let slots = |pair: &Vanished| pair.slots.map(local).into_iter().collect::<Option<_>>();
+        let slots: Vec<Vec<SlotIndex>> = pairs.iter().map(slots).collect::<Option<_>>()?;
+        let keep = |system: &mut System| {
+            for (pair, slots) in pairs.iter().zip(&slots) {
+                let is_its = |origin: &Origin| *origin == Origin::Rule(pair.position);
+                let source = self.stated.relations.iter().position(is_its).unwrap_or_default();
+                let known = system.slots.len() as SlotIndex;
+                let like = system.slots[slots[0] as usize].clone();
+                system.slots.push(Slot { stay: Stay::Fixed, ..like });
+                let arguments = slots.iter().copied().chain([known]);
+                let equations = system.add_equations([(Patterns::APART, arguments)]);
+                system.relations.push(Relation {
+                    level: Level::Required,
+                    body: RelationBody::Equations(equations),
+                    methods: Vec::new(),
+                    derived: true,
+                    rests: false,
+                    reads: Default::default(),
+                    within: Tolerance::Relative,
+                    source: source as u32,
+                });
+            }
+        };
+        let known = self.restated(plans, keep)?;
         Some(Self::of(known, self.component.clone()))
     }
 

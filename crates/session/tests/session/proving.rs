@@ -62,3 +62,14 @@ fn what_comes_to_nothing_for_the_given_numbers_contradicts() {
     assert_eq!(told(text), found);
     assert_eq!(told(&text.replace("= 15", "= 16")), [""; 0]);
 }
+
+#[test]
+fn a_line_that_would_have_to_vanish_contradicts() {
+    let text = "use geometry\na: Line { p1 = (0, 0)  p2 = (100, 0) }\n\
+        b: Line { p1 = (0, 40)  p2 = (100, 40) }\nconstraint level: a.p1.y = a.p2.y\n\
+        constraint par: a.parallel(to: b)\nconstraint off1: a.offset(of: b.p1) = 40\n\
+        constraint off2: a.offset(of: b.p2) = 41\n";
+    let found = ["no solution of par, off1, off2 together was found, from 2 starts"];
+    assert_eq!(told(text), found);
+    assert_eq!(told(&text.replace("= 41", "= 40")), [""; 0]);
+}

@@ -1,0 +1,165 @@
+//! What vanishes: an answer in which rows hold only because two places that they speak of have come together, as a
+//! line without length is parallel to any, while others have no value where they are one.
+//!
+//! In: what a run came to. Out: which places came together so. They are told by two signs. A row that speaks of both
+//! is off by a part of what the way between them comes to in it, larger than rounding leaves: it holds because that is
+//! nearly nothing. And where the places are one, a row of the component has no value, or quite another.
+
+use crate::holds::counts;
+use crate::planner::{Model, Planner};
+use crate::rule::{Body, Rule};
+use crate::task::Task;
+use base::number::hypot;
+use kernel::{SlotId, Structure, Values};
+use solve::{Level, Scratch};
+
+/// Places have come together where this part of the way between them is left.
+const LEFT: f64 = 1e-6;
+/// What is off by more than this part of what the way between two places comes to in it does not hold by itself.
+const UNDONE: f64 = 1e-5;
+/// What a row changes by where places are one, more than this part of its sides and so many times the way between
+/// them, tells them apart.
+const PART: f64 = 1e-3;
+const STEEP: f64 = 1e4;
+/// So many places of a rule at most are looked at.
+const MOST: usize = 8;
+
+/// Two places that came together.
+#[derive(Clone, Copy, PartialEq, Debug)]
+pub(crate) struct Vanished {
+    /// The rule that speaks of both, by its position in the component.
+    pub(crate) position: u32,
+    /// The coordinates of the first, then of the other.
+    pub(crate) slots: [SlotId; 4],
+    /// How far they were from each other.
+    pub(crate) apart: f64,
+}
+
+impl Vanished {
+    fn now(&self, values: &Values) -> f64 {
+        apart(self.slots, values)
+    }
+}
+
+fn apart([x1, y1, x2, y2]: [SlotId; 4], values: &Values) -> f64 {
+    let x = &values.numbers;
+    hypot(x[x2] - x[x1], x[y2] - x[y1])
+}
+
+/// Returns the places that came together between two states of a task, where the rows hold only by that.
+pub(crate) fn vanished(
+    planner: &Planner,
+    model: Model<'_>,
+    task: &Task,
+    start: &Values,
+    values: &Values,
+) -> Vec<Vanished> {
+    let mut scratch = Scratch::default();
+    let mut found: Vec<Vanished> = Vec::new();
+    for (position, &index) in (0..).zip(task.component.rules()) {
+        let rule = planner.rules.get(index);
+        if rule.slots.len() < 4 || rule.shape.level != Level::Required {
+            continue;
+        }
+        let places = places(model.structure, rule);
+        let pairs = (0..places.len()).flat_map(|i| (0..i).map(move |j| [j, i]));
+        let pairs = pairs.map(|[j, i]| {
+            let ([x1, y1], [x2, y2]) = (places[j], places[i]);
+            let slots = [x1, y1, x2, y2];
+            Vanished { position, slots, apart: apart(slots, start) }
+        });
+        for pair in pairs.filter(|pair| pair.now(values) < LEFT * pair.apart) {
+            let is_new = found.iter().all(|known| known.slots != pair.slots);
+            if is_new && is_undone(planner, rule, &pair, values, &mut scratch) {
+                found.push(pair);
+            }
+        }
+    }
+    if found.is_empty() || !is_told_apart(planner, task, &found, values, &mut scratch) {
+        return Vec::new();
+    }
+    found
+}
+
+/// Returns the places of a rule, each with both of its coordinates.
+fn places(structure: &Structure, rule: Rule<'_>) -> Vec<[SlotId; 2]> {
+    let mut places = Vec::new();
+    for &slot in rule.slots {
+        let Some(place) = structure.slots[slot].place else { continue };
+        if let &[x, y] = structure.slots_under(place).as_slice()
+            && x == slot
+            && rule.slots.contains(&y)
+            && places.len() < MOST
+        {
+            places.push([x, y]);
+        }
+    }
+    places
+}
+
+/// Returns true if an equation of a rule holds because what is between two places is small: it is off by a part of
+/// what that comes to in it.
+fn is_undone(
+    planner: &Planner,
+    rule: Rule<'_>,
+    pair: &Vanished,
+    values: &Values,
+    scratch: &mut Scratch,
+) -> bool {
+    let Body::Equations(equations) = &rule.shape.body else { return false };
+    let patterns = planner.plans.patterns();
+    if !counts(patterns, rule, values, scratch) {
+        return false;
+    }
+    let way = pair.now(values);
+    let [_, _, x, y] = pair.slots;
+    let mut there = values.clone();
+    equations.iter().any(|e| {
+        let mut off = |values: &Values| {
+            let sides = rule.evaluate(e, patterns, &values.numbers, scratch);
+            sides[0] - sides[1]
+        };
+        let mut size = 0.0;
+        for slot in [x, y] {
+            let here = there.numbers[slot];
+            let [more, less] = [here + way, here - way].map(|to| {
+                there.numbers[slot] = to;
+                off(&there)
+            });
+            there.numbers[slot] = here;
+            size += 0.5 * (more - less).abs();
+        }
+        size > 0.0 && off(values).abs() > UNDONE * size
+    })
+}
+
+/// Returns true if a required row of the component has no value where these places are one, or quite another.
+fn is_told_apart(
+    planner: &Planner,
+    task: &Task,
+    places: &[Vanished],
+    values: &Values,
+    scratch: &mut Scratch,
+) -> bool {
+    let mut there = values.clone();
+    for &Vanished { slots: [x1, y1, x2, y2], .. } in places {
+        there.numbers[x2] = there.numbers[x1];
+        there.numbers[y2] = there.numbers[y1];
+    }
+    let way = places.iter().map(|pair| pair.now(values)).fold(0.0, f64::max);
+    let patterns = planner.plans.patterns();
+    let rules = task.component.rules().iter().map(|&index| planner.rules.get(index));
+    rules.filter(|rule| rule.shape.level == Level::Required).any(|rule| {
+        let Body::Equations(equations) = &rule.shape.body else { return false };
+        counts(patterns, rule, values, scratch)
+            && equations.iter().any(|e| {
+                let mut sides = |values: &Values| {
+                    let sides = rule.evaluate(e, patterns, &values.numbers, scratch);
+                    [sides[0], sides[1]]
+                };
+                let ([left, right], [a, b]) = (sides(values), sides(&there));
+                let off = ((a - b) - (left - right)).abs();
+                !off.is_finite() || off > (PART * left.abs().max(right.abs())).max(STEEP * way)
+            })
+    })
+}
