@@ -16,6 +16,8 @@ const NUDGE: f64 = 1.0 / 1_048_576.0;
 pub(crate) struct Compared {
     /// The differences found so far.
     pub(crate) differences: Vec<f64>,
+    /// The differences of their squares, whose slopes may be the same everywhere where those of distances are not.
+    pub(crate) squares: Vec<f64>,
     /// How each shall compare with zero.
     pub(crate) orders: Vec<Order>,
     /// The sway of each, where it is known.
@@ -35,6 +37,7 @@ impl<'a> Evaluator<'a> {
         let mut compared = self.compared.borrow_mut();
         let sway = compared.sways.get(compared.differences.len()).copied().unwrap_or(0.0);
         compared.differences.push(x - y);
+        compared.squares.push(x * x - y * y);
         compared.orders.push(order);
         within.map_or(Tolerance::Relative, Tolerance::within).is_met_with(x, y, || sway)
     }

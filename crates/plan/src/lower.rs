@@ -9,7 +9,7 @@ use crate::meaning::{Frame, Meaning, collect_slots};
 use crate::rule::{Beside, Body, Formula, How, RuleMethod, Rules, Shape, Source, Turns, Way, When};
 use crate::say::{self, Said, say};
 use base::number::Tolerance;
-use expr::ExprId;
+use expr::{Arena, ExprId, Node, Unary};
 use kernel::{
     Constraint, ConstraintInstance, Method, Path, Setting, SlotId, StayInstance, Step, Strength,
     Structure, ThingId,
@@ -130,9 +130,12 @@ fn assemble(
     opening: &Opening<'_>,
     patterns: &mut Patterns,
     shape: Shape<SlotId>,
-    said: Said,
+    mut said: Said,
 ) -> Lowered {
     let mut lowered = Lowered::default();
+    if shape.level == Level::Required {
+        said.equations.iter_mut().for_each(|sides| *sides = without_roots(&opening.arena, *sides));
+    }
     let is_plain = said.branches.is_empty()
         && said.truths.is_empty()
         && said.beside.is_empty()
@@ -151,6 +154,15 @@ fn assemble(
         add_rules(opening, patterns, &shape, said, &mut lowered);
     }
     lowered
+}
+
+/// Returns what two square roots are of, which are equal where those are; anything else as it is. Distances that are
+/// equal make a line of what squares make a curve, and have a slope where they are nothing.
+fn without_roots(arena: &Arena, sides: [ExprId; 2]) -> [ExprId; 2] {
+    match sides.map(|side| arena.node(side)) {
+        [Node::Unary(Unary::Sqrt, a), Node::Unary(Unary::Sqrt, b)] => [a, b],
+        _ => sides,
+    }
 }
 
 /// Adds a rule for everything that is said, each under the conditions of `like`.

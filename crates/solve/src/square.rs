@@ -331,6 +331,9 @@ impl Square {
     }
 
     /// Solves from the values that the unknowns have now, one scale for every slot.
+    ///
+    /// Where no second derivative is left in the sum of a row, as where two squares take each other away, there is one
+    /// solution alone, though a branch may come to it by way of the infinite.
     pub(crate) fn solve(
         &self,
         mut course: Course<'_>,
@@ -339,10 +342,37 @@ impl Square {
         w: &mut Workspace,
         s: &mut SquareScratch,
     ) -> Solved {
-        if let Some(solved) = self.solve_closed(&mut course, values, scales, w) {
-            s.work += self.block.core.len();
+        let Course { last, trust, .. } = course;
+        let solved = match self.solve_closed(&mut course, values, scales, w) {
+            Some(solved) => {
+                s.work += self.block.core.len();
+                solved
+            }
+            None => self.solve_by_steps(course, values, scales, w, s),
+        };
+        let is_lost = trust == Trust::Branch && solved == Solved::Failed;
+        if !is_lost || self.block.is_linear || !self.is_dense() || !self.block.seconds().is_empty()
+        {
             return solved;
         }
+        for &u in &self.block.unknowns {
+            values[u as usize] = last[u as usize];
+        }
+        let side = &mut Side::default();
+        match self.solve_by_steps(Course { last, trust: Trust::Any, side }, values, scales, w, s) {
+            Solved::Regular => Solved::Regular,
+            Solved::Double(_) | Solved::Failed => Solved::Failed,
+        }
+    }
+
+    fn solve_by_steps(
+        &self,
+        course: Course<'_>,
+        values: &mut [f64],
+        scales: &[f64],
+        w: &mut Workspace,
+        s: &mut SquareScratch,
+    ) -> Solved {
         let Course { last, trust, side } = course;
         let is_linear = self.block.is_linear;
         let branch = match trust {
@@ -362,7 +392,9 @@ impl Square {
             return Solved::Failed;
         };
         if !self.holds(values, w, s)
-            || size > WIDE && !is_linear && self.runs_away(values, scales, w, s)
+            || (size > WIDE || factors.ratio == 0.0)
+                && !is_linear
+                && self.runs_away(values, scales, w, s)
         {
             return Solved::Failed;
         }

@@ -240,7 +240,7 @@ impl Answer<'_> {
                 let column = columns.iter().position(|c| *c == slot).filter(|_| own < strength)?;
                 let mut slopes = vec![0.0; columns.len()];
                 slopes[column] = 1.0;
-                Some(Row { order: Order::Equal, difference: 0.0, slopes })
+                Some(Row { order: Order::Equal, difference: 0.0, slopes, squared: Vec::new() })
             };
             here.extend(stays.iter().filter_map(stay));
             let gradient: Vec<f64> = row.slopes.iter().map(|s| s * row.difference).collect();
@@ -272,29 +272,33 @@ impl Answer<'_> {
         moved: &[SlotId],
         extent: &dyn Fn(SlotId) -> f64,
     ) {
-        let slopes = |state: &Evaluator<'_>| -> Option<Vec<Vec<f64>>> {
+        let square = |state: &Evaluator<'_>| -> Option<Vec<Row>> {
             let rows = acting(state, of, moved)?;
             let is_square = rows.len() == moved.len();
-            let is_plain = is_square && rows.iter().all(|r| r.order == Order::Equal);
-            is_plain.then(|| rows.into_iter().map(|r| r.slopes).collect())
+            (is_square && rows.iter().all(|r| r.order == Order::Equal)).then_some(rows)
         };
-        let [Some(then), Some(now)] = [before, after].map(slopes) else { return };
-        let speaks = |(a, b): (&Vec<f64>, &Vec<f64>)| {
-            a.iter().zip(b).map(|(a, b)| *a != 0.0 || *b != 0.0).collect()
+        let [Some(then), Some(now)] = [before, after].map(square) else { return };
+        let speaks = |(a, b): (&Row, &Row)| {
+            a.slopes.iter().zip(&b.slopes).map(|(a, b)| *a != 0.0 || *b != 0.0).collect()
         };
         let speaks: Vec<Vec<bool>> = then.iter().zip(&now).map(speaks).collect();
         for Block { rows, columns } in blocks(&speaks).unwrap_or_default() {
             let slots: Vec<SlotId> = columns.iter().map(|&column| moved[column]).collect();
             let aside = aside(self.edit.after, &slots, extent);
-            let Some(aside) = slopes(&after.in_state(&aside)) else { continue };
-            let [then, now, aside] = [&then, &now, &aside].map(|all| -> Vec<Vec<f64>> {
-                let own = |&row: &usize| columns.iter().map(|&column| all[row][column]).collect();
-                rows.iter().map(own).collect()
-            });
+            let Some(aside) = square(&after.in_state(&aside)) else { continue };
+            let own = |of: &[f64]| -> Vec<f64> { columns.iter().map(|&c| of[c]).collect() };
             let is_same = |(a, b): (&f64, &f64)| (a - b).abs() <= OFF * a.abs().max(b.abs());
-            if now.iter().flatten().zip(aside.iter().flatten()).all(is_same) {
+            let are_same = |a: &[f64], b: &[f64]| own(a).iter().zip(&own(b)).all(is_same);
+            let is_straight = |&row: &usize| {
+                let (now, aside) = (&now[row], &aside[row]);
+                are_same(&now.slopes, &aside.slopes) || are_same(&now.squared, &aside.squared)
+            };
+            if rows.iter().all(is_straight) {
                 continue;
             }
+            let [then, now] = [&then, &now].map(|all| -> Vec<Vec<f64>> {
+                rows.iter().map(|&row| own(&all[row].slopes)).collect()
+            });
             // where two sides meet slopes vanish, and what is left of them is rounding
             let vanishes = |(a, b): (&Vec<f64>, &Vec<f64>)| {
                 let [a, b] = [length(a), length(b)];

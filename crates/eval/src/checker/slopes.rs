@@ -20,6 +20,8 @@ pub(crate) struct Row {
     pub(crate) order: Order,
     pub(crate) difference: f64,
     pub(crate) slopes: Vec<f64>,
+    /// The same of the squares of its sides.
+    pub(crate) squared: Vec<f64>,
 }
 
 impl Row {
@@ -70,6 +72,7 @@ pub(crate) fn rows(
         order,
         difference,
         slopes: vec![0.0; columns.len()],
+        squared: vec![0.0; columns.len()],
     };
     let mut rows: Vec<Row> = here.differences.iter().zip(&here.orders).map(row).collect();
     let writes = |slot: &SlotId| reads.contains(slot) && !held.contains(slot);
@@ -91,6 +94,7 @@ pub(crate) fn rows(
                 return None;
             }
             row.slopes[column] = (high.differences[i] - low.differences[i]) / (above - below);
+            row.squared[column] = (high.squares[i] - low.squares[i]) / (above - below);
         }
     }
     Some(rows)

@@ -9,6 +9,9 @@ use crate::rows::{Point, generic_number};
 /// How far aside a row is left that has no slope, in parts of the extent.
 pub(super) const NUDGES: [f64; 2] = [1e-3, -1e-3];
 
+/// Nothing lies so many extents away.
+const FAR: f64 = 1e4;
+
 impl Square {
     /// Returns the direction that the core is free to go in to first order, in scaled unknowns, where the
     /// Jacobian is so nearly singular that two solutions meet to the tolerance of rules. Nothing where
@@ -131,7 +134,8 @@ impl Square {
     }
 
     /// Returns true if rows hold only because an unknown has gone so far that nothing depends on it any more:
-    /// Newton's step from there is no smaller than what it has come to, as where `1 / r` is to vanish.
+    /// Newton's step from there is no smaller than what it has come to, as where `1 / r` is to vanish, or there is
+    /// none so far out, as where parallels are to meet.
     pub(super) fn runs_away(
         &self,
         values: &[f64],
@@ -142,7 +146,8 @@ impl Square {
         self.block.slopes(values, w, &mut s.local);
         self.fill(scales, s);
         if self.factorise(s).ratio == 0.0 {
-            return false;
+            let is_far = |slot: usize| values[slot].abs() > FAR * scales[slot];
+            return (0..self.block.core.len()).any(|c| is_far(self.slot(c)));
         }
         self.newton(scales, s);
         (0..s.step.len()).any(|c| {
