@@ -79,47 +79,65 @@ fn pair(rest: &Remainder, rows: &[u32]) -> Option<Pairs> {
             pairs.column_of_row[r as usize] = found.column;
         }
     }
-    let mut seen = vec![NONE; n];
+    let mut search = Search { met: vec![Met { by: NONE, from: NONE }; n], queue: Vec::new() };
     for &r in rows {
-        if pairs.column_of_row[r as usize] == NONE && !exchange(rest, r, &mut pairs, &mut seen) {
+        if pairs.column_of_row[r as usize] == NONE && !search.exchange(rest, r, &mut pairs) {
             return None;
         }
     }
     Some(pairs)
 }
 
-/// Finds a column for a row along a shortest way of exchanges.
-fn exchange(rest: &Remainder, row: u32, pairs: &mut Pairs, seen: &mut [u32]) -> bool {
-    let mut queue = vec![row];
-    let mut came: Vec<(u32, u32)> = Vec::new();
-    let mut next = 0;
-    while let Some(&r) = queue.get(next) {
-        next += 1;
-        let entries = rest.rows.of(r);
-        let least = THRESHOLD * largest(entries);
-        for &Entry { column: c, value, .. } in entries {
-            if !is_pivot(value, least) || seen[c as usize] == row {
-                continue;
-            }
-            seen[c as usize] = row;
-            came.push((c, r));
-            let other = pairs.row_of_column[c as usize];
-            if other != NONE {
-                queue.push(other);
-                continue;
-            }
-            let (mut column, mut to) = (c, r);
-            loop {
-                let before = std::mem::replace(&mut pairs.column_of_row[to as usize], column);
-                pairs.row_of_column[column as usize] = to;
-                if to == row {
-                    return true;
+/// What finds ways of exchanges, one after the other.
+struct Search {
+    /// For every column, when it was last met.
+    met: Vec<Met>,
+    /// Rows on ways from the row at hand, nearest first.
+    queue: Vec<u32>,
+}
+
+/// That a column was met.
+#[derive(Clone, Copy)]
+struct Met {
+    /// The row that was to find a column.
+    by: u32,
+    /// The row in which it was met.
+    from: u32,
+}
+
+impl Search {
+    /// Finds a column for a row along a shortest way of exchanges.
+    fn exchange(&mut self, rest: &Remainder, row: u32, pairs: &mut Pairs) -> bool {
+        let Self { met, queue } = self;
+        queue.clear();
+        queue.push(row);
+        let mut next = 0;
+        while let Some(&r) = queue.get(next) {
+            next += 1;
+            let entries = rest.rows.of(r);
+            let least = THRESHOLD * largest(entries);
+            for &Entry { column: c, value, .. } in entries {
+                if !is_pivot(value, least) || met[c as usize].by == row {
+                    continue;
                 }
-                column = before;
-                let found = came.iter().find(|e| e.0 == column);
-                to = found.expect("a row was reached through its column").1;
+                met[c as usize] = Met { by: row, from: r };
+                let other = pairs.row_of_column[c as usize];
+                if other != NONE {
+                    queue.push(other);
+                    continue;
+                }
+                let (mut column, mut to) = (c, r);
+                loop {
+                    let before = std::mem::replace(&mut pairs.column_of_row[to as usize], column);
+                    pairs.row_of_column[column as usize] = to;
+                    if to == row {
+                        return true;
+                    }
+                    column = before;
+                    to = met[column as usize].from;
+                }
             }
         }
+        false
     }
-    false
 }
