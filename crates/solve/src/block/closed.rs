@@ -42,12 +42,15 @@ pub(crate) struct Conics {
 }
 
 impl Closed {
-    /// Makes the closed form of rows whose arguments are these unknowns, by position, if they have one.
-    pub(super) fn new(layout: &Layout, arguments: &[u32]) -> Option<Self> {
-        let exact = layout.within.iter().all(|&within| within == Tolerance::Relative);
-        if layout.height() != 2 || layout.core.len() != 2 || layout.is_linear || !exact {
-            return None;
-        }
+    /// Returns true if rows may have one, whatever they say.
+    fn may_be_of(layout: &Layout) -> bool {
+        let is_of_two = layout.height() == 2 && layout.core.len() == 2;
+        is_of_two
+            && !layout.is_linear
+            && layout.within.iter().all(|&within| within == Tolerance::Relative)
+    }
+    /// Makes the closed form of rows that may have one and whose arguments are these unknowns, by position.
+    fn new(layout: &Layout, arguments: &[u32]) -> Option<Self> {
         let pair = |row: usize| {
             let positions = &arguments[layout.arguments_of_row(row)];
             let twice = |u: u32| positions.iter().filter(|&&p| p == u).count() > 1;
@@ -77,6 +80,7 @@ impl Block {
     pub(crate) fn closed(&self) -> Option<&Closed> {
         let unknown = |s: &u32| self.unknowns.binary_search(s).map_or(KNOWN, |at| at as u32);
         let make = || {
+            Closed::may_be_of(&self.layout).then_some(())?;
             let arguments: Vec<u32> = self.arguments.iter().map(unknown).collect();
             Closed::new(&self.layout, &arguments)
         };
