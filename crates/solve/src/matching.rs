@@ -452,9 +452,12 @@ impl<'a> Matcher<'a> {
             let factors = dense::factorise(matrix, n, swaps);
             return factors.sign != 0 && factors.ratio > REGULAR;
         }
-        let places = |&r: &u32| entries(r).map(|(c, _)| c as u32).collect();
-        let pattern = Pattern::of_rows(n, block.iter().map(places));
-        let values: Vec<f64> = block.iter().flat_map(|&r| entries(r).map(|e| e.1)).collect();
+        let most = block.iter().map(|&r| self.rows.columns(r as usize).len()).sum();
+        let (mut pattern, mut values) = (Pattern::with_room(n, n, most), Vec::with_capacity(most));
+        for &r in block.iter() {
+            pattern.push(entries(r).map(|(c, _)| c as u32));
+            values.extend(entries(r).map(|e| e.1));
+        }
         let mut lu = Lu::default();
         let choose = |how| Symbolic::new(pivot::choose(&pattern, &values, how));
         let mut tells = |symbolic: &Symbolic, least: f64| {
