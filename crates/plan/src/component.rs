@@ -148,21 +148,23 @@ impl Places {
 impl Net {
     pub(crate) fn new(structure: &Structure, rules: &Rules) -> Self {
         let n = structure.slots.len();
-        let mut first = vec![0; n + 1];
-        for rule in rules.iter() {
-            rule.slots.iter().for_each(|s| first[s.0 as usize + 1] += 1);
+        // counted two further on, so that where a slot's rules begin can move on to where they end
+        let mut first = vec![0; n + 2];
+        for slots in rules.mentioned() {
+            slots.iter().for_each(|s| first[s.0 as usize + 2] += 1);
         }
-        for i in 0..n {
-            first[i + 1] += first[i];
+        for i in 2..n + 2 {
+            first[i] += first[i - 1];
         }
-        let mut next = first.clone();
-        let mut by_slot = vec![0; first[n] as usize];
-        for (i, rule) in (0..).zip(rules.iter()) {
-            for s in rule.slots {
-                by_slot[next[s.0 as usize] as usize] = i;
-                next[s.0 as usize] += 1;
+        let mut by_slot = vec![0; first[n + 1] as usize];
+        for (i, slots) in (0..).zip(rules.mentioned()) {
+            for s in slots {
+                let next = &mut first[s.0 as usize + 1];
+                by_slot[*next as usize] = i;
+                *next += 1;
             }
         }
+        first.truncate(n + 1);
         Self { first, rules: by_slot, places: Places::new(structure) }
     }
 
@@ -185,11 +187,12 @@ impl Net {
     /// Returns every component of the document, in order of their first slot.
     ///
     /// Cost: linear in what the rules mention.
-    pub(crate) fn all(&self, rules: &Rules, is_fixed: &dyn Fn(SlotId) -> bool) -> Partition {
-        let fixed: IdVec<SlotId, bool> = self.places.of.ids().map(is_fixed).collect();
+    pub(crate) fn all(&self, rules: &Rules, is_fixed: impl Fn(SlotId) -> bool) -> Partition {
+        let count = self.places.of.len() as u32;
+        let fixed: IdVec<SlotId, bool> = (0..count).map(|s| is_fixed(SlotId(s))).collect();
         let mut groups = Groups::new(fixed.len());
-        for rule in rules.iter() {
-            groups.unite_all(rule.slots.iter().copied().filter(|&s| !fixed[s]));
+        for slots in rules.mentioned() {
+            groups.unite_all(slots.iter().copied().filter(|&s| !fixed[s]));
         }
         let has_rules = |s: SlotId| !self.rules_of(s).is_empty();
         let moves = |s: &SlotId| !fixed[*s] && has_rules(*s);
@@ -206,33 +209,40 @@ impl Net {
         let mut numbers = Numbers {
             of_slot: IdVec::filled(NONE, fixed.len()),
             of_rule: vec![NONE; rules.len()],
-            count: 0,
+            counts: Vec::new(),
         };
-        let mut number = |known: &mut u32| {
+        let counts = &mut numbers.counts;
+        let mut number = |known: &mut u32, slots: u32| {
             if *known == NONE {
-                *known = numbers.count;
-                numbers.count += 1;
+                *known = counts.len() as u32;
+                counts.push((0, 0));
             }
+            counts[*known as usize].1 += slots;
             *known
         };
-        for (slot, &is_fixed) in fixed.iter() {
+        for (slot, &is_fixed) in (0..).map(SlotId).zip(fixed.as_slice()) {
             let rules_of = self.rules_of(slot);
             if !is_fixed && !rules_of.is_empty() {
                 let first = groups.first(slot);
-                numbers.of_slot[slot] = number(&mut numbers.of_slot[first]);
+                numbers.of_slot[slot] = number(&mut numbers.of_slot[first], 1);
                 continue;
             }
             for &rule in rules_of {
-                let moving = rules.get(rule).slots.iter().find(|s| !fixed[**s]);
-                number(match moving {
+                let moving = rules.slots_of(rule).iter().find(|s| !fixed[**s]);
+                let known = match moving {
                     Some(&s) => &mut numbers.of_slot[groups.first(s)],
                     None => &mut numbers.of_rule[rule as usize],
-                });
+                };
+                number(known, 0);
             }
         }
-        for (rule, of_rule) in rules.iter().zip(&mut numbers.of_rule) {
-            if let Some(&s) = rule.slots.iter().find(|s| !fixed[**s]) {
-                *of_rule = numbers.of_slot[s];
+        let Numbers { of_slot, of_rule, counts } = &mut numbers;
+        for (slots, of_rule) in rules.mentioned().zip(of_rule) {
+            if let Some(&s) = slots.iter().find(|s| !fixed[**s]) {
+                *of_rule = of_slot[s];
+            }
+            if *of_rule != NONE {
+                counts[*of_rule as usize].0 += 1;
             }
         }
         numbers
@@ -247,14 +257,12 @@ impl Net {
     ) -> Vec<Component> {
         let component = |number: u32| (number != NONE).then_some(number as usize);
         // slots that are fixed may be in several
-        let known = match fixed.iter().any(|(_, is_fixed)| *is_fixed) {
+        let known = match fixed.as_slice().contains(&true) {
             true => self.known(rules, fixed, numbers),
             false => Vec::new(),
         };
-        // counted, then put where there is room for them
-        let mut ends = vec![(0, 0); numbers.count as usize];
-        numbers.of_rule.iter().filter_map(|&n| component(n)).for_each(|n| ends[n].0 += 1);
-        numbers.of_slot.iter().filter_map(|(_, &n)| component(n)).for_each(|n| ends[n].1 += 1);
+        // where there is room for them
+        let mut ends = numbers.counts.clone();
         known.iter().for_each(|&(n, _)| ends[n].1 += 1);
         let (mut rule_at, mut slot_at) = (0, 0);
         for (rules, slots) in &mut ends {
@@ -272,7 +280,7 @@ impl Net {
             all.slots[all.ends[n].1 as usize] = slot;
             all.ends[n].1 += 1;
         };
-        for (slot, &n) in numbers.of_slot.iter() {
+        for (slot, &n) in (0..).map(SlotId).zip(numbers.of_slot.as_slice()) {
             component(n).into_iter().for_each(|n| put_slot(&mut all, n, slot));
         }
         known.iter().for_each(|&(n, slot)| put_slot(&mut all, n, slot));
@@ -302,8 +310,8 @@ impl Net {
             let mentioned = place.filter(|&s| fixed[s] && !self.rules_of(s).is_empty());
             known.extend(mentioned.map(|s| (n as usize, s)));
         }
-        for (rule, &n) in rules.iter().zip(&numbers.of_rule).filter(|(_, n)| **n != NONE) {
-            known.extend(rule.slots.iter().filter(|s| fixed[**s]).map(|&s| (n as usize, s)));
+        for (slots, &n) in rules.mentioned().zip(&numbers.of_rule).filter(|(_, n)| **n != NONE) {
+            known.extend(slots.iter().filter(|s| fixed[**s]).map(|&s| (n as usize, s)));
         }
         known.sort_unstable();
         known.dedup();
@@ -370,7 +378,8 @@ impl Partition {
 struct Numbers {
     of_slot: IdVec<SlotId, u32>,
     of_rule: Vec<u32>,
-    count: u32,
+    /// How many rules, and how many slots that are not fixed, each component has.
+    counts: Vec<(u32, u32)>,
 }
 
 /// Slots in disjoint groups, each known by its first.
@@ -395,8 +404,10 @@ impl Groups {
         let mut all = self.first(first);
         for slot in slots {
             let other = self.first(slot);
-            self.0[all.max(other)] = all.min(other);
-            all = all.min(other);
+            if other != all {
+                self.0[all.max(other)] = all.min(other);
+                all = all.min(other);
+            }
         }
     }
 }
@@ -554,7 +565,7 @@ mod tests {
             let every = structure.slots.ids().filter(|&s| !net.rules_of(s).is_empty());
             let around = net.around(every, &rules, &is_fixed, &[]);
             several += usize::from(around.len() > 1);
-            let all = net.all(&rules, &is_fixed);
+            let all = net.all(&rules, is_fixed);
             for slot in structure.slots.ids() {
                 let other = SlotId(dice.below(slots as usize) as u32);
                 let tied = [vec![slot, other]];

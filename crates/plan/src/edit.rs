@@ -146,7 +146,7 @@ impl Planner {
         let components = if are_anchors_given {
             self.whole(model.structure).components.clone()
         } else {
-            self.net.all(&self.rules, &|s| holding(s) == Holding::Fixed).components
+            self.net.all(&self.rules, |s| holding(s) == Holding::Fixed).components
         };
         let mut tasks = self.tasks(model.structure, components, &holding, &[], None);
         let mut report = EditReport { reached: true, ..EditReport::default() };

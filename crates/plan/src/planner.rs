@@ -260,7 +260,7 @@ impl Planner {
     /// Returns every component, where what is anchored is fixed; found once.
     pub(crate) fn whole(&mut self, structure: &Structure) -> &Partition {
         let is_fixed = |s: SlotId| structure.slots[s].anchored;
-        self.whole.get_or_insert_with(|| self.net.all(&self.rules, &is_fixed))
+        self.whole.get_or_insert_with(|| self.net.all(&self.rules, is_fixed))
     }
 
     /// Returns the components of these slots, where what is anchored is fixed; each of `tied` speaks of several

@@ -341,6 +341,14 @@ impl Rules {
         let (source, shape, slots) = self.rules[index as usize];
         Rule { source, shape: &self.shapes[shape], slots: &self.slots[slots.range()] }
     }
+    /// Returns the slots that every rule mentions.
+    pub(crate) fn mentioned(&self) -> impl Iterator<Item = &[SlotId]> {
+        self.rules.iter().map(|(_, _, span)| &self.slots[span.range()])
+    }
+    /// Returns the slots that a rule mentions.
+    pub(crate) fn slots_of(&self, index: u32) -> &[SlotId] {
+        &self.slots[self.rules[index as usize].2.range()]
+    }
     pub(crate) fn iter(&self) -> impl Iterator<Item = Rule<'_>> {
         (0..self.rules.len() as u32).map(|i| self.get(i))
     }
