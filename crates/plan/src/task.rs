@@ -423,6 +423,7 @@ impl Task {
     /// Does the same into a vector that is there already.
     pub(crate) fn gather_into(&self, numbers: &IdVec<SlotId, f64>, local: &mut Vec<f64>) {
         local.clear();
+        local.reserve(self.system.slots.len());
         local.extend(self.numbers(numbers));
         local.resize(self.system.slots.len(), 0.0);
         for (known, slot) in self.holds() {

@@ -110,7 +110,7 @@ impl Conditional {
             let is_open = relation.derived || relation.methods.is_empty();
             for &slot in slots {
                 mentioned[slot as usize] = true;
-                written[slot as usize] |= is_open && !relation.reads.contains(&slot);
+                written[slot as usize] |= is_open && !system.reads(relation).contains(&slot);
             }
         };
         for relation in &system.relations {

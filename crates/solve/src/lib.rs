@@ -5,7 +5,7 @@
 //! through an edit and [`Drag`] through a drag, for any values.
 //!
 //! ```
-//! use solve::{Few, Level, NoHost, Patterns, Relation, RelationBody, Runner, Slot, Stay, System};
+//! use solve::{Level, NoHost, Patterns, Relation, RelationBody, Runner, Slot, Stay, System};
 //! // 1.8 c + 32 = f, over argument 0 and argument 1
 //! let mut arena = expr::Arena::new();
 //! let (c, f) = (arena.var(expr::Var(0)), arena.var(expr::Var(1)));
@@ -22,9 +22,9 @@
 //! system.relations = vec![Relation {
 //!     level: Level::Required,
 //!     body: RelationBody::Equations(equations),
-//!     methods: Vec::new(),
+//!     methods: Default::default(),
 //!     derived: true,
-//!     reads: Few::default(),
+//!     reads: Default::default(),
 //!     within: Default::default(),
 //!     source: 0,
 //!     rests: false,
@@ -42,6 +42,7 @@
 //! not a number.
 pub mod few;
 pub mod pattern;
+pub mod seldom;
 pub mod system;
 
 mod lists;
@@ -135,6 +136,7 @@ pub use plan::{Plan, Rejected, Report, Step, StepKind, plan};
 pub use proof::Proofs;
 pub use run::{Drag, PATIENCE, Runner, are_continuous, forks, leaning, others, run};
 pub use search::{Count, Puzzle, Verdict};
+pub use seldom::Seldom;
 pub use system::{
     Equation, Level, Method, MethodBody, Relation, RelationBody, Slot, SlotIndex, Span, Stay,
     System,

@@ -33,10 +33,28 @@ pub(crate) struct Peeled {
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Solved {
     pub(crate) row: u32,
-    /// Which of the row's arguments.
-    pub(crate) argument: u32,
-    /// True if the row is solved together with the next one.
-    is_first_of_two: bool,
+    /// The slot that it determines.
+    pub(crate) target: SlotIndex,
+    /// Which of the row's arguments that is; of a row that is solved together with the next one, as many more
+    /// as [`Solved::FIRST_OF_TWO`] says.
+    marked: u32,
+}
+
+impl Solved {
+    const FIRST_OF_TWO: u32 = 1 << 31;
+
+    fn new(row: u32, target: SlotIndex, argument: u32, is_first_of_two: bool) -> Self {
+        let mark = if is_first_of_two { Self::FIRST_OF_TWO } else { 0 };
+        Self { row, target, marked: argument | mark }
+    }
+    /// Returns which of the row's arguments it determines.
+    pub(crate) fn argument(self) -> u32 {
+        self.marked & !Self::FIRST_OF_TWO
+    }
+    /// Returns true if the row is solved together with the next one.
+    fn is_first_of_two(self) -> bool {
+        self.marked & Self::FIRST_OF_TWO != 0
+    }
 }
 
 /// What is known of an argument of a kernel.
@@ -53,10 +71,6 @@ struct Way {
 }
 
 impl Peeled {
-    /// Returns the slot that a row determines.
-    pub(crate) fn target(&self, solved: Solved) -> SlotIndex {
-        self.rows.mentions(solved.row as usize)[solved.argument as usize]
-    }
     /// Returns what a row says.
     pub(crate) fn kernel(&self, solved: Solved) -> &Rc<Kernel> {
         self.rows.kernel(solved.row as usize).expect("no row that is peeled is opaque")
@@ -72,23 +86,23 @@ impl Peeled {
     /// Returns true if every row has one formula for a number that need not be whole.
     pub(crate) fn is_by_formula(&self, system: &System) -> bool {
         self.order.iter().all(|&solved| {
-            let is_discrete = system.slots[self.target(solved) as usize].is_discrete;
-            !is_discrete && !solved.is_first_of_two && self.way(solved).is_formula
+            let is_discrete = system.slots[solved.target as usize].is_discrete;
+            !is_discrete && !solved.is_first_of_two() && self.way(solved).is_formula
         })
     }
     /// Returns the rows that are solved together with what they determine.
     pub(crate) fn blocks(&self) -> Blocks {
         let count = self.order.len();
         let mut blocks = Blocks::with_room(count, count, count);
-        for own in self.order.chunk_by(|solved, _| solved.is_first_of_two) {
+        for own in self.order.chunk_by(|solved, _| solved.is_first_of_two()) {
             let rows = own.iter().map(|solved| solved.row as usize);
-            blocks.add(rows, own.iter().map(|&solved| self.target(solved)));
+            blocks.add(rows, own.iter().map(|solved| solved.target));
         }
         blocks
     }
     fn way(&self, solved: Solved) -> Way {
         let first = self.first[self.rows[solved.row as usize].kernel as usize];
-        self.ways[(first + solved.argument) as usize]
+        self.ways[(first + solved.argument()) as usize]
     }
 }
 
@@ -115,14 +129,14 @@ pub(crate) fn peel(system: &System, classes: &Classes, rows: Rows) -> Found {
         kernel.shown().for_each(|argument| ways[own + argument as usize].shows = true);
     }
     let Some(order) = order(system, classes, &rows, &first, &ways) else { return Found::Not(rows) };
-    if !rows::are_independent(&rows, classes.stay.len(), &twos(&rows, &order)) {
+    if !rows::are_independent(&rows, classes.stay.len(), &twos(&order)) {
         return Found::Not(rows);
     }
     for (kernel, &own) in rows.kernels().iter().zip(&first) {
         kernel.stated().for_each(|(a, _)| ways[(own + a) as usize].is_stated = true);
     }
     // what is solved together needs no formula
-    if !order.iter().any(|solved| solved.is_first_of_two) {
+    if !order.iter().any(|solved| solved.is_first_of_two()) {
         find_formulas(&rows, &order, &first, &mut ways);
     }
     Found::All(Peeled { rows, order, ways, first })
@@ -134,7 +148,7 @@ fn has_slot_for_each(system: &System, classes: &Classes, rows: &Rows) -> bool {
     let mut is_open: Vec<bool> = classes.stay.iter().map(|&stay| is_open(stay)).collect();
     let mut slots = 0;
     for r in 0..rows.len() {
-        let reads = &system.relations[rows[r].relation as usize].reads[..];
+        let reads = system.reads(&system.relations[rows[r].relation as usize]);
         for &slot in rows.mentions(r) {
             let is = |s: &SlotIndex| classes.representative[*s as usize] == slot;
             if is_open[slot as usize] && !reads.iter().any(is) {
@@ -156,19 +170,18 @@ fn find_formulas(rows: &Rows, order: &[Solved], first: &[u32], ways: &mut [Way])
     let mut asked = vec![false; ways.len()];
     for solved in order {
         let kernel = rows[solved.row as usize].kernel as usize;
-        let at = (first[kernel] + solved.argument) as usize;
+        let at = (first[kernel] + solved.argument()) as usize;
         if !std::mem::replace(&mut asked[at], true) {
-            let formulas = rows.kernels()[kernel].solved(solved.argument);
+            let formulas = rows.kernels()[kernel].solved(solved.argument());
             ways[at].is_formula = formulas.is_some_and(|s| s.guards.len() == 1);
         }
     }
 }
 
 /// Returns the rows that are solved two by two, each two with what they determine.
-fn twos(rows: &Rows, order: &[Solved]) -> Vec<[(u32, SlotIndex); 2]> {
-    let target = |s: &Solved| (s.row, rows.mentions(s.row as usize)[s.argument as usize]);
-    let of = |two: &[Solved]| [&two[0], &two[1]].map(target);
-    order.windows(2).filter(|two| two[0].is_first_of_two).map(of).collect()
+fn twos(order: &[Solved]) -> Vec<[(u32, SlotIndex); 2]> {
+    let of = |two: &[Solved]| [two[0], two[1]].map(|solved| (solved.row, solved.target));
+    order.windows(2).filter(|two| two[0].is_first_of_two()).map(of).collect()
 }
 
 /// What is left of a row: how many of its slots are not determined yet, and all of these in one number,
@@ -205,7 +218,7 @@ fn order(
         if !relation.methods.is_empty() {
             return None;
         }
-        let reads = &relation.reads[..];
+        let reads = system.reads(relation);
         for (way, &slot) in own.iter().zip(rows.mentions(r as usize)) {
             if !is_open[slot as usize] {
                 continue;
@@ -293,7 +306,7 @@ impl Peeling<'_> {
         }
         let mentions = self.rows.mentions(row as usize);
         let argument = mentions.iter().position(|&s| s == slot)? as u32;
-        self.order.push(Solved { row, argument, is_first_of_two });
+        self.order.push(Solved::new(row, slot, argument, is_first_of_two));
         self.left[row as usize].count = 0;
         self.is_determined[slot as usize] = true;
         Some(())

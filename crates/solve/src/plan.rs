@@ -17,13 +17,13 @@ use crate::run::start::Alike;
 use crate::slice::Slice;
 use crate::stated::Stated;
 use crate::substitute::{self, Classes};
-use crate::system::{Level, RelationBody, Slot, SlotIndex, Span, Stay, System, Turn};
+use crate::system::{Level, Relation, RelationBody, Slot, SlotIndex, Stay, System, Turn};
 use crate::test::{Place, Tests};
 use crate::tie;
 use crate::view::{self, Exchange};
-use base::number::Tolerance;
 use std::cell::{OnceCell, RefCell};
 use std::collections::BTreeMap;
+use std::ops::Range;
 use std::rc::Rc;
 
 /// How a step computes its targets.
@@ -149,7 +149,8 @@ pub struct Plan {
     /// Slots that stand for several, in order, each with what its scale is multiplied by so that its changes
     /// count for all of them: less than one.
     pub(crate) shares: Vec<(SlotIndex, f64)>,
-    pub(crate) relations: Vec<PlannedRelation>,
+    /// For every equation, its relation; found when first asked for.
+    relation_of: OnceCell<Box<[u32]>>,
     /// The relations that only the host can test.
     pub(crate) opaque: Vec<u32>,
     /// Slots for which another stands, in order, with that one.
@@ -182,23 +183,6 @@ const IMPLIED_ROWS: usize = 300;
 
 /// Up to this many slots a state that does not hold may be moved as a whole.
 const RELAXED_SLOTS: usize = 300;
-
-#[derive(Clone, Debug)]
-pub(crate) struct PlannedRelation {
-    pub(crate) level: Level,
-    pub(crate) within: Tolerance,
-    pub(crate) source: u32,
-    /// Its first equation in the system; one that has none stands where it would.
-    pub(crate) first_row: u32,
-    pub(crate) rows: u32,
-}
-
-impl PlannedRelation {
-    /// Returns its equations, itself being the relation of this index.
-    pub(crate) fn places(&self, relation: u32) -> impl Iterator<Item = Place> + use<> {
-        (self.first_row..self.first_row + self.rows).map(move |row| Place { relation, row })
-    }
-}
 
 /// Everything known before blocks are lowered.
 pub(crate) struct Analysis<'a> {
@@ -320,7 +304,7 @@ fn plan_stated(stated: Stated) -> Plan {
 /// Plans a system whose rows are solved one after the other.
 fn plan_peeled(stated: Stated, classes: &Classes, peeled: Peeled) -> Plan {
     let mut is_determined = vec![false; stated.system.slots.len()];
-    peeled.order.iter().for_each(|&solved| is_determined[peeled.target(solved) as usize] = true);
+    peeled.order.iter().for_each(|solved| is_determined[solved.target as usize] = true);
     let acceptance = accept::peeled(&stated.system, classes, &peeled.rows, &is_determined);
     let (findings, _) =
         report_on(&stated, classes, &peeled.rows, &acceptance, &|s| is_determined[s as usize]);
@@ -344,7 +328,6 @@ fn lower_peeled(stated: &Stated, classes: &Classes, peeled: &Peeled) -> Lowered 
 
 fn plan_of(stated: Stated, classes: &Classes, report: Report, lowered: Lowered) -> Plan {
     let system = &*stated.system;
-    let relations = tests_of_relations(system);
     let alike = Alike::all(system);
     let (mut has_branches, mut has_large_core) = (false, false);
     let (mut has_least, mut bends) = (false, false);
@@ -365,9 +348,9 @@ fn plan_of(stated: Stated, classes: &Classes, report: Report, lowered: Lowered) 
             | Program::Host { .. } => {}
         }
     }
-    let is_opaque = |r: &u32| match system.relations[*r as usize].body {
-        RelationBody::Equations(_) => false,
-        RelationBody::Opaque { .. } => true,
+    let opaque = |(r, relation): (u32, &Relation)| match relation.body {
+        RelationBody::Equations(_) => None,
+        RelationBody::Opaque { .. } => Some(r),
     };
     Plan {
         has_least,
@@ -376,8 +359,8 @@ fn plan_of(stated: Stated, classes: &Classes, report: Report, lowered: Lowered) 
         lowered: lowered.into(),
         peeled: None,
         shares: shares(system, classes),
-        opaque: (0..relations.len() as u32).filter(is_opaque).collect(),
-        relations,
+        opaque: (0..).zip(&system.relations).filter_map(opaque).collect(),
+        relation_of: OnceCell::new(),
         stood_for: stood_for(classes),
         scale_classes: alike.iter().map(|a| a.scale as usize + 1).max().unwrap_or(0),
         alike,
@@ -399,7 +382,7 @@ fn may_imply_somewhere(system: &System, classes: &Classes, rows: &Rows) -> bool 
             && rows.kernel(*r).is_some_and(|k| k.is_linear() == is_linear)
     };
     let ties = |r: usize| {
-        let reads = &system.relations[rows[r].relation as usize].reads;
+        let reads = system.reads(&system.relations[rows[r].relation as usize]);
         let is_read = |slot| reads.iter().any(|&s| classes.representative[s as usize] == slot);
         let moves =
             |&&slot: &&SlotIndex| classes.stay[slot as usize] != Stay::Fixed && !is_read(slot);
@@ -430,29 +413,6 @@ fn shares(system: &System, classes: &Classes) -> Vec<(SlotIndex, f64)> {
         (alike > 1).then(|| (root, 1.0 / (alike as f64).sqrt()))
     };
     classes.members().filter_map(share).collect()
-}
-
-fn tests_of_relations(system: &System) -> Vec<PlannedRelation> {
-    let mut relations = Vec::with_capacity(system.relations.len());
-    let mut next = 0;
-    for relation in &system.relations {
-        let rows = match &relation.body {
-            RelationBody::Equations(span) if span.len > 0 => *span,
-            RelationBody::Equations(_) | RelationBody::Opaque { .. } => {
-                Span { start: next, len: 0 }
-            }
-        };
-        debug_assert!(rows.start >= next, "equations stand in the order of their relations");
-        next = rows.start + rows.len;
-        relations.push(PlannedRelation {
-            level: relation.level,
-            within: relation.within,
-            source: relation.source,
-            first_row: rows.start,
-            rows: rows.len,
-        });
-    }
-    relations
 }
 
 /// States what was rejected, and which rows have to be solved together because they compromise.
@@ -613,15 +573,41 @@ impl Plan {
     pub(crate) fn pattern_place(&self, row: u32) -> usize {
         self.stated.place_of(row as usize)
     }
+    /// Returns a relation of the system.
+    pub(crate) fn relation(&self, relation: u32) -> &Relation {
+        &self.system().relations[relation as usize]
+    }
+    /// Returns how many relations the system has.
+    pub(crate) fn relation_count(&self) -> u32 {
+        self.system().relations.len() as u32
+    }
+    /// Returns the equations of a relation, by their places in the system.
+    pub(crate) fn rows_of(&self, relation: u32) -> Range<u32> {
+        match self.relation(relation).body {
+            RelationBody::Equations(span) => span.start..span.start + span.len,
+            RelationBody::Opaque { .. } => 0..0,
+        }
+    }
+    /// Returns the equations of a relation.
+    pub(crate) fn places(&self, relation: u32) -> impl Iterator<Item = Place> + use<> {
+        self.rows_of(relation).map(move |row| Place { relation, row })
+    }
     /// Returns an equation with the relation that it is of.
     pub(crate) fn place_of(&self, row: u32) -> Place {
-        let relation = self.relations.partition_point(|r| r.first_row + r.rows <= row);
-        Place { relation: relation as u32, row }
+        let of = |system: &System| {
+            let mut of = vec![0; system.equations.len()];
+            for r in 0..self.relation_count() {
+                self.rows_of(r).for_each(|row| of[row as usize] = r);
+            }
+            of.into()
+        };
+        let relation_of = self.relation_of.get_or_init(|| of(self.system()));
+        Place { relation: relation_of[row as usize], row }
     }
     /// Returns the place of the equation that a row is of.
     pub(crate) fn place_of_row(&self, rows: &Rows, row: u32) -> u32 {
         let row = rows[row as usize];
-        self.relations[row.relation as usize].first_row + row.equation
+        self.rows_of(row.relation).start + row.equation
     }
     pub(crate) fn pattern_at(&self, place: usize) -> &Pattern {
         self.stated.pattern_at(place)
@@ -631,7 +617,7 @@ impl Plan {
     }
     /// Returns every equation, laid out to be tested.
     pub(crate) fn tests(&self) -> &Tests {
-        self.tests.get_or_init(|| Tests::new(self, &(0..self.relations.len() as u32)))
+        self.tests.get_or_init(|| Tests::new(self, &(0..self.relation_count())))
     }
     /// Returns what moving these known slots can change; made once.
     pub(crate) fn slice(&self, inputs: &[SlotIndex]) -> Rc<Slice> {
@@ -678,7 +664,7 @@ impl Plan {
         let rows = rows::stated_rows(&self.stated, &classes);
         let is_unknown = |slot: &SlotIndex| unknowns.binary_search(slot).is_ok();
         let row = |r: usize| {
-            let place = self.relations[rows[r].relation as usize].first_row + rows[r].equation;
+            let place = self.place_of_row(&rows, r as u32);
             equations.binary_search(&place).ok()?;
             rows.mentions(r)
                 .iter()
@@ -689,11 +675,10 @@ impl Plan {
     }
     /// Returns every slot that a relation speaks of.
     pub(crate) fn mentions(&self, relation: u32) -> impl Iterator<Item = SlotIndex> + '_ {
-        let planned = &self.relations[relation as usize];
-        let system = &self.stated.system;
-        let rows = planned.first_row as usize..(planned.first_row + planned.rows) as usize;
-        let stated = system.equations[rows].iter().flat_map(|e| system.arguments(e.arguments));
-        let opaque = match &system.relations[relation as usize].body {
+        let (system, relation) = (self.system(), self.relation(relation));
+        let equations = system.equations_of(relation).iter();
+        let stated = equations.flat_map(|e| system.arguments(e.arguments));
+        let opaque = match &relation.body {
             RelationBody::Equations(_) => &[][..],
             RelationBody::Opaque { slots } => slots,
         };

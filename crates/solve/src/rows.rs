@@ -34,7 +34,6 @@ pub(crate) struct Row {
     /// Its kernel's place among those of all rows.
     pub(crate) kernel: u32,
     mentions: Span,
-    columns: Span,
 }
 
 /// Pivots smaller than this part of the largest may be a matter of rounding.
@@ -51,10 +50,45 @@ pub(crate) type Entry = (SlotIndex, f64);
 pub(crate) struct Rows {
     list: Vec<Row>,
     kernels: Vec<Rc<Kernel>>,
-    mentions: Vec<SlotIndex>,
+    mentions: Mentions,
+    /// Where the columns of every row stand, once they are there.
+    spans: Vec<Span>,
     columns: Vec<Entry>,
     /// Where the coefficients were taken, if that is a point where nothing is known of any slot.
     point: Option<Point>,
+}
+
+/// What rows speak of, one row's after the other's.
+#[derive(Debug)]
+enum Mentions {
+    /// The arguments of a system's equations, each of which stands for itself.
+    Stated(Rc<System>),
+    Own(Vec<SlotIndex>),
+}
+
+impl Default for Mentions {
+    fn default() -> Self {
+        Self::Own(Vec::new())
+    }
+}
+
+impl Mentions {
+    fn all(&self) -> &[SlotIndex] {
+        match self {
+            Self::Stated(system) => &system.arguments,
+            Self::Own(own) => own,
+        }
+    }
+    /// Returns them to be added to.
+    fn own(&mut self) -> &mut Vec<SlotIndex> {
+        if let Self::Stated(system) = self {
+            *self = Self::Own(system.arguments.clone());
+        }
+        match self {
+            Self::Own(own) => own,
+            Self::Stated(_) => unreachable!("they were copied"),
+        }
+    }
 }
 
 impl Rows {
@@ -63,11 +97,11 @@ impl Rows {
     }
     /// Returns every slot that a row speaks of; of an equation, the arguments of its kernel.
     pub(crate) fn mentions(&self, row: usize) -> &[SlotIndex] {
-        &self.mentions[self.list[row].mentions.range()]
+        &self.mentions.all()[self.list[row].mentions.range()]
     }
-    /// Returns the slots that a row may write, in order, with generic coefficients.
+    /// Returns the slots that a row may write, in order, with generic coefficients; none before these are found.
     pub(crate) fn columns(&self, row: usize) -> &[Entry] {
-        &self.columns[self.list[row].columns.range()]
+        self.spans.get(row).map_or(&[], |span| &self.columns[span.range()])
     }
     /// Computes the columns of these rows with coefficients in a finite field; none where one is made of what
     /// has no counterpart there.
@@ -194,7 +228,10 @@ pub(crate) fn stated_rows(stated: &Stated, classes: &Classes) -> Rows {
     let system = &*stated.system;
     let mut rows = Rows::default();
     rows.list.reserve(system.equations.len());
-    rows.mentions.reserve(system.arguments.len());
+    rows.mentions = match classes.is_plain() {
+        true => Mentions::Stated(stated.system.clone()),
+        false => Mentions::Own(Vec::with_capacity(system.arguments.len())),
+    };
     let mut kernels = Kernels::default();
     for (r, relation) in (0..).zip(&system.relations) {
         let one = Row {
@@ -204,7 +241,6 @@ pub(crate) fn stated_rows(stated: &Stated, classes: &Classes) -> Rows {
             curved: false,
             kernel: OPAQUE,
             mentions: Span::default(),
-            columns: Span::default(),
         };
         match &relation.body {
             RelationBody::Equations(span) => {
@@ -212,26 +248,32 @@ pub(crate) fn stated_rows(stated: &Stated, classes: &Classes) -> Rows {
                     if classes.is_settled(at) {
                         continue;
                     }
-                    let equation = system.equations[at];
-                    let start = rows.mentions.len();
-                    let over = system.arguments(equation.arguments).iter();
-                    rows.mentions.extend(over.map(|&s| classes.representative[s as usize]));
+                    let over = system.equations[at].arguments;
+                    let arguments = system.arguments(over);
                     let pattern = stated.place_of(at);
-                    let kernel = if are_distinct(&rows.mentions[start..]) {
+                    if matches!(rows.mentions, Mentions::Stated(_)) && are_distinct(arguments) {
+                        let kernel = kernels.plain(stated, pattern);
+                        rows.list.push(Row { equation: e, kernel, mentions: over, ..one });
+                        continue;
+                    }
+                    let all = rows.mentions.own();
+                    let start = all.len();
+                    all.extend(arguments.iter().map(|&s| classes.representative[s as usize]));
+                    let kernel = if are_distinct(&all[start..]) {
                         kernels.plain(stated, pattern)
                     } else {
-                        kernels.identified(stated, pattern, &mut rows.mentions, start)
+                        kernels.identified(stated, pattern, all, start)
                     };
-                    let len = (rows.mentions.len() - start) as u32;
-                    let mentions = Span { start: start as u32, len };
+                    let mentions = Span { start: start as u32, len: (all.len() - start) as u32 };
                     rows.list.push(Row { equation: e, kernel, mentions, ..one });
                 }
             }
             RelationBody::Opaque { slots } => {
                 let over: BTreeSet<SlotIndex> =
                     slots.iter().map(|&s| classes.representative[s as usize]).collect();
-                let mentions = Span { start: rows.mentions.len() as u32, len: over.len() as u32 };
-                rows.mentions.extend(over);
+                let all = rows.mentions.own();
+                let mentions = Span { start: all.len() as u32, len: over.len() as u32 };
+                all.extend(over);
                 rows.list.push(Row { mentions, ..one });
             }
         }
@@ -241,10 +283,14 @@ pub(crate) fn stated_rows(stated: &Stated, classes: &Classes) -> Rows {
 }
 
 fn are_distinct(slots: &[SlotIndex]) -> bool {
-    if slots.len() > 16 {
-        return slots.iter().collect::<BTreeSet<_>>().len() == slots.len();
+    match *slots {
+        [] | [_] => true,
+        [a, b] => a != b,
+        [a, b, c] => a != b && a != c && b != c,
+        [a, b, c, d] => a != b && a != c && a != d && b != c && b != d && c != d,
+        _ if slots.len() <= 16 => slots.iter().enumerate().all(|(i, s)| !slots[..i].contains(s)),
+        _ => slots.iter().collect::<BTreeSet<_>>().len() == slots.len(),
     }
-    slots.iter().enumerate().all(|(i, s)| !slots[..i].contains(s))
 }
 
 /// The kernels that rows have, each once.
@@ -423,13 +469,15 @@ fn evaluate_kernel(
 /// Gives every row the slots that it may write.
 fn set_columns(system: &System, classes: &Classes, rows: &mut Rows, slopes: &[f64]) {
     let mut columns: Vec<Entry> = Vec::with_capacity(slopes.len());
+    rows.spans.clear();
+    rows.spans.reserve(rows.len());
     let mut slopes = slopes.iter();
     let mut may: Vec<bool> = Vec::new();
     let mut next = 0;
     while next < rows.len() {
         let relation_index = rows[next].relation;
         let relation = &system.relations[relation_index as usize];
-        let writable = Writable::of(relation, classes);
+        let writable = Writable::of(system, relation, classes);
         let first = next;
         while next < rows.len() && rows[next].relation == relation_index {
             let start = columns.len();
@@ -462,8 +510,8 @@ fn set_columns(system: &System, classes: &Classes, rows: &mut Rows, slopes: &[f6
             let largest = own.iter().fold(0.0f64, |m, e| m.max(e.1.abs()));
             own.iter_mut().for_each(|e| e.1 /= largest);
             let len = (columns.len() - start) as u32;
-            let row = &mut rows.list[next];
-            (row.columns, row.curved) = (Span { start: start as u32, len }, curved);
+            rows.spans.push(Span { start: start as u32, len });
+            rows.list[next].curved = curved;
             next += 1;
         }
         if !relation.methods.is_empty() {
@@ -481,7 +529,7 @@ fn add_written_targets(
     columns: &mut Vec<Entry>,
 ) {
     let shown = |rows: &Rows, columns: &[Entry], slot: SlotIndex| {
-        own.clone().any(|r| columns[rows[r].columns.range()].iter().any(|e| e.0 == slot))
+        own.clone().any(|r| columns[rows.spans[r].range()].iter().any(|e| e.0 == slot))
     };
     let Writable { relation, classes, .. } = writable;
     let mut missing: Vec<SlotIndex> = relation
@@ -496,16 +544,16 @@ fn add_written_targets(
     if missing.is_empty() {
         return;
     }
-    let start = rows[own.start].columns.start as usize;
+    let start = rows.spans[own.start].start as usize;
     let before = columns.split_off(start);
     for r in own {
-        let span = rows[r].columns;
+        let span = rows.spans[r];
         let from = columns.len();
         let range = span.range();
         columns.extend(&before[range.start - start..range.end - start]);
         columns.extend(missing.iter().map(|&slot| (slot, generic_coefficient(r, slot))));
         columns[from..].sort_unstable_by_key(|e| e.0);
-        rows.list[r].columns = Span { start: from as u32, len: (columns.len() - from) as u32 };
+        rows.spans[r] = Span { start: from as u32, len: (columns.len() - from) as u32 };
     }
 }
 
@@ -522,11 +570,11 @@ struct Writable<'a> {
 }
 
 impl<'a> Writable<'a> {
-    fn of(relation: &'a Relation, classes: &'a Classes) -> Self {
+    fn of(system: &'a System, relation: &'a Relation, classes: &'a Classes) -> Self {
         let written = !relation.derived && !relation.methods.is_empty();
         let opaque = matches!(relation.body, RelationBody::Opaque { .. });
         let only_targets = written || opaque;
-        let reads = &relation.reads[..];
+        let reads = system.reads(relation);
         let is_any = !only_targets && reads.is_empty();
         Self { relation, classes, only_targets, is_any, reads }
     }

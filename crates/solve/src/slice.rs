@@ -53,14 +53,14 @@ impl Slice {
         for &slot in inputs {
             is_reached[slot as usize] = true;
         }
-        let target: Vec<SlotIndex> = peeled.order.iter().map(|&s| peeled.target(s)).collect();
-        let regions = Approachable::of(plan, peeled, &target);
+        let regions = Approachable::of(plan, peeled);
         let mut is_region_reached = vec![false; regions.lists.len()];
         let mut is_settled = vec![false; peeled.rows.len()];
         let is_free = plan.slots().iter().any(|s| s.stay == Stay::Free);
         let mut made = Self { inputs: inputs.to_vec(), is_held: !is_free, ..Self::default() };
         let mut steps: Vec<u32> = Vec::with_capacity(peeled.order.len());
-        for (index, (&solved, &target)) in (0..).zip(peeled.order.iter().zip(&target)) {
+        for (index, &solved) in (0..).zip(&peeled.order) {
+            let target = solved.target;
             let mentions = peeled.rows.mentions(solved.row as usize);
             if !mentions.iter().any(|&s| s != target && is_reached[s as usize]) {
                 continue;
@@ -74,7 +74,7 @@ impl Slice {
                 regions.lists.of(region).iter().for_each(|&u| is_reached[u as usize] = true);
             }
         }
-        made.targets = steps.iter().map(|&s| target[s as usize]).collect();
+        made.targets = steps.iter().map(|&s| peeled.order[s as usize].target).collect();
         made.portions = portions(Links::Peeled(plan, peeled), &steps);
         let mut tests = Vec::new();
         let rows = &peeled.rows;
@@ -140,12 +140,12 @@ impl Slice {
         }
         made.portions = portions(Links::Steps(plan, &writers), &steps);
         let mut tests = Vec::new();
-        for r in 0..plan.relations.len() as u32 {
+        for r in 0..plan.relation_count() {
             if !plan.mentions(r).any(|s| is_reached[s as usize]) {
                 continue;
             }
-            let relation = &plan.relations[r as usize];
-            let rows = relation.first_row as usize..(relation.first_row + relation.rows) as usize;
+            let rows = plan.rows_of(r);
+            let rows = rows.start as usize..rows.end as usize;
             made.relations.push(r);
             if plan.opaque.binary_search(&r).is_ok() {
                 made.opaque.push(r);
@@ -170,13 +170,13 @@ impl Approachable {
     const NONE: u32 = u32::MAX;
 
     /// Finds them; every step has one target.
-    fn of(plan: &Plan, peeled: &Peeled, targets: &[SlotIndex]) -> Self {
+    fn of(plan: &Plan, peeled: &Peeled) -> Self {
         let rows = &peeled.rows;
-        let steps = || peeled.order.iter().zip(targets).map(|(&solved, &target)| (solved, target));
+        let steps = || peeled.order.iter().map(|&solved| (solved, solved.target));
         let is_soft = |row: u32| rows[row as usize].level != Level::Required;
         let soft: Vec<SlotIndex> =
             steps().filter(|(solved, _)| is_soft(solved.row)).map(|(_, target)| target).collect();
-        if soft.is_empty() {
+        if soft.is_empty() || Self::are_none(plan, peeled) {
             return Self { region_of: Vec::new(), lists: Lists::default() };
         }
         let mut is_unknown = vec![false; plan.slots().len()];
@@ -217,6 +217,32 @@ impl Approachable {
         let pairs = region_of.iter().copied().zip(0..).filter(|p| p.0 != Self::NONE);
         let lists = Lists::new(count as usize, pairs);
         Self { region_of, lists }
+    }
+    /// Returns true if what comes of soft rows alone is too much for each of their regions.
+    fn are_none(plan: &Plan, peeled: &Peeled) -> bool {
+        if is_within_reach(peeled.order.len(), false) {
+            return false;
+        }
+        // for every slot, the first of the soft rows that it comes of, and of each how many do and whether by bends
+        let mut comes_of = vec![Self::NONE; plan.slots().len()];
+        let mut sizes: Vec<(usize, bool)> = Vec::new();
+        for &solved in &peeled.order {
+            let mentions = peeled.rows.mentions(solved.row as usize);
+            let known = mentions.iter().map(|&s| comes_of[s as usize]).find(|&n| n != Self::NONE);
+            let is_soft = peeled.rows[solved.row as usize].level != Level::Required;
+            let number = match known {
+                Some(number) => number,
+                None if is_soft => {
+                    sizes.push((0, false));
+                    sizes.len() as u32 - 1
+                }
+                None => continue,
+            };
+            comes_of[solved.target as usize] = number;
+            let (size, is_curved) = &mut sizes[number as usize];
+            (*size, *is_curved) = (*size + 1, *is_curved | peeled.is_curved(solved));
+        }
+        sizes.iter().all(|&(size, is_curved)| !is_within_reach(size, !is_curved))
     }
     fn of_slot(&self, slot: SlotIndex) -> Option<u32> {
         self.region_of.get(slot as usize).copied().filter(|&region| region != Self::NONE)

@@ -48,7 +48,7 @@ pub(crate) struct StripRow {
 }
 
 /// An equation solved for one of its arguments by the one formula that there is.
-#[derive(Debug)]
+#[derive(Clone, Debug)]
 pub(crate) struct Formula {
     kernel: Rc<Kernel>,
     pub(crate) argument: u32,
@@ -137,7 +137,7 @@ impl<'p> Links<'p> {
                 let solved = peeled.order[index as usize];
                 Some(Link {
                     kernel: peeled.kernel(solved),
-                    argument: solved.argument,
+                    argument: solved.argument(),
                     arguments: peeled.rows.mentions(solved.row as usize),
                 })
             }
@@ -197,63 +197,68 @@ fn stretch_portions(
     level_of_slot: &mut [u32],
     made: &mut Vec<Portion>,
 ) -> u32 {
-    let mut formulas: Vec<(*const Kernel, u32)> = Vec::new();
-    let mut rows: Vec<(u32, u32, u32)> = Vec::with_capacity(stretch.len());
+    let mut formulas: Vec<Formula> = Vec::new();
+    let mut steps: Vec<Linked> = Vec::with_capacity(stretch.len());
+    let mut arguments = 0;
     for &index in stretch {
         let link = links.link(index);
         // what it computes itself has none yet
         let levels = link.arguments.iter().map(|&r| level_of_slot[r as usize]);
         let level = levels.fold(ground, u32::max) + 1;
         level_of_slot[link.target() as usize] = level;
-        let own = (Rc::as_ptr(link.kernel), link.argument);
+        arguments += link.arguments.len();
+        let same = |f: &Formula| Rc::ptr_eq(&f.kernel, link.kernel) && f.argument == link.argument;
         let from = formulas.len().saturating_sub(FAR);
-        let known = formulas[from..].iter().rposition(|f| *f == own).map(|i| from + i);
+        let known = formulas[from..].iter().rposition(same).map(|i| from + i);
         let formula = known.unwrap_or(formulas.len());
         if known.is_none() {
-            formulas.push(own);
+            formulas.push(Formula { kernel: link.kernel.clone(), argument: link.argument });
         }
-        rows.push((level, formula as u32, index));
+        steps.push(Linked { level, formula: formula as u32, index });
     }
-    let highest = rows.iter().map(|r| r.0).max().unwrap_or(ground);
-    if rows.len() < (highest - ground) as usize * NARROWEST {
-        made.push(Portion::InTurn(strip(links, stretch.iter().copied())));
+    let highest = steps.iter().map(|s| s.level).max().unwrap_or(ground);
+    if steps.len() < (highest - ground) as usize * NARROWEST {
+        made.push(Portion::InTurn(Strip::new(links, formulas, &steps, arguments)));
         return highest;
     }
-    rows.sort_unstable();
-    for group in rows.chunk_by(|a, b| (a.0, a.1) == (b.0, b.1)) {
-        let steps = group.iter().map(|r| r.2);
+    steps.sort_unstable();
+    let are_abreast = |a: &Linked, b: &Linked| (a.level, a.formula) == (b.level, b.formula);
+    for group in steps.chunk_by_mut(are_abreast) {
         if group.len() >= FEWEST {
-            made.push(Portion::Abreast(strip(links, steps)));
+            let formula = formulas[group[0].formula as usize].clone();
+            let arguments = group.len() * formula.arity();
+            group.iter_mut().for_each(|step| step.formula = 0);
+            made.push(Portion::Abreast(Strip::new(links, vec![formula], group, arguments)));
         } else {
-            made.extend(steps.map(Portion::Step));
+            made.extend(group.iter().map(|step| Portion::Step(step.index)));
         }
     }
     highest
 }
 
-fn strip(links: Links<'_>, steps: impl ExactSizeIterator<Item = u32>) -> Strip {
-    let mut strip = Strip {
-        formulas: Vec::new(),
-        rows: Vec::with_capacity(steps.len()),
-        arguments: Vec::with_capacity(steps.len() * 3),
-    };
-    for index in steps {
-        let link = links.link(index);
-        let same = |f: &Formula| Rc::ptr_eq(&f.kernel, link.kernel) && f.argument == link.argument;
-        let from = strip.formulas.len().saturating_sub(FAR);
-        let known = strip.formulas[from..].iter().rposition(same).map(|i| from + i);
-        let formula = known.unwrap_or(strip.formulas.len());
-        if known.is_none() {
-            strip.formulas.push(Formula { kernel: link.kernel.clone(), argument: link.argument });
-        }
-        strip.rows.push(StripRow {
-            step: index,
-            target: link.target(),
-            formula: formula as u32,
-            first: strip.arguments.len() as u32,
-            row: links.row(index),
-        });
-        strip.arguments.extend_from_slice(link.arguments);
+/// A step of a stretch.
+#[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
+struct Linked {
+    /// One more than the highest of what it reads.
+    level: u32,
+    /// Which formula.
+    formula: u32,
+    /// The step, by its index.
+    index: u32,
+}
+
+impl Strip {
+    /// Puts steps together that have so many arguments in all.
+    fn new(links: Links<'_>, formulas: Vec<Formula>, steps: &[Linked], arguments: usize) -> Self {
+        let mut arguments = Vec::with_capacity(arguments);
+        let row = |&Linked { formula, index, .. }: &Linked| {
+            let link = links.link(index);
+            let first = arguments.len() as u32;
+            arguments.extend_from_slice(link.arguments);
+            let (target, row) = (link.target(), links.row(index));
+            StripRow { step: index, target, formula, first, row }
+        };
+        let rows = steps.iter().map(row).collect();
+        Self { formulas, rows, arguments }
     }
-    strip
 }

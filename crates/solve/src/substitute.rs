@@ -220,10 +220,11 @@ fn collect(
     fates: Vec<Fate>,
 ) -> Classes {
     let n = parent.len() as u32;
-    let mut is_alone = true;
-    for i in 0..n {
-        parent[i as usize] = find(&mut parent, i);
-        is_alone &= parent[i as usize] == i;
+    let is_alone = (0..).zip(&parent).all(|(i, &root)| i == root);
+    if !is_alone {
+        for i in 0..n {
+            parent[i as usize] = find(&mut parent, i);
+        }
     }
     let representative = parent;
     let (mut members, mut grouped) = (Vec::new(), Vec::new());
@@ -266,7 +267,8 @@ fn simple(stated: &Stated, relation: &Relation, equation: usize) -> Option<Simpl
     let says = stated.pattern_at(stated.place_of(equation)).plain()?;
     let system = &*stated.system;
     let arguments = system.arguments(system.equations[equation].arguments);
-    let may = |s: &SlotIndex| system.slots[*s as usize].is_number && !relation.reads.contains(s);
+    let reads = system.reads(relation);
+    let may = |s: &SlotIndex| system.slots[*s as usize].is_number && !reads.contains(s);
     if !arguments.iter().all(may) {
         return None;
     }

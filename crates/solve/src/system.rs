@@ -3,8 +3,8 @@
 //! In: relations among slots, each slot with the stay that it has in this edit. The system holds no
 //! values: a plan made of it serves all. Two systems that are equal have the same plan.
 
-use crate::few::Few;
 use crate::pattern::PatternId;
+use crate::seldom::Seldom;
 use base::number::Tolerance;
 use std::hash::{Hash, Hasher};
 
@@ -145,7 +145,7 @@ pub enum RelationBody {
     /// text, or a rule without an error expression. It counts as one row.
     Opaque {
         /// The slots that it speaks of.
-        slots: Vec<SlotIndex>,
+        slots: Box<[SlotIndex]>,
     },
 }
 
@@ -183,11 +183,11 @@ pub struct Relation {
     /// What it says.
     pub body: RelationBody,
     /// Written methods, in order of preference. The first that is possible is taken.
-    pub methods: Vec<Method>,
+    pub methods: Seldom<Method>,
     /// True if it may also be solved in ways that were not written (always so without methods).
     pub derived: bool,
-    /// Slots that it never writes.
-    pub reads: Few,
+    /// Slots that it never writes, in [`System::arguments`].
+    pub reads: Span,
     /// How far its sides may differ.
     pub within: Tolerance,
     /// What the caller calls it: the index of a constraint, a wish or a stay in the caller's table.
@@ -208,7 +208,7 @@ pub struct System {
     pub relations: Vec<Relation>,
     /// The equations of all relations, one relation's after the other's.
     pub equations: Vec<Equation>,
-    /// The arguments of all equations and methods.
+    /// The arguments of all equations and methods, and what relations only read.
     pub arguments: Vec<SlotIndex>,
 }
 
@@ -256,6 +256,10 @@ impl System {
     /// Returns the slots of a list of arguments.
     pub fn arguments(&self, span: Span) -> &[SlotIndex] {
         &self.arguments[span.range()]
+    }
+    /// Returns the slots that a relation never writes.
+    pub fn reads(&self, relation: &Relation) -> &[SlotIndex] {
+        self.arguments(relation.reads)
     }
     /// Returns the equations of a relation; an opaque one has none.
     pub fn equations_of(&self, relation: &Relation) -> &[Equation] {

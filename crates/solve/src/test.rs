@@ -60,7 +60,7 @@ pub(crate) struct TestScratch {
 impl Tests {
     /// Lays out the equations of these relations.
     pub(crate) fn new(plan: &Plan, relations: &(impl Iterator<Item = u32> + Clone)) -> Self {
-        let all = || relations.clone().flat_map(|r| plan.relations[r as usize].places(r));
+        let all = || relations.clone().flat_map(|r| plan.places(r));
         let mut groups: Vec<(u32, u32)> =
             (0..plan.pattern_count() as u32).map(|p| (p, 0)).collect();
         all().for_each(|place| groups[plan.pattern_place(place.row)].1 += 1);
@@ -100,7 +100,7 @@ impl Plan {
         for (pattern, places) in tests.by_pattern() {
             let pattern = self.pattern_at(pattern as usize);
             let mut compare = |place: Place, [left, right]: [f64; 2], work: &mut Workspace| {
-                let within = self.relations[place.relation as usize].within;
+                let within = self.relation(place.relation).within;
                 if within.is_met(left, right) {
                     return ControlFlow::Continue(());
                 }
@@ -162,7 +162,7 @@ impl Plan {
         let Differing { place: Place { relation, row }, left, right } = differing;
         let error = (left - right).abs();
         let error = if error.is_nan() { f64::INFINITY } else { error };
-        let within = self.relations[relation as usize].within;
+        let within = self.relation(relation).within;
         let sway = match within {
             Tolerance::Relative => self.sway(row, values, w),
             Tolerance::Within(_) => 0.0,
@@ -185,7 +185,7 @@ impl Plan {
     pub(crate) fn holds(&self, place: Place, values: &[f64], work: &mut Workspace) -> bool {
         let pattern = self.pattern_at(self.pattern_place(place.row));
         let [left, right] = self.sides(place.row, pattern, values, work);
-        let within = self.relations[place.relation as usize].within;
+        let within = self.relation(place.relation).within;
         within.is_met(left, right)
             || self.is_rounding(Differing { place, left, right }, values, work)
     }

@@ -58,7 +58,7 @@ impl Task {
                 system.relations.push(Relation {
                     level: Level::Required,
                     body: RelationBody::Equations(equations),
-                    methods: Vec::new(),
+                    methods: Default::default(),
                     derived: true,
                     rests: false,
                     reads: Default::default(),

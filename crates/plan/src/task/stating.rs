@@ -7,8 +7,8 @@ use base::number::Tolerance;
 use expr::Dimension;
 use kernel::{Primitive, SlotId};
 use solve::{
-    Condition, Conditional, Demand, DemandKind, Few, Guard, Level, Method, MethodBody, PatternId,
-    Patterns, Relation, RelationBody, SlotIndex, SlotRange, Span, Stay, System,
+    Condition, Conditional, Demand, DemandKind, Guard, Level, Method, MethodBody, PatternId,
+    Patterns, Relation, RelationBody, Seldom, SlotIndex, SlotRange, Span, Stay, System,
 };
 
 /// A system in the making.
@@ -30,11 +30,16 @@ impl<'s> Making<'s> {
         component: &'s Component,
     ) -> Self {
         let mut dimensions: Vec<Dimension> = Vec::new();
-        let mut latest: (Option<Primitive>, u16) = (None, 0);
+        // of a kind there are many, as a rule
+        let mut latest: Option<(Primitive, solve::Slot)> = None;
         let mut groups = 0;
         let mut system = System::default();
         let rules = component.rules();
-        let mentioned: usize = rules.iter().map(|&r| setting.rules.get(r).slots.len()).sum();
+        let mentioned = |&r: &u32| {
+            let rule = setting.rules.get(r);
+            rule.slots.len() + rule.shape.reads.len()
+        };
+        let mentioned: usize = rules.iter().map(mentioned).sum();
         // what wishes add has room too, so that nothing is moved for the last few
         let wishes = setting.wishes;
         let coordinates: usize = wishes.iter().map(|w| w.formulas.len()).sum();
@@ -67,19 +72,22 @@ impl<'s> Making<'s> {
                     })
                 }
             };
-            let is_discrete = s.primitive.is_whole();
-            let is_number = s.primitive.is_number();
-            // of a kind there are many, as a rule
-            if latest.0 != Some(s.primitive) {
-                let dimension = s.primitive.dimension();
-                let scale = dimensions.iter().position(|&d| d == dimension).unwrap_or_else(|| {
-                    dimensions.push(dimension);
-                    dimensions.len() - 1
-                }) as u16;
-                latest = (Some(s.primitive), scale);
-            }
-            let scale = latest.1;
-            system.slots.push(solve::Slot { stay, scale, is_number, is_discrete });
+            let like = match &latest {
+                Some((primitive, like)) if *primitive == s.primitive => like.clone(),
+                Some(_) | None => {
+                    let dimension = s.primitive.dimension();
+                    let known = dimensions.iter().position(|&d| d == dimension);
+                    let scale = known.unwrap_or_else(|| {
+                        dimensions.push(dimension);
+                        dimensions.len() - 1
+                    }) as u16;
+                    let (is_number, is_discrete) =
+                        (s.primitive.is_number(), s.primitive.is_whole());
+                    let like = solve::Slot { stay, scale, is_number, is_discrete };
+                    latest.insert((s.primitive, like)).1.clone()
+                }
+            };
+            system.slots.push(solve::Slot { stay, ..like });
         }
         Self {
             setting,
@@ -136,7 +144,7 @@ impl<'s> Making<'s> {
                 let slots = self.locals(rule, &formula.slots);
                 self.demand(formula.pattern, slots, DemandKind::Different)
             }
-            Body::Opaque(slots) => RelationBody::Opaque { slots: self.locals(rule, slots) },
+            Body::Opaque(slots) => RelationBody::Opaque { slots: self.locals(rule, slots).into() },
             Body::Hold(slots) => {
                 // What has no value yet cannot be held.
                 let held: Vec<SlotId> = rule
@@ -177,15 +185,19 @@ impl<'s> Making<'s> {
         let rests = shape.when.is_empty() && self.rests(rule);
         let source = self.relations.len() as u32;
         self.relations.push(Origin::Rule(position));
+        let reads = match shape.reads[..] {
+            [] => Span::default(),
+            _ => {
+                let reads = rule.slots_at(&shape.reads).map(|s| self.locals.0[s]);
+                self.conditional.system.add_arguments(reads)
+            }
+        };
         self.conditional.system.relations.push(Relation {
             level: shape.level,
             body,
-            methods,
+            methods: methods.into(),
             derived: shape.derived,
-            reads: match shape.reads[..] {
-                [] => Few::default(),
-                _ => rule.slots_at(&shape.reads).map(|s| self.local(s)).collect(),
-            },
+            reads,
             within: shape.within,
             source,
             rests,
@@ -236,9 +248,9 @@ impl<'s> Making<'s> {
         self.conditional.system.relations.push(Relation {
             level: Level::Required,
             body: RelationBody::Opaque { slots: reads.into_iter().chain([number]).collect() },
-            methods: vec![Method { targets: vec![number], body }],
+            methods: vec![Method { targets: vec![number], body }].into(),
             derived: false,
-            reads: Few::default(),
+            reads: Span::default(),
             within: Tolerance::Relative,
             source,
             rests: false,
@@ -308,9 +320,9 @@ impl<'s> Making<'s> {
         self.conditional.system.relations.push(Relation {
             level: wish.level,
             body: RelationBody::Equations(equations),
-            methods: Vec::new(),
+            methods: Seldom::default(),
             derived: true,
-            reads: Few::default(),
+            reads: Span::default(),
             within: Tolerance::Relative,
             source,
             rests: false,

@@ -1,7 +1,6 @@
 use super::*;
 use crate::deflate::Deflated;
 use crate::direct::Direction;
-use crate::few::Few;
 use crate::pattern::{PatternId, Patterns};
 use crate::peel::{Found, peel};
 use crate::stated::Stated;
@@ -67,9 +66,9 @@ fn net(stays: &[u8], relations: &[(u8, [usize; 3], bool)]) -> Net {
         system.relations.push(Relation {
             level: if soft { Level::Weak } else { Level::Required },
             body: RelationBody::Equations(equations),
-            methods: Vec::new(),
+            methods: Default::default(),
             derived: true,
-            reads: Few::default(),
+            reads: Default::default(),
             within: base::number::Tolerance::Relative,
             source: 0,
             rests: false,

@@ -171,13 +171,12 @@ impl Attempt<'_> {
         let plan = self.plan;
         let mut rejected = plan.report.rejected.iter().map(|r| r.relation);
         let broken = rejected.find(|&r| {
-            let planned = &plan.relations[r as usize];
-            planned.level == Level::Required
-                && !planned.places(r).all(|place| plan.holds(place, values, &mut buffers.work))
+            plan.relation(r).level == Level::Required
+                && !plan.places(r).all(|place| plan.holds(place, values, &mut buffers.work))
         });
         let is_untrue = |&r: &u32| {
-            let planned = &plan.relations[r as usize];
-            planned.level == Level::Required && !host.holds(planned.source, values)
+            let relation = plan.relation(r);
+            relation.level == Level::Required && !host.holds(relation.source, values)
         };
         let broken = broken.or_else(|| plan.opaque.iter().copied().find(is_untrue));
         Some(plan.mentions(broken?).collect())

@@ -74,9 +74,8 @@ impl Attempt<'_> {
             }
         }
         let surplus = plan.report.rejected.iter().filter_map(|rejected| {
-            let relation = &plan.relations[rejected.relation as usize];
-            let is_required = relation.level == Level::Required && rejected.row < relation.rows;
-            is_required.then_some(relation.first_row + rejected.row)
+            let is_required = plan.relation(rejected.relation).level == Level::Required;
+            plan.rows_of(rejected.relation).nth(rejected.row as usize).filter(|_| is_required)
         });
         equations.extend(surplus);
         plan.gathered(equations, unknowns)

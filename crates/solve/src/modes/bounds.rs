@@ -60,7 +60,7 @@ impl Modes {
             system.relations.push(Relation {
                 level: Level::Required,
                 body: RelationBody::Equations(Span { start, len: acting.len() as u32 }),
-                methods: Vec::new(),
+                methods: Default::default(),
                 derived: true,
                 reads: Default::default(),
                 within: Tolerance::Relative,

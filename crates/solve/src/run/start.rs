@@ -124,7 +124,7 @@ pub(super) fn required_rows_held(plan: &Plan, frame: &Frame, buffers: &mut Buffe
             return ControlFlow::Continue(());
         }
         frame.held[row as usize].set(Held::No);
-        match plan.relations[relation as usize].level.rank() {
+        match plan.relation(relation).level.rank() {
             None => ControlFlow::Break(()),
             Some(_) => ControlFlow::Continue(()),
         }

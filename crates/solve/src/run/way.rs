@@ -318,8 +318,7 @@ impl Way<'_> {
             }
         }
         unmet.sort_unstable_by_key(|u| u.relation);
-        let required =
-            |u: &Unmet| self.plan.relations[u.relation as usize].level == Level::Required;
+        let required = |u: &Unmet| self.plan.relation(u.relation).level == Level::Required;
         let conflict = unmet.iter().any(required);
         let status = if conflict { Status::Stopped(Reason::Conflict) } else { Status::Solved };
         Outcome { status, unmet, notes: Vec::new() }
@@ -347,7 +346,7 @@ impl Way<'_> {
         let Buffers { work, test, .. } = &mut *self.buffers;
         self.plan.each_failing(tests, values, work, test, &mut add);
         for &relation in opaque {
-            if !self.host.holds(self.plan.relations[relation as usize].source, values) {
+            if !self.host.holds(self.plan.relation(relation).source, values) {
                 unmet.push(Unmet { relation, error: 1.0, tolerance: 0.0 });
             }
         }

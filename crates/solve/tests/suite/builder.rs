@@ -2,8 +2,8 @@
 
 use expr::{Arena, Binary, ExprId, Var};
 use solve::{
-    Drag, Few, Host, Level, Method, MethodBody, NoHost, Outcome, Patterns, Plan, Relation,
-    RelationBody, Runner, Slot, SlotIndex, Stay, System,
+    Drag, Host, Level, Method, MethodBody, NoHost, Outcome, Patterns, Plan, Relation, RelationBody,
+    Runner, Slot, SlotIndex, Stay, System,
 };
 use std::rc::Rc;
 
@@ -95,9 +95,9 @@ impl Sheet {
         self.system.relations.push(Relation {
             level,
             body: RelationBody::Equations(equations),
-            methods: Vec::new(),
+            methods: Default::default(),
             derived: true,
-            reads: Few::default(),
+            reads: Default::default(),
             within: base::number::Tolerance::Relative,
             source: index,
             rests: false,
@@ -117,8 +117,9 @@ impl Sheet {
         relation.methods.push(Method { targets: vec![target], body });
     }
     pub(crate) fn reads(&mut self, relation: u32, slot: SlotIndex) {
-        let reads = &mut self.system.relations[relation as usize].reads;
-        *reads = reads.iter().copied().chain([slot]).collect();
+        let known = self.system.reads(&self.system.relations[relation as usize]).to_vec();
+        let reads = self.system.add_arguments(known.into_iter().chain([slot]));
+        self.system.relations[relation as usize].reads = reads;
     }
     /// A wish that `slots` be where the pointer is; returns the pointer's slots.
     pub(crate) fn wish(&mut self, slots: &[SlotIndex]) -> Vec<SlotIndex> {

@@ -3,7 +3,7 @@
 use base::Dice;
 use expr::{Arena, Binary, ExprId, Unary, Var};
 use solve::{
-    Conditional, Demand, DemandKind, Few, Level, Patterns, Puzzle, Relation, RelationBody, Slot,
+    Conditional, Demand, DemandKind, Level, Patterns, Puzzle, Relation, RelationBody, Slot,
     SlotRange, Span, Stay, Verdict,
 };
 
@@ -22,9 +22,9 @@ fn puzzle(stays: &[Stay], most: i64, arena: &Arena, truths: &[ExprId]) -> Puzzle
         stated.system.relations.push(Relation {
             level: Level::Required,
             body: RelationBody::Equations(Span::default()),
-            methods: Vec::new(),
+            methods: Default::default(),
             derived: true,
-            reads: Few::default(),
+            reads: Default::default(),
             within: base::number::Tolerance::Relative,
             source: relation,
             rests: false,

@@ -2,7 +2,7 @@
 
 use crate::builder::{Sheet, close, lines};
 use solve::{
-    Few, Host, Level, Method, MethodBody, NoHost, Note, Relation, RelationBody, Stay, StepKind,
+    Host, Level, Method, MethodBody, NoHost, Note, Relation, RelationBody, Stay, StepKind,
 };
 
 fn thermometer() -> (Sheet, [u32; 2]) {
@@ -166,13 +166,14 @@ fn a_caption_and_a_height_follow_each_other() {
     let caption = s.text(Stay::Free);
     s.system.relations.push(Relation {
         level: Level::Required,
-        body: RelationBody::Opaque { slots: vec![caption, height] },
+        body: RelationBody::Opaque { slots: [caption, height].into() },
         methods: vec![
             Method { targets: vec![caption], body: MethodBody::Opaque { reads: vec![height] } },
             Method { targets: vec![height], body: MethodBody::Opaque { reads: vec![caption] } },
-        ],
+        ]
+        .into(),
         derived: false,
-        reads: Few::default(),
+        reads: Default::default(),
         within: base::number::Tolerance::within(0.0),
         source: 0,
         rests: false,
