@@ -403,7 +403,7 @@ impl<'a> Matcher<'a> {
             if block.len() > 1 && regular {
                 scratch.rows.clear();
                 scratch.rows.extend(own());
-                scratch.rows.sort_unstable();
+                sort_among(&mut scratch.rows, self.rows.len());
                 regular = self.is_regular_block(&mut scratch, factored);
                 if !regular {
                     self.failing = scratch.rows.first().copied();
@@ -423,7 +423,7 @@ impl<'a> Matcher<'a> {
         let BlockScratch { rows: block, columns, place, matrix, swaps } = scratch;
         columns.clear();
         columns.extend(block.iter().map(|&r| self.slot_of_row[r as usize]));
-        columns.sort_unstable();
+        sort_among(columns, self.row_of_slot.len());
         let n = block.len();
         if n > FEW {
             place.resize(self.row_of_slot.len(), NONE);
@@ -503,4 +503,19 @@ impl<'a> Matcher<'a> {
         }
         Some(exact)
     }
+}
+
+/// Sorts numbers below an end, no two of which are equal.
+fn sort_among(numbers: &mut Vec<u32>, end: usize) {
+    const MANY: usize = 1000;
+    const PART: usize = 16;
+    if numbers.len() < MANY.max(end / PART) {
+        numbers.sort_unstable();
+        return;
+    }
+    // where they are many it is quicker to go through all and ask which are there
+    let mut is_there = vec![false; end];
+    numbers.iter().for_each(|&i| is_there[i as usize] = true);
+    numbers.clear();
+    numbers.extend((0..).zip(is_there).filter(|(_, is_there)| *is_there).map(|(i, _)| i));
 }

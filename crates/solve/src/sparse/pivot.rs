@@ -45,6 +45,19 @@ pub(crate) struct Pivots {
     pub(crate) upper: Lists,
 }
 
+impl Pivots {
+    /// Chooses none yet, with room for so many, and for so many entries beside them.
+    fn with_room(pivots: usize, entries: usize) -> Self {
+        Self {
+            rows: Vec::with_capacity(pivots),
+            columns: Vec::with_capacity(pivots),
+            sparse: 0,
+            lower: Vec::with_capacity(entries),
+            upper: Lists::with_room(pivots, entries),
+        }
+    }
+}
+
 /// Numbered things by how many entries each has, to find those with few.
 #[derive(Debug)]
 pub(crate) struct Counts {
@@ -170,7 +183,7 @@ pub(crate) enum How {
 pub(crate) fn choose(pattern: &Pattern, values: &[f64], how: How) -> Pivots {
     let n = pattern.height();
     let mut rest = Remainder::new(pattern, values);
-    let mut out = Pivots::default();
+    let mut out = Pivots::with_room(n, pattern.len());
     if how == How::Paired && n > LARGE {
         rest.eliminate_cheap(&mut out);
         if rest.left > LARGE && pair::eliminate(&rest, &mut out) {
@@ -212,7 +225,9 @@ impl Remainder {
             size: values[e].abs() as f32,
             value: values[e],
         };
-        let entries: Vec<Entry> = (0..pattern.len()).map(entry).collect();
+        // there is room for as many that elimination makes
+        let mut entries: Vec<Entry> = Vec::with_capacity(2 * pattern.len());
+        entries.extend((0..pattern.len()).map(entry));
         Self {
             rows: Shelves::new((0..n).map(|r| pattern.row(r).len() as u32), entries),
             columns: Shelves::new(count.iter().copied(), columns.into_parts().1),
