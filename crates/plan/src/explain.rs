@@ -260,11 +260,21 @@ impl Planner {
     ///
     /// Empty where the slot can move, where it is a text, or where an anchor holds it.
     pub fn why_not(&mut self, model: Model<'_>, slot: SlotId) -> Vec<Conflict> {
+        let tasks = self.wishing(model, slot);
+        self.against_wish(&tasks)
+    }
+
+    /// Plans that a slot moves, where it is a number.
+    pub(crate) fn wishing(&mut self, model: Model<'_>, slot: SlotId) -> Vec<Task> {
         if !model.structure.slots[slot].primitive.is_number() {
             return Vec::new();
         }
         let aim = self.aim_at(slot);
-        let tasks = self.plan_edit(model, &aim);
+        self.plan_edit(model, &aim)
+    }
+
+    /// Returns what stands against the one wish of these tasks.
+    pub(crate) fn against_wish(&self, tasks: &[Task]) -> Vec<Conflict> {
         let is_wish =
             |task: &Task, r: &Rejected| task.source(&self.rules, r.relation) == Source::Wish(0);
         tasks.iter().flat_map(|task| self.conflicts(task, |r| is_wish(task, r))).collect()

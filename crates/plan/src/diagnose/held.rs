@@ -1,8 +1,9 @@
 //! What holds a number where it is: the circuit that its own wish would close, and the anchors in it.
 
+use crate::host::Host;
 use crate::planner::{Model, Planner};
 use crate::rule::Source;
-use kernel::SlotId;
+use kernel::{SlotId, Values};
 use std::collections::BTreeSet;
 
 /// What holds a number.
@@ -15,14 +16,29 @@ pub struct Held {
 }
 
 impl Planner {
-    /// Returns what holds a number where it is; nothing where it can move.
+    /// Returns what holds a number where it is in a state; nothing where it can move.
     ///
-    /// A given number in its way is no hindrance: it yields.
-    pub fn held(&mut self, model: Model<'_>, slot: SlotId) -> Option<Held> {
+    /// A given number in its way is no hindrance: it yields. Nor is a constraint that follows there from the others.
+    pub fn held(
+        &mut self,
+        model: Model<'_>,
+        values: &Values,
+        slot: SlotId,
+        host: &mut dyn Host,
+    ) -> Option<Held> {
         if model.structure.slots[slot].anchored {
             return Some(Held { constraints: Vec::new(), anchors: vec![slot] });
         }
-        let conflicts = self.why_not(model, slot);
+        let mut tasks = self.wishing(model, slot);
+        let mut conflicts = self.against_wish(&tasks);
+        if !conflicts.is_empty() {
+            for task in &mut tasks {
+                if let Some(left) = self.without_implied(model, task, values, host) {
+                    *task = left;
+                }
+            }
+            conflicts = self.against_wish(&tasks);
+        }
         let constraints: BTreeSet<Source> =
             conflicts.iter().flat_map(|c| c.circuit.iter().copied()).collect();
         if conflicts.is_empty() {

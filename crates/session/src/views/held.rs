@@ -1,6 +1,7 @@
 //! Why a thing does not move, in words.
 
 use crate::document::Open;
+use crate::texts::Texts;
 use crate::view::HeldView;
 use crate::words;
 use kernel::{Path, SlotId};
@@ -23,10 +24,11 @@ pub(crate) fn view(open: &mut Open, about: &Path) -> Option<HeldView> {
         let thing = thing.unwrap_or(state.structure.slots[slot].thing);
         state.structure.path(&state.lowered.document, thing).to_string()
     };
+    let mut texts = Texts::new(&state.lowered.document, &state.structure);
     let mut holds: Vec<(Hold, Vec<SlotId>)> = Vec::new();
     let mut loose = Vec::new();
     for slot in numbers {
-        let Some(by) = open.planner.held(state.model(), slot) else {
+        let Some(by) = open.planner.held(state.model(), &state.values, slot, &mut texts) else {
             loose.push(slot);
             continue;
         };

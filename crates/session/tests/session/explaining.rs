@@ -145,6 +145,21 @@ fn equalities_are_named_among_what_holds_a_thing() {
 }
 
 #[test]
+fn what_follows_from_others_for_the_given_numbers_holds_nothing() {
+    // the second says what the first does: with two rules for two unknowns nothing would be left to move
+    let text = "net: Real = 100\nrate: Real = 1.2\ngross: Real\n\
+        constraint forth: gross = net * rate\nconstraint back: net = gross / rate\n";
+    let held = |text: &str| {
+        let mut desk = Desk::of(text);
+        desk.session.held(desk.id, &at("rate")).map(|h| h.message)
+    };
+    assert_eq!(held(text), None);
+    let anchored = held(&format!("{text}anchor net, gross\n"));
+    let message = "rate does not move: held by back, and by the anchor of net, gross";
+    assert_eq!(anchored.as_deref(), Some(message));
+}
+
+#[test]
 fn virtual_parts_constraints_and_wholes_are_explained() {
     let desk = Desk::of(FLAT);
     let why = |path: &str| desk.session.explain(desk.id, Some(&at(path))).summary;
