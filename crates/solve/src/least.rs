@@ -469,6 +469,18 @@ impl Least {
         self.structure().factorise(&s.entries, &mut s.firm) == Some(m)
     }
 
+    /// Takes the slopes of rows for none that are rounding; the rows have to be weighed.
+    fn flatten(&self, s: &mut LeastScratch) {
+        let pattern = &self.block.pattern;
+        for r in 0..self.block.height() {
+            let LeastScratch { local, scale, steepness, .. } = &mut *s;
+            let slopes = pattern.range(r).map(|e| local.jacobian[e] * scale[pattern.column(e)]);
+            if slopes.map(|d| d * d).sum::<f64>() != steepness[r] {
+                pattern.range(r).for_each(|e| local.jacobian[e] = 0.0);
+            }
+        }
+    }
+
     /// Freezes for every row how steep it is, so that its error is dimensionless.
     fn weigh(&self, s: &mut LeastScratch) {
         let pattern = &self.block.pattern;

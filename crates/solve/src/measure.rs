@@ -20,9 +20,11 @@ mod levels;
 
 use crate::block::{Block, Local, Workspace};
 use crate::dense::{self, Spaces};
+use crate::least::Least;
 use crate::lower::{Definers, Problem, ProblemRow};
 use crate::square::Trust;
 use crate::system::{Level, SlotIndex, Turn};
+use base::number::ROUNDING;
 use curved::Curved;
 use levels::{Asked, Levels};
 use std::collections::BTreeMap;
@@ -179,6 +181,16 @@ impl Measure {
             unknowns,
             block,
         }
+    }
+
+    /// Returns the same as a least change, where nothing in it is soft.
+    pub(crate) fn least(&self) -> Option<Least> {
+        let is_hard = self.block.levels.iter().all(|&level| level == Level::Required);
+        let turn = |slot: SlotIndex| {
+            let own = self.unknowns.iter().zip(&self.turns).find(|(u, _)| **u == slot);
+            own.map_or(Turn::Open, |(_, &turn)| turn)
+        };
+        is_hard.then(|| Least::new(&self.block.problem(), &turn))
     }
 
     /// Returns every slot that solving writes.
@@ -400,7 +412,9 @@ impl Measure {
                     dense::norm(&slopes)
                 }
             };
-            if size > 0.0 { 1.0 / size } else { 1.0 }
+            // a slope that rounding of its sides makes is none
+            let sides = [&scaled.local.left, &scaled.local.right].map(|side| side[row].abs());
+            if size > ROUNDING * sides[0].max(sides[1]) { 1.0 / size } else { 1.0 }
         });
         let own: Vec<f64> = own.collect();
         // rows of one level and class count alike, but for what is three times another

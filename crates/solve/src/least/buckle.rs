@@ -39,6 +39,7 @@ impl Least {
         s.measure(block, scales);
         self.evaluate(Counted::All, values, w, s);
         self.weigh(s);
+        self.flatten(s);
         if self.factorise(Counted::All, values, Matrix::Flat, w, s).is_none() {
             return false;
         }

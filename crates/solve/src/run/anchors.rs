@@ -185,6 +185,10 @@ impl Way<'_> {
                 let least = Least::new(&square.block.problem(), &|_| Turn::Valued);
                 least.buckle(self.trial, scales, work, scratch)
             }
+            (Program::Measure(measure), None) => {
+                let least = measure.least();
+                least.is_some_and(|least| least.buckle(self.trial, scales, work, scratch))
+            }
             (_, None) => false,
         };
         if buckles {
