@@ -16,6 +16,10 @@ use base::number::Toward;
 /// How far a state is moved off a fork to look which branch lies there, in units of the extent.
 const ASIDE: f64 = 1e-3;
 
+/// How much further each block is moved than the one before it, and the furthest.
+const FURTHER: f64 = 4.0;
+const MOST_ASIDE: f64 = 0.1;
+
 /// Which way a slot goes from a fork.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub struct Lean {
@@ -38,20 +42,24 @@ pub(crate) fn lean(
     if leans.is_empty() {
         return;
     }
+    let fork = state.to_vec();
+    let mut by = ASIDE;
     for step in plan.branching() {
         let Some(square) = forking(&step.program) else { continue };
         for lean in leans.iter().filter(|l| step.targets.contains(&l.slot)) {
             let slot = lean.slot as usize;
             let Buffers { work, square: scratch, .. } = &mut *buffers;
-            let Some(open) = square.fork(state, &frame.scales, work, scratch) else { continue };
+            let Some(open) = square.fork(&fork, &frame.scales, work, scratch) else { continue };
             let before = state[slot];
             let whole = state.to_vec();
-            square.shift(state, &open, ASIDE, &frame.scales, work);
+            square.shift(state, &open, by, &frame.scales, work);
             let toward = if state[slot] > before { Toward::More } else { Toward::Less };
             if toward != lean.toward {
                 state.copy_from_slice(&whole);
-                square.shift(state, &open, -ASIDE, &frame.scales, work);
+                square.shift(state, &open, -by, &frame.scales, work);
             }
+            // what comes after, and may follow what was moved, goes past that
+            by = (FURTHER * by).min(MOST_ASIDE);
         }
     }
 }
