@@ -394,7 +394,7 @@ impl Pull {
         self.back(&mut press);
         let (way, texts) = Way::of(&task, &self.x0, model, &press);
         let (x0, targets) = (self.x0.clone(), self.targets.clone());
-        let (planned, free) = (None, Some(None));
+        let (planned, free) = (None, None);
         Some(Self {
             task,
             planned,

@@ -151,7 +151,7 @@ pub(crate) fn run(
     ran
 }
 
-/// Lets the computed numbers go that the plan holds, where an edit came to no end with them held.
+/// Lets the computed numbers go that the plan holds, and then the places, where an edit came to no end with them held.
 fn or_letting_go(
     planner: &Planner,
     model: Model<'_>,
@@ -165,18 +165,21 @@ fn or_letting_go(
     if !is_refused || ground.changed.is_empty() {
         return ran;
     }
-    let Some(free) = task.letting_go(&planner.plans) else { return ran };
     let texts = values.texts.clone();
     let numbers: Vec<f64> = task.numbers(&values.numbers).collect();
-    put_texts(&ground.texts, values);
-    let mut found = by_course(planner, model, &free, ground, values, host);
-    if !found.is_solved {
-        values.texts = texts;
+    let mut free = task.letting_go(&planner.plans);
+    while let Some(own) = free {
+        put_texts(&ground.texts, values);
+        let mut found = by_course(planner, model, &own, ground, values, host);
+        if found.is_solved {
+            found.stands = found.stands.and_then(|stands| task.stands_as(planner, &stands));
+            return found;
+        }
+        values.texts.clone_from(&texts);
         scatter(task, &numbers, values);
-        return ran;
+        free = own.letting_go(&planner.plans);
     }
-    found.stands = found.stands.and_then(|stands| task.stands_as(planner, &stands));
-    found
+    ran
 }
 
 /// Has places stay apart that came together, where the answer holds by that alone: what has no answer then has none.

@@ -71,8 +71,9 @@ impl Task {
         Some(Self::of(known, self.component.clone()))
     }
 
-    /// Returns what it is where the computed numbers that its plan holds yield as well, as one place with what does.
-    /// Nothing where it holds none or lets nothing computed yield, where it opens, is large or is searched.
+    /// Returns what it is where the computed numbers that its plan holds yield as well, as one place with what does,
+    /// or the places, where it holds no such numbers. Nothing where it holds neither or lets nothing computed yield,
+    /// where it opens, is large or is searched.
     pub(crate) fn letting_go(&self, plans: &Plans) -> Option<Self> {
         let find = || self.with_numbers_free(plans);
         let known = match self.course {
@@ -95,16 +96,20 @@ impl Task {
         let (_, with) =
             yields.iter().zip(slots).find(|(yields, slot)| **yields && is_kept(slot))?;
         let is_alone = |slot: &Slot| slots.iter().filter(|s| s.stay == slot.stay).nth(1).is_none();
-        let lets_go = |i: usize| {
+        let lets_go = |&i: &usize| {
             let slot = &slots[i];
-            !yields[i] && is_kept(slot) && slot.is_number && !slot.is_discrete && is_alone(slot)
+            let is_other = is_kept(slot) && slot.stay != with.stay;
+            !yields[i] && is_other && slot.is_number && !slot.is_discrete
         };
-        let held: Vec<usize> = (0..slots.len()).filter(|&i| lets_go(i)).collect();
+        let held: Vec<usize> = (0..slots.len()).filter(lets_go).collect();
+        let alone: Vec<usize> = held.iter().copied().filter(|&i| is_alone(&slots[i])).collect();
+        let held = if alone.is_empty() { held } else { alone };
         if held.is_empty() {
             return None;
         }
         let let_go = |system: &mut System| {
             held.iter().for_each(|&i| system.slots[i].stay = with.stay);
+            system.relations.iter_mut().for_each(|relation| relation.rests = false);
         };
         self.restated(plans, let_go)
     }
