@@ -263,6 +263,11 @@ impl Kernel {
         }
     }
 
+    /// Returns both sides as expressions of the arguments.
+    pub(crate) fn expressions(&self) -> (&Arena, [ExprId; 2]) {
+        (&self.arena, [self.left, self.right])
+    }
+
     /// Returns both sides in another arena, every argument replaced.
     pub(crate) fn sides_over(
         &self,

@@ -103,7 +103,8 @@ impl Stay {
 pub struct Slot {
     /// What holds it.
     pub stay: Stay,
-    /// Slots of one scale have one extent in the measure of distance: all lengths, all voltages, ….
+    /// Slots of one scale have one extent in the measure of distance: all lengths, all voltages, …; plain numbers
+    /// have the first.
     pub scale: u16,
     /// True for a number that the plan can compute; false for a text, known to the host alone.
     pub is_number: bool,

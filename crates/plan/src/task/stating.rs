@@ -29,7 +29,7 @@ impl<'s> Making<'s> {
         locals: &'s mut Locals,
         component: &'s Component,
     ) -> Self {
-        let mut dimensions: Vec<Dimension> = Vec::new();
+        let mut dimensions = vec![Dimension::NONE];
         // of a kind there are many, as a rule
         let mut latest: Option<(Primitive, solve::Slot)> = None;
         let mut groups = 0;
