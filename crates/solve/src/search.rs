@@ -5,7 +5,8 @@
 //! stays open is explored depth first, the same way in every run.
 //!
 //! Of several solutions the nearest is taken. Near is, one after the other: how far `strong` relations
-//! are from holding, then the wish of a drag, then `medium` and `weak` ones, all in sums of squares; then
+//! are from holding, then the wish of a drag, then `medium` and `weak` ones, all in sums of squares; what is true
+//! or not is met or not met, in order of declaration, and the sum stands where the first number does. Then
 //! the sum of the squared changes of given numbers, then that of the others. Given numbers are tried as
 //! constants first, and yield only where nothing else can. Of solutions that are equally near the
 //! first found counts: cells are taken by the number of their values, then by declaration. Once there
@@ -18,11 +19,11 @@ mod row;
 
 use crate::conditional::{Conditional, DemandKind};
 use crate::pattern::Patterns;
-use crate::system::{Level, RelationBody, Slot, SlotIndex, Stay};
+use crate::system::{RelationBody, Slot, SlotIndex, Stay};
 use crate::truth::{Comparing, Comparison, Truth, truth};
 use domain::{Domain, MOST};
 use explore::{End, Net, Visitor, explore};
-use expr::{Arena, ExprId};
+use expr::{Arena, Binary, ExprId, Node, Unary};
 use propagate::{Field, Prospect};
 use row::{Cells, Row, different, row, whole_number};
 
@@ -42,11 +43,14 @@ pub struct Puzzle {
     ranges: Vec<Domain>,
     required: Vec<Row>,
     soft: Vec<Soft>,
+    /// How many places soft relations have in a distance.
+    ranks: usize,
 }
 
 /// A relation that is wished.
 #[derive(Debug)]
 struct Soft {
+    /// Where its error counts in a distance.
     rank: usize,
     wish: Wish,
 }
@@ -58,10 +62,9 @@ enum Wish {
     Row(Row),
 }
 
-/// How far a state is from what is wished: by rank, the first counts most.
-type Distance = [f64; KEPT + 1];
-const GIVEN: usize = Level::SOFT.len();
-const KEPT: usize = GIVEN + 1;
+/// How far a state is from what is wished: by rank, the first counts most; then from where given numbers were, then
+/// from where the others were.
+type Distance = Vec<f64>;
 
 /// What came of a search.
 #[derive(Clone, PartialEq, Debug)]
@@ -103,7 +106,7 @@ impl Puzzle {
             let slots = system.arguments(c.arguments);
             conditions.push(patterns.get(c.pattern).write_out(&mut arena, slots)[0]);
         }
-        let (mut required, mut soft) = (Vec::new(), Vec::new());
+        let (mut required, mut soft) = (Vec::new(), Vec::<(usize, Wish)>::new());
         for (index, relation) in (0..).zip(&system.relations) {
             let mut rows = Vec::new();
             let mut equal = Vec::new();
@@ -139,9 +142,7 @@ impl Puzzle {
             let rank = relation.level.rank();
             if let (Some(rank), true) = (rank, unless.is_empty()) {
                 let wishes = equal.iter().map(|&(l, r)| Wish::Equal(l, r));
-                soft.extend(
-                    wishes.chain(rows.into_iter().map(Wish::Row)).map(|wish| Soft { rank, wish }),
-                );
+                soft.extend(wishes.chain(rows.into_iter().map(Wish::Row)).map(|wish| (rank, wish)));
                 continue;
             }
             rows.extend(equal.into_iter().map(|(left, right)| {
@@ -155,7 +156,7 @@ impl Puzzle {
             }
             match rank {
                 Some(rank) => {
-                    soft.extend(rows.into_iter().map(|r| Soft { rank, wish: Wish::Row(r) }));
+                    soft.extend(rows.into_iter().map(|r| (rank, Wish::Row(r))));
                 }
                 None => required.extend(rows.into_iter().flat_map(split)),
             }
@@ -165,7 +166,13 @@ impl Puzzle {
             (stay @ (Stay::Fixed | Stay::Given | Stay::Kept { .. } | Stay::Free), _) => stay,
         };
         let stays = system.slots.iter().zip(conditional.only_read()).map(stay).collect();
-        Self { arena, stays, whole, ranges, required, soft }
+        let (soft, ranks) = ranked(soft, |wish| match wish {
+            Wish::Equal(left, right) => {
+                [*left, *right].iter().all(|s| is_truth(&arena, *s, &ranges))
+            }
+            Wish::Row(_) => true,
+        });
+        Self { arena, stays, whole, ranges, required, soft, ranks }
     }
 
     /// Finds the solution nearest to where the slots were.
@@ -185,7 +192,7 @@ impl Puzzle {
     ) -> Verdict {
         let held = self.nearest_with(start, values, Given::Held, effort);
         if let Ended::Found(values, distance) = &held
-            && distance[..GIVEN].iter().all(|&d| d == 0.0)
+            && distance[..self.ranks].iter().all(|&d| d == 0.0)
         {
             return Verdict::Found(values.clone());
         }
@@ -304,12 +311,13 @@ impl Puzzle {
 
     /// Returns a distance that no solution within the domains comes below.
     fn distance(&self, field: &Field<'_>, near: &[f64]) -> Distance {
-        let mut distance = [0.0; KEPT + 1];
+        let (given, kept) = (self.ranks, self.ranks + 1);
+        let mut distance = vec![0.0; kept + 1];
         for (i, stay) in self.stays.iter().enumerate() {
             let rank = match stay {
                 Stay::Fixed => continue,
-                Stay::Given => GIVEN,
-                Stay::Kept { .. } | Stay::Free => KEPT,
+                Stay::Given => given,
+                Stay::Kept { .. } | Stay::Free => kept,
             };
             let away = field.domains[i].nearest(near[i]) as f64 - near[i];
             distance[rank] += away * away;
@@ -399,10 +407,11 @@ impl Visitor for Improving<'_> {
         if self.best.is_none() {
             self.at = self.visited;
         }
+        let is_away = distance.iter().any(|&d| d > 0.0);
         if self.best.as_ref().is_none_or(|(_, best)| is_less(&distance, best)) {
             self.best = Some((field.domains.clone(), distance));
         }
-        distance.iter().any(|&d| d > 0.0)
+        is_away
     }
     fn patience(&self, visited: u64) -> u64 {
         let bound = if self.best.is_some() { self.at + self.more } else { PATIENCE };
@@ -459,6 +468,55 @@ impl Visitor for Counting {
     }
     fn patience(&self, visited: u64) -> u64 {
         COUNTING.saturating_sub(visited)
+    }
+}
+
+/// Gives wishes, each with the rank of its level, their places in a distance, and returns how many these are. What is
+/// true or not has one of its own; the numbers of a level share that of the first.
+fn ranked(wishes: Vec<(usize, Wish)>, is_truth: impl Fn(&Wish) -> bool) -> (Vec<Soft>, usize) {
+    let mut order: Vec<usize> = (0..wishes.len()).collect();
+    order.sort_by_key(|&i| wishes[i].0);
+    let mut place = vec![0; wishes.len()];
+    let mut places = 0;
+    let mut numbers = None;
+    for i in order {
+        let level = wishes[i].0;
+        place[i] = match numbers {
+            Some((of, known)) if of == level && !is_truth(&wishes[i].1) => known,
+            _ => {
+                places += 1;
+                places - 1
+            }
+        };
+        if !is_truth(&wishes[i].1) {
+            numbers = Some((level, place[i]));
+        }
+    }
+    let soft = wishes.into_iter().zip(place).map(|((_, wish), rank)| Soft { rank, wish });
+    (soft.collect(), places)
+}
+
+/// Returns true if an expression can only be true or false.
+fn is_truth(arena: &Arena, id: ExprId, ranges: &[Domain]) -> bool {
+    match arena.node(id) {
+        Node::Constant(_) => matches!(arena.as_constant(id), Some(0.0 | 1.0)),
+        Node::Var(var) => {
+            let range = &ranges[var.0 as usize];
+            range.size() == 2 && range.low() == 0
+        }
+        Node::Unary(op, _) => op == Unary::Not,
+        Node::Binary(op, ..) => matches!(
+            op,
+            Binary::Less
+                | Binary::LessEqual
+                | Binary::Equal
+                | Binary::NotEqual
+                | Binary::And
+                | Binary::Or
+        ),
+        Node::Select { then, otherwise, .. } => {
+            [then, otherwise].iter().all(|&side| is_truth(arena, side, ranges))
+        }
     }
 }
 
