@@ -60,6 +60,8 @@ pub struct EditReport {
     pub undecided: Vec<(SlotId, Toward)>,
     /// How far towards these values a refused edit could have gone, as a part of the way.
     pub limit: Option<f64>,
+    /// True if it could have come as near to that as one likes, and not there.
+    pub is_limit_open: bool,
     /// Slots where two solutions coincide: their values are known to half the digits only.
     pub double_roots: Vec<SlotId>,
     /// Where a solution was looked for in vain and not to the end.
@@ -321,7 +323,9 @@ impl Planner {
             report.conflicts = conflict.map_or(report.conflicts, |c| vec![c]);
             if report.not_decided.is_none() && !is_dear {
                 let tasks = &self.latest.tasks;
-                report.limit = self.limit(model, values, aim, tasks, &was_unmet, host);
+                let limit = self.limit(model, values, aim, tasks, &was_unmet, host);
+                report.limit = limit.map(|limit| limit.0);
+                report.is_limit_open = limit.is_some_and(|limit| limit.1);
             }
         }
         if report.refusal.is_none() {

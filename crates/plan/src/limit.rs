@@ -20,7 +20,8 @@ const LARGEST: usize = 20_000;
 
 impl Planner {
     /// Returns how far towards its values a refused edit could go, as a part of the way; nothing
-    /// where it cannot move at all, speaks of more than real numbers, or would take too long.
+    /// where it cannot move at all, speaks of more than real numbers, or would take too long; and whether the limit
+    /// is open: one comes as near to it as one likes and never to it, as to the zero of a logarithm.
     ///
     /// By bisection; each trial is a whole edit from the present values, so that what is told can be
     /// set. `was_unmet` are the constraints that do not hold now. Cost: up to 35 such edits.
@@ -32,15 +33,14 @@ impl Planner {
         tasks: &[Task],
         was_unmet: &[Unmet],
         host: &mut dyn Host,
-    ) -> Option<f64> {
+    ) -> Option<(f64, bool)> {
         let is_real = |&s: &_| matches!(model.structure.slots[s].primitive, Primitive::Real(_));
         let size: usize = tasks.iter().map(|t| t.component.slots().len()).sum();
         if size > LARGEST || !aim.fixed.keys().all(is_real) {
             return None;
         }
         let until = self.spent() + WORK;
-        let mut can_go = |part: f64| {
-            let at = self.part_of_the_way(values, aim, part);
+        let mut can_be = |at: &Aim| {
             let mut trial = values.clone();
             for (&slot, value) in &at.fixed {
                 trial.put(slot, value.clone());
@@ -48,12 +48,12 @@ impl Planner {
             // one that takes longer than there is goes nowhere
             self.try_until(Some(until));
             for task in tasks {
-                run(self, model, task, &at, values, &mut trial, host);
+                run(self, model, task, at, values, &mut trial, host);
             }
             self.try_until(None);
             let rules = tasks.iter().flat_map(|t| t.component.rules().iter().copied());
             let unmet = self.unmet(model, rules, &trial, host);
-            !is_any_new(&unmet, was_unmet) && self.reached(&at, &trial)
+            !is_any_new(&unmet, was_unmet) && self.reached(at, &trial)
         };
         let (mut gone, mut beyond) = (0.0, 1.0);
         for halving in 0..HALVINGS {
@@ -61,17 +61,21 @@ impl Planner {
                 return None;
             }
             if halving == NOTHING && gone == 0.0 {
-                return can_go(BACK).then_some(0.0);
+                return can_be(&self.part_of_the_way(values, aim, BACK)).then_some((0.0, false));
             }
             let part = 0.5 * (gone + beyond);
-            if can_go(part) {
+            if can_be(&self.part_of_the_way(values, aim, part)) {
                 gone = part;
             } else {
                 beyond = part;
             }
         }
         // where every part of the way can be gone, no limit stands in it
-        (beyond < 1.0).then_some(gone)
+        if beyond == 1.0 {
+            return None;
+        }
+        let is_open = beside(values, aim, gone).is_some_and(|at| !can_be(&at));
+        Some((gone, is_open))
     }
 
     /// Returns an aim that goes a part of the way.
@@ -90,6 +94,30 @@ impl Planner {
         }
         at
     }
+}
+
+/// Returns the aim at the round number that a number comes to next to where it can go, if there is one a little
+/// beyond.
+fn beside(values: &Values, aim: &Aim, gone: f64) -> Option<Aim> {
+    /// How many digits of the way a round number has, and how near it has to be, as a part of the way.
+    const DIGITS: f64 = 6.0;
+    const NEAR: f64 = 1e-8;
+    let mut fixed = aim.fixed.iter();
+    let (Some((&slot, Value::Number(wanted))), None) = (fixed.next(), fixed.next()) else {
+        return None;
+    };
+    let from = values.numbers[slot];
+    let (way, at) = (wanted - from, between(from, *wanted, gone));
+    let digits = (base::number::ln(way.abs()) / base::number::ln(10.0)).floor() - DIGITS;
+    let step = base::number::pow(10.0, digits);
+    let round = (at / step).round() * step + 0.0;
+    let ahead = (round - at) / way;
+    let is_beside = aim.wishes.is_empty() && ahead > 0.0 && ahead <= NEAR;
+    is_beside.then(|| {
+        let mut beside = aim.clone();
+        beside.fixed.insert(slot, Value::Number(round));
+        beside
+    })
 }
 
 fn between(from: f64, to: f64, part: f64) -> f64 {

@@ -104,7 +104,7 @@ fn edit(
         let refusal = words::refusal_for(&state, reason, &report);
         let refusal = of_computed(one_way(open, refusal, &report, &aims), &aims);
         return Err(match report.limit {
-            Some(part) => limited(&state, refusal, &aims, part),
+            Some(part) => limited(&state, refusal, &aims, part, report.is_limit_open),
             None => match (reason, &aims[..]) {
                 (RefusalReason::NotDecided(NotDecided::Work(_)), [(Aim::Thing(thing), wanted)]) => {
                     as_dragged(&state, &mut open.planner, refusal, *thing, wanted)
@@ -188,8 +188,14 @@ fn of_computed(refusal: Refusal, aims: &[(Aim, Vec<Value>)]) -> Refusal {
     Refusal { message, ..refusal }
 }
 
-/// Says in a refusal how far the edit could have gone.
-fn limited(state: &State, refusal: Refusal, aims: &[(Aim, Vec<Value>)], part: f64) -> Refusal {
+/// Says in a refusal how far the edit could have gone; of a limit that is open, what it never comes to.
+fn limited(
+    state: &State,
+    refusal: Refusal,
+    aims: &[(Aim, Vec<Value>)],
+    part: f64,
+    is_open: bool,
+) -> Refusal {
     let limit = |(aim, wanted): &(Aim, Vec<Value>)| match aim {
         Aim::Thing(thing) => limits::of_thing(state, *thing, wanted, part),
         Aim::Term(term) => limits::of_term(state, term, wanted, part),
@@ -197,6 +203,10 @@ fn limited(state: &State, refusal: Refusal, aims: &[(Aim, Vec<Value>)], part: f6
     let limits: Option<Vec<Limit>> = aims.iter().map(limit).collect();
     let Some(limit) = limits.and_then(limits::together) else { return refusal };
     let why = refusal.message.strip_prefix("refused: ").unwrap_or(&refusal.message);
+    if is_open {
+        let words = limits::open_in_words(&limit);
+        return Refusal { message: format!("refused: {words}; {why}"), ..refusal };
+    }
     let message = format!("refused: {}; {why}", limits::in_words(&limit));
     Refusal { message, limit: Some(Box::new(limit)), ..refusal }
 }

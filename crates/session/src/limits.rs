@@ -67,6 +67,12 @@ pub(crate) fn in_words(limit: &Limit) -> String {
     }
 }
 
+/// Says of a limit that is open what is never reached.
+pub(crate) fn open_in_words(limit: &Limit) -> String {
+    let Limit { path, value } = limit;
+    format!("{path} has to stay short of {value}")
+}
+
 /// Says where a drag has stopped short of the pointer: of a number, the limit; of a place, its reach from
 /// an anchored place where that is what ends, else how far it is from the pointer.
 pub(crate) fn of_drag(state: &State, drag: &Drag) -> (Limit, String) {

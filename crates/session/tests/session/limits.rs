@@ -55,6 +55,15 @@ fn a_number_that_cannot_be_set_says_how_far_it_could_go() {
     assert_eq!(refusal.limit, Some(limit), "where it is at its limit, the limit is where it is");
 }
 
+#[test]
+fn a_limit_that_is_never_reached_is_told_as_that() {
+    let mut desk = Desk::of("x: Real = 4\nz: Real\nconstraint lg: z = ln(x)\n");
+    let refusal = desk.set("x", -1.0).expect_err("there is no logarithm");
+    assert_eq!(refusal.message, "refused: x has to stay short of 0; lg would not hold");
+    assert_eq!(refusal.limit, None);
+    desk.set("x", 0.001).expect("short of it anything can be set");
+}
+
 /// A chain of bars of length 1 from an anchored place, each at an angle that is up to `rough` off the first axis.
 fn chain(bars: u32, rough: f64) -> String {
     let mut text = String::from("use geometry\np0: Point = (0, 0)\nanchor p0\n");
