@@ -196,7 +196,7 @@ fn or_kept_apart(
     if !ran.is_solved || !plan.is_curved() {
         return ran;
     }
-    let vanished = vanished(planner, model, task, start, values);
+    let vanished = vanished(planner, task, start, values);
     if vanished.is_empty() {
         return ran;
     }

@@ -6,11 +6,11 @@
 //! nearly nothing. And where the places are one, a row of the component has no value, or quite another.
 
 use crate::holds::counts;
-use crate::planner::{Model, Planner};
+use crate::planner::Planner;
 use crate::rule::{Body, Rule};
 use crate::task::Task;
 use base::number::hypot;
-use kernel::{SlotId, Structure, Values};
+use kernel::{SlotId, Values};
 use solve::{Level, Scratch};
 
 /// Places have come together where this part of the way between them is left.
@@ -46,10 +46,16 @@ fn apart([x1, y1, x2, y2]: [SlotId; 4], values: &Values) -> f64 {
     hypot(x[x2] - x[x1], x[y2] - x[y1])
 }
 
+/// Returns the square of how far two places are from each other.
+fn squared([x1, y1, x2, y2]: [SlotId; 4], values: &Values) -> f64 {
+    let x = &values.numbers;
+    let [dx, dy] = [x[x2] - x[x1], x[y2] - x[y1]];
+    dx * dx + dy * dy
+}
+
 /// Returns the places that came together between two states of a task, where the rows hold only by that.
 pub(crate) fn vanished(
     planner: &Planner,
-    model: Model<'_>,
     task: &Task,
     start: &Values,
     values: &Values,
@@ -61,14 +67,18 @@ pub(crate) fn vanished(
         if rule.slots.len() < 4 || rule.shape.level != Level::Required {
             continue;
         }
-        let places = places(model.structure, rule);
-        let pairs = (0..places.len()).flat_map(|i| (0..i).map(move |j| [j, i]));
+        // nearly always nothing has come together: that is seen without roots, and without a list
+        let mut places = [[SlotId(0); 2]; MOST];
+        let count = places_of(planner, rule, &mut places);
+        let pairs = (0..count).flat_map(|i| (0..i).map(move |j| [j, i]));
         let pairs = pairs.map(|[j, i]| {
             let ([x1, y1], [x2, y2]) = (places[j], places[i]);
-            let slots = [x1, y1, x2, y2];
-            Vanished { position, slots, apart: apart(slots, start) }
+            [x1, y1, x2, y2]
         });
-        for pair in pairs.filter(|pair| pair.now(values) < LEFT * pair.apart) {
+        let has_vanished =
+            |&slots: &[SlotId; 4]| squared(slots, values) < LEFT * LEFT * squared(slots, start);
+        for slots in pairs.filter(has_vanished) {
+            let pair = Vanished { position, slots, apart: apart(slots, start) };
             let is_new = found.iter().all(|known| known.slots != pair.slots);
             if is_new && is_undone(planner, rule, &pair, values, &mut scratch) {
                 found.push(pair);
@@ -81,20 +91,20 @@ pub(crate) fn vanished(
     found
 }
 
-/// Returns the places of a rule, each with both of its coordinates.
-fn places(structure: &Structure, rule: Rule<'_>) -> Vec<[SlotId; 2]> {
-    let mut places = Vec::new();
+/// Finds the places of a rule, each with both of its coordinates; returns how many.
+fn places_of(planner: &Planner, rule: Rule<'_>, places: &mut [[SlotId; 2]; MOST]) -> usize {
+    let mut count = 0;
     for &slot in rule.slots {
-        let Some(place) = structure.slots[slot].place else { continue };
-        if let &[x, y] = structure.slots_under(place).as_slice()
+        if let &[x, y] = planner.net.place_of(slot)
             && x == slot
             && rule.slots.contains(&y)
-            && places.len() < MOST
+            && count < MOST
         {
-            places.push([x, y]);
+            places[count] = [x, y];
+            count += 1;
         }
     }
-    places
+    count
 }
 
 /// Returns true if an equation of a rule holds because what is between two places is small: it is off by a part of
