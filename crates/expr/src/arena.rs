@@ -121,13 +121,10 @@ impl Arena {
     }
     /// Returns true if the expression is always 0 or 1.
     fn is_truth(&self, id: ExprId) -> bool {
-        use Binary::{And, Equal, Less, LessEqual, NotEqual, Or};
         match self.node(id) {
             Node::Constant(_) => self.is(id, 0.0) || self.is(id, 1.0),
             Node::Unary(op, _) => op == Unary::Not,
-            Node::Binary(op, ..) => {
-                matches!(op, Less | LessEqual | Equal | NotEqual | And | Or)
-            }
+            Node::Binary(op, ..) => op.is_truth(),
             Node::Var(_) | Node::Select { .. } => false,
         }
     }

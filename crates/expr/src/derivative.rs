@@ -164,15 +164,7 @@ fn is_flat(node: Node) -> bool {
         Node::Unary(op, _) => {
             matches!(op, Unary::Floor | Unary::Round | Unary::Sign | Unary::Not)
         }
-        Node::Binary(op, ..) => matches!(
-            op,
-            Binary::Less
-                | Binary::LessEqual
-                | Binary::Equal
-                | Binary::NotEqual
-                | Binary::And
-                | Binary::Or
-        ),
+        Node::Binary(op, ..) => op.is_truth(),
     }
 }
 

@@ -152,6 +152,14 @@ impl Unary {
 }
 
 impl Binary {
+    /// Returns true if it says how two numbers compare.
+    pub fn is_comparison(self) -> bool {
+        matches!(self, Self::Less | Self::LessEqual | Self::Equal | Self::NotEqual)
+    }
+    /// Returns true if it is always 0 or 1.
+    pub fn is_truth(self) -> bool {
+        self.is_comparison() || matches!(self, Self::And | Self::Or)
+    }
     /// Every operation with two operands, in the order of [`Binary`].
     pub const ALL: [Self; 15] = [
         Self::Add,

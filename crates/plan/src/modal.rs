@@ -506,10 +506,10 @@ impl ModalDrag {
             Tried { plan, outcome, values: follow.drag.values().to_vec() }
         };
         let decision = decide_along(modes, &first, x0, &mut attempt);
-        match decision.ended == Ended::Settled {
-            true if has_texts(task) => drop(attempt(&decision.mode)),
-            true => {}
-            false => values.texts = texts,
+        if decision.ended != Ended::Settled {
+            values.texts = texts;
+        } else if has_texts(task) {
+            attempt(&decision.mode);
         }
         decision
     }

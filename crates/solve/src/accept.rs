@@ -52,8 +52,8 @@ pub(crate) struct Acceptance {
     pub(crate) determined: usize,
     /// The large blocks that were found regular.
     pub(crate) factored: Vec<Factored>,
-    /// Rows that were accepted and hold where they are: all that they speak of stays.
-    pub(crate) resting: Vec<usize>,
+    /// True if some rows are not among the accepted because they hold where they are: all that they speak of stays.
+    pub(crate) some_rest: bool,
     /// A slot for every row, where all were accepted by matching at once.
     pub(crate) matched: Option<Matched>,
     /// The slots of every place that may be held, by its group, over representatives.
@@ -96,13 +96,12 @@ impl Acceptance {
         if resting.is_empty() {
             return;
         }
-        let Self { accepted, unknown, resting: own, .. } = self;
-        accepted.retain(|&r| {
-            let rests = resting.has(r) && !rows.columns(r).iter().any(|e| unknown[e.0 as usize]);
-            own.extend(rests.then_some(r));
-            !rests
-        });
-        own.sort_unstable();
+        let Self { accepted, unknown, some_rest, .. } = self;
+        let moves =
+            |&r: &usize| !resting.has(r) || rows.columns(r).iter().any(|e| unknown[e.0 as usize]);
+        let before = accepted.len();
+        accepted.retain(moves);
+        *some_rest |= accepted.len() < before;
     }
     /// Returns the pivots that suit a block, where it is one of those that were factorised.
     pub(crate) fn pivots(&self, rows: &[usize], unknowns: &[SlotIndex]) -> Option<&Factored> {
@@ -136,6 +135,16 @@ const LARGE: usize = 100;
 /// are asked, and then sparse elimination.
 const MOST_WORK: usize = 16;
 
+/// What acceptance is asked about.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Setting<'a> {
+    pub(crate) system: &'a System,
+    pub(crate) classes: &'a Classes,
+    pub(crate) rows: &'a Rows,
+    /// Rows that nothing moves while what they speak of stays.
+    pub(crate) resting: &'a Resting,
+}
+
 /// All rows in order of acceptance, and all places.
 struct Asked {
     order: Vec<u32>,
@@ -158,17 +167,12 @@ impl Asked {
     }
 }
 
-/// Decides which rows are accepted and which slots stay; of some rows it may be known that nothing moves them
-/// while what they speak of stays.
-pub(crate) fn accept(
-    system: &System,
-    classes: &Classes,
-    rows: &Rows,
-    resting: &Resting,
-) -> Acceptance {
+/// Decides which rows are accepted and which slots stay.
+pub(crate) fn accept(setting: Setting<'_>) -> Acceptance {
+    let Setting { system, classes, rows, resting } = setting;
     let asked = Asked::new(system, classes, rows);
     let mut out = undecided(classes);
-    let mut matcher = Matcher::new(system, classes, rows, resting);
+    let mut matcher = Matcher::new(setting);
     if matcher.accept(asked.all(), &mut out) {
         out.matched = Some(matcher.into_matched());
     } else {
@@ -181,13 +185,12 @@ pub(crate) fn accept(
             }
             let near = rows.doubles(piece.rows);
             let most = (piece.rows.len() > LARGE).then_some(MOST_WORK);
-            let given = Given { system, classes, rows, resting };
-            let came = exact::accept(&given, &near, piece, most, out);
+            let came = exact::accept(setting, &near, piece, most, out);
             if came == Came::All {
                 return;
             }
             let is_too_much = came == Came::TooMuch;
-            let mut eliminate = Eliminating { given, matcher: &mut matcher, piece };
+            let mut eliminate = Eliminating { setting, matcher: &mut matcher, piece };
             match rows.residues(piece.rows) {
                 Some(exact) => eliminate.with(&exact, is_too_much, out),
                 None => eliminate.with(&near, true, out),
@@ -237,18 +240,9 @@ fn count(system: &System, classes: &Classes, out: &mut Acceptance) {
     out.yielded = (0..n as u32).filter(|&s| is_given(s) && out.unknown[s as usize]).collect();
 }
 
-/// What acceptance is asked about.
-#[derive(Clone, Copy)]
-pub(crate) struct Given<'a> {
-    pub(crate) system: &'a System,
-    pub(crate) classes: &'a Classes,
-    pub(crate) rows: &'a Rows,
-    pub(crate) resting: &'a Resting,
-}
-
 /// A large piece that is decided by elimination.
 struct Eliminating<'a, 'p> {
-    given: Given<'a>,
+    setting: Setting<'a>,
     matcher: &'p mut Matcher<'a>,
     piece: Piece<'p>,
 }
@@ -262,10 +256,10 @@ impl Eliminating<'_, '_> {
         is_too_much: bool,
         out: &mut Acceptance,
     ) {
-        let Self { given, ref mut matcher, piece } = *self;
-        let Given { classes, rows, .. } = given;
+        let Self { setting, ref mut matcher, piece } = *self;
+        let Setting { classes, rows, .. } = setting;
         let tableau = |most, out: &mut Acceptance| {
-            exact::accept(&given, coefficients, piece, most, out) == Came::All
+            exact::accept(setting, coefficients, piece, most, out) == Came::All
         };
         let is_decided = !is_too_much && tableau(Some(MOST_WORK), out)
             || deflate::accept(classes, rows, coefficients, matcher, piece, out);

@@ -3,7 +3,7 @@
 //! In: the rows of a piece in order of acceptance, the places that touch it. Out: the same as by
 //! matching, found by a fully reduced tableau at a generic point. Cost: up to cubic in the piece.
 
-use crate::accept::{Acceptance, Dependent, Given, Piece};
+use crate::accept::{Acceptance, Dependent, Piece, Setting};
 use crate::echelon::Row;
 use crate::number::Number;
 use crate::substitute::Classes;
@@ -41,13 +41,13 @@ const MOVING: u32 = 1 << 31;
 /// Decides for one piece with these coefficients, row by row, unless that takes more work than some times what
 /// the rows hold; then also not where rounding may decide something.
 pub(crate) fn accept<N: Number>(
-    given: &Given<'_>,
+    setting: Setting<'_>,
     coefficients: &[Row<N>],
     piece: Piece<'_>,
     most: Option<usize>,
     out: &mut Acceptance,
 ) -> Came {
-    let Given { system, classes, rows, resting } = *given;
+    let Setting { system, classes, rows, resting } = setting;
     let may_rest = piece.rows.iter().any(|&r| resting.has(r as usize));
     let size: usize = coefficients.iter().map(Row::len).sum();
     let is_bounded = most.is_some();
@@ -108,7 +108,7 @@ pub(crate) fn accept<N: Number>(
             let pivot = state.best(&reduced.row, Column::Open);
             match pivot {
                 Some(column) => drop(left.accept(reduced, column)),
-                None => out.resting.push(*r),
+                None => out.some_rest = true,
             }
             pivot.is_some()
         });

@@ -9,7 +9,7 @@
 //!
 //! **Source:** Dulmage and Mendelsohn, *Coverings of bipartite graphs*, Canadian J. Math. 10 (1958).
 
-use crate::accept::{Acceptance, Factored, Matched, Piece};
+use crate::accept::{Acceptance, Factored, Matched, Piece, Setting};
 use crate::dense;
 use crate::echelon::{Echelon, Row};
 use crate::lists::Lists;
@@ -97,12 +97,8 @@ impl Use {
 }
 
 impl<'a> Matcher<'a> {
-    pub(crate) fn new(
-        system: &'a System,
-        classes: &'a Classes,
-        rows: &'a Rows,
-        resting: &'a Resting,
-    ) -> Self {
+    pub(crate) fn new(setting: Setting<'a>) -> Self {
+        let Setting { system, classes, rows, resting } = setting;
         let n = system.slots.len();
         let state = classes.stay.iter().map(|&stay| Use::by(stay));
         Self {
@@ -327,7 +323,7 @@ impl<'a> Matcher<'a> {
             }
             closed.iter().for_each(|&s| self.state[s as usize] = Use::Open);
             if i == 0 {
-                self.stiffen(row, slot);
+                self.stiffen(slot);
             }
             return;
         }
@@ -347,7 +343,7 @@ impl<'a> Matcher<'a> {
     }
     /// Notes that whatever was met leads to nothing but what was met, once a row could not do without its slot;
     /// where rows rest, only what leads to one that does not.
-    fn stiffen(&mut self, row: u32, slot: SlotIndex) {
+    fn stiffen(&mut self, slot: SlotIndex) {
         let mut stiff = std::mem::take(&mut self.met);
         stiff.push(slot);
         if !self.resting.is_empty() {
@@ -369,7 +365,6 @@ impl<'a> Matcher<'a> {
                 let before = from.get(&r).into_iter().flatten();
                 next.extend(before.copied().filter(|&r| reached.insert(r)));
             }
-            debug_assert!(reached.contains(&row), "it met one that does not rest");
             stiff.retain(|&s| reached.contains(&owner(s)));
         }
         stiff.into_iter().for_each(|s| self.state[s as usize] = Use::Rigid);

@@ -32,15 +32,9 @@ fn is_piecewise(node: Node) -> bool {
     match node {
         Node::Select { .. } => true,
         Node::Unary(op, _) => op == Unary::Abs,
-        Node::Binary(op, ..) => matches!(op, Binary::Min | Binary::Max) || is_comparison(op),
+        Node::Binary(op, ..) => matches!(op, Binary::Min | Binary::Max) || op.is_comparison(),
         Node::Constant(_) | Node::Var(_) => false,
     }
-}
-
-/// Returns true for what says how two numbers compare: true is one piece, false another.
-fn is_comparison(op: Binary) -> bool {
-    use Binary::{Equal, Less, LessEqual, NotEqual};
-    matches!(op, Less | LessEqual | Equal | NotEqual)
 }
 
 /// Takes the equations of a system apart that have pieces. Returns nothing where none has, or too many
@@ -145,7 +139,7 @@ impl Lifting<'_> {
             return self.arena.binary(Binary::Or, first, second);
         }
         self.left -= 1;
-        if matches!(self.arena.node(whole), Node::Binary(op, ..) if is_comparison(op)) {
+        if matches!(self.arena.node(whole), Node::Binary(op, ..) if op.is_comparison()) {
             let [first, second] = [true, false].map(|truth| self.told(whole, truth, known, sides));
             return self.arena.binary(Binary::Or, first, second);
         }

@@ -254,22 +254,25 @@ fn plan_stated(stated: Stated) -> Plan {
     };
     let mut rows = rows::with_columns(&stated, &classes, rows);
     let resting = Resting::new(system, &classes, &rows);
-    let mut acceptance = accept::accept(system, &classes, &rows, &resting);
+    let with = |rows: &Rows, resting: &Resting| {
+        accept::accept(accept::Setting { system, classes: &classes, rows, resting })
+    };
+    let mut acceptance = with(&rows, &resting);
     if (!acceptance.yielded.is_empty() || may_imply(system, &rows))
         && rows.len() <= IMPLIED_ROWS
         && let Some(there) = rows::rows_where_linear_hold(&stated, &classes)
     {
         // nothing yields to a row that says nothing new
-        let again = accept::accept(system, &classes, &there, &resting);
+        let again = with(&there, &resting);
         if again.yields() < acceptance.yields() {
             (rows, acceptance) = (there, again);
         }
     }
     let mut direction = direct::direct(system, &classes, &rows, &mut acceptance);
     let mut is_tied = tie::tie(system, &classes, &rows, &direction, &mut acceptance);
-    if is_tied && !acceptance.resting.is_empty() {
+    if is_tied && acceptance.some_rest {
         // what yields along a chain may take with it what would rest
-        acceptance = accept::accept(system, &classes, &rows, &Resting::default());
+        acceptance = with(&rows, &Resting::default());
         direction = direct::direct(system, &classes, &rows, &mut acceptance);
         is_tied = tie::tie(system, &classes, &rows, &direction, &mut acceptance);
     }

@@ -23,7 +23,7 @@ use crate::system::{RelationBody, Slot, SlotIndex, Stay};
 use crate::truth::{Comparing, Comparison, Truth, truth};
 use domain::{Domain, MOST};
 use explore::{End, Net, Visitor, explore};
-use expr::{Arena, Binary, ExprId, Node, Unary};
+use expr::{Arena, ExprId, Node, Unary};
 use propagate::{Field, Prospect};
 use row::{Cells, Row, different, row, whole_number};
 
@@ -505,15 +505,7 @@ fn is_truth(arena: &Arena, id: ExprId, ranges: &[Domain]) -> bool {
             range.size() == 2 && range.low() == 0
         }
         Node::Unary(op, _) => op == Unary::Not,
-        Node::Binary(op, ..) => matches!(
-            op,
-            Binary::Less
-                | Binary::LessEqual
-                | Binary::Equal
-                | Binary::NotEqual
-                | Binary::And
-                | Binary::Or
-        ),
+        Node::Binary(op, ..) => op.is_truth(),
         Node::Select { then, otherwise, .. } => {
             [then, otherwise].iter().all(|&side| is_truth(arena, side, ranges))
         }

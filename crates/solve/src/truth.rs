@@ -115,15 +115,7 @@ pub(crate) fn truth(arena: &mut Arena, id: ExprId, wanted: bool) -> Truth {
 fn is_truth_value(arena: &Arena, id: ExprId) -> bool {
     match arena.node(id) {
         Node::Unary(op, _) => op == Unary::Not,
-        Node::Binary(op, ..) => matches!(
-            op,
-            Binary::And
-                | Binary::Or
-                | Binary::Less
-                | Binary::LessEqual
-                | Binary::Equal
-                | Binary::NotEqual
-        ),
+        Node::Binary(op, ..) => op.is_truth(),
         Node::Constant(_) | Node::Var(_) | Node::Select { .. } => false,
     }
 }

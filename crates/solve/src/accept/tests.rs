@@ -165,12 +165,17 @@ impl Net {
         (accepted, dependent, open)
     }
 
+    fn accept(&self) -> Acceptance {
+        let (system, classes, rows) = (&*self.stated.system, &self.classes, &self.rows);
+        accept(Setting { system, classes, rows, resting: &Resting::default() })
+    }
+
     /// What the tableau finds, and sparse elimination in both of its ways.
     fn by_elimination<N: Number>(&self, of: impl Fn(&[u32]) -> Vec<Row<N>>) -> [Acceptance; 3] {
         let (system, classes, rows) = (&*self.stated.system, &self.classes, &self.rows);
         let asked = Asked::new(system, classes, rows);
         let resting = Resting::default();
-        let given = Given { system, classes, rows, resting: &resting };
+        let setting = Setting { system, classes, rows, resting: &resting };
         let decide = |piece: &mut dyn FnMut(Piece<'_>, &mut Acceptance)| {
             let mut out = undecided(classes);
             apart(classes, rows, asked.all(), &mut out, piece);
@@ -178,10 +183,10 @@ impl Net {
             out
         };
         let by_tableau = decide(&mut |piece, out| {
-            exact::accept(&given, &of(piece.rows), piece, None, out);
+            exact::accept(setting, &of(piece.rows), piece, None, out);
         });
         let [of_slots, by_pivots] = [true, false].map(|of_slots| {
-            let mut matcher = Matcher::new(system, classes, rows, &resting);
+            let mut matcher = Matcher::new(setting);
             decide(&mut |piece, out| {
                 let own = of(piece.rows);
                 let deflated = Deflated::new(classes, &own, piece);
@@ -193,7 +198,7 @@ impl Net {
                 if is_held {
                     deflated.accept(rows, out);
                 } else {
-                    exact::accept(&given, &own, piece, None, out);
+                    exact::accept(setting, &own, piece, None, out);
                 }
             })
         });
@@ -216,8 +221,7 @@ proptest! {
             (0u8..5, prop::array::uniform3(0usize..14), prop::bool::weighted(0.2)), 1..12),
     ) {
         let net = net(&stays, &relations);
-        let system = &net.stated.system;
-        let found = accept(system, &net.classes, &net.rows, &Resting::default());
+        let found = net.accept();
         let found = Acceptance { matched: None, places: Lists::default(), ..found };
         for other in net.by_elimination(|rows| net.rows.doubles(rows)) {
             prop_assert_eq!(&found, &other);
@@ -260,7 +264,7 @@ proptest! {
         }
         let net = net(&stays, &relations);
         let system = &net.stated.system;
-        let found = accept(system, &net.classes, &net.rows, &Resting::default());
+        let found = net.accept();
         let stated = rows::stated_rows(&net.stated, &net.classes);
         let peeled = match peel(system, &net.classes, stated) {
             Found::All(peeled) => peeled,
@@ -290,7 +294,7 @@ proptest! {
             (0u8..5, prop::array::uniform3(0usize..16), prop::bool::weighted(0.2)), 1..7),
     ) {
         let net = net(&stays, &relations);
-        let found = accept(&net.stated.system, &net.classes, &net.rows, &Resting::default());
+        let found = net.accept();
         let Some(matched) = found.matched else { return Ok(()) };
         let Matched { slot_of_row, row_of_slot, blocks } = matched;
         let direction = Direction { slot_of_row, row_of_slot, ..Direction::default() };
