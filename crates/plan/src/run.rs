@@ -141,7 +141,7 @@ pub(crate) fn run(
     let ran = by_course(planner, model, task, &ground, values, host);
     let ran = or_otherwise(planner, model, task, &ground, ran, values, host);
     let ran = or_letting_go(planner, model, task, &ground, ran, values, host);
-    let mut ran = or_kept_apart(planner, model, task, &ground, ran, (start, values), host);
+    let mut ran = or_kept_apart(planner, model, task, &ground, ran, values, host);
     if !has_bound {
         if planner.is_spent() && !ran.is_solved {
             ran.not_decided = Some(NotDecided::Work(bound));
@@ -189,14 +189,14 @@ fn or_kept_apart(
     task: &Task,
     ground: &Ground,
     ran: Ran,
-    (start, values): (&Values, &mut Values),
+    values: &mut Values,
     host: &mut dyn Host,
 ) -> Ran {
     let plan = ran.stands.as_ref().map_or(&task.plan, Stands::plan);
     if !ran.is_solved || !plan.is_curved() {
         return ran;
     }
-    let vanished = vanished(planner, task, start, values);
+    let vanished = vanished(planner, task, &ground.x0, values);
     if vanished.is_empty() {
         return ran;
     }

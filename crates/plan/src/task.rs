@@ -10,6 +10,7 @@ use crate::component::{Component, Net};
 use crate::planner::Planner;
 use crate::plans::Plans;
 use crate::rule::{Formula, Rules, Source};
+use crate::vanish::Pair;
 use crate::whole::{self, Whole};
 use base::{IdVec, Mixer};
 use indexmap::IndexMap;
@@ -103,6 +104,8 @@ struct Stated {
     movable: OnceCell<Vec<SlotIndex>>,
     /// The rows that may depend on others at some state; found when first asked for.
     core: OnceCell<Vec<(u32, u32)>>,
+    /// The places that its rules speak of, two by two; found when first asked for.
+    pairs: OnceCell<Vec<Pair>>,
     /// Where what such components are at rest is known among all; noted when first asked for.
     at_rest: OnceCell<u32>,
     /// What it is where numbers let go that its plan holds; found when first asked for.
@@ -283,13 +286,15 @@ impl Alike {
         for &slot in component.slots() {
             let range = setting.structure.ranges.get(&slot);
             let here = |&&s: &&SlotId| component.slots().get(locals.0[s] as usize) == Some(&s);
-            let place = setting.net.place_of(slot).iter().find(here);
+            let coordinates = setting.net.place_of(slot);
+            let place = coordinates.iter().find(here);
             let primitive = setting.structure.slots[slot].primitive;
             let kind = kinds.iter().position(|&k| k == primitive).unwrap_or_else(|| {
                 kinds.push(primitive);
                 kinds.len() - 1
             }) as u32;
-            let has = u32::from(range.is_some()) | u32::from(place.is_some()) << 1;
+            let is_pair = u32::from(coordinates.len() == 2) << 2;
+            let has = u32::from(range.is_some()) | u32::from(place.is_some()) << 1 | is_pair;
             let rests = Planner::resting_hold(setting.structure, slot) as u32;
             let holding = (setting.holding)(slot) as u32 | rests << 4;
             signature.push(holding | has << 8 | kind << 16);
@@ -409,6 +414,10 @@ impl Task {
             // the mode at hand, which need not be the one that was stated
             Course::Modes(..) | Course::Search(_) => Cow::Owned(find()),
         }
+    }
+    /// Returns the places that its rules speak of, two by two. `find` finds them.
+    pub(crate) fn pairs(&self, find: impl FnOnce() -> Vec<Pair>) -> &[Pair] {
+        self.stated.pairs.get_or_init(find)
     }
     /// Reads the numbers of the component's slots.
     pub(crate) fn numbers(&self, numbers: &IdVec<SlotId, f64>) -> impl Iterator<Item = f64> {

@@ -5,13 +5,14 @@
 //! is off by a part of what the way between them comes to in it, larger than rounding leaves: it holds because that is
 //! nearly nothing. And where the places are one, a row of the component has no value, or quite another.
 
+use crate::component::Component;
 use crate::holds::counts;
 use crate::planner::Planner;
 use crate::rule::{Body, Rule};
 use crate::task::Task;
 use base::number::hypot;
 use kernel::{SlotId, Values};
-use solve::{Level, Scratch};
+use solve::{Level, Scratch, SlotIndex};
 
 /// Places have come together where this part of the way between them is left.
 const LEFT: f64 = 1e-6;
@@ -41,48 +42,52 @@ impl Vanished {
     }
 }
 
+/// Two places that a rule speaks of.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Pair {
+    /// The rule, by its position in the component.
+    position: u32,
+    /// The coordinates of the first, then of the other, as slots of the component.
+    slots: [SlotIndex; 4],
+}
+
+/// Returns how far the one place is from the other, squared.
+fn squared([x1, y1, x2, y2]: [f64; 4]) -> f64 {
+    let [dx, dy] = [x2 - x1, y2 - y1];
+    dx * dx + dy * dy
+}
+
 fn apart([x1, y1, x2, y2]: [SlotId; 4], values: &Values) -> f64 {
     let x = &values.numbers;
     hypot(x[x2] - x[x1], x[y2] - x[y1])
 }
 
-/// Returns the square of how far two places are from each other.
-fn squared([x1, y1, x2, y2]: [SlotId; 4], values: &Values) -> f64 {
-    let x = &values.numbers;
-    let [dx, dy] = [x[x2] - x[x1], x[y2] - x[y1]];
-    dx * dx + dy * dy
-}
-
-/// Returns the places that came together between two states of a task, where the rows hold only by that.
+/// Returns the places that came together between two states of a task, where the rows hold only by that. `x0` is the
+/// first of these states, in the slots of the system.
 pub(crate) fn vanished(
     planner: &Planner,
     task: &Task,
-    start: &Values,
+    x0: &[f64],
     values: &Values,
 ) -> Vec<Vanished> {
     let mut scratch = Scratch::default();
     let mut found: Vec<Vanished> = Vec::new();
-    for (position, &index) in (0..).zip(task.component.rules()) {
-        let rule = planner.rules.get(index);
-        if rule.slots.len() < 4 || rule.shape.level != Level::Required {
-            continue;
-        }
-        // nearly always nothing has come together: that is seen without roots, and without a list
-        let mut places = [[SlotId(0); 2]; MOST];
-        let count = places_of(planner, rule, &mut places);
-        let pairs = (0..count).flat_map(|i| (0..i).map(move |j| [j, i]));
-        let pairs = pairs.map(|[j, i]| {
-            let ([x1, y1], [x2, y2]) = (places[j], places[i]);
-            [x1, y1, x2, y2]
-        });
-        let has_vanished =
-            |&slots: &[SlotId; 4]| squared(slots, values) < LEFT * LEFT * squared(slots, start);
-        for slots in pairs.filter(has_vanished) {
-            let pair = Vanished { position, slots, apart: apart(slots, start) };
-            let is_new = found.iter().all(|known| known.slots != pair.slots);
-            if is_new && is_undone(planner, rule, &pair, values, &mut scratch) {
-                found.push(pair);
-            }
+    let known = task.component.slots();
+    let before = |slot: SlotIndex| x0[slot as usize];
+    let now = |slot: SlotIndex| values.numbers[known[slot as usize]];
+    // nearly always nothing has come together: that is seen without roots, and without a list
+    let has_vanished = |pair: &&Pair| {
+        squared(pair.slots.map(now)) < LEFT * LEFT * squared(pair.slots.map(before))
+    };
+    let pairs = task.pairs(|| pairs(planner, &task.component));
+    for &Pair { position, slots } in pairs.iter().filter(has_vanished) {
+        let [x1, y1, x2, y2] = slots.map(before);
+        let apart = hypot(x2 - x1, y2 - y1);
+        let pair = Vanished { position, slots: slots.map(|slot| known[slot as usize]), apart };
+        let is_new = found.iter().all(|known| known.slots != pair.slots);
+        let rule = planner.rules.get(task.component.rules()[position as usize]);
+        if is_new && is_undone(planner, rule, &pair, values, &mut scratch) {
+            found.push(pair);
         }
     }
     if found.is_empty() || !is_told_apart(planner, task, &found, values, &mut scratch) {
@@ -91,20 +96,36 @@ pub(crate) fn vanished(
     found
 }
 
-/// Finds the places of a rule, each with both of its coordinates; returns how many.
-fn places_of(planner: &Planner, rule: Rule<'_>, places: &mut [[SlotId; 2]; MOST]) -> usize {
-    let mut count = 0;
-    for &slot in rule.slots {
-        if let &[x, y] = planner.net.place_of(slot)
-            && x == slot
-            && rule.slots.contains(&y)
-            && count < MOST
-        {
-            places[count] = [x, y];
+/// Returns the places that the required rules of a component speak of, those of each two by two.
+fn pairs(planner: &Planner, component: &Component) -> Vec<Pair> {
+    let (rules, slots) = (component.rules(), component.slots());
+    let mut pairs = Vec::with_capacity(rules.len());
+    for (position, &index) in (0..).zip(rules) {
+        let rule = planner.rules.get(index);
+        if rule.slots.len() < 4 || rule.shape.level != Level::Required {
+            continue;
+        }
+        let mut places = [[0; 2]; MOST];
+        let mut count = 0;
+        for &slot in rule.slots {
+            let &[x, y] = planner.net.place_of(slot) else { continue };
+            if x != slot || count == MOST || !rule.slots.contains(&y) {
+                continue;
+            }
+            let Ok(x2) = slots.binary_search(&x) else { continue };
+            let is_next = slots.get(x2 + 1) == Some(&y);
+            let Ok(y2) = (if is_next { Ok(x2 + 1) } else { slots.binary_search(&y) }) else {
+                continue;
+            };
+            let [x2, y2] = [x2, y2].map(|at| at as SlotIndex);
+            for &[x1, y1] in &places[..count] {
+                pairs.push(Pair { position, slots: [x1, y1, x2, y2] });
+            }
+            places[count] = [x2, y2];
             count += 1;
         }
     }
-    count
+    pairs
 }
 
 /// Returns true if an equation of a rule holds because what is between two places is small: it is off by a part of
