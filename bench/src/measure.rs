@@ -38,8 +38,8 @@ pub struct Figures {
     pub conflicting: usize,
     /// How many constraints do not hold, and whether they can was not decided.
     pub undecided: usize,
-    /// What counting those three takes after a solve.
-    pub analysis: f64,
+    /// Counting those three after a solve.
+    pub analysis: Vec<f64>,
     /// The case's drag.
     pub drag: Option<Dragged>,
 }
@@ -114,10 +114,14 @@ fn measured(case: &Case, begin: Instant, repeat: Repeat) -> Result<Figures, Stri
     let points = sketch.points(&values);
     let residual = residual::largest(case, &case.constraints, &points);
     // a planner that has solved, and analysed nothing yet
-    let (mut fresh, solved) = sketch.solve(sketch.templates());
-    let begin = Instant::now();
-    let found = black_box(sketch.analyse(&mut fresh, &solved));
-    let analysis = begin.elapsed().as_secs_f64();
+    let fresh = || sketch.solve(sketch.templates());
+    let analyse = |(mut planner, values): (Planner, Values)| {
+        let found = sketch.analyse(&mut planner, &values);
+        (found, planner)
+    };
+    // what is solved slowly is not solved again and again for this
+    let often = if solve.len() < LEAST_RUNS { Repeat::Once } else { repeat };
+    let (analysis, (found, _)) = repeated_after(often, fresh, analyse);
     let drag = match &case.drag {
         Some(drag) => Some(follow(case, &sketch, &mut planner, values, drag)?),
         None => None,

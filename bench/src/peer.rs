@@ -16,8 +16,8 @@ pub struct PeerFigures {
     pub solve: Vec<f64>,
     /// The largest error of a constraint; not a number where it gave up.
     pub residual: f64,
-    /// Solving and saying which variables are free, once.
-    pub analysis: f64,
+    /// Solving and saying which variables are free.
+    pub analysis: Vec<f64>,
     /// Every step of the drag.
     pub steps: Vec<f64>,
 }
@@ -35,9 +35,8 @@ pub fn measure(case: &Case, repeat: Repeat) -> PeerFigures {
     let points = points(outcome.final_values());
     figures.residual = residual::largest(case, &case.constraints, &points);
     if guesses.len() <= ANALYSED {
-        let begin = Instant::now();
-        let _ = std::hint::black_box(solve_analysis(&requests, guesses, Config::default()));
-        figures.analysis = begin.elapsed().as_secs_f64();
+        let analyse = || solve_analysis(&requests, guesses.clone(), Config::default());
+        (figures.analysis, _) = repeated(repeat, analyse);
     }
     if let Some(drag) = &case.drag {
         figures.steps = follow(case, drag, points);

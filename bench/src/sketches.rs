@@ -52,6 +52,7 @@ pub(crate) fn first_solves(out: &mut impl Write, filter: &str) -> std::io::Resul
             _ => "1",
         };
         let (solve, numbers) = (middle(&figures.solve), middle(&figures.numbers));
+        let analysis = middle(&figures.analysis);
         let ratio = |of: f64| peer.solve / of;
         if peer.is_solved && figures.is_solved() {
             first.push(ratio(solve));
@@ -67,8 +68,8 @@ pub(crate) fn first_solves(out: &mut impl Write, filter: &str) -> std::io::Resul
             numbers * 1e3,
             ratio(numbers),
             "20",
-            figures.analysis * 1e3,
-            figures.analysis / solve,
+            analysis * 1e3,
+            analysis / solve,
             peer.analysis * 1e3,
             state(&figures, &peer),
         )?;
@@ -168,7 +169,7 @@ fn peer(case: &Case) -> Peer {
     let figures = bench::peer::measure(case, Repeat::Enough);
     Peer {
         solve: middle(&figures.solve),
-        analysis: if figures.analysis > 0.0 { figures.analysis } else { f64::NAN },
+        analysis: middle(&figures.analysis),
         step: middle(&figures.steps),
         // its own measure of satisfaction
         is_solved: figures.residual < 1e-4,

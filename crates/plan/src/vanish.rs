@@ -76,9 +76,8 @@ pub(crate) fn vanished(
     let before = |slot: SlotIndex| x0[slot as usize];
     let now = |slot: SlotIndex| values.numbers[known[slot as usize]];
     // nearly always nothing has come together: that is seen without roots, and without a list
-    let has_vanished = |pair: &&Pair| {
-        squared(pair.slots.map(now)) < LEFT * LEFT * squared(pair.slots.map(before))
-    };
+    let has_vanished =
+        |pair: &&Pair| squared(pair.slots.map(now)) < LEFT * LEFT * squared(pair.slots.map(before));
     let pairs = task.pairs(|| pairs(planner, &task.component));
     for &Pair { position, slots } in pairs.iter().filter(has_vanished) {
         let [x1, y1, x2, y2] = slots.map(before);
