@@ -73,6 +73,8 @@ pub struct EditReport {
 pub enum NotDecided {
     /// After so many states of whole numbers.
     Search(u64),
+    /// After methods in a ring had run once round.
+    Round,
     /// After so many modes.
     Modes(u64),
     /// After so many ways to choose among the roots of equations.
@@ -314,7 +316,9 @@ impl Planner {
             let may_be_tried = match report.not_decided {
                 // every part of it would be searched as long
                 Some(NotDecided::Roots(_) | NotDecided::Whole(_) | NotDecided::Work(_)) => false,
-                Some(NotDecided::Search(_) | NotDecided::Modes(_)) | None => !is_dear,
+                Some(NotDecided::Search(_) | NotDecided::Modes(_) | NotDecided::Round) | None => {
+                    !is_dear
+                }
             };
             let conflict = match may_be_tried {
                 true => self.against(&setup, &rules, &wanted, host),

@@ -12,7 +12,7 @@ use crate::vanish::vanished;
 use crate::whole::{self, Looking};
 use base::number::Toward;
 use kernel::{SlotId, Value, Values};
-use solve::{Lean, Level, Outcome, Plan, Reason, Scratch, SlotIndex, Status, Verdict, moved};
+use solve::{Lean, Level, Outcome, Plan, Reason, Scratch, SlotIndex, Status, Stay, Verdict, moved};
 use std::collections::BTreeSet;
 use std::sync::Arc;
 
@@ -148,7 +148,26 @@ pub(crate) fn run(
         }
         planner.end_at(None);
     }
+    let is_round = ran.not_decided == Some(NotDecided::Round);
+    if !ran.is_solved && (is_round || !task.plan.opens()) {
+        put_back(task, &ground, values);
+    }
     ran
+}
+
+/// Gives what had a value the one that it had.
+fn put_back(task: &Task, ground: &Ground, values: &mut Values) {
+    let mut texts = ground.texts.iter();
+    let slots = task.component.slots().iter().zip(&task.system.slots);
+    for ((&slot, own), &number) in slots.zip(&ground.local) {
+        let text = if own.is_number { None } else { texts.next() };
+        match text {
+            _ if own.stay == Stay::Free => {}
+            Some(text) => put_texts(std::slice::from_ref(text), values),
+            None if own.is_number => values.numbers[slot] = number + 0.0,
+            None => {}
+        }
+    }
 }
 
 /// Lets the computed numbers go that the plan holds, and then the places, where an edit came to no end with them held.
@@ -424,16 +443,21 @@ pub(crate) fn ran(planner: &Planner, task: &Task, outcome: &Outcome) -> Ran {
             | Reason::Conflict,
         ) => None,
     };
+    let is_required = |&r: &u32| task.system.relations[r as usize].level == Level::Required;
+    let required = || unmet.iter().copied().filter(is_required);
     let not_decided = match outcome.status {
         Status::Stopped(Reason::NotDecided { tried }) => Some(NotDecided::Roots(tried.into())),
         Status::Stopped(Reason::GivenUp { bound }) => Some(NotDecided::Work(bound)),
+        Status::Stopped(Reason::Conflict) if task.plan.may_hold_elsewhere(required()) => {
+            Some(NotDecided::Round)
+        }
         Status::Solved | Status::Stopped(_) => None,
     };
     let double_roots = outcome.notes.iter().filter_map(|n| match n {
         solve::Note::DoubleRoot { slot } => task.component.slots().get(*slot as usize).copied(),
     });
     let is_solved = outcome.is_solved();
-    let is_conflict = outcome.status == Status::Stopped(Reason::Conflict);
+    let is_conflict = outcome.status == Status::Stopped(Reason::Conflict) && not_decided.is_none();
     let double_roots = double_roots.collect();
     let is_met = outcome.unmet.is_empty();
     let is_wish = |&r: &u32| task.system.relations[r as usize].level == Level::Move;

@@ -87,6 +87,7 @@ pub(crate) fn refusal_for(state: &State, reason: &RefusalReason, report: &EditRe
 pub(crate) fn given_up(bound: NotDecided) -> String {
     match bound {
         NotDecided::Search(n) => format!("{n} states of the search, and not all were looked at"),
+        NotDecided::Round => "one round of methods, and no other was tried".into(),
         NotDecided::Modes(n) => format!("{n} modes, and not all were tried"),
         NotDecided::Whole(n) => {
             format!("{n} choices of whole numbers, and not all were looked at")

@@ -691,6 +691,20 @@ impl Plan {
     pub fn opens(&self) -> bool {
         self.slots().iter().any(|s| s.stay == Stay::Free)
     }
+    /// Returns true if these relations, which do not hold, may hold elsewhere: they are the host's, and some of its
+    /// methods read what comes after them, as in a ring, which is run once round.
+    pub fn may_hold_elsewhere(&self, mut unmet: impl Iterator<Item = u32>) -> bool {
+        let mut writer = vec![0; self.slots().len()];
+        for (i, step) in self.steps().iter().enumerate() {
+            step.targets.iter().for_each(|&t| writer[t as usize] = i);
+        }
+        let is_early = |(i, step): (usize, &Step)| {
+            matches!(step.program, Program::Host { .. })
+                && step.reads.iter().any(|&r| writer[r as usize] > i)
+        };
+        unmet.all(|r| self.opaque.binary_search(&r).is_ok())
+            && self.steps().iter().enumerate().any(is_early)
+    }
     /// Returns true if some of its relations are tested by the host.
     pub fn asks_host(&self) -> bool {
         !self.opaque.is_empty()
