@@ -37,6 +37,18 @@ pub fn joined<T>(mut items: Vec<T>, mut join: impl FnMut(T, T) -> T) -> Option<T
     items.into_iter().reduce(join)
 }
 
+/// Returns the power of two that is nearest to a positive number, by their ratio; the number itself where that has
+/// no normal one. What is multiplied by it is not rounded.
+///
+/// ```
+/// assert_eq!([3.0, 1.4, 0.3, 1.5].map(base::number::power_of_two), [4.0, 1.0, 0.25, 2.0]);
+/// ```
+pub fn power_of_two(x: f64) -> f64 {
+    const EXPONENT: u64 = 0x7ff0_0000_0000_0000;
+    let power = f64::from_bits((x * std::f64::consts::SQRT_2).to_bits() & EXPONENT);
+    if power > 0.0 && power.is_finite() { power } else { x }
+}
+
 /// Returns true if `a` and `b` agree to [`RULE_TOLERANCE`] of the larger side, at least of the unit.
 pub fn close(a: f64, b: f64) -> bool {
     Tolerance::Relative.is_met(a, b)

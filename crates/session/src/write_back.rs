@@ -3,7 +3,8 @@
 //! In: a state, and the values after an edit. Out: the text whose state has these values. Given
 //! numbers that changed are rewritten where they stand; then the text is opened, and while a value
 //! differs from what the edit came to, one that does is given as well: one whose class gives it a
-//! value, else one that the edit was about, else the first.
+//! value, else one that the edit was about, else the first. Given numbers that the edit left alone and that come
+//! to other bits, since they give way whenever the text is opened, are written as they are.
 
 use crate::host::Host;
 use crate::state::State;
@@ -24,19 +25,16 @@ pub(crate) fn write_back(
     mut plans: Plans,
 ) -> (State, Planner) {
     let unit = |slot: SlotId| unit_of_change(state, wanted, slot);
-    let mut written: BTreeSet<ThingId> = state
-        .structure
-        .slots
-        .ids()
-        .filter(|&slot| {
-            let given = state.structure.given(slot);
-            // a lone number that is given would hold, whoever gives it
-            let is_lone = state.structure.slots[slot].place.is_none();
-            given.is_some_and(|g| is_lone || state.lowered.is_own_given(g.origin))
-                && !wanted.get(slot).same_bits(&state.values.get(slot))
-        })
-        .map(unit)
-        .collect();
+    let is_given = |slot: SlotId| {
+        let given = state.structure.given(slot);
+        // a lone number that is given would hold, whoever gives it
+        let is_lone = state.structure.slots[slot].place.is_none();
+        given.is_some_and(|g| is_lone || state.lowered.is_own_given(g.origin))
+    };
+    let is_same = |slot: SlotId| wanted.get(slot).same_bits(&state.values.get(slot));
+    let slots = state.structure.slots.ids();
+    let mut written: BTreeSet<ThingId> =
+        slots.filter(|&slot| is_given(slot) && !is_same(slot)).map(unit).collect();
     let mut more = 1;
     loop {
         let writes: Vec<(Path, Literal)> = written
@@ -63,7 +61,15 @@ pub(crate) fn write_back(
         missing.sort_by_key(rank);
         missing.truncate(more);
         if missing.is_empty() {
-            return (next, planner);
+            // what the edit left alone has the bits that it had, where it is given and gave way when it was opened
+            let moved = next.values.changed(wanted).filter(|&slot| is_given(slot) && is_same(slot));
+            let moved: BTreeSet<ThingId> = moved.map(unit).collect();
+            if moved.is_subset(&written) {
+                return (next, planner);
+            }
+            written.extend(moved);
+            plans = planner.into_plans();
+            continue;
         }
         written.extend(missing.into_iter().map(unit));
         // One at a time while there are few: the first may determine the others.

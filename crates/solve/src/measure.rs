@@ -26,7 +26,7 @@ use crate::least::Least;
 use crate::lower::{Definers, Problem};
 use crate::square::Trust;
 use crate::system::{Level, SlotIndex, Turn};
-use base::number::ROUNDING;
+use base::number::{ROUNDING, power_of_two};
 use curved::Curved;
 use levels::Levels;
 use std::collections::BTreeMap;
@@ -214,7 +214,7 @@ impl Measure {
         trust: Trust,
         w: &mut Workspace,
     ) -> Measured {
-        let scale: Vec<f64> = self.unknowns.iter().map(|&u| scales[u as usize]).collect();
+        let scale = self.scale(scales);
         let weights = self.weights(x0, values, scales, w);
         if let Some(Large::Curved(curved)) = &self.large {
             let (block, turns, weights, scale) = (&self.block, &self.turns, &weights, &scale);
@@ -330,7 +330,7 @@ impl Measure {
             }
             return is_settled;
         }
-        let scale: Vec<f64> = self.unknowns.iter().map(|&u| scales[u as usize]).collect();
+        let scale = self.scale(scales);
         let weights = self.weights(x0, values, scales, w);
         let Some(local) = self.evaluate(values, &scale, &weights, w) else {
             return false;
@@ -343,6 +343,19 @@ impl Measure {
             .collect();
         let Direction { step, .. } = self.direction(&local, &away, &weights, values, w);
         self.hard_rows_hold(&local, values, w) && step.iter().all(|d| d.abs() <= STILL)
+    }
+
+    /// Returns how the block scales: all by one factor, with which the first unknown's scale is a power of two. Where
+    /// others have the same, nothing is rounded by them, and what is elsewhere changes no bit.
+    fn own(&self, scales: &[f64]) -> impl Fn(f64) -> f64 + use<> {
+        let first = self.unknowns.first().map_or(1.0, |&u| scales[u as usize]);
+        let power = power_of_two(first);
+        move |scale| power * (scale / first)
+    }
+    /// Returns the scales of the unknowns.
+    fn scale(&self, scales: &[f64]) -> Vec<f64> {
+        let own = self.own(scales);
+        self.unknowns.iter().map(|&u| own(scales[u as usize])).collect()
     }
 
     fn hard_rows_hold(&self, scaled: &Scaled, values: &[f64], w: &mut Workspace) -> bool {
@@ -378,7 +391,8 @@ impl Measure {
         scales: &[f64],
         w: &mut Workspace,
     ) -> Vec<f64> {
-        let scale: Vec<f64> = self.unknowns.iter().map(|&u| scales[u as usize]).collect();
+        let scale = self.scale(scales);
+        let own = self.own(scales);
         let block = &self.block;
         let ones = vec![1.0; self.levels.len()];
         let now: Vec<f64> = block.unknowns.iter().map(|&u| values[u as usize]).collect();
@@ -400,7 +414,7 @@ impl Measure {
                 _ => {
                     let slope = |e: usize| {
                         let unknown = block.unknowns[block.pattern.column(e)];
-                        scaled.local.jacobian[e] * scales[unknown as usize]
+                        scaled.local.jacobian[e] * own(scales[unknown as usize])
                     };
                     dense::norm(&block.pattern.range(row).map(slope).collect::<Vec<f64>>())
                 }

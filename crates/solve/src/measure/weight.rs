@@ -4,12 +4,14 @@
 //! parts of the extent of what it measures: lengths by the extent of lengths, areas by its square; plain
 //! numbers count as they are written. What a row measures follows from its expressions and the kinds of its
 //! slots; a factor that is written as a number is taken for a plain one where nothing tells more. The rows of
-//! one level have a factor in common that makes the steepest of them as steep as what is stronger; it changes
-//! no answer. What must hold cannot give way: its weight is but for rounding, and is one over its slope.
+//! one level have a factor in common that makes the steepest of them about as steep as what is stronger: a power of
+//! two, which rounds nothing. It changes no answer. What must hold cannot give way: its weight is but for rounding, and
+//! is one over its slope.
 
 use crate::kernel::Kernel;
 use crate::lower::ProblemRow;
 use crate::system::{Level, SlotIndex};
+use base::number::power_of_two;
 use expr::{Arena, Binary, ExprId, Node, Unary};
 use std::collections::BTreeMap;
 
@@ -44,6 +46,11 @@ pub(super) fn weights(
         _ => kinds.iter().map(|(&k, &n)| base::number::pow(extent(k), -n)).product(),
     };
     let mut weights: Vec<f64> = levels.iter().zip(measured).map(own).collect();
+    // alike they are one
+    let mut first: BTreeMap<Level, f64> = BTreeMap::new();
+    for (level, weight) in levels.iter().zip(&mut weights) {
+        *weight /= *first.entry(*level).or_insert(*weight);
+    }
     let mut steepest: BTreeMap<Level, f64> = BTreeMap::new();
     for ((level, weight), slope) in levels.iter().zip(&weights).zip(slopes) {
         let most = steepest.entry(*level).or_default();
@@ -55,7 +62,7 @@ pub(super) fn weights(
             *weight = if *slope > 0.0 { 1.0 / slope } else { 1.0 };
         } else if most > 0.0 && most.is_finite() {
             let own = *weight * slope / most;
-            *weight /= most;
+            *weight /= power_of_two(most);
             if own > 0.0 && own < LEAST {
                 *weight *= LEAST / own;
             }
@@ -209,7 +216,7 @@ mod tests {
         let length = Kinds::from([(1, 1.0)]);
         let levels = [Level::Weak, Level::Weak, Level::Required];
         let found = weights(&levels, &[area, length, Kinds::new()], &[100.0, 10.0, 5.0], &|_| 10.0);
-        // a hundredth and a tenth, whose slopes are one
-        assert_eq!(found, [0.01, 0.1, 0.2]);
+        // as a hundredth and a tenth are to each other, with slopes of about one
+        assert_eq!(found, [1.0 / 128.0, 10.0 / 128.0, 0.2]);
     }
 }
