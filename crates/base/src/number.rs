@@ -110,9 +110,11 @@ impl Tolerance {
     /// Returns true if two sides agree, or differ by no more than rounding; the sway is asked for only
     /// where that decides.
     pub fn is_met_with(self, left: f64, right: f64, sway: impl FnOnce() -> f64) -> bool {
+        let off = (left - right).abs();
         self.is_met(left, right)
             || self == Self::Relative
-                && (left - right).abs() <= self.allowed_with(left, right, sway())
+                && off <= MOST_ROUNDING * size(left, right)
+                && off <= self.allowed_with(left, right, sway())
     }
     /// Returns true if two sides agree whatever they are made of. A side without a value agrees with none.
     pub fn is_met(self, left: f64, right: f64) -> bool {

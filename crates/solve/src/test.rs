@@ -178,7 +178,9 @@ impl Plan {
         values: &[f64],
         work: &mut Workspace,
     ) -> bool {
-        self.failing(differing, values, work).is_none()
+        let Differing { place: Place { relation, row }, left, right } = differing;
+        let within = self.relation(relation).within;
+        within.is_met_with(left, right, || self.sway(row, values, work))
     }
 
     /// Returns true if an equation of a relation holds.
