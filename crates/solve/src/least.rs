@@ -124,6 +124,13 @@ enum Part {
     Constant,
 }
 
+/// What of the rows is evaluated behind a step.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+enum What {
+    Sides,
+    Slopes,
+}
+
 /// The matrix that a step is found by.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 enum Matrix {
@@ -336,16 +343,8 @@ impl Least {
             if !size.is_finite() {
                 return Measured::Failed;
             }
-            if follows {
-                // a branch of least change ends where it has no minimum any more
-                let leaves = match iteration {
-                    0 => size > 0.5 || shift > 1.0,
-                    1 => size > 0.1 * before && size > 1e-7,
-                    _ => size > 0.5 * before && size > 1e-7,
-                };
-                if leaves {
-                    return Measured::Failed;
-                }
+            if follows && leaves(iteration, shift, [before, size]) {
+                return Measured::Failed;
             }
             shrank = if iteration > 0 { size / before } else { f64::INFINITY };
             if size < 0.9 * smallest.0 {
@@ -354,12 +353,16 @@ impl Least {
                 smallest.1 += 1;
             }
             take_on(s);
-            norm = self.advance(counted, values, size, norm, w, s);
             // what comes after a step that shrank like this is no step; after Newton's it shrinks by the square,
             // as far as the rows are not held back
             let next = size * shrank;
             let is_newton = was_exact && matrix == Matrix::Exact;
             was_exact = matrix == Matrix::Exact;
+            // behind the last step nothing is asked but whether the rows hold
+            let may_be_last =
+                size <= SETTLED || iteration > 1 && next.min(next * shrank) <= SETTLED;
+            let what = if may_be_last { What::Sides } else { What::Slopes };
+            norm = self.advance(counted, values, (size, what), norm, w, s);
             let last = size <= SETTLED
                 || iteration > 1 && next <= SETTLED
                 || iteration > 1 && is_newton && norm.max(next * shrank) <= SETTLED
@@ -373,6 +376,9 @@ impl Least {
             }
             if smallest.1 > 30 {
                 return Measured::Failed;
+            }
+            if may_be_last {
+                self.evaluate(counted, values, w, s);
             }
         }
         let is_found = self.holds(values, w, s) && size < 1e-6;
@@ -595,7 +601,7 @@ impl Least {
         &self,
         counted: Counted,
         values: &mut [f64],
-        size: f64,
+        (size, what): (f64, What),
         before: f64,
         w: &mut Workspace,
         s: &mut LeastScratch,
@@ -609,13 +615,26 @@ impl Least {
             for ((&u, start), d) in block.unknowns.iter().zip(&s.start).zip(&s.right) {
                 values[u as usize] = start + length * d;
             }
-            self.evaluate(counted, values, w, s);
+            match what {
+                What::Sides => block.sides(values, w, &mut s.local),
+                What::Slopes => self.evaluate(counted, values, w, s),
+            }
             let now = norm(s);
             if now <= 0.1f64.max(2.0 * before) || length < 1e-6 {
                 return now;
             }
             length *= 0.5;
         }
+    }
+}
+
+/// Returns true if a step, so long after one so long, tells that a branch of least change ends, where it has no
+/// minimum any more.
+fn leaves(iteration: usize, shift: f64, [before, size]: [f64; 2]) -> bool {
+    match iteration {
+        0 => size > 0.5 || shift > 1.0,
+        1 => size > 0.1 * before && size > 1e-7,
+        _ => size > 0.5 * before && size > 1e-7,
     }
 }
 
