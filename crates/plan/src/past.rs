@@ -112,6 +112,7 @@ impl Past {
             let usual = if is_empty(slot) { 0.0 } else { *b };
             a.to_bits() != usual.to_bits()
         });
+        self.numbers.reserve(came.len() * (1 + usize::from(has_moved)));
         if has_moved {
             self.numbers.extend_from_slice(began);
         }

@@ -9,6 +9,9 @@ use expr::{LANES, Lanes, Tape};
 /// From how many rows of a kernel on they are evaluated in lanes.
 pub(crate) const WIDE: usize = 3;
 
+/// Working space has room for at least so many arguments and outputs, so that it serves small tapes without growing.
+const ROOM: usize = 16;
+
 /// How many lanes a few rows take.
 const HALF: usize = LANES / 2;
 
@@ -91,10 +94,11 @@ impl<const N: usize> Space<N> {
         let own: [&[SlotIndex]; N] = std::array::from_fn(|lane| of(lane.min(rows - 1)));
         let arity = own[0].len();
         self.arguments.clear();
+        self.arguments.reserve(arity.max(ROOM));
         let argument = |a: usize| std::array::from_fn(|lane| values[own[lane][a] as usize]);
         self.arguments.extend((0..arity).map(argument));
         if self.out.len() < outs {
-            self.out.resize(outs, [0.0; N]);
+            self.out.resize(outs.max(ROOM), [0.0; N]);
         }
         let out = &mut self.out[..outs];
         tape.run_lanes(&self.arguments, &mut self.registers, out);

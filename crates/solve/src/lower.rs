@@ -348,6 +348,7 @@ impl Work {
 fn reads_of(analysis: &Analysis<'_>, block: Block<'_>, reads: &mut Reads) -> Few {
     let Reads { list, met } = reads;
     list.clear();
+    list.reserve(MARKED);
     if block.unknowns.len() < MARKED {
         for &r in block.rows {
             for &slot in analysis.reads_of_row(r) {

@@ -58,6 +58,9 @@ pub(crate) struct Matcher<'a> {
     way: Vec<(u32, usize)>,
     /// The slots on that way.
     taken: Vec<SlotIndex>,
+    /// Of the place that is to be held: what was closed, and the rows that came to rest with the slots that they had.
+    closed: Vec<SlotIndex>,
+    rested: Vec<(u32, SlotIndex)>,
     /// The blocks of the latest rows that were found regular.
     blocks: Blocks,
     /// A row of the latest piece at which matching could not decide.
@@ -115,6 +118,8 @@ impl<'a> Matcher<'a> {
             met: Vec::new(),
             way: Vec::new(),
             taken: Vec::new(),
+            closed: Vec::new(),
+            rested: Vec::new(),
             blocks: Blocks::default(),
             failing: None,
         }
@@ -295,39 +300,40 @@ impl<'a> Matcher<'a> {
         if place.iter().any(|&s| self.state[s as usize] == Use::Rigid) {
             return;
         }
-        // what was closed, and the rows that came to rest with the slots that they had
-        let (mut closed, mut rested) = (Vec::new(), Vec::new());
+        self.closed.clear();
+        self.rested.clear();
         for (i, &slot) in place.iter().enumerate() {
             if std::mem::replace(&mut self.state[slot as usize], Use::Closed) == Use::Closed {
                 continue;
             }
-            closed.push(slot);
+            self.closed.push(slot);
             let row = std::mem::replace(&mut self.row_of_slot[slot as usize], NONE);
             if row == NONE || self.find(row) {
                 continue;
             }
             if self.may_rest(row) {
-                rested.push((row, slot));
-                for slot in std::mem::take(&mut self.met) {
+                self.rested.push((row, slot));
+                for &slot in &self.met {
                     let row = std::mem::replace(&mut self.row_of_slot[slot as usize], NONE);
                     self.state[slot as usize] = Use::Closed;
-                    rested.push((row, slot));
+                    self.rested.push((row, slot));
                 }
                 continue;
             }
             // what was closed before opens again; rows that found other slots may keep them
             self.give(row, slot);
-            for &(row, slot) in &rested {
+            for i in 0..self.rested.len() {
+                let (row, slot) = self.rested[i];
                 self.give(row, slot);
                 self.state[slot as usize] = Use::Open;
             }
-            closed.iter().for_each(|&s| self.state[s as usize] = Use::Open);
+            self.closed.iter().for_each(|&s| self.state[s as usize] = Use::Open);
             if i == 0 {
                 self.stiffen(slot);
             }
             return;
         }
-        rested.iter().for_each(|&(row, _)| self.slot_of_row[row as usize] = NONE);
+        self.rested.iter().for_each(|&(row, _)| self.slot_of_row[row as usize] = NONE);
     }
     /// Returns true if a row that found no slot rests, and all rows that were met do: they hold where everything
     /// that they speak of stays.
@@ -344,9 +350,9 @@ impl<'a> Matcher<'a> {
     /// Notes that whatever was met leads to nothing but what was met, once a row could not do without its slot;
     /// where rows rest, only what leads to one that does not.
     fn stiffen(&mut self, slot: SlotIndex) {
-        let mut stiff = std::mem::take(&mut self.met);
-        stiff.push(slot);
+        self.met.push(slot);
         if !self.resting.is_empty() {
+            let mut stiff = std::mem::take(&mut self.met);
             let owner = |s: SlotIndex| self.row_of_slot[s as usize];
             let own: BTreeMap<u32, SlotIndex> = stiff.iter().map(|&s| (owner(s), s)).collect();
             let mut from: BTreeMap<u32, Vec<u32>> = BTreeMap::new();
@@ -366,8 +372,9 @@ impl<'a> Matcher<'a> {
                 next.extend(before.copied().filter(|&r| reached.insert(r)));
             }
             stiff.retain(|&s| reached.contains(&owner(s)));
+            self.met = stiff;
         }
-        stiff.into_iter().for_each(|s| self.state[s as usize] = Use::Rigid);
+        self.met.iter().for_each(|&s| self.state[s as usize] = Use::Rigid);
     }
 
     /// Returns true if every block of rows and their slots is regular at the generic point.

@@ -10,7 +10,6 @@ use crate::kernel::exact::Exact;
 use crate::kernel::{Form, Kernel};
 use crate::lanes::{LaneScratch, Out, Outs, WIDE};
 use crate::lists::Lists;
-use crate::pattern::Scratch;
 use crate::residue::Residue;
 use crate::stated::Stated;
 use crate::substitute::Classes;
@@ -433,7 +432,8 @@ fn evaluate(rows: &Rows, values: &[f64]) -> Evaluated {
 #[derive(Default)]
 struct Work {
     lanes: LaneScratch,
-    one: Scratch,
+    registers: Vec<f64>,
+    out: Vec<f64>,
 }
 
 fn evaluate_kernel(
@@ -454,9 +454,8 @@ fn evaluate_kernel(
     for some in own.chunks(LANES) {
         if some.len() < WIDE {
             for &r in some {
-                let arguments = of(r).iter().map(|&slot| values[slot as usize]);
-                let results = work.one.run(&kernel.slopes, arguments, entries + 2);
-                put(r, Outs::of_one(results).of(0));
+                kernel.slopes.run_at(of(r), values, &mut work.registers, &mut work.out);
+                put(r, Outs::of_one(&work.out).of(0));
             }
             continue;
         }

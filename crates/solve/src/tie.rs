@@ -52,9 +52,10 @@ pub(crate) fn tie(
         let is_stiff = row.curved
             && !free[slot as usize]
             && !place(slot).is_empty()
+            && rows.columns(r).iter().any(stays)
             && !rows.is_line(r, place(slot))
             && system.relations[row.relation as usize].methods.is_empty();
-        if !is_stiff || !rows.columns(r).iter().any(stays) {
+        if !is_stiff {
             continue;
         }
         for &(c, _) in rows.columns(r) {

@@ -29,7 +29,8 @@ impl<'s> Making<'s> {
         locals: &'s mut Locals,
         component: &'s Component,
     ) -> Self {
-        let mut dimensions = vec![Dimension::NONE];
+        let mut dimensions = Vec::with_capacity(4);
+        dimensions.push(Dimension::NONE);
         // of a kind there are many, as a rule
         let mut latest: Option<(Primitive, solve::Slot)> = None;
         let mut groups = 0;

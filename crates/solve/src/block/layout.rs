@@ -106,6 +106,9 @@ pub(crate) struct Layouts {
     key: Vec<u32>,
 }
 
+/// The key of a layout has room for that of two rows.
+const ROOM: usize = 32;
+
 /// Up to this many rows it is looked whether a block is laid out as another was.
 const SMALL: usize = 12;
 
@@ -114,6 +117,7 @@ impl Layouts {
     pub(super) fn find(&mut self, problem: &Problem, definers: Definers) -> Rc<Layout> {
         let Self { known, key } = self;
         key.clear();
+        key.reserve(ROOM);
         if problem.rows.len() <= SMALL {
             let halves = |x: u64| [x as u32, (x >> 32) as u32];
             key.extend([definers as u32, problem.unknowns.len() as u32]);
