@@ -97,6 +97,9 @@ impl Planner {
             let wanted = task.plan.report.freedom
                 + redundancy.theorems.get(&index).copied().unwrap_or_default();
             out.freedom += wanted;
+            if wanted == 0 {
+                continue;
+            }
             let mut space = Space::new(self, model, task, values, &superfluous, &mut scratch);
             if space.free.len() > wanted
                 && let Some(bent) = space.to_second_order(self, model, values, &mut scratch)

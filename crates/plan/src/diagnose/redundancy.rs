@@ -12,7 +12,7 @@ use crate::diagnose::trial::{Setup, Trial, perturbed};
 use crate::holds::counts;
 use crate::host::Host;
 use crate::planner::{Model, Planner, Unmet};
-use crate::rule::{Body, Rule, Source};
+use crate::rule::{Body, Position, Rule, Source};
 use crate::task::{Holding, Origin, Task};
 use kernel::{SlotId, Structure, Values};
 use solve::echelon::{Dependent, Echelon, Row};
@@ -113,15 +113,11 @@ impl Planner {
         let task = in_mode.as_ref().unwrap_or(task);
         let fails = |&r: &u32| unmet.contains(&self.rules.source(r));
         let fails = !unmet.is_empty() && task.component.rules().iter().any(fails);
-        let theorems = match fails {
-            true => BTreeMap::new(),
-            false => self.theorems(model, task, Self::resting_hold, values, host),
+        let (theorems, with_given) = match fails {
+            true => Default::default(),
+            false => self.theorems_and_motions(model, task, values, host),
         };
         let rules: BTreeSet<u32> = theorems.keys().copied().collect();
-        let with_given = match fails {
-            true => 0,
-            false => self.motions_of_given(model, task, &rules, values, host),
-        };
         // what one of these stood against may say something once that is left out
         let left = task.with_tested(&rules, &self.plans);
         let left = left.map(|left| left.by_values(self, values).unwrap_or(left));
@@ -144,21 +140,28 @@ impl Planner {
         (found, motions + with_given)
     }
 
-    /// Returns how many motions there are because rules follow from others for the given numbers as they are: a ball
-    /// as thick as the gap between a ring and a hub rolls round.
-    fn motions_of_given(
+    /// Returns the rules of a component that follow from others by a theorem, and how many motions there are because
+    /// rules follow from others for the given numbers as they are: a ball as thick as the gap between a ring and a
+    /// hub rolls round.
+    fn theorems_and_motions(
         &mut self,
         model: Model<'_>,
         task: &Task,
-        theorems: &BTreeSet<u32>,
         values: &Values,
         host: &mut dyn Host,
-    ) -> usize {
-        if !may_follow_from_given(model, task) {
-            return 0;
-        }
-        let found = self.theorems(model, task, hold_given, values, host).into_iter();
-        found.filter(|(rule, _)| !theorems.contains(rule)).map(|(_, c)| c.rows).sum()
+    ) -> (BTreeMap<u32, Candidate>, usize) {
+        let may_follow = may_follow_from_given(model, task);
+        let for_given = may_follow.then(|| self.theorems(model, task, hold_given, values, host));
+        let for_given = match for_given {
+            // what depends on nothing while given numbers are held does not where they may yield
+            Some(Theorems { is_independent: true, .. }) => return Default::default(),
+            Some(found) => found.rules,
+            None => BTreeMap::new(),
+        };
+        let theorems = self.theorems(model, task, Self::resting_hold, values, host).rules;
+        let motions = for_given.into_iter().filter(|(rule, _)| !theorems.contains_key(rule));
+        let motions = motions.map(|(_, c)| c.rows).sum();
+        (theorems, motions)
     }
 
     /// Returns the rules of a component that depend on others at the present state alone and hold after the rest is
@@ -170,7 +173,7 @@ impl Planner {
         hold: Hold,
         values: &Values,
         host: &mut dyn Host,
-    ) -> BTreeMap<u32, Candidate> {
+    ) -> Theorems {
         let setting = (task, hold);
         let find = || core(self, model, setting, &rejected_rows(task));
         let is_resting = std::ptr::fn_addr_eq(hold, Self::resting_hold as Hold);
@@ -192,16 +195,14 @@ impl Planner {
         core: &[(u32, u32)],
         values: &Values,
         host: &mut dyn Host,
-    ) -> Option<BTreeMap<u32, Candidate>> {
+    ) -> Option<Theorems> {
         let setting = (task, hold);
-        let mut candidates =
-            candidates(self, model, setting, core, values, &mut Scratch::default());
-        if candidates.is_empty() {
-            return Some(candidates);
+        let mut rules = candidates(self, model, setting, core, values, &mut Scratch::default());
+        if rules.is_empty() {
+            return Some(Theorems { rules, is_independent: true });
         }
-        let is_left = |r: &u32| {
-            self.rules.get(*r).shape.level == Level::Required && !candidates.contains_key(r)
-        };
+        let is_left =
+            |r: &u32| self.rules.get(*r).shape.level == Level::Required && !rules.contains_key(r);
         let rest: Vec<u32> = task.component.rules().iter().copied().filter(is_left).collect();
         let holding = |s| hold(model.structure, s);
         let mut elsewhere = perturbed(model, task.component.slots(), values);
@@ -212,8 +213,8 @@ impl Planner {
         if self.try_rules(&setup, &rest, &mut elsewhere, host) != Trial::Holds {
             return None;
         }
-        candidates.retain(|&rule, _| self.unmet(model, [rule], &elsewhere, host).is_empty());
-        Some(candidates)
+        rules.retain(|&rule, _| self.unmet(model, [rule], &elsewhere, host).is_empty());
+        Some(Theorems { rules, is_independent: false })
     }
 
     /// Returns rules that imply another by a theorem, and none that could be spared: those of its circuit if they do
@@ -286,10 +287,13 @@ impl Planner {
         }
         let in_mode = task.by_values(self, values);
         let task = in_mode.as_ref().unwrap_or(task);
-        let mut implied: BTreeSet<u32> =
-            self.theorems(model, task, Self::resting_hold, values, host).into_keys().collect();
+        let mut implied: BTreeSet<u32> = self
+            .theorems(model, task, Self::resting_hold, values, host)
+            .rules
+            .into_keys()
+            .collect();
         if may_follow_from_given(model, task) {
-            implied.extend(self.theorems(model, task, hold_given, values, host).into_keys());
+            implied.extend(self.theorems(model, task, hold_given, values, host).rules.into_keys());
         }
         implied
     }
@@ -313,6 +317,14 @@ fn may_follow_from_given(model: Model<'_>, task: &Task) -> bool {
     slots.len() <= MOST_WITH_GIVEN
         && task.plan.report.yielded.is_empty()
         && slots.iter().any(is_given)
+}
+
+/// Rules that follow from others by a theorem.
+#[derive(Default)]
+struct Theorems {
+    rules: BTreeMap<u32, Candidate>,
+    /// True if no row depends on others at the present state: there are none, and no other would be one.
+    is_independent: bool,
 }
 
 /// A rule with rows that depend on others.
@@ -347,11 +359,7 @@ fn candidates(
         if !counts(patterns, rule, values, scratch) {
             continue;
         }
-        let writable = writable(rule);
-        let moves = |s: SlotId| {
-            hold(model.structure, s) != Holding::Fixed
-                && writable.as_ref().is_none_or(|w| w.contains(&s))
-        };
+        let moves = |s: SlotId| hold(model.structure, s) != Holding::Fixed && may_write(rule, s);
         let row = gradient(patterns, rule, &equations[e as usize], &values.numbers, scratch);
         let own = row.into_iter().filter(|e| moves(e.0));
         rows.push(own.filter_map(|(s, v)| Some((column(s)?, v))).collect());
@@ -388,11 +396,7 @@ fn core(
     let mut mentions: Vec<(SlotId, u32, bool)> = Vec::new();
     for (position, index, rule) in rules().filter(|(_, _, r)| r.shape.level == Level::Required) {
         let Body::Equations(equations) = &rule.shape.body else { continue };
-        let writable = writable(rule);
-        let moves = |s: SlotId| {
-            hold(model.structure, s) != Holding::Fixed
-                && writable.as_ref().is_none_or(|w| w.contains(&s))
-        };
+        let moves = |s: SlotId| hold(model.structure, s) != Holding::Fixed && may_write(rule, s);
         for (e, equation) in (0..).zip(equations).filter(|(e, _)| !left_out.contains(&(index, *e)))
         {
             let number = rows.len() as u32;
@@ -429,21 +433,12 @@ fn core(
     kept.map(|(row, _)| row).collect()
 }
 
-/// Returns the slots that a rule may write; nothing where it may write all that it mentions.
-fn writable(rule: Rule<'_>) -> Option<BTreeSet<SlotId>> {
+/// Returns true if a rule may write a slot that it mentions.
+fn may_write(rule: Rule<'_>, slot: SlotId) -> bool {
     let shape = rule.shape;
     let as_written = !shape.derived && !shape.methods.is_empty();
-    if shape.reads.is_empty() && !as_written {
-        return None;
-    }
-    let mut slots: BTreeSet<SlotId> = match as_written {
-        true => shape.methods.iter().flat_map(|m| rule.slots_at(&m.targets)).collect(),
-        false => rule.slots.iter().copied().collect(),
-    };
-    for s in rule.slots_at(&shape.reads) {
-        slots.remove(&s);
-    }
-    Some(slots)
+    let has = |positions: &[Position]| rule.slots_at(positions).any(|s| s == slot);
+    (!as_written || shape.methods.iter().any(|m| has(&m.targets))) && !has(&shape.reads)
 }
 
 /// Returns the rows that depend on others everywhere: rule and equation.
