@@ -12,7 +12,9 @@ use crate::vanish::vanished;
 use crate::whole::{self, Looking};
 use base::number::Toward;
 use kernel::{SlotId, Value, Values};
-use solve::{Lean, Level, Outcome, Plan, Reason, Scratch, SlotIndex, Status, Stay, Verdict, moved};
+use solve::{
+    Lean, Level, Outcome, Plan, Puzzle, Reason, Scratch, SlotIndex, Status, Stay, Verdict, moved,
+};
 use std::collections::BTreeSet;
 use std::sync::Arc;
 
@@ -245,7 +247,14 @@ pub(crate) fn or_otherwise(
     if ran.failure.is_some() {
         return ran;
     }
+    // of whole numbers alone all are looked at together
+    let search = || {
+        let whole = task.whole().filter(|whole| !(ran.is_met && whole.is_whole(task, values)));
+        whole.and_then(|whole| whole.puzzle(planner.plans.patterns()))
+    };
+    let searched = search().map(|puzzle| by_search(planner, task, puzzle, ground, values));
     let ran = match task.whole() {
+        _ if let Some(found) = searched.filter(|found| found.is_solved) => found,
         Some(whole) if !(ran.is_solved && whole.is_whole(task, values)) => {
             // structure decides who may yield to a wish: what would if whole numbers were real ones
             let plan = ran.stands.as_ref().map_or(&task.plan, Stands::plan);
@@ -321,16 +330,25 @@ fn by_course(
             ran(planner, task, &outcome)
         }
         Course::Modes(modes, _) => modal::run_on(planner, model, task, modes, ground, values, host),
-        Course::Search(puzzle) => {
-            let mut runner = planner.take_runner(Vec::new());
-            let verdict = runner.nearest(puzzle, &ground.x0, &ground.local);
-            planner.put_back(runner);
-            if let Verdict::Found(found) = &verdict {
-                scatter(task, found, values);
-            }
-            searched(&verdict)
-        }
+        Course::Search(puzzle) => by_search(planner, task, puzzle, ground, values),
     }
+}
+
+/// Searches for the nearest whole numbers.
+fn by_search(
+    planner: &Planner,
+    task: &Task,
+    puzzle: &Puzzle,
+    ground: &Ground,
+    values: &mut Values,
+) -> Ran {
+    let mut runner = planner.take_runner(Vec::new());
+    let verdict = runner.nearest(puzzle, &ground.x0, &ground.local);
+    planner.put_back(runner);
+    if let Verdict::Found(found) = &verdict {
+        scatter(task, found, values);
+    }
+    searched(&verdict)
 }
 
 pub(crate) fn ground(

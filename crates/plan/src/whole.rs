@@ -25,19 +25,23 @@ use std::sync::Arc;
 pub(crate) struct Whole {
     pub(crate) modes: Rc<Modes>,
     wholes: OnceCell<Wholes>,
+    puzzle: OnceCell<Option<Puzzle>>,
 }
 
 impl Whole {
     pub(crate) fn new(modes: Rc<Modes>) -> Self {
-        Self { modes, wholes: OnceCell::new() }
+        Self { modes, wholes: OnceCell::new(), puzzle: OnceCell::new() }
     }
     fn wholes(&self, patterns: &Patterns) -> &Wholes {
         self.wholes.get_or_init(|| Wholes::new(self.modes.conditional(), patterns))
     }
     /// Returns the search for all its solutions, where nothing but whole numbers is unknown.
-    pub(crate) fn puzzle(&self, patterns: &Patterns) -> Option<Puzzle> {
-        let conditional = self.modes.conditional();
-        conditional.is_of_whole_numbers().then(|| Puzzle::new(conditional, patterns))
+    pub(crate) fn puzzle(&self, patterns: &Patterns) -> Option<&Puzzle> {
+        let make = || {
+            let conditional = self.modes.conditional();
+            conditional.is_of_whole_numbers().then(|| Puzzle::new(conditional, patterns))
+        };
+        self.puzzle.get_or_init(make).as_ref()
     }
     /// Returns true if other alternatives hold with these numbers than where an edit began.
     pub(crate) fn is_on_others(&self, ground: &Ground, numbers: &[f64]) -> bool {

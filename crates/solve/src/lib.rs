@@ -138,8 +138,8 @@ pub use run::{Drag, PATIENCE, Runner, are_continuous, forks, leaning, others, ru
 pub use search::{Count, Puzzle, Verdict};
 pub use seldom::Seldom;
 pub use system::{
-    Equation, Level, Method, MethodBody, Relation, RelationBody, Slot, SlotIndex, Span, Stay,
-    System,
+    Equation, Level, Method, MethodBody, PLAIN, Relation, RelationBody, Slot, SlotIndex, Span,
+    Stay, System, TRUTH,
 };
 pub use truth::{Comparing, Comparison, comparisons};
 pub use whole::{Constants, Looked, Trial, Wholes};

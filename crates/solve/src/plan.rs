@@ -7,6 +7,7 @@ use crate::accept::{self, Acceptance};
 use crate::direct::{self, Direction};
 use crate::few::Few;
 use crate::joint::{Gathered, Joint};
+use crate::kernel::Kernel;
 use crate::lower::{self, Lowered, Problem, Program, Region};
 use crate::order::{self, Blocks, Incidence};
 use crate::pattern::{Pattern, Patterns};
@@ -17,9 +18,10 @@ use crate::run::start::Alike;
 use crate::slice::Slice;
 use crate::stated::Stated;
 use crate::substitute::{self, Classes};
-use crate::system::{Level, Relation, RelationBody, Slot, SlotIndex, Stay, System, Turn};
+use crate::system::{Level, Relation, RelationBody, Slot, SlotIndex, Stay, System, TRUTH, Turn};
 use crate::test::{Place, Tests};
 use crate::tie;
+use crate::truth::is_truth;
 use crate::view::{self, Exchange};
 use std::cell::{OnceCell, RefCell};
 use std::collections::BTreeMap;
@@ -447,8 +449,18 @@ fn report_on(
     for dependent in &acceptance.dependent {
         let row = rows[dependent.row];
         let level = row.level;
+        // what is true or not is met or not met: that which was accepted is
+        let is_number = |kernel: &Rc<Kernel>| {
+            let (arena, sides) = kernel.expressions();
+            let arguments = rows.mentions(dependent.row);
+            let of_slot = |argument: u32| {
+                let slot = arguments[argument as usize];
+                stated.system.slots[slot as usize].scale == TRUTH
+            };
+            !sides.iter().all(|&side| is_truth(arena, side, &of_slot))
+        };
         let compromises = level != Level::Required
-            && rows.kernel(dependent.row).is_some()
+            && rows.kernel(dependent.row).is_some_and(is_number)
             && dependent.circuit.iter().any(|&c| rows[c].level == level);
         if compromises {
             let mut set = vec![dependent.row];

@@ -20,10 +20,10 @@ mod row;
 use crate::conditional::{Conditional, DemandKind};
 use crate::pattern::Patterns;
 use crate::system::{RelationBody, Slot, SlotIndex, Stay};
-use crate::truth::{Comparing, Comparison, Truth, truth};
+use crate::truth::{Comparing, Comparison, Truth, is_truth, truth};
 use domain::{Domain, MOST};
 use explore::{End, Net, Visitor, explore};
-use expr::{Arena, ExprId, Node, Unary};
+use expr::{Arena, ExprId};
 use propagate::{Field, Prospect};
 use row::{Cells, Row, different, row, whole_number};
 
@@ -166,9 +166,13 @@ impl Puzzle {
             (stay @ (Stay::Fixed | Stay::Given | Stay::Kept { .. } | Stay::Free), _) => stay,
         };
         let stays = system.slots.iter().zip(conditional.only_read()).map(stay).collect();
+        let of_slot = |slot: u32| {
+            let range = &ranges[slot as usize];
+            range.size() == 2 && range.low() == 0
+        };
         let (soft, ranks) = ranked(soft, |wish| match wish {
             Wish::Equal(left, right) => {
-                [*left, *right].iter().all(|s| is_truth(&arena, *s, &ranges))
+                [*left, *right].iter().all(|side| is_truth(&arena, *side, &of_slot))
             }
             Wish::Row(_) => true,
         });
@@ -494,22 +498,6 @@ fn ranked(wishes: Vec<(usize, Wish)>, is_truth: impl Fn(&Wish) -> bool) -> (Vec<
     }
     let soft = wishes.into_iter().zip(place).map(|((_, wish), rank)| Soft { rank, wish });
     (soft.collect(), places)
-}
-
-/// Returns true if an expression can only be true or false.
-fn is_truth(arena: &Arena, id: ExprId, ranges: &[Domain]) -> bool {
-    match arena.node(id) {
-        Node::Constant(_) => matches!(arena.as_constant(id), Some(0.0 | 1.0)),
-        Node::Var(var) => {
-            let range = &ranges[var.0 as usize];
-            range.size() == 2 && range.low() == 0
-        }
-        Node::Unary(op, _) => op == Unary::Not,
-        Node::Binary(op, ..) => op.is_truth(),
-        Node::Select { then, otherwise, .. } => {
-            [then, otherwise].iter().all(|&side| is_truth(arena, side, ranges))
-        }
-    }
 }
 
 /// Returns true if the first is nearer.

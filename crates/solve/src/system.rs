@@ -98,13 +98,18 @@ impl Stay {
     }
 }
 
+/// The scale of plain numbers.
+pub const PLAIN: u16 = 0;
+/// The scale of truth values.
+pub const TRUTH: u16 = 1;
+
 /// One slot.
 #[derive(Clone, PartialEq, Eq, PartialOrd, Ord, Hash, Debug)]
 pub struct Slot {
     /// What holds it.
     pub stay: Stay,
-    /// Slots of one scale have one extent in the measure of distance: all lengths, all voltages, …; plain numbers
-    /// have the first.
+    /// Slots of one scale have one extent in the measure of distance: all lengths, all voltages, …. Plain numbers have
+    /// [`PLAIN`], truth values [`TRUTH`].
     pub scale: u16,
     /// True for a number that the plan can compute; false for a text, known to the host alone.
     pub is_number: bool,

@@ -51,6 +51,19 @@ pub struct Comparison {
     pub right: ExprId,
 }
 
+/// Returns true if an expression can only be true or false; `of_slot` tells that of a slot.
+pub(crate) fn is_truth(arena: &Arena, id: ExprId, of_slot: &dyn Fn(u32) -> bool) -> bool {
+    match arena.node(id) {
+        Node::Constant(_) => matches!(arena.as_constant(id), Some(0.0 | 1.0)),
+        Node::Var(var) => of_slot(var.0),
+        Node::Unary(op, _) => op == Unary::Not,
+        Node::Binary(op, ..) => op.is_truth(),
+        Node::Select { then, otherwise, .. } => {
+            [then, otherwise].iter().all(|&side| is_truth(arena, side, of_slot))
+        }
+    }
+}
+
 /// Returns the comparisons that an expression is true with, all of them; nothing where it leaves a choice.
 pub fn comparisons(arena: &mut Arena, id: ExprId) -> Option<Vec<Comparison>> {
     fn collect(truth: &Truth, all: &mut Vec<Comparison>) -> Option<()> {

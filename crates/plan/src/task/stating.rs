@@ -8,7 +8,7 @@ use expr::Dimension;
 use kernel::{Primitive, SlotId};
 use solve::{
     Condition, Conditional, Demand, DemandKind, Guard, Level, Method, MethodBody, PatternId,
-    Patterns, Relation, RelationBody, Seldom, SlotIndex, SlotRange, Span, Stay, System,
+    Patterns, Relation, RelationBody, Seldom, SlotIndex, SlotRange, Span, Stay, System, TRUTH,
 };
 
 /// A system in the making.
@@ -29,8 +29,10 @@ impl<'s> Making<'s> {
         locals: &'s mut Locals,
         component: &'s Component,
     ) -> Self {
+        // by their scales; truth values have none
         let mut dimensions = Vec::with_capacity(4);
-        dimensions.push(Dimension::NONE);
+        dimensions.extend([Some(Dimension::NONE), None]);
+        debug_assert!(dimensions[usize::from(TRUTH)].is_none());
         // of a kind there are many, as a rule
         let mut latest: Option<(Primitive, solve::Slot)> = None;
         let mut groups = 0;
@@ -76,7 +78,8 @@ impl<'s> Making<'s> {
             let like = match &latest {
                 Some((primitive, like)) if *primitive == s.primitive => like.clone(),
                 Some(_) | None => {
-                    let dimension = s.primitive.dimension();
+                    let own = s.primitive.dimension();
+                    let dimension = Some(own).filter(|_| s.primitive != Primitive::Bool);
                     let known = dimensions.iter().position(|&d| d == dimension);
                     let scale = known.unwrap_or_else(|| {
                         dimensions.push(dimension);

@@ -10,7 +10,7 @@
 
 use crate::kernel::Kernel;
 use crate::lower::ProblemRow;
-use crate::system::{Level, SlotIndex};
+use crate::system::{Level, PLAIN, SlotIndex, TRUTH};
 use base::number::power_of_two;
 use expr::{Arena, Binary, ExprId, Node, Unary};
 use std::collections::BTreeMap;
@@ -25,14 +25,11 @@ const LEAST: f64 = 1e-4;
 /// Returns what the error of a row measures; plain numbers have no kind.
 pub(super) fn measured(row: &ProblemRow, scale: &dyn Fn(SlotIndex) -> u16) -> Kinds {
     let argument = |i: usize| match scale(row.arguments[i]) {
-        PLAIN => Kinds::new(),
+        PLAIN | TRUTH => Kinds::new(),
         kind => Kinds::from([(kind, 1.0)]),
     };
     kinds(&row.kernel, &argument)
 }
-
-/// The scale of plain numbers.
-pub(crate) const PLAIN: u16 = 0;
 
 /// Returns the weights of rows, by their levels, what they measure and how steep they are; `extent` is that of a kind.
 pub(super) fn weights(
