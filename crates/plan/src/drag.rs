@@ -37,6 +37,10 @@ struct Pull {
     /// The texts at the press that the drag may write.
     texts: Texts,
     targets: Vec<f64>,
+    /// True once it was asked which of its rules others imply by a theorem.
+    knows_theorems: bool,
+    /// The task as it is with these, where it is followed without them.
+    with_theorems: Option<Box<Task>>,
     /// True once it was asked which of its rules others imply at the press.
     knows_implied: bool,
     /// The same with the numbers let go that the plan holds, once a wish fell short; nothing where it holds none.
@@ -198,6 +202,8 @@ impl Planner {
             is_begun,
             texts,
             targets,
+            knows_theorems: false,
+            with_theorems: None,
             knows_implied: false,
             free: None,
             short: None,
@@ -251,6 +257,12 @@ impl Pull {
         if !std::mem::replace(&mut self.is_begun, true) {
             compute(planner, model, &self.task, values, host, &mut self.x0);
             (self.way, self.texts) = Way::of(&self.task, &self.x0, model, values);
+        }
+        if !std::mem::replace(&mut self.knows_theorems, true)
+            && let Some(task) = planner.without_theorems(model, &self.task, values, host)
+        {
+            self.with_theorems = Some(Box::new(self.task.clone()));
+            self.goes_by(task, model, values);
         }
         let targets = &self.targets;
         let drag = match &mut self.way {
@@ -319,11 +331,17 @@ impl Pull {
         report: &mut EditReport,
     ) -> bool {
         if ran.falls_short()
+            && let Some(task) = self.with_theorems.take()
+        {
+            self.back(values);
+            self.goes_by(*task, model, values);
+            return self.follow(planner, model, aim, values, host, report);
+        }
+        if ran.falls_short()
             && let Some(task) = self.without_implied(planner, model, values, host)
         {
             self.back(values);
-            (self.way, self.texts) = Way::of(&task, &self.x0, model, values);
-            self.task = task;
+            self.goes_by(task, model, values);
             return self.follow(planner, model, aim, values, host, report);
         }
         let ran = self.or_otherwise(planner, model, ran, values, host);
@@ -333,6 +351,12 @@ impl Pull {
         }
         self.note(report, ran);
         is_reached
+    }
+
+    /// Follows another task from the press on, where it is.
+    fn goes_by(&mut self, task: Task, model: Model<'_>, values: &Values) {
+        (self.way, self.texts) = Way::of(&task, &self.x0, model, values);
+        self.task = task;
     }
 
     /// Follows a wish that fell short with the numbers let go that the plan holds. Returns false where there are none
@@ -403,6 +427,8 @@ impl Pull {
             is_begun: true,
             texts,
             targets,
+            knows_theorems: true,
+            with_theorems: None,
             knows_implied: true,
             free,
             short: None,

@@ -344,7 +344,8 @@ impl Planner {
         report
     }
 
-    /// Runs a task; where it falls short, what others imply where the edit began is left to the test.
+    /// Runs a task with the rules left to the test that others imply by a theorem; where that falls short as planned,
+    /// and where that does, with those that others imply where the edit began.
     fn run_or_without_implied(
         &mut self,
         model: Model<'_>,
@@ -356,6 +357,15 @@ impl Planner {
     ) -> Ran {
         let before = task.component.slots().iter().map(|&s| (s, values.get(s)));
         let before: Vec<(SlotId, Value)> = before.collect();
+        let left = self.without_theorems(model, task, start, host);
+        if let Some(left) = &left {
+            let found = run(self, model, left, aim, start, values, host);
+            if !found.falls_short() {
+                task.clone_from(left);
+                return found;
+            }
+            before.iter().cloned().for_each(|(slot, value)| values.put(slot, value));
+        }
         let ran = run(self, model, task, aim, start, values, host);
         if !ran.falls_short() || ran.not_decided.is_some() {
             return ran;

@@ -110,6 +110,8 @@ struct Stated {
     at_rest: OnceCell<u32>,
     /// What it is where numbers let go that its plan holds; found when first asked for.
     letting_go: OnceCell<Option<Known>>,
+    /// What it is with the rules left to the test that others imply by a theorem; found in a state that holds.
+    implied: OnceCell<Option<Known>>,
 }
 
 /// What components without wishes were stated as, by what there is to see of them.

@@ -13,7 +13,7 @@ use crate::holds::counts;
 use crate::host::Host;
 use crate::planner::{Model, Planner, Unmet};
 use crate::rule::{Body, Position, Rule, Source};
-use crate::task::{Holding, Origin, Task};
+use crate::task::{Course, Holding, Origin, Task};
 use kernel::{SlotId, Structure, Values};
 use solve::echelon::{Dependent, Echelon, Row};
 use solve::{Level, PATIENCE, Scratch};
@@ -205,15 +205,35 @@ impl Planner {
             |r: &u32| self.rules.get(*r).shape.level == Level::Required && !rules.contains_key(r);
         let rest: Vec<u32> = task.component.rules().iter().copied().filter(is_left).collect();
         let holding = |s| hold(model.structure, s);
-        let mut elsewhere = perturbed(model, task.component.slots(), values);
-        for &s in task.component.slots().iter().filter(|&&s| holding(s) == Holding::Fixed) {
-            elsewhere.numbers[s] = values.numbers[s];
+        let slots = task.component.slots();
+        let mut start = perturbed(model, slots, values);
+        for &s in slots.iter().filter(|&&s| holding(s) == Holding::Fixed) {
+            start.numbers[s] = values.numbers[s];
         }
-        let setup = Setup { model, holding: &holding, aim: &Aim::default() };
-        if self.try_rules(&setup, &rest, &mut elsewhere, host) != Trial::Holds {
-            return None;
+        let mut holds_elsewhere = |holding: &dyn Fn(SlotId) -> Holding| {
+            let setup = Setup { model, holding, aim: &Aim::default() };
+            let mut elsewhere = start.clone();
+            let trial = self.try_rules(&setup, &rest, &mut elsewhere, host);
+            let holds = |&rule: &u32| self.unmet(model, [rule], &elsewhere, host).is_empty();
+            (trial == Trial::Holds)
+                .then(|| rules.keys().copied().filter(holds).collect::<BTreeSet<u32>>())
+        };
+        let mut found = holds_elsewhere(&holding);
+        let is_short = found.as_ref().is_none_or(|found| found.len() < rules.len());
+        if is_short && slots.len() <= MOST_ASKED {
+            // places that stay may leave the others nothing but to come together
+            let free = |s| match holding(s) {
+                Holding::Kept | Holding::Alone => Holding::Free,
+                held @ (Holding::Fixed | Holding::Given | Holding::Free) => held,
+            };
+            let more = holds_elsewhere(&free);
+            let count = |found: &Option<BTreeSet<u32>>| found.as_ref().map(BTreeSet::len);
+            if count(&more) > count(&found) {
+                found = more;
+            }
         }
-        rules.retain(|&rule, _| self.unmet(model, [rule], &elsewhere, host).is_empty());
+        let found = found?;
+        rules.retain(|rule, _| found.contains(rule));
         Some(Theorems { rules, is_independent: false })
     }
 
@@ -251,6 +271,32 @@ impl Planner {
         left.into_iter().collect()
     }
 
+    /// Returns a task with the rules left to the test that others imply by a theorem, wherever these hold, if some do:
+    /// nobody yields for such a rule. Of a small component, found once for all that are alike in a `state` that holds.
+    pub(crate) fn without_theorems(
+        &mut self,
+        model: Model<'_>,
+        task: &Task,
+        state: &Values,
+        host: &mut dyn Host,
+    ) -> Option<Task> {
+        if task.component.slots().len() > MOST_ASKED || !matches!(task.course, Course::Plan) {
+            return None;
+        }
+        if let Some(known) = task.known_without_implied() {
+            return known;
+        }
+        if !self.required_hold(model, task, state, host) {
+            return None;
+        }
+        let find = |planner: &mut Self| {
+            let found = planner.theorems(model, task, Self::resting_hold, state, host);
+            found.rules.into_keys().collect()
+        };
+        let implied = self.soon(find);
+        task.knowing_implied(&implied, &self.plans)
+    }
+
     /// Returns a task with the rules left to the test that others imply by a theorem in a state, if some do. To the
     /// plan they say something, and may hold what they do not hold.
     pub(crate) fn without_implied(
@@ -260,15 +306,34 @@ impl Planner {
         state: &Values,
         host: &mut dyn Host,
     ) -> Option<Task> {
+        let implied = self.soon(|planner| planner.implied_rules(model, task, state, host));
+        task.with_tested(&implied, &self.plans)
+    }
+
+    /// Does what has to be done soon, unless what may be spent is bounded already.
+    fn soon<T>(&mut self, act: impl FnOnce(&mut Self) -> T) -> T {
         let has_bound = self.left().is_some();
         if !has_bound {
             self.try_until(Some(self.spent() + PATIENCE));
         }
-        let implied = self.implied_rules(model, task, state, host);
+        let done = act(self);
         if !has_bound {
             self.try_until(None);
         }
-        task.with_tested(&implied, &self.plans)
+        done
+    }
+
+    /// Returns true if what is required in a component holds.
+    fn required_hold(
+        &self,
+        model: Model<'_>,
+        task: &Task,
+        values: &Values,
+        host: &mut dyn Host,
+    ) -> bool {
+        let required = |&r: &u32| self.rules.get(r).shape.level == Level::Required;
+        let required = task.component.rules().iter().copied().filter(required);
+        self.unmet(model, required, values, host).is_empty()
     }
 
     /// Returns the rules of a component that follow from the others by a theorem, in a state in which all that is
@@ -280,18 +345,13 @@ impl Planner {
         values: &Values,
         host: &mut dyn Host,
     ) -> BTreeSet<u32> {
-        let required = |&r: &u32| self.rules.get(r).shape.level == Level::Required;
-        let required = task.component.rules().iter().copied().filter(required);
-        if !self.unmet(model, required, values, host).is_empty() {
+        if !self.required_hold(model, task, values, host) {
             return BTreeSet::new();
         }
         let in_mode = task.by_values(self, values);
         let task = in_mode.as_ref().unwrap_or(task);
-        let mut implied: BTreeSet<u32> = self
-            .theorems(model, task, Self::resting_hold, values, host)
-            .rules
-            .into_keys()
-            .collect();
+        let theorems = self.theorems(model, task, Self::resting_hold, values, host);
+        let mut implied: BTreeSet<u32> = theorems.rules.into_keys().collect();
         if may_follow_from_given(model, task) {
             implied.extend(self.theorems(model, task, hold_given, values, host).rules.into_keys());
         }

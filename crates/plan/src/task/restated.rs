@@ -17,6 +17,10 @@ impl Task {
     /// Returns what it is with these rules tested after each step and never solved for; nothing where it speaks of
     /// none of them, or is searched.
     pub(crate) fn with_tested(&self, rules: &BTreeSet<u32>, plans: &Plans) -> Option<Self> {
+        let known = self.testing(rules, plans)?;
+        Some(Self::of(known, self.component.clone()))
+    }
+    fn testing(&self, rules: &BTreeSet<u32>, plans: &Plans) -> Option<Known> {
         let is_one = |r: &Relation| match self.origin(r.source) {
             Origin::Rule(rule) => rules.contains(&rule),
             Origin::Number(_) | Origin::Wish(_) => false,
@@ -34,8 +38,19 @@ impl Task {
                 relation.methods.clear();
             }
         };
-        let known = self.restated(plans, leave_to_test)?;
-        Some(Self::of(known, self.component.clone()))
+        self.restated(plans, leave_to_test)
+    }
+
+    /// Returns what it is with the rules left to the test that others imply by a theorem, whatever the state, if that
+    /// is known of components like it.
+    pub(crate) fn known_without_implied(&self) -> Option<Option<Self>> {
+        let known = self.stated.implied.get()?;
+        Some(known.clone().map(|known| Self::of(known, self.component.clone())))
+    }
+    /// The same, where it is these rules.
+    pub(crate) fn knowing_implied(&self, rules: &BTreeSet<u32>, plans: &Plans) -> Option<Self> {
+        let known = self.stated.implied.get_or_init(|| self.testing(rules, plans));
+        known.clone().map(|known| Self::of(known, self.component.clone()))
     }
 
     /// Returns what it is where places stay as far apart as a known number says, one for each pair, after its slots.
