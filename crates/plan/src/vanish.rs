@@ -76,8 +76,10 @@ pub(crate) fn vanished(
     let before = |slot: SlotIndex| x0[slot as usize];
     let now = |slot: SlotIndex| values.numbers[known[slot as usize]];
     // nearly always nothing has come together: that is seen without roots, and without a list
-    let has_vanished =
-        |pair: &&Pair| squared(pair.slots.map(now)) < LEFT * LEFT * squared(pair.slots.map(before));
+    let has_vanished = |&&Pair { slots: [x1, y1, x2, y2], .. }: &&Pair| {
+        squared([now(x1), now(y1), now(x2), now(y2)])
+            < LEFT * LEFT * squared([before(x1), before(y1), before(x2), before(y2)])
+    };
     let pairs = task.pairs(|| pairs(planner, &task.component));
     for &Pair { position, slots } in pairs.iter().filter(has_vanished) {
         let [x1, y1, x2, y2] = slots.map(before);
@@ -98,6 +100,13 @@ pub(crate) fn vanished(
 /// Returns the places that the required rules of a component speak of, those of each two by two.
 fn pairs(planner: &Planner, component: &Component) -> Vec<Pair> {
     let (rules, slots) = (component.rules(), component.slots());
+    // where no slot of the document lies between those of the component it is found at once
+    let local = |slot: SlotId| {
+        let near = slot.0.wrapping_sub(slots[0].0) as usize;
+        let is_there = slots.get(near) == Some(&slot);
+        let at = if is_there { Some(near) } else { slots.binary_search(&slot).ok() };
+        at.map(|at| at as SlotIndex)
+    };
     let mut pairs = Vec::with_capacity(rules.len());
     for (position, &index) in (0..).zip(rules) {
         let rule = planner.rules.get(index);
@@ -111,12 +120,7 @@ fn pairs(planner: &Planner, component: &Component) -> Vec<Pair> {
             if x != slot || count == MOST || !rule.slots.contains(&y) {
                 continue;
             }
-            let Ok(x2) = slots.binary_search(&x) else { continue };
-            let is_next = slots.get(x2 + 1) == Some(&y);
-            let Ok(y2) = (if is_next { Ok(x2 + 1) } else { slots.binary_search(&y) }) else {
-                continue;
-            };
-            let [x2, y2] = [x2, y2].map(|at| at as SlotIndex);
+            let (Some(x2), Some(y2)) = (local(x), local(y)) else { continue };
             for &[x1, y1] in &places[..count] {
                 pairs.push(Pair { position, slots: [x1, y1, x2, y2] });
             }

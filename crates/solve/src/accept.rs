@@ -56,6 +56,8 @@ pub(crate) struct Acceptance {
     pub(crate) some_rest: bool,
     /// A slot for every row, where all were accepted by matching at once.
     pub(crate) matched: Option<Matched>,
+    /// For every slot: nothing determines it, or it can be exchanged for one that nothing does; where that is known.
+    pub(crate) exchangeable: Option<Vec<bool>>,
     /// The slots of every place that may be held, by its group, over representatives.
     pub(crate) places: Lists,
 }

@@ -152,14 +152,13 @@ pub(crate) fn exchangeable(
 }
 
 /// Splits and orders as [`order`] does, where every row has a slot, no method is written and the blocks without
-/// what is free are known: what is free comes last. None where that takes more.
+/// what is free are known: what is free, which is [`exchangeable`], comes last. None where that takes more.
 pub(crate) fn beside_free(
     blocks: &Blocks,
     rows: &Rows,
-    unknown: &[bool],
+    (unknown, free): (&[bool], &[bool]),
     direction: &Direction,
 ) -> Option<Blocks> {
-    let free = exchangeable(blocks, rows, unknown, direction)?;
     let is_free = |r: usize| direction.slot_of_row[r].is_some_and(|s| free[s as usize]);
     let mut union = Union::new(rows.len());
     let mut home = vec![NONE; unknown.len()];

@@ -507,13 +507,19 @@ fn report_on(
 fn blocks_of(analysis: &mut Analysis<'_>, together: &[Vec<usize>]) -> Blocks {
     let Analysis { stated, rows, acceptance, direction, .. } = &mut *analysis;
     let is_settled = direct::is_settled(&stated.system, acceptance);
+    let exchangeable = acceptance.exchangeable.take();
     if let Some(matched) = acceptance.matched.take() {
         // where every slot that may move has its row, what acceptance found are the blocks
         let unknown = acceptance.unknown.iter().filter(|u| **u).count();
         if unknown == acceptance.accepted.len() && direction.methods.is_empty() {
             return matched.blocks;
         }
-        let beside = || order::beside_free(&matched.blocks, rows, &acceptance.unknown, direction);
+        let (blocks, unknown) = (&matched.blocks, &acceptance.unknown);
+        let find = || order::exchangeable(blocks, rows, unknown, direction);
+        let beside = || {
+            let free = exchangeable.or_else(find)?;
+            order::beside_free(blocks, rows, (unknown, &free), direction)
+        };
         if let Some(blocks) = is_settled.then(beside).flatten() {
             return blocks;
         }

@@ -33,9 +33,10 @@ pub(crate) fn tie(
         return false;
     }
     let known = acceptance.matched.as_ref().filter(|_| direct::is_settled(system, acceptance));
-    let free = known
-        .and_then(|m| order::exchangeable(&m.blocks, rows, &acceptance.unknown, direction))
-        .unwrap_or_else(|| with_freedom(rows, direction, acceptance));
+    let exchangeable =
+        known.and_then(|m| order::exchangeable(&m.blocks, rows, &acceptance.unknown, direction));
+    let is_known = exchangeable.is_some();
+    let free = exchangeable.unwrap_or_else(|| with_freedom(rows, direction, acceptance));
     let Acceptance { places, unknown, accepted, .. } = acceptance;
     let place = |slot: SlotIndex| match classes.stay[slot as usize] {
         Stay::Kept { group } => {
@@ -65,6 +66,7 @@ pub(crate) fn tie(
             }
         }
     }
+    acceptance.exchangeable = (is_known && !tied).then_some(free);
     tied
 }
 

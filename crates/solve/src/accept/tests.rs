@@ -306,7 +306,9 @@ proptest! {
             method_reads: &BTreeMap::new(),
             together: &[],
         });
-        let beside = order::beside_free(&blocks, &net.rows, &found.unknown, &direction);
+        let free = order::exchangeable(&blocks, &net.rows, &found.unknown, &direction);
+        let free = free.expect("no block is large");
+        let beside = order::beside_free(&blocks, &net.rows, (&found.unknown, &free), &direction);
         let beside = beside.expect("every row shows what it mentions");
         prop_assert_eq!(told(&beside), told(&all));
         let mut is_there: Vec<bool> = found.unknown.iter().map(|unknown| !unknown).collect();
