@@ -10,7 +10,7 @@ use crate::attempt::{Buffers, Frame};
 use crate::lower::Program;
 use crate::plan::Plan;
 use crate::square::Square;
-use crate::system::SlotIndex;
+use crate::system::{PLAIN, SlotIndex};
 use base::number::Toward;
 
 /// How far a state is moved off a fork to look which branch lies there, in units of the extent.
@@ -48,15 +48,16 @@ pub(crate) fn lean(
         let Some(square) = forking(&step.program) else { continue };
         for lean in leans.iter().filter(|l| step.targets.contains(&l.slot)) {
             let slot = lean.slot as usize;
+            let scales = &scales_of(square, plan, frame, &fork, buffers);
             let Buffers { work, square: scratch, .. } = &mut *buffers;
-            let Some(open) = square.fork(&fork, &frame.scales, work, scratch) else { continue };
+            let Some(open) = square.fork(&fork, scales, work, scratch) else { continue };
             let before = state[slot];
             let whole = state.to_vec();
-            square.shift(state, &open, by, &frame.scales, work);
+            square.shift(state, &open, by, scales, work);
             let toward = if state[slot] > before { Toward::More } else { Toward::Less };
             if toward != lean.toward {
                 state.copy_from_slice(&whole);
-                square.shift(state, &open, -by, &frame.scales, work);
+                square.shift(state, &open, -by, scales, work);
             }
             // what comes after, and may follow what was moved, goes past that
             by = (FURTHER * by).min(MOST_ASIDE);
@@ -77,10 +78,10 @@ pub(crate) fn leaning(
 ) -> Vec<Lean> {
     let mut before = frame.x0.clone();
     lean(plan, frame, buffers, leans, &mut before);
-    let Buffers { work, square: scratch, .. } = buffers;
-    let scales = &frame.scales;
     let mut found = Vec::new();
     for square in plan.branching().iter().filter_map(|step| forking(&step.program)) {
+        let scales = &scales_of(square, plan, frame, after, buffers);
+        let Buffers { work, square: scratch, .. } = &mut *buffers;
         let Some(open) = square.fork(after, scales, work, scratch) else { continue };
         let sign = square.orientation(&before, scales, work, scratch);
         let mut lies = |by: f64| {
@@ -109,10 +110,10 @@ pub(crate) fn asides(
     buffers: &mut Buffers,
     state: &[f64],
 ) -> Vec<[(Lean, Vec<f64>); 2]> {
-    let Buffers { work, square: scratch, .. } = buffers;
-    let scales = &frame.scales;
     let mut found = Vec::new();
     for square in plan.branching().iter().filter_map(|step| forking(&step.program)) {
+        let scales = &scales_of(square, plan, frame, state, buffers);
+        let Buffers { work, square: scratch, .. } = &mut *buffers;
         let Some(open) = square.fork(state, scales, work, scratch) else { continue };
         let Some(core) = most_open(&open) else { continue };
         let slot = square.slot(core) as SlotIndex;
@@ -125,6 +126,22 @@ pub(crate) fn asides(
         found.push([aside(Toward::More), aside(Toward::Less)]);
     }
     found
+}
+
+/// Returns the extents by which a block is measured in a state: those of the edit, but for plain numbers that are
+/// nearly nothing there, as angles of what lies flat.
+fn scales_of(
+    square: &Square,
+    plan: &Plan,
+    frame: &Frame,
+    state: &[f64],
+    buffers: &mut Buffers,
+) -> Vec<f64> {
+    let mut scales = frame.scales.clone();
+    let is_plain = |slot: usize| plan.slots()[slot].scale == PLAIN;
+    let Buffers { work, square: scratch, .. } = buffers;
+    square.measure_plain(state, &is_plain, &mut scales, work, scratch);
+    scales
 }
 
 /// Returns which unknown of a core moves most along an open direction; of several, the first.

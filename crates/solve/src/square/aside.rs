@@ -6,6 +6,9 @@ use crate::block::Workspace;
 use crate::dense;
 use crate::rows::{Point, generic_number};
 
+/// How far aside slopes are compared, in parts of the extent.
+const ASIDE: f64 = 1e-3;
+
 /// How far aside a row is left that has no slope, in parts of the extent.
 pub(super) const NUDGES: [f64; 2] = [1e-3, -1e-3];
 
@@ -39,6 +42,7 @@ impl Square {
         s.local.jacobian.iter_mut().filter(|d| !d.is_finite()).for_each(|d| *d = 0.0);
         s.own = None;
         self.weigh(scales, s);
+        self.weigh_by_bends(values, scales, w, s);
         if self.factorise(s).ratio > 1e-2 {
             return None;
         }
@@ -48,6 +52,105 @@ impl Square {
         let open = MEET * MEET * values[*order.last()?];
         let is_fork = values[order[0]] <= open && order.get(1).is_none_or(|&i| values[i] > open);
         is_fork.then(|| vectors[order[0]].clone())
+    }
+
+    /// Weighs rows by how they bend where that is much more than their slope: one that has none here, as that of an
+    /// angle at its extreme, is not made out to be as steep as others.
+    fn weigh_by_bends(
+        &self,
+        values: &[f64],
+        scales: &[f64],
+        w: &mut Workspace,
+        s: &mut SquareScratch,
+    ) {
+        // how much less steep a row is than what its sides come to that may have no slope
+        const FLAT: f64 = 1e-3;
+        // how much more a row bends that has none
+        const MORE: f64 = 1e2;
+        let n = self.block.core.len();
+        let is_flat = |&r: &u32| {
+            let r = r as usize;
+            let size = s.local.left[r].abs().max(s.local.right[r].abs());
+            size == 0.0 || FLAT * size * s.weight[r] > 1.0
+        };
+        if !self.block.core_rows.iter().any(is_flat) {
+            return;
+        }
+        let here = s.matrix.clone();
+        let mut bends = vec![0.0f64; n];
+        for core in 0..n {
+            let bent = self.bent(core, values, scales, w, s);
+            for (bend, row) in bends.iter_mut().zip(bent.chunks_exact(n)) {
+                *bend = row.iter().fold(*bend, |most, d| most.max(d.abs()));
+            }
+        }
+        s.matrix = here;
+        for (i, &r) in self.block.core_rows.iter().enumerate() {
+            if bends[i] > MORE {
+                s.weight[r as usize] /= bends[i];
+                s.matrix[i * n..][..n].iter_mut().for_each(|d| *d /= bends[i]);
+            }
+        }
+    }
+
+    /// Returns how the slopes of the core rows, weighted as they are, change with one unknown of the core.
+    fn bent(
+        &self,
+        core: usize,
+        values: &[f64],
+        scales: &[f64],
+        w: &mut Workspace,
+        s: &mut SquareScratch,
+    ) -> Vec<f64> {
+        let mut direction = vec![0.0; self.block.core.len()];
+        direction[core] = 1.0;
+        let [less, mut more] = [-ASIDE, ASIDE].map(|by| {
+            let mut at = values.to_vec();
+            self.shift(&mut at, &direction, by, scales, w);
+            self.block.slopes(&at, w, &mut s.local);
+            // a distance has no slope where it is nothing
+            s.local.jacobian.iter_mut().filter(|d| !d.is_finite()).for_each(|d| *d = 0.0);
+            self.fill(scales, s);
+            s.matrix.clone()
+        });
+        more.iter_mut().zip(&less).for_each(|(more, less)| *more = (*more - less) / (2.0 * ASIDE));
+        more
+    }
+
+    /// Measures unknowns of the core, those that `is_plain` says, by how far they have to go for a row to bend by
+    /// what it comes to, where that is much farther than their extent: an angle of nearly nothing is no small angle.
+    pub(crate) fn measure_plain(
+        &self,
+        values: &[f64],
+        is_plain: &dyn Fn(usize) -> bool,
+        scales: &mut [f64],
+        w: &mut Workspace,
+        s: &mut SquareScratch,
+    ) {
+        const MUCH: f64 = 10.0;
+        if self.block.is_linear || !self.is_dense() {
+            return;
+        }
+        let n = self.block.core.len();
+        let plain: Vec<usize> = (0..n).filter(|&core| is_plain(self.slot(core))).collect();
+        if plain.is_empty() {
+            return;
+        }
+        self.block.slopes(values, w, &mut s.local);
+        let rows = self.block.core_rows.iter().map(|&r| r as usize);
+        let sizes: Vec<f64> =
+            rows.map(|r| s.local.left[r].abs().max(s.local.right[r].abs())).collect();
+        s.weight.clear();
+        s.weight.resize(self.block.height(), 1.0);
+        s.own = None;
+        for core in plain {
+            let bent = self.bent(core, values, scales, w, s);
+            let far = |(row, size): (usize, &f64)| 2.0 * size / bent[row * n + core].abs();
+            let least = sizes.iter().enumerate().map(far).fold(f64::INFINITY, f64::min);
+            if least.is_finite() && least > MUCH * MUCH {
+                scales[self.slot(core)] *= base::number::sqrt(least);
+            }
+        }
     }
 
     /// Returns true if the slope by the one unknown of the core vanishes as near as `meet`, in scaled unknowns: so
@@ -60,7 +163,6 @@ impl Square {
         w: &mut Workspace,
         s: &mut SquareScratch,
     ) -> bool {
-        const ASIDE: f64 = 1e-3;
         s.weight.clear();
         s.weight.resize(self.block.height(), 1.0);
         let mut slope = |by: f64| {
