@@ -20,6 +20,8 @@ pub(crate) struct Compared {
     pub(crate) squares: Vec<f64>,
     /// How each shall compare with zero.
     pub(crate) orders: Vec<Order>,
+    /// Which branches a rule takes, in order: those of conditions that are true.
+    pub(crate) taken: Vec<bool>,
     /// The sway of each, where it is known.
     sways: Vec<f64>,
 }

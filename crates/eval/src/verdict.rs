@@ -166,7 +166,9 @@ impl<'a> Evaluator<'a> {
                 Ok(Verdict { error, left: verdict.right, right: verdict.left, ..verdict })
             }
             Term::If(condition, then, otherwise) => {
-                let branch = if self.truth(condition, frame)? { then } else { otherwise };
+                let is_true = self.truth(condition, frame)?;
+                self.compared.borrow_mut().taken.push(is_true);
+                let branch = if is_true { then } else { otherwise };
                 self.deeper(|| self.judge(branch, frame, within))
             }
             Term::Let(name, bound, body) => {

@@ -249,7 +249,7 @@ pub(crate) fn run(
 const MOST_OTHERS: usize = 16;
 
 /// Runs the plan of a mode from where an edit began. What opens takes the roots with which the inequalities hold
-/// without acting, where there are such.
+/// without acting, and conditions are as they are assumed, where there are such.
 #[expect(clippy::too_many_arguments, reason = "an attempt is all of these")]
 pub(crate) fn attempt_in_mode(
     planner: &Planner,
@@ -271,7 +271,8 @@ pub(crate) fn attempt_in_mode(
     let mut runner = planner.take_runner(leans);
     let outcome = solve::run(&plan, &mut runner, x0, &mut local, changed, &mut adapter);
     planner.put_back(runner);
-    let breaks = |values: &[f64]| !modes.broken(mode, values).is_empty();
+    let breaks =
+        |values: &[f64]| !modes.broken(mode, values).is_empty() || modes.contradicts(mode, values);
     if outcome.is_solved() && plan.opens() && changed.is_empty() && breaks(&local) {
         let mut others = solve::others(&plan, &local, MOST_OTHERS, &mut adapter).into_iter();
         if let Some(other) = others.find(|other| !breaks(&other.values)) {
@@ -444,7 +445,8 @@ impl ModalDrag {
         self.go(task, targets, HALVINGS, hands)
     }
 
-    /// Goes to a wish, by halves where other inequalities act there.
+    /// Goes to a wish, by halves where other inequalities act there, and where none of its modes is met without more
+    /// giving way: one may begin on the way that has other roots here.
     fn go(
         &mut self,
         task: &Task,
@@ -453,19 +455,33 @@ impl ModalDrag {
         hands: &mut Hands<'_>,
     ) -> Decision {
         let decision = self.decide(task, targets, hands);
-        if decision.ended != Ended::Settled {
-            return decision;
-        }
+        let is_settled = decision.ended == Ended::Settled;
         let alike = Mode { active: self.mode.active.clone(), ..decision.mode.clone() };
-        if halvings > 0 && decision.mode != self.mode && alike == self.mode {
+        let acts_otherwise = is_settled && decision.mode != self.mode && alike == self.mode;
+        let yielded = self.yielded(hands);
+        let arrives = |decision: &Decision| {
+            decision.ended == Ended::Settled && decision.tried.plan.report.yielded.len() <= yielded
+        };
+        let may_switch = !self.mode.assumed.is_empty() && !hands.planner.is_spent();
+        if halvings > 0 && (acts_otherwise || may_switch && !arrives(&decision)) {
             self.forget_begun();
             let half = |(&input, to): (&SlotIndex, &f64)| 0.5 * (self.now[input as usize] + to);
             let middle: Vec<f64> = self.inputs.iter().zip(targets).map(half).collect();
-            self.go(task, &middle, halvings - 1, hands);
-            return self.go(task, targets, halvings - 1, hands);
+            let half = self.go(task, &middle, halvings - 1, hands);
+            if acts_otherwise || arrives(&half) {
+                return self.go(task, targets, halvings - 1, hands);
+            }
         }
-        self.stand_in(task, &decision, hands);
+        if is_settled {
+            self.stand_in(task, &decision, hands);
+        }
         decision
+    }
+
+    /// Returns how many given numbers yield where the drag stands.
+    fn yielded(&self, hands: &Hands<'_>) -> usize {
+        let (_, plan) = hands.planner.in_mode(&self.modes, &self.mode);
+        plan.report.yielded.len()
     }
 
     /// Goes on from what a wish came to.

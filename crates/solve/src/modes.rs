@@ -313,6 +313,11 @@ impl Modes {
         broken.map(|w| w.relation).collect()
     }
 
+    /// Returns true if a condition is not as a mode assumes it.
+    pub fn contradicts(&self, mode: &Mode, values: &[f64]) -> bool {
+        mode.assumed.iter().enumerate().any(|(c, &truth)| self.is_true(c, values) != truth)
+    }
+
     /// Returns true if an inequality that a mode takes and that does not act in it is passed between two states: it
     /// is broken in the second, however little, and less or not at all in the first.
     pub fn passes(&self, mode: &Mode, from: &[f64], to: &[f64]) -> bool {

@@ -7,7 +7,7 @@
 
 use super::algebra::{NEARLY, Span, length, rest_of_cone, sign_of_determinant};
 use super::blocks::{Block, blocks};
-use super::slopes::{Row, only_read, rows};
+use super::slopes::{Row, only_read, rows, taken};
 use super::{Edit, shown, wish};
 use crate::evaluator::Evaluator;
 use crate::sway::Order;
@@ -71,7 +71,11 @@ pub(crate) fn complaints(
             let bounds = rows.filter(|row| row.order == Order::AtMost);
             Some(bounds.map(|row| row.slopes.iter().map(|x| *x != 0.0).collect()).collect())
         };
-        if bounds(&before).is_some_and(|acted| bounds(&after) == Some(acted)) {
+        // another branch of a condition has sides of its own
+        let takes = |state| required.iter().map(|&c| taken(state, c)).collect::<Vec<_>>();
+        if bounds(&before).is_some_and(|acted| bounds(&after) == Some(acted))
+            && takes(&before) == takes(&after)
+        {
             own.orientation([&before, &after], &required, &moved, &extent);
         }
     } else {

@@ -49,6 +49,17 @@ pub(crate) fn only_read(
     things.flat_map(|thing| structure.slots_under(thing)).collect()
 }
 
+/// Returns which branches of its conditions a constraint takes, in order.
+pub(crate) fn taken(evaluator: &Evaluator<'_>, constraint: ConstraintInstance) -> Vec<bool> {
+    let class = &evaluator.document.classes[constraint.class];
+    let rule = &class.constraints[constraint.index as usize].rule;
+    evaluator.compared.take();
+    evaluator.begin();
+    // as far as it goes
+    evaluator.judge(rule, &Frame::of(constraint.owner), None).ok();
+    evaluator.compared.take().taken
+}
+
 /// Returns the rows of a constraint, with their slopes by some slots; nothing where it compares no
 /// numbers, or others where they move, or is at a kink. By what the constraint never writes it has none.
 pub(crate) fn rows(
