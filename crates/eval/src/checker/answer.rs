@@ -20,6 +20,9 @@ const MOST: usize = 150;
 const MOST_ACTING: usize = 8;
 /// How far a gradient may be off, as a part of its length: slopes are found by moving numbers.
 pub(super) const OFF: f64 = 1e-4;
+/// How much of a column may be left that others replace, as a part of its length: what is amplified along a chain
+/// shows little at its end. Slopes are found some orders better than what is told of them.
+const SPARED: f64 = 1e-7;
 
 pub(crate) fn complaints(
     document: &Document,
@@ -351,7 +354,7 @@ impl Answer<'_> {
                 let own = column(i);
                 // what has no slope, as the condition of an `if`, is out of reach of a test of slopes
                 let size = length(&own);
-                size > 0.0 && length(&span.rest(&own)) <= OFF * size
+                size > 0.0 && length(&span.rest(&own)) <= SPARED * size
             };
             Some((weaker.len()..columns.len()).map(is_spared).collect::<Vec<bool>>())
         });
