@@ -252,6 +252,27 @@ impl Block {
         }
     }
 
+    /// Returns true if a slope hangs on a choice: of a sign, of the larger, of a case.
+    pub(crate) fn has_pieces(&self) -> bool {
+        self.groups.iter().any(|group| group.kernel.has_pieces())
+    }
+
+    /// Returns true if what a row divides by, and what hangs on an unknown, has another sign in one state than in the
+    /// other: between them lies a pole.
+    pub(crate) fn changes_divisors(&self, from: &[f64], to: &[f64], w: &mut Workspace) -> bool {
+        let divides = |row: usize| {
+            let (kernel, arguments) = self.row(row);
+            let Some(divisors) = kernel.divisors() else { return false };
+            let count = divisors.depends.len();
+            let before = w.run(&divisors.tape, arguments, from, count).to_vec();
+            let after = w.run(&divisors.tape, arguments, to, count);
+            let is_unknown = |a: &u32| self.unknowns.binary_search(&arguments[*a as usize]).is_ok();
+            let mut each = before.iter().zip(after).zip(&divisors.depends);
+            each.any(|((from, to), of)| from * *to < 0.0 && of.iter().any(is_unknown))
+        };
+        (0..self.height()).any(divides)
+    }
+
     /// Evaluates both sides of every row.
     pub(crate) fn sides(&self, values: &[f64], w: &mut Workspace, local: &mut Local) {
         self.prepare(local);

@@ -82,6 +82,22 @@ fn factorise_two(a: &mut [f64; 4], swaps: &mut Vec<usize>) -> Factors {
     Factors { sign: if is_negative { -1 } else { 1 }, ratio: least / most }
 }
 
+/// Eliminates `a` (`n` by `n`) in place in an order that was chosen for another matrix; what is not finite comes of a
+/// pivot that vanishes.
+pub(crate) fn eliminate(a: &mut [f64], n: usize, swaps: &[usize]) {
+    for (k, &other) in swaps.iter().enumerate() {
+        let (above, below) = a[..n * n].split_at_mut((k + 1) * n);
+        let first = &mut above[k * n..];
+        if other != k {
+            first.swap_with_slice(&mut below[(other - k - 1) * n..][..n]);
+        }
+        for row in below.chunks_exact_mut(n) {
+            let factor = row[k] / first[k];
+            add(&mut row[k + 1..], -factor, &first[k + 1..]);
+        }
+    }
+}
+
 /// Solves with the factors; `b` becomes the solution.
 pub(crate) fn substitute_back(a: &[f64], n: usize, swaps: &[usize], b: &mut [f64]) {
     // rows were exchanged as wholes, multipliers included

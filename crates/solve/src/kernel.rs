@@ -29,6 +29,7 @@ pub(crate) struct Kernel {
     shown: OnceLock<Vec<u32>>,
     stated: OnceLock<Vec<(u32, Side)>>,
     second: OnceLock<Second>,
+    divisors: OnceLock<Option<Divisors>>,
     solved: Vec<OnceLock<Option<Solved>>>,
     /// What it says of two arguments, or of one and none, the pairs in order.
     curves: Vec<OnceLock<Option<Box<Curve>>>>,
@@ -145,6 +146,15 @@ pub(crate) struct Second {
     pub(crate) tape: Tape,
 }
 
+/// What an equation divides by: where it vanishes there is a pole.
+#[derive(Debug)]
+pub(crate) struct Divisors {
+    /// For each, the arguments that it depends on.
+    pub(crate) depends: Vec<Few>,
+    /// Their values.
+    pub(crate) tape: Tape,
+}
+
 /// The equation solved for one argument.
 #[derive(Debug)]
 pub(crate) struct Solved {
@@ -188,6 +198,10 @@ impl Kernel {
     pub(crate) fn is_linear(&self) -> bool {
         self.entries.iter().all(|entry| entry.depends.is_empty())
     }
+    /// Returns true if a derivative hangs on a choice: of a sign, of the larger, of a case.
+    pub(crate) fn has_pieces(&self) -> bool {
+        self.entries.iter().any(|entry| entry.branches)
+    }
     /// Compiles an equation whose variables are `Var(0)` to `Var(arity - 1)`; `sides` are its own.
     pub(crate) fn compile(
         mut arena: Arena,
@@ -219,7 +233,7 @@ impl Kernel {
         let solved = (0..arity).map(|_| OnceLock::new()).collect();
         let pairs = if arity > PAIRED { 0 } else { arity * (arity + 1) / 2 };
         let curves = (0..pairs).map(|_| OnceLock::new()).collect();
-        let (shown, stated, second) = Default::default();
+        let (shown, stated, second, divisors) = Default::default();
         Self {
             arena,
             left,
@@ -231,6 +245,7 @@ impl Kernel {
             shown,
             stated,
             second,
+            divisors,
             solved,
             curves,
         }
@@ -256,6 +271,7 @@ impl Kernel {
     /// Derives all else that is otherwise derived when it is first asked for.
     pub(crate) fn complete(&self) {
         self.second();
+        self.divisors();
         self.stated().for_each(drop);
         self.shown().for_each(drop);
         for argument in 0..self.arity() as u32 {
@@ -362,6 +378,38 @@ impl Kernel {
             }
             Second { entries, tape: Tape::compile(&arena, &outs) }
         })
+    }
+
+    /// Returns what the sides divide by that is not constant, if they do.
+    pub(crate) fn divisors(&self) -> Option<&Divisors> {
+        let find = || {
+            let mut found = Vec::new();
+            let is_negative = |b: ExprId| self.arena.as_constant(b).is_some_and(|b| b < 0.0);
+            for id in self.arena.reachable(&[self.left, self.right]) {
+                match self.arena.node(id) {
+                    Node::Binary(Binary::Div, _, by) => found.push((by, false)),
+                    Node::Binary(Binary::Pow, by, exponent) if is_negative(exponent) => {
+                        found.push((by, false));
+                    }
+                    Node::Unary(Unary::Tan, angle) => found.push((angle, true)),
+                    Node::Unary(..)
+                    | Node::Binary(..)
+                    | Node::Constant(_)
+                    | Node::Var(_)
+                    | Node::Select { .. } => {}
+                }
+            }
+            found.retain(|(by, _)| self.arena.as_constant(*by).is_none());
+            if found.is_empty() {
+                return None;
+            }
+            let mut arena = self.arena.clone();
+            let by = |(by, is_angle)| if is_angle { arena.unary(Unary::Cos, by) } else { by };
+            let outs: Vec<ExprId> = found.into_iter().map(by).collect();
+            let depends = outs.iter().map(|&by| arena.variables(by).iter().map(|v| v.0).collect());
+            Some(Divisors { depends: depends.collect(), tape: Tape::compile(&arena, &outs) })
+        };
+        self.divisors.get_or_init(find).as_ref()
     }
 
     /// Returns the formulas for an argument, in terms of the others; none where there is no rule.

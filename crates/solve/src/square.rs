@@ -9,6 +9,9 @@
 mod aside;
 mod closed;
 mod further;
+mod stride;
+
+pub(crate) use stride::Side;
 
 use crate::block::{Block, Layouts, Local, Workspace};
 use crate::dense::{self, Factors};
@@ -43,6 +46,8 @@ pub(crate) struct SquareScratch {
     /// The scaled Jacobian of the core, dense, or of all rows, in the order of their pattern.
     matrix: Vec<f64>,
     factors: Vec<f64>,
+    /// The same of another state, in the same order.
+    pivots: Vec<f64>,
     swaps: Vec<usize>,
     lu: Lu,
     damped: DampedScratch,
@@ -72,15 +77,6 @@ pub(crate) enum Trust {
     Any,
     /// Whatever solves it, by full steps, even where the residuals grow for a while.
     Leap,
-}
-
-/// On which side of where branches meet a block lies in the state that a branch is followed from: the sign of
-/// its determinant, as the closed form tells it and as Newton's steps do; zero where that is not known yet. On
-/// a branch it stays.
-#[derive(Clone, Copy, PartialEq, Eq, Debug, Default)]
-pub(crate) struct Side {
-    closed: i8,
-    newton: i8,
 }
 
 /// Which solution is looked for.
@@ -398,8 +394,14 @@ impl Square {
         {
             return Solved::Failed;
         }
-        side.newton = branch.unwrap_or(side.newton);
-        if factors.ratio < 1e-6 { self.least_determined(s) } else { Solved::Regular }
+        let solved = if factors.ratio < 1e-6 { self.least_determined(s) } else { Solved::Regular };
+        if let Some(branch) = branch {
+            side.newton = branch;
+            if !self.stays(last, values, side, scales, w, s) {
+                return Solved::Failed;
+            }
+        }
+        solved
     }
 
     /// Takes steps until they do no better, on the `branch` of this orientation if there is one; returns the last

@@ -83,10 +83,11 @@ impl Way<'_> {
         let arrived = match self.approach(last, goal, &failure) {
             Ok(()) => Ok(()),
             Err(_) if trust == Trust::Branch => {
+                // a branch that ends on the way does not lead there, unless it goes on beyond where a piece ends
                 let x0 = self.frame.x0.clone();
-                self.same_orientation(&x0, goal, 1.0)
-                    .then_some(())
-                    .ok_or_else(|| failure.at(fraction))
+                let arrives =
+                    (fraction == 0.0 || self.has_pieces()) && self.same_orientation(&x0, goal, 1.0);
+                arrives.then_some(()).ok_or_else(|| failure.at(fraction))
             }
             Err(_) => self.search(last, goal).map_err(|failure| failure.reason),
         };
@@ -295,6 +296,20 @@ impl Way<'_> {
             | Program::Copy
             | Program::Formulas(..)
             | Program::Host { .. } => true,
+        })
+    }
+
+    /// Returns true if something that has branches is made of pieces, of which one goes on where another ends.
+    fn has_pieces(&self) -> bool {
+        self.plan.branching().iter().any(|step| match &step.program {
+            Program::Square(square) => square.block.has_pieces(),
+            Program::Inverse(inverse) => inverse.row.kernel.has_pieces(),
+            Program::Measure(_)
+            | Program::Least(_)
+            | Program::Constant(_)
+            | Program::Copy
+            | Program::Formulas(..)
+            | Program::Host { .. } => false,
         })
     }
 
