@@ -12,6 +12,7 @@
 
 mod bounds;
 mod decide;
+mod first;
 mod nearest;
 
 pub use decide::{
@@ -192,17 +193,6 @@ impl Modes {
         &self.conditional
     }
 
-    /// Returns the mode to begin with: conditions as they are in `values`, alternatives as they were
-    /// in `start`, no inequality acting.
-    pub fn first(&self, start: &[f64], values: &[f64]) -> Mode {
-        let assumed = (0..self.conditions.len()).map(|c| self.is_true(c, values)).collect();
-        let mut taken = vec![0; self.choices.len()];
-        for want in &self.wants {
-            self.take(&want.tree, start, &mut taken);
-        }
-        Mode { assumed, taken, active: BTreeSet::new(), constants: Constants::None }
-    }
-
     /// Returns the plain system that the system is in a mode. Relations keep their index.
     pub fn system(&self, mode: &Mode) -> System {
         let whole = &self.conditional.system;
@@ -374,19 +364,6 @@ impl Modes {
                 if let Some(way) = ways.get(mode.taken[*choice as usize] as usize) {
                     self.acting(way, mode, acting);
                 }
-            }
-        }
-    }
-
-    /// Takes the first alternative of every choice that holds.
-    fn take(&self, tree: &Tree, values: &[f64], taken: &mut [u32]) {
-        match tree {
-            Tree::Holds(_) | Tree::Either(_) => {}
-            Tree::All(parts) => parts.iter().for_each(|p| self.take(p, values, taken)),
-            Tree::Any { choice, ways } => {
-                let holds = ways.iter().position(|w| self.tree_holds(w, values));
-                taken[*choice as usize] = holds.unwrap_or(0) as u32;
-                ways.iter().for_each(|w| self.take(w, values, taken));
             }
         }
     }

@@ -1,0 +1,97 @@
+//! The first mode: conditions as the values have them, of every choice the alternative that holds, else the nearest.
+//!
+//! In: the state when an edit began, and the values now. Out: the mode to begin with.
+
+use super::{Formula, Mode, Modes, Sides, Tree};
+use crate::system::Stay;
+use crate::truth::Comparing;
+use crate::whole::Constants;
+use base::Id;
+use expr::{Var, gradient};
+use std::collections::BTreeSet;
+
+impl Modes {
+    /// Returns the mode to begin with: conditions as they are in `values`, alternatives as they were
+    /// in `start`, no inequality acting.
+    pub fn first(&self, start: &[f64], values: &[f64]) -> Mode {
+        let assumed = (0..self.conditions.len()).map(|c| self.is_true(c, values)).collect();
+        let mut taken = vec![0; self.choices.len()];
+        for want in &self.wants {
+            self.take(&want.tree, start, &mut taken);
+        }
+        Mode { assumed, taken, active: BTreeSet::new(), constants: Constants::None }
+    }
+
+    /// Takes the first alternative of every choice that holds, where none does the nearest.
+    fn take(&self, tree: &Tree, values: &[f64], taken: &mut [u32]) {
+        match tree {
+            Tree::Holds(_) | Tree::Either(_) => {}
+            Tree::All(parts) => parts.iter().for_each(|p| self.take(p, values, taken)),
+            Tree::Any { choice, ways } => {
+                let holds = ways.iter().position(|w| self.tree_holds(w, values));
+                taken[*choice as usize] =
+                    holds.unwrap_or_else(|| self.nearest_way(ways, values)) as u32;
+                ways.iter().for_each(|w| self.take(w, values, taken));
+            }
+        }
+    }
+
+    /// Returns the way that is nearest to hold, of equals the first.
+    fn nearest_way(&self, ways: &[Tree], values: &[f64]) -> usize {
+        let mut nearest = (0, [f64::INFINITY; 2]);
+        for (i, away) in ways.iter().map(|way| self.away(way, values)).enumerate() {
+            if away < nearest.1 {
+                nearest = (i, away);
+            }
+        }
+        nearest.0
+    }
+
+    /// Returns how far given numbers have to go until it holds, and how far others that have a value, squared, to first
+    /// order: given numbers go where nothing else does, and what has no value goes anywhere.
+    fn away(&self, tree: &Tree, values: &[f64]) -> [f64; 2] {
+        match tree {
+            Tree::Holds(c) => self.comparison_away(*c, values),
+            Tree::All(parts) => {
+                let parts = parts.iter().map(|part| self.away(part, values));
+                parts.fold([0.0; 2], |[a, b], [c, d]| [a + c, b + d])
+            }
+            Tree::Any { ways, .. } | Tree::Either(ways) => {
+                let ways = ways.iter().map(|way| self.away(way, values));
+                ways.fold([f64::INFINITY; 2], |a, b| if b < a { b } else { a })
+            }
+        }
+    }
+
+    fn comparison_away(&self, index: u32, values: &[f64]) -> [f64; 2] {
+        let Sides { comparing, sides: Formula { pattern, arguments }, .. } =
+            &self.comparisons[index as usize];
+        if self.comparison_holds(index, values) {
+            return [0.0; 2];
+        }
+        let mut arena = pattern.arena().clone();
+        let difference = arena.sub(pattern.roots()[0], pattern.roots()[1]);
+        let vars: Vec<Var> = arena.variables(difference).into_iter().collect();
+        let slopes = gradient(&mut arena, difference, &vars);
+        let now: Vec<f64> = arguments.iter().map(|&s| values[s as usize]).collect();
+        let [mut given, mut kept, mut free] = [0.0; 3];
+        for (var, slope) in vars.iter().zip(slopes) {
+            let slope = arena.evaluate(slope, &now);
+            match self.conditional.system.slots[arguments[var.index()] as usize].stay {
+                Stay::Fixed => {}
+                Stay::Given => given += slope * slope,
+                Stay::Kept { .. } => kept += slope * slope,
+                Stay::Free => free += slope * slope,
+            }
+        }
+        let gap = arena.evaluate(difference, &now);
+        let gap = gap * gap;
+        let can_hold = *comparing != Comparing::Differ && gap.is_finite();
+        match can_hold {
+            true if free > 0.0 => [0.0; 2],
+            true if kept > 0.0 => [0.0, gap / kept],
+            true if given > 0.0 => [gap / given, 0.0],
+            _ => [f64::INFINITY; 2],
+        }
+    }
+}
