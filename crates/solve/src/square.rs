@@ -422,6 +422,9 @@ impl Square {
         if !norm.is_finite() {
             return None;
         }
+        // where no step is needed none was taken
+        s.step.clear();
+        s.step.resize(self.block.core.len(), 0.0);
         let (mut first_size, mut last_size, mut damping) = (0.0, 0.0, 0.0f64);
         let mut nudges = aside::NUDGES.iter();
         let mut factors = Factors { sign: 0, ratio: 1.0 };
