@@ -1,8 +1,9 @@
 //! Contradictions: which required constraints cannot hold together, and what would help.
 //!
-//! A set is tried by solving it alone, from the present values and from a perturbed start. QuickXplain
-//! halves the suspects until no constraint of the set can be spared: without any one of them the others
-//! hold. A repair is told only if it was tried and everything else then holds.
+//! A set is tried by solving it alone: from where the last one held, from the present values and from a perturbed
+//! start. QuickXplain halves the suspects, those next to what does not hold kept longest, until no constraint of the
+//! set can be spared: without any one of them the others hold. A repair is told only if it was tried and everything
+//! else then holds.
 //!
 //! **Source:** Junker, *QuickXplain: preferred explanations and relaxations for over-constrained
 //! problems*, AAAI 2004.
@@ -19,13 +20,18 @@ use crate::rule::Source;
 use crate::task::Holding;
 use kernel::{SlotId, Values};
 use solve::Level;
-use std::collections::{BTreeMap, BTreeSet};
+use std::collections::{BTreeMap, BTreeSet, VecDeque};
 
 /// How many sets are tried before the search is given up, and how many constraints in all of them.
-const TRIALS: usize = 300;
-const TRIED: usize = 60_000;
+const TRIALS: usize = 1000;
+const TRIED: usize = 200_000;
 /// After so many multiplications, roughly, too.
 const WORK: u64 = 3_000_000_000;
+/// What trying one set may cost, at first and where that was too little.
+const SHORT: u64 = WORK / 100;
+const LONG: u64 = WORK / 10;
+/// What looking for a further contradiction may cost.
+const FURTHER: u64 = WORK / 20;
 /// What trying the repairs of one contradiction may cost.
 const REPAIR: u64 = 1_000_000_000;
 /// How many contradictions of one component are told apart.
@@ -119,9 +125,8 @@ impl Planner {
             }
             let most = (TRIED / units.len()).clamp(20, TRIALS);
             let until = self.spent() + WORK;
-            let mut search =
-                Search { planner: self, setup: &setup, values, host, trials: 0, most, until };
-            let sets = search.all(units.clone());
+            let units = nearest_first(units, &unmet, |r| self.rules.get(r).slots);
+            let sets = Search::new(self, &setup, values, host, most, until).all(units.clone());
             // a repair of one is tried with the others' last constraints left out
             let spared: Vec<Source> =
                 sets.iter().filter_map(|(set, _)| set.last().map(|u| u.source)).collect();
@@ -162,9 +167,9 @@ impl Planner {
         }
         let most = TRIED / MOST;
         let until = self.spent() + SOON;
-        let mut search = Search { planner: self, setup, values, host, trials: 0, most, until };
-        let set = search.minimal(&units)?;
-        if search.has_ended() {
+        let mut search = Search::new(self, setup, values, host, most, until);
+        let (set, certainty) = search.minimal(&units)?;
+        if matches!(certainty, Certainty::NotDecided { .. }) {
             return None;
         }
         let mut sources = set.iter().map(|u| u.source);
@@ -192,19 +197,38 @@ struct Search<'s> {
     values: &'s Values,
     host: &'s mut dyn Host,
     trials: usize,
+    /// The state in which the last set that can hold was found to, what is given as it is: the next one is much
+    /// the same.
+    last: Option<Values>,
+    /// What one may cost.
+    most_each: u64,
     /// How many there may be, and what the planner may have spent.
     most: usize,
     until: u64,
 }
 
-impl Search<'_> {
+impl<'s> Search<'s> {
+    fn new(
+        planner: &'s mut Planner,
+        setup: &'s Setup<'s>,
+        values: &'s Values,
+        host: &'s mut dyn Host,
+        most: usize,
+        until: u64,
+    ) -> Self {
+        Self { planner, setup, values, host, trials: 0, last: None, most_each: SHORT, most, until }
+    }
+
     /// Finds contradictions one after the other, the last constraint of each left out for the next,
-    /// until leaving out one constraint would do.
+    /// until leaving out one constraint would do. Of further ones only those are told that are found soon.
     fn all(&mut self, mut units: Vec<Unit>) -> Vec<(Vec<Unit>, Certainty)> {
         let mut found = Vec::new();
-        while found.len() < APART && (found.is_empty() || !self.has_ended()) {
-            let Some(set) = self.minimal(&units) else { break };
-            let certainty = self.certainty(&set);
+        while found.len() < APART {
+            let Some((set, certainty)) = self.minimal(&units) else { break };
+            if !found.is_empty() && self.has_ended() {
+                break;
+            }
+            self.until = self.until.min(self.planner.spent() + FURTHER);
             let is_all = set.iter().any(|u| self.can_hold(&without(&units, Some(u)), &[]));
             units = without(&units, set.last());
             found.push((set, certainty));
@@ -215,14 +239,23 @@ impl Search<'_> {
         found
     }
 
-    /// Finds a minimal set of units that cannot hold together; nothing if all of them can.
-    fn minimal(&mut self, units: &[Unit]) -> Option<Vec<Unit>> {
+    /// Finds a minimal set of units that cannot hold together, and how sure that is; nothing if all of them can.
+    ///
+    /// What takes long counts as not found. Where that was wrong, and the set can hold, more time is given.
+    fn minimal(&mut self, units: &[Unit]) -> Option<(Vec<Unit>, Certainty)> {
+        self.most_each = SHORT;
         if self.can_hold(&[], units) {
             return None;
         }
         let mut set = self.explain(&mut Vec::new(), 0, units);
+        let mut certainty = self.certainty(&set);
+        if !self.has_ended() && matches!(certainty, Certainty::NotDecided { .. }) {
+            self.most_each = LONG;
+            set = self.explain(&mut Vec::new(), 0, units);
+            certainty = self.certainty(&set);
+        }
         set.sort_by_key(|u| u.source);
-        Some(set)
+        Some((set, certainty))
     }
 
     /// QuickXplain: the units among `suspects` without which those of `known` could hold.
@@ -259,27 +292,72 @@ impl Search<'_> {
         }
         self.trials += 1;
         let rules: Vec<u32> = known.iter().chain(more).flat_map(|u| u.rules.clone()).collect();
-        self.try_out(&rules) == Trial::Holds
+        self.try_out(&rules, self.most_each) == Trial::Holds
     }
 
-    /// Tries rules. One that takes longer than there is says nothing: then the search has ended.
-    fn try_out(&mut self, rules: &[u32]) -> Trial {
-        self.planner.try_until(Some(self.until));
-        let trial = self.planner.can_hold(self.setup, rules, self.values, self.host);
-        self.planner.try_until(None);
+    /// Tries rules, at this cost at most.
+    fn try_out(&mut self, rules: &[u32], most: u64) -> Trial {
+        let planner = &mut *self.planner;
+        planner.try_until(Some(self.until.min(planner.spent() + most)));
+        let mut state = self.last.as_ref().unwrap_or(self.values).clone();
+        let mut trial = Trial::NotFound;
+        if self.last.is_some() {
+            trial = planner.try_rules(self.setup, rules, &mut state, self.host);
+        }
+        if trial != Trial::Holds {
+            state.clone_from(self.values);
+            trial = planner.can_hold(self.setup, rules, &mut state, self.host);
+        }
+        planner.try_until(None);
+        if trial == Trial::Holds {
+            for &s in rules.iter().flat_map(|&r| planner.rules.get(r).slots) {
+                if matches!((self.setup.holding)(s), Holding::Fixed | Holding::Given) {
+                    state.numbers[s] = self.values.numbers[s];
+                }
+            }
+            self.last = Some(state);
+        }
         trial
     }
 
+    /// Says how sure it is that a set cannot hold together.
     fn certainty(&mut self, set: &[Unit]) -> Certainty {
-        let trial = if self.has_ended() { Trial::NotFound } else { self.try_out(&rules_of(set)) };
+        let ended = self.has_ended();
+        let trial = if ended { Trial::NotFound } else { self.try_out(&rules_of(set), LONG) };
         match trial {
             Trial::Contradicts => Certainty::Contradiction,
-            Trial::NotFound | Trial::Holds if self.has_ended() => {
-                Certainty::NotDecided { trials: self.trials }
-            }
-            Trial::NotFound | Trial::Holds => Certainty::NoSolution { starts: STARTS },
+            Trial::NotFound if !self.has_ended() => Certainty::NoSolution { starts: STARTS },
+            Trial::NotFound | Trial::Holds => Certainty::NotDecided { trials: self.trials },
         }
     }
+}
+
+/// Orders units by how many steps from slot to slot they are from those that are not met: what is named
+/// first is spared last, and a contradiction is best told by what stands next to it.
+fn nearest_first<'s>(
+    units: Vec<Unit>,
+    unmet: &BTreeSet<Source>,
+    slots: impl Fn(u32) -> &'s [SlotId],
+) -> Vec<Unit> {
+    let slots = |u: &Unit| u.rules.iter().flat_map(|&r| slots(r)).copied().collect::<Vec<_>>();
+    let mut by_slot: BTreeMap<SlotId, Vec<usize>> = BTreeMap::new();
+    for (i, unit) in units.iter().enumerate() {
+        slots(unit).into_iter().for_each(|s| by_slot.entry(s).or_default().push(i));
+    }
+    let step = |u: &Unit| if unmet.contains(&u.source) { 0 } else { usize::MAX };
+    let mut steps: Vec<usize> = units.iter().map(step).collect();
+    let mut next: VecDeque<usize> = (0..units.len()).filter(|&i| steps[i] == 0).collect();
+    while let Some(i) = next.pop_front() {
+        for j in slots(&units[i]).iter().filter_map(|s| by_slot.remove(s)).flatten() {
+            if steps[j] == usize::MAX {
+                steps[j] = steps[i] + 1;
+                next.push_back(j);
+            }
+        }
+    }
+    let mut ordered: Vec<(usize, Unit)> = steps.into_iter().zip(units).collect();
+    ordered.sort_by_key(|(step, _)| *step);
+    ordered.into_iter().map(|(_, unit)| unit).collect()
 }
 
 /// Returns the other units.
@@ -288,18 +366,18 @@ fn without(units: &[Unit], unit: Option<&Unit>) -> Vec<Unit> {
 }
 
 impl Planner {
-    /// Tries rules from the present values and, where a row has several solutions, from elsewhere; given numbers
-    /// that do not yield are what they are.
+    /// Tries rules from these values and, where a row has several solutions, from elsewhere; given numbers
+    /// that do not yield are what they are. Leaves the state in which they hold.
     pub(crate) fn can_hold(
         &mut self,
         setup: &Setup<'_>,
         rules: &[u32],
-        values: &Values,
+        values: &mut Values,
         host: &mut dyn Host,
     ) -> Trial {
         let mut yielding = BTreeSet::new();
-        let here = &mut values.clone();
-        let first = self.try_rules_noting(setup, rules, here, &mut yielding, host);
+        let start = values.clone();
+        let first = self.try_rules_noting(setup, rules, values, &mut yielding, host);
         let patterns = self.plans.patterns();
         let all_linear = rules.iter().all(|&r| is_linear(patterns, self.rules.get(r)));
         if first == Trial::Holds || (all_linear && first == Trial::Contradicts) {
@@ -313,8 +391,8 @@ impl Planner {
         let slots: BTreeSet<SlotId> =
             rules.iter().flat_map(|&r| self.rules.get(r).slots.to_vec()).filter(moves).collect();
         let slots: Vec<SlotId> = slots.into_iter().collect();
-        let mut elsewhere = perturbed(setup.model, &slots, values);
-        match self.try_rules(setup, rules, &mut elsewhere, host) {
+        *values = perturbed(setup.model, &slots, &start);
+        match self.try_rules(setup, rules, values, host) {
             Trial::Holds => Trial::Holds,
             Trial::Contradicts => first,
             Trial::NotFound => Trial::NotFound,

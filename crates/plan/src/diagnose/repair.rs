@@ -80,7 +80,7 @@ impl Suspects<'_> {
             held => held,
         };
         let setup = Setup { model: self.setup.model, holding: &holding, aim: self.setup.aim };
-        self.planner.can_hold(&setup, rules, self.values, host) == Trial::Holds
+        self.planner.can_hold(&setup, rules, &mut self.values.clone(), host) == Trial::Holds
     }
 
     /// Tries every repair that there is.
