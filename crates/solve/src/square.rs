@@ -7,6 +7,7 @@
 //! arithmetic allows. The linear algebra is dense where the core is small, sparse where it is not.
 
 mod aside;
+mod center;
 mod closed;
 mod further;
 mod stride;
@@ -329,7 +330,7 @@ impl Square {
     /// Solves from the values that the unknowns have now, one scale for every slot.
     ///
     /// Where no second derivative is left in the sum of a row, as where two squares take each other away, there is one
-    /// solution alone, though a branch may come to it by way of the infinite.
+    /// solution alone, though a branch may come to it by way of the infinite; so it is with a centre and its radius.
     pub(crate) fn solve(
         &self,
         mut course: Course<'_>,
@@ -347,12 +348,14 @@ impl Square {
             None => self.solve_by_steps(course, values, scales, w, s),
         };
         let is_lost = trust == Trust::Branch && solved == Solved::Failed;
-        if !is_lost || self.block.is_linear || !self.is_dense() || !self.block.seconds().is_empty()
-        {
+        if !is_lost || self.block.is_linear || !self.is_dense() {
             return solved;
         }
         for &u in &self.block.unknowns {
             values[u as usize] = last[u as usize];
+        }
+        if !self.block.seconds().is_empty() {
+            return if self.solve_center(values, w, s) { Solved::Regular } else { solved };
         }
         let side = &mut Side::default();
         match self.solve_by_steps(Course { last, trust: Trust::Any, side }, values, scales, w, s) {

@@ -300,7 +300,13 @@ impl Answer<'_> {
                 let (now, aside) = (&now[row], &aside[row]);
                 are_same(&now.slopes, &aside.slopes) || are_same(&now.squared, &aside.squared)
             };
-            if rows.iter().all(is_straight) {
+            // a centre as far from all: what their squares differ by is linear
+            let beside = |all: &[Row], row: usize| -> Vec<f64> {
+                let pairs = all[row].squared.iter().zip(&all[rows[0]].squared);
+                pairs.map(|(a, b)| a - b).collect()
+            };
+            let is_like = |&row: &usize| are_same(&beside(&now, row), &beside(&aside, row));
+            if rows.iter().all(is_straight) || rows.len() > 1 && rows.iter().all(is_like) {
                 continue;
             }
             let [then, now] = [&then, &now].map(|all| -> Vec<Vec<f64>> {
