@@ -4,7 +4,7 @@ use crate::document::Open;
 use crate::texts::Texts;
 use crate::view::{Analysis, ContradictionView, MotionView, RedundantView, Velocity};
 use crate::words;
-use kernel::{SlotId, ThingId};
+use kernel::{Primitive, SlotId, ThingId};
 use plan::{
     Certainty, Combination, Contradiction, Motion, MotionKind, Redundant, RedundantKind, Repair,
     Said,
@@ -62,6 +62,9 @@ fn redundant(open: &Open, r: &Redundant) -> Option<RedundantView> {
     Some(RedundantView { constraint, implied_by, because })
 }
 
+/// What moves no faster beside the fastest rests.
+const STILL: f64 = 1e-12;
+
 fn motion(open: &Open, motion: &Motion) -> MotionView {
     let (state, structure) = (&open.state, &open.state.structure);
     let mut things: BTreeMap<ThingId, Vec<(SlotId, f64)>> = BTreeMap::new();
@@ -76,6 +79,16 @@ fn motion(open: &Open, motion: &Motion) -> MotionView {
         Velocity { path, direction }
     };
     let moves: Vec<Velocity> = things.iter().map(velocity).collect();
+    // how fast what measures alike moves at most: of lengths and forces that go together one may look like nothing
+    let measure = |thing: &ThingId| structure.slots[things[thing][0].0].primitive;
+    let mut fastest: Vec<(Primitive, f64)> = Vec::new();
+    for (thing, v) in things.keys().zip(&moves) {
+        let speed = v.direction.iter().fold(0.0_f64, |most, x| most.max(x.abs()));
+        match fastest.iter_mut().find(|known| known.0 == measure(thing)) {
+            Some(known) => known.1 = known.1.max(speed),
+            None => fastest.push((measure(thing), speed)),
+        }
+    }
     let short = |x: &f64| base::number::rounded(*x, 3);
     let along = |v: &Velocity| match v.direction.as_slice() {
         [_] => "alone".to_string(),
@@ -91,8 +104,15 @@ fn motion(open: &Open, motion: &Motion) -> MotionView {
             format!("everything around {} turns about ({x}, {y}) as one", first.path)
         }
         (_, moves) => {
-            let each: Vec<String> =
-                moves.iter().map(|v| format!("{} {}", v.path, along(v))).collect();
+            let shown = things.keys().zip(moves).filter_map(|(thing, v)| {
+                let own = fastest.iter().find(|known| known.0 == measure(thing))?.1;
+                let direction: Vec<f64> = v.direction.iter().map(|x| x / own).collect();
+                let v = Velocity { path: v.path.clone(), direction };
+                let rests = own <= STILL || v.direction.iter().all(|x| short(x) == "0");
+                let has_direction = v.direction.len() > 1;
+                (!(has_direction && rests)).then(|| format!("{} {}", v.path, along(&v)))
+            });
+            let each: Vec<String> = shown.collect();
             format!("together: {}", words::listed(&each))
         }
     };

@@ -243,3 +243,13 @@ fn what_is_approached_step_by_step_is_warned_of_and_a_lighter_view_named() {
     assert_eq!(of_knee.warnings, warnings);
     assert_eq!(desk.session.explain(desk.id, Some(&at("foot"))).warnings, [""; 0]);
 }
+
+#[test]
+fn how_a_place_moves_is_told_though_a_force_moves_a_million_times_as_fast() {
+    let mut desk = Desk::of(
+        "use geometry\np: Point = (1, 0)\nforce: Force\nconstraint force = 1e6 N/m * p.x\nanchor p.y\n",
+    );
+    let motions = desk.session.analysis(desk.id).motions;
+    let summaries: Vec<&str> = motions.iter().map(|m| m.summary.as_str()).collect();
+    assert_eq!(summaries, ["together: p along (1, 0), force alone"]);
+}
