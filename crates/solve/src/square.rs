@@ -110,6 +110,8 @@ const LEAPS: usize = 60;
 const WIDE: f64 = 0.1;
 /// A step that has to be cut this short, in a large core, goes across a narrow valley.
 const SHORT: f64 = 0.1;
+/// Where the least pivot is below this part of the largest, two solutions coincide.
+const DOUBLE: f64 = 1e-6;
 /// The largest core whose linear algebra is dense.
 const DENSE: usize = 12;
 /// The largest core whose least determined unknown is sought by eigenvectors.
@@ -154,10 +156,31 @@ impl Square {
         w: &mut Workspace,
         s: &mut SquareScratch,
     ) -> i8 {
+        self.factors_at(values, scales, w, s).sign
+    }
+
+    /// Returns true if there is hardly an inverse at these values: two branches lie one on the other here.
+    pub(crate) fn is_double(
+        &self,
+        values: &[f64],
+        scales: &[f64],
+        w: &mut Workspace,
+        s: &mut SquareScratch,
+    ) -> bool {
+        self.factors_at(values, scales, w, s).ratio < DOUBLE
+    }
+
+    fn factors_at(
+        &self,
+        values: &[f64],
+        scales: &[f64],
+        w: &mut Workspace,
+        s: &mut SquareScratch,
+    ) -> Factors {
         self.block.slopes(values, w, &mut s.local);
         s.own = None;
         self.weigh(scales, s);
-        self.factorise(s).sign
+        self.factorise(s)
     }
 
     /// Returns true if it is curved and its core is so large that from a rough start its solution may lie far off.
@@ -397,7 +420,8 @@ impl Square {
         {
             return Solved::Failed;
         }
-        let solved = if factors.ratio < 1e-6 { self.least_determined(s) } else { Solved::Regular };
+        let solved =
+            if factors.ratio < DOUBLE { self.least_determined(s) } else { Solved::Regular };
         if let Some(branch) = branch {
             side.newton = branch;
             if !self.stays(last, values, side, scales, w, s) {

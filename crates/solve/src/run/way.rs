@@ -83,10 +83,10 @@ impl Way<'_> {
         let arrived = match self.approach(last, goal, &failure) {
             Ok(()) => Ok(()),
             Err(_) if trust == Trust::Branch => {
-                // a branch that ends on the way does not lead there, unless it goes on beyond where a piece ends
+                // a branch that ends on the way does not lead there
                 let x0 = self.frame.x0.clone();
-                let arrives =
-                    (fraction == 0.0 || self.has_pieces()) && self.same_orientation(&x0, goal, 1.0);
+                let arrives = (fraction == 0.0 || self.goes_beyond(&x0))
+                    && self.same_orientation(&x0, goal, 1.0);
                 arrives.then_some(()).ok_or_else(|| failure.at(fraction))
             }
             Err(_) => self.search(last, goal).map_err(|failure| failure.reason),
@@ -299,10 +299,16 @@ impl Way<'_> {
         })
     }
 
-    /// Returns true if something that has branches is made of pieces, of which one goes on where another ends.
-    fn has_pieces(&self) -> bool {
+    /// Returns true if something that has branches may go on where it is lost: it is made of pieces, of which one begins
+    /// where another ends, or two branches lie one on the other from the start, and rounding tells which is followed.
+    fn goes_beyond(&mut self, from: &[f64]) -> bool {
+        let Buffers { work, square: scratch, .. } = &mut *self.buffers;
+        let scales = &self.frame.scales;
         self.plan.branching().iter().any(|step| match &step.program {
-            Program::Square(square) => square.block.has_pieces(),
+            Program::Square(square) => {
+                square.block.has_pieces()
+                    || !square.block.is_linear && square.is_double(from, scales, work, scratch)
+            }
             Program::Inverse(inverse) => inverse.row.kernel.has_pieces(),
             Program::Measure(_)
             | Program::Least(_)
