@@ -2,7 +2,7 @@
 //!
 //! Each number counts in parts of the extent of what is measured alike: the largest of those that had a value.
 
-use crate::system::{Slot, Stay};
+use crate::system::{Slot, Stay, TRUTH};
 
 /// The sums of squared ways: that of given numbers, then that of all others that had a value.
 pub type Moved = [f64; 2];
@@ -28,12 +28,13 @@ impl Extents {
     }
 }
 
-/// Measures how far the numbers of slots that an edit may move lie from where they were.
+/// Measures how far the numbers of slots that an edit may move lie from where they were. What is true or not goes no
+/// way: it follows numbers, not they it.
 pub fn moved(slots: &[Slot], start: &[f64], values: &[f64]) -> Moved {
     let extents = Extents::of(slots, start);
     let mut moved = [0.0; 2];
     let ways = slots.iter().zip(start.iter().zip(values));
-    for (slot, (from, to)) in ways.filter(|(s, _)| had_value(s)) {
+    for (slot, (from, to)) in ways.filter(|(s, _)| had_value(s) && s.scale != TRUTH) {
         let part = (to - from) / extents.at(slot);
         moved[usize::from(slot.stay != Stay::Given)] += part * part;
     }
