@@ -163,8 +163,10 @@ fn put_back(task: &Task, ground: &Ground, values: &mut Values) {
     let slots = task.component.slots().iter().zip(&task.system.slots);
     for ((&slot, own), &number) in slots.zip(&ground.local) {
         let text = if own.is_number { None } else { texts.next() };
+        if own.stay == Stay::Free {
+            continue;
+        }
         match text {
-            _ if own.stay == Stay::Free => {}
             Some(text) => put_texts(std::slice::from_ref(text), values),
             None if own.is_number => values.numbers[slot] = number + 0.0,
             None => {}

@@ -6,7 +6,7 @@
 
 use crate::block::Workspace;
 use crate::least::{Least, LeastScratch};
-use crate::lower::{Inverse, Program, Region};
+use crate::lower::{Inverse, Program};
 use crate::measure::{Measure, Measured};
 use crate::outcome::{Host, Note, Reason};
 use crate::plan::{Plan, Step};
@@ -20,6 +20,7 @@ use std::cell::{Cell, OnceCell};
 
 mod backtrack;
 pub(crate) mod others;
+mod region;
 mod roots;
 mod rough;
 mod strips;
@@ -214,7 +215,7 @@ impl Attempt<'_> {
             && regions.contains(&step.region)
             && !matches!(step.program, Program::Host { .. })
         {
-            return approach_region(plan, frame, step, index, values, buffers);
+            return region::approach_region(plan, frame, step, index, values, buffers);
         }
         Run { plan, frame, last, values, trust, buffers, host, index }.step(step)
     }
@@ -237,73 +238,6 @@ pub(crate) fn begin(plan: &Plan, frame: &Frame, values: &mut [f64], buffers: &mu
     for &text in &frame.changed_texts {
         buffers.motion[text as usize] = Motion::Moved;
     }
-}
-
-fn approach_region(
-    plan: &Plan,
-    frame: &Frame,
-    step: &Step,
-    index: usize,
-    values: &mut [f64],
-    buffers: &mut Buffers,
-) -> Result<(), Failure> {
-    if buffers.approached.contains(&step.region) {
-        return Ok(());
-    }
-    buffers.approached.push(step.region);
-    let region = &plan.regions()[step.region as usize];
-    let refused = || {
-        let reason = Reason::NoSolution { step: index as u32 };
-        Err(Failure { reason, region: step.region })
-    };
-    if !region.is_within_reach() {
-        return refused();
-    }
-    let make = || Box::new(Measure::new(&region.problem, &|s| plan.kind(s)));
-    let measure = region.approach.get_or_init(make);
-    if keeps_region(plan, frame, measure, region, values, buffers) {
-        return Ok(());
-    }
-    let work = &mut buffers.work;
-    let result = measure.solve(&frame.x0, values, &frame.scales, Trust::Any, work);
-    if result == Measured::Failed {
-        return refused();
-    }
-    for &u in measure.targets() {
-        buffers.motion[u as usize] = motion(frame, values, u);
-    }
-    Ok(())
-}
-
-/// Gives a region the bits of x0 where nothing that it reads has moved and it cannot come nearer; returns whether
-/// that is so.
-fn keeps_region(
-    plan: &Plan,
-    frame: &Frame,
-    measure: &Measure,
-    region: &Region,
-    values: &mut [f64],
-    buffers: &mut Buffers,
-) -> bool {
-    let own = &region.problem.unknowns;
-    let is_free = |&u: &SlotIndex| plan.slots()[u as usize].stay == Stay::Free;
-    let mut read = region.problem.rows.iter().flat_map(|row| row.arguments.iter());
-    let has_moved = |slot: &SlotIndex| {
-        own.binary_search(slot).is_err() && buffers.motion[*slot as usize] == Motion::Moved
-    };
-    if own.iter().any(is_free) || read.any(has_moved) {
-        return false;
-    }
-    let now: Vec<f64> = own.iter().map(|&u| values[u as usize]).collect();
-    own.iter().for_each(|&u| values[u as usize] = frame.x0[u as usize]);
-    let is_kept = measure.is_settled(&frame.x0, values, &frame.scales, &mut buffers.work);
-    for (&u, now) in own.iter().zip(now) {
-        values[u as usize] = if is_kept { frame.x0[u as usize] } else { now };
-        if is_kept {
-            buffers.motion[u as usize] = Motion::Still;
-        }
-    }
-    is_kept
 }
 
 /// Returns true if a number is not whole. Few slots ask.

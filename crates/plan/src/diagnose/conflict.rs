@@ -312,7 +312,7 @@ impl<'s> Search<'s> {
         if trial == Trial::Holds {
             for &s in rules.iter().flat_map(|&r| planner.rules.get(r).slots) {
                 if matches!((self.setup.holding)(s), Holding::Fixed | Holding::Given) {
-                    state.numbers[s] = self.values.numbers[s];
+                    state.put(s, self.values.get(s));
                 }
             }
             self.last = Some(state);

@@ -3,7 +3,8 @@
 //! In: the state when an edit began, and the values now. Out: the mode to begin with.
 
 use super::{Formula, Mode, Modes, Sides, Tree};
-use crate::system::Stay;
+use crate::moved::Extents;
+use crate::system::{Stay, TRUTH};
 use crate::truth::Comparing;
 use crate::whole::Constants;
 use base::Id;
@@ -38,8 +39,9 @@ impl Modes {
 
     /// Returns the way that is nearest to hold, of equals the first.
     fn nearest_way(&self, ways: &[Tree], values: &[f64]) -> usize {
+        let extents = &Extents::of(&self.conditional.system.slots, values);
         let mut nearest = (0, [f64::INFINITY; 2]);
-        for (i, away) in ways.iter().map(|way| self.away(way, values)).enumerate() {
+        for (i, away) in ways.iter().map(|way| self.away(way, values, extents)).enumerate() {
             if away < nearest.1 {
                 nearest = (i, away);
             }
@@ -47,23 +49,24 @@ impl Modes {
         nearest.0
     }
 
-    /// Returns how far given numbers have to go until it holds, and how far others that have a value, squared, to first
-    /// order: given numbers go where nothing else does, and what has no value goes anywhere.
-    fn away(&self, tree: &Tree, values: &[f64]) -> [f64; 2] {
+    /// Returns how far given numbers have to go until it holds, and how far others that have a value, squared, in parts
+    /// of their extents and to first order: given numbers go where nothing else does, what has no value goes anywhere,
+    /// and what is true or not goes no way.
+    fn away(&self, tree: &Tree, values: &[f64], extents: &Extents) -> [f64; 2] {
         match tree {
-            Tree::Holds(c) => self.comparison_away(*c, values),
+            Tree::Holds(c) => self.comparison_away(*c, values, extents),
             Tree::All(parts) => {
-                let parts = parts.iter().map(|part| self.away(part, values));
+                let parts = parts.iter().map(|part| self.away(part, values, extents));
                 parts.fold([0.0; 2], |[a, b], [c, d]| [a + c, b + d])
             }
             Tree::Any { ways, .. } | Tree::Either(ways) => {
-                let ways = ways.iter().map(|way| self.away(way, values));
+                let ways = ways.iter().map(|way| self.away(way, values, extents));
                 ways.fold([f64::INFINITY; 2], |a, b| if b < a { b } else { a })
             }
         }
     }
 
-    fn comparison_away(&self, index: u32, values: &[f64]) -> [f64; 2] {
+    fn comparison_away(&self, index: u32, values: &[f64], extents: &Extents) -> [f64; 2] {
         let Sides { comparing, sides: Formula { pattern, arguments }, .. } =
             &self.comparisons[index as usize];
         if self.comparison_holds(index, values) {
@@ -76,9 +79,11 @@ impl Modes {
         let now: Vec<f64> = arguments.iter().map(|&s| values[s as usize]).collect();
         let [mut given, mut kept, mut free] = [0.0; 3];
         for (var, slope) in vars.iter().zip(slopes) {
-            let slope = arena.evaluate(slope, &now);
-            match self.conditional.system.slots[arguments[var.index()] as usize].stay {
+            let slot = &self.conditional.system.slots[arguments[var.index()] as usize];
+            let slope = arena.evaluate(slope, &now) * extents.at(slot);
+            match slot.stay {
                 Stay::Fixed => {}
+                _ if slot.scale == TRUTH => free += slope * slope,
                 Stay::Given => given += slope * slope,
                 Stay::Kept { .. } => kept += slope * slope,
                 Stay::Free => free += slope * slope,

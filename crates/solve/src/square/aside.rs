@@ -1,7 +1,8 @@
 //! What lies a little aside of a state: where two branches meet, where a row has no slope, and where one holds only
 //! because an unknown has run away.
 
-use super::{Square, SquareScratch, WIDE, normal};
+use super::step::normal;
+use super::{Square, SquareScratch, WIDE};
 use crate::block::Workspace;
 use crate::dense;
 use crate::rows::{Point, generic_number};
