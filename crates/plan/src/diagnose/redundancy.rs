@@ -12,11 +12,12 @@ use crate::diagnose::trial::{Setup, Trial, perturbed};
 use crate::holds::counts;
 use crate::host::Host;
 use crate::planner::{Model, Planner, Unmet};
-use crate::rule::{Body, Position, Rule, Source};
+use crate::rule::{Body, Source};
 use crate::task::{Course, Holding, Origin, Task};
 use kernel::{SlotId, Structure, Values};
 use solve::echelon::{Dependent, Echelon, Row};
 use solve::{Level, PATIENCE, Scratch};
+use std::cmp::Reverse;
 use std::collections::{BTreeMap, BTreeSet};
 
 /// A required constraint that holds and says nothing new.
@@ -175,16 +176,39 @@ impl Planner {
         host: &mut dyn Host,
     ) -> Theorems {
         let setting = (task, hold);
-        let find = || core(self, model, setting, &rejected_rows(task));
+        let rejected = rejected_rows(task);
+        let find = || core(self, model, setting, &rejected);
         let is_resting = std::ptr::fn_addr_eq(hold, Self::resting_hold as Hold);
         let core_of_accepted = if is_resting { task.core(find) } else { find().into() };
         let found = self.theorems_of(model, setting, &core_of_accepted, values, host);
-        if found.is_some() || task.plan.report.rejected.is_empty() {
+        // a part of a rule that depends on others at a generic point may be what makes one of these superfluous
+        let whole: BTreeSet<(u32, u32)> = rejected
+            .iter()
+            .copied()
+            .filter(|&(rule, _)| self.is_surplus(rule, &rejected))
+            .collect();
+        let with_parts = (whole.len() < rejected.len()).then(|| {
+            let core = core(self, model, setting, &whole);
+            self.theorems_of(model, setting, &core, values, host)
+        });
+        let count = |found: &Option<Theorems>| found.as_ref().map(|found| found.rules.len());
+        let found = with_parts.filter(|more| count(more) > count(&found)).unwrap_or(found);
+        if found.is_some() || rejected.is_empty() {
             return found.unwrap_or_default();
         }
         // what depends on others at a generic point may say here what these do not say
         let core = core(self, model, setting, &BTreeSet::new());
         self.theorems_of(model, setting, &core, values, host).unwrap_or_default()
+    }
+
+    /// Returns true if all rows of a rule are among these.
+    fn is_surplus(&self, rule: u32, rows: &BTreeSet<(u32, u32)>) -> bool {
+        match &self.rules.get(rule).shape.body {
+            Body::Equations(equations) => {
+                rows.range((rule, 0)..=(rule, u32::MAX)).count() == equations.len()
+            }
+            _ => true,
+        }
     }
 
     /// The same of some rows; nothing where no solution of the others is found elsewhere.
@@ -412,6 +436,18 @@ fn candidates(
     let column = |s: SlotId| task.component.slots().binary_search(&s).ok().map(|i| i as u32);
     let mut rows: Vec<Row> = Vec::with_capacity(core.len());
     let mut rule_of_row: Vec<u32> = Vec::with_capacity(core.len());
+    // a rule is left out as a whole: of what depends on each other first what says several things, then what follows
+    // what it reads
+    let is_last = |&&(position, _): &&(u32, u32)| {
+        let shape = planner.rules.get(task.component.rules()[position as usize]).shape;
+        let rows = match &shape.body {
+            Body::Equations(equations) => equations.len(),
+            _ => 0,
+        };
+        (Reverse(rows), shape.reads.is_empty())
+    };
+    let mut core: Vec<&(u32, u32)> = core.iter().collect();
+    core.sort_by_key(is_last);
     for &(position, e) in core {
         let index = task.component.rules()[position as usize];
         let rule = planner.rules.get(index);
@@ -419,7 +455,7 @@ fn candidates(
         if !counts(patterns, rule, values, scratch) {
             continue;
         }
-        let moves = |s: SlotId| hold(model.structure, s) != Holding::Fixed && may_write(rule, s);
+        let moves = |s: SlotId| hold(model.structure, s) != Holding::Fixed;
         let row = gradient(patterns, rule, &equations[e as usize], &values.numbers, scratch);
         let own = row.into_iter().filter(|e| moves(e.0));
         rows.push(own.filter_map(|(s, v)| Some((column(s)?, v))).collect());
@@ -456,7 +492,7 @@ fn core(
     let mut mentions: Vec<(SlotId, u32, bool)> = Vec::new();
     for (position, index, rule) in rules().filter(|(_, _, r)| r.shape.level == Level::Required) {
         let Body::Equations(equations) = &rule.shape.body else { continue };
-        let moves = |s: SlotId| hold(model.structure, s) != Holding::Fixed && may_write(rule, s);
+        let moves = |s: SlotId| hold(model.structure, s) != Holding::Fixed;
         for (e, equation) in (0..).zip(equations).filter(|(e, _)| !left_out.contains(&(index, *e)))
         {
             let number = rows.len() as u32;
@@ -491,14 +527,6 @@ fn core(
     }
     let kept = rows.into_iter().zip(is_out).filter(|(_, is_out)| !is_out);
     kept.map(|(row, _)| row).collect()
-}
-
-/// Returns true if a rule may write a slot that it mentions.
-fn may_write(rule: Rule<'_>, slot: SlotId) -> bool {
-    let shape = rule.shape;
-    let as_written = !shape.derived && !shape.methods.is_empty();
-    let has = |positions: &[Position]| rule.slots_at(positions).any(|s| s == slot);
-    (!as_written || shape.methods.iter().any(|m| has(&m.targets))) && !has(&shape.reads)
 }
 
 /// Returns the rows that depend on others everywhere: rule and equation.
