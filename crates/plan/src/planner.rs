@@ -161,6 +161,15 @@ impl Planner {
         let tied = components.iter().flat_map(|c| c.slots().iter().copied());
         start.iter().copied().chain(tied).collect()
     }
+    /// Returns the slots that nothing gives, that rules tie to given ones and to no place.
+    pub fn tied_to_given(&mut self, structure: &Structure) -> BTreeSet<SlotId> {
+        let is_given = |&s: &SlotId| structure.slots[s].given.is_some();
+        let is_of_place = |&s: &SlotId| structure.slots[s].place.is_some();
+        let components = self.whole(structure).components.iter().map(Component::slots);
+        let tied = components.filter(|slots| slots.iter().any(is_given));
+        let tied = tied.filter(|slots| !slots.iter().any(is_of_place)).flatten();
+        tied.copied().filter(|s| !is_given(s)).collect()
+    }
     /// Returns the plans made so far, to be handed to the next planner.
     pub fn into_plans(mut self) -> Plans {
         self.take_plans()

@@ -17,6 +17,7 @@ use crate::write_back::{differing, sides_after, write_back, write_sides};
 use base::number::Toward;
 use kernel::{Command, DOCUMENT, Literal, Path, SlotId, Step, Term, ThingId, Value, Values};
 use plan::{EditKind, NotDecided, Planner, RefusalReason, Target};
+use std::collections::BTreeSet;
 use std::sync::Arc;
 
 /// Applies a command to a document.
@@ -400,7 +401,11 @@ fn restructure(open: &mut Open, host: &dyn Host, command: &Command) -> Result<Ch
         return Err(words::refusal_of_text(&state, &new));
     }
     let class = done.class.map(|c| before.lowered.document.classes[c].name.to_string());
-    let carried = carried_over(command, &before, &state);
+    let anew = match command {
+        Command::Unmerge(path) => parting::computed_anew(&before, path, &state, &mut planner),
+        _ => BTreeSet::new(),
+    };
+    let carried = carried_over(command, &before, &state, &anew);
     let carried = carried.filter(|values| differing(&state, values).next().is_some());
     let (state, planner) = match (carried, &class) {
         (Some(mut values), _) => {
@@ -514,8 +519,13 @@ pub(crate) fn preview(state: &State, command: &Command) -> Result<Option<Questio
 
 /// Returns the values that a document keeps where a command only takes away what held it: every path
 /// keeps its present value, those of parts that are no longer one, too; or where the class of what is
-/// merged says what it holds then.
-fn carried_over(command: &Command, before: &State, after: &State) -> Option<Values> {
+/// merged says what it holds then. Of what is computed `anew` the present values are those that it was given.
+fn carried_over(
+    command: &Command,
+    before: &State,
+    after: &State,
+    anew: &BTreeSet<SlotId>,
+) -> Option<Values> {
     match command {
         Command::Unmerge(_)
         | Command::Delete(_)
@@ -557,7 +567,10 @@ fn carried_over(command: &Command, before: &State, after: &State) -> Option<Valu
             let path = before_deletion(command, after, path);
             thing = before.structure.follow(DOCUMENT, &path).ok();
         }
-        if let Some(was) = thing.and_then(|t| before.structure.slot_of(t)) {
+        let was = thing.and_then(|t| before.structure.slot_of(t));
+        let is_kept =
+            |was: &SlotId| !anew.contains(&slot) || before.structure.given(*was).is_some();
+        if let Some(was) = was.filter(is_kept) {
             values.put(slot, before.values.get(was));
         }
     }

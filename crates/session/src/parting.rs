@@ -8,6 +8,7 @@ use crate::document::Open;
 use crate::state::State;
 use crate::write_back::literal;
 use kernel::{DOCUMENT, Literal, Path, SlotId, Term, ThingId, Value};
+use plan::Planner;
 use std::collections::BTreeSet;
 use syntax::edit::TextEdit;
 
@@ -46,6 +47,23 @@ pub(crate) fn edits(open: &Open, path: &Path, parting: Vec<TextEdit>) -> Vec<Tex
         }
     }
     all
+}
+
+/// Returns the slots whose values are computed anew once a thing is taken out of its merges, where nobody gave them
+/// before: those that follow from given numbers, as the voltages and currents of what a lead is taken from do. Beside
+/// these they would stand as given wherever the thing is merged next, and what is given would yield to them. What
+/// rules tie to a place goes on from where it is, and a number that is parted itself keeps its value.
+pub(crate) fn computed_anew(
+    before: &State,
+    path: &Path,
+    after: &State,
+    planner: &mut Planner,
+) -> BTreeSet<SlotId> {
+    let thing = before.structure.follow(DOCUMENT, path);
+    if thing.is_ok_and(|thing| before.structure.slot_of(thing).is_some()) {
+        return BTreeSet::new();
+    }
+    planner.tied_to_given(&after.structure)
 }
 
 /// Returns true for a number that is given by itself, and is another as it is merged.
