@@ -23,6 +23,8 @@ pub(super) const OFF: f64 = 1e-4;
 /// How much of a column may be left that others replace, as a part of its length: what is amplified along a chain
 /// shows little at its end. Slopes are found some orders better than what is told of them.
 const SPARED: f64 = 1e-7;
+/// Slopes so much smaller than a little aside are rounding.
+const VANISHED: f64 = 1e-6;
 
 pub(crate) fn complaints(
     document: &Document,
@@ -189,9 +191,13 @@ impl Answer<'_> {
                     let both = of.iter().zip(&here).filter(|(_, here)| here.acts());
                     both.map(|(row, _)| row.clone()).collect()
                 };
-                // where rules depend on one another only here, as at the end of a reach, slopes prove nothing
-                let rows = acts(&here);
-                if rank(&rows) < rank(&acts(&aside)) {
+                // where rules depend on one another only here, as at the end of a reach, slopes prove nothing, nor where
+                // one has none, as a variance has none where it is nothing
+                let (rows, others) = (acts(&here), acts(&aside));
+                let vanishes = |(here, aside): (&Row, &Row)| {
+                    length(&here.slopes) < VANISHED * length(&aside.slopes)
+                };
+                if rank(&rows) < rank(&others) || rows.iter().zip(&others).any(vanishes) {
                     continue;
                 }
                 let groups = columns.iter().map(|&s| self.structure.slots[s].place.ok_or(s));

@@ -21,6 +21,8 @@ const CREST: f64 = 1e-3;
 const NEAR: f64 = 0.1;
 /// How far what ends at the goal may come from, in parts of how far that is.
 const ENDS: f64 = 100.0;
+/// So often a quarter of the way is left, where its end is found from how fast it comes near.
+const QUARTERS: usize = 6;
 /// What a stride costs for every slot, in multiplications.
 const STRIDE: usize = 64;
 /// How many strides are tried before a way is given up.
@@ -154,12 +156,35 @@ impl Way<'_> {
     /// side any more.
     fn ends(&mut self, last: &[f64], goal: &[f64]) -> bool {
         let near = ENDS * self.distance(last, goal);
-        self.stride(last, goal, 1.0, Trust::Any, &Approach::Nowhere).is_ok() && {
+        let arrives = self.stride(last, goal, 1.0, Trust::Any, &Approach::Nowhere).is_ok() && {
             let scales = &self.frame.scales;
             let gone =
                 self.trial.iter().zip(last).zip(scales).map(|((to, from), by)| (to - from) / by);
             gone.fold(0.0, |far: f64, part| part.abs().max(far)) <= near
+        };
+        arrives || self.closes(last, goal)
+    }
+
+    /// Arrives from next to the goal where solutions come together there, as all numbers do whose variance comes to
+    /// nothing: as the root of what is left of the way. Where that is a quarter, they are half as far from there.
+    fn closes(&mut self, last: &[f64], goal: &[f64]) -> bool {
+        let mut states = [last.to_vec(), last.to_vec()];
+        for _ in 0..QUARTERS {
+            let (from, part) = (states[1].clone(), 0.75);
+            if self.stride(&from, goal, part, Trust::Branch, &Approach::Nowhere).is_err() {
+                return false;
+            }
+            states = [from, self.trial.clone()];
         }
+        let [far, near] = &states;
+        self.set_out(near, goal, 1.0);
+        for ((x, near), far) in self.trial.iter_mut().zip(near).zip(far) {
+            // what is known is where it shall be
+            if x == near {
+                *x = near + (near - far);
+            }
+        }
+        self.test_trial(&[]).is_solved()
     }
 
     /// Many strides, each as long as the branch allows, the first and the shortest so long; returns the part
