@@ -507,7 +507,7 @@ impl ModalDrag {
             let begin = || Followed::begin(modes, attempted, &plan, x0, inputs, &leans);
             let follow = followed.entry(attempted.clone()).or_insert_with(begin);
             if follow.wish + 1 < *wishes {
-                follow.drag.stand_at(now);
+                follow.drag.stand_at(&plan, now);
                 follow.since = *wishes;
             }
             follow.wish = *wishes;

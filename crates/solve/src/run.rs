@@ -274,13 +274,18 @@ impl Drag {
         self.has_run = false;
     }
 
-    /// Goes on from another state, which another plan's drag came to.
+    /// Goes on from another state, which another plan's drag came to: what this plan does not find is as it was at
+    /// the press.
     ///
     /// # Panics
     /// If it has not as many slots.
-    pub fn stand_at(&mut self, state: &[f64]) {
-        self.branch.copy_from_slice(state);
-        self.now.copy_from_slice(state);
+    pub fn stand_at(&mut self, plan: &Plan, state: &[f64]) {
+        self.branch.copy_from_slice(&self.runner.frame.x0);
+        let inputs = self.slice.inputs.iter();
+        for &slot in plan.steps().iter().flat_map(|s| &s.targets).chain(inputs) {
+            self.branch[slot as usize] = state[slot as usize];
+        }
+        self.now.copy_from_slice(&self.branch);
         self.has_branch = false;
         self.is_met = false;
         self.leans = false;
