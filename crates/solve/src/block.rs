@@ -260,6 +260,25 @@ impl Block {
     /// Returns true if what a row divides by, and what hangs on an unknown, has another sign in one state than in the
     /// other: between them lies a pole.
     pub(crate) fn changes_divisors(&self, from: &[f64], to: &[f64], w: &mut Workspace) -> bool {
+        self.any_divisor([from, to], w, |from, to| from * to < 0.0)
+    }
+    /// Returns true if what a row divides by, and what hangs on an unknown, has come to nothing from one state to the
+    /// other, that is to less than this part.
+    pub(crate) fn loses_divisors(
+        &self,
+        from: &[f64],
+        to: &[f64],
+        part: f64,
+        w: &mut Workspace,
+    ) -> bool {
+        self.any_divisor([from, to], w, |from, to| to.abs() < part * from.abs())
+    }
+    fn any_divisor(
+        &self,
+        [from, to]: [&[f64]; 2],
+        w: &mut Workspace,
+        is_one: impl Fn(f64, f64) -> bool,
+    ) -> bool {
         let divides = |row: usize| {
             let (kernel, arguments) = self.row(row);
             let Some(divisors) = kernel.divisors() else { return false };
@@ -268,7 +287,7 @@ impl Block {
             let after = w.run(&divisors.tape, arguments, to, count);
             let is_unknown = |a: &u32| self.unknowns.binary_search(&arguments[*a as usize]).is_ok();
             let mut each = before.iter().zip(after).zip(&divisors.depends);
-            each.any(|((from, to), of)| from * *to < 0.0 && of.iter().any(is_unknown))
+            each.any(|((from, to), of)| is_one(*from, *to) && of.iter().any(is_unknown))
         };
         (0..self.height()).any(divides)
     }

@@ -386,9 +386,10 @@ impl Drag {
                 if self.leans {
                     limit.clone_from(&way.frame.x0);
                 }
+                let passed = [&branch[..], &limit];
                 let approached = fraction < 1.0
-                    && (self.is_near && way.approach(now, goal, &failure).is_ok()
-                        || way.approach(&limit, goal, &failure).is_ok());
+                    && (self.is_near && way.comes_near(now, passed, goal, &failure, trust)
+                        || way.comes_near(&limit, passed, goal, &failure, trust));
                 self.is_near = approached;
                 let is_left = fraction < 1.0 && !approached;
                 let searched = is_left && is_rough && way.search(branch, goal).is_ok()

@@ -21,6 +21,8 @@ const CREST: f64 = 1e-3;
 const NEAR: f64 = 0.1;
 /// How far what ends at the goal may come from, in parts of how far that is.
 const ENDS: f64 = 100.0;
+/// What came to less than this part has come to nothing.
+const NOTHING: f64 = 1e-5;
 /// So often a quarter of the way is left, where its end is found from how fast it comes near.
 const QUARTERS: usize = 6;
 /// What a stride costs for every slot, in multiplications.
@@ -321,6 +323,50 @@ impl Way<'_> {
             | Program::Copy
             | Program::Formulas(..)
             | Program::Host { .. } => true,
+        })
+    }
+
+    /// Comes from a state as near to soft wishes as the hard rows allow, past the limit of a branch that was followed
+    /// from another state. Returns false where that is not possible, or what meets them has turned over there.
+    pub(super) fn comes_near(
+        &mut self,
+        state: &[f64],
+        [from, limit]: [&[f64]; 2],
+        goal: &[f64],
+        failure: &Failure,
+        trust: Trust,
+    ) -> bool {
+        if self.approach(state, goal, failure).is_err() {
+            return false;
+        }
+        // what was approached need not hold because of how it is computed
+        let part = std::mem::replace(&mut self.part, Part::Whole);
+        let turns = trust == Trust::Branch
+            && self.test_trial(&[]).unmet.is_empty()
+            && self.turns_over(from, limit);
+        self.part = part;
+        !turns
+    }
+
+    /// Returns true if what is determined lies, where attempts ran, on another side than at `from`, or where that is
+    /// between two sides than at x0, and what a row divides by came to nothing at the `limit` that it came past: a
+    /// tangent to a line that came to nothing there is one to a line that points the other way. Where rows depend on
+    /// one another alone, as those of a parallelogram that lies flat, the way may go straight on.
+    fn turns_over(&mut self, from: &[f64], limit: &[f64]) -> bool {
+        let Buffers { work, square: scratch, .. } = &mut *self.buffers;
+        let Frame { x0, scales, .. } = &*self.frame;
+        let trial = &*self.trial;
+        self.plan.branching().iter().any(|step| match &step.program {
+            Program::Square(square) if !square.block.is_linear => {
+                let mut side = |state: &[f64]| square.orientation(state, scales, work, scratch);
+                let before = match side(from) {
+                    0 => side(x0),
+                    before => before,
+                };
+                let turns = before != 0 && side(trial) == -before;
+                turns && square.block.loses_divisors(x0, limit, NOTHING, work)
+            }
+            _ => false,
         })
     }
 
