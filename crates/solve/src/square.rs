@@ -427,6 +427,9 @@ impl Square {
             if branch.is_some_and(|sign| sign != factors.sign || sign == 0) && norm > 0.0 {
                 return None;
             }
+            if iteration == 1 && branch.is_some() && first_size > 1e-7 && self.bends(scales, s) {
+                return None;
+            }
             if norm == 0.0 {
                 break;
             }

@@ -36,6 +36,28 @@ impl Square {
         }
     }
 
+    /// Returns true if slopes change by more than themselves along the step that was taken from where they were: what
+    /// it comes to may lie on any branch. Of a core whose linear algebra is sparse that is not asked.
+    ///
+    /// **Source:** Kantorovich's condition, as in Deuflhard, *Newton Methods for Nonlinear Problems* (2004), 2.1.
+    pub(super) fn bends(&self, scales: &[f64], s: &SquareScratch) -> bool {
+        if !self.is_dense() || self.block.is_linear {
+            return false;
+        }
+        let n = self.block.core.len();
+        let (mut changed, mut before) = (0.0, 0.0);
+        for (i, (row, &r)) in s.matrix.chunks_exact(n).zip(&self.block.core_rows).enumerate() {
+            // what the slopes of before make of the step is what the row was off by
+            let off = s.kept_residual[i] * s.weight[r as usize];
+            let step = s.step.iter().enumerate();
+            let now: f64 =
+                row.iter().zip(step).map(|(a, (c, d))| a * d / scales[self.slot(c)]).sum();
+            changed += (now + off) * (now + off);
+            before += off * off;
+        }
+        changed > before
+    }
+
     pub(super) fn weighted_norm(&self, s: &SquareScratch) -> f64 {
         let mut sum = 0.0;
         for (v, &r) in s.residual.iter().zip(&self.block.core_rows) {
