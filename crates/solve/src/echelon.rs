@@ -158,6 +158,40 @@ impl Echelon {
         }
         (0..).zip(made).filter(|e| e.1 != 0.0).collect()
     }
+
+    /// Does the same for each of these free columns: it is one, and the others are nothing.
+    pub fn complete_each(&self, free: &[u32]) -> Vec<Row> {
+        // for every column, what it is for which of them
+        let mut made: Vec<Row> = vec![Vec::new(); self.has_pivot.len()];
+        for (i, &c) in (0..).zip(free) {
+            made[c as usize].push((i, 1.0));
+        }
+        let mut sums = vec![(0.0, 0.0f64); free.len()];
+        let mut met: Vec<u32> = Vec::with_capacity(free.len());
+        for (_, column, row) in self.pivots.iter().rev() {
+            for &(c, v) in row {
+                for &(i, x) in &made[c as usize] {
+                    let (sum, size) = &mut sums[i as usize];
+                    if *size == 0.0 {
+                        met.push(i);
+                    }
+                    let term = v * x;
+                    *sum -= term;
+                    *size = size.max(term.abs());
+                }
+            }
+            let told = met.drain(..).filter_map(|i| {
+                let (sum, size) = std::mem::take(&mut sums[i as usize]);
+                (sum.abs() > CANCELLED * size).then_some((i, sum))
+            });
+            made[*column as usize] = told.collect();
+        }
+        let mut rows = vec![Vec::new(); free.len()];
+        for (c, of) in (0..).zip(made) {
+            of.into_iter().for_each(|(i, x)| rows[i as usize].push((c, x)));
+        }
+        rows
+    }
 }
 
 /// Subtracts so much of a row, one in its `last` column, that the other has nothing there.

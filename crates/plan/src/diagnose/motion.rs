@@ -242,8 +242,8 @@ impl Space {
             return None;
         }
         let slope = |r: u32| self.rows[r as usize].iter().fold(0.0f64, |m, e| m.max(e.1.abs()));
-        let motion = |&c: &u32| (c, self.echelon.complete(&[(c, 1.0)]));
-        let motions: Vec<(u32, Row)> = self.free.iter().map(motion).collect();
+        let free = self.free.iter().copied();
+        let motions: Vec<(u32, Row)> = free.zip(self.echelon.complete_each(&self.free)).collect();
         let slots = |motion: &Row| -> Vec<(SlotId, f64)> {
             motion.iter().map(|&(c, v)| (self.columns[c as usize], v)).collect()
         };
@@ -292,9 +292,8 @@ impl Space {
 
     /// Returns a readable basis.
     fn motions(&self, model: Model<'_>, values: &Values) -> Vec<Motion> {
-        let mut chosen = Chosen { space: self, known: Basis::default(), motions: Vec::new() };
         if self.free.is_empty() {
-            return chosen.motions;
+            return Vec::new();
         }
         let mut groups: BTreeMap<ThingId, Vec<u32>> = BTreeMap::new();
         for (c, &s) in (0..).zip(&self.columns) {
@@ -305,10 +304,17 @@ impl Space {
         for (r, row) in (0..).zip(&self.rows) {
             row.iter().for_each(|e| rows_of[e.0 as usize].push(r));
         }
+        let mut chosen = Chosen {
+            space: self,
+            rows_of: &rows_of,
+            velocity: vec![0.0; self.columns.len()],
+            known: Basis::default(),
+            motions: Vec::new(),
+        };
         let mut by_first: Vec<&Vec<u32>> = groups.values().collect();
         by_first.sort();
         for group in &by_first {
-            self.alone(group, &rows_of, &mut chosen);
+            self.alone(group, &mut chosen);
         }
         let planar = |c: u32| {
             let s = &model.structure.slots[self.columns[c as usize]];
@@ -320,12 +326,7 @@ impl Space {
             .filter(|g| g.iter().all(|&c| planar(c)))
             .collect();
         self.rigid(&places, values, &mut chosen);
-        let mut rest: Vec<Row> = self
-            .free
-            .iter()
-            .take(4 * LISTED)
-            .map(|&c| self.echelon.complete(&[(c, 1.0)]))
-            .collect();
+        let mut rest = self.echelon.complete_each(&self.free[..self.free.len().min(4 * LISTED)]);
         rest.sort_by_key(Vec::len);
         for row in rest {
             chosen.consider(MotionKind::Together, row);
@@ -334,7 +335,8 @@ impl Space {
     }
 
     /// Adds the motions of one place or number alone.
-    fn alone(&self, group: &[u32], rows_of: &[Vec<u32>], chosen: &mut Chosen<'_>) {
+    fn alone(&self, group: &[u32], chosen: &mut Chosen<'_>) {
+        let rows_of = chosen.rows_of;
         if self.is_held(group, rows_of) {
             return;
         }
@@ -379,23 +381,6 @@ impl Space {
         }
     }
 
-    /// Returns true if every row goes on holding along a motion.
-    fn is_null(&self, motion: &Row) -> bool {
-        /// States are solved to about 1e-12.
-        const ROUNDING: f64 = 1e-8;
-        let mut velocity = vec![0.0; self.columns.len()];
-        motion.iter().for_each(|&(c, v)| velocity[c as usize] = v);
-        self.rows.iter().all(|row| {
-            let (mut sum, mut size) = (0.0, 0.0f64);
-            for &(c, v) in row {
-                let term = v * velocity[c as usize];
-                sum += term;
-                size = size.max(term.abs());
-            }
-            f64::abs(sum) <= ROUNDING * size
-        })
-    }
-
     /// Returns true if the rows that speak of a number, or of a place in the plane, clearly leave it no motion
     /// of its own.
     fn is_held(&self, group: &[u32], rows_of: &[Vec<u32>]) -> bool {
@@ -423,6 +408,10 @@ impl Space {
 /// The motions chosen so far.
 struct Chosen<'s> {
     space: &'s Space,
+    /// For every column, the rows that it stands in.
+    rows_of: &'s [Vec<u32>],
+    /// Room for a velocity of every column.
+    velocity: Vec<f64>,
     /// The free columns of the chosen ones: a motion is known by these alone.
     known: Basis,
     motions: Vec<Motion>,
@@ -432,10 +421,10 @@ impl Chosen<'_> {
     fn consider(&mut self, kind: MotionKind, mut row: Row) {
         let space = self.space;
         let is_full = self.known.rank() == space.free.len() || self.motions.len() == LISTED;
-        row.sort_unstable_by_key(|e| e.0);
-        if is_full || row.is_empty() || !space.is_null(&row) {
+        if is_full || row.is_empty() || !self.is_null(&row) {
             return;
         }
+        row.sort_unstable_by_key(|e| e.0);
         let shadow = row.iter().filter(|e| !space.echelon.has_pivot(e.0)).copied().collect();
         if !self.known.add(&shadow) {
             return;
@@ -443,5 +432,24 @@ impl Chosen<'_> {
         let largest = row.iter().fold(0.0f64, |m, e| if e.1.abs() > m.abs() { e.1 } else { m });
         let moves = row.iter().map(|&(c, v)| (space.columns[c as usize], v / largest)).collect();
         self.motions.push(Motion { kind, moves });
+    }
+    /// Returns true if every row goes on holding along a motion.
+    fn is_null(&mut self, motion: &Row) -> bool {
+        /// States are solved to about 1e-12.
+        const ROUNDING: f64 = 1e-8;
+        let Self { space, rows_of, velocity, .. } = self;
+        motion.iter().for_each(|&(c, v)| velocity[c as usize] = v);
+        let holds = |&r: &u32| {
+            let (mut sum, mut size) = (0.0, 0.0f64);
+            for &(c, v) in &space.rows[r as usize] {
+                let term = v * velocity[c as usize];
+                sum += term;
+                size = size.max(term.abs());
+            }
+            f64::abs(sum) <= ROUNDING * size
+        };
+        let is_null = motion.iter().flat_map(|e| &rows_of[e.0 as usize]).all(holds);
+        motion.iter().for_each(|e| velocity[e.0 as usize] = 0.0);
+        is_null
     }
 }
