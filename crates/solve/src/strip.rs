@@ -63,7 +63,7 @@ impl Formula {
     }
 }
 
-/// From how many steps on a strip is made of them.
+/// So many steps of one formula run abreast, and fewer are no strip.
 const FEWEST: usize = 4;
 /// A stretch with fewer steps a level than this runs in turn.
 const NARROWEST: usize = LANES;
@@ -165,6 +165,13 @@ impl<'p> Links<'p> {
             Self::Peeled(..) => true,
         }
     }
+    /// Returns from how many steps on a strip is made of them: of rows in any case, so that none becomes a step for it.
+    fn fewest(self) -> usize {
+        match self {
+            Self::Steps(..) => FEWEST,
+            Self::Peeled(..) => 1,
+        }
+    }
     fn slots(self) -> usize {
         match self {
             Self::Steps(plan, _) | Self::Peeled(plan, _) => plan.slots().len(),
@@ -180,7 +187,7 @@ pub(crate) fn portions(links: Links<'_>, steps: &[u32]) -> Vec<Portion> {
     let mut ground = 0;
     for stretch in steps.chunk_by(|&a, &b| links.may_join(a, b)) {
         match links.get(stretch[0]) {
-            Some(_) if stretch.len() >= FEWEST => {
+            Some(_) if stretch.len() >= links.fewest() => {
                 ground = stretch_portions(links, stretch, ground, &mut level_of_slot, &mut made);
             }
             Some(_) | None => made.extend(stretch.iter().map(|&s| Portion::Step(s))),
@@ -224,14 +231,14 @@ fn stretch_portions(
     steps.sort_unstable();
     let are_abreast = |a: &Linked, b: &Linked| (a.level, a.formula) == (b.level, b.formula);
     for group in steps.chunk_by_mut(are_abreast) {
-        if group.len() >= FEWEST {
-            let formula = formulas[group[0].formula as usize].clone();
-            let arguments = group.len() * formula.arity();
-            group.iter_mut().for_each(|step| step.formula = 0);
-            made.push(Portion::Abreast(Strip::new(links, vec![formula], group, arguments)));
-        } else {
-            made.extend(group.iter().map(|step| Portion::Step(step.index)));
-        }
+        let formula = formulas[group[0].formula as usize].clone();
+        let arguments = group.len() * formula.arity();
+        group.iter_mut().for_each(|step| step.formula = 0);
+        let strip = Strip::new(links, vec![formula], group, arguments);
+        made.push(match group.len() {
+            FEWEST.. => Portion::Abreast(strip),
+            _ => Portion::InTurn(strip),
+        });
     }
     highest
 }
