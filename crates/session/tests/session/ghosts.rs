@@ -172,3 +172,21 @@ fn a_whole_number_among_real_ones_could_be_a_step_larger() {
     desk.apply(&five.command).expect("what is shown can be picked");
     assert_eq!((desk.number("n"), desk.number("pitch")), (5.0, 20.0));
 }
+
+#[test]
+fn what_lies_next_to_the_infinite_is_no_other_state() {
+    let mut desk = Desk::of(
+        "use geometry
+a: Point = (0, 0)
+b: Point = (100, 0)
+c: Point = (130, 90)
+n: Point
+r: Length
+constraint n.distance(to: a) = r
+constraint n.distance(to: b) = r
+constraint n.distance(to: c) = r
+",
+    );
+    // of three places there is one centre alone
+    assert_eq!(labels(&mut desk, "n"), [""; 0]);
+}

@@ -18,6 +18,8 @@ const TRIES: u32 = 6;
 /// In parts of the extent, how far from the present root that is: √2 times this first, √2 times farther
 /// each time, eight times this at last.
 const NEAREST: f64 = 0.25;
+/// What lies farther off, in the same parts, is no other state: rows hold there because nothing depends on it any more.
+const FAR: f64 = 1e8;
 
 /// Another state that a plan can come to.
 #[derive(Clone, PartialEq, Debug)]
@@ -110,6 +112,7 @@ impl Run<'_> {
             let off = root.iter().zip(&now).zip(&scales).map(|((a, b), scale)| (a - b) / scale);
             off.map(|d| d * d).sum()
         };
+        others.retain(|root| away(root) <= FAR * FAR);
         others.sort_by(|a, b| away(a).total_cmp(&away(b)));
         others
     }
