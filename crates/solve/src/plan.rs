@@ -257,7 +257,13 @@ fn plan_stated(stated: Stated) -> Plan {
     let mut rows = rows::with_columns(&stated, &classes, rows);
     let resting = Resting::new(system, &classes, &rows);
     let with = |rows: &Rows, resting: &Resting| {
-        accept::accept(accept::Setting { system, classes: &classes, rows, resting })
+        let setting = |resting| accept::Setting { system, classes: &classes, rows, resting };
+        let acceptance = accept::accept(setting(resting));
+        let mut awake = resting.clone();
+        let wakes = acceptance.some_rest
+            && !acceptance.yielded.is_empty()
+            && awake.wakes((system, &classes, rows), &acceptance.yielded);
+        if wakes { accept::accept(setting(&awake)) } else { acceptance }
     };
     let mut acceptance = with(&rows, &resting);
     if (!acceptance.yielded.is_empty() || may_imply(system, &rows))

@@ -42,6 +42,25 @@ impl Resting {
         };
         Self { is: (0..rows.len()).map(row).collect() }
     }
+    /// Has no row rest that reads one of these slots, which yield after all. Returns true if one would have.
+    pub(crate) fn wakes(
+        &mut self,
+        setting: (&System, &Classes, &Rows),
+        yielded: &[SlotIndex],
+    ) -> bool {
+        let (system, classes, rows) = setting;
+        let yields = |&slot: &SlotIndex| {
+            yielded.binary_search(&classes.representative[slot as usize]).is_ok()
+        };
+        let mut wakes = false;
+        for (r, is) in self.is.iter_mut().enumerate().filter(|(_, is)| **is) {
+            let relation = &system.relations[rows[r].relation as usize];
+            let equations = system.equations_of(relation).iter();
+            *is = !equations.flat_map(|e| system.arguments(e.arguments)).any(yields);
+            wakes |= !*is;
+        }
+        wakes
+    }
     /// Returns true if no row rests.
     pub(crate) fn is_empty(&self) -> bool {
         self.is.is_empty()
