@@ -499,7 +499,6 @@ impl ModalDrag {
         let texts = values.texts.clone();
         let leans = leans(*model, task);
         let standing = &*mode;
-        let first = Mode { active: Default::default(), ..standing.clone() };
         let mut attempt = |attempted: &Mode| {
             let (_, plan) = planner.in_mode(modes, attempted);
             values.texts.clone_from(&texts);
@@ -521,7 +520,7 @@ impl ModalDrag {
             planner.spend(follow.drag.spent() - before);
             Tried { plan, outcome, values: follow.drag.values().to_vec() }
         };
-        let decision = decide_along(modes, &first, x0, &mut attempt);
+        let decision = decide_along(modes, standing, x0, &mut attempt);
         if decision.ended != Ended::Settled {
             values.texts = texts;
         } else if has_texts(task) {

@@ -6,7 +6,8 @@
 //! stretched, and a wish would be lost to stays that are weaker. Where all of the chain yields, the change is
 //! least. A place with freedom (one end of a bar) reaches as far as it ever will, and so do linear
 //! rows (midpoints, alignments, offsets), and a place that lies on a line through others, wherever they are:
-//! these tie nothing; nor does a row that determines a lone number.
+//! these tie nothing; nor does a row that determines a lone number. A chain over a place on a rail is
+//! stretched from what is wished, and yields whole, whatever freedom is left in it.
 
 use crate::accept::Acceptance;
 use crate::direct::{self, Direction};
@@ -14,7 +15,8 @@ use crate::lists::Lists;
 use crate::order;
 use crate::rows::Rows;
 use crate::substitute::Classes;
-use crate::system::{SlotIndex, Stay, System};
+use crate::system::{Level, SlotIndex, Stay, System};
+use std::cell::OnceCell;
 
 /// Lets tied places yield; `direction` is that of the acceptance. Returns true if any does.
 pub(crate) fn tie(
@@ -39,30 +41,65 @@ pub(crate) fn tie(
     let free = exchangeable.unwrap_or_else(|| with_freedom(rows, direction, acceptance));
     let Acceptance { places, unknown, accepted, .. } = acceptance;
     let place = |slot: SlotIndex| match classes.stay[slot as usize] {
-        Stay::Kept { group } => {
-            let place = places.of(group);
-            if place.len() > 1 { place } else { &[] }
-        }
+        Stay::Kept { group } => places.of(group),
         Stay::Fixed | Stay::Given | Stay::Free => &[],
+    };
+    let sizes = OnceCell::new();
+    let is_on_rail = |slot: SlotIndex| match classes.stay[slot as usize] {
+        Stay::Kept { group } if place(slot).len() == 1 => {
+            sizes.get_or_init(|| sizes_of_places(system))[group as usize] > 1
+        }
+        Stay::Kept { .. } | Stay::Fixed | Stay::Given | Stay::Free => false,
+    };
+    let is_place = |slot: SlotIndex| place(slot).len() > 1 || is_on_rail(slot);
+    let may_be_stiff = |r: usize| {
+        let written = &system.relations[rows[r].relation as usize].methods;
+        rows[r].curved && written.is_empty()
     };
     let mut tied = false;
     for &r in &*accepted {
-        let row = rows[r];
-        let stays = |&(c, _): &(SlotIndex, f64)| !unknown[c as usize] && !place(c).is_empty();
         let Some(slot) = direction.slot_of_row[r] else { continue };
-        let is_stiff = row.curved
+        let is_stiff = may_be_stiff(r)
             && !free[slot as usize]
-            && !place(slot).is_empty()
-            && rows.columns(r).iter().any(stays)
-            && !rows.is_line(r, place(slot))
-            && system.relations[row.relation as usize].methods.is_empty();
+            && place(slot).len() > 1
+            && rows.columns(r).iter().any(|e| !unknown[e.0 as usize])
+            && !rows.is_line(r, place(slot));
         if !is_stiff {
             continue;
         }
-        for &(c, _) in rows.columns(r) {
+        for &(c, _) in rows.columns(r).iter().filter(|e| is_place(e.0)) {
             for &s in place(c) {
-                unknown[s as usize] = true;
-                tied = true;
+                tied |= !std::mem::replace(&mut unknown[s as usize], true);
+            }
+        }
+    }
+    let has_rail = |&r: &usize| may_be_stiff(r) && rows.columns(r).iter().any(|e| is_on_rail(e.0));
+    if accepted.iter().any(has_rail) {
+        // a chain over a rail is stretched from what is wished, whatever freedom is left in it
+        let is_wish = |r: &&usize| rows[**r].level == Level::Move;
+        let wished = accepted.iter().filter(is_wish).filter_map(|&r| direction.slot_of_row[r]);
+        let rows_of = rows_of(rows, accepted, unknown.len());
+        let mut reached: Vec<SlotIndex> = wished.collect();
+        let mut is_reached = vec![false; unknown.len()];
+        reached.iter().for_each(|&slot| is_reached[slot as usize] = true);
+        while let Some(from) = reached.pop() {
+            for &r in rows_of.of(from) {
+                let r = r as usize;
+                let stretches = may_be_stiff(r)
+                    && direction.slot_of_row[r]
+                        .is_some_and(|slot| is_place(slot) && !rows.is_line(r, place(slot)))
+                    && !rows.is_line(r, &[from]);
+                if !stretches {
+                    continue;
+                }
+                for &(c, _) in rows.columns(r).iter().filter(|e| is_place(e.0)) {
+                    for &s in place(c) {
+                        tied |= !std::mem::replace(&mut unknown[s as usize], true);
+                        if !std::mem::replace(&mut is_reached[s as usize], true) {
+                            reached.push(s);
+                        }
+                    }
+                }
             }
         }
     }
@@ -70,11 +107,21 @@ pub(crate) fn tie(
     tied
 }
 
+/// For every place, of how many coordinates it is.
+fn sizes_of_places(system: &System) -> Vec<u32> {
+    let mut sizes = Vec::new();
+    for slot in &system.slots {
+        if let Stay::Kept { group } = slot.stay {
+            sizes.resize(sizes.len().max(group as usize + 1), 0);
+            sizes[group as usize] += 1;
+        }
+    }
+    sizes
+}
+
 /// For every slot: a slot that no row determines can be exchanged for it.
 fn with_freedom(rows: &Rows, direction: &Direction, acceptance: &Acceptance) -> Vec<bool> {
-    let columns = |&r: &usize| rows.columns(r).iter().map(move |e| (e.0, r as u32));
-    let pairs = acceptance.accepted.iter().flat_map(columns);
-    let rows_of = Lists::new(acceptance.unknown.len(), pairs);
+    let rows_of = rows_of(rows, &acceptance.accepted, acceptance.unknown.len());
     let mut free: Vec<bool> = (0..acceptance.unknown.len())
         .map(|s| acceptance.unknown[s] && direction.row_of_slot[s].is_none())
         .collect();
@@ -89,4 +136,10 @@ fn with_freedom(rows: &Rows, direction: &Direction, acceptance: &Acceptance) -> 
         }
     }
     free
+}
+
+/// For every slot, the accepted rows that have it as a column.
+fn rows_of(rows: &Rows, accepted: &[usize], slots: usize) -> Lists {
+    let columns = |&r: &usize| rows.columns(r).iter().map(move |e| (e.0, r as u32));
+    Lists::new(slots, accepted.iter().flat_map(columns))
 }

@@ -79,15 +79,26 @@ pub fn decide(
     decide_within(modes, first, start, attempt, MOST_MODES, false)
 }
 
-/// Finds the mode in which everything holds at a wish of a drag. What is assumed in the first, in which the drag
-/// is, is kept while nothing more yields in it.
+/// Finds the mode in which everything holds at a wish of a drag. What is assumed where the drag stands is kept while
+/// nothing more yields in it, and what acts there is what acts, less what would hold without, where everything
+/// holds so.
 pub fn decide_along(
     modes: &Modes,
-    first: &Mode,
+    standing: &Mode,
     start: &[f64],
     attempt: &mut dyn FnMut(&Mode) -> Tried,
 ) -> Decision {
-    decide_within(modes, first, start, attempt, MOST_MODES, true)
+    let first = Mode { active: BTreeSet::new(), ..standing.clone() };
+    if standing.active.is_empty() {
+        return decide_within(modes, &first, start, attempt, MOST_MODES, true);
+    }
+    let mut tried = BTreeMap::new();
+    let mut once = |mode: &Mode| tried.entry(mode.clone()).or_insert_with(|| attempt(mode)).clone();
+    let mut deciding = Deciding::new(modes, &mut once, MOST_MODES);
+    match deciding.as_it_stands(standing, &first) {
+        Some(found) => deciding.decision(found, Ended::Settled),
+        None => decide_within(modes, &first, start, &mut once, MOST_MODES, true),
+    }
 }
 
 /// Finds the mode in which everything holds, among fewer where the system is large.
@@ -194,11 +205,26 @@ impl<'a> Deciding<'a> {
 }
 
 impl Deciding<'_> {
+    /// Finds the mode in which everything holds as assumed, beginning with what acts where a drag stands, if no given
+    /// number yields in it that does not where nothing acts.
+    fn as_it_stands(&mut self, standing: &Mode, bare: &Mode) -> Option<Mode> {
+        self.yields_as_in(bare);
+        match self.act(standing.clone()) {
+            Inner::Holds(found) if self.wrong(&found).is_empty() => Some(found),
+            Inner::Holds(_) | Inner::Fails(_) => None,
+        }
+    }
+
+    /// Has nothing yield that does not in this mode.
+    fn yields_as_in(&mut self, mode: &Mode) {
+        let yielded = self.try_mode(mode).plan.report.yielded.iter().copied().collect();
+        self.yielding = Yielding::Known(yielded);
+    }
+
     /// Finds a mode in which everything holds: one in which nothing yields that does not in the first, where
     /// there is one, else any; then others in which fewer given numbers yield, and no further.
     fn sparing(&mut self, first: &Mode, start: &[f64], is_along: bool) -> Decision {
-        let yielded = self.try_mode(first).plan.report.yielded.iter().copied().collect();
-        self.yielding = Yielding::Known(yielded);
+        self.yields_as_in(first);
         let most = self.most;
         self.most = most.min(MOST_SPARING);
         let mut found = self.look(first);
