@@ -304,7 +304,7 @@ impl Pull {
         };
         match drag.moved() {
             Some(moved) => moved.iter().copied().for_each(put),
-            None => self.task.plan.steps().iter().flat_map(|s| &s.targets).copied().for_each(put),
+            None => self.task.plan.targets().for_each(put),
         }
         let patterns = planner.plans.patterns();
         let is_met = outcome.is_solved() && outcome.unmet.is_empty();

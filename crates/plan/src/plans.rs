@@ -136,10 +136,9 @@ impl Plans {
         if !system.slots.iter().all(|s| s.is_number) {
             return None;
         }
-        let is_kept = |s: &SlotIndex| matches!(system.slots[*s as usize].stay, Stay::Kept { .. });
+        let is_kept = |s: SlotIndex| matches!(system.slots[s as usize].stay, Stay::Kept { .. });
         let opens = || system.slots.iter().any(|s| s.stay == Stay::Free);
-        let places_yield =
-            opens() && plan.steps().iter().flat_map(|step| &step.targets).any(is_kept);
+        let places_yield = opens() && plan.targets().any(is_kept);
         if !places_yield && plan.report.yielded.is_empty() {
             return None;
         }

@@ -20,6 +20,7 @@ use std::cell::{Cell, OnceCell};
 
 mod backtrack;
 pub(crate) mod others;
+mod peeled;
 mod region;
 mod roots;
 mod rough;
@@ -158,6 +159,11 @@ impl Attempt<'_> {
         match self.part {
             Part::Whole => {
                 begin(self.plan, self.frame, values, buffers);
+                if let Some(peeled) = self.plan.peeled()
+                    && *approach == Approach::Nowhere
+                {
+                    return self.rows(peeled, values, buffers, host);
+                }
                 (0..self.plan.step_count())
                     .try_for_each(|index| self.step(index, values, approach, buffers, host))
             }
@@ -264,7 +270,7 @@ struct Run<'a> {
 
 impl Run<'_> {
     fn step(&mut self, step: &Step) -> Result<(), Failure> {
-        let inputs = self.inputs(step);
+        let inputs = self.inputs(&step.reads);
         if self.keeps(step, inputs) {
             return Ok(());
         }
@@ -285,10 +291,10 @@ impl Run<'_> {
         keeps
     }
 
-    /// How what a step reads stands to x0.
-    fn inputs(&self, step: &Step) -> Motion {
+    /// How what is read stands to x0.
+    fn inputs<'r>(&self, reads: impl IntoIterator<Item = &'r SlotIndex>) -> Motion {
         let mut inputs = Motion::Still;
-        for &r in &step.reads {
+        for &r in reads {
             match self.buffers.motion[r as usize] {
                 Motion::Still => {}
                 Motion::Opened if inputs == Motion::Still => inputs = Motion::Opened,
@@ -310,15 +316,20 @@ impl Run<'_> {
             if slot.is_number && (!value.is_finite() || slot.is_discrete && is_broken(value)) {
                 return self.fail(step);
             }
-            self.buffers.motion[t as usize] = match slot.stay {
-                Stay::Free if inputs != Motion::Moved => Motion::Opened,
-                _ if !slot.is_number => Motion::Moved,
-                Stay::Free | Stay::Fixed | Stay::Given | Stay::Kept { .. } => {
-                    motion(self.frame, self.values, t)
-                }
-            };
+            self.buffers.motion[t as usize] = self.outcome(t, inputs);
         }
         Ok(())
+    }
+    /// How a slot stands to x0 that was computed from what stands so.
+    fn outcome(&self, target: SlotIndex, inputs: Motion) -> Motion {
+        let slot = &self.plan.slots()[target as usize];
+        match slot.stay {
+            Stay::Free if inputs != Motion::Moved => Motion::Opened,
+            _ if !slot.is_number => Motion::Moved,
+            Stay::Free | Stay::Fixed | Stay::Given | Stay::Kept { .. } => {
+                motion(self.frame, self.values, target)
+            }
+        }
     }
 
     fn fail<T>(&self, step: &Step) -> Result<T, Failure> {

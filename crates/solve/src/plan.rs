@@ -561,6 +561,12 @@ impl Plan {
             None => self.steps(),
         }
     }
+    /// Returns the slots that the steps write, in their order.
+    pub fn targets(&self) -> impl Iterator<Item = SlotIndex> + '_ {
+        let peeled = self.peeled().map_or(&[][..], |peeled| &peeled.order);
+        let steps = self.branching().iter().flat_map(|step| &step.targets).copied();
+        peeled.iter().map(|solved| solved.target).chain(steps)
+    }
     /// Returns true if rows that bend are solved for several unknowns at once, or by one of several roots.
     pub fn is_curved(&self) -> bool {
         self.has_branches || self.bends

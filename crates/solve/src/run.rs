@@ -281,8 +281,7 @@ impl Drag {
     /// If it has not as many slots.
     pub fn stand_at(&mut self, plan: &Plan, state: &[f64]) {
         self.branch.copy_from_slice(&self.runner.frame.x0);
-        let inputs = self.slice.inputs.iter();
-        for &slot in plan.steps().iter().flat_map(|s| &s.targets).chain(inputs) {
+        for slot in plan.targets().chain(self.slice.inputs.iter().copied()) {
             self.branch[slot as usize] = state[slot as usize];
         }
         self.now.copy_from_slice(&self.branch);

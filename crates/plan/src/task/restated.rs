@@ -105,8 +105,7 @@ impl Task {
             return None;
         }
         let mut yields = vec![false; self.system.slots.len()];
-        let written = self.plan.steps().iter().flat_map(|step| &step.targets);
-        written.for_each(|&slot| yields[slot as usize] = true);
+        self.plan.targets().for_each(|slot| yields[slot as usize] = true);
         let is_kept = |slot: &Slot| matches!(slot.stay, Stay::Kept { .. });
         let (_, with) =
             yields.iter().zip(slots).find(|(yields, slot)| **yields && is_kept(slot))?;

@@ -259,7 +259,7 @@ impl Search<'_> {
                 }
                 self.seen.insert(taken.clone());
                 run.set_targets(step, &root.values);
-                let inputs = run.inputs(step);
+                let inputs = run.inputs(&step.reads);
                 if run.settle(step, inputs).is_ok() {
                     let (values, motion) = (run.values.to_vec(), run.buffers.motion.clone());
                     let cost = self.cost + root.distance - present;

@@ -64,7 +64,7 @@ impl Attempt<'_> {
                 run.values.copy_from_slice(&came);
                 run.buffers.motion.copy_from_slice(&motion);
                 run.set_targets(step, &root);
-                let inputs = run.inputs(step);
+                let inputs = run.inputs(&step.reads);
                 let settled = run.settle(step, inputs).is_ok();
                 let Run { values, buffers, host, .. } = &mut run;
                 let rest = index + 1..plan.step_count();

@@ -63,7 +63,7 @@ impl Attempt<'_> {
                 | Program::Square(_)
                 | Program::Least(_)
                 | Program::Measure(_) => {
-                    let inputs = run.inputs(step);
+                    let inputs = run.inputs(&step.reads);
                     if !run.keeps(step, inputs) {
                         run.start_from_last(&step.targets);
                         run.mark(step, Motion::Moved);

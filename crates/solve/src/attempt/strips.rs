@@ -98,7 +98,7 @@ impl Run<'_> {
 }
 
 /// Returns the value of a formula, if it is defined; guards come first.
-fn value_of(solved: &Solved, out: impl Fn(usize) -> f64) -> Option<f64> {
+pub(super) fn value_of(solved: &Solved, out: impl Fn(usize) -> f64) -> Option<f64> {
     let guards = &solved.guards[0];
     let value = out(guards.len());
     let admitted = guards.iter().enumerate().all(|(i, kind)| kind.admits(out(i)));
