@@ -83,10 +83,11 @@ impl<'a> Evaluator<'a> {
         Ok(written_by)
     }
 
-    /// Computes a side of a comparison in a constraint's rule, to which `turns` lead as for [`Self::copy_side`].
+    /// Computes a side of a comparison or of an `or` in a constraint's rule, to which `turns` lead as for
+    /// [`Self::copy_side`], or the condition of an `if`. A truth value is 1 or 0.
     ///
     /// # Errors
-    /// A rule without a comparison, a side that is no number; named by the constraint.
+    /// A rule that is none of these, a side that is neither a number nor true or false; named by the constraint.
     pub fn side(
         &self,
         constraint: ConstraintInstance,
@@ -98,14 +99,16 @@ impl<'a> Evaluator<'a> {
         self.begin();
         let mut number = 0.0;
         let mut compute = |rule: &'a Term, frame: &Frame<'a>| {
-            let Term::Binary(_, left, right) = rule else {
-                return Err(Fault::wrong("a rule that compares nothing"));
+            let term = match (rule, side) {
+                (Term::Binary(_, left, _), Side::Left) => left,
+                (Term::Binary(_, _, right), Side::Right) => right,
+                (Term::If(condition, ..), _) => condition,
+                _ => return Err(Fault::wrong("a rule that compares nothing")),
             };
-            let term = match side {
-                Side::Left => left,
-                Side::Right => right,
+            number = match self.term(term, frame)? {
+                Answer::Bool(truth) => f64::from(truth),
+                other => self.number(&other)?.0,
             };
-            (number, _) = self.number(&self.term(term, frame)?)?;
             Ok(())
         };
         let frame = Frame::of(constraint.owner);
@@ -122,7 +125,8 @@ impl<'a> Evaluator<'a> {
         turns: &mut dyn Iterator<Item = bool>,
         with: &mut dyn FnMut(&'a Term, &Frame<'a>) -> Result<()>,
     ) -> Result<()> {
-        if let Term::Binary(BinaryOperator::And, first, second) | Term::If(_, first, second) = rule
+        if let Term::Binary(BinaryOperator::And | BinaryOperator::Or, first, second)
+        | Term::If(_, first, second) = rule
             && let Some(is_second) = turns.next()
         {
             let part = if is_second { second } else { first };

@@ -73,12 +73,19 @@ impl Press {
         self.pulls.iter().flat_map(|pull| pull.task.acting(planner)).collect()
     }
     /// Says what acts otherwise with these values than at the press.
-    pub fn mode_changes(&self, planner: &Planner, values: &Values) -> Vec<ModeChange> {
+    pub fn mode_changes(
+        &self,
+        planner: &Planner,
+        model: Model<'_>,
+        values: &Values,
+        host: &mut dyn Host,
+    ) -> Vec<ModeChange> {
         if self.pulls.iter().all(|p| !matches!(p.task.course, Course::Modes(..))) {
             return Vec::new();
         }
         let start = self.start(values);
-        let changes = |pull: &Pull| pull.task.mode_changes(planner, &start, values);
+        let changes =
+            |pull: &Pull| pull.task.mode_changes(planner, model, &start, values, host);
         self.pulls.iter().flat_map(changes).collect()
     }
     /// Returns the values at the press, given those of now.

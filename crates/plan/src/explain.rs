@@ -393,8 +393,8 @@ impl Planner {
             return None;
         }
         let mut reads = known(&step.reads);
-        for (_, rule) in task.computed().filter(|(slot, _)| step.reads.contains(slot)) {
-            let rule = self.rules.get(rule);
+        for (_, number) in task.computed().filter(|(slot, _)| step.reads.contains(slot)) {
+            let rule = self.rules.get(number.rule);
             if let Body::Beside(beside) = &rule.shape.body {
                 reads.extend(rule.slots_at(&beside.reads));
             }

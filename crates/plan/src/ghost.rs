@@ -177,7 +177,8 @@ impl Planner {
         match &task.course {
             Course::Plan => self.other_roots(model, task, &task.plan, values, host, found),
             Course::Modes(modes, _) => {
-                let now = task.gather(&values.numbers);
+                let mut now = task.gather(&values.numbers);
+                compute(self, model, task, values, host, &mut now);
                 let mode = modes.first(&now, &now);
                 let (_, plan) = self.in_mode(modes, &mode);
                 self.other_roots(model, task, &plan, values, host, found);

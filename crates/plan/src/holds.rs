@@ -1,7 +1,7 @@
 //! Whether rules hold: both sides of every equation, computed from the values alone.
 
 use crate::host::Host;
-use crate::rule::{Body, How, Rule, Source, When};
+use crate::rule::{Body, ByHost, Condition, How, Rule, Source, When};
 use kernel::{Structure, Values};
 use solve::modes::is_true_within;
 use solve::{Patterns, Scratch};
@@ -9,15 +9,39 @@ use solve::{Patterns, Scratch};
 /// Returns true if the conditions of the rule are as they have to be for it to say anything.
 pub(crate) fn counts(
     patterns: &Patterns,
+    structure: &Structure,
     rule: Rule<'_>,
     values: &Values,
+    host: &mut dyn Host,
     scratch: &mut Scratch,
 ) -> bool {
     let is_on = |when: &When| {
-        let truth = rule.evaluate(&when.condition, patterns, &values.numbers, scratch)[0] != 0.0;
+        let truth = match &when.condition {
+            Condition::Numbers(formula) => {
+                rule.evaluate(formula, patterns, &values.numbers, scratch)[0] != 0.0
+            }
+            // what cannot be computed is not so
+            Condition::Host(by) => truth(structure, rule, by, values, host).unwrap_or(0.0) != 0.0,
+        };
         truth == when.truth
     };
     rule.shape.when.iter().all(is_on)
+}
+
+/// Has the host compute whether a condition of a rule is true: 1, or 0.
+pub(crate) fn truth(
+    structure: &Structure,
+    rule: Rule<'_>,
+    by: &ByHost,
+    values: &Values,
+    host: &mut dyn Host,
+) -> Result<f64, String> {
+    match by.constraint_of(rule) {
+        Some(constraint) => {
+            host.number(structure.constraints[constraint as usize], by.side, values)
+        }
+        None => Err("no constraint says this".into()),
+    }
 }
 
 /// Returns nothing if the rule holds, else its error, where it has one.
@@ -31,7 +55,7 @@ pub(crate) fn fails(
     host: &mut dyn Host,
     scratch: &mut Scratch,
 ) -> Option<Option<f64>> {
-    if !counts(patterns, rule, values, scratch) {
+    if !counts(patterns, structure, rule, values, host, scratch) {
         return None;
     }
     match &rule.shape.body {

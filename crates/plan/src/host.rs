@@ -20,7 +20,8 @@ pub trait Host {
         way: Way,
         values: &Values,
     ) -> Result<Vec<(SlotId, Value)>, String>;
-    /// Computes a side of a comparison in the constraint's rule: how wide a text is.
+    /// Computes a side of a comparison or of an `or` in the constraint's rule, or the condition of an `if`: how wide a
+    /// text is, or 1 where it is another's and 0 where it is not.
     ///
     /// # Errors
     /// Why it cannot, in the words for the user.

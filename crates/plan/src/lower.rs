@@ -6,8 +6,11 @@
 use crate::evaluate::Opening;
 use crate::fault::{Fault, Trouble};
 use crate::meaning::{Frame, Meaning, collect_slots};
-use crate::rule::{Beside, Body, Formula, How, RuleMethod, Rules, Shape, Source, Turns, Way, When};
-use crate::say::{self, Said, say};
+use crate::rule::{
+    Beside, Body, ByHost, Condition, Formula, How, RuleMethod, Rules, Shape, Source, Turns, Way,
+    When,
+};
+use crate::say::{self, Decides, Said, say};
 use base::number::Tolerance;
 use expr::{Arena, ExprId, Node, Unary};
 use kernel::{
@@ -108,7 +111,7 @@ fn lower_condition(
         (Some(true), _) => Ok(Some(Vec::new())),
         (Some(false), _) => Ok(None),
         (None, Meaning::Number(id)) => {
-            let condition = Formula::of(patterns, &opening.arena, &[id]);
+            let condition = Condition::Numbers(Formula::of(patterns, &opening.arena, &[id]));
             Ok(Some(vec![When { condition, truth: true }]))
         }
         (
@@ -127,7 +130,7 @@ fn lower_condition(
 
 /// Makes the rules of what a constraint says.
 fn assemble(
-    opening: &Opening<'_>,
+    opening: &mut Opening<'_>,
     patterns: &mut Patterns,
     shape: Shape<SlotId>,
     mut said: Said,
@@ -167,7 +170,7 @@ fn without_roots(arena: &Arena, sides: [ExprId; 2]) -> [ExprId; 2] {
 
 /// Adds a rule for everything that is said, each under the conditions of `like`.
 fn add_rules(
-    opening: &Opening<'_>,
+    opening: &mut Opening<'_>,
     patterns: &mut Patterns,
     like: &Shape<SlotId>,
     said: Said,
@@ -201,7 +204,17 @@ fn add_rules(
         lowered.things.extend(said.things.into_iter().map(|t| (t, like.when.clone())));
     }
     for (condition, cases) in said.branches {
-        let condition = Formula::of(patterns, &opening.arena, &[condition]);
+        let condition = match condition {
+            Decides::Numbers(id) => {
+                Condition::Numbers(Formula::of(patterns, &opening.arena, &[id]))
+            }
+            Decides::Host(side, reads) => {
+                let truth = opening.arena.var(say::Beside::NUMBER);
+                let (pattern, _) = patterns.intern(&opening.arena, &[truth]);
+                let reads = reads.into_iter().collect();
+                Condition::Host(ByHost { pattern, constraint: None, side, reads })
+            }
+        };
         for (case, truth) in cases.into_iter().zip([true, false]) {
             let mut like = like.clone();
             like.when.push(When { condition: condition.clone(), truth });

@@ -9,7 +9,7 @@ use crate::edit::{Conflict, NotDecided};
 use crate::host::Host;
 use crate::planner::{Model, Planner};
 use crate::rule::Source;
-use crate::run::{Adapter, Ground, Ran, leans, ran, scatter};
+use crate::run::{Adapter, Ground, Ran, compute, leans, ran, scatter};
 use crate::task::{Course, Task};
 use kernel::{SlotId, Values};
 use solve::{
@@ -79,9 +79,15 @@ pub struct ModeChange {
 impl Planner {
     /// Says what acts otherwise in the components of the latest edit, from values before it to
     /// values after it: what begins, then what ends, each in order of declaration.
-    pub fn mode_changes(&self, before: &Values, after: &Values) -> Vec<ModeChange> {
+    pub fn mode_changes(
+        &self,
+        model: Model<'_>,
+        before: &Values,
+        after: &Values,
+        host: &mut dyn Host,
+    ) -> Vec<ModeChange> {
         let tasks = self.latest.tasks.iter();
-        tasks.flat_map(|t| t.mode_changes(self, before, after)).collect()
+        tasks.flat_map(|t| t.mode_changes(self, model, before, after, host)).collect()
     }
 }
 
@@ -91,12 +97,15 @@ impl Task {
     pub(crate) fn mode_changes(
         &self,
         planner: &Planner,
+        model: Model<'_>,
         before: &Values,
         after: &Values,
+        host: &mut dyn Host,
     ) -> Vec<ModeChange> {
         let Course::Modes(modes, mode) = &self.course else { return Vec::new() };
         let stepped = self.stepped(planner, before, after);
-        let local = self.gather(&before.numbers);
+        let mut local = self.gather(&before.numbers);
+        compute(planner, model, self, before, host, &mut local);
         let before = modes.at_bounds(&modes.first(&local, &local), &local);
         let after = modes.at_bounds(mode, &self.gather(&after.numbers));
         let [before, after] = [before, after].map(|mode| self.acting_in(planner, modes, &mode));
@@ -142,9 +151,16 @@ impl Task {
         Some(self::stands(planner, modes, stands.mode.clone()))
     }
     /// Returns a task in the mode that values choose, no inequality acting; none without modes.
-    pub(crate) fn by_values(&self, planner: &Planner, values: &Values) -> Option<Self> {
+    pub(crate) fn by_values(
+        &self,
+        planner: &Planner,
+        model: Model<'_>,
+        values: &Values,
+        host: &mut dyn Host,
+    ) -> Option<Self> {
         let Course::Modes(modes, _) = &self.course else { return None };
-        let local = self.gather(&values.numbers);
+        let mut local = self.gather(&values.numbers);
+        compute(planner, model, self, values, host, &mut local);
         let mut task = self.clone();
         task.stand(stands(planner, modes, modes.first(&local, &local)));
         Some(task)

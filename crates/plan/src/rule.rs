@@ -33,8 +33,8 @@ pub enum Way {
     Right(Turns),
 }
 
-/// How one comes from a rule to an `=` in it: at every `and` to its first or second part, at every `if` to what
-/// holds where the condition is true or where it is false. What a `let` binds and a message answers is gone into.
+/// How one comes from a rule to an `=` in it: at every `and` and `or` to its first or second part, at every `if` to
+/// what holds where the condition is true or where it is false. What a `let` binds and a message answers is gone into.
 #[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Debug)]
 pub struct Turns {
     /// The turns, the latest lowest; a one is to the second.
@@ -58,12 +58,12 @@ impl Turns {
     }
 }
 
-/// A side of a comparison in a rule.
+/// A side of a comparison or of an `or` in a rule, or the condition of an `if`.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub struct SideOf {
-    /// How one comes to the comparison.
+    /// How one comes to the comparison, the `or` or the `if`.
     pub turns: Turns,
-    /// True for the right side.
+    /// True for the right side; false for a condition.
     pub is_right: bool,
 }
 
@@ -88,8 +88,50 @@ pub(crate) struct Shape<S = Position> {
 /// That a condition is true, or that it is false.
 #[derive(Clone, Debug)]
 pub(crate) struct When<S = Position> {
-    pub(crate) condition: Formula<S>,
+    pub(crate) condition: Condition<S>,
     pub(crate) truth: bool,
+}
+
+/// What is true or not, and decides whether a rule holds.
+#[derive(Clone, Debug)]
+pub(crate) enum Condition<S = Position> {
+    /// One expression of numbers.
+    Numbers(Formula<S>),
+    /// What only the host can compute, as whether texts are equal.
+    Host(ByHost<S>),
+}
+
+/// A truth value that only the host can compute.
+#[derive(Clone, Debug)]
+pub(crate) struct ByHost<S = Position> {
+    /// The pattern of a lone argument, which that truth value is.
+    pub(crate) pattern: PatternId,
+    /// The constraint that says it, if that is another than the rule's.
+    pub(crate) constraint: Option<u32>,
+    /// Where it is said.
+    pub(crate) side: SideOf,
+    /// The slots that it is computed from.
+    pub(crate) reads: Vec<S>,
+}
+
+impl<S> ByHost<S> {
+    /// Returns the constraint that says it of a rule.
+    pub(crate) fn constraint_of(&self, rule: Rule<'_>) -> Option<u32> {
+        match (self.constraint, rule.source) {
+            (Some(constraint), _) | (None, Source::Constraint(constraint)) => Some(constraint),
+            (None, Source::Stay(_) | Source::Wish(_)) => None,
+        }
+    }
+}
+
+impl<S> When<S> {
+    /// Notes that it is another constraint than the rule's that says it.
+    pub(crate) fn said_by(mut self, constraint: u32) -> Self {
+        if let Condition::Host(by) = &mut self.condition {
+            by.constraint = Some(constraint);
+        }
+        self
+    }
 }
 
 /// What holds where a rule holds.
@@ -209,7 +251,15 @@ impl Numbering {
         Formula { pattern: formula.pattern, slots: self.all(&formula.slots).into() }
     }
     fn when(&mut self, when: &When<SlotId>) -> When {
-        When { condition: self.formula(&when.condition), truth: when.truth }
+        let condition = match &when.condition {
+            Condition::Numbers(formula) => Condition::Numbers(self.formula(formula)),
+            Condition::Host(by) => {
+                let reads = self.all(&by.reads);
+                let ByHost { pattern, constraint, side, .. } = *by;
+                Condition::Host(ByHost { pattern, constraint, side, reads })
+            }
+        };
+        When { condition, truth: when.truth }
     }
 }
 

@@ -2,12 +2,12 @@
 
 use crate::aim::Aim;
 use crate::edit::{Conflict, NotDecided};
-use crate::holds::fails;
+use crate::holds::{fails, truth};
 use crate::host::{Failure, Host};
 use crate::modal::{self, Decide, Stands};
 use crate::planner::{Model, Planner};
-use crate::rule::{Body, How, Rule, Source};
-use crate::task::{Course, Origin, Task};
+use crate::rule::{Body, Condition, How, Rule, Source};
+use crate::task::{Course, Number, Origin, Task};
 use crate::vanish::vanished;
 use crate::whole::{self, Looking};
 use base::number::Toward;
@@ -81,8 +81,8 @@ pub(crate) fn compute(
     host: &mut dyn Host,
     local: &mut [f64],
 ) {
-    for (at, rule) in task.computed() {
-        let number = computed(planner, model, rule, values, host);
+    for (at, number) in task.computed() {
+        let number = computed(planner, model, number, values, host);
         local[at as usize] = number.unwrap_or(0.0);
     }
 }
@@ -91,16 +91,19 @@ pub(crate) fn compute(
 fn computed(
     planner: &Planner,
     model: Model<'_>,
-    rule: u32,
+    Number { rule, when }: Number,
     values: &Values,
     host: &mut dyn Host,
 ) -> Result<f64, String> {
     let rule = planner.rules.get(rule);
-    let (Body::Beside(beside), Source::Constraint(c)) = (&rule.shape.body, rule.source) else {
-        return Err("nothing is computed beside this".into());
+    let condition = when.map(|at| &rule.shape.when[at as usize].condition);
+    let number = match (condition, &rule.shape.body, rule.source) {
+        (Some(Condition::Host(by)), ..) => truth(model.structure, rule, by, values, host)?,
+        (None, Body::Beside(beside), Source::Constraint(c)) => {
+            host.number(model.structure.constraints[c as usize], beside.side, values)?
+        }
+        _ => return Err("nothing is computed beside this".into()),
     };
-    let constraint = model.structure.constraints[c as usize];
-    let number = host.number(constraint, beside.side, values)?;
     if number.is_finite() { Ok(number + 0.0) } else { Err(format!("{number} does not fit")) }
 }
 
@@ -219,7 +222,7 @@ fn or_kept_apart(
     if !ran.is_solved || !plan.is_curved() {
         return ran;
     }
-    let vanished = vanished(planner, task, &ground.x0, values);
+    let vanished = vanished(planner, model, task, &ground.x0, values, host);
     if vanished.is_empty() {
         return ran;
     }
@@ -514,9 +517,9 @@ impl solve::Host for Adapter<'_> {
     ) -> Result<(), String> {
         let rule = match self.task.origin(source) {
             Origin::Rule(rule) => rule,
-            Origin::Number(rule) => {
+            Origin::Number(number) => {
                 scatter(self.task, values, self.values);
-                out[0] = computed(self.planner, self.model, rule, self.values, self.host)?;
+                out[0] = computed(self.planner, self.model, number, self.values, self.host)?;
                 return Ok(());
             }
             Origin::Wish(_) => return Err("a wish has no methods".into()),
@@ -547,10 +550,10 @@ impl solve::Host for Adapter<'_> {
     fn holds(&mut self, source: u32, values: &[f64]) -> bool {
         let rule = match self.task.origin(source) {
             Origin::Rule(rule) => rule,
-            Origin::Number(rule) => {
+            Origin::Number(number) => {
                 scatter(self.task, values, self.values);
-                let now = computed(self.planner, self.model, rule, self.values, self.host);
-                let mut known = self.task.computed().filter(|&(_, of)| of == rule);
+                let now = computed(self.planner, self.model, number, self.values, self.host);
+                let mut known = self.task.computed().filter(|&(_, of)| of == number);
                 return known.all(|(at, _)| now == Ok(values[at as usize]));
             }
             Origin::Wish(_) => return true,

@@ -25,9 +25,17 @@ pub(crate) struct Said {
     /// Expressions of which no two are equal.
     pub(crate) different: Vec<Vec<ExprId>>,
     /// What is said where a condition is true, and where it is false.
-    pub(crate) branches: Vec<(ExprId, [Said; 2])>,
+    pub(crate) branches: Vec<(Decides, [Said; 2])>,
     /// Things whose own rules hold.
     pub(crate) things: Vec<ThingId>,
+}
+
+/// What decides between branches.
+pub(crate) enum Decides {
+    /// An expression of numbers.
+    Numbers(ExprId),
+    /// Something that only the host can compute, from these slots.
+    Host(SideOf, BTreeSet<SlotId>),
 }
 
 /// A comparison with a side that only the host can compute.
@@ -68,6 +76,7 @@ pub(crate) fn say<'a>(
             say(opening, a, frame, first(turns), said)?;
             say(opening, b, frame, second(turns), said)
         }
+        Term::Binary(BinaryOperator::Or, a, b) => either(opening, term, [a, b], frame, turns, said),
         Term::Let(name, bound, body) => {
             let bound = opening.meaning(bound, frame)?;
             say(opening, body, &frame.bind(name.clone(), bound), turns, said)
@@ -77,7 +86,10 @@ pub(crate) fn say<'a>(
             match opening.decided(&condition) {
                 Some(true) => say(opening, then, frame, first(turns), said),
                 Some(false) => say(opening, otherwise, frame, second(turns), said),
-                None => branch(opening, &condition, [then, otherwise], frame, turns, said),
+                None => {
+                    let cases = cases(opening, [then, otherwise], frame, turns)?;
+                    branch(opening, &condition, false, turns, cases, said)
+                }
             }
         }
         Term::Call { name, arguments } if *name == "allDifferent" => {
@@ -164,6 +176,44 @@ fn second(turns: Option<Turns>) -> Option<Turns> {
     turns.and_then(|turns| turns.then(true))
 }
 
+/// Says an `or`: where a part of it that speaks of texts is not so, the other holds.
+fn either<'a>(
+    opening: &mut Opening<'a>,
+    term: &'a Term,
+    [a, b]: [&'a Term; 2],
+    frame: &Frame<'a>,
+    turns: Option<Turns>,
+    said: &mut Said,
+) -> Result<(), Trouble> {
+    let Some((is_right, condition)) = said_of_texts(opening, [a, b], frame)? else {
+        let truth = opening.meaning(term, frame)?;
+        return want(opening, &truth, 1.0, said);
+    };
+    let (other, to_other) = if is_right { (a, first(turns)) } else { (b, second(turns)) };
+    let mut cases = [Said::default(), Said::default()];
+    say(opening, other, frame, to_other, &mut cases[1])?;
+    branch(opening, &condition, is_right, turns, cases, said)
+}
+
+/// Returns which side of an `or` only the host can compute, where the other speaks of numbers alone: false for the
+/// left one.
+fn said_of_texts<'a>(
+    opening: &mut Opening<'a>,
+    [a, b]: [&'a Term; 2],
+    frame: &Frame<'a>,
+) -> Result<Option<(bool, Meaning<'a>)>, Trouble> {
+    let left = opening.meaning(a, frame)?;
+    if opening.decided(&left).is_some() {
+        return Ok(None);
+    }
+    let right = opening.meaning(b, frame)?;
+    Ok(match (&left, &right) {
+        (Meaning::Opaque(_), Meaning::Number(_)) => Some((false, left)),
+        (Meaning::Number(_), Meaning::Opaque(_)) => Some((true, right)),
+        _ => None,
+    })
+}
+
 /// Returns true if the name is not that of a stored part.
 fn is_message(opening: &mut Opening<'_>, to: &Meaning<'_>, name: &str) -> bool {
     match to {
@@ -216,30 +266,43 @@ fn beside<'a>(
     Some(Beside { truth, side: SideOf { turns, is_right }, reads })
 }
 
-/// Says what holds in either case of a condition that depends on values.
-fn branch<'a>(
+/// Collects what holds where a condition is true, and where it is false.
+fn cases<'a>(
     opening: &mut Opening<'a>,
-    condition: &Meaning<'a>,
     ways: [&'a Term; 2],
     frame: &Frame<'a>,
     turns: Option<Turns>,
-    said: &mut Said,
-) -> Result<(), Trouble> {
+) -> Result<[Said; 2], Trouble> {
     let mut cases = [Said::default(), Said::default()];
     let turns = [first(turns), second(turns)];
     for ((way, case), turns) in ways.into_iter().zip(&mut cases).zip(turns) {
         say(opening, way, frame, turns, case)?;
     }
-    match condition {
-        Meaning::Number(id) => said.branches.push((*id, cases)),
-        Meaning::Opaque(_) => {
-            // a condition on texts: the host tests all of it
-            let mut slots = BTreeSet::new();
-            collect_slots(&opening.arena, condition, &mut slots);
+    Ok(cases)
+}
+
+/// Says what holds in either case of a condition that depends on values, the `is_right` side of where turns lead.
+fn branch<'a>(
+    opening: &mut Opening<'a>,
+    condition: &Meaning<'a>,
+    is_right: bool,
+    turns: Option<Turns>,
+    cases: [Said; 2],
+    said: &mut Said,
+) -> Result<(), Trouble> {
+    match (condition, turns) {
+        (Meaning::Number(id), _) => said.branches.push((Decides::Numbers(*id), cases)),
+        (Meaning::Opaque(opaque), Some(turns)) => {
+            let side = SideOf { turns, is_right };
+            said.branches.push((Decides::Host(side, (*opaque.slots).clone()), cases));
+        }
+        (Meaning::Opaque(opaque), None) => {
+            // nobody could tell the host where this is: it tests all of it
+            let mut slots = (*opaque.slots).clone();
             cases.iter().for_each(|case| case.collect_slots(opening, &mut slots));
             said.opaque.push(OpaqueRow { slots, methods: Vec::new() });
         }
-        Meaning::Thing(_) | Meaning::Made(_) | Meaning::List(_) | Meaning::Lambda(_) => {
+        (Meaning::Thing(_) | Meaning::Made(_) | Meaning::List(_) | Meaning::Lambda(_), _) => {
             let message = "a condition is true or false; this is neither";
             return Err(Trouble::new(FaultKind::WrongKind, message));
         }
@@ -272,7 +335,11 @@ fn say_different<'a>(
 impl Said {
     /// Adds every slot that it speaks of.
     pub(crate) fn collect_slots(&self, opening: &Opening<'_>, slots: &mut BTreeSet<SlotId>) {
-        let conditions = self.branches.iter().map(|b| b.0);
+        let numbers = |(decides, _): &(Decides, _)| match decides {
+            Decides::Numbers(id) => Some(*id),
+            Decides::Host(..) => None,
+        };
+        let conditions = self.branches.iter().filter_map(numbers);
         let sides = self.equations.iter().flatten().copied();
         let others = self.truths.iter().chain(self.different.iter().flatten()).copied();
         for id in sides.chain(others).chain(conditions) {
@@ -284,7 +351,12 @@ impl Said {
             slots.extend(&beside.reads);
         }
         self.opaque.iter().for_each(|o| slots.extend(&o.slots));
-        self.branches.iter().flat_map(|b| &b.1).for_each(|s| s.collect_slots(opening, slots));
+        for (decides, cases) in &self.branches {
+            if let Decides::Host(_, reads) = decides {
+                slots.extend(reads);
+            }
+            cases.iter().for_each(|case| case.collect_slots(opening, slots));
+        }
     }
 }
 

@@ -75,7 +75,7 @@ impl Planner {
             }
         }
         for task in &tasks {
-            let in_mode = task.by_values(self, values);
+            let in_mode = task.by_values(self, model, values, host);
             let task = in_mode.as_ref().unwrap_or(task);
             if !matches!(task.course, Course::Search(_)) {
                 freedom += task.plan.report.freedom;

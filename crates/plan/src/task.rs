@@ -89,8 +89,8 @@ struct Stated {
     holds: Vec<(SlotIndex, SlotIndex)>,
     /// Slots of the system that hold coordinates of wishes: wish and coordinate.
     targets: Vec<(SlotIndex, u32, u32)>,
-    /// Slots of the system that hold what the host computes beside rules, each with the rule of the component.
-    numbers: Vec<(SlotIndex, u32)>,
+    /// Slots of the system that hold what the host computes beside rules, which are those of the component.
+    numbers: Vec<(SlotIndex, Number)>,
     /// For every source in the system, the rule of the component or the wish that it is.
     relations: Vec<Origin>,
     /// The number of its plan, where what that comes to depends on numbers alone.
@@ -131,10 +131,19 @@ type Known = (Rc<System>, Rc<Plan>, Course, Rc<Stated>);
 pub(crate) enum Origin {
     /// The rule of this index.
     Rule(u32),
-    /// The number that the host computes beside the rule of this index.
-    Number(u32),
+    /// What the host computes beside a rule.
+    Number(Number),
     /// The wish of this index in the edit.
     Wish(u32),
+}
+
+/// A number that the host computes beside a rule.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub(crate) struct Number {
+    /// The rule.
+    pub(crate) rule: u32,
+    /// Its condition of this index, if that is what is computed; else it is a side of a comparison.
+    pub(crate) when: Option<u32>,
 }
 
 /// What makes a task besides its component.
@@ -337,19 +346,21 @@ impl Task {
     pub(crate) fn origin(&self, source: u32) -> Origin {
         match self.stated.relations[source as usize] {
             Origin::Rule(position) => Origin::Rule(self.component.rules()[position as usize]),
-            Origin::Number(position) => Origin::Number(self.component.rules()[position as usize]),
+            Origin::Number(number) => Origin::Number(self.number_of(number)),
             Origin::Wish(wish) => Origin::Wish(wish),
         }
+    }
+    fn number_of(&self, Number { rule, when }: Number) -> Number {
+        Number { rule: self.component.rules()[rule as usize], when }
     }
     /// Returns the slots of the system that hold what a slot of the document had when the edit began.
     pub(crate) fn holds(&self) -> impl Iterator<Item = (SlotIndex, SlotId)> {
         let slots = self.component.slots();
         self.stated.holds.iter().map(|&(known, local)| (known, slots[local as usize]))
     }
-    /// Returns the slots of the system that hold what the host computes, each with its rule.
-    pub(crate) fn computed(&self) -> impl ExactSizeIterator<Item = (SlotIndex, u32)> {
-        let rules = self.component.rules();
-        self.stated.numbers.iter().map(|&(slot, position)| (slot, rules[position as usize]))
+    /// Returns the slots of the system that hold what the host computes beside rules.
+    pub(crate) fn computed(&self) -> impl ExactSizeIterator<Item = (SlotIndex, Number)> {
+        self.stated.numbers.iter().map(|&(slot, number)| (slot, self.number_of(number)))
     }
     /// Returns the slots of the system that hold coordinates of wishes: wish and coordinate.
     pub(crate) fn targets(&self) -> &[(SlotIndex, u32, u32)] {
@@ -358,7 +369,7 @@ impl Task {
     /// Returns what a relation of the system comes from.
     pub(crate) fn source(&self, rules: &Rules, relation: u32) -> Source {
         match self.origin(self.system.relations[relation as usize].source) {
-            Origin::Rule(r) | Origin::Number(r) => rules.source(r),
+            Origin::Rule(rule) | Origin::Number(Number { rule, .. }) => rules.source(rule),
             Origin::Wish(w) => Source::Wish(w),
         }
     }

@@ -12,7 +12,7 @@ use crate::fault::Fault;
 use crate::lower::{guard, held, hold, lower_constraint};
 use crate::planner::Model;
 use crate::reach::{Route, Routes, Trail};
-use crate::rule::{Formula, Position, Rules, Shape, ShapeId, Source};
+use crate::rule::{Formula, Position, Rules, Shape, ShapeId, Source, When};
 use base::IdVec;
 use kernel::{ClassId, ConstraintInstance, Document, SlotId, Strength, Structure};
 use solve::{Level, Patterns, Span};
@@ -220,7 +220,11 @@ pub(crate) fn lower_all(
         let (lowered, guards) = match lower_constraint(&mut opening, patterns, instance) {
             Ok(lowered) => {
                 let guards = !lowered.things.is_empty();
-                guarded.extend(lowered.things);
+                let said_here = |when: Vec<When<SlotId>>| {
+                    when.into_iter().map(|when| when.said_by(index)).collect()
+                };
+                let things = lowered.things.into_iter();
+                guarded.extend(things.map(|(thing, when)| (thing, said_here(when))));
                 (lowered.shapes, guards)
             }
             Err(fault) => {

@@ -7,7 +7,8 @@
 
 use crate::component::Component;
 use crate::holds::counts;
-use crate::planner::Planner;
+use crate::host::Host;
+use crate::planner::{Model, Planner};
 use crate::rule::{Body, Rule};
 use crate::task::Task;
 use base::number::hypot;
@@ -66,9 +67,11 @@ fn apart([x1, y1, x2, y2]: [SlotId; 4], values: &Values) -> f64 {
 /// first of these states, in the slots of the system.
 pub(crate) fn vanished(
     planner: &Planner,
+    model: Model<'_>,
     task: &Task,
     x0: &[f64],
     values: &Values,
+    host: &mut dyn Host,
 ) -> Vec<Vanished> {
     let mut scratch = Scratch::default();
     let mut found: Vec<Vanished> = Vec::new();
@@ -87,11 +90,12 @@ pub(crate) fn vanished(
         let pair = Vanished { position, slots: slots.map(|slot| known[slot as usize]), apart };
         let is_new = found.iter().all(|known| known.slots != pair.slots);
         let rule = planner.rules.get(task.component.rules()[position as usize]);
-        if is_new && is_undone(planner, rule, &pair, values, &mut scratch) {
+        if is_new && is_undone(planner, model, rule, &pair, values, host, &mut scratch) {
             found.push(pair);
         }
     }
-    if found.is_empty() || !is_told_apart(planner, task, &found, values, &mut scratch) {
+    if found.is_empty() || !is_told_apart(planner, model, task, &found, values, host, &mut scratch)
+    {
         return Vec::new();
     }
     found
@@ -135,14 +139,16 @@ fn pairs(planner: &Planner, component: &Component) -> Vec<Pair> {
 /// what that comes to in it.
 fn is_undone(
     planner: &Planner,
+    model: Model<'_>,
     rule: Rule<'_>,
     pair: &Vanished,
     values: &Values,
+    host: &mut dyn Host,
     scratch: &mut Scratch,
 ) -> bool {
     let Body::Equations(equations) = &rule.shape.body else { return false };
     let patterns = planner.plans.patterns();
-    if !counts(patterns, rule, values, scratch) {
+    if !counts(patterns, model.structure, rule, values, host, scratch) {
         return false;
     }
     let way = pair.now(values);
@@ -170,9 +176,11 @@ fn is_undone(
 /// Returns true if a required row of the component has no value where these places are one, or quite another.
 fn is_told_apart(
     planner: &Planner,
+    model: Model<'_>,
     task: &Task,
     places: &[Vanished],
     values: &Values,
+    host: &mut dyn Host,
     scratch: &mut Scratch,
 ) -> bool {
     let mut there = values.clone();
@@ -185,7 +193,7 @@ fn is_told_apart(
     let rules = task.component.rules().iter().map(|&index| planner.rules.get(index));
     rules.filter(|rule| rule.shape.level == Level::Required).any(|rule| {
         let Body::Equations(equations) = &rule.shape.body else { return false };
-        counts(patterns, rule, values, scratch)
+        counts(patterns, model.structure, rule, values, host, scratch)
             && equations.iter().any(|e| {
                 let mut sides = |values: &Values| {
                     let sides = rule.evaluate(e, patterns, &values.numbers, scratch);

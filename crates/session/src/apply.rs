@@ -338,7 +338,8 @@ pub(crate) fn keep(
         return Err(refusal);
     }
     planner.restore_latest(latest);
-    let modes = planner.mode_changes(&before.values, values);
+    let texts = &mut Texts::new(&state.lowered.document, &state.structure);
+    let modes = planner.mode_changes(state.model(), &before.values, values, texts);
     open.step_with(label.clone(), edited, (state, planner, status));
     let mut modes = limits::modes(&open.state, &modes);
     modes.extend(limits::sides(&before, &open.state));

@@ -249,7 +249,8 @@ impl Drag {
             planner.drag(state.model(), &mut self.press, &mut self.values, &to, &mut texts);
         self.wish = [to[0], to.get(1).copied().unwrap_or(0.0)];
         self.wanted = to;
-        let modes = limits::modes(state, &self.press.mode_changes(planner, &self.values));
+        let changes = self.press.mode_changes(planner, state.model(), &self.values, &mut texts);
+        let modes = limits::modes(state, &changes);
         if report.reached {
             return DragState { reached: true, modes, ..DragState::default() };
         }

@@ -92,7 +92,7 @@ impl Planner {
                 // whole numbers do not move by degrees
                 continue;
             }
-            let in_mode = task.by_values(self, values);
+            let in_mode = task.by_values(self, model, values, host);
             let task = in_mode.as_ref().unwrap_or(task);
             let wanted = task.plan.report.freedom
                 + redundancy.theorems.get(&index).copied().unwrap_or_default();
@@ -100,7 +100,7 @@ impl Planner {
             if wanted == 0 {
                 continue;
             }
-            let mut space = Space::new(self, model, task, values, &superfluous, &mut scratch);
+            let mut space = Space::new(self, model, task, values, &superfluous, host);
             if space.free.len() > wanted
                 && let Some(bent) = space.to_second_order(self, model, values, &mut scratch)
                 && bent.free.len() == wanted
@@ -192,8 +192,9 @@ impl Space {
         task: &Task,
         values: &Values,
         superfluous: &BTreeSet<Source>,
-        scratch: &mut Scratch,
+        host: &mut dyn Host,
     ) -> Self {
+        let scratch = &mut Scratch::default();
         let structure = model.structure;
         let moves = |&s: &SlotId| {
             structure.slots[s].primitive.is_number()
@@ -208,7 +209,7 @@ impl Space {
             let Body::Equations(equations) = &rule.shape.body else { continue };
             if rule.shape.level != Level::Required
                 || superfluous.contains(&rule.source)
-                || !counts(patterns, rule, values, scratch)
+                || !counts(patterns, structure, rule, values, host, scratch)
             {
                 continue;
             }

@@ -110,7 +110,7 @@ impl Planner {
         unmet: &BTreeSet<Source>,
         host: &mut dyn Host,
     ) -> (Vec<Redundant>, usize) {
-        let in_mode = task.by_values(self, values);
+        let in_mode = task.by_values(self, model, values, host);
         let task = in_mode.as_ref().unwrap_or(task);
         let fails = |&r: &u32| unmet.contains(&self.rules.source(r));
         let fails = !unmet.is_empty() && task.component.rules().iter().any(fails);
@@ -121,7 +121,7 @@ impl Planner {
         let rules: BTreeSet<u32> = theorems.keys().copied().collect();
         // what one of these stood against may say something once that is left out
         let left = task.with_tested(&rules, &self.plans);
-        let left = left.map(|left| left.by_values(self, values).unwrap_or(left));
+        let left = left.map(|left| left.by_values(self, model, values, host).unwrap_or(left));
         let left = left.as_ref().unwrap_or(task);
         let is_theorem = |source: Source| rules.iter().any(|&r| self.rules.source(r) == source);
         let mut found = surplus(self, left);
@@ -221,7 +221,7 @@ impl Planner {
         host: &mut dyn Host,
     ) -> Option<Theorems> {
         let setting = (task, hold);
-        let mut rules = candidates(self, model, setting, core, values, &mut Scratch::default());
+        let mut rules = candidates(self, model, setting, core, values, host);
         if rules.is_empty() {
             return Some(Theorems { rules, is_independent: true });
         }
@@ -372,7 +372,7 @@ impl Planner {
         if !self.required_hold(model, task, values, host) {
             return BTreeSet::new();
         }
-        let in_mode = task.by_values(self, values);
+        let in_mode = task.by_values(self, model, values, host);
         let task = in_mode.as_ref().unwrap_or(task);
         let theorems = self.theorems(model, task, Self::resting_hold, values, host);
         let mut implied: BTreeSet<u32> = theorems.rules.into_keys().collect();
@@ -426,8 +426,9 @@ fn candidates(
     (task, hold): (&Task, Hold),
     core: &[(u32, u32)],
     values: &Values,
-    scratch: &mut Scratch,
+    host: &mut dyn Host,
 ) -> BTreeMap<u32, Candidate> {
+    let scratch = &mut Scratch::default();
     let mut found: BTreeMap<u32, Candidate> = BTreeMap::new();
     if core.is_empty() {
         return found;
@@ -452,7 +453,7 @@ fn candidates(
         let index = task.component.rules()[position as usize];
         let rule = planner.rules.get(index);
         let Body::Equations(equations) = &rule.shape.body else { continue };
-        if !counts(patterns, rule, values, scratch) {
+        if !counts(patterns, model.structure, rule, values, host, scratch) {
             continue;
         }
         let moves = |s: SlotId| hold(model.structure, s) != Holding::Fixed;

@@ -1,8 +1,8 @@
 //! Stating: a component in an edit, its slots, rules and wishes numbered within it, as a conditional system.
 
-use super::{Holding, Locals, Origin, Setting, Wish};
+use super::{Holding, Locals, Number, Origin, Setting, Wish};
 use crate::component::Component;
-use crate::rule::{Beside, Body, How, Position, Rule, When};
+use crate::rule::{self, Beside, Body, ByHost, How, Position, Rule, SideOf, When};
 use base::number::Tolerance;
 use expr::Dimension;
 use kernel::{Primitive, SlotId};
@@ -10,6 +10,12 @@ use solve::{
     Condition, Conditional, Demand, DemandKind, Guard, Level, Method, MethodBody, PatternId,
     Patterns, Relation, RelationBody, Seldom, SlotIndex, SlotRange, Span, Stay, System, TRUTH,
 };
+
+/// That a condition is true, or that it is false.
+struct Guarding {
+    condition: u32,
+    truth: bool,
+}
 
 /// A system in the making.
 pub(super) struct Making<'s> {
@@ -19,7 +25,9 @@ pub(super) struct Making<'s> {
     pub(super) conditional: Conditional,
     pub(super) holds: Vec<(SlotIndex, SlotIndex)>,
     pub(super) targets: Vec<(SlotIndex, u32, u32)>,
-    pub(super) numbers: Vec<(SlotIndex, u32)>,
+    pub(super) numbers: Vec<(SlotIndex, Number)>,
+    /// What the host computes that is true or not: where which constraint says it.
+    truths: Vec<(Option<u32>, SideOf, SlotIndex)>,
     pub(super) relations: Vec<Origin>,
 }
 
@@ -101,6 +109,7 @@ impl<'s> Making<'s> {
             holds: Vec::new(),
             targets: Vec::new(),
             numbers: Vec::new(),
+            truths: Vec::new(),
             relations: Vec::with_capacity(rules.len() + wishes.len()),
         }
     }
@@ -123,6 +132,10 @@ impl<'s> Making<'s> {
     pub(super) fn rule(&mut self, position: u32, index: u32) {
         let rule = self.setting.rules.get(index);
         let shape = rule.shape;
+        let whens: Vec<Guarding> = (0..)
+            .zip(&shape.when)
+            .map(|(at, when)| self.guarding(rule, (position, at), when))
+            .collect();
         let body = match &shape.body {
             Body::Equations(equations) => {
                 let locals = &self.locals.0;
@@ -183,9 +196,7 @@ impl<'s> Making<'s> {
             };
             methods.push(Method { targets: self.locals(rule, &m.targets), body });
         }
-        for when in &shape.when {
-            self.guard(rule, when);
-        }
+        whens.into_iter().for_each(|when| self.guard(when));
         let rests = shape.when.is_empty() && self.rests(rule);
         let source = self.relations.len() as u32;
         self.relations.push(Origin::Rule(position));
@@ -232,41 +243,63 @@ impl<'s> Making<'s> {
         RelationBody::Equations(Span::default())
     }
 
-    /// Adds a slot for what the host computes beside a rule, and the relation that computes it.
+    /// Adds a slot for what the host computes beside a comparison, and the relation that computes it.
     fn number(&mut self, rule: Rule<'_>, position: u32, beside: &Beside) -> SlotIndex {
         let reads = self.locals(rule, &beside.reads);
         let like = self.local(rule.slots[beside.truth.slots[0] as usize]);
-        let number = self.known_like(like);
+        let scale = self.conditional.system.slots[like as usize].scale;
+        self.computed(scale, reads, Number { rule: position, when: None })
+    }
+
+    /// Returns the slot for a truth value that the host computes; where there is none yet one is added.
+    fn truth(&mut self, rule: Rule<'_>, (position, at): (u32, u32), by: &ByHost) -> SlotIndex {
+        let constraint = by.constraint_of(rule);
+        let known = self.truths.iter().find(|t| (t.0, t.1) == (constraint, by.side));
+        if let Some(&(_, _, truth)) = known {
+            return truth;
+        }
+        let reads = self.locals(rule, &by.reads);
+        let truth = self.computed(TRUTH, reads, Number { rule: position, when: Some(at) });
+        self.truths.push((constraint, by.side, truth));
+        truth
+    }
+
+    /// Adds a slot for what the host computes from others, and the relation that computes it.
+    fn computed(&mut self, scale: u16, reads: Vec<SlotIndex>, number: Number) -> SlotIndex {
         let slots = &mut self.conditional.system.slots;
         let group = |s: &solve::Slot| match s.stay {
             Stay::Kept { group } => Some(group),
             Stay::Fixed | Stay::Given | Stay::Free => None,
         };
         let group = slots.iter().filter_map(group).max().map_or(0, |latest| latest + 1);
-        let own = &mut slots[number as usize];
-        (own.stay, own.is_discrete) = (Stay::Kept { group }, false);
-        self.numbers.push((number, position));
+        let stay = Stay::Kept { group };
+        slots.push(solve::Slot { stay, scale, is_number: true, is_discrete: false });
+        let slot = slots.len() as SlotIndex - 1;
+        self.numbers.push((slot, number));
         let source = self.relations.len() as u32;
-        self.relations.push(Origin::Number(position));
+        self.relations.push(Origin::Number(number));
         let body = MethodBody::Opaque { reads: reads.clone() };
         self.conditional.system.relations.push(Relation {
             level: Level::Required,
-            body: RelationBody::Opaque { slots: reads.into_iter().chain([number]).collect() },
-            methods: vec![Method { targets: vec![number], body }].into(),
+            body: RelationBody::Opaque { slots: reads.into_iter().chain([slot]).collect() },
+            methods: vec![Method { targets: vec![slot], body }].into(),
             derived: false,
             reads: Span::default(),
             within: Tolerance::Relative,
             source,
             rests: false,
         });
-        number
+        slot
     }
 
-    /// Makes the relation that is added next hold under a condition alone.
-    fn guard(&mut self, rule: Rule<'_>, when: &When) {
-        let relation = self.conditional.system.relations.len() as u32;
-        let pattern = when.condition.pattern;
-        let slots = self.locals(rule, &when.condition.slots);
+    /// States a condition under which a rule holds.
+    fn guarding(&mut self, rule: Rule<'_>, at: (u32, u32), when: &When) -> Guarding {
+        let (pattern, slots) = match &when.condition {
+            rule::Condition::Numbers(formula) => {
+                (formula.pattern, self.locals(rule, &formula.slots))
+            }
+            rule::Condition::Host(by) => (by.pattern, vec![self.truth(rule, at, by)]),
+        };
         let same = |c: &Condition| {
             c.pattern == pattern && self.conditional.system.arguments(c.arguments) == slots
         };
@@ -278,7 +311,13 @@ impl<'s> Making<'s> {
                 self.conditional.conditions.len() - 1
             }
         } as u32;
-        self.conditional.guards.push(Guard { relation, condition, truth: when.truth });
+        Guarding { condition, truth: when.truth }
+    }
+
+    /// Makes the relation that is added next hold under a condition alone.
+    fn guard(&mut self, Guarding { condition, truth }: Guarding) {
+        let relation = self.conditional.system.relations.len() as u32;
+        self.conditional.guards.push(Guard { relation, condition, truth });
     }
 
     /// States what the component's whole numbers may be.

@@ -5,14 +5,14 @@
 //! bound acts a little short of it where rounding misses it.
 
 use super::{Formula, Making, Mode, Modes, Tree};
-use crate::system::{Equation, Level, Relation, RelationBody, Span, System};
+use crate::system::{Equation, Level, Relation, RelationBody, Span, System, TRUTH};
 use crate::truth::{Comparing, truth};
 use base::number::Tolerance;
 use expr::Arena;
 
 impl Making<'_> {
     /// Makes what a condition says where it is false and where it is true; nothing where numbers are in it that
-    /// are whole, or texts. Returns nothing at all where a pattern is to be found that is not there.
+    /// are whole, truth values, or texts. Returns nothing at all where a pattern is to be found that is not there.
     pub(super) fn bounds(
         &mut self,
         system: &System,
@@ -20,7 +20,7 @@ impl Making<'_> {
         condition: &Formula,
     ) -> Option<Option<[Tree; 2]>> {
         let slots = || condition.arguments.iter().map(|&s| &system.slots[s as usize]);
-        if !slots().all(|s| s.is_number && !s.is_discrete) {
+        if !slots().all(|s| s.is_number && !s.is_discrete && s.scale != TRUTH) {
             return Some(None);
         }
         let mut arena = Arena::new();
