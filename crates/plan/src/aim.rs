@@ -8,6 +8,7 @@ use crate::planner::{Model, Planner};
 use crate::rule::Formula;
 use crate::say::lone_slot;
 use crate::task::{Holding, Wish};
+use base::number::shortest;
 use expr::{Arena, Var};
 use kernel::{Primitive, SlotId, Structure, Value, Values};
 use solve::{Level, Patterns};
@@ -57,13 +58,23 @@ impl Planner {
             let mut wish = Wish { level: Level::Move, formulas: Vec::new() };
             let mut numbers = Vec::new();
             for (leaf, value) in leaves.into_iter().zip(wanted) {
-                match (leaf, value) {
+                let near = match leaf {
+                    Leaf::Slot(slot) if kind == EditKind::Move => nearest(model, slot, value),
+                    Leaf::Slot(_) | Leaf::Formula(_) => None,
+                };
+                match (leaf, near.as_ref().unwrap_or(value)) {
                     (Leaf::Slot(slot), value) if !storable(model, slot, value) => {
                         if model.structure.ranges.contains_key(&slot) && kind == EditKind::Set {
                             return Err(RefusalReason::OutOfRange(slot));
                         }
-                        let primitive = model.structure.slots[slot].primitive;
-                        let message = format!("{value:?} is no value for {primitive:?}");
+                        let wanted = match model.structure.slots[slot].primitive {
+                            Primitive::Real(_) => "a number",
+                            Primitive::Integer => "a whole number",
+                            Primitive::Bool => "true or false",
+                            Primitive::Text => "a text",
+                            Primitive::Color => "a colour",
+                        };
+                        let message = format!("wanted {wanted}, not {}", in_words(value));
                         return Err(RefusalReason::Target(message));
                     }
                     (Leaf::Slot(_), Value::Text(_)) if kind == EditKind::Move => {
@@ -90,7 +101,7 @@ impl Planner {
                         numbers.push(x + 0.0);
                     }
                     (Leaf::Formula(_), value) => {
-                        let message = format!("{value:?} is not a number");
+                        let message = format!("wanted a number, not {}", in_words(value));
                         return Err(RefusalReason::Target(message));
                     }
                 }
@@ -249,6 +260,30 @@ pub(crate) fn storable(model: Model<'_>, slot: SlotId, value: &Value) -> bool {
             Primitive::Bool => *x == 0.0 || *x == 1.0,
             Primitive::Text | Primitive::Color => false,
         },
+    }
+}
+
+/// Returns the value that a slot may hold which is nearest to a number: of whole numbers the nearest in their domain.
+/// Nothing for what is near to none.
+pub(crate) fn nearest(model: Model<'_>, slot: SlotId, value: &Value) -> Option<Value> {
+    let Value::Number(x) = *value else { return None };
+    let (low, high) = match model.structure.slots[slot].primitive {
+        Primitive::Integer => match model.structure.ranges.get(&slot) {
+            Some(&(low, high)) => (low as f64, high as f64),
+            None => (f64::NEG_INFINITY, f64::INFINITY),
+        },
+        Primitive::Bool => (0.0, 1.0),
+        Primitive::Real(_) | Primitive::Text | Primitive::Color => return None,
+    };
+    let near = x.round().max(low).min(high) + 0.0;
+    near.is_finite().then_some(Value::Number(near))
+}
+
+/// Writes a value as people do.
+pub(crate) fn in_words(value: &Value) -> String {
+    match value {
+        Value::Number(x) => shortest(*x),
+        Value::Text(text) => format!("\"{text}\""),
     }
 }
 

@@ -1,6 +1,6 @@
 //! Edits: opening a document, setting values, moving parts; and what came of it.
 
-use crate::aim::Aim;
+use crate::aim::{Aim, nearest, storable};
 use crate::component::{Component, rules_of};
 use crate::diagnose::trial::Setup;
 use crate::drag::move_at_once;
@@ -134,8 +134,10 @@ impl Planner {
             values.put(slot, Value::Number(0.0_f64.clamp(low as f64, high as f64)));
         }
         for slot in model.structure.slots.ids() {
-            let given = host.given(slot, values).filter(|v| crate::aim::storable(model, slot, v));
-            if let Some(value) = given {
+            let given = host.given(slot, values);
+            // a whole number that may not be so is the nearest that may
+            let given = given.map(|value| nearest(model, slot, &value).unwrap_or(value));
+            if let Some(value) = given.filter(|v| storable(model, slot, v)) {
                 values.put(slot, value);
                 has_value[slot] = true;
             }

@@ -1,6 +1,6 @@
 //! Running a task: numbers out of the document, through the plan, and back.
 
-use crate::aim::Aim;
+use crate::aim::{Aim, in_words};
 use crate::edit::{Conflict, NotDecided};
 use crate::holds::{fails, truth};
 use crate::host::{Failure, Host};
@@ -603,7 +603,9 @@ impl Adapter<'_> {
         match value {
             Value::Number(x) if wants_number && x.is_finite() => out[position] = x,
             Value::Text(_) if !wants_number => self.values.put(slot, value),
-            Value::Number(_) | Value::Text(_) => return Err(format!("{value:?} does not fit")),
+            Value::Number(_) | Value::Text(_) => {
+                return Err(format!("{} does not fit", in_words(&value)));
+            }
         }
         Ok(())
     }
