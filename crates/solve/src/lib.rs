@@ -80,6 +80,7 @@ mod kernel;
 
 mod lanes;
 
+mod follows;
 mod lower;
 
 mod block;

@@ -5,6 +5,7 @@
 
 use crate::block::{Block as Laid, Layouts};
 use crate::few::Few;
+use crate::follows;
 use crate::kernel::Kernel;
 use crate::least::Least;
 use crate::lists::Lists;
@@ -396,6 +397,21 @@ fn lower_block(analysis: &Analysis<'_>, block: Block<'_>, work: &mut Work, steps
     let over = problem.rows.len() > problem.unknowns.len()
         || block.rows.iter().any(|&r| analysis.direction.slot_of_row[r].is_none());
     let kind = if soft && over { StepKind::Compromise } else { StepKind::LeastChange };
+    let turn = |slot: SlotIndex| analysis.classes.stay[slot as usize].turn();
+    if kind == StepKind::LeastChange
+        && let Some(apart) = follows::apart(problem, &turn)
+    {
+        let rows: Vec<usize> = apart.rows.iter().map(|&r| block.rows[r]).collect();
+        lower_block(analysis, Block { rows: &rows, unknowns: &apart.unknowns }, work, steps);
+        for (r, slot) in apart.follow {
+            let single = Block { rows: &[block.rows[r]], unknowns: &[slot] };
+            match by_formula(analysis, single, work) {
+                Some(step) => steps.push(step),
+                None => square_block(analysis, single, work, steps),
+            }
+        }
+        return;
+    }
     let program = measure(analysis, problem, kind);
     let (targets, reads) = (block.unknowns[..].into(), reads_of(analysis, block, &mut work.reads));
     steps.push(step(analysis, kind, block.rows, targets, reads, program));
