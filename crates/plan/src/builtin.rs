@@ -282,9 +282,10 @@ impl<'a> Opening<'a> {
         }
         let ids: Result<Vec<ExprId>, _> = items.iter().map(|m| self.expression(m)).collect();
         let join = |a, b| self.arena.binary(operator, a, b);
-        base::number::joined(ids?, join)
-            .map(Meaning::Number)
-            .ok_or_else(|| Trouble::wrong("the least of nothing"))
+        base::number::joined(ids?, join).map(Meaning::Number).ok_or_else(|| match operator {
+            Binary::Max => empty("max"),
+            _ => empty("min"),
+        })
     }
 }
 

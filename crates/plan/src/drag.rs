@@ -84,8 +84,7 @@ impl Press {
             return Vec::new();
         }
         let start = self.start(values);
-        let changes =
-            |pull: &Pull| pull.task.mode_changes(planner, model, &start, values, host);
+        let changes = |pull: &Pull| pull.task.mode_changes(planner, model, &start, values, host);
         self.pulls.iter().flat_map(changes).collect()
     }
     /// Returns the values at the press, given those of now.

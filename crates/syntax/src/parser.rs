@@ -256,8 +256,9 @@ impl<'t> Parser<'t> {
                     .hint("name a part of it and use the name"),
             );
         }
-        self.last_error = Some(self.pos);
         self.skip_line();
+        // what is missing behind what was skipped was said
+        self.last_error = Some(self.pos);
     }
 
     // ---- errors

@@ -171,6 +171,18 @@ fn deep_nesting_is_reported_and_survived() {
 }
 
 #[test]
+fn brackets_that_nest_too_deep_are_no_second_fault() {
+    let deep = |count: usize| format!("x = {}1{}\ny = 2\n", "(".repeat(count), ")".repeat(count));
+    let codes = |text: &str| -> Vec<&str> {
+        parse(FileId(0), text).diagnostics().iter().map(|d| d.code).collect()
+    };
+    assert_eq!(codes(&deep(10_000)), ["too-deep"]);
+    assert!(codes(&deep(10)).is_empty());
+    // what is wrong further on is told
+    assert_eq!(codes(&format!("{}z = )", deep(10_000))).len(), 2);
+}
+
+#[test]
 fn depth_within_the_bound_is_fine() {
     let text = format!("x = {}1{}", "(".repeat(150), ")".repeat(150));
     assert_eq!(parse(FileId(0), &text).diagnostics(), []);
