@@ -3,10 +3,10 @@
 use crate::edit::Conflict;
 use crate::modal::Acting;
 use crate::planner::{Model, Planner};
-use crate::rule::{Body, Source};
+use crate::rule::{Body, Condition, Source};
 use crate::task::{Course, Holding, Task};
 use kernel::{SlotId, Values};
-use solve::{Count, Proofs, Rejected, Step, StepKind, System};
+use solve::{Count, Level, Proofs, Rejected, Standing, Step, StepKind, System};
 use std::collections::BTreeSet;
 
 /// One step of a plan, in the document's terms.
@@ -20,13 +20,17 @@ pub struct ExplainedStep {
     pub reads: Vec<SlotId>,
     /// The constraints, stays and wishes that hold by it.
     pub sources: Vec<Source>,
+    /// Where an inequality that holds by it is at its bound, what would go beyond: of that the strongest.
+    pub beyond: Vec<Source>,
 }
 
 /// How a step computes its targets.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub enum ExplainedKind {
-    /// A part takes the value of another that equals it, or a number.
+    /// A part takes the value of another that equals it.
     Alias,
+    /// A part takes a number.
+    Number,
     /// A written method.
     Method {
         /// Which one, counted from 0.
@@ -229,15 +233,26 @@ impl Planner {
         let stays = |local: &u32| {
             task.component.slots().get(*local as usize).is_some_and(|&s| is_as_given(s))
         };
-        for step in task.plan.steps().iter().rev() {
-            if !step.targets.iter().any(|t| wanted.contains(t)) {
-                continue;
+        let all = task.plan.steps();
+        let mut leads: Vec<bool> = vec![false; all.len()];
+        let mut grows = true;
+        // what decides a condition may be computed after what that decides
+        while std::mem::take(&mut grows) {
+            for (step, leads) in all.iter().zip(&mut leads).rev() {
+                if *leads || !step.targets.iter().any(|t| wanted.contains(t)) {
+                    continue;
+                }
+                (*leads, grows) = (true, true);
+                let read: Vec<u32> =
+                    step.reads.iter().copied().chain(decided_by(task, step)).collect();
+                begins.extend(step.targets.iter().chain(&read).filter(|&l| stays(l)));
+                wanted.extend(read.iter().filter(|&l| !stays(l)));
             }
+        }
+        for (step, _) in all.iter().zip(&leads).rev().filter(|(_, leads)| **leads) {
             step.targets.iter().for_each(|t| {
                 wanted.remove(t);
             });
-            begins.extend(step.targets.iter().chain(&step.reads).filter(|&l| stays(l)));
-            wanted.extend(step.reads.iter().filter(|&l| !stays(l)));
             steps.extend(self.in_words(task, step));
         }
         if let Some(search) =
@@ -347,7 +362,8 @@ impl Planner {
         }
         touched.extend(task.looked_for());
         task.plan.steps().iter().filter(move |step| {
-            let runs = everything || step.reads.iter().any(|r| touched.contains(r));
+            let mut reads = step.reads.iter().copied().chain(decided_by(task, step));
+            let runs = everything || reads.any(|r| touched.contains(&r));
             if runs {
                 touched.extend(&step.targets);
             }
@@ -379,7 +395,8 @@ impl Planner {
         sources.dedup();
         let unknowns = targets.len() as u32;
         let kind = ExplainedKind::Search { unknowns };
-        Some(ExplainedStep { kind, targets: of(targets), reads: of(reads), sources })
+        let (targets, reads) = (of(targets), of(reads));
+        Some(ExplainedStep { kind, targets, reads, sources, beyond: Vec::new() })
     }
 
     /// Returns what a step computes from what; nothing for one that computes only what stands beside a rule, which
@@ -392,13 +409,20 @@ impl Planner {
         if targets.is_empty() {
             return None;
         }
-        let mut reads = known(&step.reads);
-        for (_, number) in task.computed().filter(|(slot, _)| step.reads.contains(slot)) {
+        let read: BTreeSet<u32> = decided_by(task, step).into_iter().collect();
+        let read: Vec<u32> = step.reads.iter().copied().chain(read).collect();
+        let mut reads = known(&read);
+        for (_, number) in task.computed().filter(|(slot, _)| read.contains(slot)) {
             let rule = self.rules.get(number.rule);
-            if let Body::Beside(beside) = &rule.shape.body {
-                reads.extend(rule.slots_at(&beside.reads));
+            let condition = number.when.map(|at| &rule.shape.when[at as usize].condition);
+            match (condition, &rule.shape.body) {
+                (Some(Condition::Host(by)), _) => reads.extend(rule.slots_at(&by.reads)),
+                (None, Body::Beside(beside)) => reads.extend(rule.slots_at(&beside.reads)),
+                _ => {}
             }
         }
+        let mut met = BTreeSet::new();
+        reads.retain(|&slot| met.insert(slot));
         let mut sources: Vec<Source> = Vec::new();
         for &relation in &step.relations {
             let source = task.source(&self.rules, relation);
@@ -406,7 +430,32 @@ impl Planner {
                 sources.push(source);
             }
         }
-        Some(ExplainedStep { kind: kind(&task.system, step), targets, reads, sources })
+        let beyond = self.beyond(task, step);
+        Some(ExplainedStep { kind: kind(&task.system, step), targets, reads, sources, beyond })
+    }
+
+    /// Returns what an inequality stands against that a step holds at its bound: the strongest of the rules that it
+    /// and others leave no room for.
+    fn beyond(&self, task: &Task, step: &Step) -> Vec<Source> {
+        let Course::Modes(modes, mode) = &task.course else { return Vec::new() };
+        let at_bound = |standing: Standing| match standing {
+            Standing::AtBound { relation } if step.relations.contains(&relation) => {
+                Some(task.source(&self.rules, relation))
+            }
+            Standing::AtBound { .. } | Standing::Assumed { .. } | Standing::Taken { .. } => None,
+        };
+        let bounds: Vec<Source> = modes.standings(mode).into_iter().filter_map(at_bound).collect();
+        if bounds.is_empty() {
+            return Vec::new();
+        }
+        let level = |r: &Rejected| task.system.relations[r.relation as usize].level;
+        let levels: BTreeSet<Level> = task.plan.report.rejected.iter().map(level).collect();
+        let of_level = |at: Level| -> Vec<Source> {
+            let against = self.conflicts(task, |r| level(r) == at).into_iter();
+            let against = against.filter(|c| c.circuit.iter().any(|s| bounds.contains(s)));
+            against.map(|c| c.source).collect()
+        };
+        levels.into_iter().map(of_level).find(|found| !found.is_empty()).unwrap_or_default()
     }
 }
 
@@ -414,7 +463,9 @@ impl ExplainedKind {
     /// Returns what kind of plan a plan is at least that has such a step.
     pub fn plan_kind(self) -> PlanKind {
         match self {
-            Self::Alias | Self::Method { .. } | Self::Isolated { .. } => PlanKind::OnePass,
+            Self::Alias | Self::Number | Self::Method { .. } | Self::Isolated { .. } => {
+                PlanKind::OnePass
+            }
             Self::Linear { unknowns } | Self::Newton { unknowns } => {
                 if unknowns > 1 {
                     PlanKind::Block
@@ -432,6 +483,7 @@ impl ExplainedKind {
     pub fn is_approached(self) -> bool {
         match self {
             Self::Alias
+            | Self::Number
             | Self::Method { .. }
             | Self::Isolated { .. }
             | Self::Linear { .. }
@@ -448,6 +500,7 @@ impl ExplainedKind {
 fn kind(system: &System, step: &Step) -> ExplainedKind {
     let unknowns = step.targets.len() as u32;
     match step.kind {
+        StepKind::Alias if step.reads.is_empty() => ExplainedKind::Number,
         StepKind::Alias => ExplainedKind::Alias,
         StepKind::Method { relation, method } | StepKind::Opaque { relation, method } => {
             let of = system.relations[relation as usize].methods.len() as u32;
@@ -460,6 +513,13 @@ fn kind(system: &System, step: &Step) -> ExplainedKind {
         StepKind::LeastChange => ExplainedKind::LeastChange { unknowns, curved: step.is_curved() },
         StepKind::Compromise => ExplainedKind::Compromise { unknowns, curved: step.is_curved() },
     }
+}
+
+/// Returns the slots that the conditions ask for under which the relations of a step hold.
+fn decided_by(task: &Task, step: &Step) -> Vec<u32> {
+    let Course::Modes(modes, _) = &task.course else { return Vec::new() };
+    let relations = step.relations.iter();
+    relations.flat_map(|&r| modes.conditional().conditions_of(r)).collect()
 }
 
 fn local(task: &Task, slot: SlotId) -> Option<u32> {

@@ -91,6 +91,12 @@ impl Conditional {
             && self.guards.is_empty()
             && self.ranges.iter().all(|r| r.is_by_class)
     }
+    /// Returns the slots that the conditions ask for under which a relation holds.
+    pub fn conditions_of(&self, relation: u32) -> impl Iterator<Item = SlotIndex> {
+        let own = self.guards.iter().filter(move |g| g.relation == relation);
+        let asked = own.map(|g| self.conditions[g.condition as usize].arguments);
+        asked.flat_map(|arguments| self.system.arguments(arguments).iter().copied())
+    }
     /// Returns true for a slot whose whole number is unknown.
     pub fn is_whole_unknown(&self, slot: SlotIndex) -> bool {
         let slot = &self.system.slots[slot as usize];

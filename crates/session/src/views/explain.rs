@@ -257,6 +257,12 @@ fn step(open: &Open, s: &plan::ExplainedStep) -> ExplainedStep {
     if !reads.is_empty() {
         reason.push_str(&format!(", given {}", enumerated(&reads)));
     }
+    let beyond = s.beyond.iter().filter_map(|&source| words::source_name(state, source));
+    match &first_ones(beyond)[..] {
+        [] => {}
+        [one] => reason.push_str(&format!("; {one} would go beyond")),
+        more => reason.push_str(&format!("; {} would go beyond", enumerated(more))),
+    }
     ExplainedStep {
         targets: s.targets.iter().map(|&t| state.slot_path(t).to_string()).collect(),
         method: method(s.kind),
@@ -295,6 +301,7 @@ fn formula(open: &Open, source: Source, kind: ExplainedKind) -> Option<String> {
 fn method(kind: ExplainedKind) -> String {
     match kind {
         ExplainedKind::Alias => "equal to another part".into(),
+        ExplainedKind::Number => "equal to a number".into(),
         ExplainedKind::Method { of: 1, .. } => "its one method".into(),
         ExplainedKind::Method { index, of } => format!("method {} of {of}", index + 1),
         ExplainedKind::Isolated { roots: 1 } => "its rule, solved for it".into(),
