@@ -180,13 +180,16 @@ impl Echelon {
                     *size = size.max(term.abs());
                 }
             }
-            let told = met.drain(..).filter_map(|i| {
+            let own = &mut made[*column as usize];
+            own.reserve_exact(met.len());
+            own.extend(met.drain(..).filter_map(|i| {
                 let (sum, size) = std::mem::take(&mut sums[i as usize]);
                 (sum.abs() > CANCELLED * size).then_some((i, sum))
-            });
-            made[*column as usize] = told.collect();
+            }));
         }
-        let mut rows = vec![Vec::new(); free.len()];
+        let mut lengths = vec![0; free.len()];
+        made.iter().flatten().for_each(|&(i, _)| lengths[i as usize] += 1);
+        let mut rows: Vec<Row> = lengths.into_iter().map(Vec::with_capacity).collect();
         for (c, of) in (0..).zip(made) {
             of.into_iter().for_each(|(i, x)| rows[i as usize].push((c, x)));
         }

@@ -385,8 +385,9 @@ impl Space {
     /// Returns true if the rows that speak of a number, or of a place in the plane, clearly leave it no motion
     /// of its own.
     fn is_held(&self, group: &[u32], rows_of: &[Vec<u32>]) -> bool {
-        /// The sine, about, of an angle between directions that are two for certain.
-        const APART: f64 = 0.1;
+        /// The sine, about, of an angle between directions that are two for certain: far above rounding, so that
+        /// the joints of a long loop, whose bars hardly turn, are held at a glance.
+        const APART: f64 = 1e-4;
         let touching = |c: u32| rows_of[c as usize].iter().map(|&r| &self.rows[r as usize]);
         let slope = |row: &Row, c: u32| row.iter().find(|e| e.0 == c).map_or(0.0, |e| e.1);
         match *group {
