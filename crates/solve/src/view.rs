@@ -3,12 +3,14 @@
 //! In: blocks, and the required rows that were not accepted because others say the same. Out: exchanges
 //! of one for an accepted row of its circuit that is solved together with others; the planner keeps
 //! those that make less to be solved together. So a second view of a part (two resistors in series as
-//! one) makes a plan of one pass. Which rows are equivalent does not depend on values, and both are
-//! tested. A row that has no formula of one solution is left where it is: it could choose a branch.
+//! one) makes a plan of one pass, and a text that is said breaks a ring of texts that follow from each
+//! other. Which rows are equivalent does not depend on values, and both are tested. A row that has no
+//! formula of one solution is left where it is: it could choose a branch.
 
 use crate::lower::Inverse;
 use crate::order::{Block, Blocks};
 use crate::plan::Analysis;
+use crate::rows::Row;
 use crate::system::{Level, SlotIndex};
 
 /// So many exchanges are tried.
@@ -44,8 +46,11 @@ pub(crate) fn exchanges(analysis: &Analysis<'_>, blocks: &Blocks) -> Vec<Exchang
     }
     let system = &analysis.stated.system;
     let is_plain = |row: usize| {
-        let row = analysis.rows[row];
-        row.level == Level::Required && system.relations[row.relation as usize].methods.is_empty()
+        let Row { level, relation, .. } = analysis.rows[row];
+        let relation = &system.relations[relation as usize];
+        // the methods of an equality of texts were not written
+        let is_of_texts = relation.derived && analysis.rows.kernel(row).is_none();
+        level == Level::Required && (relation.methods.is_empty() || is_of_texts)
     };
     let times_needed = |row: usize| dependent.iter().filter(|d| d.circuit.contains(&row)).count();
     let mut found = Vec::new();
@@ -70,8 +75,13 @@ pub(crate) fn exchanges(analysis: &Analysis<'_>, blocks: &Blocks) -> Vec<Exchang
     found
 }
 
-/// Whether a row has a formula of one solution for a slot.
+/// Whether a row has a formula of one solution for a slot, or is of texts and has a method for it.
 fn tells(analysis: &Analysis<'_>, row: usize, slot: SlotIndex) -> bool {
+    if analysis.rows.kernel(row).is_none() {
+        let relation = analysis.rows[row].relation;
+        let methods = &analysis.stated.system.relations[relation as usize].methods;
+        return methods.iter().any(|m| m.targets == [slot]);
+    }
     crate::lower::problem_row(&analysis.stated.system, analysis.rows, row)
         .and_then(|row| Inverse::new(row, slot))
         .is_some_and(|inverse| inverse.roots() == 1)
