@@ -5,8 +5,8 @@
 //! order makes it hold, and no direction is nearer than the opposite one. Out: the unknowns moved by the least
 //! change that makes the sum hold to second order. With `λ` that sum, `λJ = 0`, it is `λr + ½ dᵀ(λH)d = 0`
 //! for the smallest `d` that the rows leave free: the direction of the greatest curvature there, found by
-//! Lanczos' method. Of it and its opposite the one in which the unknown that moves most grows is taken; of several
-//! that move as far, the first.
+//! Lanczos' method. Of it and its opposite the one is taken that slopes tell which are next to none; where they are
+//! none, that in which the unknown that moves most grows; of several that move as far, the first.
 //!
 //! **Source:** Koiter's theory of initial post-buckling in Thompson and Hunt, *A General Theory of Elastic
 //! Stability* (1973), ch. 2; Golub and Van Loan, *Matrix Computations*, 4th ed., §10.1.
@@ -15,6 +15,7 @@ use super::{Counted, DELTA, Least, LeastScratch, Matrix};
 use crate::block::Workspace;
 use crate::dense;
 use crate::rows::{Point, generic_number};
+use base::number::RULE_TOLERANCE;
 
 /// Slopes of a sum below this, squared, are none: what they move holds to the tolerance of rules as well.
 const FLAT: f64 = 1e-8;
@@ -40,6 +41,7 @@ impl Least {
         self.evaluate(Counted::All, values, w, s);
         self.weigh(s);
         self.flatten(s);
+        let flattened = self.flatten_what_bends(values, w, s);
         if self.factorise(Counted::All, values, Matrix::Flat, w, s).is_none() {
             return false;
         }
@@ -64,11 +66,53 @@ impl Least {
         }
         let largest = along.iter().fold(0.0f64, |size, d| size.max(d.abs()));
         let first = along.iter().find(|d| d.abs() > 0.999 * largest).copied().unwrap_or(1.0);
-        let by = size.copysign(first);
+        // where what is left of the slopes tells, the sum grows that way
+        let slope = |&(row, e, slope): &(usize, usize, f64)| {
+            let unknown = block.pattern.column(e);
+            sum[row] * slope * s.scale[unknown] * along[unknown]
+        };
+        let tells: f64 = flattened.iter().map(slope).sum();
+        let by = size.copysign(if tells == 0.0 { first } else { tells });
         for ((&u, d), scale) in block.unknowns.iter().zip(&along).zip(&s.scale) {
             values[u as usize] += by * d * scale;
         }
         true
+    }
+
+    /// Takes the slopes of rows for none that vanish so near by that rows hold there as well, as those of `q²` next to
+    /// nothing; returns what they were, by row and entry.
+    fn flatten_what_bends(
+        &self,
+        values: &[f64],
+        w: &mut Workspace,
+        s: &mut LeastScratch,
+    ) -> Vec<(usize, usize, f64)> {
+        let block = &self.block;
+        let mut flattened = Vec::new();
+        let LeastScratch { local, scale, steepness, .. } = s;
+        let mut along = vec![0.0; block.unknowns.len()];
+        block.each_second(values, w, &mut |row, places, out| {
+            let slopes = block.pattern.range(row);
+            let columns = slopes.clone().map(|e| (e, block.pattern.column(e)));
+            columns.clone().for_each(|(e, c)| along[c] = local.jacobian[e] * scale[c]);
+            // how much the row bends along its slopes, times their square
+            let bend: f64 = places
+                .iter()
+                .map(|place| {
+                    let (i, j) = (place.i as usize, place.j as usize);
+                    let twice = if i == j { 1.0 } else { 2.0 };
+                    twice * place.of(out) * scale[i] * scale[j] * along[i] * along[j]
+                })
+                .sum();
+            columns.for_each(|(_, c)| along[c] = 0.0);
+            let size = local.left[row].abs().max(local.right[row].abs()).max(1.0);
+            let steep = steepness[row];
+            if steep * steep <= 2.0 * bend.abs() * RULE_TOLERANCE * size && bend.is_finite() {
+                steepness[row] = 1.0;
+                flattened.extend(slopes.map(|e| (row, e, std::mem::take(&mut local.jacobian[e]))));
+            }
+        });
+        flattened
     }
 
     /// Returns the factors of a sum of the rows that has no slope, and what it is off by; nothing where there is none
