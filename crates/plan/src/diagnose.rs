@@ -8,6 +8,7 @@
 //! is found by solving parts of it ([`conflict`]), and so is what would help ([`repair`]).
 pub mod combination;
 pub mod conflict;
+pub(crate) mod dependence;
 pub(crate) mod gradient;
 pub mod held;
 pub mod motion;

@@ -7,17 +7,14 @@
 //! touch by design are dependent here and fail there: they are not superfluous.
 
 use crate::aim::Aim;
-use crate::diagnose::gradient::{gradient, is_linear};
-use crate::diagnose::trial::{Setup, Trial, perturbed};
-use crate::holds::counts;
+use crate::diagnose::dependence::{Candidate, Hold, candidates, core, dependents, rejected_rows};
+use crate::diagnose::trial::{Setup, Trial, perturbed, scattered};
 use crate::host::Host;
 use crate::planner::{Model, Planner, Unmet};
 use crate::rule::{Body, Source};
-use crate::task::{Course, Holding, Origin, Task};
+use crate::task::{Course, Holding, Task};
 use kernel::{SlotId, Structure, Values};
-use solve::echelon::{Dependent, Echelon, Row};
-use solve::{Level, PATIENCE, Scratch};
-use std::cmp::Reverse;
+use solve::{Level, PATIENCE};
 use std::collections::{BTreeMap, BTreeSet};
 
 /// A required constraint that holds and says nothing new.
@@ -175,9 +172,52 @@ impl Planner {
         values: &Values,
         host: &mut dyn Host,
     ) -> Theorems {
+        let found = self.theorems_but(&BTreeSet::new(), model, (task, hold), values, host);
+        if std::ptr::fn_addr_eq(hold, Self::resting_hold as Hold) || found.rules.is_empty() {
+            return found;
+        }
+        // what depends on others wherever they are while slots are held so, as what is said of these alone, takes no
+        // more from them here
+        let everywhere = self.dependent_elsewhere(model, (task, hold), values, host);
+        if everywhere.is_empty() {
+            return found;
+        }
+        let found = self.theorems_but(&everywhere, model, (task, hold), values, host);
+        Theorems { is_independent: false, ..found }
+    }
+
+    /// Returns the rows that depend on others at a state that is not special, slots held so: rule and equation.
+    fn dependent_elsewhere(
+        &self,
+        model: Model<'_>,
+        setting: (&Task, Hold),
+        values: &Values,
+        host: &mut dyn Host,
+    ) -> BTreeSet<(u32, u32)> {
+        let core = core(self, model, setting, &rejected_rows(setting.0));
+        // what is anchored may lie anyhow as well
+        let slots = setting.0.component.slots();
+        let mut elsewhere = perturbed(model, slots, values);
+        for &s in slots.iter().filter(|&&s| model.structure.slots[s].anchored) {
+            elsewhere.numbers[s] += values.numbers[s].abs().max(1.0) * scattered(s.0);
+        }
+        let states = [values, &elsewhere];
+        let found = dependents(self, model, setting, &core, states, host);
+        found.into_iter().map(|d| d.row).collect()
+    }
+
+    /// The same without some rows, rule and equation, that are known to depend on others.
+    fn theorems_but(
+        &mut self,
+        known: &BTreeSet<(u32, u32)>,
+        model: Model<'_>,
+        (task, hold): (&Task, Hold),
+        values: &Values,
+        host: &mut dyn Host,
+    ) -> Theorems {
         let setting = (task, hold);
         let rejected = rejected_rows(task);
-        let find = || core(self, model, setting, &rejected);
+        let find = || core(self, model, setting, &(&rejected | known));
         let is_resting = std::ptr::fn_addr_eq(hold, Self::resting_hold as Hold);
         let core_of_accepted = if is_resting { task.core(find) } else { find().into() };
         let found = self.theorems_of(model, setting, &core_of_accepted, values, host);
@@ -188,7 +228,7 @@ impl Planner {
             .filter(|&(rule, _)| self.is_surplus(rule, &rejected))
             .collect();
         let with_parts = (whole.len() < rejected.len()).then(|| {
-            let core = core(self, model, setting, &whole);
+            let core = core(self, model, setting, &(&whole | known));
             self.theorems_of(model, setting, &core, values, host)
         });
         let count = |found: &Option<Theorems>| found.as_ref().map(|found| found.rules.len());
@@ -197,7 +237,7 @@ impl Planner {
             return found.unwrap_or_default();
         }
         // what depends on others at a generic point may say here what these do not say
-        let core = core(self, model, setting, &BTreeSet::new());
+        let core = core(self, model, setting, known);
         self.theorems_of(model, setting, &core, values, host).unwrap_or_default()
     }
 
@@ -383,9 +423,6 @@ impl Planner {
     }
 }
 
-/// How slots are held.
-type Hold = fn(&Structure, SlotId) -> Holding;
-
 /// Holds given numbers as they are.
 fn hold_given(structure: &Structure, slot: SlotId) -> Holding {
     match Planner::resting_hold(structure, slot) {
@@ -409,136 +446,6 @@ struct Theorems {
     rules: BTreeMap<u32, Candidate>,
     /// True if no row depends on others at the present state: there are none, and no other would be one.
     is_independent: bool,
-}
-
-/// A rule with rows that depend on others.
-#[derive(Default)]
-struct Candidate {
-    rows: usize,
-    /// The rules that these rows are combinations of.
-    circuit: BTreeSet<u32>,
-}
-
-/// Finds the rules with rows that depend on others here, though not everywhere.
-fn candidates(
-    planner: &Planner,
-    model: Model<'_>,
-    (task, hold): (&Task, Hold),
-    core: &[(u32, u32)],
-    values: &Values,
-    host: &mut dyn Host,
-) -> BTreeMap<u32, Candidate> {
-    let scratch = &mut Scratch::default();
-    let mut found: BTreeMap<u32, Candidate> = BTreeMap::new();
-    if core.is_empty() {
-        return found;
-    }
-    let patterns = planner.plans.patterns();
-    let column = |s: SlotId| task.component.slots().binary_search(&s).ok().map(|i| i as u32);
-    let mut rows: Vec<Row> = Vec::with_capacity(core.len());
-    let mut rule_of_row: Vec<u32> = Vec::with_capacity(core.len());
-    // a rule is left out as a whole: of what depends on each other first what says several things, then what follows
-    // what it reads
-    let is_last = |&&(position, _): &&(u32, u32)| {
-        let shape = planner.rules.get(task.component.rules()[position as usize]).shape;
-        let rows = match &shape.body {
-            Body::Equations(equations) => equations.len(),
-            _ => 0,
-        };
-        (Reverse(rows), shape.reads.is_empty())
-    };
-    let mut core: Vec<&(u32, u32)> = core.iter().collect();
-    core.sort_by_key(is_last);
-    for &(position, e) in core {
-        let index = task.component.rules()[position as usize];
-        let rule = planner.rules.get(index);
-        let Body::Equations(equations) = &rule.shape.body else { continue };
-        if !counts(patterns, model.structure, rule, values, host, scratch) {
-            continue;
-        }
-        let moves = |s: SlotId| hold(model.structure, s) != Holding::Fixed;
-        let row = gradient(patterns, rule, &equations[e as usize], &values.numbers, scratch);
-        let own = row.into_iter().filter(|e| moves(e.0));
-        rows.push(own.filter_map(|(s, v)| Some((column(s)?, v))).collect());
-        rule_of_row.push(index);
-    }
-    for Dependent { row, circuit } in Echelon::new(&rows, task.component.slots().len()).dependent()
-    {
-        let candidate = found.entry(rule_of_row[row as usize]).or_default();
-        candidate.rows += 1;
-        candidate.circuit.extend(circuit.iter().map(|&r| rule_of_row[r as usize]));
-    }
-    found
-}
-
-/// Finds the rows, but for those that are left out, that may depend on others at some state: rule of the component
-/// and equation.
-///
-/// A row that alone of those left mentions a slot, with a derivative that is never zero, depends on
-/// none of them, nor they on it: it is left out, and so on. Where every rule is linear what depends
-/// does so everywhere.
-fn core(
-    planner: &Planner,
-    model: Model<'_>,
-    (task, hold): (&Task, Hold),
-    left_out: &BTreeSet<(u32, u32)>,
-) -> Vec<(u32, u32)> {
-    let patterns = planner.plans.patterns();
-    let rules = || (0..).zip(task.component.rules()).map(|(i, &r)| (i, r, planner.rules.get(r)));
-    if rules().all(|(_, _, rule)| is_linear(patterns, rule)) {
-        return Vec::new();
-    }
-    let mut rows: Vec<(u32, u32)> = Vec::new();
-    // every slot of every row, and whether its derivative is the same everywhere
-    let mut mentions: Vec<(SlotId, u32, bool)> = Vec::new();
-    for (position, index, rule) in rules().filter(|(_, _, r)| r.shape.level == Level::Required) {
-        let Body::Equations(equations) = &rule.shape.body else { continue };
-        let moves = |s: SlotId| hold(model.structure, s) != Holding::Fixed;
-        for (e, equation) in (0..).zip(equations).filter(|(e, _)| !left_out.contains(&(index, *e)))
-        {
-            let number = rows.len() as u32;
-            rows.push((position, e));
-            let slots: Vec<SlotId> = rule.slots_at(&equation.slots).collect();
-            let slopes = patterns.get(equation.pattern).dependence();
-            let slopes =
-                slopes.map(|(argument, is_constant)| (slots[argument], number, is_constant));
-            mentions.extend(slopes.filter(|m| moves(m.0)));
-        }
-    }
-    mentions.sort_unstable();
-    let of_slot: Vec<&[(SlotId, u32, bool)]> = mentions.chunk_by(|a, b| a.0 == b.0).collect();
-    let mut of_row: Vec<Vec<u32>> = vec![Vec::new(); rows.len()];
-    for (i, all) in (0..).zip(&of_slot) {
-        all.iter().for_each(|m| of_row[m.1 as usize].push(i));
-    }
-    let mut left: Vec<usize> = of_slot.iter().map(|all| all.len()).collect();
-    let mut is_out = vec![false; rows.len()];
-    let mut alone: Vec<u32> =
-        (0..of_slot.len() as u32).filter(|&i| left[i as usize] == 1).collect();
-    while let Some(slot) = alone.pop() {
-        let last = of_slot[slot as usize].iter().find(|m| !is_out[m.1 as usize]);
-        let Some(&(_, row, true)) = last else { continue };
-        is_out[row as usize] = true;
-        for &other in &of_row[row as usize] {
-            left[other as usize] -= 1;
-            if left[other as usize] == 1 {
-                alone.push(other);
-            }
-        }
-    }
-    let kept = rows.into_iter().zip(is_out).filter(|(_, is_out)| !is_out);
-    kept.map(|(row, _)| row).collect()
-}
-
-/// Returns the rows that depend on others everywhere: rule and equation.
-fn rejected_rows(task: &Task) -> BTreeSet<(u32, u32)> {
-    let source = |relation: u32| task.system.relations[relation as usize].source;
-    let rule = |relation: u32| match task.origin(source(relation)) {
-        Origin::Rule(r) => Some(r),
-        Origin::Number(_) | Origin::Wish(_) => None,
-    };
-    let rejected = &task.plan.report.rejected;
-    rejected.iter().filter_map(|r| Some((rule(r.relation)?, r.row))).collect()
 }
 
 /// Returns the required constraints all of whose rows depend on others everywhere.
