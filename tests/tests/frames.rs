@@ -194,3 +194,17 @@ fn a_chain_comes_to_lie_on_its_floor_in_few_frames_as_in_many() {
     assert!(2 * lie > seeds(), "{lie} of {} lie on it", seeds());
     assert!(50 * undecided <= seeds(), "{undecided} of {} go on in two ways from a fold", seeds());
 }
+
+#[test]
+fn a_chain_goes_on_without_a_jump_where_it_comes_to_its_floor() {
+    let case = chain(4, End::Open, &mut Dice::new(34));
+    let rules: Vec<String> =
+        (1..=4).map(|p| format!("constraint p{p}.y >= -0.26186787927243654")).collect();
+    let to = [3.9176494103537873, -0.79125024985009];
+    let Dragged { way, .. } = dragged(&case, &rules.join("\n"), 4, to, 400);
+    let step = |a: [f64; 2], b: [f64; 2]| base::number::hypot(a[0] - b[0], a[1] - b[1]);
+    let pointer = step(case.start[4], to) / 400.0;
+    let joints = way.windows(2).flat_map(|w| w[0].iter().zip(&w[1]).map(|(&a, &b)| step(a, b)));
+    let farthest = joints.fold(0.0, f64::max);
+    assert!(farthest < 3.0 * pointer, "{farthest} where the pointer goes {pointer} a frame");
+}

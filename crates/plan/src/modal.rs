@@ -330,9 +330,9 @@ pub(crate) fn tell(planner: &Planner, modes: &Rc<Modes>, task: &Task, decision: 
 
 /// A drag through modes.
 ///
-/// Each mode is dragged on its own; one that was not followed at the last wish goes on from where
-/// the drag stood then. Where other inequalities act at a wish than at the last, the way there is halved, so
-/// that the new mode is met near where it begins: it has other branches elsewhere.
+/// Each mode is dragged on its own; one that was not followed at the last wish goes on from where the drag stood
+/// then, and measures from where that did. Where other inequalities act at a wish than at the last, the way there
+/// is halved, so that the new mode is met near where it begins: it has other branches elsewhere.
 #[derive(Debug)]
 pub(crate) struct ModalDrag {
     modes: Rc<Modes>,
@@ -520,9 +520,13 @@ impl ModalDrag {
             values.texts.clone_from(&texts);
             let mut adapter = Adapter { planner, model: *model, task, values, host: *host };
             let begin = || Followed::begin(modes, attempted, &plan, x0, inputs, &leans);
+            let is_kept = followed.get(attempted).is_some_and(|follow| follow.wish + 1 >= *wishes);
+            let anchors =
+                followed.get(standing).filter(|_| !is_kept).map(|f| f.drag.anchors().to_vec());
             let follow = followed.entry(attempted.clone()).or_insert_with(begin);
-            if follow.wish + 1 < *wishes {
+            if !is_kept {
                 follow.drag.stand_at(&plan, now);
+                follow.drag.measure_from(anchors.unwrap_or_default());
                 follow.since = *wishes;
             }
             follow.wish = *wishes;

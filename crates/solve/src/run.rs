@@ -293,6 +293,16 @@ impl Drag {
         self.run_anew();
     }
 
+    /// Returns the states from which least change was measured anew on the way to where it stands, in order.
+    pub fn anchors(&self) -> &[Vec<f64>] {
+        &self.runner.frame.anchors
+    }
+
+    /// Measures least change from where another plan's drag in the same system has measured it.
+    pub fn measure_from(&mut self, anchors: Vec<Vec<f64>>) {
+        self.runner.frame.anchors = anchors;
+    }
+
     /// Lets everything run at the next wish, what the drag does not move as well.
     pub fn run_anew(&mut self) {
         self.has_run = false;
