@@ -161,10 +161,15 @@ impl Planner {
         /// A refusal is wanted at once.
         const MOST: usize = 400;
         const SOON: u64 = WORK / 30;
-        let units = self.units(rules);
+        let mut units = self.units(rules);
         if units.len() > MOST {
             return None;
         }
+        // what speaks of nothing else than what the edit says, and of what is held, is named first
+        let said = setup.aim.slots();
+        let is_said = |s: &SlotId| said.contains(s) || (setup.holding)(*s) == Holding::Fixed;
+        let slots = |r: &u32| self.rules.get(*r).slots;
+        units.sort_by_key(|unit| !unit.rules.iter().all(|r| slots(r).iter().all(is_said)));
         let most = TRIED / MOST;
         let until = self.spent() + SOON;
         let mut search = Search::new(self, setup, values, host, most, until);
