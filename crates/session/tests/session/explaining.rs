@@ -154,7 +154,7 @@ fn what_follows_from_others_for_the_given_numbers_holds_nothing() {
     };
     assert_eq!(held(text), None);
     let anchored = held(&format!("{text}anchor net, gross\n"));
-    let message = "rate does not move: held by back, and by the anchor of net, gross";
+    let message = "rate does not move: held by forth, and by the anchor of net, gross";
     assert_eq!(anchored.as_deref(), Some(message));
 }
 
