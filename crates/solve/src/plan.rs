@@ -259,10 +259,11 @@ fn plan_stated(stated: Stated) -> Plan {
     let with = |rows: &Rows, resting: &Resting| {
         let setting = |resting| accept::Setting { system, classes: &classes, rows, resting };
         let acceptance = accept::accept(setting(resting));
+        if !acceptance.some_rest || acceptance.yielded.is_empty() {
+            return acceptance;
+        }
         let mut awake = resting.clone();
-        let wakes = acceptance.some_rest
-            && !acceptance.yielded.is_empty()
-            && awake.wakes((system, &classes, rows), &acceptance.yielded);
+        let wakes = awake.wakes((system, &classes, rows), &acceptance.yielded);
         if wakes { accept::accept(setting(&awake)) } else { acceptance }
     };
     let mut acceptance = with(&rows, &resting);

@@ -67,10 +67,9 @@ pub(crate) fn tie(
         if !is_stiff {
             continue;
         }
-        for &(c, _) in rows.columns(r).iter().filter(|e| is_place(e.0)) {
-            for &s in place(c) {
-                tied |= !std::mem::replace(&mut unknown[s as usize], true);
-            }
+        let columns = rows.columns(r).iter();
+        for &s in columns.filter(|e| is_place(e.0)).flat_map(|e| place(e.0)) {
+            tied |= !std::mem::replace(&mut unknown[s as usize], true);
         }
     }
     let has_rail = |&r: &usize| may_be_stiff(r) && rows.columns(r).iter().any(|e| is_on_rail(e.0));
@@ -82,23 +81,19 @@ pub(crate) fn tie(
         let mut reached: Vec<SlotIndex> = wished.collect();
         let mut is_reached = vec![false; unknown.len()];
         reached.iter().for_each(|&slot| is_reached[slot as usize] = true);
+        let leads_on = |r: usize, from: SlotIndex| {
+            let ties = |slot| is_place(slot) && !rows.is_line(r, place(slot));
+            may_be_stiff(r)
+                && direction.slot_of_row[r].is_some_and(ties)
+                && !rows.is_line(r, &[from])
+        };
         while let Some(from) = reached.pop() {
-            for &r in rows_of.of(from) {
-                let r = r as usize;
-                let stretches = may_be_stiff(r)
-                    && direction.slot_of_row[r]
-                        .is_some_and(|slot| is_place(slot) && !rows.is_line(r, place(slot)))
-                    && !rows.is_line(r, &[from]);
-                if !stretches {
-                    continue;
-                }
-                for &(c, _) in rows.columns(r).iter().filter(|e| is_place(e.0)) {
-                    for &s in place(c) {
-                        tied |= !std::mem::replace(&mut unknown[s as usize], true);
-                        if !std::mem::replace(&mut is_reached[s as usize], true) {
-                            reached.push(s);
-                        }
-                    }
+            let stretched = rows_of.of(from).iter().filter(|&&r| leads_on(r as usize, from));
+            let columns = stretched.flat_map(|&r| rows.columns(r as usize));
+            for &s in columns.filter(|e| is_place(e.0)).flat_map(|e| place(e.0)) {
+                tied |= !std::mem::replace(&mut unknown[s as usize], true);
+                if !std::mem::replace(&mut is_reached[s as usize], true) {
+                    reached.push(s);
                 }
             }
         }
