@@ -139,7 +139,14 @@ fn cases(filter: &str) -> std::io::Result<Vec<Case>> {
 }
 
 fn figures(case: &Case) -> Figures {
-    measure_case(case, Repeat::Enough).unwrap_or_default()
+    apart(|| measure_case(case, Repeat::Enough).unwrap_or_default())
+}
+
+/// Measures in a thread of its own, so that neither solver pays for what the other left behind: kernels of
+/// ezpz leave the upper halves of the vector registers in use, and whatever a thread computes after these is
+/// up to two thirds slower; and the memory that one has freed lies in pieces for the other.
+fn apart<T: Send + Default>(measure: impl FnOnce() -> T + Send) -> T {
+    std::thread::scope(|scope| scope.spawn(measure).join()).unwrap_or_default()
 }
 
 fn state(figures: &Figures, peer: &Peer) -> String {
@@ -166,7 +173,7 @@ struct Peer {
 
 #[cfg(feature = "ezpz")]
 fn peer(case: &Case) -> Peer {
-    let figures = bench::peer::measure(case, Repeat::Enough);
+    let figures = apart(|| bench::peer::measure(case, Repeat::Enough));
     Peer {
         solve: middle(&figures.solve),
         analysis: middle(&figures.analysis),
