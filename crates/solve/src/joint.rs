@@ -75,7 +75,7 @@ impl Joint {
         let mut matrix = Vec::new();
         let (mut damping, mut factor) = (FIRST, 2.0);
         for _ in 0..STEPS {
-            w.spend(200 * self.block.pattern.len());
+            w.spend(50 * self.block.pattern.len());
             if !now.sum.is_finite() || w.is_spent() {
                 return false;
             }

@@ -107,6 +107,25 @@ pub fn others(plan: &Plan, x0: &[f64], most: usize, host: &mut dyn Host) -> Vec<
     attempt.others(&mut values, most, buffers, host)
 }
 
+/// Looks near a state for one in which every row of a plan holds, everything moved at once: nothing keeps its
+/// value, and no branch is followed. Returns nothing where none was found, which does not say that there is none.
+///
+/// What the host computes is not looked at, nor what follows from that. Where a number ran off, the rows hold only
+/// because nothing depends on it any more: that is no solution.
+pub fn near(plan: &Plan, runner: &mut Runner, x0: &[f64], host: &mut dyn Host) -> Option<Vec<f64>> {
+    /// What lies farther than this, in parts of the extent, ran off.
+    const FAR: f64 = 1e6;
+    start(plan, runner, x0, &[], Begins::Rest);
+    let Runner { frame, buffers, .. } = runner;
+    let mut values = frame.x0.clone();
+    let last = frame.x0.clone();
+    let attempt = Attempt { plan, frame, last: &last, trust: Trust::Any, part: Part::Whole };
+    let holds = attempt.settle(&mut values, buffers, host);
+    let mut ways = values.iter().zip(x0).zip(&frame.scales);
+    let has_run_off = ways.any(|((x, x0), scale)| (x - x0).abs() > FAR * scale);
+    (holds && !has_run_off).then_some(values)
+}
+
 /// Runs a plan for one edit.
 ///
 /// `x0` is the state when the edit began; slots without a stay are searched from the value that they

@@ -1,9 +1,12 @@
 //! Contradictions: which required constraints cannot hold together, and what would help.
 //!
-//! A set is tried by solving it alone: from where the last one held, from the present values and from a perturbed
-//! start. QuickXplain halves the suspects, those next to what does not hold kept longest, until no constraint of the
-//! set can be spared: without any one of them the others hold. A repair is told only if it was tried and everything
-//! else then holds.
+//! A set is tried by solving it alone: from where the last one held, from the present values and from several
+//! scattered starts, everything moved at once; where that does not say enough, by a plan of its own too. QuickXplain
+//! halves the suspects, those next to what does not hold kept longest, until no constraint of the set can be spared:
+//! without any one of them the others hold. That they hold is seen; that they cannot is only likely. Where what is
+//! left at last can hold, something on the way there was wrongly taken for contradictory: the search goes back to the
+//! smallest set that still looks so when it is tried harder, and on from there. A repair is told only if it was
+//! tried and everything else then holds.
 //!
 //! **Source:** Junker, *QuickXplain: preferred explanations and relaxations for over-constrained
 //! problems*, AAAI 2004.
@@ -12,7 +15,7 @@ use crate::aim::Aim;
 use crate::diagnose::combination::Combination;
 use crate::diagnose::gradient::is_linear;
 use crate::diagnose::repair::{Repair, Suspects};
-use crate::diagnose::trial::{Setup, Trial, perturbed};
+use crate::diagnose::trial::{Setup, Trial, perturbed, perturbed_by};
 use crate::edit::{Conflict, NotDecided};
 use crate::host::Host;
 use crate::planner::{Model, Planner, Unmet};
@@ -30,14 +33,17 @@ const WORK: u64 = 3_000_000_000;
 /// What trying one set may cost, at first and where that was too little.
 const SHORT: u64 = WORK / 100;
 const LONG: u64 = WORK / 10;
+/// How far from the present values everything is moved at once from, in parts of the extent.
+const FROM: [f64; 8] =
+    [0.0, 1.0 / 128.0, 1.0 / 16.0, 1.0 / 16.0, 1.0 / 4.0, 1.0 / 4.0, 1.0 / 4.0, 1.0];
 /// What looking for a further contradiction may cost.
 const FURTHER: u64 = WORK / 20;
 /// What trying the repairs of one contradiction may cost.
 const REPAIR: u64 = 1_000_000_000;
 /// How many contradictions of one component are told apart.
 const APART: usize = 4;
-/// From how many starts a set is tried.
-const STARTS: usize = 2;
+/// From how many starts a set is tried, at least.
+const STARTS: usize = 2 + FROM.len();
 
 /// Required constraints that cannot all hold.
 #[derive(Clone, PartialEq, Debug)]
@@ -195,6 +201,30 @@ impl Planner {
     }
 }
 
+/// How hard a set is tried, and what that may cost.
+#[derive(Clone, Copy, Debug)]
+enum Effort {
+    /// Everything moved at once.
+    AtOnce { most: u64 },
+    /// By a plan of its own too.
+    Planned { most: u64 },
+}
+
+const QUICK: Effort = Effort::AtOnce { most: LONG };
+const FIRM: Effort = Effort::Planned { most: SHORT };
+const HARDEST: Effort = Effort::Planned { most: LONG };
+
+/// How hard sets are tried, round by round; where a set was taken for contradictory that can hold, how hard those
+/// that it was found in are tried again.
+const ROUNDS: [[Effort; 2]; 6] = [
+    [QUICK, FIRM],
+    [QUICK, FIRM],
+    [QUICK, FIRM],
+    [FIRM, HARDEST],
+    [FIRM, HARDEST],
+    [HARDEST, HARDEST],
+];
+
 /// A search for what cannot hold together.
 struct Search<'s> {
     planner: &'s mut Planner,
@@ -205,8 +235,12 @@ struct Search<'s> {
     /// The state in which the last set that can hold was found to, what is given as it is: the next one is much
     /// the same.
     last: Option<Values>,
-    /// What one may cost.
-    most_each: u64,
+    /// States in which sets that were taken for contradictory were found to hold: what looked so may hold near them.
+    escapes: Vec<Values>,
+    /// The sets that were taken for contradictory, each a part of the one before.
+    chain: Vec<Vec<Unit>>,
+    /// How hard one is tried.
+    effort: Effort,
     /// How many there may be, and what the planner may have spent.
     most: usize,
     until: u64,
@@ -221,7 +255,19 @@ impl<'s> Search<'s> {
         most: usize,
         until: u64,
     ) -> Self {
-        Self { planner, setup, values, host, trials: 0, last: None, most_each: SHORT, most, until }
+        Self {
+            planner,
+            setup,
+            values,
+            host,
+            trials: 0,
+            last: None,
+            escapes: Vec::new(),
+            chain: Vec::new(),
+            effort: FIRM,
+            most,
+            until,
+        }
     }
 
     /// Finds contradictions one after the other, the last constraint of each left out for the next,
@@ -246,21 +292,50 @@ impl<'s> Search<'s> {
 
     /// Finds a minimal set of units that cannot hold together, and how sure that is; nothing if all of them can.
     ///
-    /// What takes long counts as not found. Where that was wrong, and the set can hold, more time is given.
+    /// What takes long counts as not found. Where that was wrong, and the set can hold, more is tried.
     fn minimal(&mut self, units: &[Unit]) -> Option<(Vec<Unit>, Certainty)> {
-        self.most_each = SHORT;
+        self.effort = FIRM;
         if self.can_hold(&[], units) {
             return None;
         }
-        let mut set = self.explain(&mut Vec::new(), 0, units);
-        let mut certainty = self.certainty(&set);
-        if !self.has_ended() && matches!(certainty, Certainty::NotDecided { .. }) {
-            self.most_each = LONG;
-            set = self.explain(&mut Vec::new(), 0, units);
-            certainty = self.certainty(&set);
+        self.escapes.clear();
+        self.chain = vec![units.to_vec()];
+        let mut found = (units.to_vec(), Certainty::NotDecided { trials: self.trials });
+        for [effort, harder] in ROUNDS {
+            self.effort = effort;
+            let whole = self.chain.last().cloned().unwrap_or_default();
+            let set = self.explain(&mut Vec::new(), 0, &whole);
+            let certainty = self.certainty(&set);
+            let is_decided = !matches!(certainty, Certainty::NotDecided { .. });
+            found = (set, certainty);
+            if is_decided || self.has_ended() {
+                break;
+            }
+            self.effort = harder;
+            self.back_out();
         }
+        let (mut set, certainty) = found;
         set.sort_by_key(|u| u.source);
         Some((set, certainty))
+    }
+
+    /// Drops from the chain what can hold after all, where the set that it ends in was found to.
+    fn back_out(&mut self) {
+        let mut chain = std::mem::take(&mut self.chain);
+        // the first cannot hold
+        let (mut low, mut high) = (1, chain.len());
+        self.escapes.extend(self.last.clone());
+        while low < high {
+            let middle = low.midpoint(high);
+            if self.can_hold(&chain[middle], &[]) {
+                self.escapes.extend(self.last.clone());
+                high = middle;
+            } else {
+                low = middle + 1;
+            }
+        }
+        chain.truncate(low);
+        self.chain = chain;
     }
 
     /// QuickXplain: the units among `suspects` without which those of `known` could hold.
@@ -268,6 +343,7 @@ impl<'s> Search<'s> {
     /// `added` is how many came to the known ones last.
     fn explain(&mut self, known: &mut Vec<Unit>, added: usize, suspects: &[Unit]) -> Vec<Unit> {
         if added > 0 && !self.can_hold(known, &[]) {
+            self.chain.push(known.clone());
             return Vec::new();
         }
         if suspects.len() <= 1 {
@@ -290,34 +366,53 @@ impl<'s> Search<'s> {
         self.trials >= self.most || self.planner.spent() >= self.until
     }
 
-    /// Returns true if these can hold together. Where the search has ended they are said not to.
+    /// Returns true if these can hold together. Where the search has ended they are said to: what is named then
+    /// still cannot hold together, but some of it might be spared.
     fn can_hold(&mut self, known: &[Unit], more: &[Unit]) -> bool {
         if self.has_ended() {
-            return false;
+            return true;
         }
         self.trials += 1;
         let rules: Vec<u32> = known.iter().chain(more).flat_map(|u| u.rules.clone()).collect();
-        self.try_out(&rules, self.most_each) == Trial::Holds
+        // one that was not tried to its end says nothing
+        self.try_out(&rules, self.effort) == Trial::Holds || self.has_ended()
     }
 
-    /// Tries rules, at this cost at most.
-    fn try_out(&mut self, rules: &[u32], most: u64) -> Trial {
-        let planner = &mut *self.planner;
+    /// Tries rules: from the state in which the last set held, then by their plan, then from many starts.
+    fn try_out(&mut self, rules: &[u32], effort: Effort) -> Trial {
+        let Self { planner, setup, values, host, .. } = self;
+        let (Effort::AtOnce { most } | Effort::Planned { most }) = effort;
         planner.try_until(Some(self.until.min(planner.spent() + most)));
-        let mut state = self.last.as_ref().unwrap_or(self.values).clone();
+        let mut state = self.last.as_ref().unwrap_or(values).clone();
         let mut trial = Trial::NotFound;
-        if self.last.is_some() {
-            trial = planner.try_rules(self.setup, rules, &mut state, self.host);
+        if planner.try_at_once(setup, rules, &mut state, *host) {
+            trial = Trial::Holds;
+        } else if let Effort::Planned { .. } = effort {
+            state.clone_from(values);
+            trial = planner.can_hold(setup, rules, &mut state, *host);
         }
-        if trial != Trial::Holds {
-            state.clone_from(self.values);
-            trial = planner.can_hold(self.setup, rules, &mut state, self.host);
+        if trial == Trial::NotFound {
+            let slots: BTreeSet<SlotId> =
+                rules.iter().flat_map(|&r| planner.rules.get(r).slots).copied().collect();
+            let moves =
+                |s: &SlotId| !matches!((setup.holding)(*s), Holding::Fixed | Holding::Given);
+            let slots: Vec<SlotId> = slots.into_iter().filter(moves).collect();
+            let scattered = (0..)
+                .zip(FROM)
+                .map(|(seed, part)| perturbed_by(part, seed, setup.model, &slots, values));
+            for start in self.escapes.iter().cloned().chain(scattered) {
+                state = start;
+                if planner.try_at_once(setup, rules, &mut state, *host) {
+                    trial = Trial::Holds;
+                    break;
+                }
+            }
         }
         planner.try_until(None);
         if trial == Trial::Holds {
             for &s in rules.iter().flat_map(|&r| planner.rules.get(r).slots) {
-                if matches!((self.setup.holding)(s), Holding::Fixed | Holding::Given) {
-                    state.put(s, self.values.get(s));
+                if matches!((setup.holding)(s), Holding::Fixed | Holding::Given) {
+                    state.put(s, values.get(s));
                 }
             }
             self.last = Some(state);
@@ -328,7 +423,7 @@ impl<'s> Search<'s> {
     /// Says how sure it is that a set cannot hold together.
     fn certainty(&mut self, set: &[Unit]) -> Certainty {
         let ended = self.has_ended();
-        let trial = if ended { Trial::NotFound } else { self.try_out(&rules_of(set), LONG) };
+        let trial = if ended { Trial::NotFound } else { self.try_out(&rules_of(set), HARDEST) };
         match trial {
             Trial::Contradicts => Certainty::Contradiction,
             Trial::NotFound if !self.has_ended() => Certainty::NoSolution { starts: STARTS },

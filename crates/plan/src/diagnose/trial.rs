@@ -5,8 +5,9 @@ use crate::component::Component;
 use crate::host::Host;
 use crate::modal::Stands;
 use crate::planner::{Model, Planner};
-use crate::run::{Ran, run};
-use crate::task::{Holding, Wish};
+use crate::run::{Adapter, Ran, ground, run, scatter};
+use crate::task::{Course, Holding, Task, Wish};
+use crate::vanish::vanished;
 use base::scrambled;
 use kernel::{SlotId, Values};
 use std::collections::BTreeSet;
@@ -52,18 +53,8 @@ impl Planner {
         yielding: &mut BTreeSet<SlotId>,
         host: &mut dyn Host,
     ) -> Trial {
-        let wished = setup.aim.wishes.iter().flat_map(Wish::slots);
-        let slots: BTreeSet<SlotId> =
-            rules.iter().flat_map(|&r| self.rules.get(r).slots.to_vec()).chain(wished).collect();
-        let mut rules = rules.to_vec();
-        rules.sort_unstable();
-        let component = Component::of(rules, slots.into_iter().collect());
         let mark = self.plans.mark();
-        let alike = std::mem::take(&mut self.alike);
-        let structure = setup.model.structure;
-        let components = vec![component];
-        let tasks = self.tasks(structure, components, setup.holding, &setup.aim.wishes, None);
-        self.alike = alike;
+        let tasks = self.tasks_of(setup, rules);
         let start = values.clone();
         let mut trial = Trial::Holds;
         for task in &tasks {
@@ -81,6 +72,57 @@ impl Planner {
         self.plans.forget_since(mark);
         trial
     }
+
+    /// States these rules alone.
+    fn tasks_of(&mut self, setup: &Setup<'_>, rules: &[u32]) -> Vec<Task> {
+        let wished = setup.aim.wishes.iter().flat_map(Wish::slots);
+        let slots: BTreeSet<SlotId> =
+            rules.iter().flat_map(|&r| self.rules.get(r).slots.to_vec()).chain(wished).collect();
+        let mut rules = rules.to_vec();
+        rules.sort_unstable();
+        let component = Component::of(rules, slots.into_iter().collect());
+        let alike = std::mem::take(&mut self.alike);
+        let structure = setup.model.structure;
+        let components = vec![component];
+        let tasks = self.tasks(structure, components, setup.holding, &setup.aim.wishes, None);
+        self.alike = alike;
+        tasks
+    }
+
+    /// Looks near these values for others with which these rules hold, everything moved at once; returns false
+    /// where none were found, which is soon known and says little. Leaves the values with which they hold.
+    pub(crate) fn try_at_once(
+        &mut self,
+        setup: &Setup<'_>,
+        rules: &[u32],
+        values: &mut Values,
+        host: &mut dyn Host,
+    ) -> bool {
+        let mark = self.plans.mark();
+        let tasks = self.tasks_of(setup, rules);
+        let start = values.clone();
+        let by_plan = || tasks.iter().filter(|task| matches!(task.course, Course::Plan));
+        let mut is_near = true;
+        for task in by_plan() {
+            let mut ground = ground(self, task, setup.aim, &start, &start);
+            ground.compute(self, setup.model, task, &start, host);
+            let mut runner = self.take_runner(Vec::new());
+            let mut adapter = Adapter { planner: self, model: setup.model, task, values, host };
+            let found = solve::near(&task.plan, &mut runner, &ground.local, &mut adapter);
+            self.put_back(runner);
+            is_near &= found.is_some();
+            if let Some(found) = found {
+                scatter(task, &found, values);
+            }
+        }
+        is_near = is_near && self.try_rules(setup, rules, values, host) == Trial::Holds;
+        is_near &= by_plan().all(|task| {
+            let before = ground(self, task, setup.aim, &start, &start).x0;
+            vanished(self, setup.model, task, &before, values, host).is_empty()
+        });
+        self.plans.forget_since(mark);
+        is_near
+    }
 }
 
 /// Moves every number by a little of the extent, differently each: a start that is not special.
@@ -88,8 +130,17 @@ impl Planner {
 /// Given numbers too: what holds for these alone is no theorem. What has to be whole or is anchored
 /// keeps its value.
 pub(crate) fn perturbed(model: Model<'_>, slots: &[SlotId], values: &Values) -> Values {
-    /// How far, as a part of the extent.
-    const PART: f64 = 1.0 / 128.0;
+    perturbed_by(1.0 / 128.0, 0, model, slots, values)
+}
+
+/// Does the same by this part of the extent, differently with every seed.
+pub(crate) fn perturbed_by(
+    part: f64,
+    seed: u32,
+    model: Model<'_>,
+    slots: &[SlotId],
+    values: &Values,
+) -> Values {
     let mut moved = values.clone();
     let mut extents: Vec<(kernel::Primitive, f64, f64)> = Vec::new();
     for &s in slots {
@@ -106,7 +157,7 @@ pub(crate) fn perturbed(model: Model<'_>, slots: &[SlotId], values: &Values) -> 
     for &s in slots {
         let slot = &model.structure.slots[s];
         if slot.primitive.is_number() && !slot.primitive.is_whole() && !slot.anchored {
-            moved.numbers[s] += extent(slot.primitive) * PART * scattered(s.0);
+            moved.numbers[s] += extent(slot.primitive) * part * scattered(s.0 ^ seed << 24);
         }
     }
     moved

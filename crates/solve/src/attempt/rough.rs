@@ -1,7 +1,7 @@
 //! From a rough start: everything that does not hold is moved at once, so that the steps begin near.
 //!
 //! In: an attempt. Out: values for which everything holds, or none. What holds in x0, and comes from
-//! nothing else, keeps its bits.
+//! nothing else, keeps its bits, except where all that is asked is whether everything can hold.
 
 use super::{Approach, Attempt, Buffers, Motion, Run, begin};
 use crate::joint::Gathered;
@@ -14,6 +14,14 @@ use std::rc::Rc;
 /// What all rows together may err when the steps take over: the last digits are soon found block by block, and
 /// slowly in the narrow valley that many rows make together. Where that is too rough, as little as can be.
 const ENOUGH: [f64; 2] = [1e-7, 0.0];
+
+/// What is moved.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+enum Moves {
+    /// What does not hold in x0, and what comes from that.
+    WhatDoesNotHold,
+    All,
+}
 
 impl Attempt<'_> {
     /// Runs the steps from where all rows together err least, near the last state; returns true if everything
@@ -29,7 +37,7 @@ impl Attempt<'_> {
                 values[i] = self.last[i];
             }
         }
-        let gathered = self.gather(values, buffers, host);
+        let gathered = self.gather(values, Moves::WhatDoesNotHold, buffers, host);
         let mut near = values.to_vec();
         ENOUGH.iter().any(|&enough| {
             gathered.joint.settle(&mut near, &self.frame.scales, enough, &mut buffers.work);
@@ -40,11 +48,32 @@ impl Attempt<'_> {
         })
     }
 
-    /// Takes all rows and unknowns of steps that do not hold together. `values` comes with the last state in it,
+    /// Moves everything that is not known at once, what holds too, from the last state to where all rows together
+    /// err least. `values` comes with the last state in it; returns true if all of them then hold.
+    pub(crate) fn settle(
+        self,
+        values: &mut [f64],
+        buffers: &mut Buffers,
+        host: &mut dyn Host,
+    ) -> bool {
+        let Self { plan, frame, last, trust, part: _ } = self;
+        let gathered = self.gather(values, Moves::All, buffers, host);
+        let holds = gathered.joint.settle(values, &frame.scales, ENOUGH[1], &mut buffers.work);
+        for (index, step) in plan.steps().iter().enumerate() {
+            if matches!(step.program, Program::Copy) {
+                // of a number that has just been found: it cannot fail
+                _ = Run { plan, frame, last, values, trust, buffers, host, index }.step(step);
+            }
+        }
+        holds
+    }
+
+    /// Takes all rows and unknowns of steps that move. `values` comes with the last state in it,
     /// and the known slots set, and leaves with what comes from those alone.
     fn gather(
         self,
         values: &mut [f64],
+        moves: Moves,
         buffers: &mut Buffers,
         host: &mut dyn Host,
     ) -> Rc<Gathered> {
@@ -64,7 +93,7 @@ impl Attempt<'_> {
                 | Program::Least(_)
                 | Program::Measure(_) => {
                     let inputs = run.inputs(&step.reads);
-                    if !run.keeps(step, inputs) {
+                    if moves == Moves::All || !run.keeps(step, inputs) {
                         run.start_from_last(&step.targets);
                         run.mark(step, Motion::Moved);
                         unknowns.extend(&*step.targets);
