@@ -56,7 +56,7 @@ pub(crate) struct Buffers {
     pub(crate) square: SquareScratch,
     pub(crate) least: LeastScratch,
     pub(crate) motion: Vec<Motion>,
-    /// For every step, the side on which the branch is followed.
+    /// For every step up to the last that follows a branch, the side on which it does.
     pub(crate) sides: Vec<Side>,
     pub(crate) test: TestScratch,
     /// The regions that were approached.
@@ -590,7 +590,10 @@ impl Run<'_> {
             let Buffers { work, square: scratch, sides, .. } = &mut *self.buffers;
             let mut no_side = Side::default();
             let side = match way {
-                Trust::Branch => &mut sides[self.index],
+                Trust::Branch => {
+                    sides.resize(sides.len().max(self.index + 1), Side::default());
+                    &mut sides[self.index]
+                }
                 Trust::Any | Trust::Leap => &mut no_side,
             };
             let course = Course { last: self.last, trust: way, side };

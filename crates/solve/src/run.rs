@@ -20,7 +20,7 @@ use crate::outcome::{Host, Outcome, Reason, Status, Unmet};
 use crate::plan::Plan;
 use crate::search::{Puzzle, Verdict};
 use crate::slice::Slice;
-use crate::square::{Side, Trust};
+use crate::square::Trust;
 use crate::system::{SlotIndex, Stay};
 use parts::Dragged;
 use start::{Begins, measure_what_is_set, required_rows_held, start};
@@ -287,7 +287,7 @@ impl Drag {
         }
         let Runner { frame, buffers, .. } = &mut self.runner;
         fork::lean(plan, frame, buffers, leans, &mut self.branch);
-        buffers.sides.fill(Side::default());
+        buffers.sides.clear();
         self.leans = true;
         // what is not downstream is to have its bits back
         self.has_run = false;
@@ -371,7 +371,7 @@ impl Drag {
         let is_safe = self.has_branch && plan.has_branches;
         let trust = if is_safe { Trust::Branch } else { Trust::Any };
         if !is_safe {
-            buffers.sides.fill(Side::default());
+            buffers.sides.clear();
         }
         let part = if self.has_run { Part::Downstream(slice) } else { Part::Whole };
         self.moved_slice = self.has_run;

@@ -4,7 +4,6 @@ use crate::attempt::{Buffers, Frame, Held};
 use crate::block::Workspace;
 use crate::plan::Plan;
 use crate::run::Runner;
-use crate::square::Side;
 use crate::system::{SlotIndex, Stay, System};
 use crate::test::{Differing, Place};
 use expr::LANES;
@@ -72,7 +71,6 @@ pub(super) fn start(
         .changed_texts
         .extend(changed.iter().copied().filter(|&c| !plan.slots()[c as usize].is_number));
     buffers.sides.clear();
-    buffers.sides.resize(plan.step_count(), Side::default());
     frame.held.clear();
     frame.held.resize(plan.system().equations.len(), Cell::new(Held::Unknown));
 }
