@@ -56,6 +56,12 @@ pub(crate) fn tie(
         let written = &system.relations[rows[r].relation as usize].methods;
         rows[r].curved && written.is_empty()
     };
+    // whichever of its places a row determines: in a block it may be any
+    let yields = unknown.clone();
+    let is_line = |r: usize| {
+        let mut columns = rows.columns(r).iter().filter(|e| yields[e.0 as usize]);
+        columns.any(|e| place(e.0).len() > 1 && rows.is_line(r, place(e.0)))
+    };
     let mut tied = false;
     for &r in &*accepted {
         let Some(slot) = direction.slot_of_row[r] else { continue };
@@ -63,7 +69,7 @@ pub(crate) fn tie(
             && !free[slot as usize]
             && place(slot).len() > 1
             && rows.columns(r).iter().any(|e| !unknown[e.0 as usize])
-            && !rows.is_line(r, place(slot));
+            && !is_line(r);
         if !is_stiff {
             continue;
         }
