@@ -192,8 +192,8 @@ impl Plan {
             || self.is_rounding(Differing { place, left, right }, values, work)
     }
 
-    /// Returns true if slots of an equation that are one to the plan differ in a state: what the equation says
-    /// there is not what is left of it where they are one.
+    /// Returns true if slots of an equation that are one to the plan differ in a state, or one of them lies apart from
+    /// what it is one with: what the equation says there is not what is left of it where they are one.
     pub(crate) fn is_parted(&self, place: Place, values: &[f64]) -> bool {
         if self.stood_for.is_empty() {
             return false;
@@ -204,8 +204,12 @@ impl Plan {
         };
         let value = |&slot: &SlotIndex| (one(slot), (values[slot as usize] + 0.0).to_bits());
         let mut all: Vec<(SlotIndex, u64)> = self.arguments(place.row).iter().map(value).collect();
+        let is_apart = |&slot: &SlotIndex| {
+            !base::number::close(values[slot as usize], values[one(slot) as usize])
+        };
         all.sort_unstable();
-        all.windows(2).any(|pair| pair[0].0 == pair[1].0 && pair[0].1 != pair[1].1)
+        self.arguments(place.row).iter().any(is_apart)
+            || all.windows(2).any(|pair| pair[0].0 == pair[1].0 && pair[0].1 != pair[1].1)
     }
 
     fn arguments(&self, row: u32) -> &[SlotIndex] {
