@@ -193,13 +193,26 @@ impl Answer<'_> {
                 };
                 // where rules depend on one another only here, as at the end of a reach, slopes prove nothing, nor where
                 // one has none, as a variance has none where it is nothing
-                let (rows, others) = (acts(&here), acts(&aside));
+                let (mut rows, mut others) = (acts(&here), acts(&aside));
                 let vanishes = |(here, aside): (&Row, &Row)| {
                     length(&here.slopes) < VANISHED * length(&aside.slopes)
                 };
-                if rank(&rows) < rank(&others) || rows.iter().zip(&others).any(vanishes) {
+                if rows.iter().zip(&others).any(vanishes) {
                     continue;
                 }
+                let weights = weights(&rows, columns.len());
+                for row in rows.iter_mut().chain(&mut others) {
+                    row.slopes
+                        .iter_mut()
+                        .zip(&weights)
+                        .for_each(|(slope, weight)| *slope *= weight);
+                }
+                if rank(&rows) < rank(&others) {
+                    continue;
+                }
+                let gradient: Vec<f64> =
+                    gradient.iter().zip(&weights).map(|(slope, weight)| slope * weight).collect();
+                let size = length(&gradient);
                 let groups = columns.iter().map(|&s| self.structure.slots[s].place.ok_or(s));
                 let rest = unexplained(&rows, &gradient, &groups.collect::<Vec<_>>());
                 if rest > OFF * size {
@@ -437,6 +450,17 @@ pub(super) fn acting(
     let speaks = |r: &Row| r.slopes.iter().any(|s| *s != 0.0);
     let all = all_rows(evaluator, of, columns)?;
     Some(all.into_iter().filter(|r| r.acts() && speaks(r)).collect())
+}
+
+/// Returns by what columns are multiplied of which every row speaks little beside what else it speaks of, as of what
+/// an amplifier puts out: else what they say would be lost in rounding.
+fn weights(rows: &[Row], columns: usize) -> Vec<f64> {
+    /// How much is little.
+    const LITTLE: f64 = 1e-2;
+    let part = |row: &Row, column: usize| row.slopes[column].abs() / length(&row.slopes);
+    let most = |column| rows.iter().map(|row| part(row, column)).fold(0.0, f64::max);
+    let weight = |most: f64| if most > 0.0 && most < LITTLE { 1.0 / most } else { 1.0 };
+    (0..columns).map(|column| weight(most(column))).collect()
 }
 
 /// Returns how many of some rows are independent.
