@@ -9,7 +9,9 @@ use crate::planner::{Latest, Model, Planner, is_any_new};
 use crate::run::{
     Adapter, Ground, Ran, Texts, compute, leans, or_otherwise, put_texts, ran, scatter, searched,
 };
+use crate::task::restated::LETTING_GO;
 use crate::task::{Course, Task};
+use crate::vanish::vanished;
 use kernel::{SlotId, Values};
 use solve::{Level, PATIENCE, Puzzle, Rejected, SlotIndex, Stay, Verdict};
 use std::rc::Rc;
@@ -315,6 +317,12 @@ impl Pull {
         let patterns = planner.plans.patterns();
         let is_met = outcome.is_solved() && outcome.unmet.is_empty();
         let may_go_on = self.task.whole().is_some() || self.task.may_yield_in_pieces(patterns);
+        if is_met && self.comes_to_nothing(planner, model, aim, values, host) {
+            // what was met so is met otherwise, where something lets go
+            if self.lets_go(planner, model, aim, values, host, report) {
+                return true;
+            }
+        }
         if is_met && !may_go_on {
             return true;
         }
@@ -357,6 +365,22 @@ impl Pull {
         }
         self.note(report, ran);
         is_reached
+    }
+
+    /// Returns true if places have come together so that rows hold by that, or may.
+    fn comes_to_nothing(
+        &self,
+        planner: &Planner,
+        model: Model<'_>,
+        aim: &Aim,
+        values: &Values,
+        host: &mut dyn Host,
+    ) -> bool {
+        let is_set = |slot: SlotId| aim.slots().contains(&slot);
+        let is_small = self.task.component.slots().len() <= LETTING_GO;
+        is_small
+            && self.task.plan.is_curved()
+            && vanished(planner, model, &self.task, (&self.x0, &is_set), values, host).is_some()
     }
 
     /// Follows another task from the press on, where it is.

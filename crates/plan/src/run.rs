@@ -1,5 +1,7 @@
 //! Running a task: numbers out of the document, through the plan, and back.
 
+mod otherwise;
+
 use crate::aim::{Aim, in_words};
 use crate::edit::{Conflict, NotDecided};
 use crate::holds::{fails, truth};
@@ -8,10 +10,10 @@ use crate::modal::{self, Decide, Stands};
 use crate::planner::{Model, Planner};
 use crate::rule::{Body, Condition, How, Rule, Source};
 use crate::task::{Course, Number, Origin, Task};
-use crate::vanish::vanished;
 use crate::whole::{self, Looking};
 use base::number::Toward;
 use kernel::{SlotId, Value, Values};
+use otherwise::{or_kept_apart, or_letting_go};
 use solve::{
     Lean, Level, Outcome, Plan, Puzzle, Reason, Scratch, SlotIndex, Status, Stay, Verdict, moved,
 };
@@ -37,12 +39,18 @@ pub(crate) struct Ran {
     pub(crate) stands: Option<Stands>,
     /// Where it was given up.
     pub(crate) not_decided: Option<NotDecided>,
+    /// Where the way of an edit ended that came to no end, in the slots of its system.
+    pub(crate) limit: Option<Vec<f64>>,
 }
 
 impl Ran {
     /// Returns true if what it was for is not reached, and no method failed.
     pub(crate) fn falls_short(&self) -> bool {
         self.is_missed || !self.is_solved && self.failure.is_none()
+    }
+    /// Returns true if it holds on no way that was looked at, and no method failed.
+    fn is_refused(&self) -> bool {
+        !self.is_solved && self.failure.is_none() && self.not_decided.is_none()
     }
 }
 
@@ -177,66 +185,6 @@ fn put_back(task: &Task, ground: &Ground, values: &mut Values) {
     }
 }
 
-/// Lets the computed numbers go that the plan holds, and then the places, where an edit came to no end with them held.
-fn or_letting_go(
-    planner: &Planner,
-    model: Model<'_>,
-    task: &Task,
-    ground: &Ground,
-    ran: Ran,
-    values: &mut Values,
-    host: &mut dyn Host,
-) -> Ran {
-    let is_refused = !ran.is_solved && ran.failure.is_none() && ran.not_decided.is_none();
-    if !is_refused || ground.changed.is_empty() {
-        return ran;
-    }
-    let texts = values.texts.clone();
-    let numbers: Vec<f64> = task.numbers(&values.numbers).collect();
-    let mut free = task.letting_go(&planner.plans);
-    while let Some(own) = free {
-        put_texts(&ground.texts, values);
-        let mut found = by_course(planner, model, &own, ground, values, host);
-        if found.is_solved {
-            found.stands = found.stands.and_then(|stands| task.stands_as(planner, &stands));
-            return found;
-        }
-        values.texts.clone_from(&texts);
-        scatter(task, &numbers, values);
-        free = own.letting_go(&planner.plans);
-    }
-    ran
-}
-
-/// Has places stay apart that came together, where the answer holds by that alone: what has no answer then has none.
-fn or_kept_apart(
-    planner: &Planner,
-    model: Model<'_>,
-    task: &Task,
-    ground: &Ground,
-    ran: Ran,
-    values: &mut Values,
-    host: &mut dyn Host,
-) -> Ran {
-    let plan = ran.stands.as_ref().map_or(&task.plan, Stands::plan);
-    if !ran.is_solved || !plan.is_curved() {
-        return ran;
-    }
-    let vanished = vanished(planner, model, task, &ground.x0, values, host);
-    if vanished.is_empty() {
-        return ran;
-    }
-    let Some(kept) = task.kept_apart(&vanished, &planner.plans) else { return ran };
-    let apart = || vanished.iter().map(|pair| pair.apart);
-    let Ground { x0, local, texts, changed } = ground;
-    let [x0, local] = [x0, local].map(|all| all.iter().copied().chain(apart()).collect());
-    let ground = Ground { x0, local, texts: texts.clone(), changed: changed.clone() };
-    put_texts(&ground.texts, values);
-    let mut found = by_course(planner, model, &kept, &ground, values, host);
-    found.stands = found.stands.and_then(|stands| task.stands_as(planner, &stands));
-    found
-}
-
 /// Looks further where what was run did not come to an end: for whole numbers, where some are looked for and it
 /// made none; then for other pieces of equations, where it did not reach what is wished as well, or came to others
 /// than it began on and something nearer may do.
@@ -323,16 +271,16 @@ fn by_course(
                 let mut local = began.clone();
                 let mut adapter = Adapter { planner, model, task, values, host };
                 let outcome = solve::run(plan, &mut runner, x0, &mut local, changed, &mut adapter);
-                (outcome, local)
+                (outcome, local, runner.stopped().map(<[f64]>::to_vec))
             };
             // rows that depend on others here, though not at a generic point, free no given number
             let held = planner.plans.with_given_held(&task.system, &task.plan);
             let held = held.map(|plan| by_plan(&plan));
-            let held = held.filter(|(outcome, _)| outcome.is_solved() && outcome.unmet.is_empty());
-            let (outcome, local) = held.unwrap_or_else(|| by_plan(&task.plan));
+            let held = held.filter(|(outcome, ..)| outcome.is_solved() && outcome.unmet.is_empty());
+            let (outcome, local, limit) = held.unwrap_or_else(|| by_plan(&task.plan));
             planner.put_back(runner);
             scatter(task, &local, values);
-            ran(planner, task, &outcome)
+            Ran { limit, ..ran(planner, task, &outcome) }
         }
         Course::Modes(modes, _) => modal::run_on(planner, model, task, modes, ground, values, host),
         Course::Search(puzzle) => by_search(planner, task, puzzle, ground, values),

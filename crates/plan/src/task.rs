@@ -3,7 +3,7 @@
 //! Equal components have equal systems whatever their slots and rules are called in the document,
 //! so that one plan serves all of them.
 
-mod restated;
+pub(crate) mod restated;
 mod stating;
 
 use crate::component::{Component, Net};

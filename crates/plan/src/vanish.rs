@@ -1,9 +1,12 @@
 //! What vanishes: an answer in which rows hold only because two places that they speak of have come together, as a
 //! line without length is parallel to any, while others have no value where they are one.
 //!
-//! In: what a run came to. Out: which places came together so. They are told by two signs. A row that speaks of both
-//! is off by a part of what the way between them comes to in it, larger than rounding leaves: it holds because that is
-//! nearly nothing. And where the places are one, a row of the component has no value, or quite another.
+//! In: what a run came to. Out: which places came together so, and whether that is sure. It is by two signs. A row
+//! that speaks of both is off by a part of what the way between them comes to in it, larger than rounding leaves: it
+//! holds because that is nearly nothing. And where the places are one, a row of the component has no value, or quite
+//! another. Where least change alone brought them together it is not: the rows that speak of both say something else on
+//! every side of where they are one, as an angle does, or allow the way between them no direction. Then another answer
+//! is better where there is one.
 
 use crate::component::Component;
 use crate::holds::counts;
@@ -17,6 +20,13 @@ use solve::{Level, Scratch, SlotIndex};
 
 /// Places have come together where this part of the way between them is left.
 const LEFT: f64 = 1e-6;
+/// The same where an answer in which they stay apart is asked for, and where they are on the way to an end of it.
+const SHRUNK: f64 = 1e-3;
+const SHRINKING: f64 = 0.1;
+/// How far one place is put from the other to see what rows say on each side, in parts of the former way, and how
+/// nearly two of them may say the same.
+const ASIDE: f64 = 1e-7;
+const ALIKE: f64 = 1e-6;
 /// What is off by more than this part of what the way between two places comes to in it does not hold by itself.
 const UNDONE: f64 = 1e-5;
 /// What a row changes by where places are one, more than this part of its sides and so many times the way between
@@ -52,6 +62,14 @@ pub(crate) struct Pair {
     slots: [SlotIndex; 4],
 }
 
+/// Places that came together.
+#[derive(Clone, PartialEq, Debug)]
+pub(crate) struct Together {
+    pub(crate) pairs: Vec<Vanished>,
+    /// True if rows hold by that alone: it is no answer.
+    pub(crate) is_none: bool,
+}
+
 /// Returns how far the one place is from the other, squared.
 fn squared([x1, y1, x2, y2]: [f64; 4]) -> f64 {
     let [dx, dy] = [x2 - x1, y2 - y1];
@@ -63,42 +81,142 @@ fn apart([x1, y1, x2, y2]: [SlotId; 4], values: &Values) -> f64 {
     hypot(x[x2] - x[x1], x[y2] - x[y1])
 }
 
-/// Returns the places that came together between two states of a task, where the rows hold only by that. `x0` is the
-/// first of these states, in the slots of the system.
+/// Returns the places that came together between two states of a task, where the rows hold by that or may. `x0` is
+/// the first of these states, in the slots of the system. A place of which something is set
+/// is where it shall be.
 pub(crate) fn vanished(
     planner: &Planner,
     model: Model<'_>,
     task: &Task,
-    x0: &[f64],
+    (x0, is_set): (&[f64], &dyn Fn(SlotId) -> bool),
     values: &Values,
     host: &mut dyn Host,
-) -> Vec<Vanished> {
-    let mut scratch = Scratch::default();
-    let mut found: Vec<Vanished> = Vec::new();
+) -> Option<Together> {
     let known = task.component.slots();
-    let before = |slot: SlotIndex| x0[slot as usize];
     let now = |slot: SlotIndex| values.numbers[known[slot as usize]];
-    // nearly always nothing has come together: that is seen without roots, and without a list
-    let has_vanished = |&&Pair { slots: [x1, y1, x2, y2], .. }: &&Pair| {
-        squared([now(x1), now(y1), now(x2), now(y2)])
-            < LEFT * LEFT * squared([before(x1), before(y1), before(x2), before(y2)])
-    };
-    let pairs = task.pairs(|| pairs(planner, &task.component));
-    for &Pair { position, slots } in pairs.iter().filter(has_vanished) {
-        let [x1, y1, x2, y2] = slots.map(before);
-        let apart = hypot(x2 - x1, y2 - y1);
-        let pair = Vanished { position, slots: slots.map(|slot| known[slot as usize]), apart };
-        let is_new = found.iter().all(|known| known.slots != pair.slots);
-        let rule = planner.rules.get(task.component.rules()[position as usize]);
-        if is_new && is_undone(planner, model, rule, &pair, values, host, &mut scratch) {
-            found.push(pair);
+    let shrunk = nearer(planner, task, x0, now, SHRUNK);
+    if shrunk.is_empty() {
+        return None;
+    }
+    let mut scratch = Scratch::default();
+    let is_left = |pair: &&Vanished| pair.now(values) < LEFT * pair.apart;
+    let mut pairs: Vec<Vanished> = Vec::new();
+    for pair in shrunk.iter().filter(is_left) {
+        let rule = planner.rules.get(task.component.rules()[pair.position as usize]);
+        let is_new = pairs.iter().all(|known| known.slots != pair.slots);
+        if is_new && is_undone(planner, model, rule, pair, values, host, &mut scratch) {
+            pairs.push(*pair);
         }
     }
-    if found.is_empty() || !is_told_apart(planner, model, task, &found, values, host, &mut scratch)
+    if !pairs.is_empty() && is_told_apart(planner, model, task, &pairs, values, host, &mut scratch)
     {
-        return Vec::new();
+        return Some(Together { pairs, is_none: true });
     }
-    found
+    pairs.clear();
+    for pair in shrunk.iter().filter(|pair| !pair.slots.iter().any(|&s| is_set(s))) {
+        let is_new = pairs.iter().all(|known| known.slots != pair.slots);
+        if is_new && has_no_direction(planner, model, task, pair, values, host, &mut scratch) {
+            pairs.push(*pair);
+        }
+    }
+    (!pairs.is_empty()).then_some(Together { pairs, is_none: false })
+}
+
+/// Returns the places that come together on the way from x0 to the `limit` where it ends, but for what is `set`.
+pub(crate) fn shrinking(
+    planner: &Planner,
+    task: &Task,
+    (x0, is_set): (&[f64], &dyn Fn(SlotId) -> bool),
+    limit: &[f64],
+) -> Option<Together> {
+    let mut pairs: Vec<Vanished> = Vec::new();
+    for pair in nearer(planner, task, x0, |slot| limit[slot as usize], SHRINKING) {
+        let is_new = pairs.iter().all(|known| known.slots != pair.slots);
+        if is_new && !pair.slots.iter().any(|&s| is_set(s)) {
+            pairs.push(pair);
+        }
+    }
+    (!pairs.is_empty()).then_some(Together { pairs, is_none: false })
+}
+
+/// Returns the pairs of places that are nearer to each other than so large a part of what they were in x0.
+fn nearer(
+    planner: &Planner,
+    task: &Task,
+    x0: &[f64],
+    now: impl Fn(SlotIndex) -> f64,
+    part: f64,
+) -> Vec<Vanished> {
+    let known = task.component.slots();
+    let before = |slot: SlotIndex| x0[slot as usize];
+    // nearly always nothing has come together: that is seen without roots, and without a list
+    let has_come = |&&Pair { slots: [x1, y1, x2, y2], .. }: &&Pair| {
+        squared([now(x1), now(y1), now(x2), now(y2)])
+            < part * part * squared([before(x1), before(y1), before(x2), before(y2)])
+    };
+    let pairs = task.pairs(|| pairs(planner, &task.component));
+    let found = pairs.iter().filter(has_come).map(|&Pair { position, slots }| {
+        let [x1, y1, x2, y2] = slots.map(before);
+        let apart = hypot(x2 - x1, y2 - y1);
+        Vanished { position, slots: slots.map(|slot| known[slot as usize]), apart }
+    });
+    found.collect()
+}
+
+/// Returns true if the rows that speak of two places allow the way between them no direction where they are one: one
+/// has no value there, or says something else on the one side than on the other; or two hold along different lines.
+fn has_no_direction(
+    planner: &Planner,
+    model: Model<'_>,
+    task: &Task,
+    pair: &Vanished,
+    values: &Values,
+    host: &mut dyn Host,
+    scratch: &mut Scratch,
+) -> bool {
+    let patterns = planner.plans.patterns();
+    let [x1, y1, x2, y2] = pair.slots;
+    let step = ASIDE * pair.apart;
+    let is_one = pair.now(values) < LEFT * pair.apart;
+    let mut there = values.clone();
+    let mut known: Option<[f64; 2]> = None;
+    for &index in task.component.rules() {
+        let rule = planner.rules.get(index);
+        let Body::Equations(equations) = &rule.shape.body else { continue };
+        let speaks = pair.slots.iter().all(|slot| rule.slots.contains(slot));
+        if rule.shape.level != Level::Required
+            || !speaks
+            || !counts(patterns, model.structure, rule, values, host, scratch)
+        {
+            continue;
+        }
+        for e in equations {
+            let mut size: f64 = 0.0;
+            let mut off = |by: [f64; 2]| {
+                there.numbers[x2] = there.numbers[x1] + by[0];
+                there.numbers[y2] = there.numbers[y1] + by[1];
+                let sides = rule.evaluate(e, patterns, &there.numbers, scratch);
+                size = size.max(sides[0].abs()).max(sides[1].abs());
+                sides[0] - sides[1]
+            };
+            let slope = [[step, 0.0], [0.0, step]].map(|[x, y]| off([x, y]) - off([-x, -y]));
+            let steep = hypot(slope[0], slope[1]);
+            if !steep.is_finite() || steep > (PART * size).max(STEEP * step) {
+                return true;
+            }
+            let is_slope = steep > ALIKE * step;
+            if !is_one || !is_slope {
+                continue;
+            }
+            let own = slope.map(|s| s / steep);
+            match known {
+                Some([x, y]) if (x * own[1] - y * own[0]).abs() > ALIKE => return true,
+                None => known = Some(own),
+                Some(_) => {}
+            }
+        }
+    }
+    false
 }
 
 /// Returns the places that the required rules of a component speak of, those of each two by two.

@@ -38,12 +38,18 @@ pub struct Runner {
     came: Vec<f64>,
     trial: Vec<f64>,
     leans: Vec<Lean>,
+    /// Where the way ended that its last run went; empty where none ended.
+    stopped: Vec<f64>,
 }
 
 impl Runner {
     /// Makes an empty one.
     pub fn new() -> Self {
         Self::default()
+    }
+    /// Returns the state where the way ended that its last run went, if that did not arrive.
+    pub fn stopped(&self) -> Option<&[f64]> {
+        (!self.stopped.is_empty()).then_some(&self.stopped)
     }
     /// Returns what its runs have cost so far, in multiplications, roughly: the same on every machine.
     pub fn spent(&self) -> u64 {
@@ -142,6 +148,7 @@ pub fn run(
     changed: &[SlotIndex],
     host: &mut dyn Host,
 ) -> Outcome {
+    runner.stopped.clear();
     let stopped = match runner.dragged(plan, x0, values, changed, host) {
         Dragged::There(outcome) => return outcome,
         Dragged::Stopped(reason) => Some(reason),
@@ -151,7 +158,7 @@ pub fn run(
     runner.came.extend_from_slice(values);
     let begins = if changed.is_empty() { Begins::Rest } else { Begins::Edit };
     start(plan, runner, x0, changed, begins);
-    let Runner { frame, buffers, last, goal, came, trial, leans } = runner;
+    let Runner { frame, buffers, last, goal, came, trial, leans, .. } = runner;
     measure_what_is_set(plan, frame, came, changed);
     let solved_before =
         frame.changed_texts.is_empty() && !plan.opens() && required_rows_held(plan, frame, buffers);

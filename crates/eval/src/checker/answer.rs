@@ -11,7 +11,9 @@ use super::slopes::{Row, only_read, rows, taken};
 use super::{Edit, shown, wish};
 use crate::evaluator::Evaluator;
 use crate::sway::Order;
-use kernel::{ConstraintInstance, Document, Primitive, SlotId, Strength, Structure, Values};
+use kernel::{
+    ConstraintInstance, Document, Primitive, SlotId, Strength, Structure, ThingId, Values,
+};
 use std::collections::BTreeSet;
 
 /// How many slots a component may have to be looked at.
@@ -215,7 +217,8 @@ impl Answer<'_> {
                 let size = length(&gradient);
                 let groups = columns.iter().map(|&s| self.structure.slots[s].place.ok_or(s));
                 let rest = unexplained(&rows, &gradient, &groups.collect::<Vec<_>>());
-                if rest > OFF * size {
+                if rest > OFF * size && !self.turns_round(states[0], of, columns, &rows, &gradient)
+                {
                     let paths: Vec<String> = columns.iter().map(|&s| (self.path)(s)).collect();
                     let paths = paths.join(", ");
                     let part = rest / size;
@@ -225,6 +228,41 @@ impl Answer<'_> {
                 }
             }
         }
+    }
+
+    /// Returns true if what would change less, to first order, turns the way from one place to another round that a rule
+    /// speaks of: where the angle of a line turns by more than a right angle, no change is least, but that which brings
+    /// its ends together, where it has no angle.
+    fn turns_round(
+        &self,
+        after: &Evaluator<'_>,
+        of: &[ConstraintInstance],
+        columns: &[SlotId],
+        rows: &[Row],
+        gradient: &[f64],
+    ) -> bool {
+        let back = Span::of(rows.iter().map(|row| row.slopes.clone())).rest(gradient);
+        let number = |slot: SlotId| {
+            let now = self.edit.after.numbers[slot];
+            let column = columns.iter().position(|c| *c == slot);
+            [now, now - column.map_or(0.0, |column| back[column])]
+        };
+        of.iter().any(|&constraint| {
+            let (_, reads) = after.listening(|| after.test(constraint).is_ok());
+            let places: BTreeSet<ThingId> =
+                reads.iter().filter_map(|&slot| self.structure.slots[slot].place).collect();
+            let places: Vec<[[f64; 2]; 2]> = places
+                .into_iter()
+                .filter_map(|place| self.structure.slots_under(place).try_into().ok())
+                .map(|[x, y]: [SlotId; 2]| [number(x), number(y)])
+                .collect();
+            let turns = |[a, b]: [[[f64; 2]; 2]; 2]| {
+                let [x, y] = [0, 1].map(|i| [0, 1].map(|when| b[i][when] - a[i][when]));
+                x[0] * x[1] + y[0] * y[1] < 0.0
+            };
+            let pairs = places.iter().enumerate();
+            pairs.flat_map(|(i, &a)| places[..i].iter().map(move |&b| [a, b])).any(turns)
+        })
     }
 
     /// A wish that is not met could not be met better: what is stronger allows no direction in which it would be.

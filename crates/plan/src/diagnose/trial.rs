@@ -118,7 +118,7 @@ impl Planner {
         is_near = is_near && self.try_rules(setup, rules, values, host) == Trial::Holds;
         is_near &= by_plan().all(|task| {
             let before = ground(self, task, setup.aim, &start, &start).x0;
-            vanished(self, setup.model, task, &before, values, host).is_empty()
+            vanished(self, setup.model, task, (&before, &|_| true), values, host).is_none()
         });
         self.plans.forget_since(mark);
         is_near

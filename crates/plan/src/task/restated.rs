@@ -11,7 +11,7 @@ use std::collections::BTreeSet;
 use std::rc::Rc;
 
 /// Up to this many slots numbers let go.
-const LETTING_GO: usize = 200;
+pub(crate) const LETTING_GO: usize = 200;
 
 impl Task {
     /// Returns what it is with these rules tested after each step and never solved for; nothing where it speaks of

@@ -73,6 +73,9 @@ impl Runner {
         };
         *self = drag.runner;
         self.leans = leans;
+        if let Dragged::Stopped(_) = dragged {
+            self.stopped.clone_from(&drag.now);
+        }
         dragged
     }
 }

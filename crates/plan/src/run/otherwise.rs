@@ -1,0 +1,107 @@
+//! What an edit comes to otherwise, from where it began: with what its plan holds let go, or with places kept apart that
+//! came together.
+
+use super::{Ground, Ran, by_course, put_texts, scatter};
+use crate::host::Host;
+use crate::modal::Stands;
+use crate::planner::{Model, Planner};
+use crate::task::Task;
+use crate::vanish::{shrinking, vanished};
+use kernel::{SlotId, Values};
+
+/// Lets the computed numbers go that the plan holds, and then the places, where an edit came to no end with them held.
+pub(super) fn or_letting_go(
+    planner: &Planner,
+    model: Model<'_>,
+    task: &Task,
+    ground: &Ground,
+    ran: Ran,
+    values: &mut Values,
+    host: &mut dyn Host,
+) -> Ran {
+    if !ran.is_refused() || ground.changed.is_empty() {
+        return ran;
+    }
+    letting_go(planner, model, task, ground, values, host).unwrap_or(ran)
+}
+
+/// The same from wherever it came to; nothing, and all is as it was, where it comes to no end so either.
+fn letting_go(
+    planner: &Planner,
+    model: Model<'_>,
+    task: &Task,
+    ground: &Ground,
+    values: &mut Values,
+    host: &mut dyn Host,
+) -> Option<Ran> {
+    let texts = values.texts.clone();
+    let numbers: Vec<f64> = task.numbers(&values.numbers).collect();
+    let mut free = task.letting_go(&planner.plans);
+    while let Some(own) = free {
+        put_texts(&ground.texts, values);
+        let mut found = by_course(planner, model, &own, ground, values, host);
+        if found.is_solved {
+            found.stands = found.stands.and_then(|stands| task.stands_as(planner, &stands));
+            return Some(found);
+        }
+        values.texts.clone_from(&texts);
+        scatter(task, &numbers, values);
+        free = own.letting_go(&planner.plans);
+    }
+    None
+}
+
+/// Has places stay apart that came together, where the answer holds by that alone: what has no answer then has none.
+/// Where it may, or they come together where an edit is refused, others are asked for: what lets go, then places that
+/// stay apart. If there is none it stands as it was.
+pub(super) fn or_kept_apart(
+    planner: &Planner,
+    model: Model<'_>,
+    task: &Task,
+    ground: &Ground,
+    ran: Ran,
+    values: &mut Values,
+    host: &mut dyn Host,
+) -> Ran {
+    let plan = ran.stands.as_ref().map_or(&task.plan, Stands::plan);
+    if !plan.is_curved() {
+        return ran;
+    }
+    let slots = task.component.slots();
+    let is_set =
+        |slot: SlotId| ground.changed.iter().any(|&at| slots.get(at as usize) == Some(&slot));
+    let from: (&[f64], &dyn Fn(SlotId) -> bool) = (&ground.x0, &is_set);
+    let together = match &ran.limit {
+        _ if ran.is_solved => vanished(planner, model, task, from, values, host),
+        Some(limit) if ran.is_refused() => shrinking(planner, task, from, limit),
+        Some(_) | None => None,
+    };
+    let Some(together) = together.filter(|t| t.is_none || !ground.changed.is_empty()) else {
+        return ran;
+    };
+    let texts = values.texts.clone();
+    let numbers: Vec<f64> = task.numbers(&values.numbers).collect();
+    if ran.is_solved && !together.is_none {
+        if let Some(found) = letting_go(planner, model, task, ground, values, host)
+            && vanished(planner, model, task, from, values, host).is_none()
+        {
+            return found;
+        }
+        scatter(task, &numbers, values);
+    }
+    let Some(kept) = task.kept_apart(&together.pairs, &planner.plans) else { return ran };
+    let apart = || together.pairs.iter().map(|pair| pair.apart);
+    let Ground { x0, local, texts: before, changed } = ground;
+    let [x0, local] = [x0, local].map(|all| all.iter().copied().chain(apart()).collect());
+    let own = Ground { x0, local, texts: before.clone(), changed: changed.clone() };
+    put_texts(&ground.texts, values);
+    let found = by_course(planner, model, &kept, &own, values, host);
+    let mut found = or_letting_go(planner, model, &kept, &own, found, values, host);
+    found.stands = found.stands.and_then(|stands| task.stands_as(planner, &stands));
+    if together.is_none || found.is_solved && !found.is_missed {
+        return found;
+    }
+    values.texts = texts;
+    scatter(task, &numbers, values);
+    ran
+}
