@@ -5,8 +5,8 @@
 //! that speaks of both is off by a part of what the way between them comes to in it, larger than rounding leaves: it
 //! holds because that is nearly nothing. And where the places are one, a row of the component has no value, or quite
 //! another. Where least change alone brought them together it is not: the rows that speak of both say something else on
-//! every side of where they are one, as an angle does, or allow the way between them no direction. Then another answer
-//! is better where there is one.
+//! every side of where they are one, as an angle does, or nothing, where with the others they leave no direction. Then
+//! another answer is better where there is one.
 
 use crate::component::Component;
 use crate::holds::counts;
@@ -27,6 +27,8 @@ const SHRINKING: f64 = 0.1;
 /// nearly two of them may say the same.
 const ASIDE: f64 = 1e-7;
 const ALIKE: f64 = 1e-6;
+/// What is off by less than this part of what it comes to where places are apart says nothing where they are one.
+const NOTHING: f64 = 1e-9;
 /// What is off by more than this part of what the way between two places comes to in it does not hold by itself.
 const UNDONE: f64 = 1e-5;
 /// What a row changes by where places are one, more than this part of its sides and so many times the way between
@@ -163,8 +165,9 @@ fn nearer(
     found.collect()
 }
 
-/// Returns true if the rows that speak of two places allow the way between them no direction where they are one: one
-/// has no value there, or says something else on the one side than on the other; or two hold along different lines.
+/// Returns true if the way between two places has no direction where they are one: a row that speaks of both has no
+/// value there, or says something else on the one side than on the other; or one says nothing there, whatever else
+/// is, and with the others it would leave none of them anywhere to go.
 fn has_no_direction(
     planner: &Planner,
     model: Model<'_>,
@@ -177,46 +180,78 @@ fn has_no_direction(
     let patterns = planner.plans.patterns();
     let [x1, y1, x2, y2] = pair.slots;
     let step = ASIDE * pair.apart;
-    let is_one = pair.now(values) < LEFT * pair.apart;
     let mut there = values.clone();
-    let mut known: Option<[f64; 2]> = None;
-    for &index in task.component.rules() {
-        let rule = planner.rules.get(index);
+    (there.numbers[x2], there.numbers[y2]) = (there.numbers[x1], there.numbers[y1]);
+    let rules = task.component.rules().iter().map(|&index| planner.rules.get(index));
+    let mut says_nothing = false;
+    // how the rows lean that speak of each place
+    let mut leaning: [Leaning; 2] = [Leaning::default(); 2];
+    for rule in rules.filter(|rule| rule.shape.level == Level::Required) {
         let Body::Equations(equations) = &rule.shape.body else { continue };
-        let speaks = pair.slots.iter().all(|slot| rule.slots.contains(slot));
-        if rule.shape.level != Level::Required
-            || !speaks
+        let speaks = [[x1, y1], [x2, y2]].map(|place| place.map(|slot| rule.slots.contains(&slot)));
+        let is_of_both = speaks == [[true; 2]; 2];
+        if !speaks.as_flattened().contains(&true)
             || !counts(patterns, model.structure, rule, values, host, scratch)
         {
             continue;
         }
         for e in equations {
             let mut size: f64 = 0.0;
-            let mut off = |by: [f64; 2]| {
-                there.numbers[x2] = there.numbers[x1] + by[0];
-                there.numbers[y2] = there.numbers[y1] + by[1];
+            let mut off = |slot: SlotId, by: f64| {
+                let here = there.numbers[slot];
+                there.numbers[slot] = here + by;
                 let sides = rule.evaluate(e, patterns, &there.numbers, scratch);
+                there.numbers[slot] = here;
                 size = size.max(sides[0].abs()).max(sides[1].abs());
                 sides[0] - sides[1]
             };
-            let slope = [[step, 0.0], [0.0, step]].map(|[x, y]| off([x, y]) - off([-x, -y]));
-            let steep = hypot(slope[0], slope[1]);
-            if !steep.is_finite() || steep > (PART * size).max(STEEP * step) {
+            let slopes = [[x1, y1], [x2, y2]]
+                .map(|place| place.map(|slot| off(slot, step) - off(slot, -step)));
+            let steep = slopes.map(|[x, y]| hypot(x, y));
+            let jumps = !steep[1].is_finite() || steep[1] > (PART * size).max(STEEP * step);
+            if is_of_both && jumps {
                 return true;
             }
-            let is_slope = steep > ALIKE * step;
-            if !is_one || !is_slope {
-                continue;
+            for ((own, leaning), steep) in slopes.iter().zip(&mut leaning).zip(steep) {
+                if steep > ALIKE * step {
+                    leaning.add(own.map(|slope| slope / steep));
+                }
             }
-            let own = slope.map(|s| s / steep);
-            match known {
-                Some([x, y]) if (x * own[1] - y * own[0]).abs() > ALIKE => return true,
-                None => known = Some(own),
-                Some(_) => {}
-            }
+            says_nothing = says_nothing
+                || is_of_both && {
+                    // with all else anywhere it holds as long as they are one
+                    let mut anywhere = there.clone();
+                    for (i, &slot) in (1..).zip(rule.slots) {
+                        let part = (f64::from(i) * 0.618_033_988_749_895).fract() - 0.5;
+                        anywhere.numbers[slot] += part * pair.apart;
+                    }
+                    let mut off = |by: f64| {
+                        anywhere.numbers[x2] = anywhere.numbers[x1] + by;
+                        anywhere.numbers[y2] = anywhere.numbers[y1] + 0.6 * by;
+                        let sides = rule.evaluate(e, patterns, &anywhere.numbers, scratch);
+                        (sides[0] - sides[1]).abs()
+                    };
+                    off(0.0) < NOTHING * off(pair.apart)
+                };
         }
     }
-    false
+    let is_one = pair.now(values) < LEFT * pair.apart;
+    is_one && says_nothing && leaning.iter().all(|leaning| leaning.is_everywhere)
+}
+
+/// How rows lean: along one direction, or in all.
+#[derive(Clone, Copy, Default, Debug)]
+struct Leaning {
+    first: Option<[f64; 2]>,
+    is_everywhere: bool,
+}
+
+impl Leaning {
+    /// Adds a direction, of length one.
+    fn add(&mut self, own: [f64; 2]) {
+        let [x, y] = *self.first.get_or_insert(own);
+        self.is_everywhere |= (x * own[1] - y * own[0]).abs() > ALIKE;
+    }
 }
 
 /// Returns the places that the required rules of a component speak of, those of each two by two.

@@ -6,8 +6,13 @@ use crate::host::Host;
 use crate::modal::Stands;
 use crate::planner::{Model, Planner};
 use crate::task::Task;
-use crate::vanish::{shrinking, vanished};
+use crate::vanish::{Vanished, shrinking, vanished};
+use base::number::close;
 use kernel::{SlotId, Values};
+use solve::Stay;
+
+/// So often others come together where some are kept apart, at most.
+const ROUNDS: usize = 4;
 
 /// Lets the computed numbers go that the plan holds, and then the places, where an edit came to no end with them held.
 pub(super) fn or_letting_go(
@@ -81,25 +86,50 @@ pub(super) fn or_kept_apart(
     };
     let texts = values.texts.clone();
     let numbers: Vec<f64> = task.numbers(&values.numbers).collect();
+    // given numbers do not yield for a line to have a direction
+    let are_given_kept = |values: &Values| {
+        let was = task.system.slots.iter().zip(&numbers).zip(task.numbers(&values.numbers));
+        was.into_iter().all(|((slot, was), is)| slot.stay != Stay::Given || close(*was, is))
+    };
     if ran.is_solved && !together.is_none {
         if let Some(found) = letting_go(planner, model, task, ground, values, host)
             && vanished(planner, model, task, from, values, host).is_none()
+            && are_given_kept(values)
         {
             return found;
         }
         scatter(task, &numbers, values);
     }
-    let Some(kept) = task.kept_apart(&together.pairs, &planner.plans) else { return ran };
-    let apart = || together.pairs.iter().map(|pair| pair.apart);
     let Ground { x0, local, texts: before, changed } = ground;
-    let [x0, local] = [x0, local].map(|all| all.iter().copied().chain(apart()).collect());
-    let own = Ground { x0, local, texts: before.clone(), changed: changed.clone() };
-    put_texts(&ground.texts, values);
-    let found = by_course(planner, model, &kept, &own, values, host);
-    let mut found = or_letting_go(planner, model, &kept, &own, found, values, host);
-    found.stands = found.stands.and_then(|stands| task.stands_as(planner, &stands));
-    if together.is_none || found.is_solved && !found.is_missed {
-        return found;
+    let mut pairs = together.pairs;
+    for _ in 0..ROUNDS {
+        let Some(kept) = task.kept_apart(&pairs, &planner.plans) else { break };
+        let with_apart = |all: &[f64]| {
+            let apart = pairs.iter().map(|pair| pair.apart);
+            all.iter().copied().chain(apart).collect()
+        };
+        let [x0, local] = [x0, local].map(|all| with_apart(all));
+        let own = Ground { x0, local, texts: before.clone(), changed: changed.clone() };
+        put_texts(&ground.texts, values);
+        let found = by_course(planner, model, &kept, &own, values, host);
+        let mut found = or_letting_go(planner, model, &kept, &own, found, values, host);
+        found.stands = found.stands.and_then(|stands| task.stands_as(planner, &stands));
+        if together.is_none {
+            return found;
+        }
+        if !found.is_solved || found.is_missed || !are_given_kept(values) {
+            break;
+        }
+        // others may come together instead
+        let Some(others) = vanished(planner, model, task, from, values, host) else { return found };
+        let known = pairs.len();
+        let is_new = |pair: &Vanished| pairs.iter().all(|known| known.slots != pair.slots);
+        let others: Vec<Vanished> = others.pairs.into_iter().filter(is_new).collect();
+        pairs.extend(others);
+        scatter(task, &numbers, values);
+        if pairs.len() == known {
+            break;
+        }
     }
     values.texts = texts;
     scatter(task, &numbers, values);
