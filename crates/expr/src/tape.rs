@@ -315,13 +315,29 @@ impl Tape {
         registers: &mut Vec<f64>,
         out: &mut Vec<f64>,
     ) {
+        let output = self.outputs_at(places, values, registers);
+        out.clear();
+        out.extend((0..self.outputs.len()).map(output));
+    }
+
+    /// Computes every output as [`Tape::run_at`] does, and leaves them where they were computed: what comes back
+    /// tells each by its place among the outputs.
+    ///
+    /// # Panics
+    /// As [`Tape::run_at`] does.
+    #[inline]
+    pub fn outputs_at<'r>(
+        &'r self,
+        places: &[u32],
+        values: &[f64],
+        registers: &'r mut Vec<f64>,
+    ) -> impl Fn(usize) -> f64 + use<'r> {
         let gather = |own: &mut [f64], from: usize| {
             let places = &places[from..][..own.len()];
             own.iter_mut().zip(places).for_each(|(own, &place)| *own = values[place as usize]);
         };
-        let registers = self.compute(gather, registers);
-        out.clear();
-        out.extend(self.outputs.iter().map(|&register| registers[register as usize]));
+        let registers = &*self.compute(gather, registers);
+        |output| registers[self.outputs[output] as usize]
     }
 
     /// Computes every output for several sets of values at once, to the bits of [`Tape::run`].

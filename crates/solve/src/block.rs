@@ -137,6 +137,16 @@ impl Workspace {
         &mut self.out
     }
 
+    /// Runs a tape; what comes back tells each output.
+    pub(crate) fn outputs<'w>(
+        &'w mut self,
+        tape: &'w expr::Tape,
+        arguments: &[SlotIndex],
+        values: &[f64],
+    ) -> impl Fn(usize) -> f64 + use<'w> {
+        tape.outputs_at(arguments, values, &mut self.registers)
+    }
+
     /// Exchanges what came out last for another vector.
     pub(crate) fn swap_out(&mut self, other: &mut Vec<f64>) {
         std::mem::swap(&mut self.out, other);

@@ -48,9 +48,8 @@ impl Run<'_> {
         }
         let formula = peeled.kernel(solved).solved(solved.argument());
         let formula = formula.expect("every row has a formula");
-        let outs = formula.guards[0].len() + 1;
-        let out = self.buffers.work.run(&formula.tape, arguments, self.values, outs);
-        match value_of(formula, |i| out[i]) {
+        let output = self.buffers.work.outputs(&formula.tape, arguments, self.values);
+        match value_of(formula, output) {
             Some(value) => {
                 self.values[target as usize] = value;
                 self.buffers.motion[target as usize] = self.outcome(target, inputs);

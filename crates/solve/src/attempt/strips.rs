@@ -13,19 +13,29 @@ use std::cell::Cell;
 impl Run<'_> {
     /// Runs rows one after the other.
     pub(super) fn in_turn(&mut self, strip: &Strip) -> Result<(), Failure> {
-        strip.rows.iter().try_for_each(|row| self.one(strip, row))
+        for rows in strip.rows.chunk_by(|a, b| a.formula == b.formula) {
+            let formula = &strip.formulas[rows[0].formula as usize];
+            let (arity, solved) = (formula.arity(), formula.solved());
+            for row in rows {
+                let arguments = &strip.arguments[row.first as usize..][..arity];
+                self.one(row, arguments, (formula.argument, solved))?;
+            }
+        }
+        Ok(())
     }
 
-    fn one(&mut self, strip: &Strip, row: &StripRow) -> Result<(), Failure> {
-        let formula = &strip.formulas[row.formula as usize];
-        let arguments = &strip.arguments[row.first as usize..][..formula.arity()];
-        if !self.has_moved(arguments, formula.argument) {
+    /// Runs a row for one of its arguments.
+    fn one(
+        &mut self,
+        row: &StripRow,
+        arguments: &[SlotIndex],
+        (argument, solved): (u32, &Solved),
+    ) -> Result<(), Failure> {
+        if !self.has_moved(arguments, argument) {
             return self.at_rest(row, arguments);
         }
-        let solved = formula.solved();
-        let outs = solved.guards[0].len() + 1;
-        let out = self.buffers.work.run(&solved.tape, arguments, self.values, outs);
-        match value_of(solved, |i| out[i]) {
+        let output = self.buffers.work.outputs(&solved.tape, arguments, self.values);
+        match value_of(solved, output) {
             Some(value) => {
                 self.put(row.target, value);
                 Ok(())
@@ -43,7 +53,8 @@ impl Run<'_> {
         for (rows, arguments) in chunks {
             let each = || arguments.chunks_exact(arity);
             if !each().all(|a| self.has_moved(a, formula.argument)) {
-                rows.iter().try_for_each(|row| self.one(strip, row))?;
+                let mut own = rows.iter().zip(each());
+                own.try_for_each(|(row, own)| self.one(row, own, (formula.argument, solved)))?;
                 continue;
             }
             let of = |lane: usize| &arguments[lane * arity..][..arity];
