@@ -11,7 +11,7 @@ use crate::run::{
 };
 use crate::task::restated::LETTING_GO;
 use crate::task::{Course, Task};
-use crate::vanish::vanished;
+use crate::vanish::{Together, vanished};
 use kernel::{SlotId, Values};
 use solve::{Level, PATIENCE, Puzzle, Rejected, SlotIndex, Stay, Verdict};
 use std::rc::Rc;
@@ -47,6 +47,8 @@ struct Pull {
     knows_implied: bool,
     /// The same with the numbers let go that the plan holds, once a wish fell short; nothing where it holds none.
     free: Option<Option<Box<Pull>>>,
+    /// The same with places kept apart, once some came together; nothing where it is another's.
+    apart: Option<Option<Box<Pull>>>,
     /// What it came to itself, while that is shown.
     short: Option<(Vec<f64>, Texts)>,
 }
@@ -214,6 +216,7 @@ impl Planner {
             with_theorems: None,
             knows_implied: false,
             free: None,
+            apart: None,
             short: None,
         }
     }
@@ -317,9 +320,11 @@ impl Pull {
         let patterns = planner.plans.patterns();
         let is_met = outcome.is_solved() && outcome.unmet.is_empty();
         let may_go_on = self.task.whole().is_some() || self.task.may_yield_in_pieces(patterns);
-        if is_met && self.comes_to_nothing(planner, model, aim, values, host) {
-            // what was met so is met otherwise, where something lets go
-            if self.lets_go(planner, model, aim, values, host, report) {
+        if is_met && let Some(together) = self.together(planner, model, aim, values, host) {
+            // what was met so is met otherwise, where something lets go or they stay apart
+            if self.lets_go(planner, model, aim, values, host, report)
+                || self.keeps_apart(&together, planner, model, aim, values, host, report)
+            {
                 return true;
             }
         }
@@ -367,20 +372,20 @@ impl Pull {
         is_reached
     }
 
-    /// Returns true if places have come together so that rows hold by that, or may.
-    fn comes_to_nothing(
+    /// Returns the places that have come together so that rows hold by that, or may.
+    fn together(
         &self,
         planner: &Planner,
         model: Model<'_>,
         aim: &Aim,
         values: &Values,
         host: &mut dyn Host,
-    ) -> bool {
+    ) -> Option<Together> {
         let is_set = |slot: SlotId| aim.slots().contains(&slot);
-        let is_small = self.task.component.slots().len() <= LETTING_GO;
-        is_small
-            && self.task.plan.is_curved()
-            && vanished(planner, model, &self.task, (&self.x0, &is_set), values, host).is_some()
+        if self.task.component.slots().len() > LETTING_GO || !self.task.plan.is_curved() {
+            return None;
+        }
+        vanished(planner, model, &self.task, (&self.x0, &is_set), values, host)
     }
 
     /// Follows another task from the press on, where it is.
@@ -404,15 +409,63 @@ impl Pull {
             let free = self.letting_go(planner, model, values);
             self.free = Some(free.map(Box::new));
         }
-        let Some(Some(free)) = &mut self.free else { return false };
+        let mut free = self.free.take().flatten();
+        let is_reached = free
+            .as_mut()
+            .is_some_and(|free| self.goes_with(free, planner, model, aim, values, host, report));
+        self.free = Some(free);
+        is_reached
+    }
+
+    /// Follows a wish with these places as far apart as they were at the press. Returns false where it falls short
+    /// so; the values are then as they were.
+    #[expect(clippy::too_many_arguments, reason = "it follows as the others do")]
+    fn keeps_apart(
+        &mut self,
+        together: &Together,
+        planner: &mut Planner,
+        model: Model<'_>,
+        aim: &Aim,
+        values: &mut Values,
+        host: &mut dyn Host,
+        report: &mut EditReport,
+    ) -> bool {
+        if self.apart.is_none() {
+            let kept = self.task.kept_apart(&together.pairs, &planner.plans);
+            let far = together.pairs.iter().map(|pair| pair.apart);
+            let x0: Vec<f64> = self.x0.iter().copied().chain(far).collect();
+            let kept = kept.map(|task| Box::new(self.with(task, x0, model, values)));
+            self.apart = Some(kept);
+        }
+        let mut kept = self.apart.take().flatten();
+        let is_reached = kept
+            .as_mut()
+            .is_some_and(|kept| self.goes_with(kept, planner, model, aim, values, host, report));
+        self.apart = Some(kept);
+        is_reached
+    }
+
+    /// Follows a wish as another drag of the same component does. Returns false where that falls short; the values
+    /// are then as they were.
+    #[expect(clippy::too_many_arguments, reason = "it follows as the others do")]
+    fn goes_with(
+        &mut self,
+        other: &mut Self,
+        planner: &mut Planner,
+        model: Model<'_>,
+        aim: &Aim,
+        values: &mut Values,
+        host: &mut dyn Host,
+        report: &mut EditReport,
+    ) -> bool {
         let numbers: Vec<f64> = self.task.numbers(&values.numbers).collect();
         let text = |(slot, _): &(SlotId, _)| (*slot, values.texts.get(slot).cloned());
-        let texts: Texts = free.texts.iter().map(text).collect();
+        let texts: Texts = other.texts.iter().map(text).collect();
         let mut noted = EditReport::default();
-        free.back(values);
-        let is_reached = free.follow(planner, model, aim, values, host, &mut noted);
+        other.back(values);
+        let is_reached = other.follow(planner, model, aim, values, host, &mut noted);
         if is_reached {
-            free.shows(values);
+            other.shows(values);
             self.short = Some((numbers, texts));
             report.double_roots.append(&mut noted.double_roots);
         } else {
@@ -444,25 +497,29 @@ impl Pull {
             return None;
         }
         let task = self.task.letting_go(&planner.plans)?;
+        Some(self.with(task, self.x0.clone(), model, values))
+    }
+
+    /// Returns a drag of another task from the same press.
+    fn with(&self, task: Task, x0: Vec<f64>, model: Model<'_>, values: &Values) -> Self {
         let mut press = values.clone();
         self.back(&mut press);
-        let (way, texts) = Way::of(&task, &self.x0, model, &press);
-        let (x0, targets) = (self.x0.clone(), self.targets.clone());
-        let (planned, free) = (None, None);
-        Some(Self {
+        let (way, texts) = Way::of(&task, &x0, model, &press);
+        Self {
             task,
-            planned,
+            planned: None,
             way,
             x0,
             is_begun: true,
             texts,
-            targets,
+            targets: self.targets.clone(),
             knows_theorems: true,
             with_theorems: None,
             knows_implied: true,
-            free,
+            free: None,
+            apart: Some(None),
             short: None,
-        })
+        }
     }
 
     /// Returns the task with what others imply at the press left to the test.
