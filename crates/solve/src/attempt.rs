@@ -533,7 +533,8 @@ impl Run<'_> {
             self.scatter(&step.targets, k, 0.25 * f64::from(1u32 << k));
             let Frame { x0, scales, .. } = self.frame;
             let work = &mut self.buffers.work;
-            if measure.solve(x0, self.values, scales, self.trust, work) == Measured::Least {
+            let last = Some(self.last);
+            if measure.solve(x0, last, self.values, scales, self.trust, work) == Measured::Least {
                 return Ok(());
             }
         }
@@ -554,7 +555,7 @@ impl Run<'_> {
                 from[t as usize] = self.values[t as usize];
             }
             let (scales, work) = (&self.frame.scales, &mut self.buffers.work);
-            measure.solve(&from, self.values, scales, self.trust, work) == Measured::Least
+            measure.solve(&from, None, self.values, scales, self.trust, work) == Measured::Least
         });
         if !is_found {
             return false;
@@ -562,7 +563,8 @@ impl Run<'_> {
         let Frame { x0, scales, .. } = self.frame;
         let found: Vec<f64> = measure.targets().iter().map(|&t| self.values[t as usize]).collect();
         let work = &mut self.buffers.work;
-        if measure.solve(x0, self.values, scales, Trust::Branch, work) == Measured::Failed {
+        let near = measure.solve(x0, None, self.values, scales, Trust::Branch, work);
+        if near == Measured::Failed {
             for (&t, x) in measure.targets().iter().zip(found) {
                 self.values[t as usize] = x;
             }

@@ -140,6 +140,10 @@ const SETTLED: f64 = 1e-12;
 const POLISH: usize = 8;
 /// How far aside it goes from there, in parts of the extent.
 const ASIDE: f64 = 1e-3;
+/// A way of more than this, in parts of the extent, may have leapt to another branch, and how far, in parts of its
+/// length, a step back from its end may come from where it began.
+const LONG: f64 = 0.05;
+const OFF: f64 = 0.5;
 /// A state from which no step is longer than this is settled.
 const STILL: f64 = 1e-9;
 
@@ -205,10 +209,12 @@ impl Measure {
         }
     }
 
-    /// Solves from the values that the unknowns have now; distance is measured from `x0`.
+    /// Solves from the values that the unknowns have now; distance is measured from `x0`. Where a branch is followed,
+    /// it is so from the `last` state.
     pub(crate) fn solve(
         &self,
         x0: &[f64],
+        last: Option<&[f64]>,
         values: &mut [f64],
         scales: &[f64],
         trust: Trust,
@@ -298,7 +304,12 @@ impl Measure {
         let end = self.evaluate(values, &scale, &weights, w);
         let end = end.filter(|end| settled && self.hard_rows_hold(end, values, w));
         let Some(left) = left else {
-            return if end.is_some() { Measured::Least } else { Measured::Failed };
+            let may_leap = trust == Trust::Branch && !self.is_linear && self.leaves_choice();
+            let is_found = end.is_some()
+                && last
+                    .filter(|_| may_leap)
+                    .is_none_or(|last| self.leads_back([x0, last], values, &scale, &weights, w));
+            return if is_found { Measured::Least } else { Measured::Failed };
         };
         if end.is_none_or(|end| self.errors(&end, left.level) >= left.errors) {
             // there is nothing better beside it
@@ -306,6 +317,39 @@ impl Measure {
             self.block.compute_defined(values, w);
         }
         Measured::Least
+    }
+
+    /// Returns true if there are fewer rows than unknowns: distance decides.
+    fn leaves_choice(&self) -> bool {
+        self.levels.len() < self.unknowns.len()
+    }
+
+    /// Returns true if the way from the last state is a short one, or a step from its end leads about back to where it
+    /// began. From another branch, to which steps have leapt, it leads elsewhere.
+    fn leads_back(
+        &self,
+        [x0, last]: [&[f64]; 2],
+        values: &[f64],
+        scale: &[f64],
+        weights: &[f64],
+        w: &mut Workspace,
+    ) -> bool {
+        let from = |state: &[f64]| -> Vec<f64> {
+            let parts = self.unknowns.iter().zip(scale);
+            parts.map(|(&u, s)| (values[u as usize] - state[u as usize]) / s).collect()
+        };
+        let mut gone = from(last);
+        let far = dense::norm(&gone);
+        if far <= LONG {
+            return true;
+        }
+        w.spend(self.cost());
+        let mut back = last.to_vec();
+        self.targets().iter().for_each(|&u| back[u as usize] = values[u as usize]);
+        let Some(scaled) = self.evaluate(&mut back, scale, weights, w) else { return false };
+        let Direction { step, .. } = self.direction(&scaled, &from(x0), weights, &back, w);
+        dense::add(&mut gone, 1.0, &step);
+        dense::norm(&gone) <= OFF * far
     }
 
     /// Returns true if the state, as it is, is what solving would leave: hard rows hold and no level
@@ -319,7 +363,7 @@ impl Measure {
     ) -> bool {
         if let Some(Large::Curved(_)) = self.large {
             let before: Vec<f64> = self.targets().iter().map(|&u| values[u as usize]).collect();
-            let result = self.solve(x0, values, scales, Trust::Branch, w);
+            let result = self.solve(x0, None, values, scales, Trust::Branch, w);
             let stays = |(&u, x): (&SlotIndex, &f64)| {
                 (values[u as usize] - x).abs() <= STILL * scales[u as usize]
             };

@@ -37,7 +37,7 @@ pub(super) fn approach_region(
         return Ok(());
     }
     let work = &mut buffers.work;
-    let result = measure.solve(&frame.x0, values, &frame.scales, Trust::Any, work);
+    let result = measure.solve(&frame.x0, None, values, &frame.scales, Trust::Any, work);
     if result == Measured::Failed {
         return refused();
     }

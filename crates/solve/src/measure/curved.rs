@@ -291,7 +291,7 @@ mod tests {
         assert!(measure.large.is_some());
         let (mut values, scales) = (x0.clone(), vec![6.0 * f64::from(bars); x0.len()]);
         let result =
-            measure.solve(&x0, &mut values, &scales, Trust::Any, &mut Workspace::default());
+            measure.solve(&x0, None, &mut values, &scales, Trust::Any, &mut Workspace::default());
         assert_eq!(result, Measured::Least, "{bars} bars");
         values.chunks_exact(2).skip(1).map(|at| [at[0], at[1]]).collect()
     }
