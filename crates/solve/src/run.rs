@@ -416,7 +416,7 @@ impl Drag {
             }
             Err(failure) => {
                 let mut limit = branch.clone();
-                let fraction = way.walk_on(&mut limit, goal, trust);
+                let fraction = way.walk_near(&mut limit, goal, trust);
                 self.leans &= fraction == 0.0;
                 if self.leans {
                     limit.clone_from(&way.frame.x0);

@@ -41,8 +41,20 @@ const SAME: f64 = 5e-3;
 const ONWARD: f64 = 1.0 / 1024.0;
 
 impl Way<'_> {
-    /// Many strides; where least change goes no further on its branch, it is measured anew from there. Returns
-    /// the part that was gone.
+    /// Many strides; where least change goes no further on its branch, it is measured anew from there, and where
+    /// something runs away the way ends while it has not yet. Returns the part that was gone.
+    pub(super) fn walk_near(&mut self, last: &mut [f64], goal: &[f64], trust: Trust) -> f64 {
+        let (from, anchors) = (last.to_vec(), self.frame.anchors.len());
+        let gone = self.walk_on(last, goal, trust);
+        if gone == 1.0 || trust != Trust::Branch || !self.runs_away(&from, last) {
+            return gone;
+        }
+        self.frame.anchors.truncate(anchors);
+        last.copy_from_slice(&from);
+        self.walk_in_sight(last, goal)
+    }
+
+    /// The same, whatever runs away.
     pub(super) fn walk_on(&mut self, last: &mut [f64], goal: &[f64], trust: Trust) -> f64 {
         let is_first = trust == Trust::Branch && self.frame.x0 == *last;
         if is_first {
@@ -90,7 +102,13 @@ impl Way<'_> {
         failure: Failure,
     ) -> Outcome {
         if fraction < 1.0 && trust == Trust::Branch && !self.plan.has_least {
-            fraction += (1.0 - fraction) * self.walk(limit, goal, trust, SHORTEST..EXACT);
+            let stood = limit.to_vec();
+            let gone = self.walk(limit, goal, trust, SHORTEST..EXACT);
+            if self.runs_away(&stood, limit) {
+                limit.copy_from_slice(&stood);
+            } else {
+                fraction += (1.0 - fraction) * gone;
+            }
         }
         let mut outcome = self.test(limit, &[]);
         if fraction < 1.0 {

@@ -19,6 +19,8 @@ const SMALL: f64 = 1e-3;
 /// in parts of the extent.
 const CREST: f64 = 1e-3;
 const NEAR: f64 = 0.1;
+/// What goes so many times as far as the wish that it follows runs away.
+const AWAY: f64 = 1e4;
 /// How far what ends at the goal may come from, in parts of how far that is.
 const ENDS: f64 = 100.0;
 /// What came to less than this part has come to nothing.
@@ -232,6 +234,40 @@ impl Way<'_> {
         gone
     }
 
+    /// Returns true if a state holds only because something has run away: it went so many times as far as the wish that
+    /// it follows, as the point does where a line that turns to a parallel meets another.
+    pub(super) fn runs_away(&self, from: &[f64], to: &[f64]) -> bool {
+        let (mut wish, mut most) = (0.0f64, 0.0f64);
+        let slots = self.plan.slots().iter().zip(&self.frame.scales);
+        for ((slot, scale), (to, from)) in slots.zip(to.iter().zip(from)) {
+            let far = if slot.stay == Stay::Fixed { &mut wish } else { &mut most };
+            *far = far.max(((to - from) / scale).abs());
+        }
+        most > NEAR.max(AWAY * wish)
+    }
+
+    /// Goes along a branch as far as nothing runs away; returns the part that was gone.
+    pub(super) fn walk_in_sight(&mut self, last: &mut [f64], goal: &[f64]) -> f64 {
+        let from = last.to_vec();
+        let (mut gone, mut length) = (0.0, LONGEST);
+        for _ in 0..STRIDES {
+            if length < SHORTEST || self.buffers.work.spent() > self.until {
+                break;
+            }
+            let part = length / (1.0 - gone);
+            let goes_on = part < 1.0
+                && self.stride(last, goal, part, Trust::Branch, &Approach::Nowhere).is_ok()
+                && !self.runs_away(&from, self.trial);
+            if goes_on {
+                last.copy_from_slice(self.trial);
+                gone += length;
+            } else {
+                length *= 0.5;
+            }
+        }
+        gone
+    }
+
     /// Goes a little on over a place where a row has no slope, as `q |q|` has none at nothing, but no branch ends.
     pub(super) fn crosses(&mut self, last: &[f64], goal: &[f64]) -> bool {
         self.same_orientation(last, goal, CREST) && self.is_near(last)
@@ -327,7 +363,8 @@ impl Way<'_> {
     }
 
     /// Comes from a state as near to soft wishes as the hard rows allow, past the limit of a branch that was followed
-    /// from another state. Returns false where that is not possible, or what meets them has turned over there.
+    /// from another state. Returns false where that is not possible, or what meets them has turned over there or runs
+    /// away.
     pub(super) fn comes_near(
         &mut self,
         state: &[f64],
@@ -336,7 +373,9 @@ impl Way<'_> {
         failure: &Failure,
         trust: Trust,
     ) -> bool {
-        if self.approach(state, goal, failure).is_err() {
+        if self.approach(state, goal, failure).is_err()
+            || trust == Trust::Branch && self.runs_away(from, self.trial)
+        {
             return false;
         }
         // what was approached need not hold because of how it is computed
