@@ -23,6 +23,7 @@ use crate::sparse::damped::{Damped, DampedScratch};
 use crate::sparse::pivot::{self, How};
 use crate::sparse::{Lu, Pattern, Symbolic};
 use crate::system::SlotIndex;
+use std::ops::RangeInclusive;
 use std::rc::Rc;
 use std::sync::OnceLock;
 
@@ -112,6 +113,10 @@ const WIDE: f64 = 0.1;
 /// Near a solution steps shrink. After so many in a row, each at least this part of the last, that are no rounding, the
 /// rows hold only because an unknown goes on and on, as where `exp(x)` is to be nothing.
 const UNSHRUNK: (u32, f64, f64) = (8, 0.9, 1e-7);
+/// What part of the last step one is that goes to a double root.
+const HALVES: RangeInclusive<f64> = 0.45..=0.55;
+/// What of the norm is left, at most, where the same step once more comes to it.
+const FAR_BETTER: f64 = 0.01;
 /// A step that has to be cut this short, in a large core, goes across a narrow valley.
 const SHORT: f64 = 0.1;
 /// Where the least pivot is below this part of the largest, two solutions coincide.
@@ -448,7 +453,7 @@ impl Square {
             }
             let size = self.step_size(scales, s);
             unshrunk = if size >= UNSHRUNK.1 * last_size { unshrunk + 1 } else { 0 };
-            last_size = size;
+            let ratio = size / std::mem::replace(&mut last_size, size);
             match iteration {
                 0 => first_size = size,
                 1 if branch.is_some() && size > 0.5 * first_size && size > 1e-7 => {
@@ -457,11 +462,15 @@ impl Square {
                 _ => {}
             }
             let was_held = self.holds(values, w, s);
-            let found = if trust == Trust::Leap && !was_held && iteration < LEAPS {
+            let halves = newton && was_held && HALVES.contains(&ratio);
+            let mut found = if trust == Trust::Leap && !was_held && iteration < LEAPS {
                 Some((1.0, self.leap(values, size, w, s)))
             } else {
                 self.search(values, norm, was_held, w, s)
             };
+            if let (Some((_, norm)), true) = (&mut found, halves) {
+                *norm = self.step_again(values, *norm, &mut factors, w, s);
+            }
             let is_cut = found.is_none_or(|(length, _)| length < 1.0);
             if (is_cut || size > WIDE) && !was_held && s.is_hasty && self.is_large() {
                 return None;
@@ -562,6 +571,33 @@ impl Square {
         }
         self.evaluate(values, w, s);
         self.weighted_norm(s)
+    }
+
+    /// Takes the step once more, where that does far better: steps to a double root halve, and what is left of the way
+    /// is as long as the last. Where solutions lie one on the other throughout, it does not. Returns the norm.
+    fn step_again(
+        &self,
+        values: &mut [f64],
+        norm: f64,
+        factors: &mut Factors,
+        w: &mut Workspace,
+        s: &mut SquareScratch,
+    ) -> f64 {
+        s.start.clear();
+        s.start.extend((0..s.step.len()).map(|c| values[self.slot(c)]));
+        for (c, (start, d)) in s.start.iter().zip(&s.step).enumerate() {
+            values[self.slot(c)] = start + d;
+        }
+        self.evaluate(values, w, s);
+        let now = self.weighted_norm(s);
+        if now <= FAR_BETTER * norm {
+            // that of where it came from says less
+            factors.ratio = factors.ratio.min(0.5 * DOUBLE);
+            return now;
+        }
+        s.start.iter().enumerate().for_each(|(c, start)| values[self.slot(c)] = *start);
+        self.evaluate(values, w, s);
+        norm
     }
 
     /// Walks along the step, halving it until the residuals are smaller; returns length and norm, or
