@@ -574,7 +574,8 @@ impl Square {
     }
 
     /// Takes the step once more, where that does far better: steps to a double root halve, and what is left of the way
-    /// is as long as the last. Where solutions lie one on the other throughout, it does not. Returns the norm.
+    /// is as long as the last. Where solutions lie one on the other throughout, it does not; where several meet at
+    /// once, what is left of the way says on which branch they were come to. Returns the norm.
     fn step_again(
         &self,
         values: &mut [f64],
@@ -583,6 +584,9 @@ impl Square {
         w: &mut Workspace,
         s: &mut SquareScratch,
     ) -> f64 {
+        if !self.is_nearly_open_once(s) {
+            return norm;
+        }
         s.start.clear();
         s.start.extend((0..s.step.len()).map(|c| values[self.slot(c)]));
         for (c, (start, d)) in s.start.iter().zip(&s.step).enumerate() {

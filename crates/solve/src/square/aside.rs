@@ -55,6 +55,19 @@ impl Square {
         is_fork.then(|| vectors[order[0]].clone())
     }
 
+    /// Returns true if the matrix that was filled last is nearly singular in one direction and in no other, given that
+    /// it is in one; false in a core too large for dense algebra.
+    pub(super) fn is_nearly_open_once(&self, s: &SquareScratch) -> bool {
+        const NEARLY: f64 = 1e-3;
+        let n = self.block.core.len();
+        if !self.is_dense() || n == 1 {
+            return n == 1;
+        }
+        let (values, _) = dense::eigen(normal(&s.matrix, n), n);
+        let most = values.iter().copied().fold(0.0, f64::max);
+        values.iter().filter(|&&value| value <= NEARLY * NEARLY * most).count() == 1
+    }
+
     /// Weighs rows by how they bend where that is much more than their slope: one that has none here, as that of an
     /// angle at its extreme, is not made out to be as steep as others.
     fn weigh_by_bends(
