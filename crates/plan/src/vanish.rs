@@ -115,7 +115,11 @@ pub(crate) fn vanished(
         return Some(Together { pairs, is_none: true });
     }
     pairs.clear();
-    for pair in shrunk.iter().filter(|pair| !pair.slots.iter().any(|&s| is_set(s))) {
+    // what has come to a place that is set is where it shall be too
+    let has_set = |pair: &&Vanished| pair.slots.iter().any(|&s| is_set(s));
+    let at_set: Vec<SlotId> = shrunk.iter().filter(has_set).flat_map(|pair| pair.slots).collect();
+    let is_free = |pair: &&Vanished| !pair.slots.iter().any(|s| is_set(*s) || at_set.contains(s));
+    for pair in shrunk.iter().filter(is_free) {
         let is_new = pairs.iter().all(|known| known.slots != pair.slots);
         if is_new && has_no_direction(planner, model, task, pair, values, host, &mut scratch) {
             pairs.push(*pair);
