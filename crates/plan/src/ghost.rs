@@ -211,7 +211,7 @@ impl Planner {
         compute(self, model, task, values, host, &mut x0);
         let mut trial = values.clone();
         let mut adapter = Adapter { planner: self, model, task, values: &mut trial, host };
-        for other in solve::others(plan, &x0, MOST, &mut adapter) {
+        for other in solve::others(plan, &x0, None, MOST, &mut adapter) {
             let reads = plan.steps()[other.step as usize].reads.iter();
             let reads = reads.filter_map(|&r| task.component.slots().get(r as usize).copied());
             let kind = GhostKind::Root { reads: reads.collect() };

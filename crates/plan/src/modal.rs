@@ -4,6 +4,9 @@
 //! edit began, in a drag from where the drag was; `solve` decides which one stands.
 
 mod limit;
+mod within;
+
+pub(crate) use within::attempt_in_mode;
 
 use crate::edit::{Conflict, NotDecided};
 use crate::host::Host;
@@ -16,9 +19,9 @@ use solve::{
     Constants, Decision, Ended, Lean, Level, Mode, Modes, PATIENCE, Plan, SlotIndex, Standing,
     System, Tried, decide, decide_along,
 };
-use std::cmp::Ordering;
 use std::collections::BTreeMap;
 use std::rc::Rc;
+use within::within_bounds;
 
 /// A mode with its plain system and plan.
 #[derive(Clone, Debug)]
@@ -259,43 +262,6 @@ pub(crate) fn run(
     }
     scatter(task, &decision.tried.values, values);
     tell(planner, modes, task, decision)
-}
-
-/// How many other states are looked at where the first breaks an inequality.
-const MOST_OTHERS: usize = 16;
-
-/// Runs the plan of a mode from where an edit began. What opens takes the roots with which the inequalities hold
-/// without acting, and conditions are as they are assumed, where there are such.
-#[expect(clippy::too_many_arguments, reason = "an attempt is all of these")]
-pub(crate) fn attempt_in_mode(
-    planner: &Planner,
-    model: Model<'_>,
-    task: &Task,
-    modes: &Modes,
-    mode: &Mode,
-    ground: &Ground,
-    leans: &[Lean],
-    values: &mut Values,
-    host: &mut dyn Host,
-) -> Tried {
-    let (_, plan) = planner.in_mode(modes, mode);
-    let Ground { x0, local, changed, .. } = ground;
-    let mut local = local.clone();
-    let mut adapter = Adapter { planner, model, task, values, host };
-    let mut leans = leans.to_vec();
-    leans.extend(within_bounds(modes, mode, &plan, x0, &leans));
-    let mut runner = planner.take_runner(leans);
-    let outcome = solve::run(&plan, &mut runner, x0, &mut local, changed, &mut adapter);
-    planner.put_back(runner);
-    let breaks =
-        |values: &[f64]| !modes.broken(mode, values).is_empty() || modes.contradicts(mode, values);
-    if outcome.is_solved() && plan.opens() && changed.is_empty() && breaks(&local) {
-        let mut others = solve::others(&plan, &local, MOST_OTHERS, &mut adapter).into_iter();
-        if let Some(other) = others.find(|other| !breaks(&other.values)) {
-            local = other.values;
-        }
-    }
-    Tried { plan, outcome, values: local }
 }
 
 pub(crate) fn has_texts(task: &Task) -> bool {
@@ -557,27 +523,4 @@ impl ModalDrag {
             }
         }
     }
-}
-
-/// Returns which way blocks lean in which two branches meet, where an inequality that is at its bound holds one
-/// way alone, and nothing else is written.
-fn within_bounds(
-    modes: &Modes,
-    mode: &Mode,
-    plan: &Plan,
-    x0: &[f64],
-    written: &[Lean],
-) -> Vec<Lean> {
-    if modes.at_bounds(mode, x0).active.is_empty() {
-        return Vec::new();
-    }
-    let broken = |state: &[f64]| modes.broken(mode, state).len();
-    let forks = solve::forks(plan, x0).into_iter();
-    let open = forks.filter(|[(lean, _), _]| written.iter().all(|w| w.slot != lean.slot));
-    let held = open.filter_map(|[more, less]| match broken(&more.1).cmp(&broken(&less.1)) {
-        Ordering::Less => Some(more.0),
-        Ordering::Greater => Some(less.0),
-        Ordering::Equal => None,
-    });
-    held.collect()
 }

@@ -103,14 +103,21 @@ pub fn forks(plan: &Plan, x0: &[f64]) -> Vec<[(Lean, Vec<f64>); 2]> {
 
 /// Returns other states that a plan can come to from a state that holds: in each, one step takes another of
 /// its roots, and the rest follows. At `most` so many; steps of more than a dozen unknowns are not asked.
-pub fn others(plan: &Plan, x0: &[f64], most: usize, host: &mut dyn Host) -> Vec<Other> {
+/// Roots are looked for around that state, and from `beside`, if there is such a state.
+pub fn others(
+    plan: &Plan,
+    x0: &[f64],
+    beside: Option<&[f64]>,
+    most: usize,
+    host: &mut dyn Host,
+) -> Vec<Other> {
     let mut runner = Runner::new();
     start(plan, &mut runner, x0, &[], Begins::Rest);
     let Runner { frame, buffers, .. } = &mut runner;
     let mut values = frame.x0.clone();
     let last = frame.x0.clone();
     let attempt = Attempt { plan, frame, last: &last, trust: Trust::Any, part: Part::Whole };
-    attempt.others(&mut values, most, buffers, host)
+    attempt.others(&mut values, beside, most, buffers, host)
 }
 
 /// Looks near a state for one in which every row of a plan holds, everything moved at once: nothing keeps its

@@ -32,10 +32,12 @@ pub struct Other {
 
 impl Attempt<'_> {
     /// Runs the steps; then from each that has several roots on, for each that it does not take. Returns as
-    /// many states as are asked for at `most`, in the order of steps, nearest roots first.
+    /// many states as are asked for at `most`, in the order of steps, nearest roots first. Roots are looked for
+    /// from `beside` as well.
     pub(crate) fn others(
         self,
         values: &mut [f64],
+        beside: Option<&[f64]>,
         most: usize,
         buffers: &mut Buffers,
         host: &mut dyn Host,
@@ -57,7 +59,7 @@ impl Attempt<'_> {
             asked += 1;
             let (came, motion) = (values.to_vec(), buffers.motion.clone());
             let mut run = Run { plan, frame, last, values, trust, buffers, host, index };
-            for root in run.other_roots(step, square) {
+            for root in run.other_roots(step, square, beside) {
                 if found.len() == most {
                     break;
                 }
@@ -86,17 +88,26 @@ impl Attempt<'_> {
 
 impl Run<'_> {
     /// Finds roots of a step beside the one that it has now, nearest first. Leaves the targets anywhere.
-    fn other_roots(&mut self, step: &Step, square: &Square) -> Vec<Vec<f64>> {
+    fn other_roots(
+        &mut self,
+        step: &Step,
+        square: &Square,
+        beside: Option<&[f64]>,
+    ) -> Vec<Vec<f64>> {
         let now = self.targets(step);
         let mut known = vec![now.clone()];
+        if let Some(beside) = beside {
+            for &t in &step.targets {
+                self.values[t as usize] = beside[t as usize];
+            }
+            self.look_beyond(step, square, &mut known);
+        }
         for k in 1..=TRIES {
             let far = NEAREST * base::number::sqrt(f64::from(1u32 << k));
             for way in [far, -far] {
                 self.set_targets(step, &now);
                 self.scatter(&step.targets, k, way);
-                let (work, scratch) = (&mut self.buffers.work, &mut self.buffers.square);
-                if square.further(&known, self.values, &self.frame.scales, work, scratch) {
-                    known.push(self.targets(step));
+                if self.look_beyond(step, square, &mut known) {
                     continue;
                 }
                 // what repels may stand in the way of what lies beyond
@@ -115,5 +126,15 @@ impl Run<'_> {
         others.retain(|root| away(root) <= FAR * FAR);
         others.sort_by(|a, b| away(a).total_cmp(&away(b)));
         others
+    }
+
+    /// Keeps what is found from where the targets stand, what is known repelling, if there is something.
+    fn look_beyond(&mut self, step: &Step, square: &Square, known: &mut Vec<Vec<f64>>) -> bool {
+        let (work, scratch) = (&mut self.buffers.work, &mut self.buffers.square);
+        let is_new = square.further(known, self.values, &self.frame.scales, work, scratch);
+        if is_new {
+            known.push(self.targets(step));
+        }
+        is_new
     }
 }

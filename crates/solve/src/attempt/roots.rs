@@ -106,7 +106,7 @@ impl Run<'_> {
         let scales = &self.frame.scales;
         let course = Course { last: self.last, trust: way, side: &mut Side::default() };
         let end = square.solve(course, self.values, scales, work, scratch);
-        if end != Solved::Failed && square.is_apart(found, self.values, scales) {
+        if end != Solved::Failed && square.is_apart(found, self.values, scales, work, scratch) {
             found.push(self.targets(step));
         }
     }

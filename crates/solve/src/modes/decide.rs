@@ -11,11 +11,10 @@
 //! for the first wrong condition; Stallman and Sussman (1977), for assumptions and what is learnt from
 //! their failure.
 
-use super::{Mode, Modes, Tree};
+use super::{Mode, Modes};
 use crate::conditional::Conditional;
 use crate::outcome::{Outcome, Reason, Status};
 use crate::plan::{Plan, StepKind};
-use crate::truth::Comparing;
 use std::collections::{BTreeMap, BTreeSet};
 use std::rc::Rc;
 
@@ -379,7 +378,7 @@ impl Deciding<'_> {
             if self.modes.tree_holds(&want.tree, values) {
                 continue;
             }
-            match self.breaks_in(&want.tree, mode, values) {
+            match self.modes.breaks_in(&want.tree, mode, values) {
                 Some(c) => return Broken::Comparison(c),
                 None if self.modes.is_required(want.relation) => {
                     return Broken::Relation(want.relation);
@@ -389,25 +388,6 @@ impl Deciding<'_> {
         }
         let bound = self.at_bounds.then(|| self.modes.bound_to_act(mode, values)).flatten();
         bound.map_or(Broken::Nothing, Broken::Comparison)
-    }
-
-    /// Returns the first inequality that does not act and does not hold, among those taken.
-    fn breaks_in(&self, tree: &Tree, mode: &Mode, values: &[f64]) -> Option<u32> {
-        match tree {
-            Tree::Holds(c) => {
-                let can_act = match self.modes.comparisons[*c as usize].comparing {
-                    Comparing::AtMost | Comparing::Less => !mode.active.contains(c),
-                    Comparing::Equal | Comparing::Differ => false,
-                };
-                (can_act && !self.modes.comparison_holds(*c, values)).then_some(*c)
-            }
-            Tree::All(parts) => parts.iter().find_map(|p| self.breaks_in(p, mode, values)),
-            Tree::Any { choice, ways } => {
-                let way = ways.get(mode.taken[*choice as usize] as usize)?;
-                self.breaks_in(way, mode, values)
-            }
-            Tree::Either(_) => None,
-        }
     }
 
     /// Returns the conditions that are not as assumed.

@@ -12,8 +12,10 @@ use crate::block::Workspace;
 
 /// How many steps are taken.
 const STEPS: usize = 60;
-/// Solutions nearer to each other than this, in scaled unknowns, are one.
+/// Solutions nearer to each other than this, in scaled unknowns, are one where rows hold between them as well.
 const APART: f64 = 1e-6;
+/// Those that differ by less than this part of them are one.
+const ALIKE: f64 = 1e-6;
 /// The longest stretch of a step.
 const STRETCH: f64 = 8.0;
 /// The shortest step, as a part of the whole.
@@ -39,7 +41,7 @@ impl Square {
                 let side = &mut Side::default();
                 let course = Course { last: &[], trust: Trust::Any, side };
                 let end = self.solve(course, values, scales, w, s);
-                return end != Solved::Failed && self.is_apart(known, values, scales);
+                return end != Solved::Failed && self.is_apart(known, values, scales, w, s);
             }
             self.fill(scales, s);
             if self.factorise(s).ratio > 1e-14 {
@@ -99,13 +101,49 @@ impl Square {
     }
 
     /// Returns true if the unknowns are at none of these solutions.
-    pub(crate) fn is_apart(&self, known: &[Vec<f64>], values: &[f64], scales: &[f64]) -> bool {
-        known.iter().all(|solution| {
-            self.block.unknowns.iter().zip(solution).any(|(&u, at)| {
-                let u = u as usize;
-                (values[u] - at).abs() > APART * scales[u].max(at.abs())
-            })
-        })
+    pub(crate) fn is_apart(
+        &self,
+        known: &[Vec<f64>],
+        values: &mut [f64],
+        scales: &[f64],
+        w: &mut Workspace,
+        s: &mut SquareScratch,
+    ) -> bool {
+        known.iter().all(|solution| !self.is_at(solution, values, scales, w, s))
+    }
+
+    /// Returns true if the unknowns are at a solution. What is small where numbers of its kind are large tells others
+    /// apart as well: between them rows do not hold.
+    fn is_at(
+        &self,
+        solution: &[f64],
+        values: &mut [f64],
+        scales: &[f64],
+        w: &mut Workspace,
+        s: &mut SquareScratch,
+    ) -> bool {
+        let unknowns = self.block.unknowns.iter().map(|&u| u as usize).zip(solution);
+        let lies_within = |part: f64, least: &dyn Fn(usize) -> f64, values: &[f64]| {
+            let off =
+                |(u, at): (usize, &f64)| (values[u] - at).abs() <= part * least(u).max(at.abs());
+            unknowns.clone().all(off)
+        };
+        if !lies_within(APART, &|u| scales[u], values) {
+            return false;
+        }
+        if lies_within(ALIKE, &|u| values[u].abs(), values) {
+            return true;
+        }
+        let own: Vec<f64> = unknowns.clone().map(|(u, _)| values[u]).collect();
+        for (u, at) in unknowns.clone() {
+            values[u] = 0.5 * (values[u] + at);
+        }
+        self.block.compute_defined(values, w);
+        let is_between = self.holds_at(values, w, s);
+        for ((u, _), own) in unknowns.zip(own) {
+            values[u] = own;
+        }
+        is_between
     }
 
     /// By how much Newton's step is longer, or turned round, for what repels.

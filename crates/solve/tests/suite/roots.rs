@@ -103,7 +103,7 @@ fn a_state_has_others_where_a_step_takes_its_other_root() {
     // above p, and to its right
     let q = tied(&mut s, [6.0, 8.0], [(left, 10.0), (p, 5.0)]);
     let plan = s.plan();
-    let others = solve::others(&plan, &s.x0, 8, &mut NoHost);
+    let others = solve::others(&plan, &s.x0, None, 8, &mut NoHost);
     let places: Vec<[f64; 4]> = others
         .iter()
         .map(|o| [p[0], p[1], q[0], q[1]].map(|slot| o.values[slot as usize]))
@@ -113,7 +113,7 @@ fn a_state_has_others_where_a_step_takes_its_other_root() {
     for (at, wanted) in places[0].iter().zip([3.0, -4.0, 6.0, -8.0]) {
         close(*at, wanted, 1e-6);
     }
-    assert!(solve::others(&plan, &s.x0, 0, &mut NoHost).is_empty());
+    assert!(solve::others(&plan, &s.x0, None, 0, &mut NoHost).is_empty());
 }
 
 #[test]
@@ -121,7 +121,7 @@ fn the_coupler_of_a_four_bar_has_another_side() {
     let mut s = Sheet::default();
     let (tip, foot) = (s.anchor(40.0, 0.0), s.anchor(160.0, 0.0));
     let p = tied(&mut s, [365.0 / 3.0, 113.712_600_689_437_92], [(tip, 140.0), (foot, 120.0)]);
-    let others = solve::others(&s.plan(), &s.x0, 8, &mut NoHost);
+    let others = solve::others(&s.plan(), &s.x0, None, 8, &mut NoHost);
     let [other] = &others[..] else { panic!("{others:?}") };
     close(other.values[p[0] as usize], 365.0 / 3.0, 1e-9);
     close(other.values[p[1] as usize], -113.712_600_689_437_92, 1e-9);

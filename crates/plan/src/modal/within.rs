@@ -1,0 +1,90 @@
+//! Within bounds: the plan of a mode is run so that inequalities hold without acting, where it has roots and sides with
+//! which they do.
+
+use crate::host::Host;
+use crate::planner::{Model, Planner};
+use crate::run::{Adapter, Ground};
+use crate::task::Task;
+use kernel::Values;
+use solve::{Lean, Mode, Modes, Plan, Tried};
+use std::cmp::Ordering;
+
+/// How many other states are looked at where the first breaks an inequality.
+const MOST_OTHERS: usize = 16;
+
+/// Runs the plan of a mode from where an edit began. What opens takes the roots with which the inequalities hold
+/// without acting, and conditions are as they are assumed, where there are such; they are looked for from the bounds as
+/// well where given numbers would yield to these.
+#[expect(clippy::too_many_arguments, reason = "an attempt is all of these")]
+pub(crate) fn attempt_in_mode(
+    planner: &Planner,
+    model: Model<'_>,
+    task: &Task,
+    modes: &Modes,
+    mode: &Mode,
+    ground: &Ground,
+    leans: &[Lean],
+    values: &mut Values,
+    host: &mut dyn Host,
+) -> Tried {
+    let (_, plan) = planner.in_mode(modes, mode);
+    let Ground { x0, local, changed, .. } = ground;
+    let mut local = local.clone();
+    let mut adapter = Adapter { planner, model, task, values, host };
+    let mut leans = leans.to_vec();
+    leans.extend(within_bounds(modes, mode, &plan, x0, &leans));
+    let mut runner = planner.take_runner(leans.clone());
+    let outcome = solve::run(&plan, &mut runner, x0, &mut local, changed, &mut adapter);
+    planner.put_back(runner);
+    let is_broken = |values: &[f64]| !modes.broken(mode, values).is_empty();
+    let is_within = |values: &[f64]| !is_broken(values) && !modes.contradicts(mode, values);
+    if outcome.is_solved() && plan.opens() && changed.is_empty() && !is_within(&local) {
+        let other = |beside: Option<&[f64]>, adapter: &mut Adapter<'_>| {
+            let others = solve::others(&plan, &local, beside, MOST_OTHERS, adapter);
+            let mut others: Vec<Vec<f64>> = others.into_iter().map(|other| other.values).collect();
+            // what another condition allows is found in a mode in which it is assumed
+            let within = others.iter().position(|other| is_within(other)).or_else(|| {
+                others.iter().position(|other| !is_broken(other)).filter(|_| is_broken(&local))
+            });
+            within.map(|at| others.swap_remove(at))
+        };
+        let mut found = other(None, &mut adapter);
+        // nor does a given number yield to a bound that has a root on its other side
+        if found.is_none()
+            && let Some(bounded) = modes.with_broken(mode, &local)
+            && let (_, bounded) = planner.in_mode(modes, &bounded)
+            && bounded.report.yielded.len() > plan.report.yielded.len()
+        {
+            let mut beside = ground.local.clone();
+            let mut runner = planner.take_runner(leans);
+            solve::run(&bounded, &mut runner, x0, &mut beside, changed, &mut adapter);
+            planner.put_back(runner);
+            found = other(Some(&beside), &mut adapter);
+        }
+        local = found.unwrap_or(local);
+    }
+    Tried { plan, outcome, values: local }
+}
+
+/// Returns which way blocks lean in which two branches meet, where an inequality that is at its bound holds one
+/// way alone, and nothing else is written.
+pub(super) fn within_bounds(
+    modes: &Modes,
+    mode: &Mode,
+    plan: &Plan,
+    x0: &[f64],
+    written: &[Lean],
+) -> Vec<Lean> {
+    if modes.at_bounds(mode, x0).active.is_empty() {
+        return Vec::new();
+    }
+    let broken = |state: &[f64]| modes.broken(mode, state).len();
+    let forks = solve::forks(plan, x0).into_iter();
+    let open = forks.filter(|[(lean, _), _]| written.iter().all(|w| w.slot != lean.slot));
+    let held = open.filter_map(|[more, less]| match broken(&more.1).cmp(&broken(&less.1)) {
+        Ordering::Less => Some(more.0),
+        Ordering::Greater => Some(less.0),
+        Ordering::Equal => None,
+    });
+    held.collect()
+}
