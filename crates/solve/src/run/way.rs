@@ -25,8 +25,15 @@ const AWAY: f64 = 1e4;
 const ENDS: f64 = 100.0;
 /// What came to less than this part has come to nothing.
 const NOTHING: f64 = 1e-5;
-/// So often a quarter of the way is left, where its end is found from how fast it comes near.
+/// From so near the end of a way is found by how fast it comes near, in parts of the extent: a quarter of it may be left
+/// so often, and so large a part of that is gone back in each of three strides.
+const CLOSE: f64 = 1e-4;
 const QUARTERS: usize = 6;
+const BACK: f64 = -0.5;
+/// What moves by more than this part of what it moved in the stride behind tends nowhere; what moves by this part of the
+/// extent rests, and this part of a number is left where the rest cancels.
+const SLOWEST: f64 = 0.9;
+const ROUNDING: f64 = 1e-14;
 /// What a stride costs for every slot, in multiplications.
 const STRIDE: usize = 64;
 /// How many strides are tried before a way is given up.
@@ -147,8 +154,16 @@ impl Way<'_> {
 
     /// Returns how far the wish lies, in parts of the extent.
     pub(super) fn distance(&self, last: &[f64], goal: &[f64]) -> f64 {
-        let parts = goal.iter().zip(last).zip(&self.frame.scales);
-        parts.map(|((to, from), by)| (to - from) / by).fold(0.0, |far, part| part.abs().max(far))
+        let part = |i: usize| ((goal[i] - last[i]) / self.frame.scales[i]).abs();
+        match self.part {
+            Part::Whole => (0..goal.len())
+                .filter(|&i| self.plan.slots()[i].stay == Stay::Fixed)
+                .map(part)
+                .fold(0.0, f64::max),
+            Part::Downstream(slice) => {
+                slice.inputs.iter().map(|&slot| part(slot as usize)).fold(0.0, f64::max)
+            }
+        }
     }
 
     /// Returns how long the strides of a walk are, from the first to the shortest, as parts of the whole way.
@@ -160,32 +175,58 @@ impl Way<'_> {
     /// side any more.
     fn ends(&mut self, last: &[f64], goal: &[f64]) -> bool {
         let near = ENDS * self.distance(last, goal);
-        let arrives = self.stride(last, goal, 1.0, Trust::Any, &Approach::Nowhere).is_ok() && {
+        self.stride(last, goal, 1.0, Trust::Any, &Approach::Nowhere).is_ok() && {
             let scales = &self.frame.scales;
             let gone =
                 self.trial.iter().zip(last).zip(scales).map(|((to, from), by)| (to - from) / by);
             gone.fold(0.0, |far: f64, part| part.abs().max(far)) <= near
-        };
-        arrives || self.closes(last, goal)
+        }
     }
 
     /// Arrives from next to the goal where solutions come together there, as all numbers do whose variance comes to
-    /// nothing: as the root of what is left of the way. Where that is a quarter, they are half as far from there.
+    /// nothing, or their standard deviation. Where they have come so near that rows hardly tell them apart, it is from
+    /// where they were.
     fn closes(&mut self, last: &[f64], goal: &[f64]) -> bool {
-        let mut states = [last.to_vec(), last.to_vec()];
+        if self.distance(last, goal) > CLOSE {
+            return false;
+        }
+        let mut near = last.to_vec();
         for _ in 0..QUARTERS {
-            let (from, part) = (states[1].clone(), 0.75);
-            if self.stride(&from, goal, part, Trust::Branch, &Approach::Nowhere).is_err() {
+            if self.stride(&near, goal, 0.75, Trust::Branch, &Approach::Nowhere).is_err() {
+                break;
+            }
+            near.copy_from_slice(self.trial);
+        }
+        self.tends(&near, goal) || near != last && self.tends(last, goal)
+    }
+
+    /// Arrives where unknowns tend: what is left for each follows from how much less it moves by each of three strides
+    /// than by the one behind.
+    fn tends(&mut self, last: &[f64], goal: &[f64]) -> bool {
+        let mut at = last.to_vec();
+        let mut states = [(); 3].map(|()| Vec::new());
+        for state in &mut states {
+            if self.stride(&at, goal, BACK, Trust::Branch, &Approach::Nowhere).is_err() {
                 return false;
             }
-            states = [from, self.trial.clone()];
+            at.copy_from_slice(self.trial);
+            state.clone_from(self.trial);
         }
-        let [far, near] = &states;
+        let [near, middle, far] = &states;
         self.set_out(near, goal, 1.0);
-        for ((x, near), far) in self.trial.iter_mut().zip(near).zip(far) {
-            // what is known is where it shall be
-            if x == near {
-                *x = near + (near - far);
+        for (i, x) in self.trial.iter_mut().enumerate() {
+            let moved = near[i] - middle[i];
+            let ratio = moved / (middle[i] - far[i]);
+            // what is known is where it shall be, and what hardly moves where it tends
+            if *x != near[i] || moved.abs() <= ROUNDING * self.frame.scales[i] {
+                continue;
+            }
+            if ratio.abs() > SLOWEST {
+                return false;
+            }
+            *x = near[i] + moved * ratio / (1.0 - ratio);
+            if x.abs() <= ROUNDING * near[i].abs() {
+                *x = 0.0;
             }
         }
         self.test_trial(&[]).is_solved()
@@ -217,7 +258,8 @@ impl Way<'_> {
             } else {
                 length = length.min(1.0 - gone) * 0.5;
                 if length < strides.end {
-                    if 1.0 - gone <= 4.0 * strides.end && self.ends(last, goal) {
+                    let is_near = 1.0 - gone <= 4.0 * strides.end;
+                    if is_near && self.ends(last, goal) || self.closes(last, goal) {
                         last.copy_from_slice(self.trial);
                         return 1.0;
                     }
