@@ -26,8 +26,9 @@ const EXACT: f64 = 1e-11;
 const ANCHORS: usize = 256;
 /// A way comes past an anchor where it is as near to it as this, in parts of its own length.
 const PASSING: f64 = 0.5;
-/// How far a state goes that buckles, in parts of the extent.
-const BUCKLED: f64 = 1e-5;
+/// How far a state goes that buckles, in parts of the extent: the second where the first is too far, as it is for what is
+/// small beside numbers of its kind.
+const BUCKLED: [f64; 2] = [1e-5, 1e-8];
 /// What lies no farther apart than this lies at one place, in the same parts: rules hold no closer.
 const ONE_PLACE: f64 = 1e-12;
 /// How far apart it goes.
@@ -121,16 +122,28 @@ impl Way<'_> {
     /// little way on out of it, and measures from where that begins: from the press no direction is nearer than its
     /// opposite.
     fn buckle(&mut self, last: &mut [f64], goal: &[f64]) {
+        let way = self.distance(last, goal);
+        for far in BUCKLED {
+            if !self.buckles_too_far((far / way).min(1.0), last, goal) {
+                return;
+            }
+        }
+    }
+
+    /// The same by that part of the way; returns true where it buckles and does not go on from there.
+    fn buckles_too_far(&mut self, mut part: f64, last: &mut [f64], goal: &[f64]) -> bool {
         let anchors = self.frame.anchors.len();
         let way = self.distance(last, goal);
-        let mut part = (BUCKLED / way).min(1.0);
         let mut aside = last.to_vec();
         let mut steps = BTreeSet::new();
         let mut is_apart = false;
         loop {
             let has_buckled = !steps.is_empty();
             match self.stride(&aside, goal, part, Trust::Branch, &Approach::Nowhere) {
-                Ok(()) if has_buckled => return last.copy_from_slice(self.trial),
+                Ok(()) if has_buckled => {
+                    last.copy_from_slice(self.trial);
+                    return false;
+                }
                 Err(Failure { reason: Reason::NoSolution { step }, .. }) if steps.insert(step) => {
                     let step = &self.plan.steps()[step as usize];
                     if !self.buckle_step(step, &mut aside) {
@@ -151,9 +164,11 @@ impl Way<'_> {
             last.copy_from_slice(self.trial);
             aside.copy_from_slice(self.trial);
             self.frame.anchors.truncate(anchors);
-            return self.frame.anchors.push(aside);
+            self.frame.anchors.push(aside);
+            return false;
         }
         self.frame.anchors.truncate(anchors);
+        aside != last
     }
 
     /// Moves what lies at one place, where its rows have no slope, a little apart: of all directions that which
