@@ -381,7 +381,7 @@ impl Way<'_> {
         plan.has_branches && attempt.broken(self.trial, self.buffers, self.host).is_some()
     }
 
-    /// Tries to arrive so far on without a way: allowed where every block lies as it did, if the values told.
+    /// Tries to arrive so far on without a way: allowed where every block lies as it did, if the values told there.
     pub(super) fn same_orientation(&mut self, from: &[f64], goal: &[f64], part: f64) -> bool {
         if self.stride(from, goal, part, Trust::Any, &Approach::Nowhere).is_err() {
             return false;
@@ -392,7 +392,7 @@ impl Way<'_> {
             Program::Square(square) if !square.block.is_linear => {
                 let before = square.orientation(from, scales, work, scratch);
                 let after = square.orientation(self.trial, scales, work, scratch);
-                after != 0 && (before == 0 || before == after)
+                before == 0 || before == after
             }
             Program::Measure(_) | Program::Least(_) => false,
             Program::Square(_)
