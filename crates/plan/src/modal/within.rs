@@ -12,9 +12,9 @@ use std::cmp::Ordering;
 /// How many other states are looked at where the first breaks an inequality.
 const MOST_OTHERS: usize = 16;
 
-/// Runs the plan of a mode from where an edit began. What opens takes the roots with which the inequalities hold
-/// without acting, and conditions are as they are assumed, where there are such; they are looked for from the bounds as
-/// well where given numbers would yield to these.
+/// Runs the plan of a mode from where an edit began, given numbers held where that comes to an end. What opens
+/// takes the roots with which the inequalities hold without acting, and conditions are as they are assumed,
+/// where there are such; they are looked for from the bounds as well where given numbers would yield to these.
 #[expect(clippy::too_many_arguments, reason = "an attempt is all of these")]
 pub(crate) fn attempt_in_mode(
     planner: &Planner,
@@ -27,17 +27,33 @@ pub(crate) fn attempt_in_mode(
     values: &mut Values,
     host: &mut dyn Host,
 ) -> Tried {
-    let (_, plan) = planner.in_mode(modes, mode);
-    let Ground { x0, local, changed, .. } = ground;
-    let mut local = local.clone();
+    let (system, mut plan) = planner.in_mode(modes, mode);
+    let Ground { x0, changed, .. } = ground;
+    let is_broken = |values: &[f64]| !modes.broken(mode, values).is_empty();
+    let is_within = |values: &[f64]| !is_broken(values) && !modes.contradicts(mode, values);
     let mut adapter = Adapter { planner, model, task, values, host };
     let mut leans = leans.to_vec();
     leans.extend(within_bounds(modes, mode, &plan, x0, &leans));
     let mut runner = planner.take_runner(leans.clone());
-    let outcome = solve::run(&plan, &mut runner, x0, &mut local, changed, &mut adapter);
+    let mut by_plan = |plan: &Plan| {
+        let mut local = ground.local.clone();
+        let outcome = solve::run(plan, &mut runner, x0, &mut local, changed, &mut adapter);
+        (outcome, local)
+    };
+    // rows that depend on others here, though not at a generic point, free no given number
+    let held = planner.plans.with_given_held(&system, &plan).and_then(|held| {
+        let (outcome, local) = by_plan(&held);
+        let is_met = outcome.is_solved() && outcome.unmet.is_empty() && is_within(&local);
+        is_met.then_some((held, outcome, local))
+    });
+    let (outcome, mut local) = match held {
+        Some((held, outcome, local)) => {
+            plan = held;
+            (outcome, local)
+        }
+        None => by_plan(&plan),
+    };
     planner.put_back(runner);
-    let is_broken = |values: &[f64]| !modes.broken(mode, values).is_empty();
-    let is_within = |values: &[f64]| !is_broken(values) && !modes.contradicts(mode, values);
     if outcome.is_solved() && plan.opens() && changed.is_empty() && !is_within(&local) {
         let other = |beside: Option<&[f64]>, adapter: &mut Adapter<'_>| {
             let others = solve::others(&plan, &local, beside, MOST_OTHERS, adapter);
