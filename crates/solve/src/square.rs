@@ -110,9 +110,8 @@ const REFINEMENTS: usize = 10;
 const LEAPS: usize = 60;
 /// A step this long, in parts of the extent, leads away from what is near.
 const WIDE: f64 = 0.1;
-/// Near a solution steps shrink. After so many in a row, each at least this part of the last, that are no rounding, the
-/// rows hold only because an unknown goes on and on, as where `exp(x)` is to be nothing.
-const UNSHRUNK: (u32, f64, f64) = (8, 0.9, 1e-7);
+/// A last step no longer than this, in parts of the extent, is rounding.
+const ROUNDED: f64 = 1e-7;
 /// What part of the last step one is that goes to a double root.
 const HALVES: RangeInclusive<f64> = 0.45..=0.55;
 /// What of the norm is left, at most, where the same step once more comes to it.
@@ -377,13 +376,11 @@ impl Square {
                 solved @ (Solved::Regular | Solved::Double(_)) => return solved,
             }
         }
-        let Some((factors, size, unshrunk)) = self.iterate(branch, trust, values, scales, w, s)
-        else {
+        let Some((factors, size)) = self.iterate(branch, trust, values, scales, w, s) else {
             return Solved::Failed;
         };
-        let goes_on = !is_linear && unshrunk >= UNSHRUNK.0 && size > UNSHRUNK.2;
         if !self.holds(values, w, s)
-            || goes_on
+            || self.goes_on(last, values, size, scales, w, s)
             || (size > WIDE || factors.ratio == 0.0)
                 && !is_linear
                 && self.runs_away(values, scales, w, s)
@@ -402,7 +399,7 @@ impl Square {
     }
 
     /// Takes steps until they do no better, on the `branch` of this orientation if there is one; returns the last
-    /// factors, how long the last step was and how many before it were no longer, or nothing where they lead nowhere.
+    /// factors and how long the last step was, or nothing where they lead nowhere.
     fn iterate(
         &self,
         branch: Option<i8>,
@@ -411,7 +408,7 @@ impl Square {
         scales: &[f64],
         w: &mut Workspace,
         s: &mut SquareScratch,
-    ) -> Option<(Factors, f64, u32)> {
+    ) -> Option<(Factors, f64)> {
         let is_linear = self.block.is_linear;
         self.evaluate(values, w, s);
         self.weigh(scales, s);
@@ -423,7 +420,6 @@ impl Square {
         s.step.clear();
         s.step.resize(self.block.core.len(), 0.0);
         let (mut first_size, mut last_size, mut damping) = (0.0, 0.0, 0.0f64);
-        let mut unshrunk = 0;
         let mut nudges = aside::NUDGES.iter();
         let mut factors = Factors { sign: 0, ratio: 1.0 };
         for iteration in 0..STEPS {
@@ -452,7 +448,6 @@ impl Square {
                 self.damped_direction(scales, damping.max(1e-12), s);
             }
             let size = self.step_size(scales, s);
-            unshrunk = if size >= UNSHRUNK.1 * last_size { unshrunk + 1 } else { 0 };
             let ratio = size / std::mem::replace(&mut last_size, size);
             match iteration {
                 0 => first_size = size,
@@ -481,9 +476,6 @@ impl Square {
                     if leaves || !better.is_finite() || w.is_spent() {
                         return None;
                     }
-                    if length < 1.0 {
-                        unshrunk = 0;
-                    }
                     let slow = better > 0.5 * norm;
                     norm = better;
                     let is_short = length < SHORT && !was_held && self.is_large();
@@ -510,7 +502,7 @@ impl Square {
                 }
             }
         }
-        Some((factors, last_size, unshrunk))
+        Some((factors, last_size))
     }
 
     /// Solves a linear block that has factors: all unknowns at once, those that rows define too, and

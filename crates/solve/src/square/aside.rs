@@ -2,8 +2,8 @@
 //! because an unknown has run away.
 
 use super::step::normal;
-use super::{Square, SquareScratch, WIDE};
-use crate::block::Workspace;
+use super::{ROUNDED, Square, SquareScratch, WIDE};
+use crate::block::{Local, Workspace};
 use crate::dense;
 use crate::rows::{Point, generic_number};
 
@@ -12,6 +12,9 @@ const ASIDE: f64 = 1e-3;
 
 /// How far aside a row is left that has no slope, in parts of the extent.
 pub(super) const NUDGES: [f64; 2] = [1e-3, -1e-3];
+
+/// So many extents farther on rows hold no more that are solved; two, so that no period hides it.
+const FARTHER: [f64; 2] = [8.0, 13.7];
 
 /// Nothing lies so many extents away.
 const FAR: f64 = 1e4;
@@ -249,6 +252,75 @@ impl Square {
         false
     }
 
+    /// Returns true if rows hold only because an unknown goes on and on, until rounding takes for nothing what it makes,
+    /// as where `exp(x)` is to be nothing: they hold as well much farther on. That is asked where the last step, so
+    /// long, was no rounding, and where none was needed though it was not stood there before.
+    pub(super) fn goes_on(
+        &self,
+        last: &[f64],
+        values: &[f64],
+        size: f64,
+        scales: &[f64],
+        w: &mut Workspace,
+        s: &mut SquareScratch,
+    ) -> bool {
+        let n = self.block.core.len();
+        // a piece of a function may be flat
+        if self.block.is_linear || self.block.has_pieces() {
+            return false;
+        }
+        let stood = || (0..n).all(|c| values[self.slot(c)] == last[self.slot(c)]);
+        let is_asked = match size > 0.0 {
+            true => size > ROUNDED,
+            false => self.is_dense() && self.is_flat(scales, s) && !stood(),
+        };
+        if !is_asked {
+            return false;
+        }
+        if size > 0.0 {
+            let along = (0..n).map(|c| s.step[c] / (size * scales[self.slot(c)]));
+            return self.hold_farther(&along.collect::<Vec<f64>>(), values, scales, w, s);
+        }
+        (0..n).any(|core| {
+            let mut along = vec![0.0; n];
+            along[core] = 1.0;
+            self.hold_farther(&along, values, scales, w, s)
+        })
+    }
+
+    /// Returns true if a row, as it was evaluated last, has slopes, but none that an extent would show.
+    fn is_flat(&self, scales: &[f64], s: &SquareScratch) -> bool {
+        let block = &self.block;
+        (0..block.height()).any(|r| {
+            let slope =
+                |e| s.local.jacobian[e] * scales[block.unknowns[block.pattern.column(e)] as usize];
+            let most = block.pattern.range(r).map(slope).fold(0.0f64, |most, d| most.max(d.abs()));
+            most > 0.0 && most <= rounding(&s.local, r)
+        })
+    }
+
+    /// Returns true if the rows, as they were evaluated last, hold as well many extents farther on, to one side or the
+    /// other.
+    fn hold_farther(
+        &self,
+        along: &[f64],
+        values: &[f64],
+        scales: &[f64],
+        w: &mut Workspace,
+        s: &mut SquareScratch,
+    ) -> bool {
+        let off = |sides: &Local, r: usize| (sides.left[r] - sides.right[r]).abs();
+        [1.0, -1.0].into_iter().any(|side| {
+            FARTHER.into_iter().all(|by| {
+                let mut there = values.to_vec();
+                self.shift(&mut there, along, side * by, scales, w);
+                self.block.sides(&there, w, &mut s.kept);
+                (0..self.block.height())
+                    .all(|r| off(&s.kept, r) <= off(&s.local, r).max(rounding(&s.kept, r)))
+            })
+        })
+    }
+
     /// Returns true if rows hold only because an unknown has gone so far that nothing depends on it any more:
     /// Newton's step from there is no smaller than what it has come to, as where `1 / r` is to vanish, or there is
     /// none so far out, as where parallels are to meet.
@@ -271,4 +343,9 @@ impl Square {
             s.step[c].abs() > WIDE * values[slot].abs().max(scales[slot])
         })
     }
+}
+
+/// Returns what rounding makes the sides of a row differ by.
+fn rounding(sides: &Local, row: usize) -> f64 {
+    4.0 * f64::EPSILON * sides.left[row].abs().max(sides.right[row].abs())
 }
