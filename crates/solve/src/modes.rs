@@ -189,6 +189,11 @@ impl Modes {
         }
     }
 
+    /// Returns true if nothing is assumed and nothing chosen: modes differ by which inequalities act.
+    pub fn has_inequalities_alone(&self) -> bool {
+        self.conditions.is_empty() && self.choices.is_empty()
+    }
+
     /// Returns the system that was taken apart.
     pub fn conditional(&self) -> &Conditional {
         &self.conditional

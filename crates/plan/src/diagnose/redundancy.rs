@@ -344,7 +344,12 @@ impl Planner {
         state: &Values,
         host: &mut dyn Host,
     ) -> Option<Task> {
-        if task.component.slots().len() > MOST_ASKED || !matches!(task.course, Course::Plan) {
+        let has_one_form = match &task.course {
+            Course::Plan => true,
+            Course::Modes(modes, _) => modes.has_inequalities_alone(),
+            Course::Search(_) => false,
+        };
+        if task.component.slots().len() > MOST_ASKED || !has_one_form {
             return None;
         }
         if let Some(known) = task.known_without_implied() {
@@ -353,7 +358,9 @@ impl Planner {
         if !self.required_hold(model, task, state, host) {
             return None;
         }
+        let in_mode = task.by_values(self, model, state, host);
         let find = |planner: &mut Self| {
+            let task = in_mode.as_ref().unwrap_or(task);
             let found = planner.theorems(model, task, Self::resting_hold, state, host);
             found.rules.into_keys().collect()
         };
