@@ -9,7 +9,7 @@ use crate::kernel::Kernel;
 use crate::pieces;
 use crate::system::{SlotIndex, System};
 use base::{Id, Mixer, define_id};
-use expr::{Arena, Excerpt, ExprId, Node, Tape, Var};
+use expr::{Arena, Binary, Excerpt, ExprId, Node, Tape, Unary, Var};
 use indexmap::IndexSet;
 use std::cell::{OnceCell, RefCell};
 use std::collections::{BTreeMap, BTreeSet};
@@ -29,9 +29,23 @@ pub struct Pattern {
     arity: usize,
     plain: Option<Plain>,
     has_pieces: bool,
+    has_angles: bool,
     values: OnceCell<Rc<Tape>>,
     kernel: OnceCell<Rc<Kernel>>,
     identified: RefCell<BTreeMap<Box<[u32]>, Identified>>,
+}
+
+/// Returns true if an operation takes or gives an angle.
+fn speaks_of_angles(node: Node) -> bool {
+    match node {
+        Node::Unary(op, _) => {
+            let (from, to) =
+                ([Unary::Sin, Unary::Cos, Unary::Tan], [Unary::Asin, Unary::Acos, Unary::Atan]);
+            from.contains(&op) || to.contains(&op)
+        }
+        Node::Binary(op, ..) => op == Binary::Atan2,
+        Node::Select { .. } | Node::Constant(_) | Node::Var(_) => false,
+    }
 }
 
 /// What a pattern says that says next to nothing.
@@ -51,12 +65,14 @@ impl Pattern {
         let arity = excerpt.nodes.iter().filter(|n| matches!(n, Node::Var(_))).count();
         let plain = plain(&excerpt);
         let has_pieces = excerpt.nodes.iter().any(|&node| pieces::has_pieces(node));
+        let has_angles = excerpt.nodes.iter().any(|&node| speaks_of_angles(node));
         Self {
             excerpt,
             arena: OnceCell::new(),
             arity,
             plain,
             has_pieces,
+            has_angles,
             values: OnceCell::new(),
             kernel: OnceCell::new(),
             identified: RefCell::default(),
@@ -172,6 +188,10 @@ impl Pattern {
     /// Returns true if what it says is another expression here than there.
     pub(crate) fn has_pieces(&self) -> bool {
         self.has_pieces
+    }
+    /// Returns true if some of the numbers that it speaks of are angles.
+    pub(crate) fn has_angles(&self) -> bool {
+        self.has_angles
     }
     /// Returns what it says if that is next to nothing.
     pub(crate) fn plain(&self) -> Option<Plain> {

@@ -158,6 +158,8 @@ pub struct Plan {
     /// Slots for which another stands, in order, with that one.
     pub(crate) stood_for: Vec<(SlotIndex, SlotIndex)>,
     pub(crate) scale_classes: usize,
+    /// True if some of the plain numbers are angles.
+    pub(crate) has_angles: bool,
     /// Stretches of slots that are alike, one after the other.
     pub(crate) alike: Vec<Alike>,
     /// True if a step depends on the branch that the state is on.
@@ -376,6 +378,7 @@ fn plan_of(stated: Stated, classes: &Classes, report: Report, lowered: Lowered) 
         stood_for: stood_for(classes),
         scale_classes: alike.iter().map(|a| a.scale as usize + 1).max().unwrap_or(0),
         alike,
+        has_angles: stated.has_angles(),
         has_branches,
         has_large_core,
         stated,

@@ -55,6 +55,10 @@ impl Stated {
     pub(crate) fn pattern_at(&self, place: usize) -> &Rc<Pattern> {
         &self.patterns[place].1
     }
+    /// Returns true if some of the plain numbers of the system are angles.
+    pub(crate) fn has_angles(&self) -> bool {
+        self.patterns.iter().any(|(_, pattern)| pattern.has_angles())
+    }
     pub(crate) fn pattern(&self, id: PatternId) -> &Rc<Pattern> {
         self.pattern_at(self.patterns.partition_point(|p| p.0 < id))
     }

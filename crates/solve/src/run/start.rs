@@ -4,7 +4,7 @@ use crate::attempt::{Buffers, Frame, Held};
 use crate::block::Workspace;
 use crate::plan::Plan;
 use crate::run::Runner;
-use crate::system::{SlotIndex, Stay, System};
+use crate::system::{PLAIN, SlotIndex, Stay, System};
 use crate::test::{Differing, Place};
 use expr::LANES;
 use std::cell::Cell;
@@ -135,7 +135,8 @@ pub(super) fn required_rows_held(plan: &Plan, frame: &Frame, buffers: &mut Buffe
     true
 }
 
-/// The extent of every class of slots that have a value; at least their size, one where all is nothing.
+/// The extent of every class of slots that have a value; at least their size, one where all is nothing, and at
+/// least one of what angles are among.
 fn measure_scales(plan: &Plan, frame: &mut Frame) {
     let mut ranges = vec![(f64::INFINITY, f64::NEG_INFINITY); plan.scale_classes];
     let mut start = 0;
@@ -151,6 +152,10 @@ fn measure_scales(plan: &Plan, frame: &mut Frame) {
     for (low, high) in &mut ranges {
         let extent = (*high - *low).max(high.abs()).max(low.abs());
         *low = if extent.is_finite() && extent > NOTHING { extent } else { 1.0 };
+    }
+    // a radian is a turn as long as any, however near to nothing the angles are
+    if let Some((extent, _)) = ranges.get_mut(PLAIN as usize).filter(|_| plan.has_angles) {
+        *extent = extent.max(1.0);
     }
     frame.scales.clear();
     frame.scales.reserve(plan.slots().len());
