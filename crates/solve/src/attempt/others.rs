@@ -15,6 +15,8 @@ const LARGEST: usize = 12;
 const MOST_STEPS: usize = 24;
 /// How often another root is looked for, each time from farther away, in both directions.
 const TRIES: u32 = 6;
+/// How many are looked for from a state beside.
+const FURTHER: usize = 4;
 /// In parts of the extent, how far from the present root that is: √2 times this first, √2 times farther
 /// each time, eight times this at last.
 const NEAREST: f64 = 0.25;
@@ -96,11 +98,13 @@ impl Run<'_> {
     ) -> Vec<Vec<f64>> {
         let now = self.targets(step);
         let mut known = vec![now.clone()];
-        if let Some(beside) = beside {
+        for beside in beside.iter().cycle().take(FURTHER) {
             for &t in &step.targets {
                 self.values[t as usize] = beside[t as usize];
             }
-            self.look_beyond(step, square, &mut known);
+            if !self.look_beyond(step, square, &mut known) {
+                break;
+            }
         }
         for k in 1..=TRIES {
             let far = NEAREST * base::number::sqrt(f64::from(1u32 << k));
