@@ -15,6 +15,7 @@
 //!
 //! **Source:** Nocedal and Wright, *Numerical Optimization*, 2nd ed., §18.1 and §3.4.
 
+mod advance;
 mod curved;
 mod levels;
 mod step;
@@ -26,6 +27,7 @@ use crate::least::Least;
 use crate::lower::{Definers, Problem};
 use crate::square::Trust;
 use crate::system::{Level, SlotIndex, Turn};
+use advance::Advance;
 use base::number::{ROUNDING, power_of_two};
 use curved::Curved;
 use levels::Levels;
@@ -138,6 +140,8 @@ const SETTLED: f64 = 1e-12;
 /// How many of those are taken all the same where a hard row does not hold yet: what is small beside its scale
 /// has a steep slope.
 const POLISH: usize = 8;
+/// After so many steps that do not shrink a way ends next to where rows have no value any more.
+const IDLE: usize = 4;
 /// How far aside it goes from there, in parts of the extent.
 const ASIDE: f64 = 1e-3;
 /// A way of more than this, in parts of the extent, may have leapt to another branch, and how far, in parts of its
@@ -231,10 +235,14 @@ impl Measure {
                 Some(_) | None => Measured::Failed,
             };
         }
+        if trust != Trust::Branch && self.evaluate(values, &scale, &weights, w).is_none() {
+            self.go_inside(values, &scale, &weights, w);
+        }
         let (mut smallest, mut idle) = (f64::INFINITY, 0);
         let (mut settled, mut polished) = (false, 0);
         let mut begun: Option<Begun> = None;
         let mut left: Option<Left> = None;
+        let mut is_near_end = false;
         for iteration in 0..STEPS {
             w.spend(self.cost());
             if w.is_spent() {
@@ -243,23 +251,14 @@ impl Measure {
             let Some(scaled) = self.evaluate(values, &scale, &weights, w) else {
                 return Measured::Failed;
             };
-            let away: Vec<f64> = self
-                .unknowns
-                .iter()
-                .zip(&scale)
-                .map(|(&u, s)| (values[u as usize] - x0[u as usize]) / s)
-                .collect();
+            let away = self.away(values, x0, &scale);
             let Direction { mut step, crest } = self.direction(&scaled, &away, &weights, values, w);
             let size = step.iter().fold(0.0f64, |m, d| m.max(d.abs()));
             if !size.is_finite() {
                 return Measured::Failed;
             }
             let curved = !self.is_linear;
-            let leaps = match iteration {
-                0 => size > 0.5,
-                1 => size > 1e-3f64.max(0.5 * smallest),
-                _ => false,
-            };
+            let leaps = leaps(iteration, size, smallest);
             let bends = iteration == 1 && begun.as_ref().is_some_and(|b| b.bends_to(&scaled));
             if trust == Trust::Branch && curved && left.is_none() && (leaps || bends) {
                 return Measured::Failed;
@@ -274,6 +273,9 @@ impl Measure {
             if size <= SETTLED || (idle >= 4 && smallest < 1e-7) {
                 settled = true;
                 let is_polished = size > SETTLED || polished == POLISH;
+                if is_near_end && self.comes_to_end(values, &scale, w) {
+                    return Measured::Least;
+                }
                 if is_polished || self.hard_rows_hold(&scaled, values, w) {
                     let Some(crest) = crest.filter(|_| left.is_none()) else { break };
                     let at = self.unknowns.iter().map(|&u| values[u as usize]).collect();
@@ -295,7 +297,14 @@ impl Measure {
                     break;
                 }
             }
-            let length = self.advance(values, &step, &scale, off, &weights, w);
+            let advance = self.advance(values, &step, &scale, off, &weights, w);
+            is_near_end = matches!(advance, Advance::NearEnd(_));
+            let length = match advance {
+                Advance::Part(length) => length,
+                // along the end other levels do no better than they can by going on
+                Advance::NearEnd(length) if idle < IDLE => length,
+                Advance::NearEnd(_) | Advance::End => return Measured::Least,
+            };
             if trust == Trust::Branch && curved && iteration == 0 && self.large.is_none() {
                 step.iter_mut().for_each(|d| *d *= length);
                 begun = Some(Begun::new(&scaled, &step));
@@ -334,10 +343,7 @@ impl Measure {
         weights: &[f64],
         w: &mut Workspace,
     ) -> bool {
-        let from = |state: &[f64]| -> Vec<f64> {
-            let parts = self.unknowns.iter().zip(scale);
-            parts.map(|(&u, s)| (values[u as usize] - state[u as usize]) / s).collect()
-        };
+        let from = |state: &[f64]| self.away(values, state, scale);
         let mut gone = from(last);
         let far = dense::norm(&gone);
         if far <= LONG {
@@ -379,12 +385,7 @@ impl Measure {
         let Some(local) = self.evaluate(values, &scale, &weights, w) else {
             return false;
         };
-        let away: Vec<f64> = self
-            .unknowns
-            .iter()
-            .zip(&scale)
-            .map(|(&u, s)| (values[u as usize] - x0[u as usize]) / s)
-            .collect();
+        let away = self.away(values, x0, &scale);
         let Direction { step, .. } = self.direction(&local, &away, &weights, values, w);
         self.hard_rows_hold(&local, values, w) && step.iter().all(|d| d.abs() <= STILL)
     }
@@ -395,6 +396,11 @@ impl Measure {
         let first = self.unknowns.first().map_or(1.0, |&u| scales[u as usize]);
         let power = power_of_two(first);
         move |scale| power * (scale / first)
+    }
+    /// Returns how far the unknowns are from where they are in another state, in parts of their scales.
+    fn away(&self, values: &[f64], from: &[f64], scale: &[f64]) -> Vec<f64> {
+        let parts = self.unknowns.iter().zip(scale);
+        parts.map(|(&u, s)| (values[u as usize] - from[u as usize]) / s).collect()
     }
     /// Returns the scales of the unknowns.
     fn scale(&self, scales: &[f64]) -> Vec<f64> {
@@ -524,28 +530,13 @@ impl Measure {
         let (jacobian, gradients) = (Vec::new(), Vec::new());
         finite.then_some(Scaled { residual, jacobian, slopes, local, gradients })
     }
+}
 
-    /// Goes along the step, shortened until rows are not torn apart; returns by how much.
-    fn advance(
-        &self,
-        values: &mut [f64],
-        step: &[f64],
-        scale: &[f64],
-        off: Off,
-        weights: &[f64],
-        w: &mut Workspace,
-    ) -> f64 {
-        let start: Vec<f64> = self.unknowns.iter().map(|&u| values[u as usize]).collect();
-        let mut length = 1.0;
-        loop {
-            for (i, &u) in self.unknowns.iter().enumerate() {
-                values[u as usize] = start[i] + length * step[i] * scale[i];
-            }
-            let now = self.evaluate(values, scale, weights, w).map(|local| self.off(&local));
-            if now.is_some_and(|now| now.follows(off)) || length < 1e-6 {
-                return length;
-            }
-            length *= 0.5;
-        }
+/// Returns true if a step, so long after ones of which the smallest is so long, leads off its branch.
+fn leaps(iteration: usize, size: f64, smallest: f64) -> bool {
+    match iteration {
+        0 => size > 0.5,
+        1 => size > 1e-3f64.max(0.5 * smallest),
+        _ => false,
     }
 }
