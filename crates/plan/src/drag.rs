@@ -382,7 +382,7 @@ impl Pull {
         host: &mut dyn Host,
     ) -> Option<Together> {
         let is_set = |slot: SlotId| aim.slots().contains(&slot);
-        if self.task.component.slots().len() > LETTING_GO || !self.task.plan.is_curved() {
+        if self.task.component.slots().len() > LETTING_GO || !self.task.plan.speaks_of_bends() {
             return None;
         }
         vanished(planner, model, &self.task, (&self.x0, &is_set), values, host)

@@ -575,6 +575,10 @@ impl Plan {
     pub fn is_curved(&self) -> bool {
         self.has_branches || self.bends
     }
+    /// Returns true if some rows bend, though what is solved for by them may not.
+    pub fn speaks_of_bends(&self) -> bool {
+        self.is_curved() || self.stated.has_bends()
+    }
     /// Returns how many steps there are.
     pub fn step_count(&self) -> usize {
         self.peeled().map_or_else(|| self.steps().len(), |peeled| peeled.order.len())

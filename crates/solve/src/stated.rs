@@ -59,6 +59,10 @@ impl Stated {
     pub(crate) fn has_angles(&self) -> bool {
         self.patterns.iter().any(|(_, pattern)| pattern.has_angles())
     }
+    /// Returns true if some equation bends.
+    pub(crate) fn has_bends(&self) -> bool {
+        self.patterns.iter().any(|(_, p)| p.roots().len() == 2 && !p.kernel().is_linear())
+    }
     pub(crate) fn pattern(&self, id: PatternId) -> &Rc<Pattern> {
         self.pattern_at(self.patterns.partition_point(|p| p.0 < id))
     }

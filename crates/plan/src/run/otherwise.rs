@@ -6,6 +6,7 @@ use crate::host::Host;
 use crate::modal::Stands;
 use crate::planner::{Model, Planner};
 use crate::task::Task;
+use crate::task::restated::LETTING_GO;
 use crate::vanish::{Vanished, shrinking, vanished};
 use base::number::close;
 use kernel::{SlotId, Values};
@@ -69,7 +70,8 @@ pub(super) fn or_kept_apart(
     host: &mut dyn Host,
 ) -> Ran {
     let plan = ran.stands.as_ref().map_or(&task.plan, Stands::plan);
-    if !plan.is_curved() {
+    let is_small = task.component.slots().len() <= LETTING_GO;
+    if !(plan.is_curved() || is_small && plan.speaks_of_bends()) {
         return ran;
     }
     let slots = task.component.slots();
