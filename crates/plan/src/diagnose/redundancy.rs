@@ -69,7 +69,8 @@ impl Redundancy {
 const MOST_ASKED: usize = 60;
 /// Of so many rules of a component.
 const MOST_ASKED_RULES: usize = 16;
-/// Up to so many slots it is asked whether rules follow from others for the given numbers as they are.
+/// Up to so many slots it is asked whether rules follow from others for the given numbers as they are, and which do by a
+/// theorem where given numbers would yield.
 const MOST_WITH_GIVEN: usize = 400;
 
 impl Planner {
@@ -349,7 +350,9 @@ impl Planner {
             Course::Modes(modes, _) => modes.has_inequalities_alone(),
             Course::Search(_) => false,
         };
-        if task.component.slots().len() > MOST_ASKED || !has_one_form {
+        // where a given number would yield, it is worth more to know
+        let most = if task.plan.report.yielded.is_empty() { MOST_ASKED } else { MOST_WITH_GIVEN };
+        if task.component.slots().len() > most || !has_one_form {
             return None;
         }
         if let Some(known) = task.known_without_implied() {
