@@ -1,5 +1,7 @@
 //! Drags: planned once at the press, then followed wish by wish.
 
+mod back;
+
 use crate::aim::{Aim, with_present_values};
 use crate::component::{Component, rules_of};
 use crate::edit::{EditKind, EditReport, NotDecided, RefusalReason, Target, note};
@@ -164,13 +166,16 @@ impl Planner {
     pub fn release(
         &mut self,
         model: Model<'_>,
-        press: Press,
+        mut press: Press,
         values: &mut Values,
         host: &mut dyn Host,
     ) -> EditReport {
         let reached = self.reached(&press.aim, values);
         let mut report = EditReport { reached, ..EditReport::default() };
         let start = press.start(values);
+        if !reached {
+            self.step_back(model, &mut press, &start, values, host);
+        }
         let aim = press.aim;
         self.latest.tasks = press.pulls.into_iter().map(Pull::end).collect();
         let components: Vec<Component> =

@@ -194,3 +194,39 @@ constraint half = c.x + c.y
         assert!((a - b).abs() < 1e-7, "{at_once:?} and {step_by_step:?}");
     }
 }
+
+/// A belt round two pulleys, each straight part at right angles to the radii at its ends.
+const BELT: &str = "\
+use geometry
+big: Circle { center = (0, 0) radius = 30 }
+small: Circle { center = (100, 0) radius = 10 }
+anchor big.center, small.center
+upper: Line { p1 = (6, 29) p2 = (102, 10) }
+lower: Line { p1 = (6, -29) p2 = (102, -10) }
+constraint upper.offset(of: big.center) = -big.radius
+constraint upper.offset(of: small.center) = -small.radius
+constraint lower.offset(of: big.center) = big.radius
+constraint lower.offset(of: small.center) = small.radius
+constraint upper.along(from: big.center, to: upper.p1) = 0
+constraint upper.along(from: small.center, to: upper.p2) = 0
+constraint lower.along(from: big.center, to: lower.p1) = 0
+constraint lower.along(from: small.center, to: lower.p2) = 0
+";
+
+#[test]
+fn what_stands_where_no_rule_holds_is_let_go_where_all_do() {
+    let mut desk = Desk::of(BELT);
+    // where the pulleys touch from within, the straight parts come to nothing, and have no direction any more
+    let along: Vec<(f64, f64)> = (1..=200)
+        .map(|k| f64::from(k) / 200.0)
+        .map(|part| (102.0 + 37.3163 * part, -9.797_958_971_132_712 + 30.451 * part))
+        .collect();
+    assert!(!desk.hold("lower.p2", &along).reached);
+    desk.session.release(desk.id).expect("the drag is kept as far as the rules hold");
+    assert_eq!(desk.session.complaints(desk.id), Vec::<String>::new());
+    let [big, small, length] =
+        ["big.radius", "small.radius", "lower.length"].map(|path| desk.number(path));
+    assert!(big > 100.0 && small > 10.0, "{big} {small}");
+    let between = base::number::hypot(big - small, length);
+    assert!((between - 100.0).abs() < 1e-6, "{between}");
+}
