@@ -76,7 +76,7 @@ fn plant(
     let named: Vec<String> = first.constraints.iter().map(owner).collect();
     let is_decided = match first.certainty {
         Certainty::Contradiction | Certainty::NoSolution { .. } => true,
-        Certainty::NotDecided { .. } | Certainty::GivenUp(_) => false,
+        Certainty::NotDecided { .. } | Certainty::GivenUp(_) | Certainty::Holds => false,
     };
     told.decided += usize::from(is_decided);
     let number = case.constraints.len();

@@ -12,6 +12,7 @@
 //! problems*, AAAI 2004.
 
 use crate::aim::Aim;
+use crate::component::Component;
 use crate::diagnose::combination::Combination;
 use crate::diagnose::gradient::is_linear;
 use crate::diagnose::repair::{Repair, Suspects};
@@ -21,6 +22,7 @@ use crate::host::Host;
 use crate::planner::{Model, Planner, Unmet};
 use crate::rule::Source;
 use crate::task::Holding;
+use base::number::close;
 use kernel::{SlotId, Values};
 use solve::Level;
 use std::collections::{BTreeMap, BTreeSet, VecDeque};
@@ -44,6 +46,9 @@ const REPAIR: u64 = 1_000_000_000;
 const APART: usize = 4;
 /// From how many starts a set is tried, at least.
 const STARTS: usize = 2 + FROM.len();
+/// From so many further starts, so far away, a set is tried before it is said to have no solution.
+const FURTHER_STARTS: usize = 40;
+const FAR: [f64; 4] = [0.25, 1.0, 0.5, 4.0];
 
 /// Required constraints that cannot all hold.
 #[derive(Clone, PartialEq, Debug)]
@@ -77,6 +82,8 @@ pub enum Certainty {
     },
     /// Not decided: no solution was found, and the search for one was given up.
     GivenUp(NotDecided),
+    /// They are no contradiction: all of the component can hold, though they do not.
+    Holds,
 }
 
 /// A constraint with its rules.
@@ -132,7 +139,20 @@ impl Planner {
             let most = (TRIED / units.len()).clamp(20, TRIALS);
             let until = self.spent() + WORK;
             let units = nearest_first(units, &unmet, |r| self.rules.get(r).slots);
-            let sets = Search::new(self, &setup, values, host, most, until).all(units.clone());
+            let mut search = Search::new(self, &setup, values, host, most, until);
+            let sets = search.all(units.clone());
+            if sets.is_empty() {
+                let state = search.last;
+                found.extend(self.that_holds(
+                    model,
+                    &component,
+                    &units,
+                    &unmet,
+                    (values, state),
+                    host,
+                ));
+                continue;
+            }
             // a repair of one is tried with the others' last constraints left out
             let spared: Vec<Source> =
                 sets.iter().filter_map(|(set, _)| set.last().map(|u| u.source)).collect();
@@ -153,6 +173,33 @@ impl Planner {
             }
         }
         found
+    }
+
+    /// Says that all of a component can hold, where in this state it does, though some of it does not.
+    fn that_holds(
+        &self,
+        model: Model<'_>,
+        component: &Component,
+        units: &[Unit],
+        unmet: &BTreeSet<Source>,
+        (values, state): (&Values, Option<Values>),
+        host: &mut dyn Host,
+    ) -> Option<Contradiction> {
+        let state = state?;
+        let changes = component.slots().iter().map(|&slot| (slot, state.numbers[slot]));
+        let changes: Vec<(SlotId, f64)> =
+            changes.filter(|&(slot, to)| !close(values.numbers[slot], to)).collect();
+        // given numbers that yielded are as they were in it
+        let rules = component.rules().iter().copied();
+        let holds =
+            self.unmet(model, rules, &state, host).iter().all(|u| u.level != Level::Required);
+        Some(Contradiction {
+            constraints: units.iter().map(|u| u.source).filter(|s| unmet.contains(s)).collect(),
+            anchors: Vec::new(),
+            certainty: Certainty::Holds,
+            proof: None,
+            repairs: if holds { vec![Repair::Move { to: changes }] } else { Vec::new() },
+        })
     }
 
     /// Finds what stands against an edit: the constraints of these rules that cannot hold together
@@ -311,6 +358,10 @@ impl<'s> Search<'s> {
             if is_decided || self.has_ended() {
                 break;
             }
+            self.escapes.extend(self.last.clone());
+            if self.can_hold(&[], units) && !self.has_ended() {
+                return None;
+            }
             self.effort = harder;
             self.back_out();
         }
@@ -420,13 +471,39 @@ impl<'s> Search<'s> {
         trial
     }
 
+    /// Returns true if rules hold in a state far from that of now.
+    fn holds_far_away(&mut self, rules: &[u32]) -> bool {
+        let Self { planner, setup, values, host, .. } = self;
+        planner.try_until(Some(self.until.min(planner.spent() + LONG)));
+        let slots: BTreeSet<SlotId> =
+            rules.iter().flat_map(|&r| planner.rules.get(r).slots).copied().collect();
+        let moves = |s: &SlotId| !matches!((setup.holding)(*s), Holding::Fixed | Holding::Given);
+        let slots: Vec<SlotId> = slots.into_iter().filter(moves).collect();
+        let parts = FAR.iter().copied().cycle();
+        let seeds = (FROM.len() as u32..).take(FURTHER_STARTS);
+        let found = seeds.zip(parts).find_map(|(seed, part)| {
+            let mut state = perturbed_by(part, seed, setup.model, &slots, values);
+            planner.try_at_once(setup, rules, &mut state, *host).then_some(state)
+        });
+        planner.try_until(None);
+        let holds = found.is_some();
+        self.last = found.or_else(|| self.last.take());
+        holds
+    }
+
     /// Says how sure it is that a set cannot hold together.
     fn certainty(&mut self, set: &[Unit]) -> Certainty {
         let ended = self.has_ended();
-        let trial = if ended { Trial::NotFound } else { self.try_out(&rules_of(set), HARDEST) };
+        let rules = rules_of(set);
+        let mut trial = if ended { Trial::NotFound } else { self.try_out(&rules, HARDEST) };
+        if trial == Trial::NotFound && !self.has_ended() && self.holds_far_away(&rules) {
+            trial = Trial::Holds;
+        }
         match trial {
             Trial::Contradicts => Certainty::Contradiction,
-            Trial::NotFound if !self.has_ended() => Certainty::NoSolution { starts: STARTS },
+            Trial::NotFound if !self.has_ended() => {
+                Certainty::NoSolution { starts: STARTS + FURTHER_STARTS }
+            }
             Trial::NotFound | Trial::Holds => Certainty::NotDecided { trials: self.trials },
         }
     }

@@ -124,6 +124,15 @@ impl Planner {
         let is_theorem = |source: Source| rules.iter().any(|&r| self.rules.source(r) == source);
         let mut found = surplus(self, left);
         found.retain(|r| !unmet.contains(&r.source) && !is_theorem(r.source));
+        if fails {
+            // what speaks of the same as one that does not hold may be what it stands against
+            let slots = |is_of: &dyn Fn(Source) -> bool| -> BTreeSet<SlotId> {
+                let own = task.component.rules().iter().filter(|&&r| is_of(self.rules.source(r)));
+                own.flat_map(|&r| self.rules.get(r).slots.iter().copied()).collect()
+            };
+            let off = slots(&|source| unmet.contains(&source));
+            found.retain(|r| slots(&|source| source == r.source).is_disjoint(&off));
+        }
         let may_ask = task.component.slots().len() <= MOST_ASKED;
         for (count, (rule, Candidate { circuit, .. })) in theorems.into_iter().enumerate() {
             let implied_by = match may_ask && count < MOST_ASKED_RULES {

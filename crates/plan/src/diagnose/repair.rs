@@ -11,7 +11,7 @@ use kernel::{SlotId, ThingId, Values};
 use std::collections::{BTreeMap, BTreeSet};
 
 /// Something that works.
-#[derive(Clone, Copy, PartialEq, Debug)]
+#[derive(Clone, PartialEq, Debug)]
 pub enum Repair {
     /// Delete the constraint, or switch it off.
     LeaveOut {
@@ -31,6 +31,11 @@ pub enum Repair {
         slot: SlotId,
         /// The value.
         to: f64,
+    },
+    /// Give several numbers other values at once.
+    Move {
+        /// Their slots and values.
+        to: Vec<(SlotId, f64)>,
     },
 }
 

@@ -26,7 +26,7 @@ pub(crate) struct Setup<'t> {
 pub(crate) enum Trial {
     /// Everything required holds.
     Holds,
-    /// What depends on the others does not hold where they do.
+    /// What depends on the others does not hold where they do, which is one place.
     Contradicts,
     /// No state was found in which everything required holds.
     NotFound,
@@ -63,9 +63,11 @@ impl Planner {
             let slots = task.component.slots();
             let yielded = plan.report.yielded.iter();
             yielding.extend(yielded.filter_map(|&s| slots.get(s as usize)));
+            // by other roots of the others it may hold
+            let is_sure = !plan.is_curved();
             trial = match ran {
                 Ran { is_solved: true, .. } => trial,
-                Ran { is_conflict: true, .. } => Trial::Contradicts,
+                Ran { is_conflict: true, .. } if is_sure => Trial::Contradicts,
                 Ran { .. } => Trial::NotFound,
             };
         }

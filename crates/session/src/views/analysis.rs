@@ -28,7 +28,10 @@ pub(crate) fn view(open: &mut Open) -> Analysis {
         }
     }
     let motions = found.motions.iter().map(|m| motion(open, m)).collect();
-    let redundant = found.redundant.iter().filter_map(|r| redundant(open, r)).collect();
+    // what stands in a contradiction says something
+    let stands = |r: &&Redundant| against.iter().any(|c| c.constraints.contains(&r.source));
+    let says_nothing = found.redundant.iter().filter(|r| !stands(r));
+    let redundant = says_nothing.filter_map(|r| redundant(open, r)).collect();
     let contradictions = against.iter().map(|c| contradiction(open, c)).collect();
     Analysis {
         freedom: found.freedom as u32,
@@ -142,6 +145,9 @@ fn contradiction(open: &Open, c: &Contradiction) -> ContradictionView {
         (Certainty::NoSolution { starts }, _) => {
             (true, format!("no solution of {list} together was found, from {starts} starts"))
         }
+        (Certainty::Holds, _) => {
+            (false, format!("{list} can hold with all the others, but not from where things are"))
+        }
         (Certainty::NotDecided { trials }, _) => {
             let end = format!("the search ended after {trials} trials");
             (false, format!("not decided which of {list} contradict: {end}"))
@@ -160,6 +166,12 @@ fn contradiction(open: &Open, c: &Contradiction) -> ContradictionView {
         }
     };
     let shown = |x: f64| base::number::rounded(x, 6);
+    let set = |slot: SlotId, to: f64| {
+        let mut values = state.values.clone();
+        values.numbers[slot] = to;
+        let (text, unit) = words::show_slot(state, slot, &values);
+        format!("set {} to {}", state.slot_path(slot), format!("{text} {unit}").trim())
+    };
     let repair = |r: &Repair| match *r {
         Repair::LeaveOut { source, sides } => {
             let name = words::source_name(state, source)?;
@@ -169,12 +181,12 @@ fn contradiction(open: &Open, c: &Contradiction) -> ContradictionView {
             Some(format!("delete {name} or switch it off{sides}"))
         }
         Repair::LetGo { slot } => Some(format!("let go of {}", place(open, slot))),
-        Repair::Change { slot, to } => {
-            let mut values = state.values.clone();
-            values.numbers[slot] = to;
-            let (text, unit) = words::show_slot(state, slot, &values);
-            Some(format!("set {} to {}", state.slot_path(slot), format!("{text} {unit}").trim()))
+        Repair::Change { slot, to } => Some(set(slot, to)),
+        Repair::Move { ref to } if to.len() <= FEW => {
+            let each: Vec<String> = to.iter().map(|&(slot, to)| set(slot, to)).collect();
+            Some(words::listed(&each))
         }
+        Repair::Move { .. } => None,
     };
     let repairs = c.repairs.iter().filter_map(repair).collect();
     ContradictionView { constraints, anchors, decided, message, repairs }
