@@ -65,17 +65,20 @@ pub(crate) fn attempt_in_mode(
             within.map(|at| others.swap_remove(at))
         };
         let mut found = other(None, &mut adapter);
-        // nor does a given number yield to a bound that has a root on its other side
+        // nor does a given number yield to a bound that has a root on its other side, nor does nothing hold then
         if found.is_none()
             && let Some(bounded) = modes.with_broken(mode, &local)
             && let (_, bounded) = planner.in_mode(modes, &bounded)
-            && bounded.report.yielded.len() > plan.report.yielded.len()
         {
             let mut beside = ground.local.clone();
             let mut runner = planner.take_runner(leans);
-            solve::run(&bounded, &mut runner, x0, &mut beside, changed, &mut adapter);
+            let at_bound =
+                solve::run(&bounded, &mut runner, x0, &mut beside, changed, &mut adapter);
             planner.put_back(runner);
-            found = other(Some(&beside), &mut adapter);
+            let yields = bounded.report.yielded.len() > plan.report.yielded.len();
+            if yields || !at_bound.is_solved() || !at_bound.unmet.is_empty() {
+                found = other(Some(&beside), &mut adapter);
+            }
         }
         local = found.unwrap_or(local);
     }
