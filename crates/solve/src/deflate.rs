@@ -91,7 +91,9 @@ impl<'a, N: Number> Deflated<'a, N> {
     /// it out.
     pub(crate) fn hold(&self, matcher: &mut Matcher<'_>, out: &mut Acceptance) -> bool {
         let slot = |(r, c): (u32, u32)| (self.piece.rows[r as usize], self.open[c as usize]);
-        matcher.hold(self.piece, self.eliminated.pivots().map(slot), out)
+        // what yields may be read
+        let may_rest = self.left.iter().all(Vec::is_empty);
+        matcher.hold(self.piece, self.eliminated.pivots().map(slot), may_rest, out)
     }
 
     /// Holds what the rows can do without, by eliminating slots, the first declared last; false where they are

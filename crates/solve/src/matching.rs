@@ -15,7 +15,7 @@ use crate::echelon::{Echelon, Row};
 use crate::lists::Lists;
 use crate::order::{Blocks, strong_components};
 use crate::residue::Residue;
-use crate::rest::Resting;
+use crate::rest::{self, Resting};
 use crate::rows::{REGULAR, Rows};
 use crate::sparse::lu::POOR;
 use crate::sparse::pivot::{self, How};
@@ -183,12 +183,13 @@ impl<'a> Matcher<'a> {
         piece.rows.iter().all(is_number)
     }
 
-    /// Holds the places that rows can do without, from a slot for each that leaves all of them independent;
-    /// false where the numbers do not bear it out.
+    /// Holds the places that rows can do without, from a slot for each that leaves all of them independent, or, where
+    /// rows may rest, that hold where they are; false where the numbers do not bear it out.
     pub(crate) fn hold(
         &mut self,
         piece: Piece<'_>,
         pivots: impl Iterator<Item = (u32, SlotIndex)>,
+        may_rest: bool,
         out: &mut Acceptance,
     ) -> bool {
         let slots = piece.rows.iter().flat_map(|&r| self.rows.columns(r as usize)).map(|e| e.0);
@@ -202,7 +203,14 @@ impl<'a> Matcher<'a> {
             rows.push(row);
         }
         // what may not be held stays regular as it is
-        piece.places().next().is_none() || self.hold_places(piece, &rows, out)
+        if piece.places().next().is_none() {
+            return true;
+        }
+        let resting = if may_rest { self.resting } else { &rest::NONE };
+        let resting = std::mem::replace(&mut self.resting, resting);
+        let is_held = self.hold_places(piece, &rows, out);
+        self.resting = resting;
+        is_held
     }
 
     /// Holds every place of a piece that its rows can do without; false where the numbers do not bear it out.

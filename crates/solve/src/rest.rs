@@ -14,6 +14,9 @@ pub(crate) struct Resting {
     is: Vec<bool>,
 }
 
+/// No row rests.
+pub(crate) static NONE: Resting = Resting { is: Vec::new() };
+
 impl Resting {
     /// Finds them: their relations rest, and so do those that make slots equal which they speak of; what they only
     /// read is constant, and no whole number is tried out in them.
