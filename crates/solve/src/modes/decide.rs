@@ -445,7 +445,10 @@ impl Deciding<'_> {
     }
 
     /// Returns the first assumptions, in order, that contain nothing that is known to fail.
-    fn next(&self, first: &Mode, learnt: &[Vec<Assumption>]) -> Option<Mode> {
+    ///
+    /// Where one cannot be made either way, what stood in each way together fails too: that is learnt, and the search
+    /// goes back to the last assumption that has a part in it.
+    fn next(&self, first: &Mode, learnt: &mut Vec<Vec<Assumption>>) -> Option<Mode> {
         let conditions = first.assumed.len();
         let count = conditions + first.taken.len();
         // the alternatives of every assumption, the first mode's own first
@@ -463,45 +466,41 @@ impl Deciding<'_> {
                 t => Some(if t <= own { t - 1 } else { t }),
             }
         };
-        let fails = |values: &[u32]| {
-            learnt.iter().any(|set| set.iter().all(|&(i, v)| values.get(i) == Some(&v)))
-        };
-        let (mut turns, mut values): (Vec<u32>, Vec<u32>) = (Vec::new(), Vec::new());
-        if fails(&values) {
+        if learnt.iter().any(Vec::is_empty) {
             return None;
         }
-        let mut turn = 0;
-        loop {
-            if values.len() == count {
-                let mut mode = first.clone();
-                mode.active.clear();
-                for (i, &v) in values.iter().enumerate() {
-                    if i < conditions {
-                        mode.assumed[i] = v != 0;
-                    } else {
-                        mode.taken[i - conditions] = v;
-                    }
-                }
-                return Some(mode);
-            }
-            match ways(values.len(), turn) {
-                Some(value) => {
-                    values.push(value);
-                    turns.push(turn);
-                    if fails(&values) {
-                        values.pop();
-                        turns.pop();
-                        turn += 1;
-                    } else {
-                        turn = 0;
-                    }
-                }
-                None => {
-                    values.pop()?;
-                    turn = turns.pop()? + 1;
-                }
-            }
+        // what is known to fail, by the last assumption in it
+        let mut by_last: BTreeMap<Assumption, Vec<usize>> = BTreeMap::new();
+        for (known, set) in learnt.iter().enumerate() {
+            by_last.entry(*set.iter().max()?).or_default().push(known);
         }
+        let (mut values, mut made) = (Vec::<u32>::new(), vec![Made::default()]);
+        while let Some(top) = made.last_mut() {
+            let i = values.len();
+            if i == count {
+                return Some(assuming(first, &values));
+            }
+            if let Some(value) = ways(i, top.turn) {
+                values.push(value);
+                let is_made = |set: &&usize| learnt[**set].iter().all(|&(i, v)| values[i] == v);
+                match by_last.get(&(i, value)).and_then(|sets| sets.iter().find(is_made)) {
+                    Some(&failing) => {
+                        top.stands_against(&learnt[failing], i);
+                        values.pop();
+                    }
+                    None => made.push(Made::default()),
+                }
+                continue;
+            }
+            let failing: Vec<Assumption> = std::mem::take(&mut top.against).into_iter().collect();
+            let &(back, value) = failing.last()?;
+            made.truncate(back + 1);
+            values.truncate(back);
+            made[back].stands_against(&failing, back);
+            by_last.entry((back, value)).or_default().push(learnt.len());
+            learnt.push(failing);
+        }
+        None
     }
 
     /// Returns the assumptions of a mode on which relations depend; all where they are not known.
@@ -541,6 +540,32 @@ impl Deciding<'_> {
     fn slots_of(&self, relation: u32) -> Vec<u32> {
         let own = self.modes.comparisons.iter().filter(|c| c.relation == relation);
         own.flat_map(|c| c.arguments.iter().copied()).collect()
+    }
+}
+
+/// An assumption that is being made: which way it is tried next, and what stood in the others.
+#[derive(Debug, Default)]
+struct Made {
+    turn: u32,
+    against: BTreeSet<Assumption>,
+}
+
+impl Made {
+    /// Goes on to the next way: of what fails, the other assumptions stand in this one of assumption `own`.
+    fn stands_against(&mut self, failing: &[Assumption], own: usize) {
+        self.against.extend(failing.iter().filter(|(i, _)| *i != own));
+        self.turn += 1;
+    }
+}
+
+/// Returns a mode that assumes these values, conditions first, in which nothing acts.
+fn assuming(first: &Mode, values: &[u32]) -> Mode {
+    let (assumed, taken) = values.split_at(first.assumed.len());
+    Mode {
+        assumed: assumed.iter().map(|&v| v != 0).collect(),
+        taken: taken.to_vec(),
+        active: BTreeSet::new(),
+        ..first.clone()
     }
 }
 
