@@ -24,6 +24,8 @@ pub(crate) struct Aim {
     pub(crate) wanted: Vec<Vec<f64>>,
     /// Slots that are wished themselves.
     pub(crate) alone: BTreeSet<SlotId>,
+    /// Whether it sets several things at once.
+    pub(crate) sets_several: bool,
 }
 
 impl Planner {
@@ -47,7 +49,8 @@ impl Planner {
         kind: EditKind,
         targets: &[(Target<'_>, Vec<Value>)],
     ) -> Result<Aim, RefusalReason> {
-        let mut aim = Aim::default();
+        let sets_several = kind == EditKind::Set && targets.len() > 1;
+        let mut aim = Aim { sets_several, ..Aim::default() };
         for (target, wanted) in targets {
             let leaves =
                 self.leaves(model, *target).map_err(|t| RefusalReason::Target(t.message))?;
@@ -132,6 +135,7 @@ impl Planner {
             wishes: vec![Wish { level: Level::Move, formulas: vec![itself] }],
             wanted: vec![vec![0.0]],
             alone: BTreeSet::from([slot]),
+            sets_several: false,
         }
     }
 

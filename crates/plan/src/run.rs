@@ -13,7 +13,7 @@ use crate::task::{Course, Number, Origin, Task};
 use crate::whole::{self, Looking};
 use base::number::Toward;
 use kernel::{SlotId, Value, Values};
-use otherwise::{or_kept_apart, or_letting_go};
+use otherwise::{or_at_once, or_kept_apart, or_letting_go};
 use solve::{
     Lean, Level, Outcome, Plan, Puzzle, Reason, Scratch, SlotIndex, Status, Stay, Verdict, moved,
 };
@@ -154,6 +154,11 @@ pub(crate) fn run(
     let ran = by_course(planner, model, task, &ground, values, host);
     let ran = or_otherwise(planner, model, task, &ground, ran, values, host);
     let ran = or_letting_go(planner, model, task, &ground, ran, values, host);
+    let ran = if aim.sets_several {
+        or_at_once(planner, model, task, &ground, ran, values, host)
+    } else {
+        ran
+    };
     let mut ran = or_kept_apart(planner, model, task, &ground, ran, values, host);
     if !has_bound {
         if planner.is_spent() && !ran.is_solved {

@@ -582,6 +582,7 @@ impl Run<'_> {
     fn square(&mut self, step: &Step, square: &Square) -> Result<(), Failure> {
         let ways: &[Trust] = match self.trust {
             Trust::Branch => &[Trust::Branch],
+            Trust::Nearest => &[Trust::Nearest, Trust::Leap],
             Trust::Any | Trust::Leap if self.buffers.square.is_hasty && square.is_large() => {
                 &[Trust::Any]
             }
@@ -596,7 +597,7 @@ impl Run<'_> {
                     sides.resize(sides.len().max(self.index + 1), Side::default());
                     &mut sides[self.index]
                 }
-                Trust::Any | Trust::Leap => &mut no_side,
+                Trust::Any | Trust::Leap | Trust::Nearest => &mut no_side,
             };
             let course = Course { last: self.last, trust: way, side };
             match square.solve(course, self.values, &self.frame.scales, work, scratch) {

@@ -135,7 +135,7 @@ pub use outcome::{Host, NoHost, Note, Outcome, Reason, Status, Unmet};
 pub use pattern::{Pattern, PatternId, Patterns, Scratch};
 pub use plan::{Plan, Rejected, Report, Step, StepKind, plan};
 pub use proof::Proofs;
-pub use run::{Drag, PATIENCE, Runner, are_continuous, forks, leaning, near, others, run};
+pub use run::{Drag, PATIENCE, Runner, are_continuous, forks, leaning, leap, near, others, run};
 pub use search::{Count, Puzzle, Verdict};
 pub use seldom::Seldom;
 pub use system::{

@@ -213,6 +213,37 @@ pub fn run(
     outcome
 }
 
+/// Runs a plan for one edit of a state that holds without a way there: in one stride, in which one unknown takes its
+/// nearest root, which is allowed where every block of several lies as it did, if the values told where it began. It is
+/// for several numbers that are set together: of the many ways from what they were to what they shall be the straight
+/// one is no better than others.
+///
+/// It takes what [`run`] does, and leaves `values` as they came where it does not arrive.
+pub fn leap(
+    plan: &Plan,
+    runner: &mut Runner,
+    x0: &[f64],
+    values: &mut [f64],
+    changed: &[SlotIndex],
+    host: &mut dyn Host,
+) -> Outcome {
+    start(plan, runner, x0, changed, Begins::Edit);
+    let Runner { frame, buffers, trial, .. } = runner;
+    measure_what_is_set(plan, frame, values, changed);
+    let last = frame.x0.clone();
+    let mut way = Way { plan, frame, buffers, host, trial, part: Part::Whole, until: u64::MAX };
+    let mut outcome = if way.leaps(&last, values) {
+        way.test_trial(&[])
+    } else {
+        Outcome { status: Status::Stopped(Reason::Conflict), unmet: Vec::new(), notes: Vec::new() }
+    };
+    if outcome.is_solved() {
+        values.copy_from_slice(trial);
+    }
+    outcome.note_spent(&buffers.work);
+    outcome
+}
+
 /// A drag: from the press to the release, one wish after the other.
 ///
 /// The result depends on the state at the press, the present wish and the branch, not on how many

@@ -10,6 +10,7 @@ mod aside;
 mod center;
 mod closed;
 mod further;
+mod nearest;
 mod step;
 mod stride;
 
@@ -80,6 +81,8 @@ pub(crate) enum Trust {
     Any,
     /// Whatever solves it, by full steps, even where the residuals grow for a while.
     Leap,
+    /// Of one unknown the nearest root, on whichever side it lies; of several whatever solves it.
+    Nearest,
 }
 
 /// Which solution is looked for.
@@ -329,6 +332,11 @@ impl Square {
         s: &mut SquareScratch,
     ) -> Solved {
         let Course { last, trust, .. } = course;
+        if trust == Trust::Nearest
+            && let Some(solved) = self.solve_nearest(values, scales, w, s)
+        {
+            return solved;
+        }
         let solved = match self.solve_closed(&mut course, values, scales, w) {
             Some(solved) => {
                 s.work += self.block.core.len();
@@ -367,7 +375,7 @@ impl Square {
             Trust::Branch if is_linear => None,
             Trust::Branch if side.newton != 0 => Some(side.newton),
             Trust::Branch => Some(self.orientation(last, scales, w, s)),
-            Trust::Any | Trust::Leap => None,
+            Trust::Any | Trust::Leap | Trust::Nearest => None,
         };
         s.own = None;
         if is_linear && !self.is_dense() {

@@ -328,7 +328,8 @@ impl Answer<'_> {
 
     /// What rules determine lies on the side where it lay: the determinant of their slopes has its sign. That is
     /// asked of what has to be found together; where its rows are linear in what is found, with the same slopes
-    /// aside, the values decide it and there is no other side.
+    /// aside, the values decide it and there is no other side. To where several numbers are set at once many ways
+    /// lead, and one number alone takes its nearest root there where the straight one does not.
     fn orientation(
         &mut self,
         [before, after]: [&Evaluator<'_>; 2],
@@ -346,7 +347,11 @@ impl Answer<'_> {
             a.slopes.iter().zip(&b.slopes).map(|(a, b)| *a != 0.0 || *b != 0.0).collect()
         };
         let speaks: Vec<Vec<bool>> = then.iter().zip(&now).map(speaks).collect();
+        let is_set_with_others = self.edit.wishes.is_empty() && self.edit.edited.len() > 1;
         for Block { rows, columns } in blocks(&speaks).unwrap_or_default() {
+            if is_set_with_others && columns.len() == 1 {
+                continue;
+            }
             let slots: Vec<SlotId> = columns.iter().map(|&column| moved[column]).collect();
             let aside = aside(self.edit.after, &slots, extent);
             let Some(aside) = square(&after.in_state(&aside)) else { continue };

@@ -1,12 +1,12 @@
 //! What an edit comes to otherwise, from where it began: with what its plan holds let go, or with places kept apart that
 //! came together.
 
-use super::{Ground, Ran, by_course, put_texts, scatter};
+use super::{Adapter, Ground, Ran, by_course, leans, put_texts, scatter};
 use crate::host::Host;
 use crate::modal::Stands;
 use crate::planner::{Model, Planner};
-use crate::task::Task;
 use crate::task::restated::LETTING_GO;
+use crate::task::{Course, Task};
 use crate::vanish::{Vanished, shrinking, vanished};
 use base::number::close;
 use kernel::{SlotId, Values};
@@ -55,6 +55,33 @@ fn letting_go(
         free = own.letting_go(&planner.plans);
     }
     None
+}
+
+/// Goes there at once where several things were set together and the straight way from what they were does not lead
+/// there: others may, and what is asked for is where they end.
+pub(super) fn or_at_once(
+    planner: &Planner,
+    model: Model<'_>,
+    task: &Task,
+    ground: &Ground,
+    ran: Ran,
+    values: &mut Values,
+    host: &mut dyn Host,
+) -> Ran {
+    if !ran.is_refused() || !matches!(task.course, Course::Plan) {
+        return ran;
+    }
+    let Ground { x0, local: began, changed, .. } = ground;
+    let mut runner = planner.take_runner(leans(model, task));
+    let mut local = began.clone();
+    let mut adapter = Adapter { planner, model, task, values, host };
+    let outcome = solve::leap(&task.plan, &mut runner, x0, &mut local, changed, &mut adapter);
+    planner.put_back(runner);
+    if !outcome.is_solved() {
+        return ran;
+    }
+    scatter(task, &local, values);
+    super::ran(planner, task, &outcome)
 }
 
 /// Has places stay apart that came together, where the answer holds by that alone: what has no answer then has none.

@@ -5,7 +5,7 @@ use crate::attempt::{Approach, Attempt, Buffers, Failure, Frame, Part};
 use crate::lower::Program;
 use crate::outcome::{Host, Outcome, Reason, Status, Unmet};
 use crate::plan::Plan;
-use crate::square::Trust;
+use crate::square::{Square, Trust};
 use crate::system::{Level, SlotIndex, Stay};
 use crate::test::{Failing, Tests};
 use std::ops::Range;
@@ -86,7 +86,7 @@ impl Way<'_> {
         };
         let fraction = match trust {
             Trust::Branch => self.walk_on(last, goal, trust),
-            Trust::Any | Trust::Leap => 0.0,
+            Trust::Any | Trust::Leap | Trust::Nearest => 0.0,
         };
         if fraction == 1.0 {
             let is_nearer = self.measure_from_press(last);
@@ -383,13 +383,23 @@ impl Way<'_> {
 
     /// Tries to arrive so far on without a way: allowed where every block lies as it did, if the values told there.
     pub(super) fn same_orientation(&mut self, from: &[f64], goal: &[f64], part: f64) -> bool {
-        if self.stride(from, goal, part, Trust::Any, &Approach::Nowhere).is_err() {
-            return false;
-        }
+        self.stride(from, goal, part, Trust::Any, &Approach::Nowhere).is_ok()
+            && self.lies_as(from, |_| true)
+    }
+
+    /// Arrives without a way: one unknown at its nearest root, which lies on no side of anything, and every block of
+    /// several as it did.
+    pub(super) fn leaps(&mut self, from: &[f64], goal: &[f64]) -> bool {
+        self.stride(from, goal, 1.0, Trust::Nearest, &Approach::Nowhere).is_ok()
+            && self.lies_as(from, |square| square.block.core.len() > 1)
+    }
+
+    /// Returns true if every block that `counts` lies where attempts ran as it does in a state, if the values tell there.
+    fn lies_as(&mut self, from: &[f64], counts: impl Fn(&Square) -> bool) -> bool {
         let Buffers { work, square: scratch, .. } = &mut *self.buffers;
         let scales = &self.frame.scales;
         self.plan.steps().iter().all(|step| match &step.program {
-            Program::Square(square) if !square.block.is_linear => {
+            Program::Square(square) if !square.block.is_linear && counts(square) => {
                 let before = square.orientation(from, scales, work, scratch);
                 let after = square.orientation(self.trial, scales, work, scratch);
                 before == 0 || before == after
