@@ -609,7 +609,29 @@ impl Run<'_> {
                 Solved::Failed => {}
             }
         }
+        if self.trust == Trust::Branch && self.goes_doubly(step, square) {
+            return Ok(());
+        }
         self.fail(step)
+    }
+
+    /// Goes from a double root to a double root, where there was one when the edit began: two branches lie one on the
+    /// other all along, as where a line touches a circle and ends on it, and a state lies on no side.
+    fn goes_doubly(&mut self, step: &Step, square: &Square) -> bool {
+        let scales = &self.frame.scales;
+        let Buffers { work, square: scratch, .. } = &mut *self.buffers;
+        let mut is_double = |state: &[f64]| square.is_double(state, scales, work, scratch);
+        if square.block.is_linear || !is_double(&self.frame.x0) || !is_double(self.last) {
+            return false;
+        }
+        self.start_from_last(&step.targets);
+        let Buffers { work, square: scratch, notes, .. } = &mut *self.buffers;
+        let course = Course { last: self.last, trust: Trust::Any, side: &mut Side::default() };
+        let solved = square.solve(course, self.values, scales, work, scratch);
+        if let Solved::Double(slot) = solved {
+            notes.push(Note::DoubleRoot { slot });
+        }
+        matches!(solved, Solved::Double(_))
     }
 
     /// Moves the `k`th start of a search; its first begins where it stands.
