@@ -67,6 +67,14 @@ impl Interval {
     fn widen(self, steps: usize) -> Self {
         (0..steps).fold(self, |i, _| Self { low: i.low.next_down(), high: i.high.next_up() })
     }
+    /// Moves both ends of what arithmetic made of two intervals outward by a number, where it may have rounded: of whole
+    /// numbers below 2⁵³ a whole number is exact, quotients too.
+    fn rounded_of(self, operands: [Self; 2]) -> Self {
+        let is_whole = |x: f64| x.fract() == 0.0 && x.abs() < (1u64 << f64::MANTISSA_DIGITS) as f64;
+        let are_whole = |i: Self| is_whole(i.low) && is_whole(i.high);
+        let is_exact = are_whole(self) && operands.into_iter().all(are_whole);
+        self.widen(usize::from(!is_exact))
+    }
     /// Returns the smallest interval that holds these numbers; all if one of them is undefined.
     fn hull(numbers: &[f64]) -> Self {
         if numbers.iter().any(|x| x.is_nan()) {
@@ -211,14 +219,14 @@ fn binary(op: Binary, a: Interval, b: Interval) -> Interval {
     }
     let apply = |x: f64, y: f64| op.apply(x, y);
     match op {
-        Binary::Add => Interval { low: a.low + b.low, high: a.high + b.high }.widen(1),
-        Binary::Sub => Interval { low: a.low - b.high, high: a.high - b.low }.widen(1),
+        Binary::Add => Interval { low: a.low + b.low, high: a.high + b.high }.rounded_of([a, b]),
+        Binary::Sub => Interval { low: a.low - b.high, high: a.high - b.low }.rounded_of([a, b]),
         Binary::Mul => {
             let product = |x: f64, y: f64| if x == 0.0 || y == 0.0 { 0.0 } else { x * y };
-            a.corners(b, product, 1)
+            a.corners(b, product, 0).rounded_of([a, b])
         }
         Binary::Div if b.contains(0.0) => Interval::ALL,
-        Binary::Div => a.corners(b, apply, 1),
+        Binary::Div => a.corners(b, apply, 0).rounded_of([a, b]),
         Binary::Pow => power(a, b),
         Binary::Atan2 if a.contains(0.0) && b.low <= 0.0 => {
             Interval { low: -PI, high: PI }.widen(1)
