@@ -7,7 +7,7 @@
 //! least. A place with freedom (one end of a bar) reaches as far as it ever will, and so do linear
 //! rows (midpoints, alignments, offsets), and a place that lies on a line through others, wherever they are:
 //! these tie nothing; nor does a row that determines a lone number. A chain over a place on a rail is
-//! stretched from what is wished, and yields whole, whatever freedom is left in it.
+//! stretched from what is wished or set, and yields whole, whatever freedom is left in it.
 
 use crate::accept::Acceptance;
 use crate::direct::{self, Direction};
@@ -78,10 +78,18 @@ pub(crate) fn tie(
             tied |= !std::mem::replace(&mut unknown[s as usize], true);
         }
     }
+    // what an edit sets is wished, and what a rule that speaks of it determines
+    let is_edit = system.relations.iter().any(|relation| relation.rests);
+    let is_set = |relation: u32| {
+        let relation = &system.relations[relation as usize];
+        let mut slots =
+            system.equations_of(relation).iter().flat_map(|e| system.arguments(e.arguments));
+        is_edit && !relation.rests && slots.any(|&s| system.slots[s as usize].stay == Stay::Fixed)
+    };
     let has_rail = |&r: &usize| may_be_stiff(r) && rows.columns(r).iter().any(|e| is_on_rail(e.0));
     if accepted.iter().any(has_rail) {
         // a chain over a rail is stretched from what is wished, whatever freedom is left in it
-        let is_wish = |r: &&usize| rows[**r].level == Level::Move;
+        let is_wish = |r: &&usize| rows[**r].level == Level::Move || is_set(rows[**r].relation);
         let wished = accepted.iter().filter(is_wish).filter_map(|&r| direction.slot_of_row[r]);
         let rows_of = rows_of(rows, accepted, unknown.len());
         let mut reached: Vec<SlotIndex> = wished.collect();
