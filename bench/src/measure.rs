@@ -34,7 +34,7 @@ pub struct Figures {
     pub freedom: usize,
     /// How many constraints say nothing new.
     pub redundant: usize,
-    /// How many constraints do not hold.
+    /// How many constraints stand against each other, of those none can be spared.
     pub conflicting: usize,
     /// How many constraints do not hold, and whether they can was not decided.
     pub undecided: usize,
@@ -121,7 +121,8 @@ fn measured(case: &Case, begin: Instant, repeat: Repeat) -> Result<Figures, Stri
     };
     // what is solved slowly is not solved again and again for this
     let often = if solve.len() < LEAST_RUNS { Repeat::Once } else { repeat };
-    let (analysis, (found, _)) = repeated_after(often, fresh, analyse);
+    let (analysis, (found, mut analysed)) = repeated_after(often, fresh, analyse);
+    let conflicting = sketch.conflicting(&mut analysed, &values, &found.conflicting);
     let drag = match &case.drag {
         Some(drag) => Some(follow(case, &sketch, &mut planner, values, drag)?),
         None => None,
@@ -134,7 +135,7 @@ fn measured(case: &Case, begin: Instant, repeat: Repeat) -> Result<Figures, Stri
         residual,
         freedom: found.freedom,
         redundant: found.redundant.len(),
-        conflicting: found.conflicting.len(),
+        conflicting,
         undecided: found.undecided.len(),
         analysis,
         drag,

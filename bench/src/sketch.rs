@@ -4,7 +4,8 @@ use crate::case::{Case, Constraint, Drag};
 use crate::document;
 use crate::opened::Opened;
 use kernel::{SlotId, Values};
-use plan::{Planner, Press, Target, Templates};
+use plan::{Certainty, Planner, Press, Target, Templates, Unmet};
+use std::collections::BTreeSet;
 
 /// A sketch before it is solved.
 #[derive(Debug)]
@@ -82,6 +83,17 @@ impl Sketch {
     /// Says how a solved sketch stands: what is free, what says nothing new, what does not hold.
     pub fn analyse(&self, planner: &mut Planner, values: &Values) -> plan::Analysis {
         planner.analyse(self.opened.model(), values, &mut self.opened.host())
+    }
+
+    /// Counts the constraints of the contradictions behind what does not hold: none can be spared, wherever that
+    /// could be decided; where no contradiction was found, it counts what does not hold.
+    pub fn conflicting(&self, planner: &mut Planner, values: &Values, unmet: &[Unmet]) -> usize {
+        let host = &mut self.opened.host();
+        let sets = planner.contradictions(self.opened.model(), values, unmet, host);
+        let is_one = |c: Certainty| !matches!(c, Certainty::GivenUp(_) | Certainty::Holds);
+        let named = sets.into_iter().filter(|set| is_one(set.certainty));
+        let named: BTreeSet<_> = named.flat_map(|set| set.constraints).collect();
+        if named.is_empty() { unmet.len() } else { named.len() }
     }
 
     /// Returns where the points are.

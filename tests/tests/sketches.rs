@@ -5,7 +5,7 @@
 //! and no point further in one step than the best of other solvers take it. Generated cases of every
 //! family are tested alike; `THINGLAB_LONG` takes larger ones, and ten seeds of each.
 
-use bench::case::Case;
+use bench::case::{Case, Constraint};
 use bench::families::{Family, generate};
 use bench::measure::{Figures, Repeat, measure_case};
 use std::fs;
@@ -137,4 +137,21 @@ fn a_large_framework_is_found_near_its_rough_start() {
         let away = furthest(&figures.points, &case.start);
         assert!(away < 0.5, "{size} of seed {seed}: a point is {away} away from its start");
     }
+}
+
+/// A framework of triangles with one bar given two lengths: those two stand against each other, whatever else
+/// is pulled off its place by them.
+#[test]
+fn two_lengths_of_one_bar_are_all_that_conflicts_in_a_framework() {
+    let mut case = generate(Family::Truss, 10, 1);
+    let is_bar = |c: &&Constraint| matches!(c, Constraint::Distance { .. });
+    let Some(&Constraint::Distance { p, q, v }) = case.constraints.iter().filter(is_bar).nth(7)
+    else {
+        panic!("a framework has bars")
+    };
+    case.constraints.push(Constraint::Distance { p, q, v: v + 1.0 });
+    case.well_constrained = false;
+    let figures = measure_case(&case, Repeat::Once).expect("a case is one");
+    assert!(!figures.is_solved(), "two lengths of one bar hold together");
+    assert_eq!(figures.conflicting, 2);
 }
