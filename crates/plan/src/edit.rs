@@ -5,6 +5,7 @@ use crate::component::{Component, rules_of};
 use crate::diagnose::trial::Setup;
 use crate::drag::move_at_once;
 use crate::host::{Failure, Host};
+use crate::limit::Limit;
 use crate::past::CameId;
 use crate::planner::{Latest, Model, Planner, Unmet, is_any_new};
 use crate::rule::Source;
@@ -58,10 +59,8 @@ pub struct EditReport {
     pub reached: bool,
     /// Which way slots go whose values, as the edit left them, do not say on which of two branches.
     pub undecided: Vec<(SlotId, Toward)>,
-    /// How far towards these values a refused edit could have gone, as a part of the way.
-    pub limit: Option<f64>,
-    /// True if it could have come as near to that as one likes, and not there.
-    pub is_limit_open: bool,
+    /// How far towards these values a refused edit could have gone.
+    pub limit: Option<Limit>,
     /// Slots where two solutions coincide: their values are known to half the digits only.
     pub double_roots: Vec<SlotId>,
     /// Where a solution was looked for in vain and not to the end.
@@ -329,9 +328,7 @@ impl Planner {
             report.conflicts = conflict.map_or(report.conflicts, |c| vec![c]);
             if report.not_decided.is_none() && !is_dear {
                 let tasks = &self.latest.tasks;
-                let limit = self.limit(model, values, aim, tasks, &was_unmet, host);
-                report.limit = limit.map(|limit| limit.0);
-                report.is_limit_open = limit.is_some_and(|limit| limit.1);
+                report.limit = self.limit(model, values, aim, tasks, &was_unmet, host);
             }
         }
         if report.refusal.is_none() {

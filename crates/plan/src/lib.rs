@@ -86,6 +86,7 @@ pub use explain::{ExplainedKind, ExplainedStep, PlanKind, Root, RootKind, Uncoun
 pub use fault::{Fault, FaultKind};
 pub use ghost::{Ghost, GhostKind};
 pub use host::{Failure, Host};
+pub use limit::{Limit, LimitKind};
 pub use modal::{Acting, ActingKind, ModeChange};
 pub use planner::{Latest, Model, Planner, Unmet};
 pub use plans::{PlanCounts, Plans};

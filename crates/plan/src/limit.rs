@@ -14,17 +14,39 @@ const NOTHING: u32 = 14;
 /// A step back, as a part of the way: it can be gone where the edit began at its limit.
 const BACK: f64 = -1.0 / 1024.0;
 /// After so many multiplications, roughly, it is given up: a refusal is wanted at once.
-const WORK: u64 = 100_000_000;
+const WORK: u64 = 200_000_000;
+/// What one trial may cost: near its end a way is hard to tell from one that goes on.
+const TRIAL: u64 = WORK / 10;
 /// With more slots than this a limit is not looked for: every trial is a whole edit.
 const LARGEST: usize = 20_000;
 
+/// How far towards its values a refused edit could have gone.
+#[derive(Clone, Copy, PartialEq, Debug)]
+pub struct Limit {
+    /// As a part of the way.
+    pub part: f64,
+    /// What there is.
+    pub kind: LimitKind,
+}
+
+/// What there is where an edit could have gone no further.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub enum LimitKind {
+    /// The last value that could be had.
+    Last,
+    /// One that cannot be had, though one comes as near to it as one likes: as the zero of a logarithm.
+    Open,
+    /// One that can be had; how much further it goes was too dear to find out.
+    AtLeast,
+}
+
 impl Planner {
-    /// Returns how far towards its values a refused edit could go, as a part of the way; nothing
-    /// where it cannot move at all, speaks of more than real numbers, or would take too long; and whether the limit
-    /// is open: one comes as near to it as one likes and never to it, as to the zero of a logarithm.
+    /// Returns how far towards its values a refused edit could go; nothing where it cannot move at all, speaks of
+    /// more than real numbers, or not even a part of the way was seen to be possible in the time there is.
     ///
     /// By bisection; each trial is a whole edit from the present values, so that what is told can be
-    /// set. `was_unmet` are the constraints that do not hold now. Cost: up to 35 such edits.
+    /// set. `was_unmet` are the constraints that do not hold now. Cost: up to 35 such edits, of
+    /// which none may take long.
     pub(crate) fn limit(
         &self,
         model: Model<'_>,
@@ -33,24 +55,27 @@ impl Planner {
         tasks: &[Task],
         was_unmet: &[Unmet],
         host: &mut dyn Host,
-    ) -> Option<(f64, bool)> {
+    ) -> Option<Limit> {
         let is_real = |&s: &_| matches!(model.structure.slots[s].primitive, Primitive::Real(_));
         let size: usize = tasks.iter().map(|t| t.component.slots().len()).sum();
         if size > LARGEST || !aim.fixed.keys().all(is_real) {
             return None;
         }
         let until = self.spent() + WORK;
+        let mut is_cut = false;
         let mut can_be = |at: &Aim| {
             let mut trial = values.clone();
             for (&slot, value) in &at.fixed {
                 trial.put(slot, value.clone());
             }
             // one that takes longer than there is goes nowhere
-            self.try_until(Some(until));
+            let most = self.spent() + TRIAL;
+            self.try_until(Some(most));
             for task in tasks {
                 run(self, model, task, at, values, &mut trial, host);
             }
             self.try_until(None);
+            is_cut |= self.spent() >= most;
             let rules = tasks.iter().flat_map(|t| t.component.rules().iter().copied());
             let unmet = self.unmet(model, rules, &trial, host);
             !is_any_new(&unmet, was_unmet) && self.reached(at, &trial)
@@ -58,10 +83,12 @@ impl Planner {
         let (mut gone, mut beyond) = (0.0, 1.0);
         for halving in 0..HALVINGS {
             if self.spent() > until {
-                return None;
+                return (gone > 0.0).then_some(Limit { part: gone, kind: LimitKind::AtLeast });
             }
             if halving == NOTHING && gone == 0.0 {
-                return can_be(&self.part_of_the_way(values, aim, BACK)).then_some((0.0, false));
+                let can_go_back = can_be(&self.part_of_the_way(values, aim, BACK));
+                return (can_go_back && !is_cut)
+                    .then_some(Limit { part: 0.0, kind: LimitKind::Last });
             }
             let part = 0.5 * (gone + beyond);
             if can_be(&self.part_of_the_way(values, aim, part)) {
@@ -75,7 +102,12 @@ impl Planner {
             return None;
         }
         let is_open = beside(values, aim, gone).is_some_and(|at| !can_be(&at));
-        Some((gone, is_open))
+        let kind = match is_open {
+            _ if is_cut => LimitKind::AtLeast,
+            true => LimitKind::Open,
+            false => LimitKind::Last,
+        };
+        Some(Limit { part: gone, kind })
     }
 
     /// Returns an aim that goes a part of the way.

@@ -16,7 +16,7 @@ use crate::words;
 use crate::write_back::{differing, sides_after, write_back, write_sides};
 use base::number::Toward;
 use kernel::{Command, DOCUMENT, Literal, Path, SlotId, Step, Term, ThingId, Value, Values};
-use plan::{EditKind, NotDecided, Planner, RefusalReason, Target};
+use plan::{EditKind, LimitKind, NotDecided, Planner, RefusalReason, Target};
 use std::collections::BTreeSet;
 use std::sync::Arc;
 
@@ -103,9 +103,11 @@ fn edit(
     let report = open.planner.edit(state.model(), &mut values, kind, &targets, &mut texts);
     if let Some(reason) = &report.refusal {
         let refusal = words::refusal_for(&state, reason, &report);
-        let refusal = of_computed(one_way(open, refusal, &report, &aims), &aims);
+        let refusal = one_way(open, refusal, &report, &aims);
+        let refusal = while_anchored(open, refusal, reason, &report, &aims);
+        let refusal = of_computed(refusal, &aims);
         return Err(match report.limit {
-            Some(part) => limited(&state, refusal, &aims, part, report.is_limit_open),
+            Some(limit) => limited(&state, refusal, &aims, limit),
             None => match (reason, &aims[..]) {
                 (RefusalReason::NotDecided(NotDecided::Work(_)), [(Aim::Thing(thing), wanted)]) => {
                     as_dragged(&state, &mut open.planner, refusal, *thing, wanted)
@@ -136,6 +138,31 @@ fn one_way(
         return Refusal { message, ..refusal };
     }
     refusal
+}
+
+/// Says of constraints that would not hold which anchored places they speak of, those that are edited apart.
+fn while_anchored(
+    open: &Open,
+    refusal: Refusal,
+    reason: &RefusalReason,
+    report: &plan::EditReport,
+    aims: &[(Aim, Vec<Value>)],
+) -> Refusal {
+    if *reason != RefusalReason::Unmet {
+        return refusal;
+    }
+    let state = &open.state;
+    let sources = words::refusing(state, report).0.into_iter().collect();
+    let mut anchors = open.planner.anchors_of(&state.structure, &sources);
+    let aimed: Vec<SlotId> = aims.iter().flat_map(|(aim, _)| slots_of(state, aim)).collect();
+    anchors.retain(|anchor| !aimed.contains(anchor));
+    if anchors.is_empty() {
+        return refusal;
+    }
+    let anchors = words::slots_listed(state, &anchors);
+    let are = if anchors.len() == 1 { "is" } else { "are" };
+    let message = format!("{} while {} {are} anchored", refusal.message, words::listed(&anchors));
+    Refusal { message, ..refusal }
 }
 
 /// Returns what an edit of a whole says of its parts: by the name of a primary superclass, of those that come
@@ -194,8 +221,7 @@ fn limited(
     state: &State,
     refusal: Refusal,
     aims: &[(Aim, Vec<Value>)],
-    part: f64,
-    is_open: bool,
+    plan::Limit { part, kind }: plan::Limit,
 ) -> Refusal {
     let limit = |(aim, wanted): &(Aim, Vec<Value>)| match aim {
         Aim::Thing(thing) => limits::of_thing(state, *thing, wanted, part),
@@ -204,12 +230,14 @@ fn limited(
     let limits: Option<Vec<Limit>> = aims.iter().map(limit).collect();
     let Some(limit) = limits.and_then(limits::together) else { return refusal };
     let why = refusal.message.strip_prefix("refused: ").unwrap_or(&refusal.message);
-    if is_open {
-        let words = limits::open_in_words(&limit);
-        return Refusal { message: format!("refused: {words}; {why}"), ..refusal };
-    }
-    let message = format!("refused: {}; {why}", limits::in_words(&limit));
-    Refusal { message, limit: Some(Box::new(limit)), ..refusal }
+    let words = match kind {
+        LimitKind::Last => limits::in_words(&limit),
+        LimitKind::Open => limits::open_in_words(&limit),
+        LimitKind::AtLeast => limits::seen_in_words(&limit),
+    };
+    let message = format!("refused: {words}; {why}");
+    let limit = (kind != LimitKind::Open).then(|| Box::new(limit));
+    Refusal { message, limit, ..refusal }
 }
 
 /// How many wishes of a drag are tried to say how far an edit could have gone that was given up.

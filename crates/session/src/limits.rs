@@ -73,6 +73,12 @@ pub(crate) fn open_in_words(limit: &Limit) -> String {
     format!("{path} has to stay short of {value}")
 }
 
+/// Says of a value that can be had what was not found out.
+pub(crate) fn seen_in_words(limit: &Limit) -> String {
+    let Limit { path, value } = limit;
+    format!("{path} goes to {value}, and how much further was not decided")
+}
+
 /// Says where a drag has stopped short of the pointer: of a number, the limit; of a place, its reach from
 /// an anchored place where that is what ends, else how far it is from the pointer.
 pub(crate) fn of_drag(state: &State, drag: &Drag) -> (Limit, String) {

@@ -30,35 +30,17 @@ pub(crate) fn refusal_of_text(state: &State, diagnostics: &[Diagnostic]) -> Refu
 
 /// Says why an edit was refused, and by which constraints.
 pub(crate) fn refusal_for(state: &State, reason: &RefusalReason, report: &EditReport) -> Refusal {
-    let required = report.unmet.iter().filter(|u| u.level == solve::Level::Required);
-    let unmet: Vec<Source> = required.map(|u| u.source).collect();
-    let mut conflicting: Vec<Source> = Vec::new();
-    for conflict in &report.conflicts {
-        for &source in std::iter::once(&conflict.source).chain(&conflict.circuit) {
-            if source_name(state, source).is_some() && !conflicting.contains(&source) {
-                conflicting.push(source);
-            }
-        }
-    }
-    // What is only downstream of the conflict has no part in it.
-    let of = if conflicting.is_empty() { &unmet } else { &conflicting };
+    let (sources, are_several) = refusing(state, report);
     let mut constraints: Vec<String> =
-        of.iter().filter_map(|&source| source_name(state, source)).collect();
-    let all = |sources: &[Source]| {
-        let said = sources.iter().filter_map(|&source| source_in_words(state, source));
-        listed(&said.collect::<Vec<_>>())
-    };
+        sources.iter().filter_map(|&source| source_name(state, source)).collect();
+    let said = sources.iter().filter_map(|&source| source_in_words(state, source));
+    let said = listed(&said.collect::<Vec<_>>());
     let message = match reason {
-        RefusalReason::Unmet if conflicting.len() > 1 => {
-            format!("refused: {} would not all hold", all(&conflicting))
-        }
-        RefusalReason::Unmet if conflicting.len() == 1 => {
-            format!("refused: {} would not hold", all(&conflicting))
-        }
-        RefusalReason::Unmet if unmet.is_empty() => {
+        RefusalReason::Unmet if sources.is_empty() => {
             "refused: what stands fixed does not leave room for this".to_string()
         }
-        RefusalReason::Unmet => format!("refused: {} would not hold", all(&unmet)),
+        RefusalReason::Unmet if are_several => format!("refused: {said} would not all hold"),
+        RefusalReason::Unmet => format!("refused: {said} would not hold"),
         RefusalReason::NotDecided(bound) => {
             format!("not decided: no solution was found in {}", given_up(*bound))
         }
@@ -81,6 +63,25 @@ pub(crate) fn refusal_for(state: &State, reason: &RefusalReason, report: &EditRe
         RefusalReason::Target(message) => message.clone(),
     };
     Refusal { message, constraints, ..Refusal::default() }
+}
+
+/// Returns the constraints for which an edit was refused: those of a conflict, since what is only downstream of it
+/// has no part in it, and whether they are several; else those that would not hold.
+pub(crate) fn refusing(state: &State, report: &EditReport) -> (Vec<Source>, bool) {
+    let mut conflicting: Vec<Source> = Vec::new();
+    for conflict in &report.conflicts {
+        for &source in std::iter::once(&conflict.source).chain(&conflict.circuit) {
+            if source_name(state, source).is_some() && !conflicting.contains(&source) {
+                conflicting.push(source);
+            }
+        }
+    }
+    if conflicting.is_empty() {
+        let required = report.unmet.iter().filter(|u| u.level == solve::Level::Required);
+        return (required.map(|u| u.source).collect(), false);
+    }
+    let are_several = conflicting.len() > 1;
+    (conflicting, are_several)
 }
 
 /// Names the bound at which a search was given up.

@@ -3,7 +3,7 @@
 use crate::host::Host;
 use crate::planner::{Model, Planner};
 use crate::rule::Source;
-use kernel::{SlotId, Values};
+use kernel::{SlotId, Structure, Values};
 use std::collections::BTreeSet;
 
 /// What holds a number.
@@ -44,13 +44,15 @@ impl Planner {
         if conflicts.is_empty() {
             return None;
         }
+        let anchors = self.anchors_of(model.structure, &constraints);
+        Some(Held { constraints: constraints.into_iter().collect(), anchors })
+    }
+
+    /// Returns the anchored slots that constraints speak of, in order. Cost: a look at every rule.
+    pub fn anchors_of(&self, structure: &Structure, constraints: &BTreeSet<Source>) -> Vec<SlotId> {
         let rules = self.rules.iter().filter(|r| constraints.contains(&r.source));
         let slots = rules.flat_map(|r| r.slots.iter().copied());
-        let anchors: BTreeSet<SlotId> =
-            slots.filter(|&s| model.structure.slots[s].anchored).collect();
-        Some(Held {
-            constraints: constraints.into_iter().collect(),
-            anchors: anchors.into_iter().collect(),
-        })
+        let anchors: BTreeSet<SlotId> = slots.filter(|&s| structure.slots[s].anchored).collect();
+        anchors.into_iter().collect()
     }
 }

@@ -172,3 +172,33 @@ fn several_things_that_are_set_have_one_limit_together() {
     assert_eq!((limit.path.as_str(), limit.value.as_str()), ("a, b", "4, 8"));
     desk.apply(&Command::Set(vec![to("a", 4.0), to("b", 8.0)])).expect("what is told can be set");
 }
+
+/// A bridge of five resistors. To let less current through the third, all of them change as little as they can;
+/// where that takes the fifth to nothing, near 0.0117 A by an independent search of least change, no near answer
+/// is left.
+const BRIDGE: &str = "\
+use circuits
+battery: Battery { emf = 10 V  anchor emf }
+ground: Ground
+r1: Resistor { resistance = 100 ohm }
+r2: Resistor { resistance = 200 ohm }
+r3: Resistor { resistance = 300 ohm }
+r4: Resistor { resistance = 400 ohm }
+r5: Resistor { resistance = 50 ohm }
+merge battery.a.node = r1.a.node = r2.a.node
+merge r1.b.node = r3.a.node = r5.a.node
+merge r2.b.node = r4.a.node = r5.b.node
+merge r3.b.node = r4.b.node = battery.b.node = ground.lead.node
+";
+
+#[test]
+fn a_limit_too_dear_to_find_out_is_told_as_far_as_it_was_seen() {
+    let mut desk = Desk::of(BRIDGE);
+    let refusal = desk.type_in("r3.current", "0.01 A").expect_err("no near answer is left");
+    let limit = refusal.limit.expect("it could have gone some way");
+    let told = format!("refused: r3.current goes to {}, and how much further", limit.value);
+    assert!(refusal.message.starts_with(&told), "{}", refusal.message);
+    desk.type_in("r3.current", &limit.value).expect("what is told can be set");
+    let came: Option<f64> = limit.value.strip_suffix(" A").and_then(|x| x.parse().ok());
+    assert!(came.is_some_and(|x| (0.0116..0.0119).contains(&x)), "{limit:?}");
+}

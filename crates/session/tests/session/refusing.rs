@@ -106,7 +106,8 @@ fn a_reason_that_would_take_long_to_find_is_left_out() {
     let refusal = refused(&mut desk, |d| d.set("bridge.beam2.tension", 200.0));
     assert_eq!(
         refusal.message,
-        "refused: what stands fixed does not leave room for this; bridge.beam2.tension is computed"
+        "refused: bridge.beam2.tension goes to 6.4 N, and how much further was not decided; \
+         what stands fixed does not leave room for this; bridge.beam2.tension is computed"
     );
     assert!(refusal.constraints.is_empty(), "{refusal:?}");
 }
@@ -129,4 +130,16 @@ fn a_text_of_a_number_names_what_it_has_no_method_for() {
     let text = "n: Real = 3.25\nt: Text\nconstraint told: t = n.text\n";
     let refusal = refused(&mut Desk::of(text), |d| d.type_in("t", "1.5"));
     assert_eq!(refusal.message, "refused: told would not hold: it has no method for n");
+}
+
+#[test]
+fn a_refusal_names_what_is_anchored_among_what_would_not_hold() {
+    let text = "use geometry\na: Point = (0, 0)\nb: Point = (10, 0)\nc: Point = (4, 3)\nanchor a, b\n\
+        size: Length = 7 m\nconstraint left: a.distance(to: c) = 5 m\nconstraint right: c.distance(to: b) = size\n\
+        constraint low: c.y >= 0 m\n";
+    let refusal = refused(&mut Desk::of(text), |d| d.set("size", 20.0));
+    assert_eq!(
+        refusal.message,
+        "refused: 15 m is the limit of size; left, right would not all hold while a, b are anchored"
+    );
 }
