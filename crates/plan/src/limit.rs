@@ -40,6 +40,17 @@ pub enum LimitKind {
     AtLeast,
 }
 
+/// What came of a part of the way.
+#[derive(Clone, Copy, PartialEq, Eq)]
+enum Trial {
+    /// It can be gone.
+    Gone,
+    /// It cannot.
+    Stopped,
+    /// It was given up.
+    Cut,
+}
+
 impl Planner {
     /// Returns how far towards its values a refused edit could go; nothing where it cannot move at all, speaks of
     /// more than real numbers, or not even a part of the way was seen to be possible in the time there is.
@@ -62,50 +73,52 @@ impl Planner {
             return None;
         }
         let until = self.spent() + WORK;
-        let mut is_cut = false;
-        let mut can_be = |at: &Aim| {
-            let mut trial = values.clone();
+        let mut trial = |at: &Aim| {
+            let mut came = values.clone();
             for (&slot, value) in &at.fixed {
-                trial.put(slot, value.clone());
+                came.put(slot, value.clone());
             }
-            // one that takes longer than there is goes nowhere
             let most = self.spent() + TRIAL;
             self.try_until(Some(most));
             for task in tasks {
-                run(self, model, task, at, values, &mut trial, host);
+                run(self, model, task, at, values, &mut came, host);
             }
             self.try_until(None);
-            is_cut |= self.spent() >= most;
+            let is_cut = self.spent() >= most;
             let rules = tasks.iter().flat_map(|t| t.component.rules().iter().copied());
-            let unmet = self.unmet(model, rules, &trial, host);
-            !is_any_new(&unmet, was_unmet) && self.reached(at, &trial)
+            let unmet = self.unmet(model, rules, &came, host);
+            match !is_any_new(&unmet, was_unmet) && self.reached(at, &came) {
+                true => Trial::Gone,
+                false if is_cut => Trial::Cut,
+                false => Trial::Stopped,
+            }
         };
-        let (mut gone, mut beyond) = (0.0, 1.0);
+        // what is known of the least part that was not gone
+        let (mut gone, mut beyond, mut end) = (0.0, 1.0, Trial::Stopped);
         for halving in 0..HALVINGS {
             if self.spent() > until {
                 return (gone > 0.0).then_some(Limit { part: gone, kind: LimitKind::AtLeast });
             }
             if halving == NOTHING && gone == 0.0 {
-                let can_go_back = can_be(&self.part_of_the_way(values, aim, BACK));
-                return (can_go_back && !is_cut)
-                    .then_some(Limit { part: 0.0, kind: LimitKind::Last });
+                let can_go_back = trial(&self.part_of_the_way(values, aim, BACK)) == Trial::Gone;
+                let is_last = can_go_back && end == Trial::Stopped;
+                return is_last.then_some(Limit { part: 0.0, kind: LimitKind::Last });
             }
             let part = 0.5 * (gone + beyond);
-            if can_be(&self.part_of_the_way(values, aim, part)) {
-                gone = part;
-            } else {
-                beyond = part;
+            match trial(&self.part_of_the_way(values, aim, part)) {
+                Trial::Gone => gone = part,
+                why @ (Trial::Stopped | Trial::Cut) => (beyond, end) = (part, why),
             }
         }
         // where every part of the way can be gone, no limit stands in it
         if beyond == 1.0 {
             return None;
         }
-        let is_open = beside(values, aim, gone).is_some_and(|at| !can_be(&at));
-        let kind = match is_open {
-            _ if is_cut => LimitKind::AtLeast,
-            true => LimitKind::Open,
-            false => LimitKind::Last,
+        let beside = beside(values, aim, gone).map(|at| trial(&at));
+        let kind = match (end, beside) {
+            (Trial::Cut, _) | (_, Some(Trial::Cut)) => LimitKind::AtLeast,
+            (_, Some(Trial::Stopped)) => LimitKind::Open,
+            (_, Some(Trial::Gone) | None) => LimitKind::Last,
         };
         Some(Limit { part: gone, kind })
     }

@@ -152,10 +152,17 @@ fn while_anchored(
         return refusal;
     }
     let state = &open.state;
-    let sources = words::refusing(state, report).0.into_iter().collect();
-    let mut anchors = open.planner.anchors_of(&state.structure, &sources);
-    let aimed: Vec<SlotId> = aims.iter().flat_map(|(aim, _)| slots_of(state, aim)).collect();
-    anchors.retain(|anchor| !aimed.contains(anchor));
+    let sources: BTreeSet<_> = words::refusing(state, report).0.into_iter().collect();
+    let is_anchored = |s: &SlotId| state.structure.slots[*s].anchored;
+    let slots = |(aim, _): &(Aim, Vec<Value>)| slots_of(state, aim);
+    let mut anchors = match sources.is_empty() {
+        true => aims.iter().flat_map(slots).filter(is_anchored).collect(),
+        false => open.planner.anchors_of(&state.structure, &sources),
+    };
+    // what is set itself is held by no anchor
+    let is_thing = |(aim, _): &&(Aim, Vec<Value>)| matches!(aim, Aim::Thing(_));
+    let set: Vec<SlotId> = aims.iter().filter(is_thing).flat_map(slots).collect();
+    anchors.retain(|anchor| !set.contains(anchor));
     if anchors.is_empty() {
         return refusal;
     }

@@ -143,3 +143,14 @@ fn a_refusal_names_what_is_anchored_among_what_would_not_hold() {
         "refused: 15 m is the limit of size; left, right would not all hold while a, b are anchored"
     );
 }
+
+#[test]
+fn what_is_computed_from_anchored_places_alone_names_them() {
+    let mut desk = Desk::of("use geometry\nl: Line { p1 = (0, 0)  p2 = (10, 0) }\nanchor l\n");
+    let refusal = refused(&mut desk, |d| d.set("l.length", 5.0));
+    assert_eq!(
+        refusal.message,
+        "refused: what stands fixed does not leave room for this while l.p1, l.p2 are anchored; \
+         l.length is computed"
+    );
+}
