@@ -1,12 +1,13 @@
 //! Contradictions: which required constraints cannot hold together, and what would help.
 //!
 //! A set is tried by solving it alone: from where the last one held, from the present values and from several
-//! scattered starts, everything moved at once; where that does not say enough, by a plan of its own too. QuickXplain
-//! halves the suspects, those next to what does not hold kept longest, until no constraint of the set can be spared:
-//! without any one of them the others hold. That they hold is seen; that they cannot is only likely. Where what is
-//! left at last can hold, something on the way there was wrongly taken for contradictory: the search goes back to the
-//! smallest set that still looks so when it is tried harder, and on from there. A repair is told only if it was
-//! tried and everything else then holds.
+//! scattered starts, everything moved at once; where that does not say enough, by a plan of its own too. What speaks
+//! of the same numbers is tried first, then what depends on each other by structure. QuickXplain halves the suspects,
+//! those next to what does not hold kept longest, until no constraint of the set can be spared: without any one of
+//! them the others hold. That they hold is seen; that they cannot is only likely. Where what is left at last can hold,
+//! something on the way there was wrongly taken for contradictory: the search goes back to the smallest set that still
+//! looks so when it is tried harder, and on from there. A repair is told only if it was tried and everything else then
+//! holds.
 //!
 //! **Source:** Junker, *QuickXplain: preferred explanations and relaxations for over-constrained
 //! problems*, AAAI 2004.
@@ -24,7 +25,7 @@ use crate::rule::Source;
 use crate::task::Holding;
 use base::number::close;
 use kernel::{SlotId, Values};
-use solve::Level;
+use solve::{Level, Rejected};
 use std::collections::{BTreeMap, BTreeSet, VecDeque};
 
 /// How many sets are tried before the search is given up, and how many constraints in all of them.
@@ -42,6 +43,8 @@ const FROM: [f64; 8] =
 const FURTHER: u64 = WORK / 20;
 /// What trying the repairs of one contradiction may cost.
 const REPAIR: u64 = 1_000_000_000;
+/// How many sets are asked first of either kind.
+const CIRCUITS: usize = 32;
 /// How many contradictions of one component are told apart.
 const APART: usize = 4;
 /// From how many starts a set is tried, at least.
@@ -139,7 +142,9 @@ impl Planner {
             let most = (TRIED / units.len()).clamp(20, TRIALS);
             let until = self.spent() + WORK;
             let units = nearest_first(units, &unmet, |r| self.rules.get(r).slots);
+            let first = self.first_suspects(&setup, &units, &unmet);
             let mut search = Search::new(self, &setup, values, host, most, until);
+            search.first = first.into();
             let sets = search.all(units.clone());
             if sets.is_empty() {
                 let state = search.last;
@@ -235,6 +240,42 @@ impl Planner {
         Some(Conflict { source, circuit: sources.collect() })
     }
 
+    /// Returns the sets of units among which contradictions most often are: what speaks of the same numbers, one of
+    /// them not met; then what depends on each other by structure, small sets first.
+    fn first_suspects(
+        &mut self,
+        setup: &Setup<'_>,
+        units: &[Unit],
+        unmet: &BTreeSet<Source>,
+    ) -> Vec<BTreeSet<Source>> {
+        let moves = |s: &SlotId| !matches!((setup.holding)(*s), Holding::Fixed | Holding::Given);
+        let mut alike: BTreeMap<BTreeSet<SlotId>, BTreeSet<Source>> = BTreeMap::new();
+        for unit in units {
+            let slots = unit.rules.iter().flat_map(|&r| self.rules.get(r).slots).copied();
+            alike.entry(slots.filter(moves).collect()).or_default().insert(unit.source);
+        }
+        let are_suspect = |s: &BTreeSet<Source>| s.len() > 1 && !s.is_disjoint(unmet);
+        let mut first: Vec<BTreeSet<Source>> = alike.into_values().filter(are_suspect).collect();
+        first.truncate(CIRCUITS);
+        let mark = self.plans.mark();
+        let tasks = self.tasks_of(setup, &rules_of(units));
+        let known: BTreeSet<Source> = units.iter().map(|u| u.source).collect();
+        let mut circuits: Vec<BTreeSet<Source>> = Vec::new();
+        for task in &tasks {
+            let level = |r: &Rejected| task.system.relations[r.relation as usize].level;
+            for mut conflict in self.conflicts(task, |r| level(r) == Level::Required) {
+                conflict.circuit.push(conflict.source);
+                let all = conflict.circuit.into_iter();
+                circuits.push(all.filter(|s| known.contains(s)).collect());
+            }
+        }
+        self.plans.forget_since(mark);
+        circuits.sort_by_key(BTreeSet::len);
+        circuits.truncate(CIRCUITS);
+        first.extend(circuits);
+        first
+    }
+
     /// Groups the required ones of these rules by constraint.
     fn units(&self, rules: &[u32]) -> Vec<Unit> {
         let mut units: BTreeMap<Source, Vec<u32>> = BTreeMap::new();
@@ -279,6 +320,8 @@ struct Search<'s> {
     values: &'s Values,
     host: &'s mut dyn Host,
     trials: usize,
+    /// The sets that are asked first, as far as they were not yet.
+    first: VecDeque<BTreeSet<Source>>,
     /// The state in which the last set that can hold was found to, what is given as it is: the next one is much
     /// the same.
     last: Option<Values>,
@@ -308,6 +351,7 @@ impl<'s> Search<'s> {
             values,
             host,
             trials: 0,
+            first: VecDeque::new(),
             last: None,
             escapes: Vec::new(),
             chain: Vec::new(),
@@ -341,6 +385,21 @@ impl<'s> Search<'s> {
     ///
     /// What takes long counts as not found. Where that was wrong, and the set can hold, more is tried.
     fn minimal(&mut self, units: &[Unit]) -> Option<(Vec<Unit>, Certainty)> {
+        while let Some(suspects) = self.first.pop_front() {
+            let is_suspect = |u: &&Unit| suspects.contains(&u.source);
+            let part: Vec<Unit> = units.iter().filter(is_suspect).cloned().collect();
+            if part.len() < suspects.len() || part.len() == units.len() {
+                continue;
+            }
+            let found = self.minimal_of(&part);
+            if found.as_ref().is_some_and(|f| !matches!(f.1, Certainty::NotDecided { .. })) {
+                return found;
+            }
+        }
+        self.minimal_of(units)
+    }
+
+    fn minimal_of(&mut self, units: &[Unit]) -> Option<(Vec<Unit>, Certainty)> {
         self.effort = FIRM;
         if self.can_hold(&[], units) {
             return None;

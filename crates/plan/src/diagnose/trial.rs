@@ -76,7 +76,7 @@ impl Planner {
     }
 
     /// States these rules alone.
-    fn tasks_of(&mut self, setup: &Setup<'_>, rules: &[u32]) -> Vec<Task> {
+    pub(crate) fn tasks_of(&mut self, setup: &Setup<'_>, rules: &[u32]) -> Vec<Task> {
         let wished = setup.aim.wishes.iter().flat_map(Wish::slots);
         let slots: BTreeSet<SlotId> =
             rules.iter().flat_map(|&r| self.rules.get(r).slots.to_vec()).chain(wished).collect();
