@@ -143,7 +143,7 @@ fn a_large_framework_is_found_near_its_rough_start() {
 /// is pulled off its place by them.
 #[test]
 fn two_lengths_of_one_bar_are_all_that_conflicts_in_a_framework() {
-    let mut case = generate(Family::Truss, 10, 1);
+    let mut case = generate(Family::Truss, 300, 1);
     let is_bar = |c: &&Constraint| matches!(c, Constraint::Distance { .. });
     let Some(&Constraint::Distance { p, q, v }) = case.constraints.iter().filter(is_bar).nth(7)
     else {
