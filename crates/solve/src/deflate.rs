@@ -91,9 +91,11 @@ impl<'a, N: Number> Deflated<'a, N> {
     /// it out.
     pub(crate) fn hold(&self, matcher: &mut Matcher<'_>, out: &mut Acceptance) -> bool {
         let slot = |(r, c): (u32, u32)| (self.piece.rows[r as usize], self.open[c as usize]);
-        // what yields may be read
-        let may_rest = self.left.iter().all(Vec::is_empty);
-        matcher.hold(self.piece, self.eliminated.pivots().map(slot), may_rest, out)
+        matcher.hold(self.piece, self.eliminated.pivots().map(slot), self.may_rest(), out)
+    }
+    /// Returns true if no given number yields: what yields may be read by what would rest.
+    fn may_rest(&self) -> bool {
+        self.left.iter().all(Vec::is_empty)
     }
 
     /// Holds what the rows can do without, by eliminating slots, the first declared last; false where they are
@@ -136,7 +138,9 @@ impl<'a, N: Number> Deflated<'a, N> {
         }
         let needs_given = |r: u32| self.vanishing.binary_search_by_key(&r, |v| v.last).is_ok();
         let circuits = circuits(&self.vanishing, &self.left, self.given.len());
+        let has_circuits = !circuits.is_empty();
         let mut circuits = circuits.into_iter().peekable();
+        let mut accepted: Vec<u32> = Vec::new();
         for (&row, r) in self.piece.rows.iter().zip(0..) {
             match circuits.next_if(|c| c.last == r) {
                 Some(Vanishing { sum, .. }) => {
@@ -147,10 +151,30 @@ impl<'a, N: Number> Deflated<'a, N> {
                 None => {
                     let is_required = rows[row as usize].level == Level::Required;
                     out.determined += usize::from(is_required && !needs_given(r));
-                    out.accepted.push(row as usize);
+                    accepted.push(r);
                 }
             }
         }
+        if has_circuits {
+            self.let_rest(&mut accepted, out);
+        }
+        out.accepted.extend(accepted.iter().map(|&r| self.piece.rows[r as usize] as usize));
+    }
+
+    /// Takes from the accepted rows of the piece, where some rest, those that say nothing more over what still moves:
+    /// what others imply there. The row of a circuit that was not accepted may be one of those that rest.
+    fn let_rest(&self, accepted: &mut Vec<u32>, out: &mut Acceptance) {
+        let moves = |e: &&(u32, N)| out.unknown[self.open[e.0 as usize] as usize];
+        if !self.may_rest() || self.over_open.iter().all(|row| row.iter().any(|e| moves(&e))) {
+            return;
+        }
+        let moving = |&r: &u32| self.over_open[r as usize].iter().filter(moves).copied().collect();
+        let moving: Vec<Row<N>> = accepted.iter().map(moving).collect();
+        let implied = Echelon::new(&moving, self.open.len()).vanishing();
+        out.some_rest |= !implied.is_empty();
+        let is_implied = |i: u32| implied.binary_search_by_key(&i, |v| v.last).is_ok();
+        let mut places = 0..;
+        accepted.retain(|_| !places.next().is_some_and(is_implied));
     }
 }
 

@@ -45,6 +45,11 @@ impl Resting {
         };
         Self { is: (0..rows.len()).map(row).collect() }
     }
+    /// Has these rows rest.
+    #[cfg(test)]
+    pub(crate) fn of(is: Vec<bool>) -> Self {
+        Self { is }
+    }
     /// Has no row rest that reads one of these slots, which yield after all. Returns true if one would have.
     pub(crate) fn wakes(
         &mut self,

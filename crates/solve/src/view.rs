@@ -7,6 +7,7 @@
 //! other. Which rows are equivalent does not depend on values, and both are tested. A row that has no
 //! formula of one solution is left where it is: it could choose a branch.
 
+use crate::accept::Dependent;
 use crate::lower::Inverse;
 use crate::order::{Block, Blocks};
 use crate::plan::Analysis;
@@ -52,9 +53,19 @@ pub(crate) fn exchanges(analysis: &Analysis<'_>, blocks: &Blocks) -> Vec<Exchang
         let is_of_texts = relation.derived && analysis.rows.kernel(row).is_none();
         level == Level::Required && (relation.methods.is_empty() || is_of_texts)
     };
+    // where rows rest, a circuit is one no more over what still moves if some row of it was left out that does
+    let mut is_accepted = vec![!analysis.acceptance.some_rest; analysis.rows.len()];
+    analysis.acceptance.accepted.iter().for_each(|&r| is_accepted[r] = true);
+    let stays = |row: usize| {
+        let mut columns = analysis.rows.columns(row).iter();
+        columns.all(|e| !analysis.acceptance.unknown[e.0 as usize])
+    };
+    let is_whole = |d: &Dependent| d.circuit.iter().all(|&r| is_accepted[r] || stays(r));
     let times_needed = |row: usize| dependent.iter().filter(|d| d.circuit.contains(&row)).count();
     let mut found = Vec::new();
-    for (d, candidate) in dependent.iter().enumerate().filter(|(_, d)| is_plain(d.row)) {
+    for (d, candidate) in
+        dependent.iter().enumerate().filter(|(_, d)| is_plain(d.row) && is_whole(d))
+    {
         let its = candidate.circuit.iter().copied();
         let mut replaced: Vec<usize> =
             its.filter(|&r| block_of_row[r].is_some() && is_plain(r)).collect();

@@ -5,7 +5,7 @@ use crate::pattern::{PatternId, Patterns};
 use crate::peel::{Found, peel};
 use crate::stated::Stated;
 use crate::system::{Level, Relation, RelationBody, Slot};
-use crate::{order, rows, substitute};
+use crate::{order, rest, rows, substitute};
 use expr::{Arena, ExprId, Var};
 use proptest::prelude::*;
 use std::collections::{BTreeMap, BTreeSet};
@@ -165,21 +165,25 @@ impl Net {
         (accepted, dependent, open)
     }
 
-    fn accept(&self) -> Acceptance {
+    fn accept(&self, resting: &Resting) -> Acceptance {
         let (system, classes, rows) = (&*self.stated.system, &self.classes, &self.rows);
-        accept(Setting { system, classes, rows, resting: &Resting::default() })
+        accept(Setting { system, classes, rows, resting })
     }
 
     /// What the tableau finds, and sparse elimination in both of its ways.
-    fn by_elimination<N: Number>(&self, of: impl Fn(&[u32]) -> Vec<Row<N>>) -> [Acceptance; 3] {
+    fn by_elimination<N: Number>(
+        &self,
+        resting: &Resting,
+        of: impl Fn(&[u32]) -> Vec<Row<N>>,
+    ) -> [Acceptance; 3] {
         let (system, classes, rows) = (&*self.stated.system, &self.classes, &self.rows);
         let asked = Asked::new(system, classes, rows);
-        let resting = Resting::default();
-        let setting = Setting { system, classes, rows, resting: &resting };
+        let setting = Setting { system, classes, rows, resting };
         let decide = |piece: &mut dyn FnMut(Piece<'_>, &mut Acceptance)| {
             let mut out = undecided(classes);
             apart(classes, rows, asked.all(), &mut out, piece);
             count(system, classes, &mut out);
+            out.let_rest(rows, resting);
             out
         };
         let by_tableau = decide(&mut |piece, out| {
@@ -221,13 +225,13 @@ proptest! {
             (0u8..5, prop::array::uniform3(0usize..14), prop::bool::weighted(0.2)), 1..12),
     ) {
         let net = net(&stays, &relations);
-        let found = net.accept();
+        let found = net.accept(&rest::NONE);
         let found = Acceptance { matched: None, places: Lists::default(), ..found };
-        for other in net.by_elimination(|rows| net.rows.doubles(rows)) {
+        for other in net.by_elimination(&rest::NONE, |rows| net.rows.doubles(rows)) {
             prop_assert_eq!(&found, &other);
         }
         let residues = |rows: &[u32]| net.rows.residues(rows).expect("sums and products have them");
-        for other in net.by_elimination(residues) {
+        for other in net.by_elimination(&rest::NONE, residues) {
             prop_assert_eq!(&found, &other);
         }
         let (accepted, dependent, open) = net.by_search();
@@ -236,6 +240,26 @@ proptest! {
         let unknown: BTreeSet<u32> =
             net.slots().filter(|&s| found.unknown[s as usize]).collect();
         prop_assert_eq!(unknown, open);
+    }
+
+    #[test]
+    fn where_rows_rest_those_that_are_accepted_are_independent_over_what_moves(
+        stays in prop::collection::vec(2u8..9, 4..14),
+        relations in prop::collection::vec(
+            (0u8..5, prop::array::uniform3(0usize..14), Just(false)), 1..12),
+        rests in prop::collection::vec(prop::bool::weighted(0.8), 1..12),
+    ) {
+        let net = net(&stays, &relations);
+        let has_value = |r: usize| {
+            net.rows.columns(r).iter().all(|e| net.classes.stay[e.0 as usize] != Stay::Free)
+        };
+        let rests = (0..net.rows.len()).map(|r| rests[r % rests.len()] && has_value(r));
+        let resting = Resting::of(rests.collect());
+        let found = net.by_elimination(&resting, |rows| net.rows.doubles(rows));
+        for found in found.into_iter().chain([net.accept(&resting)]) {
+            let open = net.slots().filter(|&s| found.unknown[s as usize]).collect();
+            prop_assert_eq!(net.rank(&found.accepted, &open), found.accepted.len(), "{:?}", found);
+        }
     }
 
     #[test]
@@ -264,7 +288,7 @@ proptest! {
         }
         let net = net(&stays, &relations);
         let system = &net.stated.system;
-        let found = net.accept();
+        let found = net.accept(&rest::NONE);
         let stated = rows::stated_rows(&net.stated, &net.classes);
         let peeled = match peel(system, &net.classes, stated) {
             Found::All(peeled) => peeled,
@@ -294,7 +318,7 @@ proptest! {
             (0u8..5, prop::array::uniform3(0usize..16), prop::bool::weighted(0.2)), 1..7),
     ) {
         let net = net(&stays, &relations);
-        let found = net.accept();
+        let found = net.accept(&rest::NONE);
         let Some(matched) = found.matched else { return Ok(()) };
         let Matched { slot_of_row, row_of_slot, blocks } = matched;
         let direction = Direction { slot_of_row, row_of_slot, ..Direction::default() };
