@@ -1,7 +1,9 @@
 //! The rules that the whole tree keeps, as tests: ARCHITECTURE.md tells the truth about floors and
-//! paths, no file is called after nothing, no line ends in a space.
+//! paths, the book about limits, no file is called after nothing, no line ends in a space.
 //!
 //! Each rule is a function from text to complaints, so that a planted fault can be shown to be seen.
+
+mod limits;
 
 use std::collections::BTreeMap;
 use std::fs;
@@ -141,8 +143,11 @@ fn rooms_use_lower_floors_only() {
 }
 
 #[test]
-fn paths_in_the_architecture_exist() {
-    assert_none(&check_paths(&architecture(), |path| top().join(path).exists()));
+fn paths_in_the_architecture_and_the_book_exist() {
+    let book = fs::read_to_string(top().join("book/solver.md")).expect("the book is there");
+    for text in [architecture(), book] {
+        assert_none(&check_paths(&text, |path| top().join(path).exists()));
+    }
 }
 
 #[test]
