@@ -1,10 +1,9 @@
 //! The picture of a document: what its things draw, and where they can be gripped.
 
-use crate::answer::Answer;
 use crate::evaluator::Evaluator;
 use crate::fault::Fault;
 use base::IdVec;
-use drawing::{Color, Drawing, Element, Point, Shape, Tag, Vertical};
+use drawing::{Drawing, Point};
 use expr::dimension::Dimension;
 use kernel::{ClassId, ClassKind, Primitive, SlotId, ThingId};
 use std::collections::BTreeMap;
@@ -36,39 +35,11 @@ pub struct Grip {
 impl Evaluator<'_> {
     /// Draws a thing by its message `picture`. What is drawn twice alike is drawn once.
     pub fn picture(&self, thing: ThingId) -> Picture {
-        self.begin();
-        self.faults.borrow_mut().clear();
-        let to = Answer::Thing(thing);
-        let name = &self.tables.picture;
-        let mut elements = match self.send(&to, name, Vec::new(), None, thing) {
-            Ok(Answer::Picture(elements)) => elements.to_vec(),
-            Ok(other) => {
-                let kind = self.kind(&other);
-                let fault = Fault::wrong(format!("{kind} where a picture is wanted"));
-                self.faults.borrow_mut().push(fault);
-                Vec::new()
-            }
-            Err(fault) => {
-                self.faults.borrow_mut().push(fault);
-                Vec::new()
-            }
-        };
-        once_each(&mut elements);
-        let things = retag(&mut elements, self.structure.things.len());
-        let vertical = match self.document.vertical {
-            kernel::Vertical::Up => Vertical::Up,
-            kernel::Vertical::Down => Vertical::Down,
-        };
-        Picture {
-            drawing: Drawing { elements, vertical },
-            things,
-            grips: self.grips(thing),
-            faults: std::mem::take(&mut *self.faults.borrow_mut()),
-        }
+        self.scene(thing).picture
     }
 
-    /// Finds every place below a thing: what has an `x` and a `y` that are lengths.
-    fn grips(&self, below: ThingId) -> Vec<Grip> {
+    /// Finds every place below a thing, with the slots of its coordinates: what has an `x` and a `y` that are lengths.
+    pub(crate) fn grips(&self, below: ThingId) -> Vec<(Grip, [SlotId; 2])> {
         let mut classes: BTreeMap<ClassId, Option<(u32, u32)>> = BTreeMap::new();
         let mut seen = IdVec::<ThingId, bool>::filled(false, self.structure.things.len());
         let mut grips = Vec::new();
@@ -86,11 +57,8 @@ impl Evaluator<'_> {
             if let (Some(x), Some(y)) = (slot(x), slot(y)) {
                 let number = |s: SlotId| self.values.numbers[s];
                 let held = |s: SlotId| self.structure.slots[s].anchored;
-                grips.push(Grip {
-                    thing: first,
-                    at: Point { x: number(x), y: number(y) },
-                    anchored: held(x) && held(y),
-                });
+                let at = Point { x: number(x), y: number(y) };
+                grips.push((Grip { thing: first, at, anchored: held(x) && held(y) }, [x, y]));
             }
         }
         grips
@@ -110,64 +78,4 @@ impl Evaluator<'_> {
         };
         Some((field(&self.tables.x)?, field(&self.tables.y)?))
     }
-}
-
-/// Keeps the first of elements that are alike in everything.
-fn once_each(elements: &mut Vec<Element>) {
-    let mut alike: BTreeMap<(Tag, u64), Vec<usize>> = BTreeMap::new();
-    let mut kept: Vec<Element> = Vec::with_capacity(elements.len());
-    for element in elements.drain(..) {
-        let same = alike.entry((element.tag, fingerprint(&element))).or_default();
-        if !same.iter().any(|&i| kept[i] == element) {
-            same.push(kept.len());
-            kept.push(element);
-        }
-    }
-    *elements = kept;
-}
-
-/// Mixes an element's points into a number that alike elements share.
-fn fingerprint(element: &Element) -> u64 {
-    let mut mixed = match element.style.color {
-        Color::Ink => 1,
-        Color::Faint => 2,
-        Color::Accent => 3,
-        Color::Named(_) => 4,
-    };
-    let mut mix = |x: f64| {
-        let bits = mixed ^ (x + 0.0).to_bits();
-        mixed = bits.wrapping_mul(0x0100_0000_01b3).rotate_left(29);
-    };
-    let mut point = |p: Point| {
-        mix(p.x);
-        mix(p.y);
-    };
-    match &element.shape {
-        Shape::Dot(p) | Shape::Circle { center: p, .. } | Shape::Text { at: p, .. } => point(*p),
-        Shape::Segment(p, q) => {
-            point(*p);
-            point(*q);
-        }
-        Shape::Polyline { points, .. } => points.iter().for_each(|p| point(*p)),
-        Shape::Arc { center, start, sweep, .. } => {
-            point(*center);
-            point(Point { x: *start, y: *sweep });
-        }
-    }
-    mixed
-}
-
-/// Numbers the tagged things in the order in which they are drawn, and returns them.
-fn retag(elements: &mut [Element], things: usize) -> Vec<ThingId> {
-    let mut number = IdVec::<ThingId, Option<u32>>::filled(None, things);
-    let mut tagged = Vec::new();
-    for element in elements {
-        let thing = ThingId(element.tag.0);
-        let n = *number[thing].get_or_insert_with(|| {
-            tagged.push(thing);
-            tagged.len() as u32 - 1
-        });
-        element.tag = Tag(n);
-    }
-    tagged
 }

@@ -2,8 +2,10 @@
 
 use crate::host::Host;
 use crate::state::State;
+use crate::views::picture::Shown;
 use kernel::SlotId;
 use plan::{Planner, Plans};
+use std::cell::RefCell;
 use std::rc::Rc;
 
 /// A step that can be taken back or done again.
@@ -36,6 +38,8 @@ pub(crate) struct Open {
     pub(crate) undone: Vec<Step>,
     /// A drag between press and release.
     pub(crate) drag: Option<crate::drag::Drag>,
+    /// The picture as it was asked for last.
+    pub(crate) shown: RefCell<Option<Shown>>,
 }
 
 /// Which way along the steps.
@@ -60,6 +64,20 @@ impl Open {
             done: Vec::new(),
             undone: Vec::new(),
             drag: None,
+            shown: RefCell::new(None),
+        }
+    }
+    /// Asks something of the picture, brought up to date.
+    pub(crate) fn with_picture<T>(&self, ask: impl FnOnce(&Shown) -> T) -> T {
+        let mut shown = self.shown.borrow_mut();
+        let shown = shown.get_or_insert_with(|| Shown::of(&self.state, self.values()));
+        shown.renew(&self.state, self.values());
+        ask(shown)
+    }
+    /// From now on, the picture tells what moves from here.
+    pub(crate) fn rest_picture(&self) {
+        if let Some(shown) = &mut *self.shown.borrow_mut() {
+            shown.rest();
         }
     }
     /// Makes `state` the present one, as one step; `edited` is what an edit of values was about.

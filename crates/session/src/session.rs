@@ -12,8 +12,8 @@ use crate::recognise;
 use crate::state::State;
 use crate::view::{
     Advice, Affected, Analysis, Change, CheckReport, DocumentId, DragState, Explanation, FixView,
-    Ghost, HeldView, PictureView, Question, Recognised, Refusal, Status, StructureRow, TextView,
-    ValueRow,
+    Ghost, HeldView, MovedView, PictureView, Question, Recognised, Refusal, Status, StructureRow,
+    TextView, ValueRow,
 };
 use crate::views;
 use crate::words;
@@ -167,6 +167,7 @@ impl Session {
             .map_err(|reason| words::refusal_for(&state, &reason, &plan::EditReport::default()))?;
         let handle = drag.handle();
         open.drag = Some(drag);
+        open.rest_picture();
         Ok(handle)
     }
     /// Follows the pointer to a place on the sheet. Without a press it does nothing.
@@ -210,7 +211,13 @@ impl Session {
     /// Returns the picture, live while dragging.
     pub fn picture(&self, id: DocumentId) -> PictureView {
         let open = self.document(id);
-        views::picture::picture(&open.state, open.values(), &open.status)
+        open.with_picture(|shown| shown.view(&open.status))
+    }
+    /// Brings a picture up to date that was asked for since the last command, and says what has moved since the press.
+    /// Cost: that of drawing what moved.
+    pub fn follow_picture(&self, id: DocumentId, view: &mut PictureView) -> MovedView {
+        let open = self.document(id);
+        open.with_picture(|shown| shown.follow(view, &open.status))
     }
     /// Returns the picture as an SVG text.
     pub fn svg(&self, id: DocumentId) -> String {

@@ -183,6 +183,17 @@ pub struct PictureView {
     pub freedom: Vec<Option<Freedom>>,
     /// What a pointer can grip, in the order of picking: points first.
     pub grips: Vec<Grip>,
+    /// How often it was made anew since the press of the drag that is going on.
+    pub made: u32,
+}
+
+/// What of a picture has moved since a drag was pressed.
+#[derive(Clone, PartialEq, Eq, Debug)]
+pub enum MovedView {
+    /// Other elements are drawn than before: it was made anew.
+    Everything,
+    /// These elements, by their places in the drawing.
+    Elements(Vec<u32>),
 }
 
 /// Another state that the rules allow.

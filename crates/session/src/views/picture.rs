@@ -1,43 +1,128 @@
 //! The picture: elements with the things that they picture, and what can be gripped.
 
 use crate::state::State;
-use crate::view::{Grip, PictureView};
+use crate::view::{Grip, MovedView, PictureView};
 use crate::words;
-use kernel::{DOCUMENT, ThingId, Values, Vertical};
+use kernel::{DOCUMENT, SlotId, ThingId, Values};
+use std::collections::BTreeSet;
+use std::rc::Rc;
+
+/// The picture of a state, kept while values change.
+pub(crate) struct Shown {
+    state: Rc<State>,
+    values: Values,
+    scene: eval::Scene,
+    /// For each grip that is shown, its place among those of the scene.
+    grips: Vec<u32>,
+    moved: Moved,
+}
+
+impl Shown {
+    /// Draws a state.
+    pub(crate) fn of(state: &Rc<State>, values: &Values) -> Self {
+        let scene = state.evaluator(values).scene(DOCUMENT);
+        let structure = &state.structure;
+        // what a view of the structure does not show, cannot be gripped
+        let unseen = |part: &ThingId| {
+            crate::general::named(state, *part, "structure").is_some_and(|shown| shown.is_empty())
+        };
+        let unseen: Vec<ThingId> = structure.parts(DOCUMENT).filter(unseen).collect();
+        let is_seen = |grip: &eval::Grip| {
+            let mut owners =
+                std::iter::successors(Some(grip.thing), |&t| structure.things[t].owner);
+            unseen.is_empty() || !owners.any(|t| unseen.contains(&t))
+        };
+        let grips = (0..).zip(&scene.picture.grips).filter(|(_, grip)| is_seen(grip));
+        let grips = grips.map(|(at, _)| at).collect();
+        Self { state: state.clone(), values: values.clone(), scene, grips, moved: Moved::default() }
+    }
+
+    /// Brings it up to date. Cost: that of drawing what reads a changed slot, where the state is the same.
+    pub(crate) fn renew(&mut self, state: &Rc<State>, values: &Values) {
+        if !Rc::ptr_eq(&self.state, state) {
+            *self = Self::of(state, values);
+            return;
+        }
+        let changed: Vec<SlotId> = self.values.changed(values).collect();
+        if changed.is_empty() {
+            return;
+        }
+        match state.evaluator(values).renew(&mut self.scene, &changed) {
+            Some(moved) => {
+                self.moved.elements.extend(moved.elements);
+                self.moved.grips.extend(moved.grips);
+                self.values.clone_from(values);
+            }
+            None => {
+                let made = self.moved.made + 1;
+                *self = Self::of(state, values);
+                self.moved.made = made;
+            }
+        }
+    }
+
+    /// Forgets what has moved so far.
+    pub(crate) fn rest(&mut self) {
+        self.moved = Moved::default();
+    }
+
+    /// Returns the whole picture.
+    pub(crate) fn view(&self, status: &plan::Status) -> PictureView {
+        let (document, structure) = (&self.state.lowered.document, &self.state.structure);
+        let made = &self.scene.picture;
+        let path = |thing: ThingId| structure.path(document, thing).to_string();
+        let grip = |&at: &u32| {
+            let grip = &made.grips[at as usize];
+            let slots = structure.slots_under(grip.thing);
+            Grip {
+                path: path(grip.thing),
+                x: grip.at.x,
+                y: grip.at.y,
+                anchored: slots.iter().all(|&s| structure.slots[s].anchored),
+            }
+        };
+        PictureView {
+            drawing: made.drawing.clone(),
+            paths: made.things.iter().map(|&t| path(t)).collect(),
+            freedom: made.things.iter().map(|&t| words::freedom_of(structure, status, t)).collect(),
+            grips: self.grips.iter().map(grip).collect(),
+            made: self.moved.made,
+        }
+    }
+
+    /// Brings a view up to date that was made of the same state; returns what has moved since the press.
+    pub(crate) fn follow(&self, view: &mut PictureView, status: &plan::Status) -> MovedView {
+        if view.made != self.moved.made || view.grips.len() != self.grips.len() {
+            *view = self.view(status);
+            return MovedView::Everything;
+        }
+        let made = &self.scene.picture;
+        for &at in &self.moved.elements {
+            let now = &made.drawing.elements[at as usize];
+            view.drawing.elements[at as usize].shape.clone_from(&now.shape);
+        }
+        for &at in &self.moved.grips {
+            if let Ok(shown) = self.grips.binary_search(&at) {
+                let now = made.grips[at as usize].at;
+                (view.grips[shown].x, view.grips[shown].y) = (now.x, now.y);
+            }
+        }
+        MovedView::Elements(self.moved.elements.iter().copied().collect())
+    }
+}
+
+/// What has moved since a drag began.
+#[derive(Default)]
+struct Moved {
+    elements: BTreeSet<u32>,
+    grips: BTreeSet<u32>,
+    /// How often the picture was made anew in the midst, because other elements were drawn.
+    made: u32,
+}
 
 /// Returns the picture for some values of a state.
-pub(crate) fn picture(state: &State, values: &Values, status: &plan::Status) -> PictureView {
-    let (document, structure) = (&state.lowered.document, &state.structure);
-    let made = state.evaluator(values).picture(DOCUMENT);
-    let mut drawing = made.drawing;
-    drawing.vertical = match document.vertical {
-        Vertical::Up => drawing::Vertical::Up,
-        Vertical::Down => drawing::Vertical::Down,
-    };
-    // what a view of the structure does not show, cannot be gripped
-    let unseen = |part: &ThingId| {
-        crate::general::named(state, *part, "structure").is_some_and(|shown| shown.is_empty())
-    };
-    let unseen: Vec<ThingId> = structure.parts(DOCUMENT).filter(unseen).collect();
-    let is_seen = |grip: &&eval::Grip| {
-        let owners = std::iter::successors(Some(grip.thing), |&t| structure.things[t].owner);
-        unseen.is_empty() || !owners.into_iter().any(|t| unseen.contains(&t))
-    };
-    let grips = made.grips.iter().filter(is_seen).map(|grip| {
-        let slots = structure.slots_under(grip.thing);
-        Grip {
-            path: structure.path(document, grip.thing).to_string(),
-            x: grip.at.x,
-            y: grip.at.y,
-            anchored: slots.iter().all(|&s| structure.slots[s].anchored),
-        }
-    });
-    PictureView {
-        drawing,
-        paths: made.things.iter().map(|&t| structure.path(document, t).to_string()).collect(),
-        freedom: made.things.iter().map(|&t| words::freedom_of(structure, status, t)).collect(),
-        grips: grips.collect(),
-    }
+pub(crate) fn picture(state: &Rc<State>, values: &Values, status: &plan::Status) -> PictureView {
+    Shown::of(state, values).view(status)
 }
 
 /// Says why some things have no picture, each reason once.
@@ -52,7 +137,11 @@ pub(crate) fn undrawn(state: &State, values: &Values) -> Vec<String> {
 }
 
 /// Returns the elements of a picture that look otherwise with these values than with those of the state.
-pub(crate) fn changed(state: &State, values: &Values, status: &plan::Status) -> drawing::Drawing {
+pub(crate) fn changed(
+    state: &Rc<State>,
+    values: &Values,
+    status: &plan::Status,
+) -> drawing::Drawing {
     let now = picture(state, &state.values, status).drawing;
     let mut made = picture(state, values, status).drawing;
     made.elements.retain(|element| !now.elements.contains(element));

@@ -1,0 +1,289 @@
+//! Scenes: a picture kept by what draws it, so that what did not move is not drawn again.
+//!
+//! In: a thing in one state. Out: its [`Picture`], each element with the *source* that drew it, the nearest thing whose
+//! class says how it is drawn, and each source with the slots that it read. In another state of the same things the
+//! sources that read a slot with another value draw anew, and nothing else does.
+
+use crate::answer::Answer;
+use crate::evaluator::Evaluator;
+use crate::fault::Fault;
+use crate::picture::Picture;
+use base::IdVec;
+use drawing::{Color, Drawing, Element, Point, Shape, Tag, Vertical};
+use kernel::{ClassKind, SlotId, ThingId};
+use std::collections::{BTreeMap, BTreeSet};
+
+/// A picture, and what each part of it follows from.
+#[derive(Clone, Debug, Default)]
+pub struct Scene {
+    /// The picture as of the latest state.
+    pub picture: Picture,
+    sources: Vec<Source>,
+    /// For each element of the picture, how many times it is drawn, alike.
+    times: Vec<u32>,
+    /// For every slot, the sources that read it.
+    readers: IdVec<SlotId, Vec<u32>>,
+    /// For every slot, the grips of which it is a coordinate.
+    coordinates: IdVec<SlotId, Vec<u32>>,
+    grip_slots: Vec<[SlotId; 2]>,
+}
+
+/// A thing that draws.
+#[derive(Clone, Debug)]
+struct Source {
+    thing: ThingId,
+    /// For each element that it draws, where that stands in the picture.
+    at: Vec<u32>,
+    /// How many faults it has.
+    faults: usize,
+}
+
+/// What is elsewhere, or looks otherwise, in a state than in the one before.
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
+pub struct Moved {
+    /// Places in the list of elements.
+    pub elements: BTreeSet<u32>,
+    /// Places in the list of grips.
+    pub grips: BTreeSet<u32>,
+}
+
+/// What one source draws in one state.
+struct Drawn {
+    elements: Vec<Element>,
+    faults: Vec<Fault>,
+    reads: BTreeSet<SlotId>,
+}
+
+impl Evaluator<'_> {
+    /// Draws a thing by its message `picture`, and keeps what each element follows from.
+    ///
+    /// Cost: that of evaluating every picture below the thing once.
+    pub fn scene(&self, thing: ThingId) -> Scene {
+        self.begin();
+        let mut things = Vec::new();
+        self.sources(thing, &mut things);
+        let slots = self.structure.slots.len();
+        let mut scene = Scene {
+            readers: IdVec::filled(Vec::new(), slots),
+            coordinates: IdVec::filled(Vec::new(), slots),
+            ..Scene::default()
+        };
+        let mut elements = Distinct::default();
+        for thing in things {
+            let drawn = self.drawn(thing);
+            let number = scene.sources.len() as u32;
+            for slot in drawn.reads {
+                scene.readers[slot].push(number);
+            }
+            let at: Vec<u32> =
+                drawn.elements.into_iter().map(|element| elements.place(element)).collect();
+            scene.times.resize(elements.kept.len(), 0);
+            for &at in &at {
+                scene.times[at as usize] += 1;
+            }
+            scene.sources.push(Source { thing, at, faults: drawn.faults.len() });
+            scene.picture.faults.extend(drawn.faults);
+        }
+        let vertical = match self.document.vertical {
+            kernel::Vertical::Up => Vertical::Up,
+            kernel::Vertical::Down => Vertical::Down,
+        };
+        let mut elements = elements.kept;
+        scene.picture.things = retag(&mut elements, self.structure.things.len());
+        scene.picture.drawing = Drawing { elements, vertical };
+        for (at, (grip, slots)) in (0..).zip(self.grips(thing)) {
+            scene.picture.grips.push(grip);
+            scene.grip_slots.push(slots);
+            for slot in slots {
+                scene.coordinates[slot].push(at);
+            }
+        }
+        scene
+    }
+
+    /// Brings a scene up to date with the state of this evaluator, which differs from its latest at these slots.
+    /// Returns what moved; nothing where other elements are drawn than before, and the scene has to be made anew.
+    ///
+    /// Cost: that of the sources that read one of the slots.
+    pub fn renew(&self, scene: &mut Scene, changed: &[SlotId]) -> Option<Moved> {
+        let mut moved = Moved::default();
+        let stale: BTreeSet<u32> =
+            changed.iter().flat_map(|&slot| &scene.readers[slot]).copied().collect();
+        let mut times: BTreeMap<u32, u32> = BTreeMap::new();
+        for &number in &stale {
+            self.begin();
+            let drawn = self.drawn(scene.sources[number as usize].thing);
+            let source = &scene.sources[number as usize];
+            if drawn.elements.len() != source.at.len() || drawn.faults.len() != source.faults {
+                return None;
+            }
+            for slot in drawn.reads {
+                let readers = &mut scene.readers[slot];
+                if !readers.contains(&number) {
+                    readers.push(number);
+                }
+            }
+            for (mut element, &at) in drawn.elements.into_iter().zip(&source.at) {
+                let before = &mut scene.picture.drawing.elements[at as usize];
+                let thing = scene.picture.things.get(before.tag.0 as usize);
+                if thing != Some(&ThingId(element.tag.0))
+                    || before.style != element.style
+                    || before.layer != element.layer
+                {
+                    return None;
+                }
+                element.tag = before.tag;
+                let times = times.entry(at).or_default();
+                *times += 1;
+                if *before != element {
+                    if *times > 1 {
+                        return None;
+                    }
+                    moved.elements.insert(at);
+                    *before = element;
+                }
+            }
+        }
+        // what several draw alike has to stay alike
+        if moved.elements.iter().any(|at| times.get(at) != Some(&scene.times[*at as usize])) {
+            return None;
+        }
+        let grips = changed.iter().flat_map(|&slot| &scene.coordinates[slot]);
+        for &at in grips {
+            let number = |slot: SlotId| self.values.numbers[slot];
+            let [x, y] = scene.grip_slots[at as usize].map(number);
+            scene.picture.grips[at as usize].at = Point { x, y };
+            moved.grips.insert(at);
+        }
+        Some(moved)
+    }
+
+    /// Finds what draws below a thing, in order: things that are drawn as the sum of their parts are passed through.
+    fn sources(&self, thing: ThingId, found: &mut Vec<ThingId>) {
+        let mut open = vec![thing];
+        while let Some(thing) = open.pop() {
+            match self.parts_drawn(thing) {
+                Some(parts) => open.extend(parts.into_iter().rev()),
+                None => found.push(thing),
+            }
+        }
+    }
+
+    /// Returns the parts of a thing that is drawn as the sum of these; nothing where its class says otherwise.
+    fn parts_drawn(&self, thing: ThingId) -> Option<Vec<ThingId>> {
+        let class = self.structure.things[thing].class;
+        let is_sum = match self.class_kind(thing) {
+            ClassKind::List(_) => true,
+            ClassKind::Composite => {
+                let said = self.document.find_message(class, &self.tables.picture, None);
+                said.is_some_and(|(by, message)| {
+                    message.is_default && self.document.classes[by].supers.is_empty()
+                })
+            }
+            ClassKind::Primitive(_) | ClassKind::Set(_) | ClassKind::Reference(_) => false,
+        };
+        if !is_sum
+            || !self.structure.unlike(thing).is_empty()
+            || !self.layout(class).superclasses.is_empty()
+        {
+            return None;
+        }
+        let parts = self.parts_of(&Answer::Thing(thing)).ok()?;
+        let is_drawn = |part: &Answer<'_>| match part {
+            Answer::Thing(part) if !matches!(self.class_kind(*part), ClassKind::Set(_)) => {
+                Some(*part)
+            }
+            _ => None,
+        };
+        Some(parts.iter().filter_map(is_drawn).collect())
+    }
+
+    /// Lets one thing draw, and listens to what it reads.
+    fn drawn(&self, thing: ThingId) -> Drawn {
+        self.faults.borrow_mut().clear();
+        let name = &self.tables.picture;
+        let to = Answer::Thing(thing);
+        let (answer, reads) = self.listening(|| self.send(&to, name, Vec::new(), None, thing));
+        let elements = match answer {
+            Ok(Answer::Picture(elements)) => elements.to_vec(),
+            Ok(other) => {
+                let fault =
+                    Fault::wrong(format!("{} where a picture is wanted", self.kind(&other)));
+                self.faults.borrow_mut().push(fault);
+                Vec::new()
+            }
+            Err(fault) => {
+                self.faults.borrow_mut().push(fault);
+                Vec::new()
+            }
+        };
+        Drawn { elements, faults: std::mem::take(&mut *self.faults.borrow_mut()), reads }
+    }
+}
+
+/// Elements of which no two are alike in everything.
+#[derive(Default)]
+struct Distinct {
+    alike: BTreeMap<(Tag, u64), Vec<u32>>,
+    kept: Vec<Element>,
+}
+
+impl Distinct {
+    /// Returns where an element stands, which joins them if there is none like it.
+    fn place(&mut self, element: Element) -> u32 {
+        let same = self.alike.entry((element.tag, fingerprint(&element))).or_default();
+        if let Some(&at) = same.iter().find(|&&at| self.kept[at as usize] == element) {
+            return at;
+        }
+        let at = self.kept.len() as u32;
+        same.push(at);
+        self.kept.push(element);
+        at
+    }
+}
+
+/// Mixes an element's points into a number that alike elements share.
+fn fingerprint(element: &Element) -> u64 {
+    let mut mixed = match element.style.color {
+        Color::Ink => 1,
+        Color::Faint => 2,
+        Color::Accent => 3,
+        Color::Named(_) => 4,
+    };
+    let mut mix = |x: f64| {
+        let bits = mixed ^ (x + 0.0).to_bits();
+        mixed = bits.wrapping_mul(0x0100_0000_01b3).rotate_left(29);
+    };
+    let mut point = |p: Point| {
+        mix(p.x);
+        mix(p.y);
+    };
+    match &element.shape {
+        Shape::Dot(p) | Shape::Circle { center: p, .. } | Shape::Text { at: p, .. } => point(*p),
+        Shape::Segment(p, q) => {
+            point(*p);
+            point(*q);
+        }
+        Shape::Polyline { points, .. } => points.iter().for_each(|p| point(*p)),
+        Shape::Arc { center, start, sweep, .. } => {
+            point(*center);
+            point(Point { x: *start, y: *sweep });
+        }
+    }
+    mixed
+}
+
+/// Numbers the tagged things in the order in which they are drawn, and returns them.
+fn retag(elements: &mut [Element], things: usize) -> Vec<ThingId> {
+    let mut number = IdVec::<ThingId, Option<u32>>::filled(None, things);
+    let mut tagged = Vec::new();
+    for element in elements {
+        let thing = ThingId(element.tag.0);
+        let n = *number[thing].get_or_insert_with(|| {
+            tagged.push(thing);
+            tagged.len() as u32 - 1
+        });
+        element.tag = Tag(n);
+    }
+    tagged
+}
