@@ -1,5 +1,6 @@
 //! Answers: what an expression can be worth.
 
+use crate::programs::Context;
 use base::Name;
 use drawing::Element;
 use expr::dimension::Dimension;
@@ -20,6 +21,8 @@ pub enum Answer<'a> {
     Thing(ThingId),
     /// A thing made by a constructor: it is no part of the document.
     Made(Rc<Made<'a>>),
+    /// What a program made, or one turn of a block of it.
+    Context(Rc<Context<'a>>),
     /// Values by position: a list, a set, a tuple.
     List(Rc<[Answer<'a>]>),
     /// A picture.
@@ -62,6 +65,7 @@ impl Answer<'_> {
             | Self::Bool(_)
             | Self::Text(_)
             | Self::Made(_)
+            | Self::Context(_)
             | Self::List(_)
             | Self::Picture(_)
             | Self::Function(_) => None,
@@ -73,7 +77,7 @@ impl Answer<'_> {
             Self::Number(..) => "a number",
             Self::Bool(_) => "a truth value",
             Self::Text(_) => "a text",
-            Self::Thing(_) | Self::Made(_) => "a thing",
+            Self::Thing(_) | Self::Made(_) | Self::Context(_) => "a thing",
             Self::List(_) => "a list",
             Self::Picture(_) => "a picture",
             Self::Function(_) => "a function",

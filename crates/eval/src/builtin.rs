@@ -106,7 +106,7 @@ impl<'a> Evaluator<'a> {
                     self.send_thing(builtin.function, to, &arguments, nearest)
                 }
             },
-            Answer::Made(_) => {
+            Answer::Made(_) | Answer::Context(_) => {
                 let builtin = self.known(THING_MESSAGES, to, name)?;
                 let arguments = in_place(builtin, arguments)?;
                 self.send_thing(builtin.function, to, &arguments, nearest)
@@ -217,7 +217,7 @@ impl<'a> Evaluator<'a> {
                 }
                 finite(joined(terms, |a, b| a + b).unwrap_or(0.0), dimension)
             }
-            ListMessage::Count => Ok(Answer::plain(items.len() as f64)),
+            ListMessage::Count | ListMessage::Turns => Ok(Answer::plain(items.len() as f64)),
             ListMessage::Map => items
                 .iter()
                 .map(|item| self.apply(&arguments[0], std::slice::from_ref(item)))

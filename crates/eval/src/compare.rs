@@ -36,7 +36,10 @@ impl<'a> Evaluator<'a> {
                 Ok(())
             }
             (Answer::List(_), _) | (_, Answer::List(_)) => self.pairs(a, b, each),
-            (Answer::Thing(_) | Answer::Made(_), Answer::Thing(_) | Answer::Made(_)) => {
+            (
+                Answer::Thing(_) | Answer::Made(_) | Answer::Context(_),
+                Answer::Thing(_) | Answer::Made(_) | Answer::Context(_),
+            ) => {
                 if self.items(a).is_ok() && self.items(b).is_ok() {
                     return self.pairs(a, b, each);
                 }
@@ -75,6 +78,7 @@ impl<'a> Evaluator<'a> {
             Answer::Number(..)
             | Answer::Bool(_)
             | Answer::Text(_)
+            | Answer::Context(_)
             | Answer::List(_)
             | Answer::Picture(_)
             | Answer::Function(_) => {
@@ -104,6 +108,7 @@ impl<'a> Evaluator<'a> {
         match answer {
             Answer::Thing(t) => Some(self.structure.things[*t].class),
             Answer::Made(made) => Some(made.class),
+            Answer::Context(context) => Some(context.class),
             Answer::Number(..)
             | Answer::Bool(_)
             | Answer::Text(_)

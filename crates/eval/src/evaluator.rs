@@ -7,15 +7,16 @@ use crate::answer::{Answer, Closure, Frame};
 use crate::fault::{Fault, FaultKind};
 use crate::lookup::Tables;
 use crate::operate::unary;
+use crate::programs::Context;
 use crate::sway::Compared;
 use base::Name;
 use expr::dimension::Dimension;
 use kernel::{
-    Argument, ClassId, ClassKind, DOCUMENT, Document, Primitive, SlotId, Structure, Term, ThingId,
-    Values,
+    Argument, ClassId, ClassKind, DOCUMENT, Document, Path, Primitive, SlotId, Step, Structure,
+    Term, ThingId, Values,
 };
 use std::cell::{Cell, RefCell};
-use std::collections::BTreeSet;
+use std::collections::{BTreeMap, BTreeSet};
 use std::rc::Rc;
 
 /// How deep messages may call each other.
@@ -49,15 +50,23 @@ pub struct Evaluator<'a> {
     pub(crate) tables: Rc<Tables>,
     messages: Cell<u32>,
     terms: Cell<u32>,
-    fuel: Cell<u64>,
+    pub(crate) fuel: Cell<u64>,
     /// What went wrong in parts whose siblings went on without them.
     pub(crate) faults: RefCell<Vec<Fault>>,
     /// The slots read since someone began to listen.
-    reads: RefCell<Option<BTreeSet<SlotId>>>,
+    pub(crate) reads: RefCell<Option<BTreeSet<SlotId>>>,
     /// A slot whose number is read as another one.
-    nudged: Cell<Option<(SlotId, f64)>>,
+    pub(crate) nudged: Cell<Option<(SlotId, f64)>>,
     /// What is known of the comparisons of a rule, in the order in which they are made.
     pub(crate) compared: RefCell<Compared>,
+    /// What programs of things drew in this state; nothing while one is being run.
+    pub(crate) runs: RefCell<BTreeMap<ThingId, Option<Rc<Context<'a>>>>>,
+    /// How many programs call each other just now.
+    pub(crate) calls: Cell<u32>,
+    /// How many blocks of programs run in one another just now.
+    pub(crate) blocks: Cell<u32>,
+    /// How many things the run at hand has made.
+    pub(crate) entities: Cell<u32>,
 }
 
 impl<'a> Evaluator<'a> {
@@ -92,6 +101,10 @@ impl<'a> Evaluator<'a> {
             reads: RefCell::new(None),
             nudged: Cell::new(None),
             compared: RefCell::default(),
+            runs: RefCell::default(),
+            calls: Cell::new(0),
+            blocks: Cell::new(0),
+            entities: Cell::new(0),
         }
     }
 
@@ -111,6 +124,21 @@ impl<'a> Evaluator<'a> {
     pub fn ask(&self, thing: ThingId, name: &Name) -> Result<Answer<'a>> {
         self.begin();
         self.send(&Answer::Thing(thing), name, Vec::new(), None, thing)
+    }
+
+    /// Follows a path from the document, through what things answer too: `d.column[2].ring.radius`.
+    ///
+    /// # Errors
+    /// A step that leads nowhere.
+    pub fn at(&self, path: &Path) -> Result<Answer<'a>> {
+        self.begin();
+        let from = Answer::Thing(DOCUMENT);
+        path.0.iter().try_fold(from, |at, step| match step {
+            Step::Part(name) => self.send(&at, name, Vec::new(), None, DOCUMENT),
+            Step::Index(i) => self.element(&at, &Answer::plain(f64::from(*i))),
+            Step::Last => self.send(&at, &Name::new("last"), Vec::new(), None, DOCUMENT),
+            Step::Owner => self.owner(&at),
+        })
     }
 
     /// Asks something, and returns the slots that were read for the answer too.
@@ -167,10 +195,9 @@ impl<'a> Evaluator<'a> {
             Term::Me => Ok(frame.me.clone()),
             Term::Owner => self.owner(&frame.me),
             Term::Document => Ok(Answer::Thing(DOCUMENT)),
-            Term::Local(name) => frame
-                .local(name)
-                .cloned()
-                .ok_or_else(|| Fault::unknown(format!("nothing is named `{name}` here"))),
+            Term::Local(name) => frame.local(name).cloned().ok_or_else(|| {
+                Fault::new(FaultKind::Unnamed, format!("nothing is named `{name}` here"))
+            }),
             Term::Send { to, name, arguments, search } => {
                 let to = self.term(to, frame)?;
                 let arguments = self.arguments(arguments, frame)?;
@@ -182,8 +209,11 @@ impl<'a> Evaluator<'a> {
             }
             Term::Make { class, arguments } => {
                 let arguments = self.arguments(arguments, frame)?;
-                self.make(*class, &arguments, frame.nearest)
+                let made = self.make(*class, &arguments, frame.nearest)?;
+                self.called(made, frame.nearest)
             }
+            Term::Step(name) => self.step(&frame.me, name, frame.nearest),
+            Term::Result => self.result(&frame.me, frame.nearest),
             Term::Tuple(items) | Term::List(items) => {
                 let items: Result<_> = items.iter().map(|t| self.term(t, frame)).collect();
                 Ok(Answer::List(items?))
@@ -319,6 +349,7 @@ impl<'a> Evaluator<'a> {
     pub(crate) fn items(&self, answer: &Answer<'a>) -> Result<Rc<[Answer<'a>]>> {
         match answer {
             Answer::List(items) => Ok(items.clone()),
+            Answer::Context(context) => Ok(context.result().map(|e| e.answer.clone()).collect()),
             Answer::Thing(t) => match self.class_kind(*t) {
                 ClassKind::List(_) => self.structure.parts(*t).map(|p| self.part(p)).collect(),
                 ClassKind::Set(_) => {
@@ -375,6 +406,7 @@ impl<'a> Evaluator<'a> {
         match answer {
             Answer::Thing(t) => is(self.structure.things[*t].class),
             Answer::Made(made) => is(made.class),
+            Answer::Context(context) => is(context.class),
             Answer::Number(..) => match self.document.classes[class].kind {
                 ClassKind::Primitive(p) => p.is_number() && p != Primitive::Bool,
                 ClassKind::Composite
@@ -401,6 +433,7 @@ impl<'a> Evaluator<'a> {
         match answer {
             Answer::Thing(t) => class(self.structure.things[*t].class),
             Answer::Made(made) => class(made.class),
+            Answer::Context(context) => class(context.class),
             other => other.kind().to_string(),
         }
     }

@@ -1,5 +1,6 @@
 //! Faults: an expression that has no value, and why.
 
+use crate::programs::Why;
 use kernel::OriginId;
 
 /// Why an expression has no value: lower case, what was found and what was wanted.
@@ -18,6 +19,8 @@ pub struct Fault {
 pub enum FaultKind {
     /// A name that leads nowhere.
     UnknownName,
+    /// A local name that stands for nothing: in a program, for what was not made.
+    Unnamed,
     /// A value of one kind where another was wanted.
     WrongKind,
     /// Numbers of two dimensions where one was wanted.
@@ -28,18 +31,21 @@ pub enum FaultKind {
     Reference,
     /// Messages that call each other without end.
     Endless,
+    /// A program that was called and ended before its last step.
+    Run(Why),
 }
 
 impl FaultKind {
     /// Returns the kebab-case code of its diagnostic.
     pub fn code(self) -> &'static str {
         match self {
-            Self::UnknownName => "unknown-name",
+            Self::UnknownName | Self::Unnamed => "unknown-name",
             Self::WrongKind => "wrong-kind",
             Self::WrongDimension => "wrong-dimension",
             Self::NoAnswer => "no-answer",
             Self::Reference => "unknown-reference",
             Self::Endless => "endless-messages",
+            Self::Run(_) => "run-ended",
         }
     }
 }

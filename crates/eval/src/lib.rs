@@ -24,7 +24,7 @@
 //! the same bits; messages call each other at most [`DEEPEST_MESSAGES`] deep.
 //!
 //! Reading order: `answer`, `evaluator`, `lookup`, `operate`, `measure`, `send`, `make`, `compare`,
-//! `builtin`, `shapes`, `verdict`, `sway`, `write`, `given`, `picture`, `scene`, [`checker`].
+//! `builtin`, `shapes`, `verdict`, `sway`, `write`, `given`, [`programs`], `picture`, `scene`, [`checker`].
 mod answer;
 mod builtin;
 pub mod checker;
@@ -37,6 +37,7 @@ mod make;
 mod measure;
 mod operate;
 mod picture;
+pub mod programs;
 mod scene;
 mod send;
 mod shapes;
@@ -49,6 +50,7 @@ pub use evaluator::{DEEPEST_MESSAGES, Evaluator};
 pub use fault::{Fault, FaultKind};
 pub use given::{Given, given_values};
 pub use picture::{Grip, Picture};
+pub use programs::{Context, Ended, Why};
 pub use scene::{Moved, Scene};
 pub use verdict::Verdict;
 pub use write::Side;

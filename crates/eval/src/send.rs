@@ -8,6 +8,7 @@ use crate::answer::{Answer, Closure, Frame};
 use crate::evaluator::{Evaluator, Given, Result};
 use crate::fault::Fault;
 use base::Name;
+use kernel::builtin::is_of_each;
 use kernel::{Message, Search, ThingId};
 
 impl<'a> Evaluator<'a> {
@@ -26,6 +27,9 @@ impl<'a> Evaluator<'a> {
             && let Some(part) = self.stored_part(to, name)
         {
             return part;
+        }
+        if matches!(to, Answer::List(_) | Answer::Context(_)) && is_of_each(name) {
+            return self.each_in_set(to, name, &arguments, nearest);
         }
         if let Answer::Thing(thing) = to
             && let Some(answer) = self.combined(*thing, name, &arguments, search)?
@@ -46,6 +50,11 @@ impl<'a> Evaluator<'a> {
                 let i = *self.layout(made.class).index.get(name)?;
                 made.fields.get(i as usize).cloned().map(Ok)
             }
+            Answer::Context(context) => match (context.step(name), &context.of) {
+                (Some(answer), _) => Some(Ok(answer.clone())),
+                (None, Some(of)) => self.stored_part(of, name),
+                (None, None) => None,
+            },
             Answer::Number(..)
             | Answer::Bool(_)
             | Answer::Text(_)
@@ -73,6 +82,7 @@ impl<'a> Evaluator<'a> {
                 alike.iter().find_map(|&t| find(s.things[t].class))
             }),
             Answer::Made(made) => find(made.class),
+            Answer::Context(context) => find(context.class),
             Answer::Number(..)
             | Answer::Bool(_)
             | Answer::Text(_)
@@ -96,7 +106,7 @@ impl<'a> Evaluator<'a> {
             .map_err(|f| f.within(message.origin));
         match answer {
             // things and lists of things stand for their pictures
-            Ok(Answer::Thing(_) | Answer::Made(_) | Answer::List(_))
+            Ok(Answer::Thing(_) | Answer::Made(_) | Answer::Context(_) | Answer::List(_))
                 if message.name == self.tables.picture =>
             {
                 self.join_pictures(&[answer?], frame.nearest)

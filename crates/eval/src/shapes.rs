@@ -103,6 +103,7 @@ impl<'a> Evaluator<'a> {
             Answer::Number(..)
             | Answer::Bool(_)
             | Answer::Text(_)
+            | Answer::Context(_)
             | Answer::List(_)
             | Answer::Picture(_)
             | Answer::Function(_) => {
@@ -138,7 +139,7 @@ impl<'a> Evaluator<'a> {
                     self.deeper(|| self.gather(item, nearest, all))?;
                 }
             }
-            Answer::Thing(_) | Answer::Made(_) if self.may_draw(picture) => {
+            Answer::Thing(_) | Answer::Made(_) | Answer::Context(_) if self.may_draw(picture) => {
                 let name = &self.tables.picture;
                 match self.deeper(|| self.send(picture, name, Vec::new(), None, nearest)) {
                     Ok(Answer::Picture(more)) => match Rc::try_unwrap(more) {
@@ -166,7 +167,7 @@ impl<'a> Evaluator<'a> {
     /// Returns true for what has a picture; the members of a set are parts of something else.
     fn may_draw(&self, answer: &Answer<'a>) -> bool {
         match answer {
-            Answer::Picture(_) | Answer::List(_) | Answer::Made(_) => true,
+            Answer::Picture(_) | Answer::List(_) | Answer::Made(_) | Answer::Context(_) => true,
             Answer::Thing(t) => !matches!(self.class_kind(*t), ClassKind::Set(_)),
             Answer::Number(..) | Answer::Bool(_) | Answer::Text(_) | Answer::Function(_) => false,
         }

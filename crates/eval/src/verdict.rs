@@ -206,6 +206,8 @@ impl<'a> Evaluator<'a> {
             | Term::Owner
             | Term::Document
             | Term::Local(_)
+            | Term::Step(_)
+            | Term::Result
             | Term::Call { .. }
             | Term::Make { .. }
             | Term::Tuple(_)
@@ -351,6 +353,7 @@ impl<'a> Evaluator<'a> {
                 let name = &self.document.classes[made.class].name;
                 format!("{name}{}", self.listed(&made.fields, '(', ')'))
             }
+            Answer::Context(context) => self.document.classes[context.class].name.to_string(),
             Answer::List(items) => self.listed(items, '[', ']'),
             Answer::Picture(_) | Answer::Function(_) => answer.kind().to_string(),
         }

@@ -181,6 +181,7 @@ table! {
     ListMessage, LIST_MESSAGES:
     Sum "sum" List [] Element "The sum of its numbers; 0 of any dimension where it is empty.";
     Count "count" List [] Plain "How many elements it has.";
+    Turns "turns" List [] Plain "How many turns a loop took.";
     Map "map" List [one("function", Kind::Function)] List "What a function answers for every element.";
     Filter "filter" List [one("function", Kind::Function)] List "The elements for which a function is true.";
     First "first" List [] Element "Its first element.";
@@ -216,6 +217,11 @@ table! {
     IsPlace "isPlace" Any [] Bool "Whether it begins with two lengths x and y, and all else in it are values.";
     Class "class" Any [] Text "The name of its class.";
     Owner "owner" Any [] Any "What it is a part of.";
+}
+
+/// Returns true for what a set is asked as a whole and each thing in it answers: where it is elsewhere.
+pub fn is_of_each(name: &str) -> bool {
+    matches!(name, "moved" | "mirrored" | "turned" | "scaled")
 }
 
 /// Returns the entry of a table with this name.

@@ -2,6 +2,7 @@
 
 use crate::document::{PartRef, Side};
 use crate::path::Path;
+use crate::program::Program;
 use crate::term::{OriginId, Term};
 use base::Name;
 use expr::dimension::Dimension;
@@ -140,6 +141,8 @@ pub struct Class {
     /// Fields whose things are of a narrower class here than where they were declared: by a
     /// `modify` of this class or of one above it, or by a mask on a part's constraints.
     pub refined: Vec<(PartRef, ClassId)>,
+    /// What its things draw, where it is a program.
+    pub program: Option<Rc<Program>>,
     /// Where it was written.
     pub origin: OriginId,
 }
@@ -170,6 +173,7 @@ impl Class {
             switches: Vec::new(),
             without: Vec::new(),
             refined: Vec::new(),
+            program: None,
             origin,
         }
     }

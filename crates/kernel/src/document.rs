@@ -2,10 +2,12 @@
 
 use crate::class::{Class, ClassId, ClassKind, Message, Part};
 use crate::path::Path;
+use crate::program::Program;
 use crate::term::{OriginId, Search};
 use base::number::Toward;
 use base::{IdVec, Name};
 use std::collections::BTreeSet;
+use std::rc::Rc;
 
 /// Which way `y` runs on the sheet.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
@@ -129,6 +131,10 @@ impl Document {
         let above = |&c: &ClassId| self.classes[c].supers.first().map(|s| s.class);
         // no line is longer than there are classes, even where superclasses stand in a ring
         std::iter::successors(Some(class), above).take(self.classes.len()).collect()
+    }
+    /// Returns what things of a class draw, if the class or one above it is a program.
+    pub fn program(&self, class: ClassId) -> Option<&Rc<Program>> {
+        self.primary_line(class).into_iter().find_map(|c| self.classes[c].program.as_ref())
     }
     /// Returns true for the name of a constraint or merge that one of the classes nearer to a thing
     /// masks.

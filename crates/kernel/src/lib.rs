@@ -10,7 +10,7 @@
 //! a slot belongs to one primitive thing, the first by declaration among those merged.
 //!
 //! Reading order: [`path`], [`term`], [`class`], [`document`], [`structure`], [`values`],
-//! [`command`], [`builtin`], [`check`].
+//! [`command`], [`builtin`], [`program`], [`check`].
 pub mod builtin;
 pub mod check;
 pub mod class;
@@ -18,6 +18,7 @@ pub mod command;
 pub mod document;
 mod instantiate;
 pub mod path;
+pub mod program;
 pub mod structure;
 pub mod term;
 pub mod values;
@@ -30,6 +31,7 @@ pub use command::{Command, Literal};
 pub use document::{Document, PartRef, PartRole, Side, SideWay, Vertical, Voices};
 pub use instantiate::{Fault, FaultKind, MOST_THINGS, faults_of, instantiate, instantiate_again};
 pub use path::{Path, Step};
+pub use program::Program;
 pub use structure::{
     Astray, Condition, ConstraintInstance, DOCUMENT, Form, GivenId, GivenIn, GivenTerm, Givens,
     Layout, Slot, SlotId, StayInstance, Structure, Thing, ThingId,

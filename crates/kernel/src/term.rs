@@ -87,6 +87,10 @@ pub enum Term {
     All(ClassId),
     /// `copy of x`.
     Copy(Box<Term>),
+    /// What a step of the program of `Me` made.
+    Step(Name),
+    /// Everything that the program of `Me` drew: its result.
+    Result,
     /// `level.error`: what is asked of a constraint of a thing.
     OfConstraint {
         /// The thing that has the constraint.
@@ -162,6 +166,8 @@ impl Term {
             | Self::Owner
             | Self::Document
             | Self::Local(_)
+            | Self::Step(_)
+            | Self::Result
             | Self::All(_) => self.clone(),
             Self::Send { to: receiver, name, arguments: a, search } => Self::Send {
                 to: boxed(receiver),

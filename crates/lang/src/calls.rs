@@ -124,6 +124,9 @@ impl Lowerer<'_> {
             };
             return Some((unchecked(args), known.unwrap_or(Kind::Unknown)));
         }
+        if builtin::is_of_each(&name) && self.is_set(receiver) {
+            return Some((unchecked(args), receiver.clone()));
+        }
         match receiver {
             Kind::Number(_) => {
                 self.own_message(scope, builtin::NUMBER_MESSAGES, receiver, word, args)
@@ -156,6 +159,15 @@ impl Lowerer<'_> {
                 None
             }
             Kind::Tuple(_) | Kind::Unknown => Some((unchecked(args), Kind::Unknown)),
+        }
+    }
+
+    /// Returns true for what answers some messages thing by thing: a list of things, what a program draws.
+    fn is_set(&self, receiver: &Kind) -> bool {
+        match receiver {
+            Kind::List(element) => matches!(**element, Kind::Thing(_) | Kind::List(_)),
+            Kind::Thing(class) => self.draws(*class),
+            _ => false,
         }
     }
 

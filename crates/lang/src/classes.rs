@@ -60,10 +60,14 @@ impl Lowerer<'_> {
     /// Names every class of every file, then finds superclasses.
     pub(crate) fn declare_classes(&mut self) {
         for file in self.order.clone() {
-            for member in self.files[file].members_of(&[SyntaxKind::Class]) {
-                let Member::Class(class) = member else { continue };
-                let Some(name) = class.name() else { continue };
-                let origin = self.origin(file, class.span());
+            for member in self.files[file].members_of(&[SyntaxKind::Class, SyntaxKind::Program]) {
+                let (name, doc) = match &member {
+                    Member::Class(class) => (class.name(), class.doc()),
+                    Member::Program(program) => (program.name(), program.doc()),
+                    _ => continue,
+                };
+                let Some(name) = name else { continue };
+                let origin = self.origin(file, member.span());
                 if self.visible.declared(file, name.text()).is_some() {
                     let message = format!("there is a class {} already", name.text());
                     self.error("duplicate-name", file, name.span(), message);
@@ -71,10 +75,25 @@ impl Lowerer<'_> {
                 }
                 let id = self.add_class(name.text(), ClassKind::Composite, &[], origin);
                 self.visible.add(file, name.name(), id);
-                self.document.classes[id].doc = class.doc().unwrap_or_default();
-                self.document.classes[id].is_abstract = class.is_abstract();
-                self.declared.push((id, file, class));
+                self.document.classes[id].doc = doc.unwrap_or_default();
+                match member {
+                    Member::Class(class) => {
+                        self.document.classes[id].is_abstract = class.is_abstract();
+                        self.declared.push((id, file, class));
+                    }
+                    Member::Program(program) => self.programs.add(id, file, program),
+                    _ => {}
+                }
             }
+        }
+        for (id, file, program) in self.programs.declared() {
+            let supers = program.superclasses().collect::<Vec<_>>();
+            if let Some(above) = supers.first() {
+                let message = "a program has no superclasses".to_string();
+                self.error("primitive-superclass", file, above.span(), message);
+            }
+            let above = Superclass { class: self.object, name: Name::new("") };
+            self.document.classes[id].supers = vec![above];
         }
         for (id, file, class) in self.declared.clone() {
             let mut supers: Vec<Superclass> = Vec::new();

@@ -62,7 +62,13 @@ impl<'l> Lowerer<'l> {
         if self.files.len() != before.files.len() || !used.all(is_same) {
             return None;
         }
-        let kinds = [SyntaxKind::Class, SyntaxKind::Use, SyntaxKind::UnitLine, SyntaxKind::YLine];
+        let kinds = [
+            SyntaxKind::Class,
+            SyntaxKind::Program,
+            SyntaxKind::Use,
+            SyntaxKind::UnitLine,
+            SyntaxKind::YLine,
+        ];
         let has_other = |parse: &Parse, members: &dyn Fn(&Changed) -> Range<usize>| {
             let mut others = self.changed.iter().flat_map(members).peekable();
             let mut all = (0..).zip(parse.outline());

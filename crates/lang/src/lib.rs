@@ -17,7 +17,7 @@
 //! **Invariants**: lowering never fails; a member with an error is left out, or what it said before
 //! stays in force; reading a number that was written gives its bits.
 //!
-//! Reading order: `origins`, `lower`, `files`, `visible`, `classes`, `scope`, `members`, `loops`, `rules`,
+//! Reading order: `origins`, `lower`, `files`, `visible`, `classes`, `scope`, `members`, `programs`, `loops`, `rules`,
 //! `switches`, `kept`, `names`, `paths`, `refine`, `terms`, `calls`, `kin`, `kinds`, `settle`, `restore`, `checks`,
 //! `numbers`, `write`, `uses`,
 //! `edits`.
@@ -40,6 +40,7 @@ mod numbers;
 mod origins;
 mod paths;
 mod placed;
+mod programs;
 mod references;
 mod refine;
 mod restore;

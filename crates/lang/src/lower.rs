@@ -14,6 +14,7 @@ use crate::loops::Repeated;
 use crate::members::{Definition, Pending};
 use crate::origins::Origins;
 use crate::placed::PlacedClasses;
+use crate::programs::Programs;
 use crate::references::References;
 use crate::refine::Made;
 use crate::restore::{Grain, Patch};
@@ -118,7 +119,7 @@ pub(crate) fn lower_text(
     let checks = l.run(text);
     let doc = l.first_doc();
     let own = &l.files[OWN];
-    let classes = own.members_of(&[SyntaxKind::Class]);
+    let classes = own.members_of(&[SyntaxKind::Class, SyntaxKind::Program]);
     let (effective, effective_parse) = (own.text.clone(), own.parse.clone());
     Lowered {
         masters: l.placed.masters.map(|(name, _)| name),
@@ -217,6 +218,7 @@ pub(crate) struct Lowerer<'l> {
     /// While positive, nothing is reported.
     pub(crate) silent: u32,
     pub(crate) declared: Vec<(ClassId, FileId, ast::Class)>,
+    pub(crate) programs: Programs,
     pub(crate) counts: Counts,
     /// Classes made for other counts, whose members are still to be declared.
     pub(crate) declared_for_counts: Vec<(ClassId, FileId, ast::Class)>,
@@ -276,6 +278,7 @@ impl<'l> Lowerer<'l> {
             unrolled: 0,
             silent: 0,
             declared: Vec::new(),
+            programs: Programs::default(),
             counts: Counts::default(),
             declared_for_counts: Vec::new(),
             references: None,
@@ -351,6 +354,7 @@ impl<'l> Lowerer<'l> {
             let members = class.body().into_iter().flat_map(|b| b.members()).collect();
             self.declare_body(&Scope::of(file, id), members);
         }
+        self.declare_programs();
         self.declare_object();
         let root = self.document.root;
         self.declare_file(OWN, root);

@@ -57,6 +57,9 @@ pub(crate) const FOR: &str = "for";
 pub(crate) const FOR_AS_VALUE: &str = "a list of many is `(0..9).map(i => …)`; as a member, \
      `for i in 0..9 { list[i] = … }` gives the elements of a list one by one";
 
+/// What is wrong with a step elsewhere.
+const STEP_OUTSIDE: &str = "a step stands in a program";
+
 impl Lowerer<'_> {
     /// Declares what a body adds to the class of its scope.
     pub(crate) fn declare_body(&mut self, scope: &Scope, members: Vec<Member>) {
@@ -68,6 +71,11 @@ impl Lowerer<'_> {
                 Member::Message(message) => self.declare_message(scope, &[], message),
                 Member::For(each) => self.unroll(scope, each),
                 Member::Modify(modify) => self.declare_modify(scope, modify),
+                Member::Assign(assign) if assign.is_guide() => {
+                    let place = Place { file: scope.file, span: self.first_line(scope.file, span) };
+                    let d = Diagnostic::error("misplaced-step", place, STEP_OUTSIDE);
+                    self.report(d.hint("leave `guide` out"));
+                }
                 Member::Assign(assign) => {
                     self.refuse_block(scope, assign.value());
                     let value = assign.value().and_then(ast::Value::expr);
@@ -96,8 +104,9 @@ impl Lowerer<'_> {
                     self.pending.push(Pending::Member(scope.clone(), member.clone()));
                 }
                 Member::Unit(_) | Member::Y(_) | Member::Use(_) | Member::Error(_) => {}
-                Member::Class(_) | Member::Check(_) if self.is_top_level(scope) => {}
-                Member::Class(_) if scope.file != OWN => {}
+                Member::Class(_) | Member::Program(_) | Member::Check(_)
+                    if self.is_top_level(scope) => {}
+                Member::Class(_) | Member::Program(_) if scope.file != OWN => {}
                 Member::Check(_) if scope.file != OWN => {}
                 other => self.refuse(scope.file, other, span),
             }
@@ -113,15 +122,14 @@ impl Lowerer<'_> {
     fn refuse_block(&mut self, scope: &Scope, value: Option<ast::Value>) {
         let Some(value) = value.filter(|v| v.clone().expr().is_none()) else { return };
         let (file, span) = (scope.file, value.span());
-        let text = self.files[file].text.get(span.range()).unwrap_or_default();
-        if text.starts_with(FOR) {
-            let line = text.lines().next().unwrap_or_default().trim_end().len() as u32;
-            let place = Place { file, span: Span::new(span.start, span.start + line) };
-            let d = Diagnostic::error("for-as-value", place, "a `for` is no value");
-            self.report(d.hint(FOR_AS_VALUE));
+        let is_for = matches!(value, ast::Value::For(_));
+        let place = Place { file, span: self.first_line(file, span) };
+        self.report(if is_for {
+            Diagnostic::error("for-as-value", place, "a `for` is no value").hint(FOR_AS_VALUE)
         } else {
-            self.not_yet(file, span, "blocks of steps as values are");
-        }
+            let hint = "write it in `program Name() { … }`";
+            Diagnostic::error("misplaced-step", place, STEP_OUTSIDE).hint(hint)
+        });
     }
 
     fn refuse(&mut self, file: FileId, member: &Member, span: Span) {
@@ -131,18 +139,29 @@ impl Lowerer<'_> {
             Member::View(_) => "views of one's own are",
             Member::Toolbox(_) => "toolboxes are",
             Member::Lesson(_) => "lessons are",
-            Member::Program(_) => "programs are",
+            Member::Program(_) => "programs inside of others are",
             Member::Family(_) => "families are",
             Member::Class(_) => "classes inside of others are",
             Member::Check(_) => "checks inside of classes are",
-            Member::Repeat(_) | Member::While(_) | Member::Next(_) => "steps of programs are",
+            Member::Repeat(_) | Member::While(_) | Member::Next(_) | Member::Erase(_) => {
+                let line = self.first_line(file, span);
+                let d =
+                    Diagnostic::error("misplaced-step", Place { file, span: line }, STEP_OUTSIDE);
+                return self.report(d.hint("write it in `program Name() { … }`"));
+            }
             Member::Table(_) | Member::Rows(_) => "rows of families are",
             // statements outside of checks: the text was refused already
             _ => return,
         };
-        let first = self.files[file].text.get(span.range()).unwrap_or_default();
-        let line = first.lines().next().unwrap_or_default().trim_end().len() as u32;
-        self.not_yet(file, Span::new(span.start, span.start + line), what);
+        let line = self.first_line(file, span);
+        self.not_yet(file, line, what);
+    }
+
+    /// Returns the first line of what is written at a place.
+    pub(crate) fn first_line(&self, file: FileId, span: Span) -> Span {
+        let text = self.files[file].text.get(span.range()).unwrap_or_default();
+        let line = text.lines().next().unwrap_or_default().trim_end().len() as u32;
+        Span::new(span.start, span.start + line)
     }
 
     /// Returns the whole numbers that a part may be; a list's are those of its elements.

@@ -35,6 +35,9 @@ impl Lowerer<'_> {
         if let Some(&i) = scope.constants.get(&name) {
             return Some((Term::number(i as f64), Kind::Number(None)));
         }
+        if scope.is_program && self.is_step_elsewhere(scope, word) {
+            return None;
+        }
         for (class, me) in owners(scope) {
             if let Some(kind) = self.kind_of_part(class, &name) {
                 let takes = self.find_message(class, &name, None);
@@ -238,7 +241,8 @@ impl Lowerer<'_> {
             return Kind::Unknown;
         }
         let Some(Definition { answer, scope, loops }) = self.definitions.get(&key).cloned() else {
-            return Kind::Unknown;
+            self.define_program_of(definer);
+            return self.message_kinds.get(&key).cloned().flatten().unwrap_or(Kind::Unknown);
         };
         self.message_kinds.insert(key.clone(), None);
         self.silent += 1;

@@ -53,7 +53,9 @@ impl Lowerer<'_> {
         self.continue_loops();
         self.complete_placed();
         self.prepare_modifications();
+        self.define_programs();
         self.define_pending();
+        self.finish_programs();
         self.drop_broken_messages();
     }
 
@@ -615,7 +617,7 @@ fn from_document(term: Term, document: &Term) -> Term {
 }
 
 /// Collects the paths of parts and messages that a term speaks of.
-fn mentions(term: &Term, found: &mut Vec<Path>) {
+pub(crate) fn mentions(term: &Term, found: &mut Vec<Path>) {
     if let Some(path) = term.path() {
         return found.push(path);
     }
@@ -651,6 +653,8 @@ fn mentions(term: &Term, found: &mut Vec<Path>) {
         | Term::Owner
         | Term::Document
         | Term::Local(_)
+        | Term::Step(_)
+        | Term::Result
         | Term::All(_) => {}
     }
 }

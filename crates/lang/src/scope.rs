@@ -21,6 +21,8 @@ pub(crate) struct Scope {
     pub(crate) elements: Vec<Element>,
     /// The turns of the loops around, in the same body, the outermost first.
     pub(crate) turns: Vec<u32>,
+    /// True in the steps of a program: of its steps those are seen that are among the locals.
+    pub(crate) is_program: bool,
 }
 
 /// An element of a list that `for` goes through.
@@ -44,6 +46,7 @@ impl Scope {
             constants: BTreeMap::new(),
             elements: Vec::new(),
             turns: Vec::new(),
+            is_program: false,
         }
     }
     /// Returns the class whose things are `Me`.

@@ -159,6 +159,8 @@ impl<'a> Opening<'a> {
             }
             Term::All(class) => self.all(*class),
             Term::Copy(term) => self.meaning(term, frame),
+            // what a program draws only the host computes, from its parameters
+            Term::Step(_) | Term::Result => Ok(self.opaque([&frame.me])),
             Term::OfConstraint { of, name, aspect } => {
                 let of = self.meaning(of, frame)?;
                 self.of_constraint(&of, name, *aspect)

@@ -160,11 +160,21 @@ pub(crate) fn say<'a>(
         | Term::IsA(..)
         | Term::All(_)
         | Term::Copy(_)
-        | Term::OfConstraint { .. } => {
-            let truth = opening.meaning(term, frame)?;
-            want(opening, &truth, 1.0, said)
-        }
+        | Term::Step(_)
+        | Term::Result
+        | Term::OfConstraint { .. } => want_true(opening, term, frame, said),
     }
+}
+
+/// Says that what a term stands for is true.
+fn want_true<'a>(
+    opening: &mut Opening<'a>,
+    term: &'a Term,
+    frame: &Frame<'a>,
+    said: &mut Said,
+) -> Result<(), Trouble> {
+    let truth = opening.meaning(term, frame)?;
+    want(opening, &truth, 1.0, said)
 }
 
 /// Returns how one comes to the first of two parts of a rule: of an `and`, or what holds if a condition does.

@@ -299,12 +299,12 @@ fn literals(
     literal: impl Fn(&(Path, Term), &Answer<'_>) -> Result<Literal, Refusal>,
 ) -> Result<Vec<(Path, Literal)>, Refusal> {
     let evaluator = state.evaluator(&state.values);
-    let each = |target: &(Path, Term)| {
+    let each = targets.iter().map(|target| {
         let (path, term) = target;
         let answer = evaluator.evaluate(term, DOCUMENT).map_err(|f| words::refuse(f.message))?;
         Ok((path.clone(), literal(target, &answer)?))
-    };
-    targets.iter().map(each).collect()
+    });
+    each.collect()
 }
 
 /// Returns what a part is set to: of a part that names another, what it shall name.
@@ -340,7 +340,7 @@ fn literal_of(answer: &Answer<'_>) -> Result<Literal, Refusal> {
         Answer::List(items) => {
             Literal::Tuple(items.iter().map(literal_of).collect::<Result<_, _>>()?)
         }
-        Answer::Thing(_) | Answer::Picture(_) | Answer::Function(_) => {
+        Answer::Thing(_) | Answer::Context(_) | Answer::Picture(_) | Answer::Function(_) => {
             return Err(words::refuse(format!("{} is no value to set", answer.kind())));
         }
     })

@@ -139,6 +139,7 @@ fn numbers_of(answer: &Answer<'_>) -> Option<Vec<(f64, Dimension)>> {
         | Answer::Text(_)
         | Answer::Thing(_)
         | Answer::Made(_)
+        | Answer::Context(_)
         | Answer::List(_)
         | Answer::Picture(_)
         | Answer::Function(_) => None,

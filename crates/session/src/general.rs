@@ -148,7 +148,7 @@ fn held(state: &State, thing: ThingId, answer: &Answer<'_>) -> Vec<(SlotId, Valu
             let both = to.into_iter().zip(from).filter(|_| same);
             return both.map(|(to, from)| (to, state.values.get(from))).collect();
         }
-        Answer::Picture(_) | Answer::Function(_) => return Vec::new(),
+        Answer::Context(_) | Answer::Picture(_) | Answer::Function(_) => return Vec::new(),
     };
     let parts = structure.parts(thing).zip(fields);
     parts.flat_map(|(part, field)| held(state, part, field)).collect()

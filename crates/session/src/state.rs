@@ -7,7 +7,7 @@ use crate::host::Host;
 use crate::texts::Texts;
 use base::Diagnostic;
 use eval::Evaluator;
-use kernel::{OriginId, SlotId, Strength, Structure, Values};
+use kernel::{OriginId, SlotId, Strength, Structure, ThingId, Values};
 use lang::Lowered;
 use plan::{Model, Planner, Plans, Source, Status, Unmet};
 use solve::Level;
@@ -79,6 +79,7 @@ impl State {
             .chain(given_diagnostics(&lowered, given.faults()))
             .filter(|d| !(lost && d.code == LOST));
         diagnostics.extend(through);
+        diagnostics.extend(ended_diagnostics(&lowered, &structure, &values));
         crate::fixes::add_uses(&text, &mut diagnostics, host);
         let unplanned = unplanned.iter().map(|f| f.origin).collect();
         diagnostics.sort_by_key(|d| (d.place.file, d.place.span.start));
@@ -180,6 +181,27 @@ fn yielded(structure: &Structure, given: &Values, values: &Values) -> Vec<(SlotI
         is_lone && s.given.is_some() && !base::number::close(was, is)
     });
     moved.map(|slot| (slot, given.numbers[slot])).collect()
+}
+
+/// Says which programs of the document's things ended before their last step, and why.
+fn ended_diagnostics(lowered: &Lowered, structure: &Structure, values: &Values) -> Vec<Diagnostic> {
+    let document = &lowered.document;
+    if document.classes.iter().all(|(_, class)| class.program.is_none()) {
+        return Vec::new();
+    }
+    let evaluator = Evaluator::new(document, structure, values);
+    let draws = |thing: &ThingId| {
+        structure.merged[*thing] == *thing
+            && document.program(structure.things[*thing].class).is_some()
+    };
+    let diagnostic = |thing: ThingId| {
+        let run = evaluator.run(thing).ok()??;
+        let ended = run.ended.as_ref()?;
+        let path = structure.path(document, thing);
+        let message = format!("{path} is not drawn to its end: {ended}");
+        Some(Diagnostic::warning("run-ended", lowered.place(ended.origin), message))
+    };
+    (0..structure.things.len() as u32).map(ThingId).filter(draws).filter_map(diagnostic).collect()
 }
 
 /// Says where given values have none; a class's, once for all its things.

@@ -20,7 +20,8 @@ pub use members::{
     Superclass, Toolbox, Type, TypeShape, UnitLine, Use, View, YLine,
 };
 pub use programs::{
-    Check, Else, Family, For, If, Lesson, Next, Program, Repeat, Rows, Table, Value, While, With,
+    Check, Else, Erase, Family, For, If, Lesson, Next, Program, Repeat, Rows, Table, Value, While,
+    With,
 };
 pub use rules::{
     Anchor, Constraint, Derived, IfRule, Insert, Merge, Method, MethodItem, MethodList, Reads,
@@ -256,6 +257,8 @@ ast_enum! {
         While(While),
         /// `next under = -ring`
         Next(Next),
+        /// `erase line`
+        Erase(Erase),
         /// `when c { … }`
         When(When),
         /// `ref target: Section -> …`

@@ -195,6 +195,8 @@ kinds! {
     Ref,
     /// `attachers p1, p2`
     Attachers,
+    /// `erase line`
+    Erase,
     /// `view "name" => e`
     View,
     /// `side path: right`

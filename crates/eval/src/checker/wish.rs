@@ -46,7 +46,8 @@ impl Answer<'_> {
             return;
         }
         let state = aside(self.edit.after, &columns, extent);
-        let [here, aside] = [after, &after.in_state(&state)].map(|s| acting(s, of, &columns));
+        let here = acting(after, of, &columns);
+        let aside = acting(&after.in_state(&state), of, &columns);
         let (Some(here), Some(aside)) = (here, aside) else { return };
         // where rules depend on one another only here slopes prove nothing
         if rank(&here) < rank(&aside) {

@@ -12,6 +12,11 @@ use std::collections::BTreeMap;
 use std::fmt::Write;
 use std::rc::Rc;
 
+/// Of what a program drew at most this many values are shown; what is beyond is reached by its path.
+const MOST_DRAWN: usize = 1000;
+/// Deeper than this what is drawn is not looked into.
+const LONGEST_PATH: usize = 1000;
+
 /// Returns the rows, in order of declaration, merged values once.
 pub(crate) fn rows(state: &State, values: &Values, status: &plan::Status) -> Vec<ValueRow> {
     let evaluator = state.evaluator(values);
@@ -39,8 +44,14 @@ pub(crate) fn renew<'r>(
         let Some(path) = crate::session::parse_path(&row.path) else { continue };
         let shown = match path.0.split_last() {
             Some((Step::Part(name), owner)) if row.is_virtual => {
-                let owner = crate::session::thing_at(state, &Path(owner.to_vec()));
-                owner.and_then(|owner| show_virtual(state, &evaluator, owner, name))
+                match crate::session::thing_at(state, &Path(owner.to_vec())) {
+                    Some(owner) => show_virtual(state, &evaluator, owner, name),
+                    // of what a program drew
+                    None => {
+                        let answer = evaluator.at(&path).ok();
+                        answer.and_then(|a| show_answer(&state.lowered.document, &a)).map(|s| s.0)
+                    }
+                }
             }
             _ => crate::session::thing_at(state, &path)
                 .and_then(|thing| state.structure.slot_of(thing))
@@ -103,6 +114,7 @@ fn show_answer<'d>(document: &Document, answer: &Answer<'d>) -> Option<(Shown, &
         Answer::Bool(b) => Some((plain(b.to_string()), "Bool")),
         Answer::Thing(_)
         | Answer::Made(_)
+        | Answer::Context(_)
         | Answer::List(_)
         | Answer::Picture(_)
         | Answer::Function(_) => None,
@@ -224,11 +236,57 @@ impl Maker<'_> {
         let parts =
             self.virtual_parts.entry(class).or_insert_with(|| virtual_parts(document, class));
         let end = path.len();
+        let draws = document.program(class).is_some();
+        let most = self.rows.len() + MOST_DRAWN;
         for (name, doc) in parts.clone().iter() {
             let Ok(answer) = self.evaluator.ask(thing, name) else { continue };
             append(path, name);
-            self.rows.extend(answered(document, path, &answer, doc));
+            match answered(document, path, &answer, doc) {
+                None if draws => self.add_drawn(&answer, path, most),
+                row => self.rows.extend(row),
+            }
             path.truncate(end);
+        }
+    }
+
+    /// Adds the rows of what a program drew: the numbers of its figures, turn by turn.
+    fn add_drawn(&mut self, answer: &Answer<'_>, path: &mut String, most: usize) {
+        let document = &self.state.lowered.document;
+        if self.rows.len() >= most || path.len() > LONGEST_PATH {
+            return;
+        }
+        if let Some(row) = answered(document, path, answer, "") {
+            return self.rows.push(row);
+        }
+        let end = path.len();
+        match answer {
+            Answer::Made(made) => {
+                for (field, answer) in document.layout(made.class).into_iter().zip(&made.fields) {
+                    append(path, document.field_name(field));
+                    self.add_drawn(answer, path, most);
+                    path.truncate(end);
+                }
+            }
+            Answer::Context(context) => {
+                for entry in context.made.iter().filter(|e| !e.name.is_empty()) {
+                    append(path, &entry.name);
+                    self.add_drawn(&entry.answer, path, most);
+                    path.truncate(end);
+                }
+            }
+            Answer::List(items) => {
+                for (i, item) in items.iter().enumerate() {
+                    let _ = write!(path, "[{i}]");
+                    self.add_drawn(item, path, most);
+                    path.truncate(end);
+                }
+            }
+            Answer::Number(..)
+            | Answer::Bool(_)
+            | Answer::Text(_)
+            | Answer::Thing(_)
+            | Answer::Picture(_)
+            | Answer::Function(_) => {}
         }
     }
 }

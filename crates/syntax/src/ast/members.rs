@@ -155,6 +155,10 @@ impl Domain {
     }
 }
 impl Assign {
+    /// Returns true for a step that is drawn for construction alone.
+    pub fn is_guide(&self) -> bool {
+        has_keyword(&self.syntax, "guide")
+    }
     /// Returns the path that gets the value.
     pub fn target(&self) -> Option<Expr> {
         child(&self.syntax)

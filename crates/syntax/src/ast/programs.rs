@@ -19,6 +19,8 @@ ast_nodes! {
     With,
     /// `next a = e, b = f`
     Next,
+    /// `erase line`
+    Erase,
     /// `program Rings(…) { … }`
     Program,
     /// `family StandardRings of Rings { … }`
@@ -172,6 +174,12 @@ impl With {
 impl Next {
     /// Returns the bindings.
     pub fn bindings(&self) -> impl Iterator<Item = Binding> + use<> {
+        children(&self.syntax)
+    }
+}
+impl Erase {
+    /// Returns the steps that are no longer part of the result.
+    pub fn paths(&self) -> impl Iterator<Item = Expr> + use<> {
         children(&self.syntax)
     }
 }

@@ -5,9 +5,9 @@ use super::rules::{constraint, methods_if_any, rule, tolerance, when};
 use super::types::{class_name, domain, dotted_name, parameters, paths};
 use super::{Scope, body, programs, statements};
 use crate::kind::SyntaxKind::{
-    self, Anchor, Arrow, Assign, Attachers, Class, Colon, ColonEq, Comma, Dot, Eq, FatArrow, Ident,
-    IfKw, Insert, LBrace, LBracket, LParen, Merge, Message, Modify, Part, Ref, Replace, Side,
-    Slash, Stay, Superclass, Text, Toolbox, UnitLine, Use, View, Without, YLine,
+    self, Anchor, Arrow, Assign, Attachers, Class, Colon, ColonEq, Comma, Dot, Eq, Erase, FatArrow,
+    Ident, IfKw, Insert, LBrace, LBracket, LParen, Merge, Message, Modify, Part, Ref, Replace,
+    Side, Slash, Stay, Superclass, Text, Toolbox, UnitLine, Use, View, Without, YLine,
 };
 use crate::parser::Parser;
 
@@ -37,6 +37,8 @@ pub(crate) const KEYWORDS: &[&str] = &[
     "repeat",
     "while",
     "next",
+    "guide",
+    "erase",
     "when",
     "ref",
     "attachers",
@@ -114,6 +116,8 @@ pub(super) fn member(p: &mut Parser<'_>) -> bool {
         "default" | "combining" | "builtin" => modified(p),
         "ref" => one(p, Ref, reference),
         "attachers" => one(p, Attachers, paths),
+        "guide" if p.nth(1) == Ident => one(p, Assign, assigned),
+        "erase" => one(p, Erase, paths),
         "view" => one(p, View, |p| {
             p.expect(Text, "expected-text", "the view's name in quotes");
             p.expect(FatArrow, "expected-value", "`=>` and what it shows");
@@ -201,11 +205,16 @@ fn part(p: &mut Parser<'_>) {
 /// `p1.x = 3`
 fn assign(p: &mut Parser<'_>) {
     p.start_documented(Assign);
+    assigned(p);
+    p.finish();
+}
+
+/// `ring = Circle(…)`, after the word `guide` where a step is one.
+fn assigned(p: &mut Parser<'_>) {
     path(p);
     if p.expect(Eq, "expected-value", "`=` and a value") {
         value(p);
     }
-    p.finish();
 }
 
 /// What a part or a step is: an expression, or a block of steps.

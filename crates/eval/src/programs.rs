@@ -1,0 +1,699 @@
+//! Programs: a class's steps are run on numbers, in order; what they make is a [`Context`].
+//!
+//! The reference interpreter: it walks the program as it was written. What a step cannot do ends the run
+//! with the step's name, its operands and the reason; what was drawn before stands.
+
+use crate::answer::{Answer, Frame};
+use crate::evaluator::{Evaluator, Result};
+use crate::fault::{Fault, FaultKind};
+use base::Name;
+use kernel::program::{Block, Carried, Program, Says, Step};
+use kernel::{Argument, ClassId, OriginId, Term, ThingId};
+use std::rc::Rc;
+
+/// How many terms a run may evaluate, that of the programs it calls included.
+pub const MOST_OPERATIONS: u64 = 2_000_000;
+/// How many things a run may make, turns of loops included.
+pub const MOST_ENTITIES: u32 = 100_000;
+/// How deep programs may call each other.
+pub const DEEPEST_CALLS: u32 = 200;
+/// How deep blocks may stand and run in one another, calls included.
+const DEEPEST_BLOCKS: u32 = 400;
+
+/// What a program made, or one turn of a block of it.
+#[derive(Debug)]
+pub struct Context<'a> {
+    /// The program, or the class of the block's turns.
+    pub class: ClassId,
+    /// That whose parameters the program read; none for a turn.
+    pub of: Option<Answer<'a>>,
+    /// What was made, in order, with what a turn began with.
+    pub made: Vec<Entry<'a>>,
+    /// Why the run ended before its last step.
+    pub ended: Option<Ended>,
+}
+
+/// What a step made.
+#[derive(Clone, Debug)]
+pub struct Entry<'a> {
+    /// The step; empty for a block without a name.
+    pub name: Name,
+    /// What it is.
+    pub answer: Answer<'a>,
+    /// What it is for.
+    pub standing: Standing,
+}
+
+/// What something in a context is for.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub enum Standing {
+    /// It is part of the result.
+    Result,
+    /// It is drawn for construction.
+    Guide,
+    /// It was part of the result.
+    Erased,
+    /// It is what the turn began with.
+    Carried,
+}
+
+/// Why a run ended before its last step.
+#[derive(Clone, PartialEq, Debug)]
+pub struct Ended {
+    /// In which way.
+    pub why: Why,
+    /// The step, as it is reached from the program: `column[2].ring`; the demand, where one is not met.
+    pub step: String,
+    /// What the step, or the demand, spoke of: names and values.
+    pub operands: Vec<(String, String)>,
+    /// What was found and what was wanted.
+    pub reason: String,
+    /// True where that was in a program which the step called.
+    pub is_called: bool,
+    /// Where the step was written.
+    pub origin: OriginId,
+}
+
+/// The ways in which a run ends early.
+#[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Debug)]
+pub enum Why {
+    /// A demand on the parameters is not met.
+    Outside,
+    /// A step has no outcome.
+    Failed,
+    /// It used up what a run may use.
+    TooLong,
+}
+
+impl std::fmt::Display for Ended {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        match self.why {
+            Why::Outside => write!(f, "{} is not met", self.step)?,
+            Why::Failed => write!(f, "the step {} has no outcome: {}", self.step, self.reason)?,
+            Why::TooLong => write!(f, "the run ended at the step {}: {}", self.step, self.reason)?,
+        }
+        for (i, (name, value)) in self.operands.iter().enumerate() {
+            write!(f, "{}{name} is {value}", if i == 0 { "; " } else { ", " })?;
+        }
+        Ok(())
+    }
+}
+
+impl<'a> Context<'a> {
+    /// Returns what the step of a name made.
+    pub fn step(&self, name: &str) -> Option<&Answer<'a>> {
+        self.made.iter().rev().find(|e| *e.name == *name).map(|e| &e.answer)
+    }
+    /// Returns what is part of the result, in the order of making.
+    pub fn result(&self) -> impl Iterator<Item = &Entry<'a>> {
+        self.made.iter().filter(|e| e.standing == Standing::Result)
+    }
+}
+
+/// A run in progress: the block at hand, and the way to it.
+struct Run<'e, 'a> {
+    evaluator: &'e Evaluator<'a>,
+    /// The steps around the one at hand, each with its turn.
+    way: Vec<(&'a Name, Option<usize>)>,
+}
+
+/// What a block has made so far.
+struct Making<'a> {
+    frame: Frame<'a>,
+    made: Vec<Entry<'a>>,
+    /// Steps of blocks around it that it erased.
+    erased: Vec<Name>,
+}
+
+impl<'a> Evaluator<'a> {
+    /// Runs the program of a thing; once in a state. Nothing where its class is none.
+    ///
+    /// # Errors
+    /// A thing whose program needs what itself draws.
+    pub fn run(&self, thing: ThingId) -> Result<Option<Rc<Context<'a>>>> {
+        self.begin();
+        self.run_once(thing)
+    }
+
+    /// Runs the program of a thing in the midst of a question.
+    fn run_once(&self, thing: ThingId) -> Result<Option<Rc<Context<'a>>>> {
+        let thing = self.structure.merged[thing];
+        let class = self.structure.things[thing].class;
+        let Some(program) = self.document.program(class) else { return Ok(None) };
+        let is_plain = self.nudged.get().is_none();
+        if let Some(reads) = &mut *self.reads.borrow_mut() {
+            reads.extend(self.structure.slots_under(thing));
+        }
+        if let Some(known) = self.runs.borrow().get(&thing).filter(|_| is_plain) {
+            return match known {
+                Some(run) => Ok(Some(run.clone())),
+                None => Err(Fault::new(FaultKind::Endless, "a program that needs what it draws")),
+            };
+        }
+        self.runs.borrow_mut().insert(thing, None);
+        let run = Rc::new(self.draw_program(program, class, Answer::Thing(thing), thing));
+        self.runs.borrow_mut().insert(thing, Some(run.clone()));
+        if !is_plain {
+            self.runs.borrow_mut().remove(&thing);
+        }
+        Ok(Some(run))
+    }
+
+    /// Runs the program of a class for given values of its parameters, in their order.
+    ///
+    /// # Errors
+    /// A class that is no program, values that its parameters do not take.
+    pub fn run_with(
+        &self,
+        class: ClassId,
+        values: Vec<(&'a Name, Answer<'a>)>,
+    ) -> Result<Rc<Context<'a>>> {
+        self.begin();
+        let Some(program) = self.document.program(class) else {
+            return Err(Fault::wrong("a class that draws nothing"));
+        };
+        let given: Vec<_> = values.into_iter().map(|(name, value)| (Some(name), value)).collect();
+        let of = self.make(class, &given, kernel::DOCUMENT)?;
+        Ok(Rc::new(self.draw_program(program, class, of, kernel::DOCUMENT)))
+    }
+
+    /// Runs a program that is called: what a thing of its class that was made with values draws.
+    pub(crate) fn called(&self, made: Answer<'a>, nearest: ThingId) -> Result<Answer<'a>> {
+        let Some(class) = self.class_of(&made) else { return Ok(made) };
+        let Some(program) = self.document.program(class) else { return Ok(made) };
+        let run = self.draw_program(program, class, made, nearest);
+        match &run.ended {
+            None => Ok(Answer::Context(Rc::new(run))),
+            Some(ended) => {
+                let name = &self.document.classes[class].name;
+                // of calls in calls the innermost says it
+                let message = match ended.is_called {
+                    true => ended.reason.clone(),
+                    false => format!("in {name}: {ended}"),
+                };
+                Err(Fault::new(FaultKind::Run(ended.why), message).within(ended.origin))
+            }
+        }
+    }
+
+    fn draw_program(
+        &self,
+        program: &'a Rc<Program>,
+        class: ClassId,
+        of: Answer<'a>,
+        nearest: ThingId,
+    ) -> Context<'a> {
+        let (calls, fuel) = (self.calls.get(), self.fuel.get());
+        if calls == 0 {
+            self.entities.set(0);
+            self.fuel.set(fuel.min(MOST_OPERATIONS));
+        }
+        let given = self.fuel.get();
+        self.calls.set(calls + 1);
+        let frame = Frame::sent(of.clone(), nearest);
+        let mut making = Making { frame, made: Vec::new(), erased: Vec::new() };
+        let mut run = Run { evaluator: self, way: Vec::new() };
+        let outcome = match calls < DEEPEST_CALLS {
+            true => run
+                .demands(program, &making.frame)
+                .and_then(|()| run.steps(&program.body, &mut making)),
+            false => Err(Ended {
+                why: Why::TooLong,
+                step: program.body.steps.first().map_or("", |s| &s.name).to_string(),
+                operands: Vec::new(),
+                is_called: false,
+                reason: format!("programs call each other more than {DEEPEST_CALLS} deep"),
+                origin: self.document.classes[class].origin,
+            }),
+        };
+        self.calls.set(calls);
+        if calls == 0 {
+            self.fuel.set(fuel - (given - self.fuel.get()));
+        }
+        Context { class, of: Some(of), made: making.made, ended: outcome.err() }
+    }
+
+    /// Returns what a step of a thing's program made.
+    pub(crate) fn step(
+        &self,
+        me: &Answer<'a>,
+        name: &Name,
+        nearest: ThingId,
+    ) -> Result<Answer<'a>> {
+        let context = self.context(me, nearest)?;
+        match (context.step(name), &context.ended) {
+            (Some(answer), _) => Ok(answer.clone()),
+            (None, Some(ended)) => Err(Fault::no_answer(ended.to_string()).within(ended.origin)),
+            (None, None) => {
+                Err(Fault::no_answer(format!("`{name}` was not made: another branch ran")))
+            }
+        }
+    }
+
+    /// Returns what a thing's program drew, as a list. That it ended early is noted.
+    pub(crate) fn result(&self, me: &Answer<'a>, nearest: ThingId) -> Result<Answer<'a>> {
+        let context = self.context(me, nearest)?;
+        if let Some(ended) = &context.ended {
+            let fault = Fault::no_answer(ended.to_string()).within(ended.origin);
+            self.faults.borrow_mut().push(fault);
+        }
+        Ok(Answer::List(context.result().map(|e| e.answer.clone()).collect()))
+    }
+
+    fn context(&self, me: &Answer<'a>, nearest: ThingId) -> Result<Rc<Context<'a>>> {
+        let found = match me {
+            Answer::Context(context) => Some(context.clone()),
+            Answer::Thing(thing) => self.run_once(*thing)?,
+            Answer::Made(_) => match self.called(me.clone(), nearest)? {
+                Answer::Context(context) => Some(context),
+                _ => None,
+            },
+            Answer::Number(..)
+            | Answer::Bool(_)
+            | Answer::Text(_)
+            | Answer::List(_)
+            | Answer::Picture(_)
+            | Answer::Function(_) => None,
+        };
+        found.ok_or_else(|| Fault::wrong(format!("{} draws nothing", self.kind(me))))
+    }
+
+    /// Sends a message to everything in a set that is drawn; what is in it keeps its place and name.
+    pub(crate) fn each_in_set(
+        &self,
+        set: &Answer<'a>,
+        name: &Name,
+        arguments: &[(Option<&'a Name>, Answer<'a>)],
+        nearest: ThingId,
+    ) -> Result<Answer<'a>> {
+        self.burn()?;
+        match set {
+            Answer::List(items) => self.deeper(|| {
+                let each = items.iter().map(|i| self.each_in_set(i, name, arguments, nearest));
+                each.collect::<Result<_>>().map(Answer::List)
+            }),
+            Answer::Context(context) => self.deeper(|| {
+                let each = |entry: &Entry<'a>| {
+                    let answer = self.each_in_set(&entry.answer, name, arguments, nearest)?;
+                    Ok(Entry { answer, ..entry.clone() })
+                };
+                let made = context.made.iter().map(each).collect::<Result<_>>()?;
+                let (class, of) = (context.class, context.of.clone());
+                Ok(Answer::Context(Rc::new(Context { class, of, made, ended: None })))
+            }),
+            Answer::Thing(_) | Answer::Made(_) => {
+                self.count_entity()?;
+                self.send(set, name, arguments.to_vec(), None, nearest)
+            }
+            Answer::Number(..)
+            | Answer::Bool(_)
+            | Answer::Text(_)
+            | Answer::Picture(_)
+            | Answer::Function(_) => Ok(set.clone()),
+        }
+    }
+
+    /// Counts one more thing of the run at hand.
+    fn count_entity(&self) -> Result<()> {
+        let n = self.entities.get() + 1;
+        if n > MOST_ENTITIES {
+            let message = format!("a run makes at most {MOST_ENTITIES} things");
+            return Err(Fault::new(FaultKind::Endless, message));
+        }
+        self.entities.set(n);
+        Ok(())
+    }
+}
+
+impl<'a> Run<'_, 'a> {
+    /// Tests what a program demands of its parameters.
+    fn demands(&self, program: &'a Program, frame: &Frame<'a>) -> std::result::Result<(), Ended> {
+        for demand in &program.demands {
+            let met = self.evaluator.truth(&demand.rule, frame);
+            if matches!(met, Ok(true)) {
+                continue;
+            }
+            let mut operands = Vec::new();
+            self.parameters(program, &demand.rule, frame, &mut operands);
+            return Err(Ended {
+                why: Why::Outside,
+                step: demand.name.as_ref().map_or("a demand", Name::as_str).to_string(),
+                operands,
+                is_called: false,
+                reason: met.err().map_or_else(String::new, |fault| fault.message),
+                origin: demand.origin,
+            });
+        }
+        Ok(())
+    }
+
+    /// Collects the parameters that a rule speaks of, with their values.
+    fn parameters(
+        &self,
+        program: &'a Program,
+        rule: &'a Term,
+        frame: &Frame<'a>,
+        found: &mut Vec<(String, String)>,
+    ) {
+        match rule {
+            Term::Send { to, name, .. } if **to == Term::Me => {
+                let is_asked = program.parameters.iter().any(|p| p.name == *name);
+                let is_new = found.iter().all(|(known, _)| known != name.as_str());
+                if let (true, true, Ok(value)) =
+                    (is_asked, is_new, self.evaluator.term(rule, frame))
+                {
+                    found.push((name.to_string(), self.evaluator.text_of(&value)));
+                }
+            }
+            Term::Send { to, .. } => self.parameters(program, to, frame, found),
+            Term::Binary(_, a, b) => {
+                self.parameters(program, a, frame, found);
+                self.parameters(program, b, frame, found);
+            }
+            Term::Unary(_, a) => self.parameters(program, a, frame, found),
+            Term::Call { arguments, .. } => {
+                arguments.iter().for_each(|a| self.parameters(program, &a.value, frame, found));
+            }
+            _ => {}
+        }
+    }
+
+    /// Does the steps of a block; what was made before a step fails stays made.
+    fn steps(
+        &mut self,
+        block: &'a Block,
+        making: &mut Making<'a>,
+    ) -> std::result::Result<(), Ended> {
+        block.steps.iter().try_for_each(|step| self.step(step, making))
+    }
+
+    fn step(&mut self, step: &'a Step, making: &mut Making<'a>) -> std::result::Result<(), Ended> {
+        let burnt = self.evaluator.burn();
+        burnt.map_err(|fault| self.ended(step, &making.frame, None, fault))?;
+        match &step.says {
+            Says::Value(term) => {
+                let value = self.evaluator.count_entity();
+                let value = value.and_then(|()| self.evaluator.term(term, &making.frame));
+                match value {
+                    Ok(answer) => making.add(step, answer),
+                    Err(fault) => return Err(self.ended(step, &making.frame, Some(term), fault)),
+                }
+                Ok(())
+            }
+            Says::If { condition, then, otherwise } => {
+                let truth = self.evaluator.truth(condition, &making.frame);
+                let truth =
+                    truth.map_err(|f| self.ended(step, &making.frame, Some(condition), f))?;
+                let branch = if truth { Some(then) } else { otherwise.as_ref() };
+                let Some(branch) = branch else { return Ok(()) };
+                self.branch(step, branch, making)
+            }
+            Says::Repeat { times, before, until, block } => {
+                let mut turns = Vec::new();
+                let outcome = self.repeat(step, (times, before, until), block, making, &mut turns);
+                making.add(step, Answer::List(turns.into()));
+                outcome
+            }
+            Says::Each { names, of, block } => {
+                let mut turns = Vec::new();
+                let outcome = self.each(step, (names, of), block, making, &mut turns);
+                making.add(step, Answer::List(turns.into()));
+                outcome
+            }
+            Says::Erase(names) => {
+                names.iter().for_each(|name| making.erase(name));
+                Ok(())
+            }
+            Says::Unclear => {
+                let fault = Fault::wrong("its text is wrong");
+                Err(self.ended(step, &making.frame, None, fault))
+            }
+        }
+    }
+
+    /// Does a branch of an `if`: without a name, what it makes is made where the `if` stands.
+    fn branch(
+        &mut self,
+        step: &'a Step,
+        branch: &'a Block,
+        making: &mut Making<'a>,
+    ) -> std::result::Result<(), Ended> {
+        self.enter(step, &making.frame)?;
+        let outcome = if step.name.is_empty() {
+            self.steps(branch, making)
+        } else {
+            self.way.push((&step.name, None));
+            let mut inner = making.inside();
+            let outcome = self.steps(branch, &mut inner);
+            self.way.pop();
+            let context = making.close(branch, inner);
+            making.add(step, context);
+            outcome
+        };
+        self.leave();
+        outcome
+    }
+
+    fn repeat(
+        &mut self,
+        step: &'a Step,
+        (times, before, until): (&'a Option<Term>, &'a Option<Term>, &'a Option<Term>),
+        block: &'a Block,
+        making: &mut Making<'a>,
+        turns: &mut Vec<Answer<'a>>,
+    ) -> std::result::Result<(), Ended> {
+        let outside = making.frame.clone();
+        let fails = |run: &Self, term: &'a Term, frame: &Frame<'a>, fault: Fault| {
+            run.ended(step, frame, Some(term), fault)
+        };
+        let times = match times {
+            None => None,
+            Some(term) => {
+                let n = self.evaluator.term(term, &outside).and_then(|n| self.evaluator.whole(&n));
+                Some(n.map_err(|f| fails(self, term, &outside, f))?)
+            }
+        };
+        let mut carried = self.firsts(step, block, &outside)?;
+        // a loop that nothing ends is open, and takes one turn
+        let is_open = times.is_none() && before.is_none() && until.is_none();
+        while times.is_none_or(|n| (turns.len() as i64) < n) {
+            let mut inner = making.inside();
+            inner.begin(&block.carried, &carried);
+            if let Some(term) = before {
+                let goes_on = self.evaluator.truth(term, &inner.frame);
+                if !goes_on.map_err(|f| fails(self, term, &inner.frame, f))? {
+                    break;
+                }
+            }
+            let outcome = self.turn(step, block, turns.len(), &mut inner);
+            let frame = inner.frame.clone();
+            turns.push(making.close(block, inner));
+            outcome?;
+            let ends = match until {
+                Some(term) => {
+                    let ends = self.evaluator.truth(term, &frame);
+                    ends.map_err(|f| fails(self, term, &frame, f))?
+                }
+                None => is_open,
+            };
+            if ends {
+                break;
+            }
+            if times.is_none_or(|n| (turns.len() as i64) < n) {
+                carried = self.nexts(step, block, &frame, carried)?;
+            }
+        }
+        Ok(())
+    }
+
+    fn each(
+        &mut self,
+        step: &'a Step,
+        (names, of): (&'a [Name], &'a Term),
+        block: &'a Block,
+        making: &mut Making<'a>,
+        turns: &mut Vec<Answer<'a>>,
+    ) -> std::result::Result<(), Ended> {
+        let outside = making.frame.clone();
+        let set = self.evaluator.term(of, &outside).and_then(|set| self.evaluator.items(&set));
+        let set = set.map_err(|f| self.ended(step, &outside, Some(of), f))?;
+        let mut carried = self.firsts(step, block, &outside)?;
+        for (i, element) in set.iter().enumerate() {
+            let mut inner = making.inside();
+            let parts = match names {
+                [_] => Ok([element.clone()].into()),
+                _ => self.evaluator.items(element).and_then(|parts| match parts.len() {
+                    n if n == names.len() => Ok(parts),
+                    n => Err(Fault::wrong(format!("{n} parts, where {} are named", names.len()))),
+                }),
+            };
+            let parts = parts.map_err(|f| self.ended(step, &outside, Some(of), f))?;
+            for (name, part) in names.iter().zip(parts.iter()) {
+                inner.know(name, part.clone(), Standing::Carried);
+            }
+            inner.begin(&block.carried, &carried);
+            let outcome = self.turn(step, block, i, &mut inner);
+            let frame = inner.frame.clone();
+            turns.push(making.close(block, inner));
+            outcome?;
+            carried = self.nexts(step, block, &frame, carried)?;
+        }
+        Ok(())
+    }
+
+    /// Does one turn of a loop.
+    fn turn(
+        &mut self,
+        step: &'a Step,
+        block: &'a Block,
+        turn: usize,
+        making: &mut Making<'a>,
+    ) -> std::result::Result<(), Ended> {
+        self.enter(step, &making.frame)?;
+        let counted = self.evaluator.count_entity();
+        counted.map_err(|fault| self.ended(step, &making.frame, None, fault))?;
+        self.way.push((&step.name, Some(turn)));
+        let outcome = self.steps(block, making);
+        self.way.pop();
+        self.leave();
+        outcome
+    }
+
+    fn firsts(
+        &self,
+        step: &'a Step,
+        block: &'a Block,
+        frame: &Frame<'a>,
+    ) -> std::result::Result<Vec<Answer<'a>>, Ended> {
+        let first = |c: &'a Carried| {
+            let answer = self.evaluator.term(&c.first, frame);
+            answer.map_err(|f| self.ended(step, frame, Some(&c.first), f))
+        };
+        block.carried.iter().map(first).collect()
+    }
+
+    /// Computes what is carried into the next turn, all of it from this one.
+    fn nexts(
+        &self,
+        step: &'a Step,
+        block: &'a Block,
+        frame: &Frame<'a>,
+        carried: Vec<Answer<'a>>,
+    ) -> std::result::Result<Vec<Answer<'a>>, Ended> {
+        let next = |(c, now): (&'a Carried, Answer<'a>)| match &c.next {
+            None => Ok(now),
+            Some(term) => {
+                let answer = self.evaluator.term(term, frame);
+                answer.map_err(|f| self.ended(step, frame, Some(term), f))
+            }
+        };
+        block.carried.iter().zip(carried).map(next).collect()
+    }
+
+    fn enter(&self, step: &'a Step, frame: &Frame<'a>) -> std::result::Result<(), Ended> {
+        let depth = self.evaluator.blocks.get();
+        if depth >= DEEPEST_BLOCKS {
+            let message = format!("blocks run more than {DEEPEST_BLOCKS} deep in one another");
+            let fault = Fault::new(FaultKind::Endless, message);
+            return Err(self.ended(step, frame, None, fault));
+        }
+        self.evaluator.blocks.set(depth + 1);
+        Ok(())
+    }
+
+    fn leave(&self) {
+        self.evaluator.blocks.set(self.evaluator.blocks.get() - 1);
+    }
+
+    /// Says why a run ends at a step.
+    fn ended(
+        &self,
+        step: &'a Step,
+        frame: &Frame<'a>,
+        term: Option<&'a Term>,
+        fault: Fault,
+    ) -> Ended {
+        let why = match fault.kind {
+            FaultKind::Run(why) if why == Why::TooLong => why,
+            FaultKind::Endless => Why::TooLong,
+            _ => Why::Failed,
+        };
+        let mut path = String::new();
+        for (name, turn) in &self.way {
+            path += if name.is_empty() { "block" } else { name.as_str() };
+            if let Some(turn) = turn {
+                path += &format!("[{turn}]");
+            }
+            path.push('.');
+        }
+        path += if step.name.is_empty() { "block" } else { step.name.as_str() };
+        let operands = match (why, term) {
+            (Why::Failed, Some(term)) => self.operands(term, frame),
+            _ => Vec::new(),
+        };
+        let is_called = matches!(fault.kind, FaultKind::Run(_));
+        let reason = match fault.kind {
+            FaultKind::Unnamed => format!("{}: another branch ran", fault.message),
+            _ => fault.message,
+        };
+        Ended { why, step: path, operands, reason, is_called, origin: step.origin }
+    }
+
+    /// Returns what a construction or call was given.
+    fn operands(&self, term: &'a Term, frame: &Frame<'a>) -> Vec<(String, String)> {
+        let arguments: &'a [Argument] = match term {
+            Term::Send { arguments, .. }
+            | Term::Call { arguments, .. }
+            | Term::Make { arguments, .. } => arguments,
+            _ => return Vec::new(),
+        };
+        let operand = |(i, argument): (usize, &'a Argument)| {
+            let name = match (&argument.label, &argument.value) {
+                (_, Term::Local(name)) => name.to_string(),
+                (_, Term::Send { to, name, .. }) if **to == Term::Me => name.to_string(),
+                (Some(label), _) => label.to_string(),
+                (None, _) => format!("operand {}", i + 1),
+            };
+            let value = self.evaluator.term(&argument.value, frame).ok()?;
+            Some((name, self.evaluator.text_of(&value)))
+        };
+        arguments.iter().enumerate().filter_map(operand).collect()
+    }
+}
+
+impl<'a> Making<'a> {
+    /// Begins a block in this one.
+    fn inside(&self) -> Self {
+        Self { frame: self.frame.clone(), made: Vec::new(), erased: Vec::new() }
+    }
+    /// Makes a name known.
+    fn know(&mut self, name: &'a Name, answer: Answer<'a>, standing: Standing) {
+        if !name.is_empty() {
+            self.frame = self.frame.bind(name, answer.clone());
+        }
+        self.made.push(Entry { name: name.clone(), answer, standing });
+    }
+    fn add(&mut self, step: &'a Step, answer: Answer<'a>) {
+        let standing = if step.is_guide { Standing::Guide } else { Standing::Result };
+        self.know(&step.name, answer, standing);
+    }
+    /// Begins a turn with what is carried.
+    fn begin(&mut self, carried: &'a [Carried], values: &[Answer<'a>]) {
+        for (carried, value) in carried.iter().zip(values) {
+            self.know(&carried.name, value.clone(), Standing::Carried);
+        }
+    }
+    /// Takes what a step made out of the result.
+    fn erase(&mut self, name: &Name) {
+        match self.made.iter_mut().rev().find(|e| e.name == *name) {
+            Some(entry) => entry.standing = Standing::Erased,
+            None => self.erased.push(name.clone()),
+        }
+    }
+    /// Ends a block in this one.
+    fn close(&mut self, block: &'a Block, inner: Self) -> Answer<'a> {
+        inner.erased.iter().for_each(|name| self.erase(name));
+        let Self { made, .. } = inner;
+        Answer::Context(Rc::new(Context { class: block.class, of: None, made, ended: None }))
+    }
+}
