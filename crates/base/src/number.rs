@@ -3,7 +3,10 @@
 //! Every function that the hardware or the platform's library may round differently goes through
 //! `libm`, compiled from one source for native and WebAssembly alike.
 
-pub use libm::{acos, asin, atan, atan2, cos, exp, hypot, log as ln, pow, sin, sqrt, tan};
+pub use libm::{
+    acos, acosh, asin, asinh, atan, atan2, atanh, cbrt, cos, cosh, exp, hypot, log as ln, log2, log10, pow, sin,
+    sinh, sqrt, tan, tanh,
+};
 
 /// How far the two sides of a rule may differ, relative to the larger side.
 pub const RULE_TOLERANCE: f64 = 1e-9;

@@ -7,12 +7,13 @@ use crate::measure;
 use crate::operate::finite;
 use base::Name;
 use base::number::{
-    acos, asin, atan, atan2, cos, exp, joined, ln, rounded, shortest, sin, sqrt, tan,
+    acos, acosh, asin, asinh, atan, atan2, atanh, cbrt, cos, cosh, exp, joined, ln, log2, log10, rounded,
+    shortest, sin, sinh, sqrt, tan, tanh,
 };
 use drawing::metrics;
 use expr::dimension::Dimension;
 use kernel::builtin::{
-    Builtin, FUNCTIONS, Function, LIST_MESSAGES, ListMessage, NUMBER_MESSAGES, NumberMessage,
+    Builtin, Domain, FUNCTIONS, Function, LIST_MESSAGES, ListMessage, NUMBER_MESSAGES, NumberMessage,
     PICTURE_MESSAGES, TEXT_MESSAGES, THING_MESSAGES, TextMessage, ThingMessage, find,
 };
 use kernel::{ClassKind, ThingId};
@@ -31,26 +32,41 @@ impl<'a> Evaluator<'a> {
         let builtin = find(FUNCTIONS, name)
             .ok_or_else(|| Fault::unknown(format!("there is no function `{name}`")))?;
         let arguments = in_place(builtin, arguments)?;
-        let angle = |f: fn(f64) -> f64| finite(f(self.number(&arguments[0])?.0), Dimension::NONE);
+        if builtin.domain != Domain::All {
+            within_domain(builtin, self.number(&arguments[0])?.0)?;
+        }
+        let plain = |f: fn(f64) -> f64| finite(f(self.number(&arguments[0])?.0), Dimension::NONE);
         match builtin.function {
             Function::Sqrt => self.send_number(NumberMessage::Sqrt, &arguments[0], &[]),
             Function::Abs => self.send_number(NumberMessage::Abs, &arguments[0], &[]),
             Function::Floor => self.send_number(NumberMessage::Floor, &arguments[0], &[]),
             Function::Round => self.send_number(NumberMessage::Round, &arguments[0], &[]),
-            Function::Sin => angle(sin),
-            Function::Cos => angle(cos),
-            Function::Tan => angle(tan),
-            Function::Asin => angle(asin),
-            Function::Acos => angle(acos),
-            Function::Atan => angle(atan),
-            Function::Exp => angle(exp),
-            Function::Ln => {
-                let (x, _) = self.number(&arguments[0])?;
-                if x <= 0.0 {
-                    let x = shortest(x);
-                    return Err(Fault::no_answer(format!("the logarithm of {x}")));
-                }
-                Ok(Answer::plain(ln(x)))
+            Function::Ceil => self.send_number(NumberMessage::Ceil, &arguments[0], &[]),
+            Function::Sign => self.send_number(NumberMessage::Sign, &arguments[0], &[]),
+            Function::Sin => plain(sin),
+            Function::Cos => plain(cos),
+            Function::Tan => plain(tan),
+            Function::Asin => plain(asin),
+            Function::Acos => plain(acos),
+            Function::Atan => plain(atan),
+            Function::Exp => plain(exp),
+            Function::Ln => plain(ln),
+            Function::Log10 => plain(log10),
+            Function::Log2 => plain(log2),
+            Function::Sinh => plain(sinh),
+            Function::Cosh => plain(cosh),
+            Function::Tanh => plain(tanh),
+            Function::Asinh => plain(asinh),
+            Function::Acosh => plain(acosh),
+            Function::Atanh => plain(atanh),
+            Function::Cbrt => plain(cbrt),
+            Function::Hypot => {
+                let ((x, dx), (y, dy)) = (self.number(&arguments[0])?, self.number(&arguments[1])?);
+                finite(sqrt(x * x + y * y), measure::common(dx, dy)?)
+            }
+            Function::Clamp => {
+                let below = self.least(&[arguments[0].clone(), arguments[2].clone()], f64::min)?;
+                self.least(&[arguments[1].clone(), below], f64::max)
             }
             Function::Atan2 => {
                 let ((y, dy), (x, dx)) = (self.number(&arguments[0])?, self.number(&arguments[1])?);
@@ -85,6 +101,7 @@ impl<'a> Evaluator<'a> {
         match to {
             Answer::Number(..) => {
                 let builtin = self.known(NUMBER_MESSAGES, to, name)?;
+                within_domain(builtin, self.number(to)?.0)?;
                 self.send_number(builtin.function, to, &in_place(builtin, arguments)?)
             }
             Answer::Text(text) => {
@@ -143,12 +160,9 @@ impl<'a> Evaluator<'a> {
                 let digits = arguments.first().map(|d| self.digits(d)).transpose()?;
                 Ok(Answer::text(&number_text(x, digits)))
             }
-            NumberMessage::Sqrt if x < 0.0 => {
-                let x = shortest(x);
-                Err(Fault::no_answer(format!("the square root of {x}")))
-            }
             NumberMessage::Sqrt => finite(sqrt(x), measure::power(dimension, 0.5)),
             NumberMessage::Abs => Ok(Answer::Number(x.abs(), dimension)),
+            NumberMessage::Ceil => Ok(Answer::Number(0.0 - (0.0 - x).floor(), dimension)),
             NumberMessage::Floor => Ok(Answer::Number(x.floor(), dimension)),
             NumberMessage::Round => Ok(Answer::Number(x.round(), dimension)),
             NumberMessage::Sign => {
@@ -330,6 +344,17 @@ impl<'a> Evaluator<'a> {
             }
         }
         Ok(Answer::Bool(true))
+    }
+}
+
+/// Refuses a number for which a function has no answer.
+fn within_domain<F>(builtin: &Builtin<F>, x: f64) -> Result<()> {
+    match builtin.domain.words() {
+        Some(wanted) if !builtin.domain.holds(x) => {
+            let (name, x) = (builtin.name, shortest(x));
+            Err(Fault::no_answer(format!("{name}({x}), which is defined where {wanted}")))
+        }
+        _ => Ok(()),
     }
 }
 

@@ -25,6 +25,7 @@ impl<'a> Evaluator<'a> {
             | BinaryOperator::Subtract
             | BinaryOperator::Multiply
             | BinaryOperator::Divide
+            | BinaryOperator::Remainder
             | BinaryOperator::Power
             | BinaryOperator::Equal
             | BinaryOperator::NotEqual
@@ -64,6 +65,14 @@ impl<'a> Evaluator<'a> {
                     return Err(Fault::no_answer(format!("{x} divided by zero")));
                 }
                 return finite(x / y, dx.over(dy));
+            }
+            B::Remainder => {
+                let ((x, dx), (y, dy)) = numbers()?;
+                if y == 0.0 {
+                    let x = base::number::shortest(x);
+                    return Err(Fault::no_answer(format!("{x} mod zero")));
+                }
+                return finite(x - y * (x / y).floor(), measure::common(dx, dy)?);
             }
             B::Power => {
                 let ((x, dx), (y, _)) = numbers()?;

@@ -48,6 +48,19 @@ impl<'a> Evaluator<'a> {
             Function::Text => self.words(arguments, Placement::OnSheet(number(2)?.abs()))?,
             Function::Picture => return self.join_pictures(arguments, nearest),
             Function::Sqrt
+            | Function::Cbrt
+            | Function::Hypot
+            | Function::Log10
+            | Function::Log2
+            | Function::Sinh
+            | Function::Cosh
+            | Function::Tanh
+            | Function::Asinh
+            | Function::Acosh
+            | Function::Atanh
+            | Function::Ceil
+            | Function::Sign
+            | Function::Clamp
             | Function::Abs
             | Function::Sin
             | Function::Cos

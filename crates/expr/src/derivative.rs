@@ -15,6 +15,7 @@ use crate::arena::{Arena, ExprId, Node, Var, place};
 use crate::op::{Binary, Unary};
 use base::Id;
 use std::collections::BTreeMap;
+use std::f64::consts::{LN_2, LN_10};
 
 /// Derivatives by the variables on which there is a dependence, by position in the list of variables.
 type Sparse = BTreeMap<usize, ExprId>;
@@ -318,6 +319,49 @@ fn unary(arena: &mut Arena, op: Unary, a: ExprId, id: ExprId, adjoint: ExprId) -
         }
         Unary::Exp => arena.mul(adjoint, id),
         Unary::Ln => arena.div(adjoint, a),
+        Unary::Log10 | Unary::Log2 => {
+            let base = if op == Unary::Log10 { LN_10 } else { LN_2 };
+            let base = arena.constant(base);
+            let below = arena.mul(a, base);
+            arena.div(adjoint, below)
+        }
+        Unary::Sinh => {
+            let cosh = arena.unary(Unary::Cosh, a);
+            arena.mul(adjoint, cosh)
+        }
+        Unary::Cosh => {
+            let sinh = arena.unary(Unary::Sinh, a);
+            arena.mul(adjoint, sinh)
+        }
+        Unary::Tanh => {
+            // (1 - t)(1 + t) keeps its digits near the ends
+            let (below, above) = (arena.sub(one, id), arena.add(one, id));
+            let slope = arena.mul(below, above);
+            arena.mul(adjoint, slope)
+        }
+        Unary::Asinh => {
+            let square = arena.square(a);
+            let sum = arena.add(square, one);
+            let root = arena.sqrt(sum);
+            arena.div(adjoint, root)
+        }
+        Unary::Acosh => {
+            let (below, above) = (arena.sub(a, one), arena.add(a, one));
+            let product = arena.mul(below, above);
+            let root = arena.sqrt(product);
+            arena.div(adjoint, root)
+        }
+        Unary::Atanh => {
+            let (below, above) = (arena.sub(one, a), arena.add(one, a));
+            let product = arena.mul(below, above);
+            arena.div(adjoint, product)
+        }
+        Unary::Cbrt => {
+            let three = arena.constant(3.0);
+            let square = arena.square(id);
+            let below = arena.mul(three, square);
+            arena.div(adjoint, below)
+        }
         Unary::Floor | Unary::Round | Unary::Sign | Unary::Not => arena.constant(0.0),
     }
 }

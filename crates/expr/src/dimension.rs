@@ -14,7 +14,7 @@ use std::fmt;
 pub struct Dimension(pub [i8; 7]);
 
 /// Names of quantities; of several names for one dimension the first is shown.
-const NAMES: [(&str, Dimension); 36] = [
+const NAMES: [(&str, Dimension); 65] = [
     ("Real", Dimension::NONE),
     ("Angle", Dimension::ANGLE),
     ("Length", Dimension::LENGTH),
@@ -51,6 +51,35 @@ const NAMES: [(&str, Dimension); 36] = [
     ("Density", Dimension::DENSITY),
     ("MomentOfInertia", Dimension::MOMENT_OF_INERTIA),
     ("SecondMomentOfArea", Dimension::SECOND_MOMENT_OF_AREA),
+    ("MagneticFlux", Dimension::MAGNETIC_FLUX),
+    ("MagneticFluxDensity", Dimension::MAGNETIC_FLUX_DENSITY),
+    ("ElectricField", Dimension::ELECTRIC_FIELD),
+    ("Resistivity", Dimension::RESISTIVITY),
+    ("Conductivity", Dimension::CONDUCTIVITY),
+    ("Viscosity", Dimension::VISCOSITY),
+    ("Diffusivity", Dimension::DIFFUSIVITY),
+    ("VolumeFlow", Dimension::VOLUME_FLOW),
+    ("MassFlow", Dimension::MASS_FLOW),
+    ("HeatCapacity", Dimension::HEAT_CAPACITY),
+    ("SpecificHeat", Dimension::SPECIFIC_HEAT),
+    ("ThermalConductivity", Dimension::THERMAL_CONDUCTIVITY),
+    ("HeatFlux", Dimension::HEAT_FLUX),
+    ("Dose", Dimension::DOSE),
+    ("AngularMomentum", Dimension::ANGULAR_MOMENTUM),
+    ("MolarMass", Dimension::MOLAR_MASS),
+    ("Illuminance", Dimension::ILLUMINANCE),
+    ("Impedance", Dimension::RESISTANCE),
+    ("Work", Dimension::ENERGY),
+    ("Weight", Dimension::FORCE),
+    ("Entropy", Dimension::HEAT_CAPACITY),
+    ("SpecificEnergy", Dimension::DOSE),
+    ("KinematicViscosity", Dimension::DIFFUSIVITY),
+    ("Irradiance", Dimension::HEAT_FLUX),
+    ("LuminousFlux", Dimension::LUMINOUS_INTENSITY),
+    ("ElasticModulus", Dimension::PRESSURE),
+    ("Strain", Dimension::NONE),
+    ("SectionModulus", Dimension::VOLUME),
+    ("ReactivePower", Dimension::POWER),
 ];
 
 /// The base units in the order in which they are written, each with its place in a dimension.
@@ -122,6 +151,40 @@ impl Dimension {
     pub const MOMENT_OF_INERTIA: Self = Self([2, 1, 0, 0, 0, 0, 0]);
     /// Second moment of area, m⁴.
     pub const SECOND_MOMENT_OF_AREA: Self = Self([4, 0, 0, 0, 0, 0, 0]);
+    /// Magnetic flux, Wb.
+    pub const MAGNETIC_FLUX: Self = Self([2, 1, -2, -1, 0, 0, 0]);
+    /// Magnetic flux density, T.
+    pub const MAGNETIC_FLUX_DENSITY: Self = Self([0, 1, -2, -1, 0, 0, 0]);
+    /// Electric field strength, V/m.
+    pub const ELECTRIC_FIELD: Self = Self([1, 1, -3, -1, 0, 0, 0]);
+    /// Electric resistivity, Ω·m.
+    pub const RESISTIVITY: Self = Self([3, 1, -3, -2, 0, 0, 0]);
+    /// Electric conductivity, S/m.
+    pub const CONDUCTIVITY: Self = Self([-3, -1, 3, 2, 0, 0, 0]);
+    /// Dynamic viscosity, Pa·s.
+    pub const VISCOSITY: Self = Self([-1, 1, -1, 0, 0, 0, 0]);
+    /// Diffusivity and kinematic viscosity, m²/s.
+    pub const DIFFUSIVITY: Self = Self([2, 0, -1, 0, 0, 0, 0]);
+    /// Flow of volume, m³/s.
+    pub const VOLUME_FLOW: Self = Self([3, 0, -1, 0, 0, 0, 0]);
+    /// Flow of mass, kg/s; the dimension is that of damping.
+    pub const MASS_FLOW: Self = Self([0, 1, -1, 0, 0, 0, 0]);
+    /// Heat capacity and entropy, J/K.
+    pub const HEAT_CAPACITY: Self = Self([2, 1, -2, 0, -1, 0, 0]);
+    /// Specific heat capacity, J/(kg·K).
+    pub const SPECIFIC_HEAT: Self = Self([2, 0, -2, 0, -1, 0, 0]);
+    /// Thermal conductivity, W/(m·K).
+    pub const THERMAL_CONDUCTIVITY: Self = Self([1, 1, -3, 0, -1, 0, 0]);
+    /// Heat flux and irradiance, W/m².
+    pub const HEAT_FLUX: Self = Self([0, 1, -3, 0, 0, 0, 0]);
+    /// Absorbed dose and specific energy, J/kg.
+    pub const DOSE: Self = Self([2, 0, -2, 0, 0, 0, 0]);
+    /// Angular momentum and action, J·s.
+    pub const ANGULAR_MOMENTUM: Self = Self([2, 1, -1, 0, 0, 0, 0]);
+    /// Molar mass, kg/mol.
+    pub const MOLAR_MASS: Self = Self([0, 1, 0, 0, 0, -1, 0]);
+    /// Illuminance, lx.
+    pub const ILLUMINANCE: Self = Self([-2, 0, 0, 0, 0, 0, 1]);
 
     /// Returns true for a plain number.
     pub fn is_none(self) -> bool {

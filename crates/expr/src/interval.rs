@@ -130,8 +130,9 @@ fn unary(op: Unary, a: Interval) -> Interval {
         return Interval::NONE;
     }
     let domain = match op {
-        Unary::Sqrt | Unary::Ln => a.clip(0.0, f64::INFINITY),
-        Unary::Asin | Unary::Acos => a.clip(-1.0, 1.0),
+        Unary::Sqrt | Unary::Ln | Unary::Log10 | Unary::Log2 => a.clip(0.0, f64::INFINITY),
+        Unary::Acosh => a.clip(1.0, f64::INFINITY),
+        Unary::Asin | Unary::Acos | Unary::Atanh => a.clip(-1.0, 1.0),
         Unary::Neg
         | Unary::Abs
         | Unary::Sin
@@ -139,6 +140,11 @@ fn unary(op: Unary, a: Interval) -> Interval {
         | Unary::Tan
         | Unary::Atan
         | Unary::Exp
+        | Unary::Sinh
+        | Unary::Cosh
+        | Unary::Tanh
+        | Unary::Asinh
+        | Unary::Cbrt
         | Unary::Floor
         | Unary::Round
         | Unary::Sign
@@ -154,7 +160,21 @@ fn unary(op: Unary, a: Interval) -> Interval {
         Unary::Sin => wave(op, a, FRAC_PI_2),
         Unary::Cos => wave(op, a, 0.0),
         Unary::Tan if holds_a_multiple(a, PI, FRAC_PI_2) => Interval::ALL,
-        Unary::Tan | Unary::Asin | Unary::Atan | Unary::Ln => domain.rising(op, FUNCTION_ERROR),
+        Unary::Tan
+        | Unary::Asin
+        | Unary::Atan
+        | Unary::Ln
+        | Unary::Log10
+        | Unary::Log2
+        | Unary::Sinh
+        | Unary::Asinh
+        | Unary::Atanh
+        | Unary::Cbrt => domain.rising(op, FUNCTION_ERROR),
+        Unary::Tanh => domain.rising(op, FUNCTION_ERROR).clip(-1.0, 1.0),
+        Unary::Acosh => domain.rising(op, FUNCTION_ERROR).clip(0.0, f64::INFINITY),
+        Unary::Cosh => {
+            magnitude(domain).rising(op, FUNCTION_ERROR).clip(1.0, f64::INFINITY)
+        }
         Unary::Exp => domain.rising(op, FUNCTION_ERROR).clip(0.0, f64::INFINITY),
         Unary::Acos => {
             let falling = Interval { low: domain.high, high: domain.low };

@@ -188,6 +188,34 @@ fn peel_unary(arena: &mut Arena, op: Unary, a: ExprId, branch: Branch) -> Option
             vec![branch.to(a, ln).guarded(&[Guard::Positive(e)])]
         }
         Unary::Ln => vec![branch.to(a, arena.unary(Unary::Exp, e))],
+        Unary::Log10 | Unary::Log2 => {
+            let base = arena.constant(if op == Unary::Log10 { 10.0 } else { 2.0 });
+            vec![branch.to(a, arena.pow(base, e))]
+        }
+        Unary::Sinh => vec![branch.to(a, arena.unary(Unary::Asinh, e))],
+        Unary::Asinh => vec![branch.to(a, arena.unary(Unary::Sinh, e))],
+        Unary::Cosh => {
+            let one = arena.constant(1.0);
+            let guard = [Guard::NonNegative(arena.sub(e, one))];
+            let positive = arena.unary(Unary::Acosh, e);
+            let negative = arena.neg(positive);
+            vec![
+                branch.clone().to(a, positive).guarded(&guard),
+                branch.to(a, negative).guarded(&guard),
+            ]
+        }
+        Unary::Acosh => {
+            vec![branch.to(a, arena.unary(Unary::Cosh, e)).guarded(&[Guard::NonNegative(e)])]
+        }
+        Unary::Tanh => {
+            let guard = Guard::Positive(below(arena, 1.0, e));
+            vec![branch.to(a, arena.unary(Unary::Atanh, e)).guarded(&[guard])]
+        }
+        Unary::Atanh => vec![branch.to(a, arena.unary(Unary::Tanh, e))],
+        Unary::Cbrt => {
+            let square = arena.square(e);
+            vec![branch.to(a, arena.mul(e, square))]
+        }
         Unary::Sin => {
             let (angle, guard) =
                 (arena.unary(Unary::Asin, e), Guard::NonNegative(below(arena, 1.0, e)));

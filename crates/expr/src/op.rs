@@ -30,6 +30,24 @@ pub enum Unary {
     Exp,
     /// The natural logarithm.
     Ln,
+    /// The logarithm to the base 10.
+    Log10,
+    /// The logarithm to the base 2.
+    Log2,
+    /// The hyperbolic sine.
+    Sinh,
+    /// The hyperbolic cosine.
+    Cosh,
+    /// The hyperbolic tangent.
+    Tanh,
+    /// The number with this hyperbolic sine.
+    Asinh,
+    /// The number, 0 or more, with this hyperbolic cosine.
+    Acosh,
+    /// The number with this hyperbolic tangent.
+    Atanh,
+    /// The cube root, of negative numbers too.
+    Cbrt,
     /// The greatest whole number not above a.
     Floor,
     /// The nearest whole number; halves go away from 0.
@@ -82,7 +100,7 @@ pub(crate) fn number_from_truth(truth: bool) -> f64 {
 
 impl Unary {
     /// Every operation with one operand, in the order of [`Unary`].
-    pub const ALL: [Self; 15] = [
+    pub const ALL: [Self; 24] = [
         Self::Neg,
         Self::Abs,
         Self::Sqrt,
@@ -94,6 +112,15 @@ impl Unary {
         Self::Atan,
         Self::Exp,
         Self::Ln,
+        Self::Log10,
+        Self::Log2,
+        Self::Sinh,
+        Self::Cosh,
+        Self::Tanh,
+        Self::Asinh,
+        Self::Acosh,
+        Self::Atanh,
+        Self::Cbrt,
         Self::Floor,
         Self::Round,
         Self::Sign,
@@ -115,6 +142,15 @@ impl Unary {
             Self::Atan => number::atan(a),
             Self::Exp => number::exp(a),
             Self::Ln => number::ln(a),
+            Self::Log10 => number::log10(a),
+            Self::Log2 => number::log2(a),
+            Self::Sinh => number::sinh(a),
+            Self::Cosh => number::cosh(a),
+            Self::Tanh => number::tanh(a),
+            Self::Asinh => number::asinh(a),
+            Self::Acosh => number::acosh(a),
+            Self::Atanh => number::atanh(a),
+            Self::Cbrt => number::cbrt(a),
             Self::Floor => a.floor(),
             Self::Round => a.round(),
             Self::Sign => {
@@ -143,6 +179,15 @@ impl Unary {
             Self::Atan => "atan",
             Self::Exp => "exp",
             Self::Ln => "ln",
+            Self::Log10 => "log10",
+            Self::Log2 => "log2",
+            Self::Sinh => "sinh",
+            Self::Cosh => "cosh",
+            Self::Tanh => "tanh",
+            Self::Asinh => "asinh",
+            Self::Acosh => "acosh",
+            Self::Atanh => "atanh",
+            Self::Cbrt => "cbrt",
             Self::Floor => "floor",
             Self::Round => "round",
             Self::Sign => "sign",

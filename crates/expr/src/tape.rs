@@ -609,7 +609,8 @@ fn run_mixed<W: Word, const AT_HAND: bool>(
         last = each!(
             *operation,
             at,
-            [Neg Abs Sqrt Sin Cos Tan Asin Acos Atan Exp Ln Floor Round Sign Not],
+            [Neg Abs Sqrt Sin Cos Tan Asin Acos Atan Exp Ln Log10 Log2 Sinh Cosh Tanh Asinh Acosh Atanh Cbrt
+             Floor Round Sign Not],
             [Add Sub Mul Div Pow Atan2 Min Max Remainder Less LessEqual Equal NotEqual And Or],
             at(0).choose(at(1), at(2))
         );
@@ -628,7 +629,8 @@ fn run_unary<W: Word>(op: Unary, registers: &mut [W], first: usize, operands: &[
             }
         };
     }
-    each!(Neg Abs Sqrt Sin Cos Tan Asin Acos Atan Exp Ln Floor Round Sign Not);
+    each!(Neg Abs Sqrt Sin Cos Tan Asin Acos Atan Exp Ln Log10 Log2 Sinh Cosh Tanh Asinh Acosh Atanh
+        Cbrt Floor Round Sign Not);
 }
 
 fn run_binary<W: Word>(op: Binary, registers: &mut [W], first: usize, operands: &[u32]) {

@@ -4,6 +4,7 @@
 //! text, so that `4.7 kohm` is the number that `4700` is.
 
 use crate::dimension::Dimension;
+use base::diagnostic::nearest;
 use base::number::shortest;
 use std::f64::consts::PI;
 
@@ -25,100 +26,143 @@ const fn scaled(dimension: Dimension, mantissa: f64, exponent: i8) -> Unit {
     Unit { dimension, mantissa, exponent }
 }
 
-/// Every spelling, by quantity.
-const UNITS: [(&str, Unit); 86] = [
-    ("m", decimal(Dimension::LENGTH, 0)),
-    ("mm", decimal(Dimension::LENGTH, -3)),
-    ("cm", decimal(Dimension::LENGTH, -2)),
-    ("km", decimal(Dimension::LENGTH, 3)),
-    ("um", decimal(Dimension::LENGTH, -6)),
-    ("inch", scaled(Dimension::LENGTH, 254.0, -4)),
-    ("ft", scaled(Dimension::LENGTH, 3048.0, -4)),
-    ("rad", decimal(Dimension::ANGLE, 0)),
-    ("deg", scaled(Dimension::ANGLE, PI / 180.0, 0)),
-    ("turn", scaled(Dimension::ANGLE, 2.0 * PI, 0)),
-    ("kg", decimal(Dimension::MASS, 0)),
-    ("g", decimal(Dimension::MASS, -3)),
-    ("t", decimal(Dimension::MASS, 3)),
-    ("s", decimal(Dimension::TIME, 0)),
-    ("ms", decimal(Dimension::TIME, -3)),
-    ("us", decimal(Dimension::TIME, -6)),
-    ("ns", decimal(Dimension::TIME, -9)),
-    ("min", scaled(Dimension::TIME, 60.0, 0)),
-    ("h", scaled(Dimension::TIME, 3600.0, 0)),
-    ("A", decimal(Dimension::CURRENT, 0)),
-    ("mA", decimal(Dimension::CURRENT, -3)),
-    ("uA", decimal(Dimension::CURRENT, -6)),
-    ("K", decimal(Dimension::TEMPERATURE, 0)),
-    ("V", decimal(Dimension::VOLTAGE, 0)),
-    ("mV", decimal(Dimension::VOLTAGE, -3)),
-    ("uV", decimal(Dimension::VOLTAGE, -6)),
-    ("kV", decimal(Dimension::VOLTAGE, 3)),
-    ("ohm", decimal(Dimension::RESISTANCE, 0)),
-    ("kohm", decimal(Dimension::RESISTANCE, 3)),
-    ("Mohm", decimal(Dimension::RESISTANCE, 6)),
-    ("S", decimal(Dimension::CONDUCTANCE, 0)),
-    ("F", decimal(Dimension::CAPACITANCE, 0)),
-    ("mF", decimal(Dimension::CAPACITANCE, -3)),
-    ("uF", decimal(Dimension::CAPACITANCE, -6)),
-    ("nF", decimal(Dimension::CAPACITANCE, -9)),
-    ("pF", decimal(Dimension::CAPACITANCE, -12)),
-    ("H", decimal(Dimension::INDUCTANCE, 0)),
-    ("mH", decimal(Dimension::INDUCTANCE, -3)),
-    ("uH", decimal(Dimension::INDUCTANCE, -6)),
-    ("C", decimal(Dimension::CHARGE, 0)),
-    ("N", decimal(Dimension::FORCE, 0)),
-    ("mN", decimal(Dimension::FORCE, -3)),
-    ("kN", decimal(Dimension::FORCE, 3)),
-    ("MN", decimal(Dimension::FORCE, 6)),
-    ("Pa", decimal(Dimension::PRESSURE, 0)),
-    ("kPa", decimal(Dimension::PRESSURE, 3)),
-    ("MPa", decimal(Dimension::PRESSURE, 6)),
-    ("GPa", decimal(Dimension::PRESSURE, 9)),
-    ("J", decimal(Dimension::ENERGY, 0)),
-    ("kJ", decimal(Dimension::ENERGY, 3)),
-    ("MJ", decimal(Dimension::ENERGY, 6)),
-    ("W", decimal(Dimension::POWER, 0)),
-    ("mW", decimal(Dimension::POWER, -3)),
-    ("kW", decimal(Dimension::POWER, 3)),
-    ("MW", decimal(Dimension::POWER, 6)),
-    ("Hz", decimal(Dimension::FREQUENCY, 0)),
-    ("kHz", decimal(Dimension::FREQUENCY, 3)),
-    ("MHz", decimal(Dimension::FREQUENCY, 6)),
-    ("GHz", decimal(Dimension::FREQUENCY, 9)),
-    ("nm", decimal(Dimension::LENGTH, -9)),
-    ("dm", decimal(Dimension::LENGTH, -1)),
-    ("yd", scaled(Dimension::LENGTH, 9144.0, -4)),
-    ("°", scaled(Dimension::ANGLE, PI / 180.0, 0)),
-    ("mrad", decimal(Dimension::ANGLE, -3)),
-    ("grad", scaled(Dimension::ANGLE, PI / 200.0, 0)),
-    ("mg", decimal(Dimension::MASS, -6)),
-    ("hPa", decimal(Dimension::PRESSURE, 2)),
-    ("bar", decimal(Dimension::PRESSURE, 5)),
-    ("mJ", decimal(Dimension::ENERGY, -3)),
-    ("nV", decimal(Dimension::VOLTAGE, -9)),
-    ("pA", decimal(Dimension::CURRENT, -12)),
-    ("nA", decimal(Dimension::CURRENT, -9)),
-    ("kA", decimal(Dimension::CURRENT, 3)),
-    ("mohm", decimal(Dimension::RESISTANCE, -3)),
-    ("nH", decimal(Dimension::INDUCTANCE, -9)),
-    ("nC", decimal(Dimension::CHARGE, -9)),
-    ("uC", decimal(Dimension::CHARGE, -6)),
-    ("mC", decimal(Dimension::CHARGE, -3)),
-    ("uS", decimal(Dimension::CONDUCTANCE, -6)),
-    ("mS", decimal(Dimension::CONDUCTANCE, -3)),
-    ("T", decimal(FLUX_DENSITY, 0)),
-    ("mT", decimal(FLUX_DENSITY, -3)),
-    ("Wb", decimal(FLUX, 0)),
-    ("mol", decimal(Dimension([0, 0, 0, 0, 0, 1, 0]), 0)),
-    ("cd", decimal(Dimension([0, 0, 0, 0, 0, 0, 1]), 0)),
-    ("%", decimal(Dimension::NONE, -2)),
+/// A unit as it stands in the table.
+#[derive(Clone, Copy, PartialEq, Debug)]
+pub struct NamedUnit {
+    /// How it is spelled after a number.
+    pub spelling: &'static str,
+    /// Its name in words.
+    pub name: &'static str,
+    /// What it is.
+    pub unit: Unit,
+    /// True if it takes the prefixes of SI.
+    pub is_prefixed: bool,
+}
+
+const fn si(spelling: &'static str, name: &'static str, unit: Unit) -> NamedUnit {
+    NamedUnit { spelling, name, unit, is_prefixed: true }
+}
+const fn lone(spelling: &'static str, name: &'static str, unit: Unit) -> NamedUnit {
+    NamedUnit { spelling, name, unit, is_prefixed: false }
+}
+
+/// Every unit, by quantity; of an ambiguous spelling the unit without a prefix counts (`ft`, `min`, `cd`).
+///
+/// **Source:** BIPM, *The International System of Units*, 9th ed.; NIST SP 811, appendix B, for all others.
+pub const NAMED_UNITS: &[NamedUnit] = &[
+    si("m", "metre", decimal(Dimension::LENGTH, 0)),
+    lone("in", "inch", scaled(Dimension::LENGTH, 254.0, -4)),
+    lone("inch", "inch", scaled(Dimension::LENGTH, 254.0, -4)),
+    lone("ft", "foot", scaled(Dimension::LENGTH, 3048.0, -4)),
+    lone("yd", "yard", scaled(Dimension::LENGTH, 9144.0, -4)),
+    lone("mi", "mile", scaled(Dimension::LENGTH, 1_609_344.0, -3)),
+    lone("nmi", "nautical mile", scaled(Dimension::LENGTH, 1852.0, 0)),
+    lone("au", "astronomical unit", scaled(Dimension::LENGTH, 149_597_870_700.0, 0)),
+    lone("ly", "light year", scaled(Dimension::LENGTH, 9_460_730_472_580_800.0, 0)),
+    lone("ha", "hectare", decimal(Dimension::AREA, 4)),
+    si("L", "litre", decimal(Dimension::VOLUME, -3)),
+    lone("gal", "gallon", scaled(Dimension::VOLUME, 3_785_411_784.0, -12)),
+    si("rad", "radian", decimal(Dimension::ANGLE, 0)),
+    lone("deg", "degree", scaled(Dimension::ANGLE, PI / 180.0, 0)),
+    lone("°", "degree", scaled(Dimension::ANGLE, PI / 180.0, 0)),
+    lone("grad", "gradian", scaled(Dimension::ANGLE, PI / 200.0, 0)),
+    lone("arcmin", "arc minute", scaled(Dimension::ANGLE, PI / 10_800.0, 0)),
+    lone("arcsec", "arc second", scaled(Dimension::ANGLE, PI / 648_000.0, 0)),
+    lone("turn", "turn", scaled(Dimension::ANGLE, 2.0 * PI, 0)),
+    lone("rev", "revolution", scaled(Dimension::ANGLE, 2.0 * PI, 0)),
+    lone("%", "percent", decimal(Dimension::NONE, -2)),
+    lone("ppm", "part in a million", decimal(Dimension::NONE, -6)),
+    si("g", "gram", decimal(Dimension::MASS, -3)),
+    lone("t", "tonne", decimal(Dimension::MASS, 3)),
+    lone("kt", "kilotonne", decimal(Dimension::MASS, 6)),
+    lone("Mt", "megatonne", decimal(Dimension::MASS, 9)),
+    lone("lb", "pound", scaled(Dimension::MASS, 45_359_237.0, -8)),
+    lone("oz", "ounce", scaled(Dimension::MASS, 28_349_523_125.0, -12)),
+    si("s", "second", decimal(Dimension::TIME, 0)),
+    lone("min", "minute", scaled(Dimension::TIME, 60.0, 0)),
+    lone("h", "hour", scaled(Dimension::TIME, 3600.0, 0)),
+    lone("day", "day", scaled(Dimension::TIME, 86_400.0, 0)),
+    lone("week", "week", scaled(Dimension::TIME, 604_800.0, 0)),
+    si("Hz", "hertz", decimal(Dimension::FREQUENCY, 0)),
+    lone("rpm", "revolution a minute", scaled(Dimension::FREQUENCY, PI / 30.0, 0)),
+    lone("mph", "mile an hour", scaled(Dimension::VELOCITY, 44_704.0, -5)),
+    si("N", "newton", decimal(Dimension::FORCE, 0)),
+    lone("lbf", "pound-force", scaled(Dimension::FORCE, 44_482_216_152_605.0, -13)),
+    lone("kgf", "kilogram-force", scaled(Dimension::FORCE, 980_665.0, -5)),
+    lone("kip", "kilopound-force", scaled(Dimension::FORCE, 44_482_216_152_605.0, -10)),
+    si("Pa", "pascal", decimal(Dimension::PRESSURE, 0)),
+    si("bar", "bar", decimal(Dimension::PRESSURE, 5)),
+    lone("atm", "atmosphere", scaled(Dimension::PRESSURE, 101_325.0, 0)),
+    lone("psi", "pound a square inch", scaled(Dimension::PRESSURE, 6_894.757_293_168_361, 0)),
+    lone("ksi", "kilopound a square inch", scaled(Dimension::PRESSURE, 6_894.757_293_168_361, 3)),
+    lone("mmHg", "millimetre of mercury", scaled(Dimension::PRESSURE, 133_322_387_415.0, -9)),
+    si("J", "joule", decimal(Dimension::ENERGY, 0)),
+    si("Wh", "watt-hour", scaled(Dimension::ENERGY, 3600.0, 0)),
+    si("eV", "electronvolt", scaled(Dimension::ENERGY, 1_602_176_634.0, -28)),
+    si("cal", "calorie", scaled(Dimension::ENERGY, 4184.0, -3)),
+    si("W", "watt", decimal(Dimension::POWER, 0)),
+    si("VA", "volt-ampere", decimal(Dimension::POWER, 0)),
+    lone("hp", "horsepower", scaled(Dimension::POWER, 745.699_871_582_270_2, 0)),
+    si("A", "ampere", decimal(Dimension::CURRENT, 0)),
+    si("V", "volt", decimal(Dimension::VOLTAGE, 0)),
+    si("ohm", "ohm", decimal(Dimension::RESISTANCE, 0)),
+    si("S", "siemens", decimal(Dimension::CONDUCTANCE, 0)),
+    si("F", "farad", decimal(Dimension::CAPACITANCE, 0)),
+    si("H", "henry", decimal(Dimension::INDUCTANCE, 0)),
+    si("C", "coulomb", decimal(Dimension::CHARGE, 0)),
+    si("Ah", "ampere-hour", scaled(Dimension::CHARGE, 3600.0, 0)),
+    si("Wb", "weber", decimal(Dimension::MAGNETIC_FLUX, 0)),
+    si("T", "tesla", decimal(Dimension::MAGNETIC_FLUX_DENSITY, 0)),
+    si("K", "kelvin", decimal(Dimension::TEMPERATURE, 0)),
+    si("mol", "mole", decimal(Dimension::AMOUNT, 0)),
+    si("cd", "candela", decimal(Dimension::LUMINOUS_INTENSITY, 0)),
+    si("lm", "lumen", decimal(Dimension::LUMINOUS_INTENSITY, 0)),
+    si("lx", "lux", decimal(Dimension::ILLUMINANCE, 0)),
+    si("Bq", "becquerel", decimal(Dimension::FREQUENCY, 0)),
+    si("Gy", "gray", decimal(Dimension::DOSE, 0)),
+    si("Sv", "sievert", decimal(Dimension::DOSE, 0)),
 ];
 
-/// Magnetic flux: V·s.
-const FLUX: Dimension = Dimension([2, 1, -2, -1, 0, 0, 0]);
-/// Magnetic flux density: V·s/m².
-const FLUX_DENSITY: Dimension = Dimension([0, 1, -2, -1, 0, 0, 0]);
+/// Every prefix of SI, its name and its power of ten; `µ` is read as `u`.
+pub const PREFIXES: [(&str, &str, i8); 24] = [
+    ("Q", "quetta", 30),
+    ("R", "ronna", 27),
+    ("Y", "yotta", 24),
+    ("Z", "zetta", 21),
+    ("E", "exa", 18),
+    ("P", "peta", 15),
+    ("T", "tera", 12),
+    ("G", "giga", 9),
+    ("M", "mega", 6),
+    ("k", "kilo", 3),
+    ("h", "hecto", 2),
+    ("da", "deca", 1),
+    ("d", "deci", -1),
+    ("c", "centi", -2),
+    ("m", "milli", -3),
+    ("u", "micro", -6),
+    ("n", "nano", -9),
+    ("p", "pico", -12),
+    ("f", "femto", -15),
+    ("a", "atto", -18),
+    ("z", "zepto", -21),
+    ("y", "yocto", -24),
+    ("r", "ronto", -27),
+    ("q", "quecto", -30),
+];
+
+/// Returns the unit of a word without operators: one of the table, with a prefix where it takes one.
+fn simple(word: &str) -> Option<Unit> {
+    if let Some(named) = NAMED_UNITS.iter().find(|n| n.spelling == word) {
+        return Some(named.unit);
+    }
+    PREFIXES.iter().find_map(|(prefix, _, exponent)| {
+        let base = word.strip_prefix(prefix)?;
+        let named = NAMED_UNITS.iter().find(|n| n.is_prefixed && n.spelling == base)?;
+        let exponent = named.unit.exponent.checked_add(*exponent)?;
+        Some(Unit { exponent, ..named.unit })
+    })
+}
 
 /// Returns the unit of a spelling, simple or compound: `mm`, `m/s^2`, `N*m`, `kg/m^3`.
 ///
@@ -144,7 +188,7 @@ pub fn unit(spelling: &str) -> Option<Unit> {
             Some((name, power)) => (name, power.parse::<i8>().ok()?),
             None => (&rest[..end], 1),
         };
-        let factor = UNITS.iter().find(|(n, _)| *n == name)?.1;
+        let factor = simple(name)?;
         let power = if above { power } else { power.checked_neg()? };
         whole.dimension = whole.dimension.times(factor.dimension.power(power));
         whole.exponent = whole.exponent.checked_add(factor.exponent.checked_mul(power)?)?;
@@ -162,9 +206,104 @@ pub fn unit(spelling: &str) -> Option<Unit> {
     Some(whole)
 }
 
-/// Returns every simple spelling, for completion and for hints.
+/// Returns every spelling without a prefix, for completion.
 pub fn spellings() -> impl Iterator<Item = &'static str> {
-    UNITS.iter().map(|(spelling, _)| *spelling)
+    NAMED_UNITS.iter().map(|named| named.spelling)
+}
+
+/// Returns the spellings that somebody can have meant by a word that is no unit, none of another magnitude.
+///
+/// Names in words, plurals, other cases of the letters, factors without `*`; and a slip in a word of three
+/// letters or more, whose prefix stays as it is.
+///
+/// ```
+/// use expr::units::meant;
+/// assert_eq!(meant("millimeters"), ["mm"]);
+/// assert_eq!(meant("Nm"), ["N*m"]);
+/// assert_eq!(meant("khz"), ["kHz"]);
+/// assert_eq!(meant("mhz"), ["MHz", "mHz"]);
+/// assert_eq!(meant("kohn"), ["kohm"]);
+/// assert!(meant("furlong").is_empty());
+/// ```
+pub fn meant(word: &str) -> Vec<String> {
+    let prefixes = || std::iter::once(("", "")).chain(PREFIXES.map(|(p, name, _)| (p, name)));
+    let prefixed = |with: &dyn Fn(&str, &str, &NamedUnit) -> bool| {
+        let mut found: Vec<String> = Vec::new();
+        for (prefix, prefix_name) in prefixes() {
+            for named in NAMED_UNITS.iter().filter(|n| prefix.is_empty() || n.is_prefixed) {
+                let spelling = format!("{prefix}{}", named.spelling);
+                // the unit without a prefix may stand for it
+                if unit(&spelling).is_some() && with(prefix, prefix_name, named) {
+                    found.push(spelling);
+                }
+            }
+        }
+        found.dedup();
+        found
+    };
+    let lower = word.to_lowercase();
+    let in_words = prefixed(&|prefix, prefix_name, named| {
+        let rest = lower.strip_prefix(prefix_name);
+        let rest = rest.or_else(|| word.strip_prefix(prefix));
+        rest.is_some_and(|rest| names_of(named).iter().any(|name| rest.eq_ignore_ascii_case(name)))
+    });
+    if let Some(first) = in_words.into_iter().next() {
+        return vec![first];
+    }
+    if let Some((_, spelling)) = COLLOQUIAL.iter().find(|(said, _)| *said == lower) {
+        return vec![(*spelling).to_string()];
+    }
+    let other_case =
+        prefixed(&|prefix, _, named| format!("{prefix}{}", named.spelling).to_lowercase() == lower);
+    if !other_case.is_empty() {
+        return other_case;
+    }
+    let factors = (1..word.len()).filter(|&i| word.is_char_boundary(i)).find_map(|i| {
+        let (a, b) = word.split_at(i);
+        (simple(a).is_some() && ["m", "s", "h"].contains(&b)).then(|| format!("{a}*{b}"))
+    });
+    if let Some(factors) = factors {
+        return vec![factors];
+    }
+    let slips = prefixed(&|prefix, _, named| {
+        let Some(rest) = word.strip_prefix(prefix) else { return false };
+        let is_long = rest.chars().count() >= 3 && named.spelling.chars().count() >= 3;
+        is_long && nearest(rest, [named.spelling]).is_some()
+    });
+    slips.into_iter().next().into_iter().collect()
+}
+
+/// What people say for a unit and no table of them knows.
+const COLLOQUIAL: [(&str, &str); 15] = [
+    ("sec", "s"),
+    ("secs", "s"),
+    ("hr", "h"),
+    ("hrs", "h"),
+    ("mins", "min"),
+    ("amp", "A"),
+    ("amps", "A"),
+    ("lbs", "lb"),
+    ("ftlb", "ft*lbf"),
+    ("kph", "km/h"),
+    ("kmh", "km/h"),
+    ("feet", "ft"),
+    ("percent", "%"),
+    ("cc", "cm^3"),
+    ("l", "L"),
+];
+
+/// Returns the words for a unit: its name and its plural, with American spellings.
+fn names_of(named: &NamedUnit) -> Vec<String> {
+    let name = named.name;
+    let american = name.strip_suffix("re").map_or(name.to_string(), |stem| format!("{stem}er"));
+    let mut names = Vec::new();
+    for one in [name, &american] {
+        names.extend([one.to_string(), format!("{one}s"), format!("{one}es")]);
+    }
+    if named.spelling == "ohm" {
+        names.push("Ω".to_string());
+    }
+    names
 }
 
 /// Reads a number with its unit and returns it in SI, with its dimension.
@@ -213,7 +352,7 @@ fn shifted(number: &str, exponent: i32) -> Option<f64> {
 ///
 /// It is always the unit of SI, so that the number shown is the number kept.
 pub fn preferred(dimension: Dimension) -> Option<&'static str> {
-    const PREFERRED: [(Dimension, &str); 25] = [
+    const PREFERRED: [(Dimension, &str); 44] = [
         (Dimension::AREA, "m^2"),
         (Dimension::VOLUME, "m^3"),
         (Dimension::MASS, "kg"),
@@ -239,6 +378,25 @@ pub fn preferred(dimension: Dimension) -> Option<&'static str> {
         (Dimension::DENSITY, "kg/m^3"),
         (Dimension::MOMENT_OF_INERTIA, "kg*m^2"),
         (Dimension::SECOND_MOMENT_OF_AREA, "m^4"),
+        (Dimension::AMOUNT, "mol"),
+        (Dimension::LUMINOUS_INTENSITY, "cd"),
+        (Dimension::ILLUMINANCE, "lx"),
+        (Dimension::MAGNETIC_FLUX, "Wb"),
+        (Dimension::MAGNETIC_FLUX_DENSITY, "T"),
+        (Dimension::ELECTRIC_FIELD, "V/m"),
+        (Dimension::RESISTIVITY, "ohm*m"),
+        (Dimension::CONDUCTIVITY, "S/m"),
+        (Dimension::VISCOSITY, "Pa*s"),
+        (Dimension::DIFFUSIVITY, "m^2/s"),
+        (Dimension::VOLUME_FLOW, "m^3/s"),
+        (Dimension::MASS_FLOW, "kg/s"),
+        (Dimension::HEAT_CAPACITY, "J/K"),
+        (Dimension::SPECIFIC_HEAT, "J/kg/K"),
+        (Dimension::THERMAL_CONDUCTIVITY, "W/m/K"),
+        (Dimension::HEAT_FLUX, "W/m^2"),
+        (Dimension::DOSE, "J/kg"),
+        (Dimension::ANGULAR_MOMENTUM, "J*s"),
+        (Dimension::MOLAR_MASS, "kg/mol"),
     ];
     PREFERRED.iter().find(|(d, _)| *d == dimension).map(|(_, unit)| *unit)
 }
@@ -303,6 +461,68 @@ mod tests {
         let mut all: Vec<&str> = spellings().collect();
         all.sort_unstable();
         all.dedup();
-        assert_eq!(all.len(), UNITS.len());
+        assert_eq!(all.len(), NAMED_UNITS.len());
+    }
+    #[test]
+    fn every_prefix_stands_before_every_unit_of_si() {
+        for (prefix, _, exponent) in PREFIXES {
+            let newton = unit(&format!("{prefix}N")).map(|u| (u.dimension, u.exponent));
+            assert_eq!(newton, Some((Dimension::FORCE, exponent)), "{prefix}N");
+        }
+        assert_eq!(read_quantity("3", "THz").map(|q| q.0), Some(3e12));
+        assert_eq!(read_quantity("1", "fC").map(|q| q.0), Some(1e-15));
+        assert_eq!(unit("kmin"), None);
+        // without a prefix counts first
+        assert_eq!(unit("ft").map(|u| u.dimension), Some(Dimension::LENGTH));
+        assert_eq!(unit("cd").map(|u| u.dimension), Some(Dimension::LUMINOUS_INTENSITY));
+        assert_eq!(unit("mT").map(|u| u.exponent), Some(-3));
+    }
+    #[test]
+    fn other_systems_are_exact_by_definition() {
+        for (number, unit, wanted) in [
+            ("1", "in", 0.0254),
+            ("1", "mi", 1609.344),
+            ("1", "ly", 9.460_730_472_580_8e15),
+            ("1", "lb", 0.453_592_37),
+            ("1", "lbf", 4.448_221_615_260_5),
+            ("1", "gal", 3.785_411_784e-3),
+            ("2.5", "kWh", 9e6),
+            ("1", "eV", 1.602_176_634e-19),
+            ("2000", "mAh", 7200.0),
+            ("1", "mbar", 100.0),
+            ("1", "day", 86_400.0),
+            ("1", "kcal", 4184.0),
+            ("50", "%", 0.5),
+        ] {
+            let read = read_quantity(number, unit).map(|q| q.0).expect("it is a unit");
+            assert!((read - wanted).abs() <= 4.0 * f64::EPSILON * wanted, "{number} {unit}: {read}");
+        }
+        // 550 ft lbf/s; 60 rpm is a turn a second
+        let [hp, made] = ["hp", "ft*lbf/s"].map(|u| read_quantity("550", u).expect("a unit").0);
+        assert!((hp / 550.0 - made).abs() < 1e-10 * made);
+        let psi = read_quantity("1", "psi").expect("a unit").0;
+        let made = read_quantity("1", "lbf/in^2").expect("a unit").0;
+        assert!((psi - made).abs() < 1e-12 * made);
+        assert_eq!(read_quantity("60", "rpm"), Some((2.0 * PI, Dimension::FREQUENCY)));
+    }
+    #[test]
+    fn what_was_meant_is_never_another_magnitude() {
+        for (said, wanted) in [
+            ("seconds", "s"),
+            ("meters", "m"),
+            ("Kilometres", "km"),
+            ("inches", "in"),
+            ("degrees", "deg"),
+            ("kOhm", "kohm"),
+            ("Kg", "kg"),
+            ("amps", "A"),
+            ("kNm", "kN*m"),
+            ("volts", "V"),
+        ] {
+            assert_eq!(meant(said), [wanted], "{said}");
+        }
+        for said in ["qHzz", "Xm", "XHz", "blubb", "xx", "w2"] {
+            assert!(meant(said).is_empty(), "{said}: {:?}", meant(said));
+        }
     }
 }

@@ -77,8 +77,52 @@ pub struct Builtin<F: 'static> {
     pub parameters: &'static [BuiltinParameter],
     /// What it answers.
     pub result: Kind,
+    /// For which numbers it has an answer.
+    pub domain: Domain,
     /// What it does, in one sentence.
     pub doc: &'static str,
+}
+
+/// The numbers for which a function has an answer.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub enum Domain {
+    /// All numbers, or no number is asked for.
+    All,
+    /// 0 and above.
+    NonNegative,
+    /// Above 0.
+    Positive,
+    /// From 1.
+    FromOne,
+    /// From -1 to 1.
+    Unit,
+    /// Between -1 and 1, without the ends.
+    InsideUnit,
+}
+
+impl Domain {
+    /// Returns true if the function has an answer for this number.
+    pub fn holds(self, x: f64) -> bool {
+        match self {
+            Self::All => true,
+            Self::NonNegative => x >= 0.0,
+            Self::Positive => x > 0.0,
+            Self::FromOne => x >= 1.0,
+            Self::Unit => (-1.0..=1.0).contains(&x),
+            Self::InsideUnit => -1.0 < x && x < 1.0,
+        }
+    }
+    /// Returns the domain as a condition on `x`; nothing where every number will do.
+    pub fn words(self) -> Option<&'static str> {
+        match self {
+            Self::All => None,
+            Self::NonNegative => Some("x >= 0"),
+            Self::Positive => Some("x > 0"),
+            Self::FromOne => Some("x >= 1"),
+            Self::Unit => Some("-1 <= x <= 1"),
+            Self::InsideUnit => Some("-1 < x < 1"),
+        }
+    }
 }
 
 impl<F> Builtin<F> {
@@ -101,7 +145,7 @@ const fn many(label: &'static str, kind: Kind) -> BuiltinParameter {
 }
 
 macro_rules! table {
-    ($(#[$doc:meta])* $enum:ident, $table:ident: $($variant:ident $name:literal $receiver:ident [$($parameter:expr),*] $result:ident $says:literal;)*) => {
+    ($(#[$doc:meta])* $enum:ident, $table:ident: $($variant:ident $name:literal $receiver:ident [$($parameter:expr),*] $result:ident $($domain:ident)? $says:literal;)*) => {
         $(#[$doc])*
         #[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Debug)]
         pub enum $enum {
@@ -115,28 +159,44 @@ macro_rules! table {
                 receiver: Kind::$receiver,
                 parameters: &[$($parameter),*],
                 result: Kind::$result,
+                domain: table!(@domain $($domain)?),
                 doc: $says,
             },)*
         ];
     };
+    (@domain) => { Domain::All };
+    (@domain $domain:ident) => { Domain::$domain };
 }
 
 table! {
     /// A function of the language.
     Function, FUNCTIONS:
-    Sqrt "sqrt" Any [one("x", Kind::Number)] Root "The square root.";
+    Sqrt "sqrt" Any [one("x", Kind::Number)] Root NonNegative "The square root.";
+    Cbrt "cbrt" Any [one("x", Kind::Plain)] Plain "The cube root, of negative numbers too.";
+    Hypot "hypot" Any [one("x", Kind::Number), one("y", Kind::Same)] Same "The length of the direction (x, y).";
     Abs "abs" Any [one("x", Kind::Number)] Same "The number without its sign.";
     Sin "sin" Any [one("angle", Kind::Plain)] Plain "The sine of an angle in radians.";
     Cos "cos" Any [one("angle", Kind::Plain)] Plain "The cosine of an angle in radians.";
     Tan "tan" Any [one("angle", Kind::Plain)] Plain "The tangent of an angle in radians.";
-    Asin "asin" Any [one("x", Kind::Plain)] Plain "The angle from -π/2 to π/2 with this sine.";
-    Acos "acos" Any [one("x", Kind::Plain)] Plain "The angle from 0 to π with this cosine.";
+    Asin "asin" Any [one("x", Kind::Plain)] Plain Unit "The angle from -π/2 to π/2 with this sine.";
+    Acos "acos" Any [one("x", Kind::Plain)] Plain Unit "The angle from 0 to π with this cosine.";
     Atan "atan" Any [one("x", Kind::Plain)] Plain "The angle from -π/2 to π/2 with this tangent.";
     Atan2 "atan2" Any [one("y", Kind::Number), one("x", Kind::Same)] Plain "The angle of the direction (x, y), from -π to π.";
     Exp "exp" Any [one("x", Kind::Plain)] Plain "e to the power of a number.";
-    Ln "ln" Any [one("x", Kind::Plain)] Plain "The natural logarithm.";
+    Ln "ln" Any [one("x", Kind::Plain)] Plain Positive "The natural logarithm.";
+    Log10 "log10" Any [one("x", Kind::Plain)] Plain Positive "The logarithm to the base 10.";
+    Log2 "log2" Any [one("x", Kind::Plain)] Plain Positive "The logarithm to the base 2.";
+    Sinh "sinh" Any [one("x", Kind::Plain)] Plain "The hyperbolic sine.";
+    Cosh "cosh" Any [one("x", Kind::Plain)] Plain "The hyperbolic cosine.";
+    Tanh "tanh" Any [one("x", Kind::Plain)] Plain "The hyperbolic tangent.";
+    Asinh "asinh" Any [one("x", Kind::Plain)] Plain "The number with this hyperbolic sine.";
+    Acosh "acosh" Any [one("x", Kind::Plain)] Plain FromOne "The number, 0 or more, with this hyperbolic cosine.";
+    Atanh "atanh" Any [one("x", Kind::Plain)] Plain InsideUnit "The number with this hyperbolic tangent.";
     Floor "floor" Any [one("x", Kind::Plain)] Plain "The largest whole number that is not larger.";
+    Ceil "ceil" Any [one("x", Kind::Plain)] Plain "The smallest whole number that is not smaller.";
     Round "round" Any [one("x", Kind::Plain)] Plain "The nearest whole number, halves away from zero.";
+    Sign "sign" Any [one("x", Kind::Number)] Plain "1, 0 or -1.";
+    Clamp "clamp" Any [one("x", Kind::Number), one("low", Kind::Same), one("high", Kind::Same)] Same "The nearest number from low to high; low, where high is less.";
     Min "min" Any [many("x", Kind::Numbers)] Same "The smallest of some numbers, or of a list.";
     Max "max" Any [many("x", Kind::Numbers)] Same "The largest of some numbers, or of a list.";
     Pi "pi" Any [] Plain "Half the circumference of a circle of radius 1.";
@@ -157,9 +217,10 @@ table! {
     /// A message that numbers know.
     NumberMessage, NUMBER_MESSAGES:
     Text "text" Number [perhaps("digits", Kind::Plain)] Text "The shortest decimal that reads back as the number, or rounded to so many decimals.";
-    Sqrt "sqrt" Number [] Root "The square root.";
+    Sqrt "sqrt" Number [] Root NonNegative "The square root.";
     Abs "abs" Number [] Same "The number without its sign.";
     Floor "floor" Plain [] Plain "The largest whole number that is not larger.";
+    Ceil "ceil" Plain [] Plain "The smallest whole number that is not smaller.";
     Round "round" Plain [] Plain "The nearest whole number, halves away from zero.";
     Sign "sign" Number [] Plain "1, 0 or -1.";
     Min "min" Number [one("x", Kind::Same)] Same "The smaller of two numbers.";

@@ -228,6 +228,8 @@ pub enum BinaryOperator {
     Multiply,
     /// `a / b`
     Divide,
+    /// `a mod b`: what is left of a, with the sign of b
+    Remainder,
     /// `a ^ b`
     Power,
     /// `a = b`

@@ -37,6 +37,13 @@ impl Lowerer<'_> {
         if let Some(of) = self.of_constraint(scope, field, &receiver) {
             return Some(of);
         }
+        if let (Expr::Name(text), Some(args)) = (&receiver, field.args()) {
+            let text = text.name().and_then(|w| self.text_named(scope.file, w.text()));
+            if let Some(class) = text.and_then(|t| self.visible.declared(t, &name)) {
+                let args = self.arguments(scope, Some(args), &Kind::Unknown)?;
+                return self.constructor(scope, &word, class, args);
+            }
+        }
         let (to, kind) = self.expr(scope, &receiver)?;
         let element = if let Kind::List(element) = &kind { element } else { &Kind::Unknown };
         let args = self.arguments(scope, field.args(), element)?;
@@ -271,7 +278,9 @@ impl Lowerer<'_> {
             let found = receiver.words(&self.document);
             let message = format!("{} is sent to {found}, wanted {wanted}", b.name);
             let code = code_for(receiver, &Kind::PLAIN);
-            self.error(code, scope.file, word.span(), message);
+            let place = Place { file: scope.file, span: word.span() };
+            let d = Diagnostic::error(code, place, message);
+            self.report(with_plain_hint(d, b.receiver, receiver, "the number"));
             return None;
         }
         self.own_arguments(scope, b, word.span(), Some(receiver.clone()), args)
@@ -315,7 +324,10 @@ impl Lowerer<'_> {
                 let found = arg.kind.words(&self.document);
                 let message = format!("{} wants {wanted}, here is {found}", b.name);
                 let code = code_for(&arg.kind, &wanted_number(parameter.kind));
-                self.error(code, scope.file, arg.expr.span(), message);
+                let place = Place { file: scope.file, span: arg.expr.span() };
+                let d = Diagnostic::error(code, place, message);
+                let written = arg.expr.syntax().text().to_string();
+                self.report(with_plain_hint(d, parameter.kind, &arg.kind, &written));
                 return None;
             }
             let value = match parameter.kind {
@@ -390,7 +402,7 @@ impl Lowerer<'_> {
             return None;
         }
         let args = self.arguments(scope, call.args(), &Kind::Unknown)?;
-        if let Some(class) = self.visible.class(scope.file, &name) {
+        if let Some(class) = self.class_meant(scope.file, &word)? {
             return self.constructor(scope, &word, class, args);
         }
         for (class, me) in owners(scope) {
@@ -539,6 +551,17 @@ fn labels_of<F>(
 fn unchecked(args: Vec<Arg>) -> Vec<Argument> {
     let plain = |a: Arg| Argument { label: a.label.map(|w| w.name()), value: a.value };
     args.into_iter().map(plain).collect()
+}
+
+/// Says how a plain number is made of one that measures something.
+fn with_plain_hint(d: Diagnostic, wanted: Builtin, found: &Kind, written: &str) -> Diagnostic {
+    let Kind::Number(Some(dimension)) = found else { return d };
+    match expr::units::preferred(*dimension).or((*dimension == Dimension::LENGTH).then_some("m")) {
+        Some(unit) if wanted == Builtin::Plain && !dimension.is_none() => {
+            d.hint(format!("divide by a unit first: `{written} / 1 {unit}`"))
+        }
+        _ => d,
+    }
 }
 
 /// Returns a kind that says whether a number is wanted, for the code of a diagnostic.

@@ -178,8 +178,11 @@ impl Lowerer<'_> {
     pub(crate) fn class_of_type(&mut self, file: FileId, ty: &ast::Type) -> Option<ClassId> {
         match ty.shape() {
             TypeShape::Named(words) => {
-                let word = words.last()?;
-                let found = self.visible.class(file, word.text());
+                let (word, from) = words.split_last()?;
+                if !from.is_empty() {
+                    return self.class_of_text(file, from, word);
+                }
+                let found = self.class_meant(file, word)?;
                 if found.is_none() {
                     let message = format!("there is no class {}", word.text());
                     let place = Place { file, span: word.span() };
@@ -212,6 +215,58 @@ impl Lowerer<'_> {
                 self.placed_class(file, ty.span(), master)
             }
         }
+    }
+
+    /// Returns the class that a bare name means in a text, if it is one; nothing where several texts that are used
+    /// declare it, which is reported.
+    pub(crate) fn class_meant(&mut self, file: FileId, word: &ast::Word) -> Option<Option<ClassId>> {
+        let rivals = self.visible.rivals(file, word.text());
+        if rivals.is_empty() {
+            return Some(self.visible.class(file, word.text()));
+        }
+        let mut texts: Vec<&str> = rivals.iter().map(|&f| self.files[f].name.as_str()).collect();
+        texts.sort_unstable();
+        let name = word.text();
+        let message = format!("{name} is a class of {}", texts.join(" and of "));
+        let written = texts.iter().map(|text| format!("`{text}.{name}`")).collect::<Vec<String>>();
+        let hint = format!("say which one: {}", written.join(" or "));
+        let place = Place { file, span: word.span() };
+        self.report(Diagnostic::error("ambiguous-class", place, message).hint(hint));
+        None
+    }
+
+    /// Returns the text of this name that a text uses: by the whole of it, or its last word.
+    pub(crate) fn text_named(&self, file: FileId, name: &str) -> Option<FileId> {
+        let is_named = |f: &FileId| {
+            let whole = self.files[*f].name.as_str();
+            whole == name || whole.rsplit('.').next() == Some(name)
+        };
+        self.visible.used(file).find(is_named)
+    }
+
+    /// Returns the class of another text: `trusses.Joint`.
+    fn class_of_text(&mut self, file: FileId, from: &[ast::Word], word: &ast::Word) -> Option<ClassId> {
+        let name = from.iter().map(|w| w.text()).collect::<Vec<&str>>().join(".");
+        let first = from.first()?;
+        let Some(text) = self.text_named(file, &name) else {
+            let message = format!("{name} is no text that is used here");
+            let place = Place { file, span: first.span() };
+            let d = Diagnostic::error("unknown-class", place, message);
+            self.report(d.hint(format!("write `use {name}` first")));
+            return None;
+        };
+        let found = self.visible.declared(text, word.text());
+        if found.is_none() {
+            let message = format!("{name} has no class {}", word.text());
+            let place = Place { file, span: word.span() };
+            let mut d = Diagnostic::error("unknown-class", place, message);
+            let names: Vec<String> = self.visible.names(text).map(ToString::to_string).collect();
+            if let Some(near) = self.nearest(word.text(), names.iter().map(String::as_str)) {
+                d = d.meant(near);
+            }
+            self.report(d);
+        }
+        found
     }
 
     /// Returns the class of a list's elements; of lists in it, one that says how long they are.

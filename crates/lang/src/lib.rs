@@ -18,12 +18,14 @@
 //! stays in force; reading a number that was written gives its bits.
 //!
 //! Reading order: `origins`, `lower`, `files`, `visible`, `classes`, `scope`, `members`, `programs`, `loops`, `rules`,
-//! `switches`, `kept`, `names`, `paths`, `refine`, `terms`, `calls`, `kin`, `kinds`, `settle`, `restore`, `checks`,
+//! `switches`, `kept`, `names`, `paths`, `refine`, `terms`, `components`, `calls`, `kin`, `kinds`, `settle`, `restore`,
+//! `checks`,
 //! `numbers`, `write`, `uses`,
 //! `edits`.
 mod calls;
 mod checks;
 mod classes;
+mod components;
 mod constraints;
 mod counts;
 mod edits;

@@ -322,6 +322,7 @@ pub(crate) fn constant(known: &dyn Fn(&Expr) -> Option<f64>, expr: &Expr) -> Opt
                 BinaryOp::Subtract => x - y,
                 BinaryOp::Multiply => x * y,
                 BinaryOp::Divide => x / y,
+                BinaryOp::Remainder => expr::Binary::Remainder.apply(x, y),
                 BinaryOp::Power => expr::Binary::Pow.apply(x, y),
                 _ => return None,
             }

@@ -4,7 +4,6 @@
 use crate::kinds::{Kind, measured};
 use crate::lower::Lowerer;
 use crate::scope::Scope;
-use base::diagnostic::nearest;
 use base::{Diagnostic, Name, Place, Span};
 use expr::dimension::Dimension;
 use kernel::{Argument, BinaryOperator, Term, UnaryOperator};
@@ -165,11 +164,14 @@ impl Lowerer<'_> {
     pub(crate) fn unknown_unit(&mut self, file: base::FileId, span: Span, spelling: &str) {
         let place = Place { file, span };
         let message = format!("{spelling} is no unit that is known here");
-        let mut d = Diagnostic::error("unknown-unit", place, message);
-        if let Some(near) = nearest(spelling, expr::units::spellings()) {
-            d = d.meant(near);
-        }
-        self.report(d);
+        let d = Diagnostic::error("unknown-unit", place, message);
+        // a unit after it or an operator's words: each of its factors by itself
+        let meant = expr::units::meant(spelling);
+        self.report(match meant.as_slice() {
+            [] => d,
+            [one] => d.meant(one),
+            several => d.hint(format!("write {}", several.join(" or "))),
+        });
     }
 
     pub(crate) fn lambda(
@@ -317,6 +319,9 @@ impl Lowerer<'_> {
             return Some((Term::Unary(UnaryOperator::Not, Box::new(term)), Kind::Bool));
         }
         let (term, kind) = self.expr(scope, &operand)?;
+        if let (UnaryOp::Negate, Some(made)) = (op, self.negated_by_component(&term, &kind)) {
+            return Some(made);
+        }
         if !kind.fits(&Kind::Number(None), &self.document) {
             self.wrong_kind(scope, operand.span(), &kind, &Kind::Number(None));
             return None;
@@ -373,11 +378,19 @@ impl Lowerer<'_> {
             BinaryOp::Subtract => BinaryOperator::Subtract,
             BinaryOp::Multiply => BinaryOperator::Multiply,
             BinaryOp::Divide => BinaryOperator::Divide,
+            BinaryOp::Remainder => BinaryOperator::Remainder,
             BinaryOp::Power => BinaryOperator::Power,
             BinaryOp::Subset | BinaryOp::Union => {
                 return self.combine_sets(scope, op, span, (a, ka), (b, kb));
             }
         };
+        let has_parts = |k: &Kind| matches!(k, Kind::Thing(_) | Kind::Tuple(_));
+        if has_parts(&ka) || has_parts(&kb) {
+            let made = self.by_component(operator, (&a, &ka), (&b, &kb));
+            if made.is_some() {
+                return made;
+            }
+        }
         let Some(kind) = self.combined_kind(operator, &ka, &kb, &b) else {
             self.refuse_operands(scope, operator, span, &ka, &kb);
             return None;
@@ -444,7 +457,7 @@ impl Lowerer<'_> {
     }
 
     /// Returns what two joined operands are worth; nothing where they do not go together.
-    fn combined_kind(&self, op: BinaryOperator, a: &Kind, b: &Kind, right: &Term) -> Option<Kind> {
+    pub(crate) fn combined_kind(&self, op: BinaryOperator, a: &Kind, b: &Kind, right: &Term) -> Option<Kind> {
         let number = |k: &Kind| matches!(k, Kind::Number(_) | Kind::Unknown);
         let numbers = number(a) && number(b);
         let texts =
@@ -455,7 +468,7 @@ impl Lowerer<'_> {
             BinaryOperator::Add => {
                 (fit && (numbers || texts)).then(|| a.clone().joined(b.clone()))?
             }
-            BinaryOperator::Subtract => (fit && numbers).then(|| a.clone().joined(b.clone()))?,
+            BinaryOperator::Subtract | BinaryOperator::Remainder => (fit && numbers).then(|| a.clone().joined(b.clone()))?,
             BinaryOperator::Multiply => numbers.then(|| product(a, b, Dimension::times))?,
             BinaryOperator::Divide => numbers.then(|| product(a, b, Dimension::over))?,
             BinaryOperator::Power => {

@@ -37,6 +37,26 @@ impl Visible {
         // what the text itself declares was declared last of what it sees
         all.into_iter().find(seen).map(|c| c.1)
     }
+    /// Returns the texts that a name can come from where a text does not declare it itself and several that it uses
+    /// do, none of which knows the other: nothing says which one is meant.
+    pub(crate) fn rivals(&self, file: FileId, name: &str) -> Vec<FileId> {
+        let all = self.classes.get(name).map(Vec::as_slice).unwrap_or_default();
+        if all.iter().any(|c| c.0 == Some(file)) {
+            return Vec::new();
+        }
+        let seen = all.iter().filter_map(|c| c.0.filter(|_| self.sees(file, c.0)));
+        let seen: Vec<FileId> = seen.collect();
+        let is_used = |other: &FileId| {
+            let uses = |by: &FileId| self.uses.get(by).is_some_and(|all| all.contains(other));
+            seen.iter().any(uses)
+        };
+        let apart: Vec<FileId> = seen.iter().copied().filter(|f| !is_used(f)).collect();
+        if apart.len() > 1 { apart } else { Vec::new() }
+    }
+    /// Returns the texts that a text uses, directly or by way of others.
+    pub(crate) fn used(&self, file: FileId) -> impl Iterator<Item = FileId> {
+        self.uses.get(&file).into_iter().flatten().copied()
+    }
     /// Returns the class of this name that a text itself declares.
     pub(crate) fn declared(&self, file: FileId, name: &str) -> Option<ClassId> {
         self.classes.get(name)?.iter().find(|c| c.0 == Some(file)).map(|c| c.1)

@@ -19,6 +19,17 @@ impl<'a> Opening<'a> {
         match (name.as_str(), arguments.as_slice()) {
             ("pi", []) => Ok(self.number(std::f64::consts::PI)),
             ("atan2", [y, x]) => self.fold(Binary::Atan2, &[y.clone(), x.clone()]),
+            ("ceil", [x]) => self.ceil(x),
+            ("hypot", [x, y]) => {
+                let squares = [x, y].map(|x| self.binary(BinaryOperator::Multiply, x, x));
+                let [x, y] = squares;
+                let sum = self.binary(BinaryOperator::Add, &x?, &y?)?;
+                self.unary(Unary::Sqrt, &sum)
+            }
+            ("clamp", [x, low, high]) => {
+                let below = self.fold(Binary::Min, &[x.clone(), high.clone()])?;
+                self.fold(Binary::Max, &[low.clone(), below])
+            }
             ("min", [list @ Meaning::List(_)]) => {
                 let items = self.items(list)?;
                 self.fold(Binary::Min, &items)
@@ -156,6 +167,7 @@ impl<'a> Opening<'a> {
         }
         match (name.as_str(), arguments) {
             ("text", _) => Ok(self.opaque(arguments.iter().chain([to]))),
+            ("ceil", []) => self.ceil(to),
             ("min", [x]) => self.fold(Binary::Min, &[to.clone(), x.clone()]),
             ("max", [x]) => self.fold(Binary::Max, &[to.clone(), x.clone()]),
             _ => {
@@ -163,6 +175,13 @@ impl<'a> Opening<'a> {
                 Err(Trouble::new(FaultKind::UnknownName, message))
             }
         }
+    }
+
+    /// The smallest whole number that is not smaller: by `floor`, whose pieces the solver knows.
+    fn ceil(&mut self, x: &Meaning<'a>) -> Answer<'a> {
+        let negated = self.unary(Unary::Neg, x)?;
+        let below = self.unary(Unary::Floor, &negated)?;
+        self.unary(Unary::Neg, &below)
     }
 
     fn send_list(
@@ -311,6 +330,16 @@ fn unary_named(name: &str) -> Option<Unary> {
         "atan" => Unary::Atan,
         "exp" => Unary::Exp,
         "ln" => Unary::Ln,
+        "log10" => Unary::Log10,
+        "log2" => Unary::Log2,
+        "sinh" => Unary::Sinh,
+        "cosh" => Unary::Cosh,
+        "tanh" => Unary::Tanh,
+        "asinh" => Unary::Asinh,
+        "acosh" => Unary::Acosh,
+        "atanh" => Unary::Atanh,
+        "cbrt" => Unary::Cbrt,
+        "sign" => Unary::Sign,
         "floor" => Unary::Floor,
         "round" => Unary::Round,
         _ => return None,

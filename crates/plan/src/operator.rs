@@ -26,6 +26,13 @@ impl<'a> Opening<'a> {
     ) -> Answer<'a> {
         if let (Meaning::Number(a), Meaning::Number(b)) = (a, b) {
             let (a, b) = (*a, *b);
+            if operator == BinaryOperator::Remainder {
+                // by a step, whose pieces the solver knows
+                let quotient = self.arena.div(a, b);
+                let whole = self.arena.unary(Unary::Floor, quotient);
+                let whole = self.arena.mul(b, whole);
+                return Ok(Meaning::Number(self.arena.sub(a, whole)));
+            }
             let (operator, a, b) = match operator {
                 BinaryOperator::Add => (Binary::Add, a, b),
                 BinaryOperator::Subtract => (Binary::Sub, a, b),
@@ -40,7 +47,9 @@ impl<'a> Opening<'a> {
                 BinaryOperator::GreaterEqual => (Binary::LessEqual, b, a),
                 BinaryOperator::And => (Binary::And, a, b),
                 BinaryOperator::Or => (Binary::Or, a, b),
-                BinaryOperator::In => return Err(Trouble::wrong("a number has no members")),
+                BinaryOperator::In | BinaryOperator::Remainder => {
+                    return Err(Trouble::wrong("a number has no members"));
+                }
             };
             return Ok(Meaning::Number(self.arena.binary(operator, a, b)));
         }
@@ -55,6 +64,7 @@ impl<'a> Opening<'a> {
             | BinaryOperator::Subtract
             | BinaryOperator::Multiply
             | BinaryOperator::Divide
+            | BinaryOperator::Remainder
             | BinaryOperator::Power
             | BinaryOperator::Less
             | BinaryOperator::LessEqual

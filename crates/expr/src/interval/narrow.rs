@@ -81,6 +81,15 @@ fn operand_of(op: Unary, own: Interval, result: Interval) -> Interval {
         | Unary::Acos
         | Unary::Atan
         | Unary::Ln
+        | Unary::Log10
+        | Unary::Log2
+        | Unary::Sinh
+        | Unary::Cosh
+        | Unary::Tanh
+        | Unary::Asinh
+        | Unary::Acosh
+        | Unary::Atanh
+        | Unary::Cbrt
         | Unary::Sign
         | Unary::Not => Interval::ALL,
     }

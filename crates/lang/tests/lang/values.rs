@@ -250,10 +250,3 @@ fn what_is_shown_may_be_typed_back() {
         }
     }
 }
-
-#[test]
-fn every_unit_that_can_be_written_is_known() {
-    for spelling in syntax::units::UNITS {
-        assert!(expr::units::unit(spelling).is_some(), "{spelling} has a dimension and a factor");
-    }
-}

@@ -77,7 +77,16 @@ fn unary(op: Unary, a: Exact) -> Exact {
         | Unary::Acos
         | Unary::Atan
         | Unary::Exp
-        | Unary::Ln => None,
+        | Unary::Ln
+        | Unary::Log10
+        | Unary::Log2
+        | Unary::Sinh
+        | Unary::Cosh
+        | Unary::Tanh
+        | Unary::Asinh
+        | Unary::Acosh
+        | Unary::Atanh
+        | Unary::Cbrt => None,
     };
     Exact { near, residue }
 }

@@ -101,6 +101,7 @@ fn kinds(kernel: &Kernel, argument: &dyn Fn(usize) -> Kinds) -> Kinds {
             Node::Unary(op, a) => match op {
                 Unary::Neg | Unary::Abs | Unary::Floor | Unary::Round => of(a),
                 Unary::Sqrt => of(a).map(|a| a.power(0.5)),
+                Unary::Cbrt => of(a).map(|a| a.power(1.0 / 3.0)),
                 _ => of(a).map(|_| Told::plain()),
             },
             Node::Binary(op, a, b) => binary(arena, op, (of(a), of(b)), b),

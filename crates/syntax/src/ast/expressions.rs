@@ -150,6 +150,8 @@ pub enum BinaryOp {
     Multiply,
     /// `/`
     Divide,
+    /// `mod`
+    Remainder,
     /// `^`
     Power,
 }
@@ -174,6 +176,7 @@ impl BinaryOp {
                 "in" => Self::In,
                 "subset" => Self::Subset,
                 "union" => Self::Union,
+                "mod" => Self::Remainder,
                 _ => return None,
             },
             _ => return None,

@@ -123,6 +123,7 @@ fn operator(p: &Parser<'_>) -> Option<Power> {
             "in" if !p.in_bindings => Power::Compare,
             "is" | "subset" => Power::Compare,
             "union" => Power::Add,
+            "mod" => Power::Multiply,
             _ => return None,
         },
         _ => return None,
