@@ -4,8 +4,8 @@
 //! `libm`, compiled from one source for native and WebAssembly alike.
 
 pub use libm::{
-    acos, acosh, asin, asinh, atan, atan2, atanh, cbrt, cos, cosh, exp, hypot, log as ln, log2, log10, pow, sin,
-    sinh, sqrt, tan, tanh,
+    acos, acosh, asin, asinh, atan, atan2, atanh, cbrt, cos, cosh, exp, hypot, log as ln, log2,
+    log10, pow, sin, sinh, sqrt, tan, tanh,
 };
 
 /// How far the two sides of a rule may differ, relative to the larger side.

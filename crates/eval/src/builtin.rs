@@ -7,14 +7,15 @@ use crate::measure;
 use crate::operate::finite;
 use base::Name;
 use base::number::{
-    acos, acosh, asin, asinh, atan, atan2, atanh, cbrt, cos, cosh, exp, joined, ln, log2, log10, rounded,
-    shortest, sin, sinh, sqrt, tan, tanh,
+    acos, acosh, asin, asinh, atan, atan2, atanh, cbrt, cos, cosh, exp, joined, ln, log2, log10,
+    rounded, shortest, sin, sinh, sqrt, tan, tanh,
 };
 use drawing::metrics;
 use expr::dimension::Dimension;
 use kernel::builtin::{
-    Builtin, Domain, FUNCTIONS, Function, LIST_MESSAGES, ListMessage, NUMBER_MESSAGES, NumberMessage,
-    PICTURE_MESSAGES, TEXT_MESSAGES, THING_MESSAGES, TextMessage, ThingMessage, find,
+    Builtin, Domain, FUNCTIONS, Function, LIST_MESSAGES, ListMessage, NUMBER_MESSAGES,
+    NumberMessage, PICTURE_MESSAGES, TEXT_MESSAGES, THING_MESSAGES, TextMessage, ThingMessage,
+    find,
 };
 use kernel::{ClassKind, ThingId};
 

@@ -195,7 +195,14 @@ impl<'a> Evaluator<'a> {
                 Ok(Verdict { holds: !verdict.holds, error: None, ..verdict })
             }
             Term::Binary(
-                B::NotEqual | B::In | B::Add | B::Subtract | B::Multiply | B::Divide | B::Remainder | B::Power,
+                B::NotEqual
+                | B::In
+                | B::Add
+                | B::Subtract
+                | B::Multiply
+                | B::Divide
+                | B::Remainder
+                | B::Power,
                 ..,
             )
             | Term::Unary(UnaryOperator::Negate, _)

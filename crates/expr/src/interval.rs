@@ -172,9 +172,7 @@ fn unary(op: Unary, a: Interval) -> Interval {
         | Unary::Cbrt => domain.rising(op, FUNCTION_ERROR),
         Unary::Tanh => domain.rising(op, FUNCTION_ERROR).clip(-1.0, 1.0),
         Unary::Acosh => domain.rising(op, FUNCTION_ERROR).clip(0.0, f64::INFINITY),
-        Unary::Cosh => {
-            magnitude(domain).rising(op, FUNCTION_ERROR).clip(1.0, f64::INFINITY)
-        }
+        Unary::Cosh => magnitude(domain).rising(op, FUNCTION_ERROR).clip(1.0, f64::INFINITY),
         Unary::Exp => domain.rising(op, FUNCTION_ERROR).clip(0.0, f64::INFINITY),
         Unary::Acos => {
             let falling = Interval { low: domain.high, high: domain.low };

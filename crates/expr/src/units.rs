@@ -495,7 +495,10 @@ mod tests {
             ("50", "%", 0.5),
         ] {
             let read = read_quantity(number, unit).map(|q| q.0).expect("it is a unit");
-            assert!((read - wanted).abs() <= 4.0 * f64::EPSILON * wanted, "{number} {unit}: {read}");
+            assert!(
+                (read - wanted).abs() <= 4.0 * f64::EPSILON * wanted,
+                "{number} {unit}: {read}"
+            );
         }
         // 550 ft lbf/s; 60 rpm is a turn a second
         let [hp, made] = ["hp", "ft*lbf/s"].map(|u| read_quantity("550", u).expect("a unit").0);

@@ -320,8 +320,7 @@ fn every_operation_has_a_finite_derivative_at_a_common_point() {
     let beyond = arena.add(x, one);
     // the inverse of the hyperbolic cosine begins at 1, where that of the sine ends
     let operand = |op| if op == Unary::Acosh { beyond } else { x };
-    let mut expressions: Vec<ExprId> =
-        Unary::ALL.map(|op| arena.unary(op, operand(op))).to_vec();
+    let mut expressions: Vec<ExprId> = Unary::ALL.map(|op| arena.unary(op, operand(op))).to_vec();
     expressions.extend(Binary::ALL.map(|op| arena.binary(op, x, y)));
     expressions.push(arena.select(z, x, y));
     let at = |dx: f64, dy: f64| [0.3 + dx, 0.7 + dy, 1.0];

@@ -219,7 +219,11 @@ impl Lowerer<'_> {
 
     /// Returns the class that a bare name means in a text, if it is one; nothing where several texts that are used
     /// declare it, which is reported.
-    pub(crate) fn class_meant(&mut self, file: FileId, word: &ast::Word) -> Option<Option<ClassId>> {
+    pub(crate) fn class_meant(
+        &mut self,
+        file: FileId,
+        word: &ast::Word,
+    ) -> Option<Option<ClassId>> {
         let rivals = self.visible.rivals(file, word.text());
         if rivals.is_empty() {
             return Some(self.visible.class(file, word.text()));
@@ -245,7 +249,12 @@ impl Lowerer<'_> {
     }
 
     /// Returns the class of another text: `trusses.Joint`.
-    fn class_of_text(&mut self, file: FileId, from: &[ast::Word], word: &ast::Word) -> Option<ClassId> {
+    fn class_of_text(
+        &mut self,
+        file: FileId,
+        from: &[ast::Word],
+        word: &ast::Word,
+    ) -> Option<ClassId> {
         let name = from.iter().map(|w| w.text()).collect::<Vec<&str>>().join(".");
         let first = from.first()?;
         let Some(text) = self.text_named(file, &name) else {

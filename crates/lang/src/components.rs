@@ -40,9 +40,19 @@ impl Lowerer<'_> {
                 Shape::Place(*p)
             }
             (BinaryOperator::Add | BinaryOperator::Subtract, Shape::Tuple(_), Shape::Tuple(_))
-            | (BinaryOperator::Multiply | BinaryOperator::Divide, Shape::Tuple(_), Shape::Number(_))
-            | (BinaryOperator::Multiply, Shape::Number(_), Shape::Tuple(_)) => left_or(&left, &right),
-            (BinaryOperator::Multiply | BinaryOperator::Divide, Shape::Place(_), Shape::Number(_))
+            | (
+                BinaryOperator::Multiply | BinaryOperator::Divide,
+                Shape::Tuple(_),
+                Shape::Number(_),
+            )
+            | (BinaryOperator::Multiply, Shape::Number(_), Shape::Tuple(_)) => {
+                left_or(&left, &right)
+            }
+            (
+                BinaryOperator::Multiply | BinaryOperator::Divide,
+                Shape::Place(_),
+                Shape::Number(_),
+            )
             | (BinaryOperator::Multiply, Shape::Number(_), Shape::Place(_)) => {
                 let place = left_or(&left, &right);
                 let number = if matches!(left, Shape::Number(_)) { ka } else { kb };
@@ -53,9 +63,14 @@ impl Lowerer<'_> {
             _ => return None,
         };
         let (of_left, of_right) = (self.components(&left), self.components(&right));
-        let count = [&left, &right].into_iter().filter(|s| !matches!(s, Shape::Number(_))).map(|s| self.components(s).len());
+        let count = [&left, &right]
+            .into_iter()
+            .filter(|s| !matches!(s, Shape::Number(_)))
+            .map(|s| self.components(s).len());
         let count = count.reduce(|a, b| if a == b { a } else { 0 }).filter(|&n| n > 0)?;
-        let kind_at = |kinds: &[Kind], i: usize| kinds.get(i).or(kinds.first()).cloned().unwrap_or(Kind::Unknown);
+        let kind_at = |kinds: &[Kind], i: usize| {
+            kinds.get(i).or(kinds.first()).cloned().unwrap_or(Kind::Unknown)
+        };
         let mut items = Vec::new();
         let mut kinds = Vec::new();
         for i in 0..count {
@@ -149,7 +164,11 @@ impl Lowerer<'_> {
             (Shape::Number(_), Term::Number { .. }) => operand.clone(),
             (Shape::Number(_), _) => Term::Local(Name::new(name)),
             (Shape::Place(class), _) => {
-                let field = self.document.layout(*class).get(i).map(|&f| self.document.field_name(f).clone());
+                let field = self
+                    .document
+                    .layout(*class)
+                    .get(i)
+                    .map(|&f| self.document.field_name(f).clone());
                 Term::send(Term::Local(Name::new(name)), &field.unwrap_or_else(|| Name::new("")))
             }
         }
@@ -185,4 +204,3 @@ impl Lowerer<'_> {
 fn left_or(left: &Shape, right: &Shape) -> Shape {
     if let Shape::Number(_) = left { right.clone() } else { left.clone() }
 }
-

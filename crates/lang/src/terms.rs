@@ -457,7 +457,13 @@ impl Lowerer<'_> {
     }
 
     /// Returns what two joined operands are worth; nothing where they do not go together.
-    pub(crate) fn combined_kind(&self, op: BinaryOperator, a: &Kind, b: &Kind, right: &Term) -> Option<Kind> {
+    pub(crate) fn combined_kind(
+        &self,
+        op: BinaryOperator,
+        a: &Kind,
+        b: &Kind,
+        right: &Term,
+    ) -> Option<Kind> {
         let number = |k: &Kind| matches!(k, Kind::Number(_) | Kind::Unknown);
         let numbers = number(a) && number(b);
         let texts =
@@ -468,7 +474,9 @@ impl Lowerer<'_> {
             BinaryOperator::Add => {
                 (fit && (numbers || texts)).then(|| a.clone().joined(b.clone()))?
             }
-            BinaryOperator::Subtract | BinaryOperator::Remainder => (fit && numbers).then(|| a.clone().joined(b.clone()))?,
+            BinaryOperator::Subtract | BinaryOperator::Remainder => {
+                (fit && numbers).then(|| a.clone().joined(b.clone()))?
+            }
             BinaryOperator::Multiply => numbers.then(|| product(a, b, Dimension::times))?,
             BinaryOperator::Divide => numbers.then(|| product(a, b, Dimension::over))?,
             BinaryOperator::Power => {

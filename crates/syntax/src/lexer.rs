@@ -91,7 +91,8 @@ fn is_keyword_in(before: &str, rest: &str) -> bool {
     }
     let next = &rest[name + blanks(&rest[name..])..];
     let operator = ["and", "or", "mod", "within", "until", "then", "else", "to", "times", "union"];
-    let begins_member = next.starts_with(|c: char| c.is_alphabetic() || matches!(c, ':' | '=' | '{'));
+    let begins_member =
+        next.starts_with(|c: char| c.is_alphabetic() || matches!(c, ':' | '=' | '{'));
     !operator.contains(&&rest[..name]) && !begins_member
 }
 
@@ -278,10 +279,16 @@ mod tests {
     fn an_inch_is_told_from_the_word() {
         check("3 in", "Number 3 | Unit in");
         check("3 in * 2", "Number 3 | Unit in | Star * | Number 2");
-        check("w = 3 in h = 4 in^2", "Ident w | Eq = | Number 3 | Unit in | Ident h | Eq = | Number 4 | Unit in^2");
+        check(
+            "w = 3 in h = 4 in^2",
+            "Ident w | Eq = | Number 3 | Unit in | Ident h | Eq = | Number 4 | Unit in^2",
+        );
         check("3 in xs", "Number 3 | Ident in | Ident xs");
         check("3 in (xs)", "Number 3 | Ident in | LParen ( | Ident xs | RParen )");
-        check("let a = 3 in -a", "LetKw let | Ident a | Eq = | Number 3 | Ident in | Minus - | Ident a");
+        check(
+            "let a = 3 in -a",
+            "LetKw let | Ident a | Eq = | Number 3 | Ident in | Minus - | Ident a",
+        );
         check("3 in and x", "Number 3 | Unit in | AndKw and | Ident x");
     }
     #[test]

@@ -43,10 +43,7 @@ fn what_has_no_value_says_why() {
         (divide(num(9.0), num(0.0)), "no-answer: 9 divided by zero"),
         (call("sqrt", vec![num(-4.0)]), "no-answer: sqrt(-4), which is defined where x >= 0"),
         (call("ln", vec![num(0.0)]), "no-answer: ln(0), which is defined where x > 0"),
-        (
-            call("asin", vec![num(2.0)]),
-            "no-answer: asin(2), which is defined where -1 <= x <= 1",
-        ),
+        (call("asin", vec![num(2.0)]), "no-answer: asin(2), which is defined where -1 <= x <= 1"),
         (
             op(BinaryOperator::Power, num(10.0), num(400.0)),
             "no-answer: a number too large to be written",
