@@ -38,7 +38,8 @@ pub(crate) fn module(package: &str, compiler: &WasmCompiler) -> Result<PathBuf, 
     if is_older(&module.join(format!("{package}_bg.wasm")), &made) {
         say!("page: making its module");
         let mut bindgen = tools::cargo(&["run", "--package", "bindgen", "--"]);
-        run("the page's module was not made", quiet(bindgen.arg(&made).arg(&module)))?;
+        bindgen.arg(&made).arg(&module).arg(top().join("crates/web/assets/codemirror.js"));
+        run("the page's module was not made", quiet(&mut bindgen))?;
     }
     Ok(module)
 }

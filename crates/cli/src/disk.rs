@@ -232,6 +232,10 @@ pub(crate) fn save(
     if text.len() > LONGEST {
         return Err(DiskError::TooLong);
     }
+    check_name(name)?;
+    if *expected == Version::absent() {
+        make_folders(root, name)?;
+    }
     let path = locate(root, name)?;
     expect_version(&path, expected)?;
     let draft = draft_path(&path)?;
@@ -243,6 +247,26 @@ pub(crate) fn save(
         let _ = fs::remove_file(&draft);
     }
     result.map(|()| Version::of(text))
+}
+
+/// Makes the folders of a new document that are not there yet, each only below one that really lies below
+/// the root.
+fn make_folders(root: &Root, name: &str) -> Result<(), DiskError> {
+    let folders = name.rsplit_once('/').map_or("", |(folders, _)| folders);
+    let mut folder = root.0.clone();
+    for component in folders.split('/').filter(|c| !c.is_empty()) {
+        folder.push(component);
+        match fs::create_dir(&folder) {
+            Err(error) if error.kind() != io::ErrorKind::AlreadyExists => return Err(error.into()),
+            _ => {}
+        }
+        let real = folder.canonicalize()?;
+        if !real.starts_with(&root.0) || !real.is_dir() {
+            return Err(DiskError::NotPlain);
+        }
+        folder = real;
+    }
+    Ok(())
 }
 
 fn expect_version(path: &Path, expected: &Version) -> Result<(), DiskError> {

@@ -31,7 +31,7 @@ const LONGEST_HEAD: usize = 16 << 10;
 
 #[derive(Debug, clap::Args)]
 pub(crate) struct Arguments {
-    /// The document to open; without it the gallery.
+    /// The document to open, or to begin where there is none yet; without it the gallery.
     file: Option<PathBuf>,
     /// The port on 127.0.0.1; 0 takes a free one.
     #[arg(long, default_value_t = 0)]
@@ -83,8 +83,7 @@ async fn open(arguments: &Arguments) -> io::Result<()> {
 fn choose(root: Option<&Path>, file: Option<&Path>) -> io::Result<(Root, Option<String>)> {
     let here = Root::open(root.unwrap_or(Path::new(".")))?;
     let Some(file) = file else { return Ok((here, None)) };
-    let real = file
-        .canonicalize()
+    let real = real_path(file)
         .map_err(|error| io::Error::new(error.kind(), format!("{}: {error}", file.display())))?;
     let root = match real.parent() {
         Some(folder) if root.is_none() && !real.starts_with(here.folder()) => Root::open(folder)?,
@@ -100,6 +99,17 @@ fn choose(root: Option<&Path>, file: Option<&Path>) -> io::Result<(Root, Option<
         io::Error::new(io::ErrorKind::InvalidInput, format!("{}: {error}", file.display()))
     })?;
     Ok((root, Some(name)))
+}
+
+/// The real path of a file that is there, or that will be in a folder that is there.
+fn real_path(file: &Path) -> io::Result<PathBuf> {
+    let missing = match file.canonicalize() {
+        Err(error) if error.kind() == io::ErrorKind::NotFound => error,
+        found => return found,
+    };
+    let Some(name) = file.file_name() else { return Err(missing) };
+    let folder = file.parent().filter(|folder| !folder.as_os_str().is_empty());
+    Ok(folder.unwrap_or(Path::new(".")).canonicalize()?.join(name))
 }
 
 /// The address to open: the document in the query, the token in the fragment.
@@ -170,4 +180,17 @@ async fn serve_connection(stream: TcpStream, lab: Rc<Lab>) {
         .max_buf_size(LONGEST_HEAD)
         .serve_connection(TokioIo::new(stream), answer)
         .await;
+}
+
+#[cfg(test)]
+mod tests {
+    use super::real_path;
+
+    #[test]
+    fn a_file_that_is_not_there_yet_is_begun_in_a_folder_that_is() {
+        let folder = std::env::temp_dir().canonicalize().unwrap();
+        let file = folder.join("thinglab-never-saved.thing");
+        assert_eq!(real_path(&file).unwrap(), file);
+        assert!(real_path(&folder.join("no-such-folder/x.thing")).is_err());
+    }
 }

@@ -502,6 +502,11 @@ fn restructuring(state: &State, command: &Command) -> Result<lang::Restructuring
     })
 }
 
+/// Returns what goes along when something is deleted, as it is written.
+pub(crate) fn along(state: &State, path: &Path) -> Vec<String> {
+    restructuring(state, &Command::Delete(path.clone())).map(|done| done.along).unwrap_or_default()
+}
+
 /// Returns what has to be asked before a command is applied: whether it is meant of one thing, which
 /// becomes a class of one, or of all things of its class. Nothing where there is nothing to ask.
 ///

@@ -36,6 +36,8 @@ pub(crate) struct Open {
     pub(crate) done: Vec<Step>,
     /// What it was after each step that was taken back, the latest last.
     pub(crate) undone: Vec<Step>,
+    /// What the hand holds besides, to place things with.
+    pub(crate) tool: Option<crate::tools::Tool>,
     /// A drag between press and release.
     pub(crate) drag: Option<crate::drag::Drag>,
     /// The picture as it was asked for last.
@@ -63,6 +65,7 @@ impl Open {
             status,
             done: Vec::new(),
             undone: Vec::new(),
+            tool: None,
             drag: None,
             shown: RefCell::new(None),
         }
@@ -118,6 +121,20 @@ impl Open {
         let plans = self.planner.take_plans();
         (self.planner, _) = Planner::new(self.state.model(), plans);
         Some(label)
+    }
+    /// Makes one step of all that were done since there were so many.
+    pub(crate) fn one_step(&mut self, since: usize) {
+        let Some(label) = self.done.last().map(|last| last.label.clone()) else { return };
+        self.done.truncate(since + 1);
+        if let Some(step) = self.done.get_mut(since) {
+            *step = Step {
+                label,
+                state: step.state.clone(),
+                status: step.status.clone(),
+                edited: Vec::new(),
+                wishes: Vec::new(),
+            };
+        }
     }
     /// Makes the state of the same text anew, from what it uses as that is now.
     pub(crate) fn read_again(&mut self, host: &dyn Host) {

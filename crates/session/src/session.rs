@@ -8,12 +8,15 @@ use crate::document::Open;
 use crate::drag;
 use crate::ghosts;
 use crate::host::{Beside, Host};
+use crate::joining;
+use crate::offers;
 use crate::recognise;
 use crate::state::State;
+use crate::tools::{self, Tool};
 use crate::view::{
-    Advice, Affected, Analysis, Change, CheckReport, DocumentId, DragState, Explanation, FixView,
-    Ghost, HeldView, MovedView, PictureView, Question, Recognised, Refusal, Status, StructureRow,
-    TextView, ValueRow,
+    Advice, Affected, Analysis, BinEntry, Change, CheckReport, DocumentId, DragState, Explanation,
+    FixView, Ghost, HeldView, MovedView, Offer, PictureView, Pointer, Question, Recognised,
+    Refusal, Status, StructureRow, TextView, ToolView, ValueRow,
 };
 use crate::views;
 use crate::words;
@@ -56,6 +59,10 @@ impl Session {
         let open = Open::of(name, text.into(), &beside);
         self.documents.push(open);
         id
+    }
+    /// Gives a document another name, under which it was saved.
+    pub fn rename(&mut self, id: DocumentId, name: &str) {
+        self.document_mut(id).name = name.into();
     }
     fn document(&self, id: DocumentId) -> &Open {
         self.documents.get(id.0 as usize).expect("a document id comes from this session's open")
@@ -195,6 +202,155 @@ impl Session {
             change.documents = self.reach(id);
         }
         Ok(change)
+    }
+    /// Returns the command that joins things: of each it merges what sticks there, of a resistor's end the node.
+    ///
+    /// # Errors
+    /// A path leads nowhere, two are one already, or they are unlike.
+    pub fn join(&self, id: DocumentId, paths: &[Path]) -> Result<Command, Refusal> {
+        joining::joined(&self.document(id).state, paths).map(Command::Merge)
+    }
+    /// Returns what the thing that is dragged would be joined with if it were dropped on a path.
+    pub fn joint(&self, id: DocumentId, target: &Path) -> Option<Path> {
+        let drag = self.document(id).drag.as_ref()?;
+        let paths = [target.clone(), drag.path.clone()];
+        joining::joined(&self.document(id).state, &paths).ok()?.into_iter().next()
+    }
+    /// Ends a drag on something that it joins: both are one undo step.
+    ///
+    /// # Errors
+    /// Why it could not be kept or joined; then all is as it was before the press.
+    pub fn release_onto(&mut self, id: DocumentId, target: &Path) -> Result<Change, Refusal> {
+        let Some(drag) = &self.document(id).drag else { return Ok(Change::default()) };
+        let paths = [target.clone(), drag.path.clone()];
+        let command = match self.join(id, &paths) {
+            Ok(command) => command,
+            Err(refusal) => {
+                self.cancel(id);
+                return Err(refusal);
+            }
+        };
+        let steps = self.document(id).done.len();
+        self.release(id)?;
+        let moved = self.document(id).done.len() > steps;
+        let joined = self.apply(id, &command);
+        let beside = Beside::of(&*self.host, &self.documents, id);
+        let open = &mut self.documents[id.0 as usize];
+        if moved && joined.is_err() {
+            apply::apply(open, &beside, &Command::Undo)?;
+            open.undone.clear();
+        } else if moved {
+            open.one_step(steps);
+        }
+        joined
+    }
+    /// Takes a tool into the hand that places a thing of a class, place by place.
+    ///
+    /// # Errors
+    /// There is no such class, or its things have no place.
+    pub fn take_tool(&mut self, id: DocumentId, class: &str) -> Result<ToolView, Refusal> {
+        let beside = Beside::of(&*self.host, &self.documents, id);
+        let open = &self.documents[id.0 as usize];
+        let tool = Tool::new(open, &beside, class)?;
+        let view = tool.view();
+        self.document_mut(id).tool = Some(tool);
+        Ok(view)
+    }
+    /// Takes the same tool again, after what it made was applied: a line goes on from the end of the last one.
+    pub fn take_tool_again(&mut self, id: DocumentId) -> Option<ToolView> {
+        let beside = Beside::of(&*self.host, &self.documents, id);
+        let open = &self.documents[id.0 as usize];
+        let tool = open.tool.as_ref()?.again(open, &beside);
+        let view = tool.as_ref().map(Tool::view);
+        self.document_mut(id).tool = tool;
+        view
+    }
+    /// The tool follows the pointer. Nothing of the document changes.
+    pub fn tool_moved(&mut self, id: DocumentId, pointer: &Pointer) -> Option<ToolView> {
+        let open = self.document_mut(id);
+        let state = open.state.clone();
+        open.tool.as_mut().map(|tool| tool.moved(&state, pointer))
+    }
+    /// The tool sets what it is about to set, where the pointer is; with the last one the view has the command.
+    ///
+    /// # Errors
+    /// Why that cannot be; the tool stays where it was.
+    pub fn tool_set(&mut self, id: DocumentId, pointer: &Pointer) -> Result<ToolView, Refusal> {
+        let beside = Beside::of(&*self.host, &self.documents, id);
+        let open = &mut self.documents[id.0 as usize];
+        let state = open.state.clone();
+        match open.tool.as_mut() {
+            Some(tool) => tool.set(&state, pointer, &beside),
+            None => Ok(ToolView::default()),
+        }
+    }
+    /// Lays the tool down.
+    pub fn drop_tool(&mut self, id: DocumentId) {
+        self.document_mut(id).tool = None;
+    }
+    /// Returns true if a document can make things of a class.
+    pub fn has_class(&self, id: DocumentId, class: &str) -> bool {
+        let state = &self.document(id).state;
+        let document = &state.lowered.document;
+        let known = document.class_named(class);
+        known.is_some_and(|c| recognise::is_candidate(state, c, &document.classes[c]))
+    }
+    /// Returns the steps that can be taken back, the latest first, and those that can be done again, the next first.
+    pub fn history(&self, id: DocumentId) -> (Vec<String>, Vec<String>) {
+        let open = self.document(id);
+        let labels = |steps: &[crate::document::Step]| -> Vec<String> {
+            steps.iter().rev().map(|step| step.label.clone()).collect()
+        };
+        (labels(&open.done), labels(&open.undone))
+    }
+    /// Returns the command that makes copies of some things of the document beside them, and what the first is
+    /// called. A copy has the same values and parts and shares nothing.
+    ///
+    /// # Errors
+    /// A path is no thing of the document itself, or it speaks of others.
+    pub fn duplication(
+        &self,
+        id: DocumentId,
+        paths: &[Path],
+    ) -> Result<(Command, String), Refusal> {
+        let beside = Beside::of(&*self.host, &self.documents, id);
+        tools::copies::duplication(self.document(id), &beside, paths)
+    }
+    /// Returns what goes when something is deleted, besides itself, as it is written.
+    pub fn along_with(&self, id: DocumentId, path: &Path) -> Vec<String> {
+        apply::along(&self.document(id).state, path)
+    }
+    /// Returns what can be said of some things: the constraints that fit them, and merging them.
+    pub fn offers(&self, id: DocumentId, paths: &[Path]) -> Vec<Offer> {
+        offers::offers(&self.document(id).state, paths)
+    }
+    /// Returns what of the picture would look otherwise after a command, which is tried in a copy of the document.
+    ///
+    /// # Errors
+    /// Why it would be refused.
+    pub fn foreseen(&self, id: DocumentId, command: &Command) -> Result<drawing::Drawing, Refusal> {
+        let beside = Beside::of(&*self.host, &self.documents, id);
+        let open = self.document(id);
+        let mut trial = Open::of(&open.name, open.state.text.clone(), &beside);
+        apply::apply(&mut trial, &beside, command)?;
+        let now = views::picture::picture(&open.state, open.values(), &open.status).drawing;
+        let mut then = views::picture::picture(&trial.state, trial.values(), &trial.status).drawing;
+        let bare = |e: &drawing::Element| drawing::Element { tag: drawing::Tag(0), ..e.clone() };
+        let now: Vec<drawing::Element> = now.elements.iter().map(bare).collect();
+        then.elements.retain(|element| !now.contains(&bare(element)));
+        Ok(then)
+    }
+    /// Returns what can be inserted: the classes in use, each with the picture of its prototype.
+    pub fn bin(&self, id: DocumentId) -> Vec<BinEntry> {
+        tools::bin::entries(&self.document(id).state)
+    }
+    /// Returns the command that inserts a thing of a class where there is room.
+    ///
+    /// # Errors
+    /// There is no such class.
+    pub fn insertion(&self, id: DocumentId, class: &str) -> Result<Command, Refusal> {
+        let beside = Beside::of(&*self.host, &self.documents, id);
+        tools::room::insertion(self.document(id), &beside, class)
     }
     /// Gives a drag up: all is as it was before the press.
     pub fn cancel(&mut self, id: DocumentId) {

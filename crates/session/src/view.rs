@@ -233,6 +233,78 @@ pub struct Grip {
     pub anchored: bool,
 }
 
+/// Where a pointer is, for a tool.
+#[derive(Clone, Copy, PartialEq, Debug, Default)]
+pub struct Pointer {
+    /// On the sheet.
+    pub at: (f64, f64),
+    /// How near it must be to what it finds, on the sheet.
+    pub reach: f64,
+    /// Whether it finds nothing: no joints, no guides.
+    pub alone: bool,
+    /// A length that was typed: the place is so far from the last one, in the pointer's direction.
+    pub length: Option<f64>,
+}
+
+/// What a tool shows.
+#[derive(Clone, Debug, Default)]
+pub struct ToolView {
+    /// What the mouse does now, in one sentence.
+    pub hint: String,
+    /// What would be made, and the guides to it.
+    pub preview: drawing::Drawing,
+    /// What the pointer finds, if anything.
+    pub caught: Option<Caught>,
+    /// What makes it, once every place is set.
+    pub command: Option<kernel::Command>,
+    /// Whether something of it is set already.
+    pub begun: bool,
+    /// The path of what it makes.
+    pub makes: String,
+}
+
+/// What a pointer with a tool, or with something dragged, finds.
+#[derive(Clone, PartialEq, Debug)]
+pub struct Caught {
+    /// Where it is, on the sheet.
+    pub at: (f64, f64),
+    /// What comes of it: `joins line.p2`, `midpoint of line`, `horizontal`.
+    pub word: String,
+}
+
+/// Something that can be said of what is selected.
+#[derive(Clone, PartialEq, Eq, Debug)]
+pub struct Offer {
+    /// What a button says: `parallel`, `equal length`, `distance`.
+    pub label: String,
+    /// The members of the document that say it; `{}` stands where a value goes.
+    pub members: String,
+    /// The value as it is now, where one goes there.
+    pub value: Option<String>,
+}
+
+impl Offer {
+    /// Returns the command that says it, with a value where one goes there.
+    pub fn command(&self, value: Option<&str>) -> kernel::Command {
+        let value = value.or(self.value.as_deref()).unwrap_or_default();
+        let members = self.members.replace("{}", value);
+        kernel::Command::Edit { target: kernel::Path::default(), members }
+    }
+}
+
+/// A class that things can be made of.
+#[derive(Clone, PartialEq, Debug)]
+pub struct BinEntry {
+    /// Its name.
+    pub class: String,
+    /// What `///` says of it.
+    pub doc: String,
+    /// The library or file that it comes from; empty for the document's own.
+    pub library: String,
+    /// What a new one looks like.
+    pub picture: drawing::Drawing,
+}
+
 /// One row of the structure view, in pre-order: the accessible twin of the picture.
 #[derive(Clone, PartialEq, Debug, Serialize)]
 pub struct StructureRow {
@@ -283,6 +355,10 @@ pub enum RowKind {
 }
 
 impl RowKind {
+    /// Returns true for a thing that is stored.
+    pub fn is_thing(self) -> bool {
+        self == Self::Part
+    }
     /// Returns true if the row's path leads to what it stands for; else it leads to the thing that says it.
     pub fn has_own_path(self) -> bool {
         match self {

@@ -1,6 +1,7 @@
 // The page's only way to the server: one request function, with the token.
 // `thinglab serve` prints an address that ends in #token=…; a fragment is never sent over the wire.
-// The token is kept for this tab alone and taken out of the address at once.
+// The token is kept in the tabs of this address alone and taken out of the address at once. A tab that was
+// opened from another one (a card clicked with Ctrl) asks those that are open for it.
 
 const KEY = "thinglab-token"
 const given = new URLSearchParams(location.hash.slice(1)).get("token")
@@ -9,9 +10,34 @@ if (given) {
   history.replaceState(null, "", location.pathname + location.search)
 }
 
+const tabs = new BroadcastChannel(KEY)
+tabs.onmessage = ({ data }) => {
+  const own = sessionStorage.getItem(KEY)
+  if (data === "ask" && own) tabs.postMessage({ token: own })
+}
+
+// The token: this tab's, or that of another tab that answers within a moment.
+function token() {
+  const own = sessionStorage.getItem(KEY)
+  if (own) return own
+  return new Promise((resolve) => {
+    const asking = new BroadcastChannel(KEY)
+    const done = (answer) => {
+      asking.close()
+      if (answer) sessionStorage.setItem(KEY, answer)
+      resolve(answer)
+    }
+    asking.onmessage = ({ data }) => {
+      if (data?.token) done(data.token)
+    }
+    asking.postMessage("ask")
+    setTimeout(() => done(""), 500)
+  })
+}
+
 // Sends `body` (text, or undefined for none); gives [status, text]. Status 0: no server there.
 export async function request(method, path, body) {
-  const headers = { "x-thinglab-token": sessionStorage.getItem(KEY) ?? "" }
+  const headers = { "x-thinglab-token": await token() }
   if (body !== undefined) headers["content-type"] = "application/json"
   try {
     const answer = await fetch(path, { method, headers, body, cache: "no-store" })

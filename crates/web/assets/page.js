@@ -32,6 +32,18 @@ export function download(name, text) {
   setTimeout(() => URL.revokeObjectURL(link.href), 1000)
 }
 
+// Lets a person choose a file, and calls back with its name and its text.
+export function chooseFile(chosen) {
+  const input = document.createElement("input")
+  input.type = "file"
+  input.accept = ".thing,text/plain"
+  input.addEventListener("change", async () => {
+    const [file] = input.files
+    if (file) chosen(file.name, await file.text())
+  })
+  input.click()
+}
+
 // Lets tests and people at the console look at the lab: window.__thinglab.state().
 export function publish(state) {
   window.__thinglab = { state: () => JSON.parse(state()) }

@@ -7,13 +7,16 @@ use leptos::html::Input;
 use leptos::prelude::*;
 use session::view::Refusal;
 
-/// Brings an element into sight, if it is there.
+/// Brings an element into sight within the panel that it scrolls in, if it is there. The page itself stays:
+/// what is selected in the picture must not take the picture away.
 pub fn scroll_to(id: &str) {
-    if let Some(element) = document().get_element_by_id(id) {
-        let options = web_sys::ScrollIntoViewOptions::new();
-        options.set_block(web_sys::ScrollLogicalPosition::Nearest);
-        element.scroll_into_view_with_scroll_into_view_options(&options);
-    }
+    let Some(element) = document().get_element_by_id(id) else { return };
+    let Some(panel) = element.closest(".scroll").ok().flatten() else { return };
+    let (own, frame) = (element.get_bounding_client_rect(), panel.get_bounding_client_rect());
+    let above = own.top() - frame.top();
+    let below = own.bottom() - frame.bottom();
+    let by = if above < 0.0 { above } else { below.max(0.0) };
+    panel.set_scroll_top(panel.scroll_top() + by.round() as i32);
 }
 
 /// One line that says why a value was refused.

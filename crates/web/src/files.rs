@@ -12,6 +12,8 @@ use std::collections::{BTreeMap, BTreeSet};
 pub struct FileSet {
     /// Texts by the name that `use` gives them; nothing where it is known that there is none.
     pub texts: BTreeMap<String, Option<String>>,
+    /// The names of the libraries.
+    pub libraries: Vec<String>,
     /// Names that nothing is known of.
     pub wanted: BTreeSet<String>,
 }
@@ -36,6 +38,9 @@ pub struct Files(pub StoredValue<FileSet>);
 impl Host for Files {
     fn read(&self, name: &str) -> Option<String> {
         self.0.try_update_value(|files| files.find(name)).flatten()
+    }
+    fn libraries(&self) -> Vec<String> {
+        self.0.try_with_value(|files| files.libraries.clone()).unwrap_or_default()
     }
 }
 

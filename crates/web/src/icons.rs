@@ -12,6 +12,25 @@ fn icon(path: &'static str) -> AnyView {
     .into_any()
 }
 
+/// The icon of a tool, by its action.
+pub fn of_tool(action: &str) -> AnyView {
+    icon(match action {
+        "select" => "M4 2.500l8 6-3.600.600L6.500 13z",
+        "tool-point" => {
+            "M8 6.500a1.500 1.500 0 100 3a1.500 1.500 0 000-3zM8 2v2M8 12v2M2 8h2M12 8h2"
+        }
+        "tool-line" => "M3.500 12.500l9-9M2.500 13.500h2v-2h-2zM11.500 4.500h2v-2h-2z",
+        "tool-circle" => "M8 2.500a5.500 5.500 0 100 11a5.500 5.500 0 000-11zM8 7.800v.400",
+        "tool-arc" => {
+            "M2.500 12.500A10 10 0 0112.500 2.500M2.500 12.500v.100M12.500 2.500v.100M12 12v.400"
+        }
+        "tool-rectangle" => "M2.500 4h11v8h-11z",
+        "insert" => "M3 6.500h10v6.500H3zM8 1.500v7M5.500 6L8 8.500 10.500 6",
+        "dimension" => "M2.500 4v8M13.500 4v8M3 8h10M5 6L3 8l2 2M11 6l2 2-2 2",
+        "constrain" => "M3 5.500h10M3 10.500h10",
+        _ => "M8 3v10M3 8h10",
+    })
+}
 /// An arrow head to the right.
 pub fn chevron() -> AnyView {
     icon("M6 4l4 4-4 4")

@@ -97,6 +97,10 @@ extern "C" {
     /// Hands the user a file.
     pub fn download(name: &str, text: &str);
 
+    /// Lets a person choose a file; calls back with its name and its text.
+    #[wasm_bindgen(js_name = chooseFile)]
+    pub fn choose_file(chosen: &Function);
+
     /// Makes `window.__thinglab.state()` of a function that gives JSON.
     pub fn publish(state: &Function);
 

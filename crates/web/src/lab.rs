@@ -3,19 +3,27 @@
 //! In: what the panels ask for. Out: signals that the panels paint. Between press and release of a
 //! drag only the picture and the values are made anew, and nothing is asked of the server.
 
+use crate::actions::Context;
+use crate::dialog::Wish;
 use crate::files::{FileSet, Files};
+use crate::menu::{self, Menu};
+use crate::picture::covers;
 use crate::server::{self, Listed, Saved, Stored};
 use crate::sheet::View;
-use crate::{js, theme, words};
+use crate::{js, route, theme, words};
+use drawing::Point;
 use leptos::prelude::*;
 use session::view::{
-    Analysis, Change, DocumentId, DragState, Explanation, FixView, Ghost, HeldView, PictureView,
-    Question, Recognised, Refusal, RowKind, Status, StructureRow, TextView, ValueRow, Velocity,
+    Analysis, Caught, Change, DocumentId, DragState, Explanation, FixView, Ghost, HeldView,
+    PictureView, Question, Recognised, Refusal, RowKind, Status, StructureRow, TextView, ToolView,
+    ValueRow, Velocity,
 };
 use session::{Command, Path, Session};
 use std::collections::BTreeMap;
 use std::fmt;
 use std::time::Duration;
+use wasm_bindgen::JsCast;
+use wasm_bindgen::closure::Closure;
 
 /// An open document.
 #[derive(Clone, PartialEq, Debug)]
@@ -33,6 +41,20 @@ pub struct Opened {
     /// Whether its text differs from that on disk.
     pub dirty: bool,
 }
+
+impl Opened {
+    /// Whether it has never been saved, and no gallery has it.
+    pub fn is_new(&self) -> bool {
+        self.writable && self.version == ABSENT
+    }
+}
+
+/// What the server calls the version of a file that is not there.
+const ABSENT: &str = "absent";
+/// What stands in a new document.
+const NEW_TEXT: &str = "use geometry\n";
+/// What a new document is called before it is saved.
+const UNTITLED: &str = "untitled";
 
 /// What the lab has to say after the last command.
 #[derive(Clone, PartialEq, Debug)]
@@ -101,6 +123,24 @@ pub struct Lab {
     pub why: RwSignal<bool>,
     /// Whether the palette of actions is open.
     pub palette: RwSignal<bool>,
+    /// The class of the things that the tool in the hand makes.
+    pub tool: RwSignal<Option<String>>,
+    /// What that tool shows.
+    pub tool_view: RwSignal<ToolView>,
+    /// What was typed of a length, while a tool is held.
+    pub typed: RwSignal<String>,
+    /// Where the arrow keys have brought the pointer, on the canvas.
+    pub cursor: RwSignal<Option<(f64, f64)>>,
+    /// Whether the tool was taken out of the bin with the button held down.
+    pub carried: StoredValue<bool>,
+    /// What the thing that is dragged would be joined with.
+    pub dropping: RwSignal<Option<(Path, Caught)>>,
+    /// Whether the left drawer shows the bin.
+    pub bin: RwSignal<bool>,
+    /// The menu that is open.
+    pub menu: RwSignal<Option<Menu>>,
+    /// What a person is asked to type.
+    pub wish: RwSignal<Option<Wish>>,
     /// Whether the picture has a grid.
     pub grid: RwSignal<bool>,
     /// What the picture is asked to do with its view.
@@ -182,6 +222,15 @@ impl Lab {
             draft: RwSignal::new(None),
             why: RwSignal::new(false),
             palette: RwSignal::new(false),
+            tool: RwSignal::new(None),
+            tool_view: RwSignal::new(ToolView::default()),
+            typed: RwSignal::new(String::new()),
+            cursor: RwSignal::new(None),
+            carried: StoredValue::new(false),
+            dropping: RwSignal::new(None),
+            bin: RwSignal::new(false),
+            menu: RwSignal::new(None),
+            wish: RwSignal::new(None),
             grid: RwSignal::new(theme::keep(GRID_KEY).is_none_or(|kept| kept != "off")),
             zoom: RwSignal::new(None),
             view: RwSignal::new(View::default()),
@@ -194,6 +243,7 @@ impl Lab {
     pub async fn fetch_library(self) {
         match server::library().await {
             Ok(library) => self.files.update_value(|files| {
+                files.libraries = library.iter().map(|(file, _)| used_as(file)).collect();
                 files
                     .texts
                     .extend(library.into_iter().map(|(file, text)| (used_as(&file), Some(text))));
@@ -218,12 +268,16 @@ impl Lab {
     /// One sentence, where the server does not give it.
     pub async fn load(self, path: &str) -> Result<Opened, String> {
         if let Some(opened) = self.opened.with_value(|all| all.get(path).cloned())
-            && (opened.dirty
-                || server::document(path).await.is_ok_and(|s| s.version == opened.version))
+            && (opened.dirty || stands(path).await.is_ok_and(|s| s.version == opened.version))
         {
             return Ok(opened);
         }
-        let stored = server::document(path).await?;
+        let stored = stands(path).await?;
+        self.take_up(path, stored).await
+    }
+
+    /// Opens a text in the session under a path, with the files that it uses.
+    async fn take_up(self, path: &str, stored: Stored) -> Result<Opened, String> {
         let mut id = self.open(path, &stored.text);
         while self.fetch_used(path).await {
             id = self.open(path, &stored.text);
@@ -253,7 +307,8 @@ impl Lab {
         let wanted = self.files.try_update_value(|f| std::mem::take(&mut f.wanted));
         let mut found = false;
         for name in wanted.unwrap_or_default() {
-            let text = server::document(&beside(folder, &name)).await.ok().map(|s| s.text);
+            let stored = server::document(&beside(folder, &name)).await.ok().flatten();
+            let text = stored.map(|stored| stored.text);
             found |= text.is_some();
             self.files.update_value(|files| {
                 files.texts.insert(name, text);
@@ -266,6 +321,7 @@ impl Lab {
     pub fn show(self, path: &str) {
         self.flush_text();
         let Some(opened) = self.opened.with_value(|all| all.get(path).cloned()) else { return };
+        self.drop_tool();
         self.select(None);
         self.hovered.set(None);
         self.motion.set(Vec::new());
@@ -283,6 +339,7 @@ impl Lab {
     /// Shows the gallery.
     pub fn leave(self) {
         self.flush_text();
+        self.drop_tool();
         self.current.set(None);
         self.document.set(None);
     }
@@ -303,7 +360,7 @@ impl Lab {
     }
 
     /// Tells the session something about the shown document.
-    fn tell<T>(self, order: impl FnOnce(&mut Session, DocumentId) -> T) -> Option<T> {
+    pub(crate) fn tell<T>(self, order: impl FnOnce(&mut Session, DocumentId) -> T) -> Option<T> {
         let id = self.id()?;
         Some(self.order(|session| order(session, id)))
     }
@@ -384,9 +441,49 @@ impl Lab {
         self.settle(self.tell(Session::release));
     }
 
+    /// Looks whether what is dragged, brought to a place, would be joined with one of some paths, nearest first.
+    pub fn look_for_joint(self, near: &[Caught]) {
+        let found = self.id().and_then(|id| {
+            near.iter().find_map(|caught| {
+                let path = session::parse_path(&caught.word)?;
+                let joined = self.ask(|session| session.joint(id, &path))?;
+                let caught = Caught { word: words::joins(&joined), ..caught.clone() };
+                Some((path, caught))
+            })
+        });
+        if self.dropping.with_untracked(|old| *old != found) {
+            self.dropping.set(found);
+        }
+    }
+
+    /// Ends a drag where it joins something: one step for the undo list.
+    pub fn release_onto(self, target: &Path) {
+        self.dragging.set(None);
+        self.dropping.set(None);
+        self.settle(self.tell(|session, id| session.release_onto(id, target)));
+    }
+
+    /// Merges what is selected: of each what sticks there.
+    pub fn join_selection(self) {
+        self.flush_text();
+        let Some(id) = self.id() else { return };
+        let paths: Vec<Path> =
+            self.selection_untracked().iter().filter_map(|p| session::parse_path(p)).collect();
+        match self.ask(|session| session.join(id, &paths)) {
+            Ok(command) => drop(self.apply(&command)),
+            Err(refusal) => self.notice.set(Some(Notice::Refused(refusal))),
+        }
+    }
+
+    /// The names of the libraries.
+    pub fn libraries(self) -> Vec<String> {
+        self.files.with_value(|files| files.libraries.clone())
+    }
+
     /// Ends a drag as if it had never begun.
     pub fn cancel(self) {
         self.dragging.set(None);
+        self.dropping.set(None);
         self.tell(Session::cancel);
         self.refresh();
     }
@@ -460,6 +557,10 @@ impl Lab {
         match outcome {
             Some(Ok(change)) => {
                 self.refresh();
+                self.renew_tool();
+                if change.structure && self.fits.get_value() {
+                    self.zoom.set(Some(Zoom::Fit));
+                }
                 self.notice.set(words::done(&change).map(Notice::Said));
                 true
             }
@@ -562,9 +663,90 @@ impl Lab {
             || self.opened.with_value(|all| all.values().any(|opened| opened.dirty))
     }
 
-    /// Saves the shown document.
+    /// Begins a new document, under a name that no other has.
+    pub fn begin_new(self) {
+        leptos::task::spawn_local(async move {
+            let path = self.free_path(UNTITLED).await;
+            route::go(&route::to(&path));
+        });
+    }
+
+    /// A path that no document has, here or on the server.
+    async fn free_path(self, name: &str) -> String {
+        // Without the list there are still the documents that are open.
+        let _ = self.fetch_list().await;
+        let paths = std::iter::once(format!("{name}.thing"))
+            .chain((2..).map(|n| format!("{name}-{n}.thing")));
+        let is_free = |path: &String| {
+            !self.opened.with_value(|all| all.contains_key(path))
+                && !self.listed.with_untracked(|all| all.iter().any(|one| one.path == *path))
+        };
+        { paths }.find(is_free).unwrap_or_default()
+    }
+
+    /// Lets a person choose a file of the machine; its text becomes a new document of that name.
+    pub fn open_file(self) {
+        let took = Closure::once_into_js(move |name: String, text: String| {
+            leptos::task::spawn_local(async move {
+                let path = self.free_path(name.strip_suffix(".thing").unwrap_or(&name)).await;
+                let stored = Stored { text, version: String::from(ABSENT), writable: true };
+                match self.take_up(&path, stored).await {
+                    Ok(_) => route::go(&route::to(&path)),
+                    Err(message) => self.say_refused(message),
+                }
+            });
+        });
+        js::choose_file(took.unchecked_ref());
+    }
+
+    /// Saves the shown document under another name, which becomes its own.
+    ///
+    /// # Errors
+    /// One sentence: a document of that name is there, or it is no name for one.
+    pub async fn save_as(self, name: &str) -> Result<(), String> {
+        self.flush_text();
+        let name = name.trim().trim_end_matches(".thing");
+        let path = format!("{name}.thing");
+        let (Some(old), Some(document)) =
+            (self.current.get_untracked(), self.document.get_untracked())
+        else {
+            return Ok(());
+        };
+        let text = self.text.with_untracked(|text| text.source.clone());
+        let outcome = server::save(&path, &text, ABSENT).await;
+        match outcome {
+            Saved::Done(version) => {
+                theme::put(&draft_key(&old), None);
+                self.order(|session| session.rename(document.id, &path));
+                let writable = true;
+                let opened = Opened { version, writable, saved: text, dirty: false, ..document };
+                self.opened.update_value(|all| {
+                    all.remove(&old);
+                    all.insert(path.clone(), opened.clone());
+                });
+                self.current.set(Some(path.clone()));
+                self.document.set(Some(opened));
+                route::replace(&route::to(&path));
+                self.refresh();
+                self.notice.set(Some(Notice::Said(words::saved(&path))));
+                Ok(())
+            }
+            Saved::Changed(_) => Err(words::name_taken(&path)),
+            Saved::Failed(message) => Err(message),
+        }
+    }
+
+    /// Saves the shown document; a new one is asked for its name first.
     pub fn save(self) {
         self.flush_text();
+        let untitled = self.document.with_untracked(|d| d.as_ref().is_some_and(Opened::is_new))
+            && self.current.with_untracked(|path| {
+                path.as_ref().is_some_and(|path| path.starts_with(UNTITLED))
+            });
+        if untitled {
+            self.wish.set(Some(Wish::SaveAs));
+            return;
+        }
         let Some(path) = self.current.get_untracked() else { return };
         let Some(document) = self.document.get_untracked() else { return };
         let text = self.text.with_untracked(|text| text.source.clone());
@@ -662,8 +844,26 @@ impl Lab {
         self.selected.get().into_iter().chain(self.also.get()).collect()
     }
 
-    fn selection_untracked(self) -> Vec<String> {
+    /// The same, for whoever does not follow it.
+    pub fn selection_untracked(self) -> Vec<String> {
         untrack(|| self.selection())
+    }
+
+    /// Opens the menu of what is selected, where it is seen; without a selection that of the sheet.
+    pub fn open_menu_at_selection(self) {
+        let selected = self.selected.get_untracked();
+        let context = if selected.is_some() { Context::Thing } else { Context::Sheet };
+        let canvas = document().get_element_by_id("picture");
+        let Some(rect) = canvas.map(|canvas| canvas.get_bounding_client_rect()) else { return };
+        let grip = self.picture.with_untracked(|picture| {
+            let is_part = |path: &str| selected.as_ref().is_some_and(|s| covers(s, path));
+            picture.grips.iter().find(|grip| is_part(&grip.path)).map(|grip| (grip.x, grip.y))
+        });
+        let (x, y) = match grip {
+            Some((x, y)) => self.view.with_untracked(|view| view.screen_from_sheet(Point { x, y })),
+            None => (rect.width() / 2.0, rect.height() / 2.0),
+        };
+        menu::open_at(self, (rect.left() + x + 8.0, rect.top() + y + 8.0), context);
     }
 
     /// Marks what the pointer is over, in whatever view.
@@ -682,6 +882,13 @@ impl Default for Lab {
 
 const GRID_KEY: &str = "thinglab/grid";
 const TYPING_PAUSE: Duration = Duration::from_millis(150);
+
+/// What stands under a path: on disk, in the gallery, or the beginning of a document that is not there yet.
+async fn stands(path: &str) -> Result<Stored, String> {
+    let begun =
+        || Stored { text: String::from(NEW_TEXT), version: String::from(ABSENT), writable: true };
+    Ok(server::document(path).await?.unwrap_or_else(begun))
+}
 
 fn draft_key(path: &str) -> String {
     format!("thinglab/draft/{path}")

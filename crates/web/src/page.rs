@@ -1,12 +1,17 @@
 //! The page: the top bar, the panels and where they lie.
 
 use crate::actions::{self, Action};
+use crate::bin_panel::Bin;
+use crate::dialog::Dialog;
 use crate::gallery::Gallery;
 use crate::lab::Lab;
+use crate::menu::{self, MenuView};
 use crate::palette::Palette;
 use crate::picture::Picture;
+use crate::rail::Rail;
 use crate::splitter::{Splitter, Way};
 use crate::status::{Asked, Recognition, Refused, StatusLine};
+use crate::strip::Strip;
 use crate::structure::Structure;
 use crate::text::Text;
 use crate::values::Values;
@@ -53,6 +58,12 @@ pub fn Page() -> impl IntoView {
     let shown = Memo::new(move |_| lab.current.get());
     view! {
         <div class="page">
+            <Show when=move || shown.with(Option::is_some)>
+                <a class="skip" href="#picture" on:click=move |e: ev::MouseEvent| {
+                    e.prevent_default();
+                    actions::run(actions::named("go-picture"), lab);
+                }>{words::SKIP}</a>
+            </Show>
             <TopBar lab=lab />
             {move || match (ready.get(), shown.get()) {
                 (false, _) => view! { <main><p class="quiet" role="status">{words::LOADING}</p></main> }.into_any(),
@@ -63,6 +74,8 @@ pub fn Page() -> impl IntoView {
                 }.into_any(),
             }}
             <Palette lab=lab />
+            <MenuView lab=lab />
+            <Dialog lab=lab />
         </div>
     }
 }
@@ -107,6 +120,9 @@ fn TopBar(lab: Lab) -> impl IntoView {
                 </h1>
                 <Show when=move || read_only.get()><span class="tag" title=words::READ_ONLY>{words::BUILT_IN}</span></Show>
             </Show>
+            <button class="file" aria-haspopup="menu" title=words::FILE
+                on:click=move |e: ev::MouseEvent| menu::open_below(lab, &e, actions::Group::File)>
+                {words::FILE}</button>
             <div class="tools" role="toolbar" aria-label=words::TOOLS>
                 <Show when=move || title.with(Option::is_some)>
                     <Tool lab=lab action=actions::named("undo") icon=icons::undo
@@ -116,7 +132,7 @@ fn TopBar(lab: Lab) -> impl IntoView {
                     <Tool lab=lab action=actions::named("save") icon=icons::save
                         hint=Signal::derive(|| None) />
                 </Show>
-                <button class="search" title=words::PALETTE aria-label=words::PALETTE
+                <button class="search" title=words::PALETTE
                     on:click=move |_| lab.palette.set(true)>
                     {icons::search()}<span>{words::SEARCH}</span><kbd>"Ctrl K"</kbd>
                 </button>
@@ -157,10 +173,6 @@ fn Tool(
 fn Document(lab: Lab) -> impl IntoView {
     view! {
         <main class="document">
-            <a class="skip" href="#picture" on:click=move |e: ev::MouseEvent| {
-                e.prevent_default();
-                actions::run(actions::named("go-picture"), lab);
-            }>{words::SKIP}</a>
             <div class="notices">
                 <Refused lab=lab />
                 <Asked lab=lab />
@@ -168,10 +180,12 @@ fn Document(lab: Lab) -> impl IntoView {
                 <Draft lab=lab />
                 <Conflict lab=lab />
             </div>
-            <Structure lab=lab />
+            <Drawer lab=lab />
             <Splitter name="left" way=Way::Right least=160.0 most=560.0 />
             <div class="centre">
+                <Rail lab=lab />
                 <Picture lab=lab />
+                <Strip lab=lab />
                 <Show when=move || lab.why.get()>
                     <Splitter name="why" way=Way::Up least=96.0 most=640.0 />
                     <Why lab=lab />
@@ -186,6 +200,35 @@ fn Document(lab: Lab) -> impl IntoView {
             <Show when=bench::is_asked><bench::Bench lab=lab /></Show>
         </main>
         <StatusLine lab=lab />
+    }
+}
+
+/// The left drawer: the structure, or the bin.
+#[component]
+fn Drawer(lab: Lab) -> impl IntoView {
+    let tab = move |label: &'static str, is_bin: bool| {
+        view! {
+            <button role="tab" id=if is_bin { "tab-bin" } else { "tab-structure" }
+                aria-controls="drawer"
+                aria-selected=move || (lab.bin.get() == is_bin).to_string()
+                on:click=move |_| lab.bin.set(is_bin)>{label}</button>
+        }
+    };
+    view! {
+        <div class="drawer">
+            <div class="tabs" role="tablist">
+                {tab(words::STRUCTURE, false)}
+                {tab(words::BIN, true)}
+            </div>
+            <div class="shelf" id="drawer" role="tabpanel"
+                aria-labelledby=move || if lab.bin.get() { "tab-bin" } else { "tab-structure" }>
+                {move || if lab.bin.get() {
+                    view! { <Bin lab=lab /> }.into_any()
+                } else {
+                    view! { <Structure lab=lab /> }.into_any()
+                }}
+            </div>
+        </div>
     }
 }
 

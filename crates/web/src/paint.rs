@@ -16,7 +16,7 @@
 
 use crate::sheet::View;
 use drawing::{Anchoring, Color, Drawing, Element, Layer, Line, Placement, Point, Shape, Style};
-use session::view::{Freedom, PictureView, Velocity};
+use session::view::{Caught, Freedom, PictureView, Velocity};
 use std::collections::BTreeSet;
 
 /// What is painted: numbers, and the words and colours that they speak of.
@@ -137,6 +137,42 @@ pub fn ghosts(list: &mut DisplayList, drawn: &[Drawing]) {
             }
         }
     }
+}
+
+/// Adds what a tool would make.
+pub fn preview(list: &mut DisplayList, drawn: &Drawing) {
+    let accent = Hue::Accent as i32;
+    for element in &drawn.elements {
+        match element.shape {
+            Shape::Dot(at) => {
+                begin(list, Hue::Paper as i32, accent, Line::Solid, 1.5, Space::Screen);
+                sign(list, Sign::Disc, at, POINT);
+            }
+            Shape::Segment(..)
+            | Shape::Polyline { .. }
+            | Shape::Circle { .. }
+            | Shape::Arc { .. }
+            | Shape::Text { .. } => {
+                begin(list, accent, -1, element.style.line, USUAL_WIDTH, Space::Sheet);
+                shape(list, &element.shape);
+            }
+        }
+    }
+}
+
+/// Adds a ring around what a pointer found, and the word for it.
+pub fn caught(list: &mut DisplayList, found: &Caught) {
+    let at = Point { x: found.at.0, y: found.at.1 };
+    begin(list, Hue::Accent as i32, -1, Line::Solid, 2.0, Space::Screen);
+    sign(list, Sign::Disc, at, 2.2 * POINT);
+    let text = Shape::Text {
+        at,
+        text: found.word.clone(),
+        anchoring: Anchoring::Start,
+        placement: Placement::OnScreen(13.0),
+    };
+    begin(list, Hue::Accent as i32, -1, Line::None, 1.0, Space::Screen);
+    shape(list, &text);
 }
 
 /// The numbers of the grips where the picture has no point.
@@ -396,6 +432,7 @@ mod tests {
             paths: vec![String::from("p")],
             freedom: vec![freedom],
             grips: Vec::new(),
+            ..PictureView::default()
         }
     }
 

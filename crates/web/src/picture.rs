@@ -5,7 +5,7 @@
 
 use crate::js::{self, Painter};
 use crate::lab::{Lab, Marked, Zoom, first_path};
-use crate::paint::{DisplayList, Mark, arrows, display_list, ghosts, grid};
+use crate::paint::{DisplayList, Mark, arrows, caught, display_list, ghosts, grid, preview};
 use crate::sheet::{View, fit};
 use crate::words;
 use drawing::{Point, Vertical};
@@ -44,6 +44,11 @@ pub fn Picture(
             let mut list = display_list(picture, &freedom, &marks);
             lab.ghosts.with(|drawn| ghosts(&mut list, drawn));
             lab.motion.with(|motion| arrows(&mut list, picture, motion));
+            lab.tool_view.with(|tool| {
+                preview(&mut list, &tool.preview);
+                tool.caught.iter().for_each(|found| caught(&mut list, found));
+            });
+            lab.dropping.with(|d| d.iter().for_each(|(_, found)| caught(&mut list, found)));
             list
         })
     });
@@ -91,6 +96,7 @@ pub fn Picture(
                 aria-label=label
                 aria-describedby="picture-live"
                 class=("gripping", move || lab.dragging.with(Option::is_some))
+                class=("drawing", move || lab.tool.with(Option::is_some))
                 class=("over", move || lab.hovered.with(Option::is_some))
                 on:pointerdown=move |e: PointerEvent| hand.down(&e)
                 on:pointermove=move |e: PointerEvent| hand.moved(&e)
@@ -98,8 +104,8 @@ pub fn Picture(
                 on:pointercancel=move |e: PointerEvent| hand.lost(&e)
                 on:pointerleave=move |_| hand.left()
                 on:wheel=move |e: WheelEvent| wheel(lab, canvas, &e)
-                on:contextmenu=move |e| e.prevent_default()
-                on:keydown=move |e: KeyboardEvent| key(lab, hand, &e)
+                on:contextmenu=move |e| hand.menu(&e)
+                on:keydown=move |e: KeyboardEvent| key(lab, hand, size.get_untracked(), &e)
                 on:keyup=move |e: KeyboardEvent| {
                     if e.key() == " " { hand.hold_space(hand::Space::Up); }
                 }
@@ -108,7 +114,8 @@ pub fn Picture(
             <div class="corner" role="group" aria-label=words::TOOLS>
                 <button title=words::ZOOM_OUT aria-label=words::ZOOM_OUT
                     on:click=move |_| lab.zoom.set(Some(Zoom::By(0.8)))>"−"</button>
-                <button title=words::FIT aria-label=words::FIT
+                <button title=words::FIT
+                    aria-label=move || words::fit_at(100.0 * lab.view.get().scale)
                     on:click=move |_| lab.zoom.set(Some(Zoom::Fit))>
                     {move || format!("{:.0} %", 100.0 * lab.view.get().scale)}
                 </button>
@@ -119,7 +126,10 @@ pub fn Picture(
     }
 }
 
-fn new_painter(canvas: &web_sys::HtmlCanvasElement, size: RwSignal<(f64, f64)>) -> Painter {
+pub(crate) fn new_painter(
+    canvas: &web_sys::HtmlCanvasElement,
+    size: RwSignal<(f64, f64)>,
+) -> Painter {
     let on_size = Closure::<dyn FnMut(f64, f64)>::new(move |width, height| {
         size.try_set((width, height));
     });
@@ -127,7 +137,7 @@ fn new_painter(canvas: &web_sys::HtmlCanvasElement, size: RwSignal<(f64, f64)>) 
 }
 
 /// Paints one frame; returns the words and colours that the painter has now.
-fn paint(
+pub(crate) fn paint(
     painter: &Painter,
     list: &DisplayList,
     mut numbers: Vec<f64>,
@@ -223,8 +233,13 @@ fn described(lab: Lab, selected: Option<String>) -> String {
     })
 }
 
-fn key(lab: Lab, hand: hand::Hand, e: &KeyboardEvent) {
+fn key(lab: Lab, hand: hand::Hand, size: (f64, f64), e: &KeyboardEvent) {
     if e.ctrl_key() || e.meta_key() || e.alt_key() {
+        return;
+    }
+    if lab.tool_key(&e.key(), e.shift_key(), size) {
+        e.prevent_default();
+        e.stop_propagation();
         return;
     }
     let far = if e.shift_key() { 10.0 } else { 1.0 };

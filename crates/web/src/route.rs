@@ -43,6 +43,14 @@ pub fn settle() {
     }
 }
 
+/// Makes an address the page's own without going anywhere.
+pub fn replace(address: &str) {
+    if let Ok(history) = window().history() {
+        // An address that the browser will not have is no loss.
+        let _ = history.replace_state_with_url(&JsValue::NULL, "", Some(address));
+    }
+}
+
 /// Goes to an address of the page.
 pub fn go(address: &str) {
     // A fragment can always be set.

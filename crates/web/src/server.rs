@@ -76,21 +76,22 @@ pub async fn documents() -> Result<Vec<Listed>, String> {
         .collect())
 }
 
-/// Returns a document.
+/// Returns a document; nothing where there is none of that name yet.
 ///
 /// # Errors
 /// One sentence.
-pub async fn document(path: &str) -> Result<Stored, String> {
+pub async fn document(path: &str) -> Result<Option<Stored>, String> {
     let query = String::from(js_sys::encode_uri_component(path));
     let (status, json) = ask("GET", &format!("/api/document?path={query}"), None).await;
-    if status != 200 {
-        return Err(failure(status, &json));
+    match status {
+        200 => Ok(Some(Stored {
+            text: text_field(&json, "text"),
+            version: text_field(&json, "version"),
+            writable: field(&json, "writable").as_bool().unwrap_or(false),
+        })),
+        404 => Ok(None),
+        _ => Err(failure(status, &json)),
     }
-    Ok(Stored {
-        text: text_field(&json, "text"),
-        version: text_field(&json, "version"),
-        writable: field(&json, "writable").as_bool().unwrap_or(false),
-    })
 }
 
 /// Saves a document if its file still is of that version.

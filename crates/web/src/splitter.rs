@@ -68,6 +68,14 @@ pub fn Splitter(
     let along = move |e: &PointerEvent| {
         f64::from(if way.is_upright() { e.client_x() } else { e.client_y() })
     };
+    let now = RwSignal::new(least);
+    Effect::new(move |_| {
+        (size.track(), bar.track());
+        request_animation_frame(move || {
+            // A bar that is gone needs no value.
+            let _ = now.try_set(present());
+        });
+    });
     let down = move |e: PointerEvent| {
         e.prevent_default();
         bar.get_untracked().inspect(|bar| js::capture(bar, e.pointer_id()));
@@ -97,7 +105,7 @@ pub fn Splitter(
             aria-orientation=if way.is_upright() { "vertical" } else { "horizontal" }
             aria-valuemin=least.to_string()
             aria-valuemax=most.to_string()
-            aria-valuenow=move || size.get().map(|size| format!("{size:.0}"))
+            aria-valuenow=move || format!("{:.0}", now.get())
             on:pointerdown=down
             on:pointermove=moved
             on:pointerup=move |_| grabbed.set_value(None)

@@ -33,7 +33,13 @@ pub fn StatusLine(
             Some(Notice::Refused(_) | Notice::Asked(_) | Notice::Recognised(_)) | None => None,
         })
     });
-    let heard = Memo::new(move |_| drag.get().or_else(|| said.get()));
+    let hint = Memo::new(move |_| {
+        let hint = lab.tool_view.with(|view| view.hint.clone());
+        let typed = lab.typed.get();
+        let typed = (!typed.is_empty()).then(|| words::typed_length(&typed));
+        lab.tool.with(Option::is_some).then(|| typed.unwrap_or(hint))
+    });
+    let heard = Memo::new(move |_| drag.get().or_else(|| said.get()).or_else(|| hint.get()));
     view! {
         <footer class="status" class:wrong=move || !holds.get() class:doubtful=doubtful>
             <button class="verdict" aria-expanded=move || lab.why.get().to_string()

@@ -5,6 +5,7 @@
 use crate::lab::{Lab, Notice};
 use crate::values::rounded_all;
 use crate::{field, icons, words};
+use leptos::attr::custom::custom_attribute;
 use leptos::ev::KeyboardEvent;
 use leptos::html::Div;
 use leptos::prelude::*;
@@ -408,7 +409,7 @@ fn Row(tree: Tree, place: usize, shown: Shown) -> impl IntoView {
             role="treeitem"
             aria-posinset=shown.position.0.to_string()
             aria-setsize=shown.position.1.to_string()
-            attr:aria-level=move || (depth.get() + 1).to_string()
+            {..custom_attribute("aria-level", move || (depth.get() + 1).to_string())}
             aria-expanded=move || open.get().map(|open| open.to_string())
             aria-selected=move || selected.get().to_string()
             tabindex=move || if tree.current.get() == at { "0" } else { "-1" }
@@ -476,7 +477,7 @@ fn kind_class(kind: RowKind) -> &'static str {
         RowKind::Virtual => "virtual",
         RowKind::Constraint => "constraint",
         RowKind::Merge => "merge",
-        RowKind::Side => "side",
+        RowKind::Side => "branch",
     }
 }
 
@@ -484,7 +485,7 @@ fn kind_sign(kind: &str) -> &'static str {
     match kind {
         "constraint" => "=",
         "merge" => "⋈",
-        "side" => "⤴",
+        "branch" => "⤴",
         "virtual" => "ƒ",
         _ => "",
     }

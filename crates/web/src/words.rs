@@ -26,6 +26,31 @@ pub const PICTURE_HELP: &str = "Tab chooses a point, the arrow keys move it, F f
 
 pub const OPEN_GALLERY: &str = "Gallery";
 pub const SAVE: &str = "Save";
+pub const SAVE_AS: &str = "Save under another name";
+pub const NEW: &str = "New document";
+pub const OPEN_FILE: &str = "Open a file of this machine";
+pub const FILE: &str = "File";
+pub const RENAME: &str = "Rename";
+pub const MENU: &str = "Menu of the selection";
+pub const BIN: &str = "Bin";
+pub const FILTER_BIN: &str = "Filter the bin";
+pub const OWN_CLASSES: &str = "this document";
+pub const MORE_LIBRARIES: &str = "More libraries";
+pub const SELECT: &str = "Select and drag";
+pub const INSERT: &str = "Insert from the bin";
+pub const NO_CLASS: &str = "no library in use has this; the bin offers more";
+pub const TOOL_POINT: &str = "Point";
+pub const TOOL_LINE: &str = "Line";
+pub const TOOL_CIRCLE: &str = "Circle";
+pub const TOOL_ARC: &str = "Arc";
+pub const TOOL_RECTANGLE: &str = "Rectangle";
+pub const CONSTRAIN: &str = "What holds of the selection";
+pub const DIMENSION: &str = "Dimension: a length, a distance, an angle, a radius";
+pub const NO_DIMENSION: &str =
+    "choose two points, a line, a circle or two lines: then D gives them a value";
+pub const NOTHING_TO_SAY: &str = "nothing can be said of this selection";
+pub const NAME: &str = "Name";
+pub const NAME_OF_DOCUMENT: &str = "Save under the name";
 pub const DOWNLOAD: &str = "Download the text";
 pub const UNDO: &str = "Undo";
 pub const REDO: &str = "Redo";
@@ -115,6 +140,7 @@ pub const RELOAD: &str = "Reload";
 pub const IS_OFF: &str = "it is off already";
 pub const IS_ON: &str = "it is on already";
 pub const ENABLED: &str = "switched on";
+pub const DONE: &str = "Done";
 pub const CANCEL: &str = "Cancel";
 
 /// What a change did besides what it was meant to do; nothing if that is all.
@@ -207,6 +233,36 @@ pub fn short(number: f64) -> String {
 /// Where a diagnostic is.
 pub fn line_column(line: u32, column: u32) -> String {
     format!("line {line}, column {column}")
+}
+
+/// That another document has a name.
+pub fn name_taken(path: &str) -> String {
+    format!("there is a document {path} already; choose another name")
+}
+
+/// What is asked of a thing that gets another name.
+pub fn new_name_of(path: &str) -> String {
+    format!("New name of {path}")
+}
+
+/// What the button that fits the picture says: its scale, which it shows, and what it does.
+pub fn fit_at(percent: f64) -> String {
+    format!("{percent:.0} %: {FIT}")
+}
+
+/// What something that is dropped is joined with.
+pub fn joins(path: &session::Path) -> String {
+    format!("joins {path}")
+}
+
+/// What was typed of a length while a tool is held.
+pub fn typed_length(typed: &str) -> String {
+    format!("length {typed}: Enter sets it, Backspace takes a digit back")
+}
+
+/// What is asked of a dimension.
+pub fn value_of(label: &str) -> String {
+    format!("Value of the {label}")
 }
 
 /// What was saved.

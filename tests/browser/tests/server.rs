@@ -48,3 +48,18 @@ async fn the_documents_are_not_given_without_the_token() {
         .unwrap();
     assert_eq!(status, 401);
 }
+
+#[tokio::test]
+async fn the_page_comes_compressed() {
+    let visit = Visit::open(None).await;
+    visit.until("document.querySelector('main')").await;
+    let sizes = visit
+        .script(
+            "const all = performance.getEntriesByType('resource').filter(r => r.name.endsWith('.wasm'));
+             return [all.length, all[0].encodedBodySize, all[0].decodedBodySize]",
+        )
+        .await;
+    let size = |n: usize| sizes[n].as_f64().expect("a number");
+    assert_eq!(size(0), 1.0);
+    assert!(2.0 * size(1) < size(2), "{sizes}");
+}

@@ -256,3 +256,25 @@ fn versions_tell_texts_apart() {
     assert_eq!(Version::of("a").0, "d228cb696f1a8caf78912b704e4a8964");
     assert_ne!(Version::of("a"), Version::absent());
 }
+
+#[test]
+fn a_document_of_the_gallery_is_saved_where_the_folder_has_no_gallery() {
+    let folder = Folder::new();
+    let version = save(&folder.root(), "gallery/queens.thing", "a: Real\n", &Version::absent());
+    assert_eq!(version.expect("its folder is made"), Version::of("a: Real\n"));
+    assert_eq!(folder.text("gallery/queens.thing"), "a: Real\n");
+    // what is no longer there is not made anew
+    let gone = save(&folder.root(), "other/x.thing", "b: Real\n", &Version::of("a: Real\n"));
+    assert!(gone.is_err());
+    assert_eq!(folder.entries(), ["gallery"]);
+}
+
+#[cfg(unix)]
+#[test]
+fn no_folder_is_made_behind_a_link_that_leaves_the_root() {
+    let (folder, outside) = (Folder::new(), Folder::new());
+    std::os::unix::fs::symlink(&outside.0, folder.0.join("link")).unwrap();
+    let refused = save(&folder.root(), "link/new/x.thing", "a: Real\n", &Version::absent());
+    assert!(matches!(refused, Err(DiskError::NotPlain)));
+    assert_eq!(outside.entries(), Vec::<String>::new());
+}

@@ -13,7 +13,10 @@ use std::time::Duration;
 
 use http_body_util::{BodyExt, Full, LengthLimitError, Limited};
 use hyper::body::{Body as _, Bytes, Incoming};
-use hyper::header::{ALLOW, CONTENT_ENCODING, CONTENT_TYPE, HeaderMap, HeaderName, HeaderValue};
+use hyper::header::{
+    ACCEPT_ENCODING, ALLOW, CONTENT_ENCODING, CONTENT_TYPE, HeaderMap, HeaderName, HeaderValue,
+    VARY,
+};
 use hyper::{Method, Request, Response, StatusCode};
 use serde::{Deserialize, Serialize};
 
@@ -102,7 +105,7 @@ pub(crate) async fn answer(lab: &Lab, request: Request<Incoming>) -> Answer {
     let mut answer = match checked {
         Err((status, why)) => refused(status, why),
         Ok(()) => match ask {
-            Ask::Page => page(request.method(), path),
+            Ask::Page => page(request.method(), path, request.headers()),
             Ask::Documents => documents(lab, request).await,
         },
     };
@@ -112,20 +115,40 @@ pub(crate) async fn answer(lab: &Lab, request: Request<Incoming>) -> Answer {
     answer
 }
 
-/// A file of the page, by its exact address.
-fn page(method: &Method, path: &str) -> Answer {
+/// A file of the page, by its exact address; compressed where it is kept so and the browser takes that.
+fn page(method: &Method, path: &str, headers: &HeaderMap) -> Answer {
     if *method != Method::GET && *method != Method::HEAD {
         return only_methods("GET, HEAD");
     }
-    match embedded::page_file(path) {
-        Some((name, bytes)) => {
+    let smaller = embedded::page_file(&format!("{path}.br")).filter(|_| takes_brotli(headers));
+    match (embedded::page_file(path), smaller) {
+        (Some((name, _)), Some((_, bytes))) => {
+            let mut answer = bytes_answer(StatusCode::OK, kind_of(name), Bytes::from_static(bytes));
+            let headers = answer.headers_mut();
+            headers.insert(CONTENT_ENCODING, HeaderValue::from_static("br"));
+            headers.insert(VARY, HeaderValue::from_static("accept-encoding"));
+            answer
+        }
+        (Some((name, bytes)), None) => {
             bytes_answer(StatusCode::OK, kind_of(name), Bytes::from_static(bytes))
         }
-        None if path == "/" => {
+        (None, _) if path == "/" => {
             bytes_answer(StatusCode::OK, kind_of(".html"), Bytes::from_static(NO_PAGE.as_bytes()))
         }
-        None => refused(StatusCode::NOT_FOUND, "no such page"),
+        (None, _) => refused(StatusCode::NOT_FOUND, "no such page"),
     }
+}
+
+/// Whether a request takes an answer compressed by brotli.
+fn takes_brotli(headers: &HeaderMap) -> bool {
+    let taken = headers.get(ACCEPT_ENCODING).and_then(|value| value.to_str().ok());
+    taken.is_some_and(|taken| {
+        taken.split(',').any(|one| {
+            let mut parts = one.split(';').map(str::trim);
+            let is_br = parts.next().is_some_and(|name| name.eq_ignore_ascii_case("br"));
+            is_br && !parts.any(|weight| matches!(weight, "q=0" | "q=0.0" | "q=0.00" | "q=0.000"))
+        })
+    })
 }
 
 /// The media type of a file of the page.

@@ -2,10 +2,12 @@
 mod desk;
 mod dragging;
 
+mod drawing;
 mod explaining;
 mod fixing;
 mod ghosts;
 mod limits;
+mod offering;
 mod proving;
 mod recognising;
 mod refusing;

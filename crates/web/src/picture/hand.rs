@@ -4,17 +4,22 @@
 
 use super::pick::pick;
 use super::sheet_point;
+use crate::actions::Context;
 use crate::js;
 use crate::lab::Lab;
+use crate::menu;
 use crate::sheet::View;
-use leptos::ev::PointerEvent;
+use leptos::ev::{MouseEvent, PointerEvent};
 use leptos::html::Canvas;
 use leptos::prelude::*;
+use session::view::{Caught, Pointer};
 
 /// How near a grip the pointer must be, in pixels: a mouse's, a finger's.
 const REACH: (f64, f64) = (10.0, 24.0);
 /// How far a pressed pointer moves before it drags, in pixels.
 const STIR: f64 = 2.0;
+/// How far a pressed tool moves before letting go sets its next place, in pixels.
+const PULL: f64 = 8.0;
 
 /// Whether the space bar, which makes every press a pan, is held down.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
@@ -33,6 +38,8 @@ enum Mode {
     Drag { offset: (f64, f64) },
     /// The sheet is dragged.
     Pan { last: (f64, f64) },
+    /// A tool has set something where the pointer was pressed.
+    Tool { start: (f64, f64) },
     /// Two fingers: their middle and their distance.
     Pinch { middle: (f64, f64), distance: f64 },
 }
@@ -45,6 +52,9 @@ struct State {
     latest: Option<(f64, f64)>,
     space: Space,
     touch: bool,
+    /// Whether guides and joints are wanted: Shift suppresses those of a tool, Alt those of a drag.
+    shift: bool,
+    alt: bool,
 }
 
 /// A handle to the hand.
@@ -74,6 +84,8 @@ impl Hand {
             latest: None,
             space: Space::Up,
             touch: js::coarse(),
+            shift: false,
+            alt: false,
         };
         Self { lab, canvas, state: StoredValue::new(state) }
     }
@@ -110,6 +122,7 @@ impl Hand {
         }
         self.state.update_value(|state| {
             state.touch = e.pointer_type() == "touch";
+            (state.shift, state.alt) = (e.shift_key(), e.alt_key());
             state.pointers.retain(|(id, _)| *id != e.pointer_id());
             state.pointers.push((e.pointer_id(), at));
         });
@@ -121,6 +134,9 @@ impl Hand {
             self.set_mode(pinch);
         } else if e.button() == 1 || (e.button() == 0 && space == Space::Down) {
             self.set_mode(Mode::Pan { last: at });
+        } else if e.button() == 0 && self.lab.tool.with_untracked(Option::is_some) {
+            self.lab.tool_set(&self.pointer(at));
+            self.set_mode(Mode::Tool { start: at });
         } else if e.button() == 0 {
             let picked = self.pick(at);
             if e.ctrl_key() || e.meta_key() || e.shift_key() {
@@ -135,6 +151,40 @@ impl Hand {
                 None => Mode::Pan { last: at },
             });
         }
+    }
+
+    /// The pointer as a tool takes it.
+    fn pointer(self, at: (f64, f64)) -> Pointer {
+        let (reach, alone) =
+            self.state.with_value(|s| (if s.touch { REACH.1 } else { REACH.0 }, s.shift));
+        self.lab.cursor.set(Some(at));
+        self.lab.pointer_at(at, reach, alone)
+    }
+
+    /// Opens the menu of what lies under the pointer, and selects it; of a tool's hand it is laid down.
+    pub(super) fn menu(self, e: &MouseEvent) {
+        e.prevent_default();
+        let place = (f64::from(e.client_x()), f64::from(e.client_y()));
+        if self.lab.tool.with_untracked(Option::is_some) {
+            self.lab.drop_tool();
+            return;
+        }
+        if self.lab.dragging.with_untracked(Option::is_some) {
+            self.lab.cancel();
+        }
+        let picked = self.pick(on_canvas(self.canvas, place));
+        let selection = self.lab.selection_untracked();
+        if let Some(path) = &picked
+            && !selection.contains(path)
+        {
+            self.lab.select(picked.clone());
+        }
+        let context = if picked.is_some() { Context::Thing } else { Context::Sheet };
+        menu::open_at(self.lab, place, context);
+        self.state.update_value(|state| {
+            state.pointers.clear();
+            state.mode = Mode::Idle;
+        });
     }
 
     /// Returns what two fingers do, if there are two.
@@ -154,6 +204,7 @@ impl Hand {
             if let Some(pointer) = state.pointers.iter_mut().find(|(id, _)| *id == e.pointer_id()) {
                 pointer.1 = at;
             }
+            (state.shift, state.alt) = (e.shift_key(), e.alt_key());
             state.latest.replace(at).is_some()
         });
         if waiting == Some(false) {
@@ -166,6 +217,10 @@ impl Hand {
         let latest = self.state.try_update_value(|state| state.latest.take());
         let Some(at) = latest.flatten() else { return };
         match self.mode() {
+            Mode::Idle | Mode::Tool { .. } if self.lab.tool.with_untracked(Option::is_some) => {
+                self.lab.tool_moved(&self.pointer(at));
+            }
+            Mode::Tool { .. } => {}
             Mode::Idle => self.lab.hover(self.pick(at)),
             Mode::Pressed { path, start } => {
                 if distance(at, start) >= STIR {
@@ -203,19 +258,58 @@ impl Hand {
             let p = sheet_point(self.lab, at);
             let decimals = self.lab.view.with_untracked(View::decimals);
             let round = |x: f64| base::number::rounded(x, decimals).parse().unwrap_or(x);
-            self.lab.drag((round(p.x + offset.0), round(p.y + offset.1)));
+            let to = (round(p.x + offset.0), round(p.y + offset.1));
+            self.lab.look_for_joint(&self.near(to));
+            let joint = self.lab.dropping.with_untracked(|d| d.as_ref().map(|(_, c)| c.at));
+            self.lab.drag(joint.unwrap_or(to));
         }
+    }
+
+    /// The places near one that is dragged, nearest first; none while Alt is held, or where a whole is dragged.
+    fn near(self, (x, y): (f64, f64)) -> Vec<Caught> {
+        let (touch, alt) = self.state.with_value(|s| (s.touch, s.alt));
+        let reach = if touch { REACH.1 } else { REACH.0 };
+        let reach = reach / self.lab.view.with_untracked(|view| view.scale);
+        let dragged = self.lab.selected.get_untracked().unwrap_or_default();
+        self.lab.picture.with_untracked(|picture| {
+            let is_place = picture.grips.iter().any(|grip| grip.path == dragged);
+            let mut near: Vec<(f64, Caught)> = { &picture.grips }
+                .iter()
+                .filter(|grip| grip.path != dragged && is_place && !alt)
+                .map(|g| {
+                    let caught = Caught { at: (g.x, g.y), word: g.path.clone() };
+                    (distance((g.x, g.y), (x, y)), caught)
+                })
+                .filter(|(far, _)| *far <= reach)
+                .collect();
+            near.sort_by(|a, b| a.0.total_cmp(&b.0));
+            near.into_iter().map(|(_, caught)| caught).collect()
+        })
     }
 
     pub(super) fn up(self, e: &PointerEvent) {
         let at = self.at(e);
+        if self.lab.carried.get_value() && self.mode() == Mode::Idle {
+            self.lab.carried.set_value(false);
+            self.lab.tool_set(&self.pointer(at));
+        }
         self.state.update_value(|state| state.latest = Some(at));
         self.frame();
-        let dragged = matches!(self.mode(), Mode::Drag { .. });
+        let mode = self.mode();
         self.let_go(e);
-        // Escape may have ended the drag already.
-        if dragged && self.lab.dragging.with_untracked(Option::is_some) {
-            self.lab.release();
+        match mode {
+            // what is pressed, dragged and let go is set at both ends
+            Mode::Tool { start } if distance(start, at) > PULL => {
+                self.lab.tool_set(&self.pointer(at));
+            }
+            // Escape may have ended the drag already.
+            Mode::Drag { .. } if self.lab.dragging.with_untracked(Option::is_some) => {
+                match self.lab.dropping.get_untracked() {
+                    Some((target, _)) => self.lab.release_onto(&target),
+                    None => self.lab.release(),
+                }
+            }
+            _ => {}
         }
     }
 

@@ -96,6 +96,7 @@ mod tests {
             paths: vec![String::from("line")],
             freedom: vec![None],
             grips: vec![Grip { path: String::from("line.p1"), x: 0.0, y: 0.0, anchored: false }],
+            ..PictureView::default()
         };
         let view = View { scale: 2.0, ..View::default() };
         let at = |x, y| pick(&picture, &view, (x, y), 10.0);

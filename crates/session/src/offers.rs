@@ -1,0 +1,353 @@
+//! Offers: what can be said of a selection, in the language, each as one edit.
+//!
+//! In: a state and the paths of some things. Out: the constraints that fit them, found in what their classes
+//! answer: truth values of one thing or of two (`parallel(to:)`, `passes(through:)`), lengths and radii that can
+//! be equal, midpoints, levels; and the classes of constraints whose parts the things could be. What is told a
+//! number is told what it is now, so that nothing moves before a person types another.
+
+use crate::joining;
+use crate::recognise;
+use crate::session::thing_at;
+use crate::state::State;
+use crate::view::Offer;
+use crate::words;
+use base::Name;
+use drawing::Drawing;
+use eval::Answer;
+use expr::Dimension;
+use kernel::{
+    Argument, BinaryOperator, ClassId, ClassKind, DOCUMENT, Message, Path, Step, Term, ThingId,
+    UnaryOperator,
+};
+
+/// The most things that offers are made for.
+const MOST: usize = 8;
+
+/// A selected thing.
+struct Selected {
+    path: Path,
+    thing: ThingId,
+    class: ClassId,
+}
+
+/// Returns what can be said of some things, what is meant most often first.
+pub(crate) fn offers(state: &State, paths: &[Path]) -> Vec<Offer> {
+    let found: Option<Vec<Selected>> = paths
+        .iter()
+        .map(|path| {
+            let thing = thing_at(state, path)?;
+            let class = state.structure.things[thing].class;
+            Some(Selected { path: path.clone(), thing, class })
+        })
+        .collect();
+    let Some(things) = found.filter(|found| !found.is_empty() && found.len() <= MOST) else {
+        return Vec::new();
+    };
+    let offerer = Offerer { state, things: &things };
+    let mut offers = Vec::new();
+    offers.extend(offerer.joint(paths));
+    offers.extend(offerer.levels());
+    offers.extend(offerer.alone());
+    offers.extend(offerer.pairs());
+    offers.extend(offerer.equals());
+    offers.extend(offerer.middles());
+    offers.extend(offerer.dimensions());
+    offers.extend(offerer.classes(&offers));
+    offers
+}
+
+struct Offerer<'s> {
+    state: &'s State,
+    things: &'s [Selected],
+}
+
+impl Offerer<'_> {
+    fn rule(label: &str, rules: &[String]) -> Offer {
+        let members: Vec<String> = rules.iter().map(|rule| format!("constraint {rule}")).collect();
+        Offer { label: label.into(), members: members.join("\n"), value: None }
+    }
+
+    fn is_place(&self, class: ClassId) -> bool {
+        self.state.lowered.document.is_place(class)
+    }
+
+    /// The message of a class by a name, without parameters or with one.
+    fn message(&self, class: ClassId, name: &str) -> Option<&Message> {
+        let document = &self.state.lowered.document;
+        document.find_message(class, &Name::new(name), None).map(|(_, message)| message)
+    }
+
+    /// Merging what sticks there.
+    fn joint(&self, paths: &[Path]) -> Option<Offer> {
+        let joined = joining::joined(self.state, paths).ok().filter(|all| all.len() > 1)?;
+        let names: Vec<String> = joined.iter().map(ToString::to_string).collect();
+        let members = format!("merge {}", names.join(" = "));
+        Some(Offer { label: "merge".into(), members, value: None })
+    }
+
+    /// The two places that are level or upright: two that are selected, or the ends of each line.
+    fn levels(&self) -> Vec<Offer> {
+        let ends: Option<Vec<(Path, Path)>> = match self.things {
+            [a, b] if self.is_place(a.class) && self.is_place(b.class) => {
+                Some(vec![(a.path.clone(), b.path.clone())])
+            }
+            all => all.iter().map(|one| self.ends(one)).collect(),
+        };
+        let Some(ends) = ends else { return Vec::new() };
+        let level = |axis: &str| -> Vec<String> {
+            ends.iter().map(|(a, b)| format!("{a}.{axis} = {b}.{axis}")).collect()
+        };
+        vec![Self::rule("horizontal", &level("y")), Self::rule("vertical", &level("x"))]
+    }
+
+    /// The ends of a thing that is drawn between two places.
+    fn ends(&self, one: &Selected) -> Option<(Path, Path)> {
+        let structure = &self.state.structure;
+        let places: Vec<ThingId> = structure
+            .parts(one.thing)
+            .filter(|&part| self.is_place(structure.things[part].class))
+            .collect();
+        let [a, b] = places[..] else { return None };
+        let name = |part| structure.field_name(&self.state.lowered.document, part).cloned();
+        let end = |part| Some(one.path.then(Step::Part(name(part)?)));
+        let has_length = self.message(one.class, "length").is_some();
+        Some((end(a)?, end(b)?)).filter(|_| has_length)
+    }
+
+    /// What may be true of one thing alone.
+    fn alone(&self) -> Vec<Offer> {
+        let [one] = self.things else { return Vec::new() };
+        let said = self.truths(one.class, 0).into_iter();
+        said.map(|m| Self::rule(&words_of(&m.name), &[format!("{}.{}", one.path, m.name)]))
+            .collect()
+    }
+
+    /// What may be true of two things, as one of them says it.
+    fn pairs(&self) -> Vec<Offer> {
+        let [a, b] = self.things else { return Vec::new() };
+        let document = &self.state.lowered.document;
+        let mut offers: Vec<Offer> = Vec::new();
+        for (one, other) in [(a, b), (b, a)] {
+            for message in self.truths(one.class, 1) {
+                let Some(parameter) = message.parameters.first() else { continue };
+                let fits = parameter.class.is_some_and(|c| document.is_a(other.class, c));
+                let label = match &*message.name {
+                    "passes" => "on".into(),
+                    _ => words_of(&message.name),
+                };
+                if fits && offers.iter().all(|offer| offer.label != label) {
+                    let (path, name) = (&one.path, &message.name);
+                    let rule = format!("{path}.{name}({}: {})", parameter.label, other.path);
+                    offers.push(Self::rule(&label, &[rule]));
+                }
+            }
+        }
+        offers
+    }
+
+    /// The messages of a class, and of those above it, whose answer is a truth value.
+    fn truths(&self, class: ClassId, parameters: usize) -> Vec<&Message> {
+        let document = &self.state.lowered.document;
+        let classes = document.lineage(class).into_iter();
+        let own = classes.filter(|&c| !document.classes[c].supers.is_empty());
+        own.flat_map(|c| &document.classes[c].messages)
+            .filter(|m| m.parameters.len() == parameters && is_truth(&m.answer))
+            .collect()
+    }
+
+    /// Lengths or radii that are to be equal.
+    fn equals(&self) -> Vec<Offer> {
+        if self.things.len() < 2 {
+            return Vec::new();
+        }
+        let has = |one: &Selected, name: &str| {
+            self.state.structure.part_named(one.thing, name).is_some()
+                || self.message(one.class, name).is_some_and(|m| m.parameters.is_empty())
+        };
+        let equal = |name: &str| {
+            let all = self.things.iter().all(|one| has(one, name) && !self.is_place(one.class));
+            let pairs = self.things.windows(2);
+            let rules: Vec<String> =
+                pairs.map(|p| format!("{}.{name} = {}.{name}", p[0].path, p[1].path)).collect();
+            all.then(|| Self::rule(&format!("equal {name}"), &rules))
+        };
+        ["length", "radius"].into_iter().filter_map(equal).take(1).collect()
+    }
+
+    /// A place halfway along a line.
+    fn middles(&self) -> Vec<Offer> {
+        let [a, b] = self.things else { return Vec::new() };
+        let middle = |(point, line): (&Selected, &Selected)| {
+            let has = self.message(line.class, "midpoint").is_some_and(|m| m.parameters.is_empty());
+            let rule = format!("{} = {}.midpoint", point.path, line.path);
+            (has && self.is_place(point.class)).then(|| Self::rule("midpoint", &[rule]))
+        };
+        [(a, b), (b, a)].into_iter().filter_map(middle).collect()
+    }
+
+    /// Numbers that are to hold: a length, a distance, a radius, an angle.
+    fn dimensions(&self) -> Vec<Offer> {
+        let asked = |one: &Selected, name: &str, label: &str, other: &Selected| {
+            let argument = Argument {
+                label: Some(Name::new(label)),
+                value: Term::at(Term::Document, &other.path),
+            };
+            Term::Send {
+                to: Box::new(Term::at(Term::Document, &one.path)),
+                name: Name::new(name),
+                arguments: vec![argument],
+                search: None,
+            }
+        };
+        let document = &self.state.lowered.document;
+        let distance = || {
+            let [a, b] = self.things else { return None };
+            let both = self.is_place(a.class) && self.is_place(b.class);
+            let now = self.number(&asked(a, "distance", "to", b)).filter(|_| both)?;
+            // it is drawn as what it is
+            let class = document.class_named("Distance")?;
+            let name = recognise::free_name(self.state, &document.classes[class].name);
+            let (a, b) = (&a.path, &b.path);
+            let members = format!(
+                "{name}: Distance {{ value = {{}} }}\nmerge {a} = {name}.from\nmerge {b} = {name}.to"
+            );
+            let value = Some(self.written(now));
+            Some(Offer { label: "distance".into(), members, value })
+        };
+        let single = |name: &str| {
+            let [one] = self.things else { return None };
+            let path = one.path.then(Step::Part(Name::new(name)));
+            let now = self.number(&Term::at(Term::Document, &path))?;
+            let members = format!("constraint {path} = {{}}");
+            Some(Offer { label: name.into(), members, value: Some(self.written(now)) })
+        };
+        let angle = || {
+            let [a, b] = self.things else { return None };
+            self.message(a.class, "angle").filter(|m| m.parameters.len() == 1)?;
+            let (radians, _) = self.number(&asked(a, "angle", "to", b))?;
+            let degrees = radians * 180.0 / std::f64::consts::PI;
+            let members = format!("constraint {}.angle(to: {}) = {{}}", a.path, b.path);
+            let value = format!("{} deg", base::number::rounded(degrees, 6));
+            Some(Offer { label: "angle".into(), members, value: Some(value) })
+        };
+        let singles = ["length", "radius"].into_iter().find_map(single);
+        [distance(), singles, angle()].into_iter().flatten().collect()
+    }
+
+    /// A number that something is now, in base units, with what it measures.
+    fn number(&self, ask: &Term) -> Option<(f64, Dimension)> {
+        let evaluator = self.state.evaluator(&self.state.values);
+        match evaluator.evaluate(ask, DOCUMENT) {
+            Ok(Answer::Number(x, dimension)) => Some((x, dimension)),
+            _ => None,
+        }
+    }
+
+    /// The same as a person writes it.
+    fn written(&self, (x, dimension): (f64, Dimension)) -> String {
+        let (text, unit) = lang::show_number(x, dimension, &self.state.lowered.document);
+        words::with_unit(text, &unit)
+    }
+
+    /// Classes that say something of such things and draw nothing of their own.
+    fn classes(&self, known: &[Offer]) -> Vec<Offer> {
+        let document = &self.state.lowered.document;
+        let classes = document.classes.iter();
+        let made = classes.filter(|&(id, class)| {
+            recognise::is_candidate(self.state, id, class)
+                && !(class.constraints.is_empty() && class.merges.is_empty())
+                && document.class_named(&class.name) == Some(id)
+        });
+        let mut offers: Vec<Offer> = Vec::new();
+        for (id, class) in made {
+            let label = words_of(&class.name);
+            if known.iter().chain(&offers).any(|offer| label.starts_with(&offer.label)) {
+                continue;
+            }
+            let fields = document.layout(id);
+            let parts = fields.iter().filter(|&&f| {
+                document.classes[document.field_class(f)].kind == ClassKind::Composite
+            });
+            let parts: Vec<(Name, ClassId)> =
+                parts.map(|&f| (document.field_name(f).clone(), document.field_class(f))).collect();
+            // a number that it is told would have to be what it is now
+            if parts.len() != fields.len()
+                || parts.len() != self.things.len()
+                || !self.is_unseen(id)
+            {
+                continue;
+            }
+            let mut order = Vec::new();
+            if !self.fits(&parts, &mut order) {
+                continue;
+            }
+            let name = recognise::free_name(self.state, &class.name);
+            let merges = parts.iter().zip(&order).map(|((field, _), &i)| {
+                format!("\nmerge {} = {name}.{field}", self.things[i].path)
+            });
+            let members = format!("{name}: {}{}", class.name, merges.collect::<String>());
+            offers.push(Offer { label, members, value: None });
+        }
+        offers
+    }
+
+    /// Finds an order in which the things are the parts.
+    fn fits(&self, parts: &[(Name, ClassId)], order: &mut Vec<usize>) -> bool {
+        let Some((_, class)) = parts.get(order.len()) else { return true };
+        (0..self.things.len()).any(|i| {
+            let is_new = !order.contains(&i);
+            if !is_new || !self.state.lowered.document.is_a(self.things[i].class, *class) {
+                return false;
+            }
+            order.push(i);
+            let found = self.fits(parts, order);
+            if !found {
+                order.pop();
+            }
+            found
+        })
+    }
+
+    /// Whether things of a class draw nothing.
+    fn is_unseen(&self, class: ClassId) -> bool {
+        crate::tools::bin::picture(self.state, class) == Drawing::default()
+    }
+}
+
+/// Whether an expression is a truth value, whatever it speaks of.
+fn is_truth(term: &Term) -> bool {
+    match term {
+        Term::Bool(_) | Term::IsA(..) | Term::Unary(UnaryOperator::Not, _) => true,
+        Term::Binary(operator, ..) => matches!(
+            operator,
+            BinaryOperator::Equal
+                | BinaryOperator::NotEqual
+                | BinaryOperator::Less
+                | BinaryOperator::LessEqual
+                | BinaryOperator::Greater
+                | BinaryOperator::GreaterEqual
+                | BinaryOperator::And
+                | BinaryOperator::Or
+        ),
+        Term::Let(_, _, inner) => is_truth(inner),
+        Term::If(_, one, other) => is_truth(one) && is_truth(other),
+        _ => false,
+    }
+}
+
+/// A name as words: `isParallelogram` is `parallelogram`, `EqualRadii` is `equal radii`.
+fn words_of(name: &str) -> String {
+    let mut words = String::new();
+    for c in name
+        .strip_prefix("is")
+        .filter(|rest| rest.starts_with(char::is_uppercase))
+        .unwrap_or(name)
+        .chars()
+    {
+        if c.is_uppercase() && !words.is_empty() {
+            words.push(' ');
+        }
+        words.extend(c.to_lowercase());
+    }
+    words
+}

@@ -1,0 +1,309 @@
+//! Tools: what the hand makes in the picture, place by place.
+//!
+//! In: a class, and where the pointer is. Out: what would be made, as a preview, and at last the command that
+//! makes it. A thing is placed in a document of its own that uses the same classes ([`Tool::trial`]): first it
+//! follows the pointer as a whole, held by its first place; each further place follows the pointer while those
+//! before it stay. What the trial's text says of the thing then is what the document's will say.
+
+pub(crate) mod bin;
+mod catch;
+pub(crate) mod copies;
+pub(crate) mod room;
+mod stages;
+
+use crate::apply;
+use crate::document::Open;
+use crate::drag;
+use crate::host::Host;
+use crate::recognise;
+use crate::session::thing_at;
+use crate::state::State;
+use crate::view::{Caught, PictureView, Pointer, Refusal, ToolView};
+use crate::{views, words};
+use base::Name;
+use base::number::{hypot, shortest};
+use catch::{Catch, Sight};
+use drawing::{Color, Element, Layer, Line, Point, Shape, Style, Tag};
+use kernel::{Command, Literal, Path, Step};
+use stages::{Stage, stages};
+use syntax::ast::{AstNode, Member};
+
+/// A tool in the hand.
+pub(crate) struct Tool {
+    class: Name,
+    /// What the thing will be called, here and in the trial.
+    name: String,
+    /// A document that holds the thing alone.
+    trial: Box<Open>,
+    stages: Vec<Stage>,
+    /// What each place that is set was caught by.
+    set: Vec<Catch>,
+    /// From the pointer to the handle of the drag.
+    offset: (f64, f64),
+    /// The document's picture, in which the pointer finds things.
+    picture: PictureView,
+    /// Whether the next thing goes on from the end of this one.
+    goes_on: bool,
+}
+
+impl Tool {
+    /// Takes a tool for things of a class.
+    ///
+    /// # Errors
+    /// There is no such class, or its things have no place that could be set.
+    pub(crate) fn new(open: &Open, host: &dyn Host, class: &str) -> Result<Self, Refusal> {
+        let state = &open.state;
+        let document = &state.lowered.document;
+        let class = Name::new(class);
+        let known = document.class_named(&class);
+        let Some(known) =
+            known.filter(|&c| recognise::is_candidate(state, c, &document.classes[c]))
+        else {
+            return Err(words::refuse(format!("there is no class {class} to make things of")));
+        };
+        let name = recognise::free_name(state, &class);
+        let text = trial_text(&state.text, &name, &class);
+        let trial = Box::new(Open::of(&open.name, text, host));
+        let stages = stages(&trial.state, &name);
+        let goes_on = document.class_named("Line").is_some_and(|line| document.is_a(known, line));
+        let picture = views::picture::picture(state, open.values(), &open.status);
+        let set = Vec::new();
+        let offset = (0.0, 0.0);
+        let mut tool = Self { class, name, trial, stages, set, offset, picture, goes_on };
+        stages::spread(&mut tool.trial, &tool.stages, host);
+        tool.begin()?;
+        Ok(tool)
+    }
+
+    /// Returns the same tool for the next thing; nothing where it cannot be had any more.
+    pub(crate) fn again(&self, open: &Open, host: &dyn Host) -> Option<Self> {
+        let mut tool = Self::new(open, host, &self.class).ok()?;
+        let last = self.set.last().filter(|_| self.goes_on && self.set.len() == self.stages.len());
+        // a chain ends where it meets something
+        if let Some(last) = last.filter(|last| last.joins.is_none()) {
+            let end = self.stages.last().map(|stage| self.own(stage))?;
+            let start = Catch { joins: Some(end), ..Catch::at(last.at) };
+            tool.set_to(start, host).ok()?;
+        }
+        Some(tool)
+    }
+
+    /// The thing's path to what a stage sets.
+    fn own(&self, stage: &Stage) -> Path {
+        Path(vec![Step::Part(Name::new(&self.name))]).join(stage.part())
+    }
+
+    /// Takes hold of what the present stage sets.
+    fn begin(&mut self) -> Result<(), Refusal> {
+        let Some(stage) = self.stages.get(self.set.len()).cloned() else { return Ok(()) };
+        let first = self.set.is_empty();
+        let whole = Path(vec![Step::Part(Name::new(&self.name))]);
+        let held = match (&stage, first) {
+            (Stage::Place { .. }, true) => whole,
+            (Stage::Place { place, .. }, false) => whole.join(place),
+            (Stage::Reach { number, .. }, _) => whole.join(number),
+            (Stage::Far { far, .. }, _) => whole.join(far),
+        };
+        let state = self.trial.state.clone();
+        let aim = apply::aim(&state, &held)?;
+        let planner = &mut self.trial.planner;
+        let pressed = match aim {
+            apply::Aim::Thing(thing) => drag::press(&state, planner, thing, held),
+            apply::Aim::Term(term) => drag::press_computed(&state, planner, term, held),
+        };
+        let drag = pressed
+            .map_err(|reason| words::refusal_for(&state, &reason, &plan::EditReport::default()))?;
+        let handle = drag.handle();
+        self.trial.drag = Some(drag);
+        self.offset = match (&stage, first) {
+            (Stage::Place { place, .. }, true) => match self.place_now(place) {
+                Some(now) => (handle.0 - now.x, handle.1 - now.y),
+                None => (0.0, 0.0),
+            },
+            _ => (0.0, 0.0),
+        };
+        Ok(())
+    }
+
+    /// Where a place of the thing is now.
+    fn place_now(&self, place: &Path) -> Option<Point> {
+        let state = &self.trial.state;
+        let whole = Path(vec![Step::Part(Name::new(&self.name))]);
+        let thing = thing_at(state, &whole.join(place))?;
+        let [(_, x), (_, y)] = drag::coordinates(&state.structure, thing)?;
+        let numbers = &self.trial.values().numbers;
+        Some(Point { x: numbers[x], y: numbers[y] })
+    }
+
+    /// What the pointer finds for the present stage.
+    fn catch(&self, state: &State, pointer: &Pointer) -> Catch {
+        let Some(stage) = self.stages.get(self.set.len()) else { return Catch::at(pointer.at) };
+        let last = self.set.last().map(|catch| catch.at);
+        if let (Some(length), Some(last)) = (pointer.length, last) {
+            let way = (pointer.at.0 - last.0, pointer.at.1 - last.1);
+            let far = hypot(way.0, way.1);
+            let (dx, dy) = if far > 0.0 { (way.0 / far, way.1 / far) } else { (1.0, 0.0) };
+            let at = (last.0 + length * dx, last.1 + length * dy);
+            let mut catch = Catch::at(at);
+            if self.goes_on {
+                catch.rules.push(format!("{}.length = {}", self.name, shortest(length)));
+            }
+            return catch;
+        }
+        let class = stage.class(&self.trial.state, &self.name);
+        let class = class.and_then(|name| state.lowered.document.class_named(&name));
+        let before = self.stages.get(self.set.len().wrapping_sub(1)).map(|s| self.own(s));
+        let sight = Sight {
+            state,
+            picture: &self.picture,
+            class,
+            own: self.own(stage),
+            whole: Name::new(&self.name),
+            last: last.zip(before).filter(|_| self.goes_on),
+            is_reach: matches!(stage, Stage::Reach { .. }),
+        };
+        catch::find(&sight, pointer)
+    }
+
+    /// Has the present stage follow a place.
+    fn follow(&mut self, at: (f64, f64)) {
+        let to = match (self.stages.get(self.set.len()), self.set.last()) {
+            (Some(Stage::Reach { .. }), Some(last)) => {
+                (hypot(at.0 - last.at.0, at.1 - last.at.1), 0.0)
+            }
+            _ => (at.0 + self.offset.0, at.1 + self.offset.1),
+        };
+        let state = self.trial.state.clone();
+        if let Some(drag) = &mut self.trial.drag {
+            drag.to(&state, &mut self.trial.planner, to);
+        }
+    }
+
+    /// The pointer is elsewhere.
+    pub(crate) fn moved(&mut self, state: &State, pointer: &Pointer) -> ToolView {
+        let catch = self.catch(state, pointer);
+        self.follow(catch.at);
+        let mut view = self.view();
+        view.preview.elements.extend(guides(&catch, self.set.last()));
+        view.caught = catch.word.map(|word| Caught { at: catch.at, word });
+        view
+    }
+
+    /// Sets what the present stage sets where the pointer is.
+    ///
+    /// # Errors
+    /// Why that cannot be.
+    pub(crate) fn set(
+        &mut self,
+        state: &State,
+        pointer: &Pointer,
+        host: &dyn Host,
+    ) -> Result<ToolView, Refusal> {
+        let catch = self.catch(state, pointer);
+        self.set_to(catch, host)?;
+        let mut view = self.view();
+        if self.set.len() == self.stages.len() {
+            view.command = Some(self.command());
+        }
+        Ok(view)
+    }
+
+    fn set_to(&mut self, catch: Catch, host: &dyn Host) -> Result<(), Refusal> {
+        self.follow(catch.at);
+        let stage = self.stages.get(self.set.len()).cloned();
+        if let Some(drag) = self.trial.drag.take() {
+            drag.release(&mut self.trial, host)?;
+        }
+        self.set.push(catch);
+        if let Some(Stage::Place { place, .. }) = stage {
+            let path = Path(vec![Step::Part(Name::new(&self.name))]).join(&place);
+            let command = Command::Anchor { path, held: true };
+            // what cannot be anchored is held by its stay
+            let _ = apply::apply(&mut self.trial, host, &command);
+        }
+        self.begin()
+    }
+
+    /// The command that makes the thing as it is in the trial, joined to what its places were caught by.
+    fn command(&self) -> Command {
+        let mut members = member_of(&self.trial.state.text, &self.name);
+        for (stage, catch) in self.stages.iter().zip(&self.set) {
+            if let Some(other) = &catch.joins {
+                members.push_str(&format!("\nmerge {other} = {}", self.own(stage)));
+            }
+            for rule in &catch.rules {
+                members.push_str(&format!("\nconstraint {rule}"));
+            }
+        }
+        Command::Edit { target: Path::default(), members }
+    }
+
+    /// What there is to see of it.
+    pub(crate) fn view(&self) -> ToolView {
+        let trial = &self.trial;
+        let shown = views::picture::picture(&trial.state, trial.values(), &trial.status);
+        let hint = match self.stages.get(self.set.len()) {
+            Some(stage) => stage.hint(&self.class, self.set.is_empty()),
+            None => String::new(),
+        };
+        let hint = if self.goes_on && !self.set.is_empty() {
+            format!("{hint}; digits: its length")
+        } else {
+            hint
+        };
+        ToolView {
+            hint,
+            preview: shown.drawing,
+            caught: None,
+            command: None,
+            begun: !self.set.is_empty(),
+            makes: self.name.clone(),
+        }
+    }
+}
+
+/// The dashed lines that say what a catch was found by.
+fn guides(catch: &Catch, last: Option<&Catch>) -> Vec<Element> {
+    let last = last.filter(|_| catch.is_level);
+    let line = last.map(|last| {
+        let point = |(x, y): (f64, f64)| Point { x, y };
+        Element {
+            shape: Shape::Segment(point(last.at), point(catch.at)),
+            style: Style { color: Color::Accent, line: Line::Dashed, ..Style::default() },
+            layer: Layer::Lines,
+            tag: Tag(0),
+        }
+    });
+    line.into_iter().collect()
+}
+
+/// A text that says what classes a document has, and one thing of one of them.
+fn trial_text(text: &str, name: &str, class: &str) -> String {
+    format!("{}\n{name}: {class}\n", of_classes(text))
+}
+
+/// What a text says of classes, and not of things.
+fn of_classes(text: &str) -> String {
+    let file = syntax::parse(base::FileId(0), text).file();
+    let is_of_classes = |m: &Member| {
+        matches!(m, Member::Use(_) | Member::Class(_) | Member::Unit(_) | Member::Y(_))
+    };
+    let kept = file.members().filter(is_of_classes).map(|m| m.syntax().text().to_string());
+    kept.collect::<Vec<String>>().join("\n")
+}
+
+/// What a text says of one of its things.
+fn member_of(text: &str, name: &str) -> String {
+    let file = syntax::parse(base::FileId(0), text).file();
+    let is_it = |m: &Member| match m {
+        Member::Part(part) => part.names().any(|word| word.text() == name),
+        _ => false,
+    };
+    let member = { file.members() }.find(is_it);
+    member.map(|m| m.syntax().text().to_string().trim().to_string()).unwrap_or_default()
+}
+
+/// Sets a place, as a command carries it.
+fn at_place(path: Path, (x, y): (f64, f64)) -> (Path, Literal) {
+    (path, Literal::Tuple(vec![Literal::Number(x), Literal::Number(y)]))
+}

@@ -1,0 +1,42 @@
+//! The bin: the classes that things can be made of, each with the picture of its prototype.
+
+use crate::prototype::Lone;
+use crate::recognise;
+use crate::state::State;
+use crate::view::BinEntry;
+use eval::Evaluator;
+use kernel::ClassId;
+
+/// Returns the classes that a document can make things of, in order of declaration, its own last.
+pub(crate) fn entries(state: &State) -> Vec<BinEntry> {
+    let document = &state.lowered.document;
+    let classes = document.classes.iter();
+    let made = classes.filter(|&(id, class)| recognise::is_candidate(state, id, class));
+    // of classes of one name the last counts
+    let made = made.filter(|&(id, class)| document.class_named(&class.name) == Some(id));
+    made.map(|(id, class)| {
+        let file = state.lowered.place(class.origin).file;
+        BinEntry {
+            class: class.name.to_string(),
+            doc: class.doc.clone(),
+            library: state
+                .lowered
+                .files
+                .get(file)
+                .map(|file| file.name.clone())
+                .unwrap_or_default(),
+            picture: picture(state, id),
+        }
+    })
+    .collect()
+}
+
+/// The picture of a class's prototype, from what is given alone.
+pub(crate) fn picture(state: &State, class: ClassId) -> drawing::Drawing {
+    let Some(lone) = Lone::of(&state.lowered.document, class) else {
+        return drawing::Drawing::default();
+    };
+    let (values, _) = eval::given_values(&lone.document, &lone.structure);
+    let evaluator = Evaluator::new(&lone.document, &lone.structure, &values);
+    evaluator.picture(lone.thing).drawing
+}

@@ -1,0 +1,144 @@
+//! What a pointer finds for a place: a part to join, a midpoint, a line to lie on, a level to keep.
+
+use crate::joining;
+use crate::session::{parse_path, thing_at};
+use crate::state::State;
+use crate::view::{PictureView, Pointer};
+use base::Name;
+use base::number::hypot;
+use drawing::{Point, Shape};
+use kernel::{ClassId, Path, Step};
+
+/// What was found, and where.
+#[derive(Clone, PartialEq, Debug)]
+pub(crate) struct Catch {
+    /// Where the place is, on the sheet.
+    pub(crate) at: (f64, f64),
+    /// The part that the place becomes one with.
+    pub(crate) joins: Option<Path>,
+    /// What shall hold of the place, in the language.
+    pub(crate) rules: Vec<String>,
+    /// What comes of it, in a word.
+    pub(crate) word: Option<String>,
+    /// Whether the place is level with, or right above, the last one.
+    pub(crate) is_level: bool,
+}
+
+impl Catch {
+    /// Nothing but a place.
+    pub(crate) fn at(at: (f64, f64)) -> Self {
+        Self { at, joins: None, rules: Vec::new(), word: None, is_level: false }
+    }
+}
+
+/// What a pointer looks at, and for what.
+pub(crate) struct Sight<'s> {
+    pub(crate) state: &'s State,
+    pub(crate) picture: &'s PictureView,
+    /// The class of what is placed, in the document.
+    pub(crate) class: Option<ClassId>,
+    /// The path of what is placed.
+    pub(crate) own: Path,
+    /// The name of the thing that it is a part of.
+    pub(crate) whole: Name,
+    /// Where the place before it is, and its path, for what is drawn line by line.
+    pub(crate) last: Option<((f64, f64), Path)>,
+    /// Whether what is set is how far the pointer is from the last place.
+    pub(crate) is_reach: bool,
+}
+
+/// Returns what the pointer finds: what it is nearest to, points before lines, lines before levels.
+pub(crate) fn find(sight: &Sight<'_>, pointer: &Pointer) -> Catch {
+    if pointer.alone {
+        return Catch::at(pointer.at);
+    }
+    let found = at_point(sight, pointer).or_else(|| at_shape(sight, pointer));
+    found.or_else(|| level(sight, pointer)).unwrap_or_else(|| Catch::at(pointer.at))
+}
+
+/// A grip that what is placed can become one with; for a radius, a point that the circle passes through.
+fn at_point(sight: &Sight<'_>, pointer: &Pointer) -> Option<Catch> {
+    let far = |x: f64, y: f64| hypot(x - pointer.at.0, y - pointer.at.1);
+    let mut near: Vec<_> = sight.picture.grips.iter().map(|g| (far(g.x, g.y), g)).collect();
+    near.retain(|(distance, _)| *distance <= pointer.reach);
+    near.sort_by(|a, b| a.0.total_cmp(&b.0));
+    near.into_iter().find_map(|(_, grip)| {
+        let path = parse_path(&grip.path)?;
+        let at = Catch::at((grip.x, grip.y));
+        if sight.is_reach {
+            let rules = vec![format!("{}.passes(through: {path})", sight.whole)];
+            return Some(Catch { rules, word: Some(format!("through {path}")), ..at });
+        }
+        let joined = joining::partner_of(sight.state, sight.class?, &path)?;
+        Some(Catch { word: Some(format!("joins {joined}")), joins: Some(joined), ..at })
+    })
+}
+
+/// The middle of a line, or a line or circle that the place lies on.
+fn at_shape(sight: &Sight<'_>, pointer: &Pointer) -> Option<Catch> {
+    let document = &sight.state.lowered.document;
+    if sight.is_reach || !sight.class.is_some_and(|class| document.is_place(class)) {
+        return None;
+    }
+    let (x, y) = pointer.at;
+    let mut nearest: Option<(f64, Catch)> = None;
+    for element in &sight.picture.drawing.elements {
+        let Some(path) = sight.picture.paths.get(element.tag.0 as usize) else { continue };
+        let thing = parse_path(path).and_then(|path| thing_at(sight.state, &path));
+        let Some(thing) = thing else { continue };
+        let class = sight.state.structure.things[thing].class;
+        let answers = |name: &str| document.find_message(class, &Name::new(name), None).is_some();
+        let foot = match &element.shape {
+            Shape::Segment(a, b) => {
+                let middle = (f64::midpoint(a.x, b.x), f64::midpoint(a.y, b.y));
+                let far = hypot(middle.0 - x, middle.1 - y);
+                if far <= pointer.reach && answers("midpoint") {
+                    let rules = vec![format!("{} = {path}.midpoint", sight.own)];
+                    let word = Some(format!("midpoint of {path}"));
+                    return Some(Catch { rules, word, ..Catch::at(middle) });
+                }
+                on_segment(pointer.at, *a, *b)
+            }
+            Shape::Circle { center, radius } => on_circle(pointer.at, *center, *radius),
+            Shape::Dot(_) | Shape::Polyline { .. } | Shape::Arc { .. } | Shape::Text { .. } => None,
+        };
+        let Some(foot) = foot.filter(|_| answers("passes")) else { continue };
+        let far = hypot(foot.0 - x, foot.1 - y);
+        if far <= 0.6 * pointer.reach && nearest.as_ref().is_none_or(|(least, _)| far < *least) {
+            let rules = vec![format!("{path}.passes(through: {})", sight.own)];
+            let word = Some(format!("on {path}"));
+            nearest = Some((far, Catch { rules, word, ..Catch::at(foot) }));
+        }
+    }
+    nearest.map(|(_, catch)| catch)
+}
+
+/// The foot of a place on a segment, where that lies between its ends.
+fn on_segment((x, y): (f64, f64), a: Point, b: Point) -> Option<(f64, f64)> {
+    let (dx, dy) = (b.x - a.x, b.y - a.y);
+    let square = dx * dx + dy * dy;
+    let along = ((x - a.x) * dx + (y - a.y) * dy) / square;
+    (0.0..=1.0).contains(&along).then(|| (a.x + along * dx, a.y + along * dy))
+}
+
+/// The nearest point of a circle.
+fn on_circle((x, y): (f64, f64), center: Point, radius: f64) -> Option<(f64, f64)> {
+    let (dx, dy) = (x - center.x, y - center.y);
+    let far = hypot(dx, dy);
+    (far > 0.0).then(|| (center.x + radius / far * dx, center.y + radius / far * dy))
+}
+
+/// A place level with the last one, or right above or below it.
+fn level(sight: &Sight<'_>, pointer: &Pointer) -> Option<Catch> {
+    let (last, before) = sight.last.as_ref()?;
+    let (dx, dy) = ((pointer.at.0 - last.0).abs(), (pointer.at.1 - last.1).abs());
+    let near = 0.6 * pointer.reach;
+    let coordinate = |path: &Path, name: &str| path.then(Step::Part(Name::new(name)));
+    let (name, word, at) = match () {
+        () if dy <= near && dx > pointer.reach => ("y", "horizontal", (pointer.at.0, last.1)),
+        () if dx <= near && dy > pointer.reach => ("x", "vertical", (last.0, pointer.at.1)),
+        () => return None,
+    };
+    let rules = vec![format!("{} = {}", coordinate(before, name), coordinate(&sight.own, name))];
+    Some(Catch { rules, word: Some(word.into()), is_level: true, ..Catch::at(at) })
+}

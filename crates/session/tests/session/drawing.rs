@@ -1,0 +1,255 @@
+//! Drawing and inserting by hand: tools, what they catch, what they make.
+
+use crate::desk::{Desk, at, gallery};
+use session::Command;
+use session::view::{Pointer, ToolView};
+
+/// A pointer of a mouse on a sheet at 100 %.
+fn pointer(x: f64, y: f64) -> Pointer {
+    Pointer { at: (x, y), reach: 10.0, alone: false, length: None }
+}
+
+/// Clicks with the tool in the hand; where that makes something, it is made.
+fn click(desk: &mut Desk, pointer: &Pointer) -> ToolView {
+    desk.session.tool_moved(desk.id, pointer).expect("a tool is in the hand");
+    let view = desk.session.tool_set(desk.id, pointer).expect("the place can be set");
+    if let Some(command) = &view.command {
+        desk.apply(command).expect("what was drawn can be made");
+        desk.session.take_tool_again(desk.id);
+    }
+    view
+}
+
+/// What a value is, by any of its paths.
+fn shown(desk: &Desk, path: &str) -> String {
+    desk.session.shown_value(desk.id, &at(path)).expect("it has a value")
+}
+
+fn holds(desk: &Desk) {
+    let status = desk.session.status(desk.id);
+    assert!(status.satisfied, "{}", status.message);
+    assert_eq!(desk.session.complaints(desk.id), Vec::<String>::new());
+    assert_eq!(desk.wrong(), []);
+}
+
+#[test]
+fn four_clicks_and_the_first_corner_again_make_a_ring_of_four_lines() {
+    let mut desk = Desk::of("use geometry\n");
+    desk.session.take_tool(desk.id, "Line").expect("geometry has lines");
+    for (x, y) in [(174.0, 178.0), (329.0, 26.0), (445.0, 144.0), (323.0, 312.0), (176.0, 181.0)] {
+        click(&mut desk, &pointer(x, y));
+    }
+    holds(&desk);
+    // four corners, free each
+    assert_eq!(desk.session.status(desk.id).freedom, 8);
+    assert_eq!(desk.place("line4.p2"), (174.0, 178.0));
+    let text = desk.text();
+    assert!(text.contains("merge line.p1 = line4.p2"), "{text}");
+    // each line is one step
+    desk.undo();
+    assert_eq!(desk.session.status(desk.id).freedom, 8);
+    assert!(!desk.text().contains("line4"), "{}", desk.text());
+    // the ring is closed: the tool begins anew
+    let begun = desk.session.take_tool(desk.id, "Line").expect("a tool").begun;
+    assert!(!begun);
+}
+
+#[test]
+fn a_line_drawn_from_middle_to_middle_keeps_to_the_middles() {
+    let mut desk = Desk::of(
+        "use geometry\na: Line { p1 = (0, 0)  p2 = (100, 0) }\nb: Line { p1 = (0, 80)  p2 = (100, 120) }\n",
+    );
+    desk.session.take_tool(desk.id, "Line").expect("a tool");
+    let word = desk.session.tool_moved(desk.id, &pointer(52.0, 3.0)).and_then(|v| v.caught);
+    assert_eq!(word.map(|caught| caught.word), Some("midpoint of a".into()));
+    click(&mut desk, &pointer(52.0, 3.0));
+    click(&mut desk, &pointer(49.0, 103.0));
+    holds(&desk);
+    desk.drag("a.p2", &[(200.0, 40.0)]);
+    assert_eq!(desk.place("line.p1"), (100.0, 20.0));
+}
+
+#[test]
+fn a_level_line_stays_level_and_shift_draws_it_free() {
+    let mut desk = Desk::of("use geometry\n");
+    desk.session.take_tool(desk.id, "Line").expect("a tool");
+    click(&mut desk, &pointer(0.0, 0.0));
+    click(&mut desk, &pointer(90.0, 3.0));
+    assert_eq!(desk.place("line.p2"), (90.0, 0.0));
+    assert!(desk.text().contains("constraint line.p1.y = line.p2.y"), "{}", desk.text());
+    desk.undo();
+    desk.session.take_tool(desk.id, "Line").expect("a tool");
+    for (x, y) in [(0.0, 0.0), (90.0, 3.0)] {
+        click(&mut desk, &Pointer { alone: true, ..pointer(x, y) });
+    }
+    assert_eq!(desk.place("line.p2"), (90.0, 3.0));
+    assert_eq!(desk.session.status(desk.id).freedom, 4);
+}
+
+#[test]
+fn a_length_that_is_typed_holds() {
+    let mut desk = Desk::of("use geometry\n");
+    desk.session.take_tool(desk.id, "Line").expect("a tool");
+    click(&mut desk, &pointer(0.0, 0.0));
+    click(&mut desk, &Pointer { length: Some(50.0), ..pointer(6.0, 8.0) });
+    holds(&desk);
+    assert_eq!(desk.place("line.p2"), (30.0, 40.0));
+    assert_eq!(desk.session.status(desk.id).freedom, 3);
+}
+
+#[test]
+fn a_circle_is_set_by_its_centre_and_a_point_that_it_passes_through() {
+    let mut desk = Desk::of("use geometry\np: Point = (30, 40)\n");
+    desk.session.take_tool(desk.id, "Circle").expect("a tool");
+    click(&mut desk, &pointer(0.0, 0.0));
+    click(&mut desk, &pointer(31.0, 41.0));
+    holds(&desk);
+    assert_eq!(desk.number("circle.radius"), 50.0);
+    // two places, one of which the radius holds
+    assert_eq!(desk.session.status(desk.id).freedom, 3);
+}
+
+#[test]
+fn an_arc_and_a_box_are_drawn_place_by_place() {
+    let mut desk = Desk::of("use geometry\n");
+    desk.session.take_tool(desk.id, "Arc").expect("a tool");
+    for (x, y) in [(0.0, 0.0), (60.0, 0.0), (0.0, 60.0)] {
+        click(&mut desk, &pointer(x, y));
+    }
+    holds(&desk);
+    assert_eq!(desk.place("arc.start"), (60.0, 0.0));
+    desk.session.take_tool(desk.id, "Rectangle").expect("a tool");
+    click(&mut desk, &pointer(100.0, 100.0));
+    click(&mut desk, &pointer(180.0, 130.0));
+    holds(&desk);
+    assert_eq!((desk.number("rectangle.width"), desk.number("rectangle.height")), (80.0, 30.0));
+}
+
+#[test]
+fn parts_of_a_circuit_stick_to_each_other_by_their_nodes() {
+    let mut desk = Desk::of("use circuits\ny down\n");
+    let part = |desk: &mut Desk, class: &str, a: (f64, f64), b: (f64, f64)| {
+        desk.session.take_tool(desk.id, class).expect("circuits has it");
+        click(desk, &pointer(a.0, a.1));
+        click(desk, &pointer(b.0, b.1));
+    };
+    part(&mut desk, "Battery", (0.0, 0.0), (0.0, 200.0));
+    part(&mut desk, "Resistor", (2.0, 1.0), (200.0, 0.0));
+    part(&mut desk, "Resistor", (203.0, 1.0), (200.0, 200.0));
+    part(&mut desk, "Wire", (198.0, 203.0), (1.0, 199.0));
+    desk.session.take_tool(desk.id, "Ground").expect("circuits has it");
+    click(&mut desk, &pointer(0.0, 198.0));
+    holds(&desk);
+    // 1.5 V over twice 100 ohm
+    assert_eq!(shown(&desk, "resistor.current"), "0.0075 A");
+    assert_eq!(shown(&desk, "resistor2.a.node.voltage"), "0.75 V");
+}
+
+#[test]
+fn terminals_that_are_joined_become_one_node_and_not_one_place() {
+    let mut desk = Desk::of(
+        "use circuits\nbattery: Battery { a.node.at = (0, 0)  b.node.at = (0, 100) }\n\
+         r: Resistor { a.node.at = (50, 0)  b.node.at = (50, 100) }\nground: Ground\n\
+         merge battery.b.node = ground.lead.node\n",
+    );
+    let join = |desk: &mut Desk, a: &str, b: &str| {
+        let command = desk.session.join(desk.id, &[at(a), at(b)]).expect("they are alike");
+        desk.apply(&command).expect("they can be joined");
+    };
+    join(&mut desk, "battery.a.node.at", "r.a.node.at");
+    join(&mut desk, "battery.b.node.at", "r.b.node.at");
+    assert!(desk.text().contains("battery.a.node = r.a.node"), "{}", desk.text());
+    assert_eq!(shown(&desk, "r.current"), "0.015 A");
+    let again = desk.session.join(desk.id, &[at("battery.a.node.at"), at("r.a.node.at")]);
+    let refusal = again.expect_err("they are one");
+    assert_eq!(refusal.message, "battery.a.node and r.a.node are one already");
+}
+
+#[test]
+fn what_is_dropped_on_a_corner_becomes_one_with_it_in_one_step() {
+    let mut desk = Desk::of(
+        "use geometry\na: Line { p1 = (0, 0)  p2 = (100, 0) }\nb: Line { p1 = (0, 80)  p2 = (100, 120) }\n",
+    );
+    let before = desk.moment();
+    desk.hold("b.p1", &[(50.0, 50.0), (100.0, 0.0)]);
+    assert_eq!(desk.session.joint(desk.id, &at("a.p2")), Some(at("a.p2")));
+    desk.session.release_onto(desk.id, &at("a.p2")).expect("they are alike");
+    assert_eq!(desk.session.status(desk.id).freedom, 6);
+    assert_eq!(desk.place("b.p1"), (100.0, 0.0));
+    assert_eq!(desk.place("a.p2"), (100.0, 0.0));
+    holds(&desk);
+    desk.undo();
+    assert_eq!(desk.moment(), before);
+    desk.redo();
+    assert_eq!(desk.session.status(desk.id).freedom, 6);
+}
+
+#[test]
+fn things_inserted_by_the_keyboard_lie_beside_each_other() {
+    let mut desk = Desk::of("use circuits\n");
+    for class in ["Resistor", "Resistor", "Battery", "Ground", "Voltmeter"] {
+        let command = desk.session.insertion(desk.id, class).expect("circuits has it");
+        desk.apply(&command).expect("there is room");
+    }
+    let grips = desk.session.picture(desk.id).grips;
+    for (i, a) in grips.iter().enumerate() {
+        for b in &grips[i + 1..] {
+            assert!((a.x - b.x).abs() + (a.y - b.y).abs() > 20.0, "{} on {}", a.path, b.path);
+        }
+    }
+    let refusal = desk.session.insertion(desk.id, "TwoLead").expect_err("it is abstract");
+    assert_eq!(refusal.message, "there is no class TwoLead to make things of");
+}
+
+#[test]
+fn the_bin_has_every_class_in_use_and_says_where_it_comes_from() {
+    let desk = Desk::of("use circuits\nclass Own { p: Point }\n");
+    let bin = desk.session.bin(desk.id);
+    let of = |class: &str| bin.iter().find(|e| e.class == class).expect("the bin has it");
+    assert_eq!(of("Resistor").library, "circuits");
+    assert_eq!(of("Line").library, "geometry");
+    assert_eq!(of("Own").library, "");
+    assert!(!of("Resistor").picture.elements.is_empty());
+    assert!(bin.iter().all(|e| e.class != "TwoLead"), "nothing is made of abstract classes");
+}
+
+#[test]
+fn a_tool_changes_nothing_before_its_last_click() {
+    let mut desk = Desk::of(&gallery("quadrilateral"));
+    let before = desk.moment();
+    desk.session.take_tool(desk.id, "Line").expect("a tool");
+    click(&mut desk, &pointer(10.0, 10.0));
+    desk.session.tool_moved(desk.id, &pointer(50.0, 90.0));
+    assert_eq!(desk.moment(), before);
+    desk.session.drop_tool(desk.id);
+    assert_eq!(desk.moment(), before);
+    assert!(desk.session.tool_moved(desk.id, &pointer(1.0, 1.0)).is_none());
+    assert!(desk.apply(&Command::Undo).is_err(), "there is nothing to undo");
+}
+
+#[test]
+fn a_copy_has_the_values_of_its_model_and_shares_nothing() {
+    let mut desk = Desk::of(
+        "use circuits\n/// The load.\nload: Resistor { a.node.at = (0, 0)  b.node.at = (0, 100)  resistance = 50 ohm }\n",
+    );
+    let copied = desk.session.duplication(desk.id, &[at("load")]).expect("it stands alone");
+    assert_eq!(copied.1, "resistor");
+    desk.apply(&copied.0).expect("it can be made");
+    holds(&desk);
+    assert_eq!(shown(&desk, "resistor.resistance"), "50 ohm");
+    assert_eq!(desk.place("resistor.b.node.at"), (20.0, 120.0));
+    desk.type_in("resistor.resistance", "70 ohm").expect("it is its own");
+    assert_eq!(shown(&desk, "load.resistance"), "50 ohm");
+    let part = desk.session.duplication(desk.id, &[at("load.a")]).expect_err("it is a part");
+    assert_eq!(part.message, "load.a is a part: copy the whole that it is a part of");
+}
+
+#[test]
+fn what_goes_along_with_something_deleted_is_told_before() {
+    let desk = Desk::of(
+        "use geometry\na: Line { p1 = (0, 0)  p2 = (9, 0) }\nb: Line\nmerge a.p2 = b.p1\nconstraint a.length = b.length\n",
+    );
+    let along = desk.session.along_with(desk.id, &at("b"));
+    assert_eq!(along, ["merge a.p2 = b.p1", "constraint a.length = b.length"]);
+    assert!(desk.session.along_with(desk.id, &at("nowhere")).is_empty());
+}

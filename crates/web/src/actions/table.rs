@@ -1,0 +1,473 @@
+//! The table of what can be done.
+
+use super::{Action, Context, Group};
+use crate::dialog::Wish;
+use crate::lab::{Lab, Zoom};
+use crate::{route, structure, words};
+use leptos::prelude::*;
+use session::view::{RowKind, StructureRow};
+use session::{Command, Path};
+use wasm_bindgen::JsCast;
+
+/// Everything that can be done, in the order of the menu.
+pub const ACTIONS: &[Action] = &[
+    Action {
+        id: "new",
+        group: Group::File,
+        contexts: &[],
+        label: words::NEW,
+        keys: &["Alt+N"],
+        enabled: |_| Ok(()),
+        run: Lab::begin_new,
+    },
+    Action {
+        id: "open",
+        group: Group::File,
+        contexts: &[],
+        label: words::OPEN_FILE,
+        keys: &["Ctrl+O"],
+        enabled: |_| Ok(()),
+        run: Lab::open_file,
+    },
+    Action {
+        id: "save",
+        group: Group::File,
+        contexts: &[Context::Sheet],
+        label: words::SAVE,
+        keys: &["Ctrl+S"],
+        enabled: |lab| {
+            document(lab)?;
+            let to_save = lab.document.with(|d| d.as_ref().is_some_and(|d| d.dirty || d.is_new()));
+            if to_save { Ok(()) } else { Err(words::NOTHING_TO_SAVE) }
+        },
+        run: Lab::save,
+    },
+    Action {
+        id: "save-as",
+        group: Group::File,
+        contexts: &[],
+        label: words::SAVE_AS,
+        keys: &["Ctrl+Shift+S"],
+        enabled: |lab| document(lab).map(drop),
+        run: |lab| lab.wish.set(Some(Wish::SaveAs)),
+    },
+    Action {
+        id: "undo",
+        group: Group::Edit,
+        contexts: &[Context::Sheet],
+        label: words::UNDO,
+        keys: &["Ctrl+Z"],
+        enabled: |lab| {
+            let step = lab.status.with(|status| status.undo.is_some());
+            document(lab).and(if step { Ok(()) } else { Err(words::NOTHING_TO_UNDO) })
+        },
+        run: |lab| apply(lab, &Command::Undo),
+    },
+    Action {
+        id: "redo",
+        group: Group::Edit,
+        contexts: &[Context::Sheet],
+        label: words::REDO,
+        keys: &["Ctrl+Shift+Z", "Ctrl+Y"],
+        enabled: |lab| {
+            let step = lab.status.with(|status| status.redo.is_some());
+            document(lab).and(if step { Ok(()) } else { Err(words::NOTHING_TO_REDO) })
+        },
+        run: |lab| apply(lab, &Command::Redo),
+    },
+    Action {
+        id: "explain",
+        group: Group::Edit,
+        contexts: &[Context::Sheet, Context::Thing],
+        label: words::EXPLAIN,
+        keys: &["W"],
+        enabled: |lab| document(lab).map(drop),
+        run: |lab| lab.why.update(|why| *why = !*why),
+    },
+    Action {
+        id: "lock",
+        group: Group::Edit,
+        contexts: &[Context::Thing],
+        label: words::LOCK,
+        keys: &["Shift+L"],
+        enabled: |lab| match selected(lab)?.kind {
+            RowKind::Part => Ok(()),
+            RowKind::Virtual | RowKind::Constraint | RowKind::Merge | RowKind::Side => {
+                Err(words::IS_A_CONSTRAINT)
+            }
+        },
+        run: |lab| {
+            if let Some(path) = lab.selected.get_untracked() {
+                structure::toggle_lock(lab, &path);
+            }
+        },
+    },
+    Action {
+        id: "merge",
+        group: Group::Join,
+        contexts: &[Context::Thing],
+        label: words::MERGE,
+        keys: &["M"],
+        enabled: |lab| match several(lab)?.len() {
+            0 | 1 => Err(words::ONE_SELECTED),
+            _ => Ok(()),
+        },
+        run: Lab::join_selection,
+    },
+    Action {
+        id: "recognise",
+        group: Group::Join,
+        contexts: &[Context::Thing],
+        label: words::RECOGNISE,
+        keys: &["Shift+R"],
+        enabled: |lab| several(lab).map(drop),
+        run: Lab::recognise,
+    },
+    Action {
+        id: "unmerge",
+        group: Group::Join,
+        contexts: &[Context::Thing],
+        label: words::UNMERGE,
+        keys: &[],
+        enabled: |lab| {
+            let row = selected(lab)?;
+            let merged = row.merged_with.is_some()
+                || lab.structure.with(|rows| {
+                    rows.iter().any(|other| other.merged_with.as_deref() == Some(&row.path))
+                });
+            if merged { Ok(()) } else { Err(words::NOT_MERGED) }
+        },
+        run: |lab| on_selection(lab, Command::Unmerge),
+    },
+    Action {
+        id: "enable",
+        group: Group::Edit,
+        contexts: &[Context::Thing],
+        label: words::ENABLE,
+        keys: &[],
+        enabled: |lab| constraint(lab, false),
+        run: |lab| on_selection(lab, |path| Command::Enable { path, on: true }),
+    },
+    Action {
+        id: "disable",
+        group: Group::Edit,
+        contexts: &[Context::Thing],
+        label: words::DISABLE,
+        keys: &[],
+        enabled: |lab| constraint(lab, true),
+        run: |lab| on_selection(lab, |path| Command::Enable { path, on: false }),
+    },
+    Action {
+        id: "delete",
+        group: Group::Edit,
+        contexts: &[Context::Thing],
+        label: words::DELETE,
+        keys: &["Delete"],
+        enabled: |lab| selected(lab).map(drop),
+        run: |lab| on_selection(lab, Command::Delete),
+    },
+    Action {
+        id: "rename",
+        group: Group::Edit,
+        contexts: &[Context::Thing],
+        label: words::RENAME,
+        keys: &["F2"],
+        enabled: |lab| selected(lab).map(drop),
+        run: |lab| {
+            if let Some(path) = lab.selected.get_untracked() {
+                lab.wish.set(Some(Wish::Rename(path)));
+            }
+        },
+    },
+    Action {
+        id: "menu",
+        group: Group::Go,
+        contexts: &[],
+        label: words::MENU,
+        keys: &["Shift+F10", "ContextMenu"],
+        enabled: |lab| document(lab).map(drop),
+        run: Lab::open_menu_at_selection,
+    },
+    Action {
+        id: "select",
+        group: Group::Tool,
+        contexts: &[],
+        label: words::SELECT,
+        keys: &["V"],
+        enabled: |lab| document(lab).map(drop),
+        run: |lab| {
+            lab.drop_tool();
+            focus("#picture");
+        },
+    },
+    Action {
+        id: "tool-point",
+        group: Group::Tool,
+        contexts: &[],
+        label: words::TOOL_POINT,
+        keys: &["P"],
+        enabled: |lab| class(lab, "Point"),
+        run: |lab| hold(lab, "Point"),
+    },
+    Action {
+        id: "tool-line",
+        group: Group::Tool,
+        contexts: &[],
+        label: words::TOOL_LINE,
+        keys: &["L"],
+        enabled: |lab| class(lab, "Line"),
+        run: |lab| hold(lab, "Line"),
+    },
+    Action {
+        id: "tool-circle",
+        group: Group::Tool,
+        contexts: &[],
+        label: words::TOOL_CIRCLE,
+        keys: &["C"],
+        enabled: |lab| class(lab, "Circle"),
+        run: |lab| hold(lab, "Circle"),
+    },
+    Action {
+        id: "tool-arc",
+        group: Group::Tool,
+        contexts: &[],
+        label: words::TOOL_ARC,
+        keys: &["A"],
+        enabled: |lab| class(lab, "Arc"),
+        run: |lab| hold(lab, "Arc"),
+    },
+    Action {
+        id: "tool-rectangle",
+        group: Group::Tool,
+        contexts: &[],
+        label: words::TOOL_RECTANGLE,
+        keys: &["R"],
+        enabled: |lab| class(lab, "Rectangle"),
+        run: |lab| hold(lab, "Rectangle"),
+    },
+    Action {
+        id: "dimension",
+        group: Group::Tool,
+        contexts: &[Context::Thing],
+        label: words::DIMENSION,
+        keys: &["D"],
+        enabled: |lab| document(lab).map(drop),
+        run: Lab::dimension,
+    },
+    Action {
+        id: "constrain",
+        group: Group::Tool,
+        contexts: &[Context::Thing],
+        label: words::CONSTRAIN,
+        keys: &["K"],
+        enabled: |lab| {
+            several(lab)?;
+            if lab.offers().is_empty() { Err(words::NOTHING_TO_SAY) } else { Ok(()) }
+        },
+        run: |_| focus(".strip button"),
+    },
+    Action {
+        id: "insert",
+        group: Group::Tool,
+        contexts: &[Context::Sheet],
+        label: words::INSERT,
+        keys: &["I"],
+        enabled: |lab| document(lab).map(drop),
+        run: |lab| {
+            lab.bin.set(true);
+            request_animation_frame(|| focus(".bin .tile"));
+        },
+    },
+    Action {
+        id: "deselect",
+        group: Group::Edit,
+        contexts: &[],
+        label: words::DESELECT,
+        keys: &["Escape"],
+        enabled: |lab| document(lab).map(drop),
+        run: |lab| {
+            if lab.dragging.with_untracked(Option::is_some) {
+                lab.cancel();
+            } else if lab.tool.with_untracked(Option::is_some) {
+                lab.escape_tool();
+            } else {
+                lab.select(None);
+                lab.notice.set(None);
+            }
+        },
+    },
+    Action {
+        id: "fit",
+        group: Group::View,
+        contexts: &[Context::Sheet],
+        label: words::FIT,
+        keys: &["F"],
+        enabled: |lab| document(lab).map(drop),
+        run: |lab| lab.zoom.set(Some(Zoom::Fit)),
+    },
+    Action {
+        id: "zoom-in",
+        group: Group::View,
+        contexts: &[],
+        label: words::ZOOM_IN,
+        keys: &["+", "="],
+        enabled: |lab| document(lab).map(drop),
+        run: |lab| lab.zoom.set(Some(Zoom::By(1.25))),
+    },
+    Action {
+        id: "zoom-out",
+        group: Group::View,
+        contexts: &[],
+        label: words::ZOOM_OUT,
+        keys: &["-"],
+        enabled: |lab| document(lab).map(drop),
+        run: |lab| lab.zoom.set(Some(Zoom::By(0.8))),
+    },
+    Action {
+        id: "grid",
+        group: Group::View,
+        contexts: &[Context::Sheet],
+        label: words::GRID,
+        keys: &["G"],
+        enabled: |lab| document(lab).map(drop),
+        run: Lab::toggle_grid,
+    },
+    Action {
+        id: "go-picture",
+        group: Group::Go,
+        contexts: &[],
+        label: words::GO_PICTURE,
+        keys: &["Alt+1"],
+        enabled: |lab| document(lab).map(drop),
+        run: |_| focus("#picture"),
+    },
+    Action {
+        id: "go-structure",
+        group: Group::Go,
+        contexts: &[],
+        label: words::GO_STRUCTURE,
+        keys: &["Alt+2"],
+        enabled: |lab| document(lab).map(drop),
+        run: |_| focus("[role=treeitem][tabindex='0']"),
+    },
+    Action {
+        id: "go-values",
+        group: Group::Go,
+        contexts: &[],
+        label: words::GO_VALUES,
+        keys: &["Alt+3"],
+        enabled: |lab| document(lab).map(drop),
+        run: |_| focus(".values .field"),
+    },
+    Action {
+        id: "go-text",
+        group: Group::Go,
+        contexts: &[],
+        label: words::GO_TEXT,
+        keys: &["Alt+4"],
+        enabled: |lab| document(lab).map(drop),
+        run: |_| focus(".cm-content"),
+    },
+    Action {
+        id: "download",
+        group: Group::File,
+        contexts: &[],
+        label: words::DOWNLOAD,
+        keys: &[],
+        enabled: |lab| document(lab).map(drop),
+        run: Lab::download,
+    },
+    Action {
+        id: "gallery",
+        group: Group::File,
+        contexts: &[],
+        label: words::OPEN_GALLERY,
+        keys: &[],
+        enabled: |_| Ok(()),
+        run: |_| route::go(route::GALLERY),
+    },
+    Action {
+        id: "theme",
+        group: Group::View,
+        contexts: &[],
+        label: words::THEME,
+        keys: &[],
+        enabled: |_| Ok(()),
+        run: |lab| lab.colors.theme.update(|theme| *theme = theme.next()),
+    },
+    Action {
+        id: "palette",
+        group: Group::Go,
+        contexts: &[],
+        label: words::PALETTE,
+        keys: &["Ctrl+K", "Ctrl+Shift+P"],
+        enabled: |_| Ok(()),
+        run: |lab| lab.palette.update(|open| *open = !*open),
+    },
+];
+
+/// Whether things of a class can be made.
+fn class(lab: Lab, name: &str) -> Result<(), &'static str> {
+    document(lab)?;
+    lab.text.track();
+    let there = lab.id().is_some_and(|id| lab.ask(|session| session.has_class(id, name)));
+    if there { Ok(()) } else { Err(words::NO_CLASS) }
+}
+
+/// Takes the tool that makes things of a class; the picture gets the keyboard.
+fn hold(lab: Lab, class: &str) {
+    lab.take_tool(class);
+    focus("#picture");
+}
+
+/// Whether there is a document, and then whether it has unsaved changes.
+fn document(lab: Lab) -> Result<bool, &'static str> {
+    lab.document.with(|document| document.as_ref().map(|d| d.dirty)).ok_or(words::NO_DOCUMENT)
+}
+
+/// The row of the selected thing.
+fn selected(lab: Lab) -> Result<StructureRow, &'static str> {
+    document(lab)?;
+    let path = lab.selected.get().ok_or(words::NOTHING_SELECTED)?;
+    lab.structure
+        .with(|rows| rows.iter().find(|r| r.path == path && r.kind.has_own_path()).cloned())
+        .ok_or(words::NOTHING_SELECTED)
+}
+
+/// The paths of what is selected, where there is something.
+fn several(lab: Lab) -> Result<Vec<String>, &'static str> {
+    document(lab)?;
+    let selection = lab.selection();
+    if selection.is_empty() { Err(words::NOTHING_SELECTED) } else { Ok(selection) }
+}
+
+/// Whether a constraint is selected that is on, or off, as is wanted.
+fn constraint(lab: Lab, on: bool) -> Result<(), &'static str> {
+    let row = selected(lab)?;
+    match row.kind {
+        RowKind::Constraint if row.enabled == on => Ok(()),
+        RowKind::Constraint if on => Err(words::IS_OFF),
+        RowKind::Constraint => Err(words::IS_ON),
+        RowKind::Part | RowKind::Virtual | RowKind::Merge | RowKind::Side => {
+            Err(words::NOT_A_CONSTRAINT)
+        }
+    }
+}
+
+fn apply(lab: Lab, command: &Command) {
+    lab.apply(command);
+}
+
+fn on_selection(lab: Lab, command: impl FnOnce(Path) -> Command) {
+    let path = lab.selected.get_untracked().and_then(|path| session::parse_path(&path));
+    if let Some(path) = path {
+        lab.apply(&command(path));
+    }
+}
+
+fn focus(selector: &str) {
+    if let Some(element) = leptos::prelude::document().query_selector(selector).ok().flatten() {
+        // What cannot be focused stays as it is.
+        let _ = element.unchecked_into::<web_sys::HtmlElement>().focus();
+    }
+}

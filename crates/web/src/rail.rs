@@ -1,0 +1,216 @@
+//! The rail of tools, and what the hand does with one: it asks the session and shows what that answers.
+
+use crate::actions::{self, ACTIONS, Action, Group};
+use crate::lab::{Lab, Notice};
+use crate::{icons, words};
+use leptos::prelude::*;
+use session::view::{Pointer, ToolView};
+use session::{Command, Path};
+
+/// The tools, one below the other; those that the document has no classes for say why not.
+#[component]
+pub fn Rail(
+    /// The lab.
+    lab: Lab,
+) -> impl IntoView {
+    let tools = ACTIONS.iter().filter(|action| action.group == Group::Tool);
+    view! {
+        <nav class="rail" aria-label=words::TOOLS>
+            {tools.map(|action| view! { <Button lab=lab action=action /> }).collect_view()}
+        </nav>
+    }
+}
+
+#[component]
+fn Button(lab: Lab, action: &'static Action) -> impl IntoView {
+    let why = Memo::new(move |_| (action.enabled)(lab).err());
+    let held = Memo::new(move |_| match lab.tool.get() {
+        Some(class) => action.id == format!("tool-{}", class.to_lowercase()),
+        None => action.id == "select",
+    });
+    let title = move || {
+        let says = match why.get() {
+            Some(why) => format!("{}: {why}", action.label),
+            None => String::from(action.label),
+        };
+        action.keys.first().map_or(says.clone(), |key| format!("{says} ({key})"))
+    };
+    view! {
+        <button class="tool" data-action=action.id title=title aria-label=action.label
+            aria-pressed=move || held.get().to_string()
+            aria-disabled=move || why.get().is_some().to_string()
+            on:click=move |_| actions::run(action, lab)>
+            {icons::of_tool(action.id)}
+        </button>
+    }
+}
+
+/// How far an arrow key moves the pointer of the keyboard, in pixels.
+const STEP: f64 = 10.0;
+
+impl Lab {
+    /// Takes the tool that places things of a class.
+    pub fn take_tool(self, class: &str) {
+        self.flush_text();
+        match self.tell(|session, id| session.take_tool(id, class)) {
+            Some(Ok(view)) => {
+                // what is drawn must not move under the hand
+                self.fits.set_value(false);
+                self.notice.set(None);
+                self.hover(None);
+                self.tool.set(Some(String::from(class)));
+                self.show_tool(view);
+            }
+            Some(Err(refusal)) => {
+                self.drop_tool();
+                self.notice.set(Some(Notice::Refused(refusal)));
+            }
+            None => {}
+        }
+    }
+
+    fn show_tool(self, view: ToolView) {
+        self.typed.update(String::clear);
+        self.tool_view.set(view);
+    }
+
+    /// Lays the tool down.
+    pub fn drop_tool(self) {
+        self.tell(|session, id| session.drop_tool(id));
+        self.tool.set(None);
+        self.carried.set_value(false);
+        self.cursor.set(None);
+        self.show_tool(ToolView::default());
+    }
+
+    /// Takes the tool again, where something else has changed the document meanwhile.
+    pub fn renew_tool(self) {
+        if let Some(class) = self.tool.get_untracked()
+            && let Some(Ok(view)) = self.tell(|session, id| session.take_tool(id, &class))
+        {
+            self.show_tool(view);
+        }
+    }
+
+    /// Escape: what was begun is given up; without anything begun the tool is laid down.
+    pub fn escape_tool(self) {
+        match self.tool.get_untracked() {
+            Some(class) if self.tool_view.with_untracked(|view| view.begun) => {
+                self.take_tool(&class)
+            }
+            _ => self.drop_tool(),
+        }
+    }
+
+    /// The pointer is elsewhere, the tool with it.
+    pub fn tool_moved(self, pointer: &Pointer) {
+        if let Some(Some(view)) = self.tell(|session, id| session.tool_moved(id, pointer)) {
+            self.tool_view.set(view);
+        }
+    }
+
+    /// The tool sets what it is about to set; with the last place the thing is made, and the tool goes on.
+    pub fn tool_set(self, pointer: &Pointer) {
+        let view = match self.tell(|session, id| session.tool_set(id, pointer)) {
+            Some(Ok(view)) => view,
+            Some(Err(refusal)) => {
+                self.notice.set(Some(Notice::Refused(refusal)));
+                return;
+            }
+            None => return,
+        };
+        let Some(command) = view.command.clone() else {
+            self.show_tool(view);
+            return;
+        };
+        let class = self.tool.get_untracked();
+        self.tool.set(None);
+        let made = self.apply_as_meant(&command);
+        self.tool.set(class.clone());
+        if !made {
+            self.renew_tool();
+            return;
+        }
+        self.select(Some(view.makes));
+        match self.tell(|session, id| session.take_tool_again(id)) {
+            Some(Some(view)) => self.show_tool(view),
+            _ => self.drop_tool(),
+        }
+    }
+
+    /// What a key does while a tool is held and the picture has the keyboard; returns whether it does anything.
+    pub fn tool_key(self, key: &str, far: bool, size: (f64, f64)) -> bool {
+        if self.tool.with_untracked(Option::is_none) {
+            return false;
+        }
+        let step = if far { 1.0 } else { STEP };
+        let by = match key {
+            "ArrowLeft" => (-step, 0.0),
+            "ArrowRight" => (step, 0.0),
+            "ArrowUp" => (0.0, -step),
+            "ArrowDown" => (0.0, step),
+            "Enter" => {
+                let length = self.typed.with_untracked(|typed| typed.parse::<f64>().ok());
+                let pointer = Pointer { length, ..self.keyboard_pointer(size) };
+                self.tool_set(&pointer);
+                return true;
+            }
+            "Backspace" => {
+                self.typed.update(|typed| {
+                    let _ = typed.pop();
+                });
+                return true;
+            }
+            digit if digit.len() == 1 && digit.chars().all(|c| c.is_ascii_digit() || c == '.') => {
+                self.typed.update(|typed| typed.push_str(digit));
+                return true;
+            }
+            _ => return false,
+        };
+        let at = self.cursor.get_untracked().unwrap_or((size.0 / 2.0, size.1 / 2.0));
+        self.cursor.set(Some((at.0 + by.0, at.1 + by.1)));
+        self.tool_moved(&self.keyboard_pointer(size));
+        true
+    }
+
+    /// The pointer of the keyboard: where the arrow keys, or the mouse, have brought it.
+    fn keyboard_pointer(self, size: (f64, f64)) -> Pointer {
+        let at = self.cursor.get_untracked().unwrap_or((size.0 / 2.0, size.1 / 2.0));
+        self.pointer_at(at, 12.0, false)
+    }
+
+    /// A pointer at a place of the canvas, which finds what is so many pixels from it.
+    pub fn pointer_at(self, at: (f64, f64), reach: f64, alone: bool) -> Pointer {
+        self.view.with_untracked(|view| {
+            let p = view.sheet_from_screen(at);
+            let decimals = view.decimals();
+            let round = |x: f64| base::number::rounded(x, decimals).parse().unwrap_or(x);
+            let at = (round(p.x), round(p.y));
+            Pointer { at, reach: reach / view.scale, alone, length: None }
+        })
+    }
+
+    /// Inserts a thing of a class where there is room.
+    pub fn insert(self, class: &str) {
+        self.flush_text();
+        let Some(id) = self.id() else { return };
+        match self.ask(|session| session.insertion(id, class)) {
+            Ok(command) => {
+                let before = self.structure.with_untracked(|rows| rows.len());
+                self.apply_as_meant(&command);
+                let made = self.structure.with_untracked(|rows| {
+                    let own = rows.iter().filter(|row| row.depth == 1 && row.kind.is_thing());
+                    own.last().map(|row| row.path.clone()).filter(|_| rows.len() > before)
+                });
+                self.select(made);
+            }
+            Err(refusal) => self.notice.set(Some(Notice::Refused(refusal))),
+        }
+    }
+
+    /// Has the document use a library.
+    pub fn use_library(self, name: &str) {
+        let edit = Command::Edit { target: Path::default(), members: format!("use {name}") };
+        self.apply_as_meant(&edit);
+    }
+}

@@ -1,0 +1,95 @@
+//! The strip: what can be said of the selection, each shown in the picture before it is done.
+
+use crate::dialog::Wish;
+use crate::lab::{Lab, Notice};
+use crate::words;
+use leptos::prelude::*;
+use session::view::{Offer, RowKind};
+
+/// Documents of more things than this show no preview while the pointer is over an offer.
+const MOST_FORESEEN: usize = 2000;
+
+/// The offers for what is selected, over the lower edge of the picture.
+#[component]
+pub fn Strip(
+    /// The lab.
+    lab: Lab,
+) -> impl IntoView {
+    let offers = Memo::new(move |_| {
+        let idle = lab.tool.with(Option::is_none) && lab.dragging.with(Option::is_none);
+        if idle { lab.offers() } else { Vec::new() }
+    });
+    view! {
+        <Show when=move || !offers.with(Vec::is_empty)>
+            <div class="strip" role="toolbar" aria-label=words::CONSTRAIN
+                on:pointerleave=move |_| lab.foresee(None)>
+                <For each=move || offers.get() key=|offer| offer.members.clone() let(offer)>
+                    <Button lab=lab offer=offer />
+                </For>
+            </div>
+        </Show>
+    }
+}
+
+#[component]
+fn Button(lab: Lab, offer: Offer) -> impl IntoView {
+    let label = match &offer.value {
+        Some(value) => format!("{} {value}", offer.label),
+        None => offer.label.clone(),
+    };
+    let (name, title) = (offer.label.clone(), offer.members.replace("{}", "…"));
+    let offer = StoredValue::new(offer);
+    let look = move || lab.foresee(Some(&offer.get_value()));
+    view! {
+        <button title=title data-offer=name
+            on:pointerenter=move |_| look()
+            on:focus=move |_| look()
+            on:blur=move |_| lab.foresee(None)
+            on:click=move |_| lab.take_offer(&offer.get_value())>{label}</button>
+    }
+}
+
+impl Lab {
+    /// What can be said of the selection; nothing of constraints.
+    pub fn offers(self) -> Vec<Offer> {
+        let selection = self.selection();
+        let is_said = self.structure.with(|rows| {
+            selection.iter().any(|path| {
+                rows.iter().any(|row| row.path == *path && row.kind == RowKind::Constraint)
+            })
+        });
+        let paths: Option<Vec<_>> =
+            selection.iter().map(|path| session::parse_path(path)).collect();
+        match (self.document.with(|d| d.as_ref().map(|d| d.id)), paths) {
+            (Some(id), Some(paths)) if !is_said => self.ask(|session| session.offers(id, &paths)),
+            _ => Vec::new(),
+        }
+    }
+
+    /// Shows what an offer would do, or nothing any more.
+    pub fn foresee(self, offer: Option<&Offer>) {
+        let small = self.structure.with_untracked(|rows| rows.len() <= MOST_FORESEEN);
+        let drawn = offer.filter(|_| small).zip(self.id()).and_then(|(offer, id)| {
+            self.ask(|session| session.foreseen(id, &offer.command(None))).ok()
+        });
+        self.ghosts.set(drawn.into_iter().collect());
+    }
+
+    /// Does what an offer says; where a value goes there, it is asked for.
+    pub fn take_offer(self, offer: &Offer) {
+        self.foresee(None);
+        if offer.value.is_some() {
+            self.wish.set(Some(Wish::Dimension(offer.clone())));
+            return;
+        }
+        self.apply(&offer.command(None));
+    }
+
+    /// Asks for the value of the first dimension that the selection can have.
+    pub fn dimension(self) {
+        match untrack(|| self.offers()).into_iter().find(|offer| offer.value.is_some()) {
+            Some(offer) => self.take_offer(&offer),
+            None => self.notice.set(Some(Notice::Said(String::from(words::NO_DIMENSION)))),
+        }
+    }
+}

@@ -1,0 +1,434 @@
+//! The lab by hand: documents begun, drawn, joined, constrained and saved without a line of text, by mouse and
+//! by keyboard alone; and what strangers stumbled over.
+
+use browser::Visit;
+use fantoccini::actions::{
+    InputSource, KeyAction, KeyActions, MOUSE_BUTTON_LEFT, MOUSE_BUTTON_RIGHT, MouseActions,
+    PointerAction,
+};
+use serde_json::{Value, json};
+use std::time::Duration;
+
+const CONTROL: char = '\u{e009}';
+const SHIFT: char = '\u{e008}';
+const ENTER: char = '\u{e007}';
+const ESCAPE: char = '\u{e00c}';
+const DOWN: char = '\u{e015}';
+const RIGHT: char = '\u{e014}';
+const F2: char = '\u{e032}';
+const F10: char = '\u{e03a}';
+const BACKSPACE: char = '\u{e003}';
+
+/// The page's state, as it tells it.
+async fn state(visit: &Visit) -> Value {
+    let text = visit.script("return JSON.stringify(window.__thinglab.state())").await;
+    serde_json::from_str(text.as_str().expect("the state is a text")).expect("the state is JSON")
+}
+
+fn text_of(state: &Value) -> String {
+    state["text"].as_str().expect("a text").to_string()
+}
+
+/// Where a grip lies in the window.
+fn grip(state: &Value, path: &str) -> (f64, f64) {
+    let grips = state["grips"].as_array().expect("grips are a list");
+    let grip = grips.iter().find(|g| g["path"] == path).unwrap_or_else(|| panic!("no grip {path}"));
+    (grip["px"].as_f64().expect("a number"), grip["py"].as_f64().expect("a number"))
+}
+
+/// Where the picture's corner lies in the window, and its size.
+async fn canvas(visit: &Visit) -> (f64, f64, f64, f64) {
+    let script = "const r = document.getElementById('picture').getBoundingClientRect();
+        return [r.left, r.top, r.width, r.height]";
+    let rect = visit.script(script).await;
+    let number = |n: usize| rect[n].as_f64().expect("a number");
+    (number(0), number(1), number(2), number(3))
+}
+
+async fn point(visit: &Visit, (x, y): (f64, f64), button: u64) {
+    let to = PointerAction::MoveTo {
+        duration: Some(Duration::from_millis(40)),
+        x: x.round(),
+        y: y.round(),
+    };
+    let actions = MouseActions::new("mouse".into())
+        .then(to)
+        .then(PointerAction::Pause { duration: Duration::from_millis(40) })
+        .then(PointerAction::Down { button })
+        .then(PointerAction::Up { button });
+    visit.client.perform_actions(actions).await.expect("the mouse clicks");
+    tokio::time::sleep(Duration::from_millis(60)).await;
+}
+
+async fn click(visit: &Visit, at: (f64, f64)) {
+    point(visit, at, MOUSE_BUTTON_LEFT).await;
+}
+
+async fn drag(visit: &Visit, from: (f64, f64), to: (f64, f64)) {
+    let at = |k: f64| PointerAction::MoveTo {
+        duration: Some(Duration::from_millis(30)),
+        x: (from.0 + k * (to.0 - from.0)).round(),
+        y: (from.1 + k * (to.1 - from.1)).round(),
+    };
+    let mut actions = MouseActions::new("mouse".into())
+        .then(at(0.0))
+        .then(PointerAction::Down { button: MOUSE_BUTTON_LEFT });
+    for k in 1..=5 {
+        actions = actions.then(at(f64::from(k) / 5.0));
+    }
+    actions = actions
+        .then(PointerAction::Pause { duration: Duration::from_millis(80) })
+        .then(PointerAction::Up { button: MOUSE_BUTTON_LEFT });
+    visit.client.perform_actions(actions).await.expect("the mouse drags");
+    tokio::time::sleep(Duration::from_millis(100)).await;
+}
+
+/// Presses a key while others are held.
+async fn chord(visit: &Visit, held: &[char], key: char) {
+    let mut actions = KeyActions::new("keys".into());
+    for &value in held {
+        actions = actions.then(KeyAction::Down { value });
+    }
+    actions = actions.then(KeyAction::Down { value: key }).then(KeyAction::Up { value: key });
+    for &value in held.iter().rev() {
+        actions = actions.then(KeyAction::Up { value });
+    }
+    visit.client.perform_actions(actions).await.expect("the keys are pressed");
+}
+
+async fn keys(visit: &Visit, all: &str) {
+    for key in all.chars() {
+        chord(visit, &[], key).await;
+    }
+}
+
+/// Opens the gallery and begins a document, by its key.
+async fn begin() -> Visit {
+    let visit = Visit::open(None).await;
+    visit.until("document.querySelector('.card')").await;
+    visit.script("document.querySelector('.file').focus()").await;
+    chord(&visit, &[], ENTER).await;
+    visit.until("document.activeElement.dataset.action === 'new'").await;
+    chord(&visit, &[], ENTER).await;
+    visit.until("window.__thinglab.state().path === 'untitled.thing'").await;
+    visit.until("document.getElementById('picture').width > 10").await;
+    visit
+}
+
+/// Takes an offer of the strip by its label.
+async fn say(visit: &Visit, label: &str) {
+    visit.until(&format!("document.querySelector('[data-offer=\"{label}\"]')")).await;
+    visit.script(&format!("document.querySelector('[data-offer=\"{label}\"]').click()")).await;
+}
+
+/// Selects a row of the structure by its path, besides what is selected where that is wanted.
+async fn select(visit: &Visit, paths: &[(f64, f64)]) {
+    for (n, at) in paths.iter().enumerate() {
+        if n == 0 {
+            click(visit, *at).await;
+            continue;
+        }
+        let hold = KeyActions::new("keys".into()).then(KeyAction::Down { value: CONTROL });
+        visit.client.perform_actions(hold).await.expect("Ctrl is held");
+        click(visit, *at).await;
+        let leave = KeyActions::new("keys".into()).then(KeyAction::Up { value: CONTROL });
+        visit.client.perform_actions(leave).await.expect("Ctrl is let go");
+    }
+}
+
+fn between(a: (f64, f64), b: (f64, f64), t: f64) -> (f64, f64) {
+    (a.0 + t * (b.0 - a.0), a.1 + t * (b.1 - a.1))
+}
+
+#[tokio::test]
+async fn a_quadrilateral_and_its_midpoints_are_drawn_from_nothing_and_saved() {
+    let visit = begin().await;
+    let (left, top, width, height) = canvas(&visit).await;
+    let at = |x: f64, y: f64| (left + x * width, top + y * height);
+    let corners = [at(0.2, 0.3), at(0.5, 0.15), at(0.85, 0.4), at(0.6, 0.8)];
+    chord(&visit, &[], 'l').await;
+    visit.until("document.querySelector('[data-action=tool-line][aria-pressed=true]')").await;
+    for corner in corners.iter().chain(&corners[..1]) {
+        click(&visit, *corner).await;
+    }
+    visit.until("window.__thinglab.state().text.includes('line4')").await;
+    let ring = state(&visit).await;
+    assert_eq!(ring["status"]["freedom"], 8, "four corners: {}", text_of(&ring));
+
+    // the inner one from middle to middle; what was drawn may have been fitted anew
+    let corners = ["line.p1", "line2.p1", "line3.p1", "line4.p1"];
+    let sides: Vec<(f64, f64)> = (0..4)
+        .map(|n| {
+            let end = |n: usize| {
+                let grips = ring["grips"].as_array().expect("a list");
+                let known = |path: &str| grips.iter().any(|g| g["path"] == path);
+                let path = corners[n % 4];
+                let other = ["line4.p2", "line.p2", "line2.p2", "line3.p2"][n % 4];
+                grip(&ring, if known(path) { path } else { other })
+            };
+            between(end(n), end(n + 1), 0.5)
+        })
+        .collect();
+    for middle in sides.iter().chain(&sides[..1]) {
+        click(&visit, *middle).await;
+    }
+    visit.until("window.__thinglab.state().text.includes('line8')").await;
+    chord(&visit, &[], ESCAPE).await;
+    chord(&visit, &[], ESCAPE).await;
+    let drawn = state(&visit).await;
+    assert_eq!(drawn["status"]["satisfied"], true);
+    assert_eq!(drawn["status"]["freedom"], 8, "the inner one has none: {}", text_of(&drawn));
+    assert!(text_of(&drawn).contains(".midpoint"), "{}", text_of(&drawn));
+
+    // a corner is dragged: the inner figure stays a parallelogram
+    let corner = grip(&drawn, "line2.p2");
+    drag(&visit, corner, (corner.0 + 30.0, corner.1 + 25.0)).await;
+    let dragged = state(&visit).await;
+    assert_eq!(dragged["status"]["satisfied"], true);
+    let side = |path: &str| {
+        let (a, b) = (grip(&dragged, &format!("{path}.p1")), grip(&dragged, &format!("{path}.p2")));
+        (b.0 - a.0, b.1 - a.1)
+    };
+    let (one, other) = (side("line5"), side("line7"));
+    assert!((one.0 + other.0).abs() < 0.01 && (one.1 + other.1).abs() < 0.01, "{one:?} {other:?}");
+
+    chord(&visit, &[CONTROL], 's').await;
+    visit.until("document.querySelector('.asking input')").await;
+    keys(&visit, "middles").await;
+    chord(&visit, &[], ENTER).await;
+    visit.until("window.__thinglab.state().path === 'middles.thing'").await;
+    visit.until("!window.__thinglab.state().dirty").await;
+    assert_eq!(visit.saved("../middles.thing"), text_of(&dragged));
+    // the way back is still there
+    assert!(state(&visit).await["status"]["undo"].is_string());
+}
+
+#[tokio::test]
+async fn a_line_is_drawn_named_and_given_a_length_by_the_keyboard_alone() {
+    let visit = begin().await;
+    chord(&visit, &[], 'l').await;
+    visit.until("document.activeElement.id === 'picture'").await;
+    chord(&visit, &[], ENTER).await;
+    chord(&visit, &[], RIGHT).await;
+    keys(&visit, "129").await;
+    chord(&visit, &[], BACKSPACE).await;
+    chord(&visit, &[], '0').await;
+    chord(&visit, &[], ENTER).await;
+    visit.until("window.__thinglab.state().text.includes('line.length = 120')").await;
+    chord(&visit, &[], ESCAPE).await;
+    chord(&visit, &[], ESCAPE).await;
+    chord(&visit, &[], F2).await;
+    visit.until("document.querySelector('.asking input')").await;
+    keys(&visit, "base").await;
+    chord(&visit, &[], ENTER).await;
+    visit.until("window.__thinglab.state().text.includes('base.length = 120')").await;
+    let named = state(&visit).await;
+    assert_eq!(named["selected"], "base");
+    assert_eq!(named["status"]["satisfied"], true);
+
+    // K goes to what can be said of it
+    chord(&visit, &[], 'k').await;
+    visit.until("document.activeElement.dataset.offer === 'horizontal'").await;
+    chord(&visit, &[], ENTER).await;
+    visit.until("window.__thinglab.state().text.includes('base.p1.y = base.p2.y')").await;
+
+    // Shift+F10 opens the menu of the selection
+    visit.script("document.getElementById('picture').focus()").await;
+    chord(&visit, &[SHIFT], F10).await;
+    visit.until("document.activeElement.getAttribute('role') === 'menuitem'").await;
+    let first = visit.script("return document.activeElement.dataset.action").await;
+    chord(&visit, &[], DOWN).await;
+    let second = visit.script("return document.activeElement.dataset.action").await;
+    assert_ne!(first, second);
+    chord(&visit, &[], ESCAPE).await;
+    visit.until("!document.querySelector('.menu')").await;
+}
+
+#[tokio::test]
+async fn a_circuit_is_wired_from_the_bin_and_its_meter_read() {
+    let visit = begin().await;
+    visit.script("document.getElementById('tab-bin').click()").await;
+    visit.until("document.querySelector('[data-library=circuits]')").await;
+    visit.script("document.querySelector('[data-library=circuits]').click()").await;
+    visit.until("document.querySelector('[data-class=Battery]')").await;
+    let (left, top, width, height) = canvas(&visit).await;
+    let at = |x: f64, y: f64| (left + x * width, top + y * height);
+    let (a, b, c, d) = (at(0.2, 0.2), at(0.7, 0.2), at(0.7, 0.75), at(0.2, 0.75));
+    let parts = [
+        ("Battery", a, Some(d)),
+        ("Ammeter", a, Some(b)),
+        ("Resistor", b, Some(c)),
+        ("Wire", c, Some(d)),
+        ("Ground", d, None),
+    ];
+    let mut made: Vec<(f64, f64)> = Vec::new();
+    for (class, from, to) in parts {
+        let tile = format!("document.querySelector('[data-class={class}]')");
+        visit
+            .script(&format!(
+                "{tile}.dispatchEvent(new PointerEvent('pointerdown', {{ button: 0 }}))"
+            ))
+            .await;
+        visit
+            .script(&format!(
+                "{tile}.dispatchEvent(new PointerEvent('pointerup', {{ button: 0 }}))"
+            ))
+            .await;
+        visit.until(&format!("{tile}.getAttribute('aria-pressed') === 'true'")).await;
+        // the picture does not move under the hand
+        click(&visit, from).await;
+        if let Some(to) = to {
+            click(&visit, to).await;
+        }
+        visit.until(&format!("window.__thinglab.state().text.includes(': {class}')")).await;
+        made.push(from);
+    }
+    chord(&visit, &[], ESCAPE).await;
+    let wired = state(&visit).await;
+    assert_eq!(wired["status"]["satisfied"], true, "{}", text_of(&wired));
+    let rows = wired["values"].as_array().expect("a list");
+    let current =
+        rows.iter().find(|r| r["path"] == "ammeter.a.current" || r["path"] == "ammeter.current");
+    let current = current.and_then(|r| r["number"].as_f64()).expect("the meter has a current");
+    // 1.5 V over 100 ohm
+    assert!((current.abs() - 0.015).abs() < 1e-12, "{current}: {}", text_of(&wired));
+}
+
+#[tokio::test]
+async fn terminals_joined_in_the_picture_carry_a_current() {
+    let visit = Visit::open(None).await;
+    visit.until("document.querySelector('main')").await;
+    visit.put(
+        "loose.thing",
+        "use circuits\ny down\nbattery: Battery { a.node.at = (0, 0)  b.node.at = (0, 100) }\n\
+         r: Resistor { a.node.at = (90, 0)  b.node.at = (90, 100) }\nground: Ground\n\
+         merge battery.b.node = ground.lead.node\n",
+    );
+    visit.script("location.hash = '#/gallery/loose.thing'").await;
+    visit.until("window.__thinglab.state().path === 'gallery/loose.thing' && window.__thinglab.state().grips.length > 3").await;
+    visit.until("document.getElementById('picture').width > 10").await;
+    tokio::time::sleep(Duration::from_millis(300)).await;
+    for end in ["a", "b"] {
+        let now = state(&visit).await;
+        let (from, onto) = (format!("battery.{end}.node.at"), format!("r.{end}.node.at"));
+        select(&visit, &[grip(&now, &from), grip(&now, &onto)]).await;
+        chord(&visit, &[], 'm').await;
+        visit
+            .until(&format!(
+                "window.__thinglab.state().text.includes('battery.{end}.node = r.{end}.node')"
+            ))
+            .await;
+    }
+    let joined = state(&visit).await;
+    let rows = joined["values"].as_array().expect("a list");
+    let current =
+        rows.iter().find(|r| r["path"] == "r.a.current").and_then(|r| r["number"].as_f64());
+    assert_eq!(current, Some(0.015));
+}
+
+#[tokio::test]
+async fn a_corner_dropped_on_another_is_joined_in_one_step_and_alt_leaves_it() {
+    let visit = Visit::open(None).await;
+    visit.until("document.querySelector('main')").await;
+    visit.put(
+        "two.thing",
+        "use geometry\na: Line { p1 = (0, 0)  p2 = (100, 0) }\nb: Line { p1 = (0, 80)  p2 = (100, 120) }\n",
+    );
+    visit.script("location.hash = '#/gallery/two.thing'").await;
+    visit.until("window.__thinglab.state().path === 'gallery/two.thing' && window.__thinglab.state().grips.length === 4").await;
+    visit.until("document.getElementById('picture').width > 10").await;
+    tokio::time::sleep(Duration::from_millis(300)).await;
+    let before = state(&visit).await;
+    drag(&visit, grip(&before, "b.p1"), grip(&before, "a.p2")).await;
+    visit.until("window.__thinglab.state().grips.length === 3").await;
+    let joined = state(&visit).await;
+    assert_eq!(joined["status"]["freedom"], 6);
+    assert!(text_of(&joined).contains("merge a.p2 = b.p1"), "{}", text_of(&joined));
+    chord(&visit, &[CONTROL], 'z').await;
+    visit.until("window.__thinglab.state().grips.length === 4").await;
+    assert_eq!(text_of(&state(&visit).await), text_of(&before));
+}
+
+#[tokio::test]
+async fn the_right_button_opens_a_menu_and_lines_are_made_parallel() {
+    let visit = Visit::open(None).await;
+    visit.until("document.querySelector('main')").await;
+    visit.put(
+        "two.thing",
+        "use geometry\na: Line { p1 = (0, 0)  p2 = (100, 0) }\nb: Line { p1 = (0, 80)  p2 = (100, 120) }\n",
+    );
+    visit.script("location.hash = '#/gallery/two.thing'").await;
+    visit.until("window.__thinglab.state().path === 'gallery/two.thing' && window.__thinglab.state().grips.length === 4").await;
+    visit.until("document.getElementById('picture').width > 10").await;
+    tokio::time::sleep(Duration::from_millis(300)).await;
+    let now = state(&visit).await;
+    let body = |line: &str| {
+        between(grip(&now, &format!("{line}.p1")), grip(&now, &format!("{line}.p2")), 0.4)
+    };
+    select(&visit, &[body("a"), body("b")]).await;
+    visit.until("window.__thinglab.state().also.length === 1").await;
+    point(&visit, body("b"), MOUSE_BUTTON_RIGHT).await;
+    visit.until("document.querySelector('.menu [data-action=delete]')").await;
+    chord(&visit, &[], ESCAPE).await;
+    visit.until("!document.querySelector('.menu')").await;
+    say(&visit, "parallel").await;
+    visit.until("window.__thinglab.state().text.includes('a.parallel(to: b)')").await;
+    let parallel = state(&visit).await;
+    assert_eq!(parallel["status"]["satisfied"], true);
+    assert_eq!(parallel["status"]["freedom"], 7);
+}
+
+#[tokio::test]
+async fn selecting_a_corner_on_a_phone_leaves_the_picture_where_it_is() {
+    let visit = Visit::open(None).await;
+    visit.client.set_window_size(500, 844).await.expect("a narrow window");
+    visit.script("location.hash = '#/gallery/quadrilateral.thing'").await;
+    visit.until("window.__thinglab.state().grips.length > 0").await;
+    visit.until("document.getElementById('picture').width > 10").await;
+    tokio::time::sleep(Duration::from_millis(300)).await;
+    let (_, top, ..) = canvas(&visit).await;
+    let now = state(&visit).await;
+    click(&visit, grip(&now, "q.outer.side2.p2")).await;
+    visit.until("window.__thinglab.state().selected != null").await;
+    tokio::time::sleep(Duration::from_millis(300)).await;
+    assert_eq!(canvas(&visit).await.1, top);
+    let scrolled = visit.script("return document.querySelector('.document').scrollTop").await;
+    assert_eq!(scrolled, 0);
+}
+
+#[tokio::test]
+async fn rows_of_the_tree_say_how_deep_they_lie() {
+    let visit = Visit::open(Some("quadrilateral.thing")).await;
+    visit.until("document.querySelectorAll('[role=treeitem]').length > 3").await;
+    let levels = visit
+        .script("return [...document.querySelectorAll('[role=treeitem]')].slice(0, 3).map(r => r.getAttribute('aria-level'))")
+        .await;
+    assert_eq!(levels, json!(["1", "2", "3"]));
+    let literal =
+        visit.script("return document.querySelectorAll('[attr\\\\:aria-level]').length").await;
+    assert_eq!(literal, 0);
+}
+
+#[tokio::test]
+async fn a_card_opened_in_a_tab_of_its_own_is_not_refused() {
+    let visit = Visit::open(None).await;
+    visit.until("document.querySelector('.card')").await;
+    let link = visit.script("return document.querySelector('.card').href").await;
+    let link = link.as_str().expect("a link").to_string();
+    let tab = visit.client.new_window(true).await.expect("a new tab");
+    visit.client.switch_to_window(tab.handle).await.expect("it is there");
+    visit.client.goto(&link).await.expect("the page answers");
+    visit.until("window.__thinglab && window.__thinglab.state().path").await;
+    visit.until("window.__thinglab.state().text.length > 0").await;
+}
+
+#[tokio::test]
+async fn a_document_that_does_not_exist_yet_is_begun() {
+    let visit = Visit::open(None).await;
+    visit.until("document.querySelector('main')").await;
+    visit.script("location.hash = '#/fresh.thing'").await;
+    visit.until("window.__thinglab.state().path === 'fresh.thing'").await;
+    chord(&visit, &[CONTROL], 's').await;
+    visit.until("window.__thinglab.state().notice.includes('saved')").await;
+    assert_eq!(visit.saved("../fresh.thing"), "use geometry\n");
+}
