@@ -198,6 +198,18 @@ impl<'a> Evaluator<'a> {
             Term::Local(name) => frame.local(name).cloned().ok_or_else(|| {
                 Fault::new(FaultKind::Unnamed, format!("nothing is named `{name}` here"))
             }),
+            Term::Class(class) => {
+                let name = &self.document.classes[*class].name;
+                Err(Fault::wrong(format!("the class {name} itself is no value")))
+            }
+            Term::Construct { what, class, of } => {
+                let of: Result<Vec<_>> = of.iter().map(|t| self.term(t, frame)).collect();
+                self.construct(*what, *class, &of?, frame.nearest)
+            }
+            Term::Send { to, name, arguments, .. } if let Term::Class(class) = **to => {
+                let arguments = self.arguments(arguments, frame)?;
+                self.send_to_class(class, name, arguments, frame.nearest)
+            }
             Term::Send { to, name, arguments, search } => {
                 let to = self.term(to, frame)?;
                 let arguments = self.arguments(arguments, frame)?;

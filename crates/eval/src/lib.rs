@@ -29,6 +29,7 @@ mod answer;
 mod builtin;
 pub mod checker;
 mod compare;
+mod construct;
 mod evaluator;
 mod fault;
 mod given;

@@ -9,7 +9,7 @@ use crate::evaluator::{Evaluator, Given, Result};
 use crate::fault::Fault;
 use base::Name;
 use kernel::builtin::is_of_each;
-use kernel::{Message, Search, ThingId};
+use kernel::{ClassId, Message, Search, ThingId};
 
 impl<'a> Evaluator<'a> {
     /// Sends a message, or reads a part. `nearest` is the thing whose message sends it.
@@ -40,6 +40,22 @@ impl<'a> Evaluator<'a> {
             Some(message) => self.answer(to, message, arguments, nearest),
             None => self.send_builtin(to, name, &arguments, nearest),
         }
+    }
+
+    /// Sends a message to a class itself, by its form.
+    pub(crate) fn send_to_class(
+        &self,
+        class: ClassId,
+        form: &Name,
+        arguments: Vec<Given<'a>>,
+        nearest: ThingId,
+    ) -> Result<Answer<'a>> {
+        self.burn()?;
+        let message = self.class_message(class, form).ok_or_else(|| {
+            let name = &self.document.classes[class].name;
+            Fault::unknown(format!("the class {name} answers no `{form}`"))
+        })?;
+        self.answer(&Answer::Thing(nearest), message, arguments, nearest)
     }
 
     /// Reads a stored part, if the thing has one of this name.

@@ -215,6 +215,8 @@ impl<'a> Evaluator<'a> {
             | Term::Local(_)
             | Term::Step(_)
             | Term::Result
+            | Term::Class(_)
+            | Term::Construct { .. }
             | Term::Call { .. }
             | Term::Make { .. }
             | Term::Tuple(_)

@@ -3,6 +3,8 @@
 //! `lang` checks calls against it, `eval` computes them, the manual prints it. A class's message
 //! of the same name comes first: what is here is what every number, text, list or picture knows.
 
+use geometry::Construction;
+
 /// What an argument may be, or what an answer is.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub enum Kind {
@@ -283,6 +285,48 @@ table! {
 /// Returns true for what a set is asked as a whole and each thing in it answers: where it is elsewhere.
 pub fn is_of_each(name: &str) -> bool {
     matches!(name, "moved" | "mirrored" | "turned" | "scaled")
+}
+
+/// The constructions of oriented geometry that classes of the library declare as `static builtin`: the class, its
+/// message by its [`form`](crate::form), and what computes it. Arguments that are numbers come after the figures,
+/// each in order.
+const CONSTRUCTIONS: &[(&[&str], &str, Construction)] = &[
+    (&["Point"], "polar(from,distance,angle)", Construction::Polar),
+    (&["Point"], "intersection(first,second)", Construction::Intersection),
+    (&["Point"], "projection(of,onto)", Construction::Projection),
+    (STRAIGHTS, "directed(from,angle)", Construction::Directed),
+    (STRAIGHTS, "parallel(to,distance)", Construction::Parallel),
+    (STRAIGHTS, "parallel(to,through)", Construction::ParallelThrough),
+    (STRAIGHTS, "perpendicular(to,through)", Construction::Perpendicular),
+    (STRAIGHTS, "perpendicular(from,to)", Construction::PerpendicularFrom),
+    (STRAIGHTS, "tangent(from,to)", Construction::TangentFrom),
+    (STRAIGHTS, "tangent(first,second)", Construction::TangentToCircles),
+    (STRAIGHTS, "tangent(circle,along)", Construction::TangentAlong),
+    (STRAIGHTS, "bisector(first,second)", Construction::Bisector),
+    (STRAIGHTS, "equidistant(first,second)", Construction::PerpendicularBisector),
+    (&["Circle"], "around(center,through)", Construction::Around),
+    (&["Circle"], "tangent(curve,center)", Construction::TangentAround),
+    (&["Circle"], "tangent(curve,at,radius)", Construction::TangentAt),
+    (&["Circle"], "tangent(first,second,radius)", Construction::TangentToTwo),
+    (&["Circle"], "tangent(curve,through,radius)", Construction::TangentToTwo),
+    (&["Circle"], "through(first,second,radius)", Construction::TangentToTwo),
+    (&["Circle"], "tangent(first,second,third)", Construction::TangentToThree),
+    (&["Circle"], "tangent(first,second,through)", Construction::TangentToThree),
+    (&["Circle"], "through(first,second,tangent)", Construction::TangentToThree),
+    (&["Circle"], "through(first,second,third)", Construction::TangentToThree),
+    (&["Arc"], "fillet(first,second,radius)", Construction::Fillet),
+    (&["ClockwiseArc"], "fillet(first,second,radius)", Construction::ClockwiseFillet),
+    (&["Arc"], "through(first,second,third)", Construction::ArcThrough),
+    (&["ClockwiseArc"], "through(first,second,third)", Construction::ClockwiseArcThrough),
+];
+const STRAIGHTS: &[&str] = &["Line", "Axis"];
+
+/// Returns the construction that a class of this name declares by this form.
+pub fn construction(class: &str, form: &str) -> Option<Construction> {
+    let is = |(classes, name, _): &&(&[&str], &str, Construction)| {
+        *name == form && classes.contains(&class)
+    };
+    CONSTRUCTIONS.iter().find(is).map(|(_, _, what)| *what)
 }
 
 /// Returns the entry of a table with this name.

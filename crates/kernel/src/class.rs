@@ -225,6 +225,17 @@ pub struct Given {
     pub origin: OriginId,
 }
 
+/// Returns the name that a message to a class itself has among its messages: its *form*, the word with the labels.
+/// So a class and its things may answer to one word, and a class to several forms of it.
+///
+/// ```
+/// assert_eq!(*kernel::form("parallel", ["to", "through"]), *"parallel(to,through)");
+/// ```
+pub fn form<'l>(word: &str, labels: impl IntoIterator<Item = &'l str>) -> Name {
+    let labels: Vec<&str> = labels.into_iter().collect();
+    Name::new(&format!("{word}({})", labels.join(",")))
+}
+
 /// A message: its answer is an expression. Without parameters it is a virtual part.
 #[derive(Clone, PartialEq, Debug)]
 pub struct Message {
@@ -244,6 +255,17 @@ pub struct Message {
     pub origin: OriginId,
 }
 
+impl Message {
+    /// Returns true for a message to the class itself: its name is its [`form`].
+    pub fn is_of_class(&self) -> bool {
+        self.name.ends_with(')')
+    }
+    /// Returns the word that is written for it.
+    pub fn word(&self) -> &str {
+        self.name.split('(').next().unwrap_or_default()
+    }
+}
+
 /// A parameter of a message: `scaled(by k: Real)`.
 #[derive(Clone, PartialEq, Debug)]
 pub struct Parameter {
@@ -253,6 +275,13 @@ pub struct Parameter {
     pub name: Name,
     /// The class of the argument, where one is written.
     pub class: Option<ClassId>,
+}
+
+impl Parameter {
+    /// Returns the labels that an argument may have: the one of calls, and the name inside.
+    pub fn labels(&self) -> [&Name; 2] {
+        [&self.label, &self.name]
+    }
 }
 
 /// A constraint: a rule, a strength, and methods where they were written.

@@ -6,6 +6,7 @@ use crate::program::Program;
 use crate::term::{OriginId, Search};
 use base::number::Toward;
 use base::{IdVec, Name};
+use geometry::Made;
 use std::collections::BTreeSet;
 use std::rc::Rc;
 
@@ -263,6 +264,24 @@ impl Document {
             return Some(first);
         }
         Some(found.find(|(_, m)| !m.is_default).unwrap_or(first))
+    }
+    /// Returns what things of a class are to a construction, by what they answer to.
+    ///
+    /// An arc is its circle, as long as a curve goes on where it ends.
+    pub fn figure(&self, class: ClassId) -> Option<Made> {
+        let fields = self.layout(class);
+        let has = |name: &str| {
+            fields.iter().any(|&f| *self.field_name(f) == *name)
+                || self.find_message(class, name, None).is_some()
+        };
+        let all = |names: [&str; 2]| names.into_iter().all(has);
+        [
+            (["p1", "p2"], Made::Straight),
+            (["center", "radius"], Made::Circle),
+            (["x", "y"], Made::Point),
+        ]
+        .into_iter()
+        .find_map(|(names, made)| all(names).then_some(made))
     }
     /// Returns who answers a combining message; nothing for any other message.
     ///

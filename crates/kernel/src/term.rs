@@ -7,6 +7,7 @@ use crate::class::ClassId;
 use crate::path::{Path, Step};
 use base::Name;
 use expr::dimension::Dimension;
+use geometry::Construction;
 
 base::define_id!(OriginId, "o", "Where a member was written: `lang` keeps the table of places.");
 
@@ -48,6 +49,17 @@ pub enum Term {
         arguments: Vec<Argument>,
         /// Where its definition is looked for, if not in the class of the receiver.
         search: Option<Search>,
+    },
+    /// A class, as the receiver of a message to the class itself: `Circle.tangent(a, b, radius: r)`.
+    Class(ClassId),
+    /// A construction of oriented geometry: what a `static builtin` message answers.
+    Construct {
+        /// Which one.
+        what: Construction,
+        /// The class of what it makes.
+        class: ClassId,
+        /// What it is made of, in the order of the message's parameters.
+        of: Vec<Term>,
     },
     /// A function of the language: `sqrt(x)`, `segment(p, q)`.
     Call {
@@ -168,7 +180,11 @@ impl Term {
             | Self::Local(_)
             | Self::Step(_)
             | Self::Result
+            | Self::Class(_)
             | Self::All(_) => self.clone(),
+            Self::Construct { what, class, of } => {
+                Self::Construct { what: *what, class: *class, of: all(of) }
+            }
             Self::Send { to: receiver, name, arguments: a, search } => Self::Send {
                 to: boxed(receiver),
                 name: name.clone(),

@@ -13,10 +13,10 @@ use kernel::{Argument, ClassId, Search, Term};
 use syntax::ast::{self, AstNode, Expr};
 
 /// An argument, lowered, before it is known what is wanted of it.
-struct Arg {
-    label: Option<ast::Word>,
-    value: Term,
-    kind: Kind,
+pub(crate) struct Arg {
+    pub(crate) label: Option<ast::Word>,
+    pub(crate) value: Term,
+    pub(crate) kind: Kind,
     expr: Expr,
 }
 
@@ -43,6 +43,10 @@ impl Lowerer<'_> {
                 let args = self.arguments(scope, Some(args), &Kind::Unknown)?;
                 return self.constructor(scope, &word, class, args);
             }
+        }
+        if let Some(class) = self.class_as_receiver(scope, &receiver) {
+            let args = self.arguments(scope, field.args(), &Kind::Unknown)?;
+            return self.message_to_class(scope, class, &word, args);
         }
         let (to, kind) = self.expr(scope, &receiver)?;
         let element = if let Kind::List(element) = &kind { element } else { &Kind::Unknown };
@@ -195,8 +199,18 @@ impl Lowerer<'_> {
         word: &ast::Word,
         args: Vec<Arg>,
     ) -> Option<(Vec<Argument>, Kind)> {
-        let name = word.name();
-        let message = self.defined_message(definer, &name)?;
+        self.checked_message(scope, (receiver, definer), (word, &word.name()), args)
+    }
+
+    /// Checks a message by the name that it has in its class.
+    pub(crate) fn checked_message(
+        &mut self,
+        scope: &Scope,
+        (receiver, definer): (ClassId, ClassId),
+        (word, name): (&ast::Word, &Name),
+        args: Vec<Arg>,
+    ) -> Option<(Vec<Argument>, Kind)> {
+        let message = self.defined_message(definer, name)?;
         let wanted = message.parameters.iter().map(|p| Wanted {
             labels: [p.label.clone(), p.name.clone()],
             kind: p.class.map_or(Kind::Unknown, |c| Kind::of_class(&self.document, c)),
@@ -204,13 +218,17 @@ impl Lowerer<'_> {
         let wanted: Vec<Wanted> = wanted.collect();
         if wanted.len() != args.len() {
             let labels: Vec<&str> = wanted.iter().map(|w| w.labels[0].as_str()).collect();
-            let said =
-                format!("{name} takes ({}), here are {} arguments", labels.join(", "), args.len());
+            let said = format!(
+                "{} takes ({}), here are {} arguments",
+                word.text(),
+                labels.join(", "),
+                args.len()
+            );
             self.error("wrong-arity", scope.file, word.span(), said);
             return None;
         }
-        let arguments = self.bound(scope, &name, &wanted, args)?;
-        Some((arguments, self.message_kind(definer, &name).for_receiver(receiver, self.object)))
+        let arguments = self.bound(scope, word.text(), &wanted, args)?;
+        Some((arguments, self.message_kind(definer, name).for_receiver(receiver, self.object)))
     }
 
     /// Binds arguments by label or position, their kinds checked.

@@ -49,6 +49,7 @@ mod restore;
 mod rules;
 mod scope;
 mod settle;
+mod statics;
 mod switches;
 mod terms;
 mod trails;

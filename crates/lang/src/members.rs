@@ -457,19 +457,14 @@ impl Lowerer<'_> {
         loops: &[ast::For],
         message: &ast::Message,
     ) {
+        if message.is_static() {
+            return self.declare_static(scope, message);
+        }
         let (Some(name), Some(answer)) = (message.name(), message.definition()) else { return };
         if !self.is_new(scope, &name) {
             return;
         }
-        let mut parameters = Vec::new();
-        let mut inner = scope.clone();
-        for p in message.params().into_iter().flat_map(|p| p.params()) {
-            let (Some(name), Some(label)) = (p.name(), p.label()) else { continue };
-            let class = p.class().and_then(|ty| self.class_of_type(scope.file, &ty));
-            let kind = class.map_or(Kind::Unknown, |c| Kind::of_class(&self.document, c));
-            inner = inner.with_local(name.name(), kind);
-            parameters.push(Parameter { label: label.name(), name: name.name(), class });
-        }
+        let (parameters, inner) = self.parameters_of(scope, message);
         if let Some(class) = message.class().and_then(|ty| self.class_of_type(scope.file, &ty)) {
             let kind = Kind::of_class(&self.document, class).listed(loops.len());
             self.message_kinds.insert((scope.class(), name.name()), Some(kind));
@@ -488,8 +483,26 @@ impl Lowerer<'_> {
         self.add_message(&inner, loops, &name, &answer, declared);
     }
 
+    /// Reads the parameters of a message, and makes the scope of its answer.
+    pub(crate) fn parameters_of(
+        &mut self,
+        scope: &Scope,
+        message: &ast::Message,
+    ) -> (Vec<Parameter>, Scope) {
+        let mut parameters = Vec::new();
+        let mut inner = scope.clone();
+        for p in message.params().into_iter().flat_map(|p| p.params()) {
+            let (Some(name), Some(label)) = (p.name(), p.label()) else { continue };
+            let class = p.class().and_then(|ty| self.class_of_type(scope.file, &ty));
+            let kind = class.map_or(Kind::Unknown, |c| Kind::of_class(&self.document, c));
+            inner = inner.with_local(name.name(), kind);
+            parameters.push(Parameter { label: label.name(), name: name.name(), class });
+        }
+        (parameters, inner)
+    }
+
     /// Adds a message to the class of the scope; its answer waits until all parts are declared.
-    fn add_message(
+    pub(crate) fn add_message(
         &mut self,
         scope: &Scope,
         loops: &[ast::For],

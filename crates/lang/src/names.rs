@@ -211,7 +211,8 @@ impl Lowerer<'_> {
             let supers = c.supers.iter().filter(|s| !s.name.is_empty());
             names.extend(supers.map(|s| s.name.to_string()));
             names.extend(c.parts.iter().map(|p| p.name.to_string()));
-            names.extend(c.messages.iter().map(|m| m.name.to_string()));
+            names
+                .extend(c.messages.iter().filter(|m| !m.is_of_class()).map(|m| m.name.to_string()));
         }
         names
     }

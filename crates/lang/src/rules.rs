@@ -105,7 +105,10 @@ impl Lowerer<'_> {
                     let wanted = self.message_kind(class, &name);
                     let Definition { answer, loops, .. } = &definition;
                     match self.answer_of(&scope, loops, answer, &wanted) {
-                        Some(term) => self.document.classes[class].messages[index].answer = term,
+                        Some(term) => {
+                            self.speaks_of_no_thing(&scope, &name, answer, &term);
+                            self.document.classes[class].messages[index].answer = term;
+                        }
                         None => {
                             self.messages.shift_remove(&(class, name.clone()));
                             self.broken.insert((class, name));
@@ -616,6 +619,13 @@ fn from_document(term: Term, document: &Term) -> Term {
     }
 }
 
+/// Returns true if a term speaks of the thing that it is read for, or of what that is a part of.
+pub(crate) fn speaks_of_me(term: &Term) -> bool {
+    let mut found = Vec::new();
+    mentions(term, &mut found);
+    !found.is_empty()
+}
+
 /// Collects the paths of parts and messages that a term speaks of.
 pub(crate) fn mentions(term: &Term, found: &mut Vec<Path>) {
     if let Some(path) = term.path() {
@@ -629,7 +639,9 @@ pub(crate) fn mentions(term: &Term, found: &mut Vec<Path>) {
         Term::Call { arguments, .. } | Term::Make { arguments, .. } => {
             arguments.iter().for_each(|a| mentions(&a.value, found));
         }
-        Term::Tuple(items) | Term::List(items) => items.iter().for_each(|t| mentions(t, found)),
+        Term::Tuple(items) | Term::List(items) | Term::Construct { of: items, .. } => {
+            items.iter().for_each(|t| mentions(t, found));
+        }
         Term::Range(a, b) | Term::Index(a, b) | Term::Binary(_, a, b) | Term::Let(_, a, b) => {
             mentions(a, found);
             mentions(b, found);
@@ -655,6 +667,7 @@ pub(crate) fn mentions(term: &Term, found: &mut Vec<Path>) {
         | Term::Local(_)
         | Term::Step(_)
         | Term::Result
+        | Term::Class(_)
         | Term::All(_) => {}
     }
 }

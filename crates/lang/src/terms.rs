@@ -322,6 +322,14 @@ impl Lowerer<'_> {
         if let (UnaryOp::Negate, Some(made)) = (op, self.negated_by_component(&term, &kind)) {
             return Some(made);
         }
+        // `-ring` is the ring turned round
+        if let (UnaryOp::Negate, Kind::Thing(class)) = (op, &kind) {
+            let reversed = Name::new("reversed");
+            if let Some((definer, _)) = self.find_message(*class, &reversed, None) {
+                let kind = self.message_kind(definer, &reversed).for_receiver(*class, self.object);
+                return Some((Term::send(term, "reversed"), kind));
+            }
+        }
         if !kind.fits(&Kind::Number(None), &self.document) {
             self.wrong_kind(scope, operand.span(), &kind, &Kind::Number(None));
             return None;

@@ -87,6 +87,18 @@ impl<'a> Opening<'a> {
             Term::Local(name) => frame.local(name).ok_or_else(|| {
                 Trouble::new(FaultKind::UnknownName, format!("nothing is named `{name}` here"))
             }),
+            Term::Class(class) => {
+                let name = &self.document.classes[*class].name;
+                Err(Trouble::wrong(format!("the class {name} itself is no value")))
+            }
+            Term::Construct { what, class, of } => {
+                let of: Result<Vec<_>, _> = of.iter().map(|t| self.meaning(t, frame)).collect();
+                self.construct(*what, *class, &of?)
+            }
+            Term::Send { to, name, arguments, .. } if let Term::Class(class) = **to => {
+                let arguments = self.arguments(arguments, frame)?;
+                self.send_to_class(class, name, &arguments, frame)
+            }
             Term::Send { to, name, arguments, search } => {
                 let to = self.meaning(to, frame)?;
                 let arguments = self.arguments(arguments, frame)?;
@@ -327,6 +339,23 @@ impl<'a> Opening<'a> {
             return self.deeper(|opening| opening.meaning(&message.answer, &frame));
         }
         self.send_builtin(to, name, arguments)
+    }
+
+    /// Sends a message to a class itself, by its form.
+    fn send_to_class(
+        &mut self,
+        class: ClassId,
+        form: &Name,
+        arguments: &[Given<'a>],
+        frame: &Frame<'a>,
+    ) -> Answer<'a> {
+        let Some((_, message)) = self.document.find_message(class, form, None) else {
+            let name = &self.document.classes[class].name;
+            let message = format!("the class {name} answers no `{form}`");
+            return Err(Trouble::new(FaultKind::UnknownName, message));
+        };
+        let frame = bind_arguments(Frame::new(frame.me.clone()), message, arguments)?;
+        self.deeper(|opening| opening.meaning(&message.answer, &frame))
     }
 
     /// Lists what several superclasses say, where a message combines that.

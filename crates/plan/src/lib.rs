@@ -50,6 +50,7 @@ pub mod fault;
 pub mod host;
 
 mod component;
+mod construct;
 mod holds;
 mod past;
 pub mod plans;

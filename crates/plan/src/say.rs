@@ -149,6 +149,8 @@ pub(crate) fn say<'a>(
         | Term::Owner
         | Term::Document
         | Term::Local(_)
+        | Term::Class(_)
+        | Term::Construct { .. }
         | Term::Call { .. }
         | Term::Make { .. }
         | Term::Tuple(_)

@@ -129,6 +129,10 @@ pub(super) fn is_class_name(token: &SyntaxToken) -> bool {
     match parent.kind() {
         SyntaxKind::Type | SyntaxKind::Class | SyntaxKind::CallExpr => true,
         SyntaxKind::DottedName => !is_use,
+        // `Circle.tangent(…)`: what is before the dot
+        SyntaxKind::NameExpr => parent.parent().is_some_and(|above| {
+            above.kind() == SyntaxKind::FieldExpr && above.first_child() == Some(parent.clone())
+        }),
         _ => false,
     }
 }

@@ -327,7 +327,9 @@ fn virtual_parts(document: &Document, class: ClassId) -> Rc<[(Name, String)]> {
             continue;
         }
         let messages = document.classes[class].messages.iter();
-        for message in messages.filter(|m| m.parameters.is_empty() && !is_view(&m.name)) {
+        for message in
+            messages.filter(|m| m.parameters.is_empty() && !m.is_of_class() && !is_view(&m.name))
+        {
             let (doc, is_drawn) = found.entry(&message.name).or_default();
             if !message.doc.is_empty() {
                 *doc = &message.doc;

@@ -178,6 +178,10 @@ impl Message {
     pub fn is_combining(&self) -> bool {
         has_keyword(&self.syntax, "combining")
     }
+    /// Returns true for a message to the class itself, marked `static`.
+    pub fn is_static(&self) -> bool {
+        has_keyword(&self.syntax, "static")
+    }
     /// Returns true for a message marked `builtin`.
     pub fn is_builtin(&self) -> bool {
         has_keyword(&self.syntax, "builtin")

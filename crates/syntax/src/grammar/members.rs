@@ -31,6 +31,7 @@ pub(crate) const KEYWORDS: &[&str] = &[
     "default",
     "combining",
     "builtin",
+    "static",
     "without",
     "replace",
     "for",
@@ -113,7 +114,7 @@ pub(super) fn member(p: &mut Parser<'_>) -> bool {
             tolerance(p);
             methods_if_any(p);
         }),
-        "default" | "combining" | "builtin" => modified(p),
+        "default" | "combining" | "builtin" | "static" => modified(p),
         "ref" => one(p, Ref, reference),
         "attachers" => one(p, Attachers, paths),
         "guide" if p.nth(1) == Ident => one(p, Assign, assigned),
@@ -242,11 +243,11 @@ fn message(p: &mut Parser<'_>) -> bool {
     defined
 }
 
-/// `default picture => …`, `combining picture => …`, `builtin distance(to p: Point): Length`
+/// `default picture => …`, `combining picture => …`, `static builtin around(center: Point, through: Point): Circle`
 fn modified(p: &mut Parser<'_>) {
     p.start_documented(Message);
     let mut builtin = false;
-    while p.nth(1) == Ident && matches!(p.word(0), "default" | "combining" | "builtin") {
+    while p.nth(1) == Ident && matches!(p.word(0), "default" | "combining" | "builtin" | "static") {
         builtin |= p.word(0) == "builtin";
         p.bump_keyword();
     }

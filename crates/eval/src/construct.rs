@@ -1,0 +1,94 @@
+//! Constructions of oriented geometry: figures are read from things, and a thing is made of what is built.
+
+use crate::answer::Answer;
+use crate::evaluator::{Evaluator, Given, Result};
+use crate::fault::Fault;
+use base::Name;
+use expr::dimension::Dimension;
+use geometry::{Construction, Figure, Made, construct};
+use kernel::{ClassId, ThingId};
+use std::rc::Rc;
+
+impl<'a> Evaluator<'a> {
+    /// Makes a thing of a class by a construction from figures and numbers.
+    pub(crate) fn construct(
+        &self,
+        what: Construction,
+        class: ClassId,
+        of: &[Answer<'a>],
+        nearest: ThingId,
+    ) -> Result<Answer<'a>> {
+        let (mut figures, mut numbers) = (Vec::new(), Vec::new());
+        for operand in of {
+            match operand {
+                Answer::Number(x, _) => numbers.push(*x),
+                thing => figures.push(self.figure(thing, nearest)?),
+            }
+        }
+        let built = construct(what, &figures, &numbers).map_err(|why| {
+            let name = &self.document.classes[class].name;
+            Fault::no_answer(format!("there is no such {name}: {}", why.words()))
+        })?;
+        let place = |[x, y]: [f64; 2]| {
+            Answer::List(Rc::from([x, y].map(|x| Answer::Number(x, Dimension::LENGTH))))
+        };
+        let number = |x| Answer::Number(x, Dimension::LENGTH);
+        let parts: Vec<(&str, Answer<'a>)> = match built {
+            Figure::Point([x, y]) => vec![("x", number(x)), ("y", number(y))],
+            Figure::Straight { from, to } => vec![("p1", place(from)), ("p2", place(to))],
+            Figure::Circle { center, radius } => {
+                vec![("center", place(center)), ("radius", number(radius))]
+            }
+            Figure::Arc { center, start, end } => {
+                vec![("center", place(center)), ("start", place(start)), ("end", place(end))]
+            }
+        };
+        let fields = self.layout(class);
+        let given = fields.fields.iter().filter_map(|&field| {
+            let name = self.document.field_name(field);
+            let part = parts.iter().find(|(part, _)| *name == **part)?;
+            Some((Some(name), part.1.clone()))
+        });
+        let given: Vec<Given<'a>> = given.collect();
+        self.make(class, &given, nearest)
+    }
+
+    /// Reads a figure: a point, a straight, or a circle, that of an arc too.
+    fn figure(&self, of: &Answer<'a>, nearest: ThingId) -> Result<Figure<f64>> {
+        let kind = self.class_of(of).and_then(|class| self.document.figure(class));
+        let kind = kind.or_else(|| {
+            let alike = self.structure.unlike(of.thing()?);
+            alike.iter().find_map(|&t| self.document.figure(self.structure.things[t].class))
+        });
+        match kind {
+            Some(Made::Point) => self.xy(of, nearest).map(Figure::Point),
+            Some(Made::Straight) => {
+                let (from, to) =
+                    (self.part_of(of, "p1", nearest)?, self.part_of(of, "p2", nearest)?);
+                Ok(Figure::Straight { from: self.xy(&from, nearest)?, to: self.xy(&to, nearest)? })
+            }
+            Some(Made::Circle) => {
+                let center = self.part_of(of, "center", nearest)?;
+                let radius = self.part_of(of, "radius", nearest)?;
+                let (radius, _) = self.number(&radius)?;
+                Ok(Figure::Circle { center: self.xy(&center, nearest)?, radius })
+            }
+            Some(Made::Arc) | None => {
+                let kind = self.kind(of);
+                Err(Fault::wrong(format!("{kind} where a point or a curve is wanted")))
+            }
+        }
+    }
+
+    fn part_of(&self, of: &Answer<'a>, name: &str, nearest: ThingId) -> Result<Answer<'a>> {
+        self.send(of, &Name::new(name), Vec::new(), None, nearest)
+    }
+
+    fn xy(&self, of: &Answer<'a>, nearest: ThingId) -> Result<[f64; 2]> {
+        let mut at = [0.0; 2];
+        for (name, x) in ["x", "y"].into_iter().zip(&mut at) {
+            (*x, _) = self.number(&self.part_of(of, name, nearest)?)?;
+        }
+        Ok(at)
+    }
+}
