@@ -175,6 +175,16 @@ impl<'a> Evaluator<'a> {
                 let frame = frame.bind(name, self.term(bound, frame)?);
                 self.deeper(|| self.judge(body, &frame, within))
             }
+            Term::Send { to, name, arguments, .. } if let Term::Class(class) = **to => {
+                let Some(message) = self.class_message(class, name) else {
+                    return self.truth(rule, frame).map(Verdict::of);
+                };
+                let arguments = self.arguments(arguments, frame)?;
+                let inner = Frame::sent(Answer::Thing(frame.nearest), frame.nearest);
+                let inner = self.bind(inner, message, arguments)?;
+                self.deeper(|| self.judge(&message.answer, &inner, within))
+                    .map_err(|f| f.within(message.origin))
+            }
             Term::Send { to, name, arguments, search } => {
                 let to = self.term(to, frame)?;
                 let part = matches!(to, Answer::Thing(t) if self.part_named(t, name).is_some());

@@ -123,7 +123,9 @@ pub fn construct(
     }
     let built = build(&mut Plain, what, of, numbers)?;
     // the first reason explains those after it; a margin without a value is none that is met
-    if let Some((_, why)) = built.margins.iter().find(|(margin, _)| !(*margin >= 0.0)) {
+    if let Some((_, why)) =
+        built.margins.iter().find(|(margin, _)| margin.is_nan() || *margin < 0.0)
+    {
         return Err(*why);
     }
     match built.figure.numbers().iter().all(|x| x.is_finite()) {

@@ -4,7 +4,7 @@ use crate::algebra::Algebra;
 use crate::build::NoConstruction;
 use crate::construction::Construction;
 use crate::figure::Figure;
-use crate::work::{V, Work, point};
+use crate::work::{Ends, Work, point};
 
 impl<A: Algebra> Work<'_, A> {
     pub(crate) fn straight(
@@ -70,11 +70,7 @@ impl<A: Algebra> Work<'_, A> {
 
     /// Returns where the straight that has both circles to its left, each by its radius, touches the first and the
     /// second.
-    fn common_tangent(
-        &mut self,
-        first: Figure<A::N>,
-        second: Figure<A::N>,
-    ) -> Option<(V<A::N>, V<A::N>)> {
+    fn common_tangent(&mut self, first: Figure<A::N>, second: Figure<A::N>) -> Option<Ends<A>> {
         let ((c1, r1), (c2, r2)) = (self.round(first)?, self.round(second)?);
         let (way, d) = self.way(c1, c2, NoConstruction::Concentric);
         let rise = self.a.sub(r2, r1);
@@ -94,11 +90,7 @@ impl<A: Algebra> Work<'_, A> {
     }
 
     /// Returns two points of the straight as far to the left of one as it is to the right of the other.
-    fn bisector(
-        &mut self,
-        first: Figure<A::N>,
-        second: Figure<A::N>,
-    ) -> Option<(V<A::N>, V<A::N>)> {
+    fn bisector(&mut self, first: Figure<A::N>, second: Figure<A::N>) -> Option<Ends<A>> {
         let (p, q) = (self.ray(first)?, self.ray(second)?);
         let along = self.plus(p.along, q.along);
         let (square, one) = (self.dot(along, along), self.a.constant(1.0));

@@ -10,6 +10,9 @@ const NOTHING: f64 = 1e-12;
 /// A vector.
 pub(crate) type V<N> = [N; 2];
 
+/// Two points.
+pub(crate) type Ends<A> = (V<<A as Algebra>::N>, V<<A as Algebra>::N>);
+
 /// A straight by a point of it and its direction, of length 1.
 #[derive(Clone, Copy)]
 pub(crate) struct Ray<N> {

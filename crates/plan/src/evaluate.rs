@@ -258,7 +258,8 @@ impl<'a> Opening<'a> {
         }
     }
 
-    fn arguments(
+    /// Evaluates the arguments of a message.
+    pub(crate) fn arguments(
         &mut self,
         arguments: &'a [Argument],
         frame: &Frame<'a>,

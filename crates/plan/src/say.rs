@@ -121,26 +121,7 @@ pub(crate) fn say<'a>(
             let operand = opening.meaning(operand, frame)?;
             want(opening, &operand, 0.0, said)
         }
-        Term::Send { to, name, arguments, search } => {
-            let to = opening.meaning(to, frame)?;
-            if let (Some(message), true) =
-                (opening.message(&to, name, *search), is_message(opening, &to, name))
-            {
-                let mut given = Vec::new();
-                for a in arguments {
-                    given.push((a.label.clone(), opening.meaning(&a.value, frame)?));
-                }
-                let frame = bind_arguments(Frame::new(to), message, &given)?;
-                return opening.deeper(|o| say(o, &message.answer, &frame, turns, said));
-            }
-            if let ("all", [function], Ok(items)) =
-                (name.as_str(), arguments.as_slice(), opening.items(&to))
-            {
-                return say_all(opening, &items, &function.value, frame, said);
-            }
-            let truth = opening.meaning(term, frame)?;
-            want(opening, &truth, 1.0, said)
-        }
+        Term::Send { .. } => say_sent(opening, term, frame, turns, said),
         Term::Binary(..)
         | Term::Number { .. }
         | Term::Text(_)
@@ -177,6 +158,40 @@ fn want_true<'a>(
 ) -> Result<(), Trouble> {
     let truth = opening.meaning(term, frame)?;
     want(opening, &truth, 1.0, said)
+}
+
+/// Says what a message answers where that is opened into its definition.
+fn say_sent<'a>(
+    opening: &mut Opening<'a>,
+    term: &'a Term,
+    frame: &Frame<'a>,
+    turns: Option<Turns>,
+    said: &mut Said,
+) -> Result<(), Trouble> {
+    if let Term::Send { to, name, arguments, .. } = term
+        && let Term::Class(class) = **to
+        && let Some((_, message)) = opening.document.find_message(class, name, None)
+    {
+        let given = opening.arguments(arguments, frame)?;
+        let frame = bind_arguments(Frame::new(frame.me.clone()), message, &given)?;
+        return opening.deeper(|o| say(o, &message.answer, &frame, turns, said));
+    }
+    if let Term::Send { to, name, arguments, search } = term {
+        let to = opening.meaning(to, frame)?;
+        if let (Some(message), true) =
+            (opening.message(&to, name, *search), is_message(opening, &to, name))
+        {
+            let given = opening.arguments(arguments, frame)?;
+            let frame = bind_arguments(Frame::new(to), message, &given)?;
+            return opening.deeper(|o| say(o, &message.answer, &frame, turns, said));
+        }
+        if let ("all", [function], Ok(items)) =
+            (name.as_str(), arguments.as_slice(), opening.items(&to))
+        {
+            return say_all(opening, &items, &function.value, frame, said);
+        }
+    }
+    want_true(opening, term, frame, said)
 }
 
 /// Returns how one comes to the first of two parts of a rule: of an `and`, or what holds if a condition does.
