@@ -28,7 +28,7 @@ pub enum NoConstruction {
     Inside,
     /// Three points lie on one straight.
     Collinear,
-    /// No circle touches three figures in this order, running as they do.
+    /// Nothing touches the figures in this order, running as they do.
     Order,
     /// The arc would run the other way round.
     Turn,
@@ -50,7 +50,7 @@ impl NoConstruction {
             Self::Apart => "the curves do not reach each other in this orientation",
             Self::Inside => "the point or circle lies inside the circle",
             Self::Collinear => "three points lie on one line",
-            Self::Order => "no circle touches the three in this order and orientation",
+            Self::Order => "nothing touches the curves in this order and orientation",
             Self::Turn => "the arc runs the other way round",
             Self::NotFinite => "a number has no value",
         }

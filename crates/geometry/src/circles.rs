@@ -212,6 +212,12 @@ impl<A: Algebra> Work<'_, A> {
                 let center = self.touching_two(*first, *second, radius)?;
                 let start = self.contact(*first, center, radius)?;
                 let end = self.contact(*second, center, radius)?;
+                // two straights leave one circle whatever their order is: the arc needs it
+                let (u, v) = (self.minus(start, center), self.minus(end, center));
+                let order = self.cross(u, v);
+                let sign = self.a.sign(radius);
+                let order = self.a.mul(order, sign);
+                self.needs(order, NoConstruction::Order);
                 Some(Figure::Arc { center, start, end })
             }
             (

@@ -2,8 +2,9 @@
 //!
 //! Seen as points (x, y, r) with the form `x² + y² - r²`, the circles that touch a straight coherently are a plane,
 //! those that touch a circle a cone. The difference of two cones is a plane; so there is one cone (or plane) and two
-//! planes, which meet in a line; on it lie two circles at most. Turned into each other they run through their contacts
-//! in opposite orders: the order of the operands says which is meant.
+//! planes, which meet in a line; on it lie two circles at most. They run through their contacts in opposite orders, so
+//! that the order of the operands says which is meant; but where the three enclose a common point, in the same order:
+//! there the smaller one is.
 //!
 //! **Source:** Cecil, *Lie sphere geometry*, Springer 2008, chapter 2.
 
@@ -67,9 +68,14 @@ impl<A: Algebra> Work<'_, A> {
             found.push(([x, y], radius, order));
         }
         let [(c1, r1, order), (c2, r2, other)] = <[_; 2]>::try_from(found).ok()?;
-        let center = [self.a.choose(order, c1[0], c2[0]), self.a.choose(order, c1[1], c2[1])];
-        let radius = self.a.choose(order, r1, r2);
-        let order = self.a.choose(order, order, other);
+        let (s1, s2) = (self.square(r1), self.square(r2));
+        let is_smaller = self.a.sub(s2, s1);
+        // at least zero where the first is meant: it is in order, and smaller if the second is too
+        let either = self.a.choose(other, is_smaller, order);
+        let first = self.a.choose(order, either, order);
+        let center = [self.a.choose(first, c1[0], c2[0]), self.a.choose(first, c1[1], c2[1])];
+        let radius = self.a.choose(first, r1, r2);
+        let order = self.a.choose(first, order, other);
         self.needs(order, NoConstruction::Order);
         let beside = self.square(radius);
         self.needs_radius(radius, beside);
