@@ -4,6 +4,8 @@
 //! what is expected:
 //!
 //! - `//~ error[code] LINE:COLUMN` (place optional): a diagnostic; without any, there must be none
+//! - `//~ warning[code] LINE:COLUMN` (place optional): the same of a warning; in the gallery, the library and the book
+//!   there are none but these, in the suite only in a file that names one
 //! - `//~ value PATH = TEXT`: what the values view shows, unit included
 //! - `//~ note WORDS`: something that the status says, by its first words
 //! - `//~ redundant NAME`: a required constraint that says nothing new; a file that names one names all
@@ -13,6 +15,7 @@
 //! Laying a text out anew changes neither its values nor its checks; the gallery's and the library's
 //! are laid out already.
 
+use session::view::DiagnosticView;
 use session::{DocumentId, Host, Session};
 use std::fmt::Write as _;
 use std::fs;
@@ -71,7 +74,14 @@ fn differences(path: &Path, text: &str) -> String {
         let lines = text.lines().filter_map(|l| l.trim().strip_prefix(&prefix).map(str::to_string));
         lines.collect::<Vec<String>>()
     };
-    compare_diagnostics(&session, id, wanted("error["), &mut out);
+    let wants_no_more = !path.starts_with(root().join("tests/suite"));
+    let mut found = session.text(id).diagnostics;
+    let mut claimed = wanted("error[");
+    claimed.extend(wanted("warning["));
+    if !wants_no_more && wanted("warning[").is_empty() {
+        found.retain(|d| d.severity != "warning");
+    }
+    compare_diagnostics(found, claimed, &mut out);
     for claim in wanted("value ") {
         let (path, value) = claim.split_once(" = ").expect("a value claim is PATH = TEXT");
         let rows = session.values(id);
@@ -115,12 +125,11 @@ fn differences(path: &Path, text: &str) -> String {
     out
 }
 
-fn compare_diagnostics(session: &Session, id: DocumentId, wanted: Vec<String>, out: &mut String) {
-    let mut found = session.text(id).diagnostics;
+fn compare_diagnostics(mut found: Vec<DiagnosticView>, wanted: Vec<String>, out: &mut String) {
     for claim in wanted {
-        let (code, place) = claim.split_once(']').expect("an error claim is error[code] PLACE");
+        let (code, place) = claim.split_once(']').expect("a claim is error[code] PLACE");
         let place: Vec<u32> = place.trim().split(':').filter_map(|n| n.parse().ok()).collect();
-        let same = |d: &session::view::DiagnosticView| {
+        let same = |d: &DiagnosticView| {
             d.code == code
                 && place.first().is_none_or(|&l| l == d.line)
                 && place.get(1).is_none_or(|&c| c == d.column)

@@ -5,7 +5,7 @@ use std::path::PathBuf;
 use std::process::ExitCode;
 
 use clap::{Parser, Subcommand};
-use commands::{Form, FormatMode, Report};
+use commands::{Form, FormatMode, Leniency, Report};
 use documents::OpenError;
 
 mod commands;
@@ -32,6 +32,9 @@ enum Command {
         /// Files, or folders with documents.
         #[arg(required = true)]
         files: Vec<PathBuf>,
+        /// Warnings make it fail too.
+        #[arg(long)]
+        strict: bool,
     },
     /// Runs the `check` blocks of documents.
     Test {
@@ -90,7 +93,10 @@ fn main() -> ExitCode {
     let form = if arguments.json { Form::Json } else { Form::Words };
     let report = match &arguments.command {
         Command::Serve(arguments) => return serve::run(arguments),
-        Command::Check { files } => commands::check(files, form),
+        Command::Check { files, strict } => {
+            let most = if *strict { Leniency::Nothing } else { Leniency::Warnings };
+            commands::check(files, form, most)
+        }
         Command::Test { files } => commands::test(files, form),
         Command::Run { file } => commands::run(file, form),
         Command::Explain { file, path } => commands::explain(file, path.as_deref(), form),

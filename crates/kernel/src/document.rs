@@ -230,6 +230,33 @@ impl Document {
         };
         line.into_iter().find_map(named).unwrap_or(class)
     }
+    /// Returns the classes of which the document itself is the text: its own and those of its parts, as its bodies
+    /// refine them.
+    ///
+    /// Cost: linear in the parts that these declare.
+    pub fn own_bodies(&self) -> IdVec<ClassId, bool> {
+        let mut is_own = IdVec::filled(false, self.classes.len());
+        is_own[self.root] = true;
+        let mut open = vec![self.root];
+        while let Some(class) = open.pop() {
+            let class = &self.classes[class];
+            let element = match class.kind {
+                ClassKind::List(element) | ClassKind::Set(element) => Some(element),
+                ClassKind::Primitive(_) | ClassKind::Composite | ClassKind::Reference(_) => None,
+            };
+            let parts = class.parts.iter().map(|p| p.class);
+            for part in parts.chain(element).chain(class.elements.iter().copied()) {
+                let c = &self.classes[part];
+                let is_list = matches!(c.kind, ClassKind::List(_) | ClassKind::Set(_));
+                let is_body = is_list || c.is_of_one && c.general.is_none();
+                if is_body && !is_own[part] {
+                    is_own[part] = true;
+                    open.push(part);
+                }
+            }
+        }
+        is_own
+    }
     /// Finds a message by the thesis's order: the class, its primary line, then all others.
     ///
     /// A message marked `default` gives way to others.

@@ -168,6 +168,8 @@ struct Maker<'d> {
     bodies: IdVec<ClassId, Option<Rc<Body>>>,
     /// Every given value, and what parts get of them.
     givens: Givens,
+    /// The classes whose givens are the document's own.
+    own_bodies: IdVec<ClassId, bool>,
     /// Which given values are what parts get of others.
     shared: Vec<Shared>,
     /// What classes whose things were merged have in common.
@@ -188,6 +190,7 @@ impl<'d> Maker<'d> {
             layouts,
             bodies: IdVec::filled(None, document.classes.len()),
             givens: IdVec::new(),
+            own_bodies: document.own_bodies(),
             shared: Vec::new(),
             kinships: BTreeMap::new(),
             on_the_way: Vec::new(),

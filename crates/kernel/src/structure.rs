@@ -61,6 +61,8 @@ pub struct GivenTerm {
     pub term: Term,
     /// Where it was written; for a coordinate of `(3, 4)`, where the whole was.
     pub origin: OriginId,
+    /// True if a class gives it to all its things, false if the document says so itself.
+    pub of_class: bool,
     /// True if it is what a part gets of another thing that is given to the whole: a copy's part.
     pub of_copy: bool,
 }

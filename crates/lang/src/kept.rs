@@ -207,6 +207,7 @@ fn is_plain(member: &Member) -> bool {
     let value = part.value().map(|v| Value::expr(v).is_some_and(|e| is_constant(&e)));
     let values = || part.body().map(|b| values_alone(&b.members().collect::<Vec<_>>()));
     part.definition().is_none()
+        && !part.is_constant()
         && !has_named_count(part)
         && part.doc().is_none()
         && part.names().count() == 1

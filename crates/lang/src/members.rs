@@ -7,7 +7,8 @@ use crate::lower::{Lowerer, OWN};
 use crate::scope::Scope;
 use base::{Diagnostic, FileId, Name, Place, Span};
 use kernel::{
-    ClassId, ClassKind, Count, Message, OriginId, Parameter, Part, Path, Primitive, Step, Term,
+    ClassId, ClassKind, Count, Message, OriginId, Parameter, Part, Path, Primitive, Stay, Step,
+    Term,
 };
 use std::collections::BTreeMap;
 use syntax::ast::{self, AstNode, Expr, Member, TypeShape, span_without_doc};
@@ -246,6 +247,11 @@ impl Lowerer<'_> {
 
     fn declare_part(&mut self, scope: &Scope, part: &ast::Part) {
         let Some(ty) = part.class() else { return };
+        if part.is_constant() && part.value().is_none() {
+            let place = Place { file: scope.file, span: span_without_doc(part.syntax()) };
+            let d = Diagnostic::error("constant-without-value", place, "a constant has a value");
+            self.report(d.hint("write `constant g: Acceleration = 9.81 m/s^2`"));
+        }
         if let Some(definition) = part.definition() {
             return self.declare_virtual(scope, &[], part, &ty, &definition);
         }
@@ -278,6 +284,11 @@ impl Lowerer<'_> {
             let declared = Part { name: name.clone(), doc, class, count, range, origin };
             let place = Place { file: scope.file, span: word.span() };
             self.add_part(place, scope.class(), declared);
+            if part.is_constant() {
+                let path = Path(vec![Step::Part(name.clone())]);
+                let stay = Stay { path, strength: None, origin };
+                self.document.classes[scope.class()].stays.push(stay);
+            }
             if let (Some(Count::Given), Some(Expr::List(list))) =
                 (count, part.value().and_then(ast::Value::expr))
             {

@@ -142,8 +142,12 @@ impl Planner {
             }
         }
         let holding = |slot: SlotId| {
-            let resting = Self::resting_hold(model.structure, slot);
-            if has_value[slot] { resting } else { Holding::Free }
+            match Self::resting_hold(model.structure, slot) {
+                resting if has_value[slot] => resting,
+                // an anchor holds zero unless rules make it another
+                Holding::Fixed => Holding::Kept,
+                Holding::Given(_) | Holding::Kept | Holding::Alone | Holding::Free => Holding::Free,
+            }
         };
         let slots = model.structure.slots.iter();
         // an anchor holds what it has; where that is nothing yet, rules may give it a value

@@ -7,7 +7,7 @@ use crate::rule::{Body, Condition, Source};
 use crate::task::{Course, Holding, Task};
 use kernel::{SlotId, Values};
 use solve::{Count, Level, Proofs, Rejected, Standing, Step, StepKind, System};
-use std::collections::BTreeSet;
+use std::collections::{BTreeMap, BTreeSet};
 
 /// One step of a plan, in the document's terms.
 #[derive(Clone, PartialEq, Debug)]
@@ -138,6 +138,33 @@ impl Planner {
         explained
     }
 
+    /// Returns for each of some slots that the latest edit computed the constraints that hold by the step which did,
+    /// those included that make it equal to what another step computed.
+    ///
+    /// Cost: linear in the steps of the components that have one of them.
+    pub fn behind(&self, slots: &BTreeSet<SlotId>) -> BTreeMap<SlotId, BTreeSet<Source>> {
+        let mut behind: BTreeMap<SlotId, BTreeSet<Source>> = BTreeMap::new();
+        let has = |task: &&Task| task.component.slots().iter().any(|slot| slots.contains(slot));
+        for task in self.latest.tasks.iter().filter(has) {
+            for step in task.plan.steps() {
+                let targets = step.targets.iter();
+                let relations = step.relations.iter();
+                let mut sources: BTreeSet<Source> =
+                    relations.map(|&r| task.source(&self.rules, r)).collect();
+                let slot_of = |l: &u32| task.component.slots().get(*l as usize).copied();
+                if matches!(step.kind, StepKind::Alias) {
+                    let read = step.reads.iter().filter_map(slot_of);
+                    sources.extend(read.filter_map(|s| behind.get(&s)).flatten());
+                }
+                for slot in targets.filter_map(slot_of) {
+                    behind.entry(slot).or_default().extend(&sources);
+                }
+            }
+        }
+        behind.retain(|slot, _| slots.contains(slot));
+        behind
+    }
+
     /// Returns what acts in the modes of the latest edit: inequalities at their bounds, conditions,
     /// alternatives.
     pub fn acting(&self) -> Vec<Acting> {
@@ -214,7 +241,7 @@ impl Planner {
         let latest = self.latest.tasks.iter().find(computes);
         let is_edited = latest.is_some() && self.latest.edited.is_some();
         let is_as_given = |s: SlotId| {
-            let is_given = Self::resting_hold(model.structure, s) == Holding::Given;
+            let is_given = matches!(Self::resting_hold(model.structure, s), Holding::Given(_));
             is_given && !is_edited && !gave_way.contains(&s)
         };
         let task = latest.or_else(|| self.resting().iter().find(|t| local(t, slot).is_some()));
@@ -341,7 +368,7 @@ impl Planner {
         let kind = match Self::resting_hold(model.structure, slot) {
             _ if edited => RootKind::Edited,
             Holding::Fixed => RootKind::Anchored,
-            Holding::Given => RootKind::Given,
+            Holding::Given(_) => RootKind::Given,
             Holding::Kept | Holding::Alone | Holding::Free => {
                 if model.structure.slots[slot].given.is_some() {
                     RootKind::Given

@@ -79,7 +79,7 @@ impl Planner {
             .filter(|&slot| match Self::resting_hold(structure, slot) {
                 Holding::Fixed => false,
                 // numbers that a thing is given make it what it is
-                Holding::Given => !is_whole,
+                Holding::Given(_) => !is_whole,
                 Holding::Kept | Holding::Alone | Holding::Free => true,
             })
             .collect();
@@ -147,7 +147,7 @@ impl Planner {
             let rules = self.net.rules_of(slot).iter();
             for next in rules.flat_map(|&rule| self.rules.get(rule).slots).copied() {
                 match Self::resting_hold(structure, next) {
-                    Holding::Fixed | Holding::Given => continue,
+                    Holding::Fixed | Holding::Given(_) => continue,
                     Holding::Kept | Holding::Alone | Holding::Free => {}
                 }
                 if seen.contains(&next) {

@@ -442,7 +442,7 @@ impl ModalDrag {
         let acts_otherwise = is_settled && decision.mode != self.mode && alike == self.mode;
         let yielded = self.yielded(hands);
         let arrives = |decision: &Decision| {
-            decision.ended == Ended::Settled && decision.tried.plan.report.yielded.len() <= yielded
+            decision.ended == Ended::Settled && decision.tried.plan.yields() <= yielded
         };
         let may_switch = !self.mode.assumed.is_empty() && !hands.planner.is_spent();
         if halvings > 0 && (acts_otherwise || may_switch && !arrives(&decision)) {
@@ -461,9 +461,9 @@ impl ModalDrag {
     }
 
     /// Returns how many given numbers yield where the drag stands.
-    fn yielded(&self, hands: &Hands<'_>) -> usize {
+    fn yielded(&self, hands: &Hands<'_>) -> [usize; 2] {
         let (_, plan) = hands.planner.in_mode(&self.modes, &self.mode);
-        plan.report.yielded.len()
+        plan.yields()
     }
 
     /// Goes on from what a wish came to.

@@ -169,6 +169,7 @@ fn mixture(plan: u32, slots: &[Slot], numbers: &[f64]) -> u64 {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use solve::Giver;
 
     fn slots(stays: &[Stay]) -> Vec<Slot> {
         let slot = |&stay: &Stay| Slot { stay, scale: 0, is_number: true, is_discrete: false };
@@ -177,7 +178,7 @@ mod tests {
 
     #[test]
     fn what_begins_with_other_bits_is_not_known() {
-        let slots = slots(&[Stay::Given, Stay::Free]);
+        let slots = slots(&[Stay::Given(Giver::Document), Stay::Free]);
         let mut past = Past::default();
         past.begin();
         past.keep(7, &slots, &[3.0, 0.0], &[3.0, 6.0]);
@@ -192,7 +193,7 @@ mod tests {
     }
     #[test]
     fn what_was_given_and_yielded_is_found_by_what_it_was() {
-        let slots = slots(&[Stay::Given, Stay::Free]);
+        let slots = slots(&[Stay::Given(Giver::Document), Stay::Free]);
         let mut past = Past::default();
         past.begin();
         past.keep(1, &slots, &[3.0, 0.5], &[4.0, 6.0]);
@@ -204,7 +205,7 @@ mod tests {
     }
     #[test]
     fn a_state_is_quiet_for_the_plan_and_the_numbers_that_it_was_said_of() {
-        let slots = slots(&[Stay::Given, Stay::Free]);
+        let slots = slots(&[Stay::Given(Giver::Document), Stay::Free]);
         let mut past = Past::default();
         past.begin();
         let id = past.keep(1, &slots, &[3.0, 0.0], &[3.0, 6.0]);
@@ -217,7 +218,7 @@ mod tests {
     }
     #[test]
     fn what_is_not_used_is_forgotten() {
-        let slots = slots(&[Stay::Given]);
+        let slots = slots(&[Stay::Given(Giver::Document)]);
         let mut past = Past::default();
         past.begin();
         (0..5000).for_each(|i| {

@@ -11,7 +11,7 @@ use crate::recent::Recent;
 use crate::rule::{Rules, Source};
 use crate::task::{Alike, Holding, Locals, Setting, Task, Wish, at_rest, task};
 use kernel::{Document, Form, SlotId, Structure, Values};
-use solve::{Lean, Level, Mode, Modes, Plan, Runner, Scratch, System};
+use solve::{Giver, Lean, Level, Mode, Modes, Plan, Runner, Scratch, System};
 use std::cell::RefCell;
 use std::collections::btree_map::Entry;
 use std::collections::{BTreeMap, BTreeSet};
@@ -225,8 +225,8 @@ impl Planner {
         let s = &structure.slots[slot];
         if s.anchored {
             Holding::Fixed
-        } else if s.given.is_some() && s.place.is_none() {
-            Holding::Given
+        } else if let Some(given) = structure.given(slot).filter(|_| s.place.is_none()) {
+            Holding::Given(if given.of_class { Giver::Class } else { Giver::Document })
         } else {
             Holding::Kept
         }

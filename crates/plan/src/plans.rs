@@ -129,7 +129,7 @@ impl Plans {
         let (system, plan) = self.plan_later(modes.system(mode));
         (system, plan, self.in_modes.borrow().len() > known)
     }
-    /// Returns the plan in which the given numbers that yield in a plan of numbers alone are constants, or
+    /// Returns the plan in which the given numbers are constants where some yield in a plan of numbers alone, or
     /// all that has a value where a place with a value yields to what has none yet; nothing where none
     /// yields.
     pub(crate) fn with_given_held(&self, system: &System, plan: &Plan) -> Option<Rc<Plan>> {
@@ -143,13 +143,9 @@ impl Plans {
             return None;
         }
         let mut held = system.clone();
-        if places_yield {
-            for slot in held.slots.iter_mut().filter(|s| s.stay != Stay::Free) {
-                slot.stay = Stay::Fixed;
-            }
-        }
-        for &slot in &plan.report.yielded {
-            held.slots[slot as usize].stay = Stay::Fixed;
+        let holds = |stay: Stay| stay.is_given() || places_yield && stay != Stay::Free;
+        for slot in held.slots.iter_mut().filter(|s| holds(s.stay)) {
+            slot.stay = Stay::Fixed;
         }
         Some(self.plan_later(held).1)
     }

@@ -17,7 +17,7 @@ use indexmap::IndexMap;
 use kernel::{Primitive, SlotId, Structure};
 use solve::pieces::taken_apart;
 use solve::{
-    Conditional, Level, Method, MethodBody, Mode, Modes, Patterns, Plan, Puzzle, Relation,
+    Conditional, Giver, Level, Method, MethodBody, Mode, Modes, Patterns, Plan, Puzzle, Relation,
     RelationBody, SlotIndex, Stay, System,
 };
 use stating::Making;
@@ -33,13 +33,26 @@ pub(crate) enum Holding {
     /// Anchored, or set in this edit.
     Fixed,
     /// A given number.
-    Given,
+    Given(Giver),
     /// Its present value, with the other coordinates of its place.
     Kept,
     /// Its present value, alone: a coordinate that the edit speaks of.
     Alone,
     /// Nothing yet.
     Free,
+}
+
+impl Holding {
+    /// Returns a number below 16 that tells it from the others.
+    fn number(self) -> u32 {
+        match self {
+            Self::Fixed => 0,
+            Self::Given(giver) => 1 + giver as u32,
+            Self::Kept => 3,
+            Self::Alone => 4,
+            Self::Free => 5,
+        }
+    }
 }
 
 /// Expressions that shall take the values of a target.
@@ -306,8 +319,8 @@ impl Alike {
             }) as u32;
             let is_pair = u32::from(coordinates.len() == 2) << 2;
             let has = u32::from(range.is_some()) | u32::from(place.is_some()) << 1 | is_pair;
-            let rests = Planner::resting_hold(setting.structure, slot) as u32;
-            let holding = (setting.holding)(slot) as u32 | rests << 4;
+            let rests = Planner::resting_hold(setting.structure, slot).number();
+            let holding = (setting.holding)(slot).number() | rests << 4;
             signature.push(holding | has << 8 | kind << 16);
             if let Some((least, most)) = range {
                 signature.extend(halves(*least).into_iter().chain(halves(*most)));

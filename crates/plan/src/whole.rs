@@ -224,8 +224,8 @@ fn trial(modes: &Modes, decision: &Decision, start: &[f64]) -> Trial {
         let Some(rank) = relation.and_then(|r| r.level.rank()) else { return Trial::Fails };
         unmet[rank] += u.error * u.error;
     }
-    let [given, _] = moved(&system.slots, start, &decision.tried.values);
-    Trial::Holds(unmet, given)
+    let [document, class, _] = moved(&system.slots, start, &decision.tried.values);
+    Trial::Holds(unmet, [document, class])
 }
 
 /// Returns what a component is besides its course, if whole numbers are among its unknowns.

@@ -357,7 +357,7 @@ pub(crate) fn keep(
     let sides = sides_after(&before, values, undecided);
     let (state, mut planner) = write_sides(state, planner, &sides, host);
     let status = state.status(&mut planner);
-    let unsaid = differing(&state, values).next().filter(|_| !state.diagnostics.is_empty());
+    let unsaid = differing(&state, values).next().filter(|_| state.has_errors());
     let refusal = match unsaid {
         Some(slot) => {
             let path = before.slot_path(slot);

@@ -37,6 +37,7 @@ mod tools;
 mod views;
 mod words;
 mod write_back;
+mod yielding;
 
 pub use host::Host;
 pub use kernel::{Command, Literal, Path, Step};

@@ -25,12 +25,11 @@ pub(crate) fn edits(open: &Open, path: &Path, parting: Vec<TextEdit>) -> Vec<Tex
         leaves.flat_map(|leaf| std::iter::once(leaf).chain(next_given(state, leaf))).collect();
     let own = apart.into_iter().filter(|&t| is_given_another(state, t));
     let mut writes: Vec<(Path, Literal)> = own.map(write).collect();
-    if !state.yielded.is_empty() {
+    if !state.gave_way.is_empty() {
         let slots = state.structure.slots_under(thing);
         let apart: BTreeSet<SlotId> = slots.iter().copied().collect();
         let tied = open.planner.tied_to(slots);
-        let gave_way = state.yielded.iter().map(|(slot, _)| *slot);
-        let gave_way = gave_way.filter(|s| tied.contains(s) && !apart.contains(s));
+        let gave_way = state.yielded().filter(|s| tied.contains(s) && !apart.contains(s));
         writes.extend(gave_way.map(|slot| write(state.structure.slots[slot].thing)));
     }
     let mut all = parting.clone();

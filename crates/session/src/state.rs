@@ -7,7 +7,7 @@ use crate::host::Host;
 use crate::texts::Texts;
 use base::Diagnostic;
 use eval::Evaluator;
-use kernel::{OriginId, SlotId, Strength, Structure, ThingId, Values};
+use kernel::{OriginId, SlotId, Strength, Structure, ThingId, Value, Values};
 use lang::Lowered;
 use plan::{Model, Planner, Plans, Source, Status, Unmet};
 use solve::Level;
@@ -32,9 +32,8 @@ pub(crate) struct State {
     unplanned: BTreeSet<OriginId>,
     /// Where two solutions coincide.
     pub(crate) double_roots: Vec<SlotId>,
-    /// Numbers that are given, by the text itself or by a class, and that could not stay, with what they are
-    /// given.
-    pub(crate) yielded: Vec<(SlotId, f64)>,
+    /// What is given, by the text itself or by a class, and could not stay, with what it is given.
+    pub(crate) gave_way: Vec<(SlotId, Value)>,
 }
 
 impl State {
@@ -68,7 +67,7 @@ impl State {
         let mut given = eval::Given::of(&lowered.document, &structure);
         let mut values = Values::new(structure.slots.len());
         let double_roots = opened(model, &mut planner, &mut given, &mut values);
-        let yielded = yielded(&structure, &given.values, &values);
+        let gave_way = gave_way(&structure, &given.values, &values);
         let mut diagnostics = lowered.diagnostics.clone();
         diagnostics.extend(lowered.fault_diagnostics(&faults));
         // that a reference names nothing is said at its place, and not at all that goes through it
@@ -84,7 +83,7 @@ impl State {
         let unplanned = unplanned.iter().map(|f| f.origin).collect();
         diagnostics.sort_by_key(|d| (d.place.file, d.place.span.start));
         debug_assert_eq!(kernel::check::values(&structure, &values), Ok(()));
-        let state = Self {
+        let mut state = Self {
             text,
             lowered,
             structure,
@@ -92,8 +91,13 @@ impl State {
             diagnostics,
             unplanned,
             double_roots,
-            yielded,
+            gave_way,
         };
+        let warnings = crate::yielding::warnings(&state, &planner);
+        if !warnings.is_empty() {
+            state.diagnostics.extend(warnings);
+            state.diagnostics.sort_by_key(|d| (d.place.file, d.place.span.start));
+        }
         (state, planner)
     }
     /// Returns true if what the document uses is still as it was read.
@@ -101,6 +105,16 @@ impl State {
         let mut used =
             self.lowered.files.iter().map(|(_, file)| file).filter(|f| !f.name.is_empty());
         used.all(|file| host.read(&file.name).is_some_and(|text| *text == *file.text))
+    }
+    /// Returns the given numbers that gave way; not those of places, which yield as a matter of course.
+    pub(crate) fn yielded(&self) -> impl Iterator<Item = SlotId> {
+        let slots = &self.structure.slots;
+        let is_lone = |s: &SlotId| slots[*s].primitive.is_number() && slots[*s].place.is_none();
+        self.gave_way.iter().map(|(slot, _)| *slot).filter(is_lone)
+    }
+    /// Returns true if something is wrong with the text.
+    pub(crate) fn has_errors(&self) -> bool {
+        self.diagnostics.iter().any(|d| d.severity == base::Severity::Error)
     }
     /// Returns what every question to the planner is about.
     pub(crate) fn model(&self) -> Model<'_> {
@@ -171,16 +185,15 @@ fn opened(
     }
 }
 
-/// Returns the numbers that are given and that are others now; not of places, which yield as a matter of
-/// course.
-fn yielded(structure: &Structure, given: &Values, values: &Values) -> Vec<(SlotId, f64)> {
-    let moved = values.changed(given).filter(|&slot| {
-        let s = &structure.slots[slot];
-        let (was, is) = (given.numbers[slot], values.numbers[slot]);
-        let is_lone = s.primitive.is_number() && s.place.is_none();
-        is_lone && s.given.is_some() && !base::number::close(was, is)
-    });
-    moved.map(|slot| (slot, given.numbers[slot])).collect()
+/// Returns what is given and is another now, with what it is given.
+fn gave_way(structure: &Structure, given: &Values, values: &Values) -> Vec<(SlotId, Value)> {
+    let is_other = |slot: SlotId| match (given.get(slot), values.get(slot)) {
+        (Value::Number(was), Value::Number(is)) => !base::number::close(was, is),
+        (was, is) => !was.same_bits(&is),
+    };
+    let is_given = |slot: SlotId| structure.slots[slot].given.is_some();
+    let moved = values.changed(given).filter(|&slot| is_given(slot) && is_other(slot));
+    moved.map(|slot| (slot, given.get(slot))).collect()
 }
 
 /// Says which programs of the document's things ended before their last step, and why.

@@ -22,7 +22,7 @@ use crate::rest::Resting;
 use crate::rows::Rows;
 use crate::sparse::{Pattern, Symbolic};
 use crate::substitute::Classes;
-use crate::system::{Level, SlotIndex, Stay, System};
+use crate::system::{Giver, Level, SlotIndex, Stay, System};
 use crate::union::Union;
 use std::rc::Rc;
 
@@ -87,11 +87,15 @@ pub(crate) struct Factored {
 }
 
 impl Acceptance {
-    /// Returns how many given numbers yield, how many slots in all, and how many motions are taken away: the fewer the
-    /// better, in this order.
-    pub(crate) fn yields(&self) -> (usize, usize, usize) {
+    /// Returns how many given numbers yield, the firmest first, how many slots in all, and how many motions are taken
+    /// away: the fewer the better, in this order.
+    pub(crate) fn yields(&self, classes: &Classes) -> ([usize; 2], usize, usize) {
         let unknown = self.unknown.iter().filter(|u| **u).count();
-        (self.yielded.len(), unknown, self.determined)
+        let of = |giver: Giver| {
+            let is_of = |s: &&SlotIndex| classes.stay[**s as usize] == Stay::Given(giver);
+            self.yielded.iter().filter(is_of).count()
+        };
+        ([of(Giver::Document), of(Giver::Class)], unknown, self.determined)
     }
     /// Takes from the accepted rows those that hold where they are.
     fn let_rest(&mut self, rows: &Rows, resting: &Resting) {
@@ -238,7 +242,7 @@ fn count(system: &System, classes: &Classes, out: &mut Acceptance) {
     let n = system.slots.len();
     let movable = (0..n).filter(|&s| is_open(classes, s) && system.slots[s].is_number).count();
     out.freedom = movable.saturating_sub(out.determined);
-    let is_given = |s: u32| classes.stay[s as usize] == Stay::Given;
+    let is_given = |s: u32| classes.stay[s as usize].is_given();
     out.yielded = (0..n as u32).filter(|&s| is_given(s) && out.unknown[s as usize]).collect();
 }
 
@@ -322,7 +326,7 @@ fn places(system: &System, classes: &Classes) -> Lists {
     let grouped = || {
         (0..).zip(&system.slots).filter_map(|(s, slot)| match slot.stay {
             Stay::Kept { group } => Some((group, classes.representative[s as usize])),
-            Stay::Fixed | Stay::Given | Stay::Free => None,
+            Stay::Fixed | Stay::Given(_) | Stay::Free => None,
         })
     };
     let count = grouped().map(|g: (u32, u32)| g.0 as usize + 1).max().unwrap_or(0);

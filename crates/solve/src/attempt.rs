@@ -229,7 +229,7 @@ impl Attempt<'_> {
 
 pub(crate) fn begin(plan: &Plan, frame: &Frame, values: &mut [f64], buffers: &mut Buffers) {
     for &(root, _) in &plan.shares {
-        if matches!(plan.slots()[root as usize].stay, Stay::Given | Stay::Kept { .. }) {
+        if matches!(plan.slots()[root as usize].stay, Stay::Given(_) | Stay::Kept { .. }) {
             values[root as usize] = frame.x0[root as usize];
         }
     }
@@ -237,8 +237,8 @@ pub(crate) fn begin(plan: &Plan, frame: &Frame, values: &mut [f64], buffers: &mu
     buffers.motion.extend(plan.slots().iter().zip(values.iter().zip(&frame.x0)).map(
         |(slot, (value, start))| match slot.stay {
             Stay::Free => Motion::Opened,
-            Stay::Fixed | Stay::Given if value.to_bits() != start.to_bits() => Motion::Moved,
-            Stay::Fixed | Stay::Given | Stay::Kept { .. } => Motion::Still,
+            Stay::Fixed | Stay::Given(_) if value.to_bits() != start.to_bits() => Motion::Moved,
+            Stay::Fixed | Stay::Given(_) | Stay::Kept { .. } => Motion::Still,
         },
     ));
     for &text in &frame.changed_texts {
@@ -326,7 +326,7 @@ impl Run<'_> {
         match slot.stay {
             Stay::Free if inputs != Motion::Moved => Motion::Opened,
             _ if !slot.is_number => Motion::Moved,
-            Stay::Free | Stay::Fixed | Stay::Given | Stay::Kept { .. } => {
+            Stay::Free | Stay::Fixed | Stay::Given(_) | Stay::Kept { .. } => {
                 motion(self.frame, self.values, target)
             }
         }

@@ -2,7 +2,8 @@
 //!
 //! In: a piece that neither matching nor a tableau that stays small could decide. Out: the answer of
 //! elimination, or nothing. Rows are eliminated over what is not given. Sums of them that vanish there
-//! leave given numbers: those have to yield, and a sum that leaves none is a circuit. The pivots are a slot
+//! leave given numbers: defaults have to yield, where sums of these sums leave none what the document gives, and
+//! one that leaves nothing is a circuit. The pivots are a slot
 //! for each independent row, and regular together; from these, matching holds what it can. Where the
 //! numbers do not bear that out, slots are eliminated by rows as rows were by slots. Cost: that of sparse
 //! factors, where few depend on others.
@@ -13,7 +14,7 @@ use crate::matching::Matcher;
 use crate::number::{Number, Sum};
 use crate::rows::Rows;
 use crate::substitute::Classes;
-use crate::system::{Level, SlotIndex, Stay};
+use crate::system::{Giver, Level, SlotIndex, Stay};
 use std::cmp::Reverse;
 use std::collections::BTreeMap;
 
@@ -31,11 +32,13 @@ pub(crate) struct Deflated<'a, N> {
     open: Vec<SlotIndex>,
     /// The rows over it.
     over_open: Vec<Row<N>>,
-    given: Vec<SlotIndex>,
     eliminated: Echelon<N>,
-    /// Sums of rows that vanish over what is not given, and what each leaves of given numbers.
+    /// Sums of rows that vanish over what is not given.
     vanishing: Vec<Vanishing<N>>,
-    left: Vec<Row<N>>,
+    /// The given numbers that have to yield.
+    yielding: Vec<SlotIndex>,
+    /// Sums of rows that vanish over given numbers too.
+    circuits: Vec<Vanishing<N>>,
 }
 
 /// Decides for a piece with these coefficients, row by row; false where only full elimination can.
@@ -62,7 +65,7 @@ impl<'a, N: Number> Deflated<'a, N> {
     pub(crate) fn new(classes: &'a Classes, coefficients: &[Row<N>], piece: Piece<'a>) -> Self {
         let is_open = |s: SlotIndex| match classes.stay[s as usize] {
             Stay::Kept { .. } | Stay::Free => true,
-            Stay::Fixed | Stay::Given => false,
+            Stay::Fixed | Stay::Given(_) => false,
         };
         let scale = |row: &Row<N>| size_of(row.iter().filter(|e| is_open(e.0)));
         let scales: Vec<f64> = coefficients.iter().map(scale).collect();
@@ -80,11 +83,19 @@ impl<'a, N: Number> Deflated<'a, N> {
             (columns, made)
         };
         let (open, over_open) = part(&is_open);
-        let (given, over_given) = part(&|s| classes.stay[s as usize] == Stay::Given);
         let eliminated = Echelon::new(&over_open, open.len());
         let vanishing = eliminated.vanishing();
-        let left = vanishing.iter().map(|v| sum(&v.sum, &over_given)).collect();
-        Self { classes, piece, open, over_open, given, eliminated, vanishing, left }
+        let (mut circuits, mut yielding) = (vanishing.clone(), Vec::new());
+        for giver in Giver::YIELDING {
+            if circuits.is_empty() {
+                break;
+            }
+            let (given, over_given) = part(&|s| classes.stay[s as usize] == Stay::Given(giver));
+            let left: Vec<Row<N>> = circuits.iter().map(|v| sum(&v.sum, &over_given)).collect();
+            yielding.extend(left.iter().flatten().map(|&(column, _)| given[column as usize]));
+            circuits = vanishing_too(&circuits, &left, given.len());
+        }
+        Self { classes, piece, open, over_open, eliminated, vanishing, yielding, circuits }
     }
 
     /// Holds what the rows can do without, by matching from the pivots; false where the numbers do not bear
@@ -95,7 +106,7 @@ impl<'a, N: Number> Deflated<'a, N> {
     }
     /// Returns true if no given number yields: what yields may be read by what would rest.
     fn may_rest(&self) -> bool {
-        self.left.iter().all(Vec::is_empty)
+        self.yielding.is_empty()
     }
 
     /// Holds what the rows can do without, by eliminating slots, the first declared last; false where they are
@@ -107,7 +118,7 @@ impl<'a, N: Number> Deflated<'a, N> {
         }
         let willing = |&c: &u32| match self.classes.stay[self.open[c as usize] as usize] {
             Stay::Kept { group } => Some(Reverse(group)),
-            Stay::Fixed | Stay::Given | Stay::Free => None,
+            Stay::Fixed | Stay::Given(_) | Stay::Free => None,
         };
         let mut columns: Vec<u32> = (0..self.open.len() as u32).collect();
         columns.sort_by_key(willing);
@@ -133,13 +144,9 @@ impl<'a, N: Number> Deflated<'a, N> {
 
     /// Says which rows are accepted, which depend on others, and which given numbers yield.
     pub(crate) fn accept(&self, rows: &Rows, out: &mut Acceptance) {
-        for &(column, _) in self.left.iter().flatten() {
-            out.unknown[self.given[column as usize] as usize] = true;
-        }
+        self.yielding.iter().for_each(|&slot| out.unknown[slot as usize] = true);
         let needs_given = |r: u32| self.vanishing.binary_search_by_key(&r, |v| v.last).is_ok();
-        let circuits = circuits(&self.vanishing, &self.left, self.given.len());
-        let has_circuits = !circuits.is_empty();
-        let mut circuits = circuits.into_iter().peekable();
+        let mut circuits = self.circuits.iter().peekable();
         let mut accepted: Vec<u32> = Vec::new();
         for (&row, r) in self.piece.rows.iter().zip(0..) {
             match circuits.next_if(|c| c.last == r) {
@@ -155,7 +162,7 @@ impl<'a, N: Number> Deflated<'a, N> {
                 }
             }
         }
-        if has_circuits {
+        if !self.circuits.is_empty() {
             self.let_rest(&mut accepted, out);
         }
         out.accepted.extend(accepted.iter().map(|&r| self.piece.rows[r as usize] as usize));
@@ -178,9 +185,9 @@ impl<'a, N: Number> Deflated<'a, N> {
     }
 }
 
-/// Finds the sums of rows that vanish over given numbers too, of those that vanish over all else and leave
-/// so much of given numbers.
-fn circuits<N: Number>(
+/// Finds the sums of rows that vanish over these given numbers too, of those that vanish over all that yields
+/// before and leave so much of them.
+fn vanishing_too<N: Number>(
     vanishing: &[Vanishing<N>],
     left: &[Row<N>],
     given: usize,

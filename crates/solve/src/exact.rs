@@ -7,15 +7,15 @@ use crate::accept::{Acceptance, Dependent, Piece, Setting};
 use crate::echelon::Row;
 use crate::number::Number;
 use crate::substitute::Classes;
-use crate::system::{Level, SlotIndex, Stay};
+use crate::system::{Giver, Level, SlotIndex, Stay};
 use crate::tableau::{Reduced, Tableau};
 use std::collections::{BTreeMap, BTreeSet};
 
 /// What may move a column.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 enum Column {
-    /// A given number: a pivot where nothing else can be one.
-    Given,
+    /// A given number: a pivot where nothing else can be one, a default before what the document says.
+    Given(Giver),
     /// May be a pivot.
     Open,
     /// A given number that has to yield.
@@ -65,7 +65,7 @@ pub(crate) fn accept<N: Number>(
         match state.pivot(&reduced.row) {
             Some(column) => {
                 if rows[r].level == Level::Required
-                    && classes.stay[column as usize] != Stay::Given
+                    && !classes.stay[column as usize].is_given()
                     && system.slots[column as usize].is_number
                 {
                     determined += 1;
@@ -139,7 +139,7 @@ impl<N: Number> State<N> {
         for s in met.chain(piece.places().flatten().copied()) {
             let (column, will) = match classes.stay[s as usize] {
                 Stay::Fixed => continue,
-                Stay::Given => (Column::Given, 0),
+                Stay::Given(giver) => (Column::Given(giver), 0),
                 Stay::Kept { group } => (Column::Open, 1 + u64::from(group)),
                 Stay::Free => (Column::Open, u64::MAX),
             };
@@ -150,7 +150,8 @@ impl<N: Number> State<N> {
     }
     /// Chooses the pivot of a reduced row: a given number where nothing else can be one.
     fn pivot(&self, row: &Row<N>) -> Option<u32> {
-        self.best(row, Column::Open).or_else(|| self.best(row, Column::Given))
+        let given = || Giver::YIELDING.iter().find_map(|&g| self.best(row, Column::Given(g)));
+        self.best(row, Column::Open).or_else(given)
     }
     /// Returns true if everything that a row depends on stays, and only rows that rest take part in it.
     fn rests(&self, row: u32) -> bool {
@@ -171,25 +172,34 @@ impl<N: Number> State<N> {
 /// Holds every given number but those without which the rows would lose rank, each by itself: whether
 /// one yields does not depend on the order of the rows.
 fn hold_given<N: Number>(state: &mut State<N>) {
-    let given = state.columns.iter().filter(|(_, column)| **column == Column::Given);
-    let given: Vec<u32> = given.map(|(&c, _)| c).collect();
-    let is_given = |c: u32| given.binary_search(&c).is_ok();
-    for &c in &given {
+    let giver = |(&c, column): (&u32, &Column)| match column {
+        Column::Given(giver) => Some((c, *giver)),
+        Column::Open | Column::Yields | Column::Stays => None,
+    };
+    let given: BTreeMap<u32, Giver> = state.columns.iter().filter_map(giver).collect();
+    let firmness = |c: u32| given.get(&c).copied();
+    // what is not given yields first, however small, then what is given less firmly
+    let yields_first = |c: u32, held: Giver| firmness(c).is_none_or(|giver| giver > held);
+    for (&c, &held) in &given {
         let Some(row) = state.tableau.row_with_pivot(c) else { continue };
-        // what is not given yields first, however small
-        let others = state.tableau.row(row).iter().filter(|e| e.0 < MOVING && !is_given(e.0));
-        let other = others.max_by(|a, b| a.1.size().total_cmp(&b.1.size())).map(|e| e.0);
-        if let Some(other) = other {
+        let row_of = state.tableau.row(row).iter();
+        let others = row_of.filter(|e| e.0 < MOVING && yields_first(e.0, held));
+        let rank = |c: u32| firmness(c).map_or(2, |giver| giver as usize);
+        let most = |a: &&(u32, N), b: &&(u32, N)| {
+            rank(a.0).cmp(&rank(b.0)).then(a.1.size().total_cmp(&b.1.size()))
+        };
+        if let Some(other) = others.max_by(most).map(|e| e.0) {
             state.tableau.exchange(row, other);
         }
     }
     let mut yielded: BTreeSet<u32> = BTreeSet::new();
-    for &c in &given {
+    for (&c, &giver) in &given {
         let Some(row) = state.tableau.row_with_pivot(c) else { continue };
-        yielded.extend(state.tableau.row(row).iter().map(|e| e.0));
+        let alike = state.tableau.row(row).iter().map(|e| e.0);
+        yielded.extend(alike.filter(|&o| firmness(o) == Some(giver)));
         yielded.insert(c);
     }
-    for c in given {
+    for c in given.into_keys() {
         let column = if yielded.contains(&c) { Column::Yields } else { Column::Stays };
         state.columns.insert(c, column);
     }

@@ -139,8 +139,8 @@ pub use run::{Drag, PATIENCE, Runner, are_continuous, forks, leaning, leap, near
 pub use search::{Count, Puzzle, Verdict};
 pub use seldom::Seldom;
 pub use system::{
-    Equation, Level, Method, MethodBody, PLAIN, Relation, RelationBody, Slot, SlotIndex, Span,
-    Stay, System, TRUTH,
+    Equation, Giver, Level, Method, MethodBody, PLAIN, Relation, RelationBody, Slot, SlotIndex,
+    Span, Stay, System, TRUTH,
 };
 pub use truth::{Comparing, Comparison, comparisons};
 pub use whole::{Constants, Looked, Trial, Wholes};

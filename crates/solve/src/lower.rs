@@ -497,7 +497,7 @@ fn measure(analysis: &Analysis<'_>, problem: &Problem, step: StepKind) -> Progra
         let turn = analysis.classes.stay[s as usize].turn();
         (analysis.stated.system.slots[s as usize].scale, turn)
     };
-    let has_given = problem.unknowns.iter().any(|&u| kind(u).1 == Turn::Given);
+    let has_given = problem.unknowns.iter().any(|&u| matches!(kind(u).1, Turn::Given(_)));
     if step == StepKind::LeastChange && (!has_given || problem.unknowns.len() > MEASURED) {
         let least = Least::new(problem, &|s| kind(s).1);
         return Program::Least(Box::new((least, OnceCell::new())));

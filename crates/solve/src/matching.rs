@@ -94,7 +94,7 @@ impl Use {
     fn by(stay: Stay) -> Self {
         match stay {
             Stay::Kept { .. } | Stay::Free => Self::Open,
-            Stay::Fixed | Stay::Given => Self::Closed,
+            Stay::Fixed | Stay::Given(_) => Self::Closed,
         }
     }
 }
@@ -236,7 +236,7 @@ impl<'a> Matcher<'a> {
     /// Gives a row the most willing of its slots that is free: what is declared last yields first.
     fn take_most_willing(&mut self, row: u32) -> bool {
         let willing = |s: SlotIndex| match self.classes.stay[s as usize] {
-            Stay::Fixed | Stay::Given => 0,
+            Stay::Fixed | Stay::Given(_) => 0,
             Stay::Kept { group } => 1 + u64::from(group),
             Stay::Free => u64::MAX,
         };

@@ -4,8 +4,9 @@
 
 use crate::system::{Slot, Stay, TRUTH};
 
-/// The sums of squared ways: that of given numbers, then that of all others that had a value.
-pub type Moved = [f64; 2];
+/// The sums of squared ways: that of numbers that the document gives, of those that a class gives, then that of all
+/// others that had a value.
+pub type Moved = [f64; 3];
 
 /// For every class of what is measured alike, the largest size at the start; 1 where there is none.
 #[derive(Clone, Debug)]
@@ -32,15 +33,23 @@ impl Extents {
 /// way: it follows numbers, not they it.
 pub fn moved(slots: &[Slot], start: &[f64], values: &[f64]) -> Moved {
     let extents = Extents::of(slots, start);
-    let mut moved = [0.0; 2];
+    let mut moved = [0.0; 3];
     let ways = slots.iter().zip(start.iter().zip(values));
     for (slot, (from, to)) in ways.filter(|(s, _)| had_value(s) && s.scale != TRUTH) {
         let part = (to - from) / extents.at(slot);
-        moved[usize::from(slot.stay != Stay::Given)] += part * part;
+        moved[rank(slot.stay)] += part * part;
     }
     moved
 }
 
+/// Returns the place among the ways of what is held so.
+pub(crate) fn rank(stay: Stay) -> usize {
+    match stay {
+        Stay::Given(giver) => giver as usize,
+        Stay::Fixed | Stay::Kept { .. } | Stay::Free => 2,
+    }
+}
+
 fn had_value(slot: &Slot) -> bool {
-    slot.is_number && matches!(slot.stay, Stay::Given | Stay::Kept { .. })
+    slot.is_number && matches!(slot.stay, Stay::Given(_) | Stay::Kept { .. })
 }

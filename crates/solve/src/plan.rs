@@ -275,7 +275,7 @@ fn plan_stated(stated: Stated) -> Plan {
     {
         // nothing yields to a row that says nothing new
         let again = with(&there, &resting);
-        if again.yields() < acceptance.yields() {
+        if again.yields(&classes) < acceptance.yields(&classes) {
             (rows, acceptance) = (there, again);
         }
     }
@@ -492,13 +492,13 @@ fn report_on(
     let mut yielded = acceptance.yielded.clone();
     let has_yielded = |root| acceptance.yielded.binary_search(&root).is_ok();
     for (root, members) in classes.members() {
-        let given = |&&s: &&SlotIndex| slots[s as usize].stay == Stay::Given;
+        let given = |&&s: &&SlotIndex| slots[s as usize].stay.is_given();
         if classes.stay[root as usize] == Stay::Fixed || has_yielded(root) {
             yielded.extend(members.iter().filter(given));
         }
     }
     for &(s, _) in &classes.constants {
-        if slots[s as usize].stay == Stay::Given {
+        if slots[s as usize].stay.is_given() {
             yielded.push(s);
         }
     }
@@ -554,6 +554,17 @@ fn stood_for(classes: &Classes) -> Vec<(SlotIndex, SlotIndex)> {
 }
 
 impl Plan {
+    /// Returns how many given numbers yield: of those that the document gives, then of defaults. What is less yields
+    /// less.
+    pub fn yields(&self) -> [usize; 2] {
+        let mut yields = [0; 2];
+        for &slot in &self.report.yielded {
+            if let Stay::Given(giver) = self.slots()[slot as usize].stay {
+                yields[giver as usize] += 1;
+            }
+        }
+        yields
+    }
     /// Returns the steps, in order.
     pub fn steps(&self) -> &[Step] {
         &self.lowered().steps

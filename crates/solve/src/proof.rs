@@ -45,7 +45,7 @@ impl Proofs {
             let known = match self.classes.stay[root as usize] {
                 Stay::Fixed if is_constant => Some(self.system.slots.len()),
                 Stay::Fixed => Some(root as usize),
-                Stay::Given | Stay::Kept { .. } | Stay::Free => None,
+                Stay::Given(_) | Stay::Kept { .. } | Stay::Free => None,
             };
             let from = known.unwrap_or(slots[0]);
             slots.iter().for_each(|&slot| self.forest.way(slot, from, &mut ways));

@@ -31,7 +31,7 @@ impl Resting {
             let stands = |&slot: &SlotIndex| {
                 let root = classes.representative[slot as usize];
                 let is_constant = match classes.stay[root as usize] {
-                    Stay::Fixed | Stay::Given => true,
+                    Stay::Fixed | Stay::Given(_) => true,
                     Stay::Kept { .. } | Stay::Free => false,
                 };
                 let is_written = || rows.columns(r).iter().any(|e| e.0 == root);

@@ -162,8 +162,8 @@ impl Puzzle {
             }
         }
         let stay = |(slot, is_only_read): (&Slot, bool)| match (slot.stay, is_only_read) {
-            (Stay::Given | Stay::Kept { .. }, true) => Stay::Fixed,
-            (stay @ (Stay::Fixed | Stay::Given | Stay::Kept { .. } | Stay::Free), _) => stay,
+            (Stay::Given(_) | Stay::Kept { .. }, true) => Stay::Fixed,
+            (stay @ (Stay::Fixed | Stay::Given(_) | Stay::Kept { .. } | Stay::Free), _) => stay,
         };
         let stays = system.slots.iter().zip(conditional.only_read()).map(stay).collect();
         let of_slot = |slot: u32| {
@@ -200,7 +200,7 @@ impl Puzzle {
         {
             return Verdict::Found(values.clone());
         }
-        if !self.stays.contains(&Stay::Given) {
+        if !self.stays.iter().any(|stay| stay.is_given()) {
             return held.verdict();
         }
         let released = self.nearest_with(start, values, Given::Released, effort);
@@ -287,12 +287,12 @@ impl Puzzle {
         for (i, stay) in self.stays.iter().enumerate() {
             let is_known = match stay {
                 Stay::Fixed => true,
-                Stay::Given => given == Given::Held,
+                Stay::Given(_) => given == Given::Held,
                 Stay::Kept { .. } | Stay::Free => false,
             };
             near.push(match stay {
                 Stay::Free => 0.0,
-                Stay::Fixed | Stay::Given | Stay::Kept { .. } => start[i],
+                Stay::Fixed | Stay::Given(_) | Stay::Kept { .. } => start[i],
             });
             if !is_known {
                 domains.push(self.ranges[i]);
@@ -315,12 +315,12 @@ impl Puzzle {
 
     /// Returns a distance that no solution within the domains comes below.
     fn distance(&self, field: &Field<'_>, near: &[f64]) -> Distance {
-        let (given, kept) = (self.ranks, self.ranks + 1);
+        let (given, kept) = (self.ranks, self.ranks + 2);
         let mut distance = vec![0.0; kept + 1];
         for (i, stay) in self.stays.iter().enumerate() {
             let rank = match stay {
                 Stay::Fixed => continue,
-                Stay::Given => given,
+                Stay::Given(giver) => given + *giver as usize,
                 Stay::Kept { .. } | Stay::Free => kept,
             };
             let away = field.domains[i].nearest(near[i]) as f64 - near[i];

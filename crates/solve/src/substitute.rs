@@ -134,7 +134,7 @@ impl Forest {
 fn firmness(stay: Stay) -> (u8, u32) {
     match stay {
         Stay::Fixed => (0, 0),
-        Stay::Given => (1, 0),
+        Stay::Given(giver) => (1, giver as u32),
         Stay::Kept { group } => (2, group),
         Stay::Free => (3, 0),
     }

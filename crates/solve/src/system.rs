@@ -53,14 +53,28 @@ impl Level {
     }
 }
 
+/// Who gives a number: the firmest first.
+#[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, Debug)]
+pub enum Giver {
+    /// The document itself (level 5).
+    Document,
+    /// A class, to all its things (level 6): a default yields before what the document says.
+    Class,
+}
+
+impl Giver {
+    /// Both, in the order in which they yield.
+    pub(crate) const YIELDING: [Self; 2] = [Self::Class, Self::Document];
+}
+
 /// What holds a slot where no relation moves it.
 #[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, Debug)]
 pub enum Stay {
     /// Known: an anchor, a target of the edit. Never written by the plan.
     Fixed,
-    /// A given number (level 5): constant unless a relation could not hold otherwise.
-    Given,
-    /// Everything else with a value (level 6). Slots with the same `group` are one place and yield
+    /// A given number (levels 5 and 6): constant unless a relation could not hold otherwise.
+    Given(Giver),
+    /// Everything else with a value (level 7). Slots with the same `group` are one place and yield
     /// as one; groups are numbered in order of declaration, a lone number is a group of its own.
     Kept {
         /// The place or the lone number.
@@ -75,7 +89,7 @@ pub enum Stay {
 #[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, Debug)]
 pub(crate) enum Turn {
     /// Given numbers that yield.
-    Given,
+    Given(Giver),
     /// Everything else that has a value to stay at.
     Valued,
     /// What has none: it is nearest to zero where the others leave that open.
@@ -84,14 +98,19 @@ pub(crate) enum Turn {
 
 impl Turn {
     /// All of them, in order.
-    pub(crate) const ALL: [Self; 3] = [Self::Given, Self::Valued, Self::Open];
+    pub(crate) const ALL: [Self; 4] =
+        [Self::Given(Giver::Document), Self::Given(Giver::Class), Self::Valued, Self::Open];
 }
 
 impl Stay {
+    /// Returns true for a given number.
+    pub fn is_given(self) -> bool {
+        matches!(self, Self::Given(_))
+    }
     /// Returns whose change counts along with that of what is held so.
     pub(crate) fn turn(self) -> Turn {
         match self {
-            Self::Given => Turn::Given,
+            Self::Given(giver) => Turn::Given(giver),
             Self::Fixed | Self::Kept { .. } => Turn::Valued,
             Self::Free => Turn::Open,
         }
@@ -226,7 +245,7 @@ impl Hash for System {
         for slot in &self.slots {
             let (kind, group) = match slot.stay {
                 Stay::Fixed => (0, 0),
-                Stay::Given => (1, 0),
+                Stay::Given(giver) => (1, giver as u32),
                 Stay::Free => (2, 0),
                 Stay::Kept { group } => (3, group),
             };

@@ -42,14 +42,14 @@ pub(crate) fn tie(
     let Acceptance { places, unknown, accepted, .. } = acceptance;
     let place = |slot: SlotIndex| match classes.stay[slot as usize] {
         Stay::Kept { group } => places.of(group),
-        Stay::Fixed | Stay::Given | Stay::Free => &[],
+        Stay::Fixed | Stay::Given(_) | Stay::Free => &[],
     };
     let sizes = OnceCell::new();
     let is_on_rail = |slot: SlotIndex| match classes.stay[slot as usize] {
         Stay::Kept { group } if place(slot).len() == 1 => {
             sizes.get_or_init(|| sizes_of_places(system))[group as usize] > 1
         }
-        Stay::Kept { .. } | Stay::Fixed | Stay::Given | Stay::Free => false,
+        Stay::Kept { .. } | Stay::Fixed | Stay::Given(_) | Stay::Free => false,
     };
     let is_place = |slot: SlotIndex| place(slot).len() > 1 || is_on_rail(slot);
     let may_be_stiff = |r: usize| {

@@ -62,11 +62,22 @@ impl Constants {
         let is_constant = match self {
             Self::None => false,
             Self::Whole => is_whole,
-            Self::WholeAndGiven => is_whole || stay == Stay::Given,
+            Self::WholeAndGiven => is_whole || stay.is_given(),
             Self::WholeAndValued => is_whole || stay != Stay::Free,
         };
         if is_constant { Stay::Fixed } else { stay }
     }
+}
+
+/// How far given numbers went, squared: those that the document gives, then defaults ([`moved`](crate::moved())).
+pub type GivenMoved = [f64; 2];
+
+/// Returns true if given numbers go less far, the firmest first.
+fn is_nearer(way: GivenMoved, than: GivenMoved) -> bool {
+    let is_less = |a: f64, b: f64| a + NOTHING < b * (1.0 - ALIKE);
+    let mut pairs = way.into_iter().zip(than);
+    let differ = |(a, b)| (is_less(a, b) || is_less(b, a)).then(|| is_less(a, b));
+    pairs.find_map(differ).unwrap_or(false)
 }
 
 /// For every level that may give way, the sum of the squares of what is missing.
@@ -76,7 +87,7 @@ pub type Missing = [f64; Level::SOFT.len()];
 #[derive(Clone, Copy, PartialEq, Debug)]
 pub enum Trial {
     /// Everything required holds; by how much wishes do not, by level, and how far given numbers went.
-    Holds(Missing, f64),
+    Holds(Missing, GivenMoved),
     /// Not everything required holds.
     Fails,
     /// It was given up.
@@ -120,8 +131,7 @@ struct Best {
     constants: Constants,
     values: Vec<f64>,
     missing: Missing,
-    /// How far given numbers went ([`moved`](crate::moved())).
-    moved: f64,
+    moved: GivenMoved,
 }
 
 impl Best {
@@ -137,7 +147,7 @@ impl Best {
     fn is_better(&self, other: &Self) -> bool {
         match self.leaves(other) {
             Ordering::Less => true,
-            Ordering::Equal => self.moved < other.moved * (1.0 - ALIKE),
+            Ordering::Equal => is_nearer(self.moved, other.moved),
             Ordering::Greater => false,
         }
     }
@@ -172,8 +182,8 @@ impl Wholes {
         attempt: &mut dyn FnMut(Constants, &[f64]) -> Trial,
     ) -> Looked {
         let stays = || self.slots.iter().map(|s| s.stay);
-        let given = stays().filter(|&s| s == Stay::Given).count();
-        let is_given = |i: &&SlotIndex| self.slots[**i as usize].stay == Stay::Given;
+        let given = stays().filter(|s| s.is_given()).count();
+        let is_given = |i: &&SlotIndex| self.slots[**i as usize].stay.is_given();
         let given_whole = self.whole.iter().filter(is_given).count();
         let (has_whole, has_real) = (given_whole > 0, given > given_whole);
         let opens = stays().any(|s| s == Stay::Free);
@@ -228,7 +238,7 @@ struct Looking<'a> {
 impl Looking<'_> {
     /// Returns the nearest that leave nothing unmet, else those among a few that leave least; and whether
     /// everything was looked at that is nearer than `within`.
-    fn among(&mut self, released: Released, within: Option<f64>) -> (Option<Best>, bool) {
+    fn among(&mut self, released: Released, within: Option<GivenMoved>) -> (Option<Best>, bool) {
         let constants = match released {
             Released::Nothing => Constants::WholeAndValued,
             Released::NotGiven | Released::GivenWhole => Constants::WholeAndGiven,
@@ -239,7 +249,7 @@ impl Looking<'_> {
             Stay::Fixed => true,
             Stay::Free => false,
             Stay::Kept { .. } => released == Released::Nothing,
-            Stay::Given => match released {
+            Stay::Given(_) => match released {
                 Released::Nothing | Released::NotGiven => true,
                 Released::GivenWhole => !is_whole(i),
                 Released::GivenReal => is_whole(i),
@@ -259,7 +269,7 @@ impl Looking<'_> {
         while let Some(Open { boxes, distance, .. }) = open.pop() {
             let perfect = best.as_ref().filter(|b| b.is_perfect()).map(|b| b.moved);
             let mut known = within.into_iter().chain(perfect);
-            if known.any(|moved| distance[0] + NOTHING >= moved * (1.0 - ALIKE)) {
+            if known.any(|moved| !is_nearer([distance[0], distance[1]], moved)) {
                 break;
             }
             if self.is_spent || self.boxes >= most || left == 0 {

@@ -37,7 +37,8 @@ pub(super) fn own_bindings<'d>(
     for class in document.primary_line(class).into_iter().rev() {
         for given in &document.classes[class].givens {
             let (term, origin) = (given.value.clone(), given.origin);
-            let term = GivenTerm { term, origin, of_copy: false };
+            let of_class = !maker.own_bodies[class];
+            let term = GivenTerm { term, origin, of_class, of_copy: false };
             let value = maker.givens.push(term);
             bindings.push(Binding { path: &given.path.0, given: GivenIn { value, me } });
         }
@@ -195,7 +196,7 @@ fn share_of_whole(
     part: u32,
     name: Option<&Name>,
 ) -> Option<GivenId> {
-    let GivenTerm { term, origin, .. } = &maker.givens[whole];
+    let GivenTerm { term, origin, of_class, .. } = &maker.givens[whole];
     let i = part as usize;
     let mut of_copy = false;
     let mut copied = |term: Term| {
@@ -215,8 +216,8 @@ fn share_of_whole(
             copied(Term::Index(Box::new(other.clone()), at))
         }
     };
-    let origin = *origin;
-    let value = maker.givens.push(GivenTerm { term, origin, of_copy });
+    let (origin, of_class) = (*origin, *of_class);
+    let value = maker.givens.push(GivenTerm { term, origin, of_class, of_copy });
     maker.shared.push(Shared { value, whole, part });
     Some(value)
 }

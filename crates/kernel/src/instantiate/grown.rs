@@ -101,7 +101,7 @@ fn given_again(
     }
     let term = |i: usize| {
         let Given { value, origin, .. } = &*now[i];
-        GivenTerm { term: value.clone(), origin: *origin, of_copy: false }
+        GivenTerm { term: value.clone(), origin: *origin, of_class: false, of_copy: false }
     };
     let new: Vec<GivenId> = new.into_iter().map(|i| GivenId::from_index(first + i)).collect();
     let (grown, mut again) = match new.is_empty() {
@@ -119,10 +119,11 @@ fn given_again(
     }
     for shared in &grown.shared {
         if is_changed[shared.whole] {
-            let GivenTerm { term, origin, .. } = &again[shared.whole];
+            let GivenTerm { term, origin, of_class, .. } = &again[shared.whole];
+            let (origin, of_class) = (*origin, *of_class);
             let (Term::Tuple(items) | Term::List(items)) = term else { return None };
             let term = items.get(shared.part as usize)?.clone();
-            again[shared.value] = GivenTerm { term, origin: *origin, of_copy: false };
+            again[shared.value] = GivenTerm { term, origin, of_class, of_copy: false };
             is_changed[shared.value] = true;
         }
     }

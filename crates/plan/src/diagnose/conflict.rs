@@ -248,7 +248,7 @@ impl Planner {
         units: &[Unit],
         unmet: &BTreeSet<Source>,
     ) -> Vec<BTreeSet<Source>> {
-        let moves = |s: &SlotId| !matches!((setup.holding)(*s), Holding::Fixed | Holding::Given);
+        let moves = |s: &SlotId| !matches!((setup.holding)(*s), Holding::Fixed | Holding::Given(_));
         let mut alike: BTreeMap<BTreeSet<SlotId>, BTreeSet<Source>> = BTreeMap::new();
         for unit in units {
             let slots = unit.rules.iter().flat_map(|&r| self.rules.get(r).slots).copied();
@@ -505,7 +505,7 @@ impl<'s> Search<'s> {
             let slots: BTreeSet<SlotId> =
                 rules.iter().flat_map(|&r| planner.rules.get(r).slots).copied().collect();
             let moves =
-                |s: &SlotId| !matches!((setup.holding)(*s), Holding::Fixed | Holding::Given);
+                |s: &SlotId| !matches!((setup.holding)(*s), Holding::Fixed | Holding::Given(_));
             let slots: Vec<SlotId> = slots.into_iter().filter(moves).collect();
             let scattered = (0..)
                 .zip(FROM)
@@ -521,7 +521,7 @@ impl<'s> Search<'s> {
         planner.try_until(None);
         if trial == Trial::Holds {
             for &s in rules.iter().flat_map(|&r| planner.rules.get(r).slots) {
-                if matches!((setup.holding)(s), Holding::Fixed | Holding::Given) {
+                if matches!((setup.holding)(s), Holding::Fixed | Holding::Given(_)) {
                     state.put(s, values.get(s));
                 }
             }
@@ -536,7 +536,7 @@ impl<'s> Search<'s> {
         planner.try_until(Some(self.until.min(planner.spent() + LONG)));
         let slots: BTreeSet<SlotId> =
             rules.iter().flat_map(|&r| planner.rules.get(r).slots).copied().collect();
-        let moves = |s: &SlotId| !matches!((setup.holding)(*s), Holding::Fixed | Holding::Given);
+        let moves = |s: &SlotId| !matches!((setup.holding)(*s), Holding::Fixed | Holding::Given(_));
         let slots: Vec<SlotId> = slots.into_iter().filter(moves).collect();
         let parts = FAR.iter().copied().cycle();
         let seeds = (FROM.len() as u32..).take(FURTHER_STARTS);
@@ -621,7 +621,7 @@ impl Planner {
         }
         let moves = |s: &SlotId| match (setup.holding)(*s) {
             Holding::Fixed => false,
-            Holding::Given => yielding.contains(s),
+            Holding::Given(_) => yielding.contains(s),
             Holding::Kept | Holding::Alone | Holding::Free => true,
         };
         let slots: BTreeSet<SlotId> =

@@ -298,7 +298,7 @@ impl Planner {
             // places that stay may leave the others nothing but to come together
             let free = |s| match holding(s) {
                 Holding::Kept | Holding::Alone => Holding::Free,
-                held @ (Holding::Fixed | Holding::Given | Holding::Free) => held,
+                held @ (Holding::Fixed | Holding::Given(_) | Holding::Free) => held,
             };
             let more = holds_elsewhere(&free);
             let count = |found: &Option<BTreeSet<u32>>| found.as_ref().map(BTreeSet::len);
@@ -445,7 +445,7 @@ impl Planner {
 /// Holds given numbers as they are.
 fn hold_given(structure: &Structure, slot: SlotId) -> Holding {
     match Planner::resting_hold(structure, slot) {
-        Holding::Given => Holding::Fixed,
+        Holding::Given(_) => Holding::Fixed,
         other => other,
     }
 }
@@ -453,7 +453,8 @@ fn hold_given(structure: &Structure, slot: SlotId) -> Holding {
 /// Returns true for a component of few slots in which a given number stands and none yields.
 fn may_follow_from_given(model: Model<'_>, task: &Task) -> bool {
     let slots = task.component.slots();
-    let is_given = |&s: &SlotId| Planner::resting_hold(model.structure, s) == Holding::Given;
+    let is_given =
+        |&s: &SlotId| matches!(Planner::resting_hold(model.structure, s), Holding::Given(_));
     slots.len() <= MOST_WITH_GIVEN
         && task.plan.report.yielded.is_empty()
         && slots.iter().any(is_given)

@@ -75,7 +75,7 @@ pub(crate) fn attempt_in_mode(
             let at_bound =
                 solve::run(&bounded, &mut runner, x0, &mut beside, changed, &mut adapter);
             planner.put_back(runner);
-            let yields = bounded.report.yielded.len() > plan.report.yielded.len();
+            let yields = bounded.yields() > plan.yields();
             if yields || !at_bound.is_solved() || !at_bound.unmet.is_empty() {
                 found = other(Some(&beside), &mut adapter);
             }

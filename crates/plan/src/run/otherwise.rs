@@ -10,7 +10,6 @@ use crate::task::{Course, Task};
 use crate::vanish::{Vanished, shrinking, vanished};
 use base::number::close;
 use kernel::{SlotId, Values};
-use solve::Stay;
 
 /// So often others come together where some are kept apart, at most.
 const ROUNDS: usize = 4;
@@ -118,7 +117,7 @@ pub(super) fn or_kept_apart(
     // given numbers do not yield for a line to have a direction
     let are_given_kept = |values: &Values| {
         let was = task.system.slots.iter().zip(&numbers).zip(task.numbers(&values.numbers));
-        was.into_iter().all(|((slot, was), is)| slot.stay != Stay::Given || close(*was, is))
+        was.into_iter().all(|((slot, was), is)| !slot.stay.is_given() || close(*was, is))
     };
     if ran.is_solved && !together.is_none {
         if let Some(found) = letting_go(planner, model, task, ground, values, host)

@@ -63,7 +63,7 @@ impl<'s> Making<'s> {
             let s = &setting.structure.slots[slot];
             let stay = match (setting.holding)(slot) {
                 Holding::Fixed => Stay::Fixed,
-                Holding::Given => Stay::Given,
+                Holding::Given(giver) => Stay::Given(giver),
                 Holding::Free => Stay::Free,
                 held @ (Holding::Kept | Holding::Alone) => {
                     // the coordinates of a place have the group of the first that is kept with it
@@ -269,7 +269,7 @@ impl<'s> Making<'s> {
         let slots = &mut self.conditional.system.slots;
         let group = |s: &solve::Slot| match s.stay {
             Stay::Kept { group } => Some(group),
-            Stay::Fixed | Stay::Given | Stay::Free => None,
+            Stay::Fixed | Stay::Given(_) | Stay::Free => None,
         };
         let group = slots.iter().filter_map(group).max().map_or(0, |latest| latest + 1);
         let stay = Stay::Kept { group };

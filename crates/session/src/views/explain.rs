@@ -84,7 +84,7 @@ fn why(open: &Open, path: &Path) -> Explanation {
     };
     let mut steps: Vec<plan::ExplainedStep> = Vec::new();
     let mut roots: Vec<Root> = Vec::new();
-    let gave_way = state.yielded.iter().map(|(slot, _)| *slot).collect();
+    let gave_way = state.yielded().collect();
     for &slot in &slots {
         let why = open.planner.why(state.model(), slot, &gave_way);
         for step in why.steps {

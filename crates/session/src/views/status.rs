@@ -49,23 +49,17 @@ fn yielded(state: &State) -> Option<String> {
         words::with_unit(text, &unit)
     };
     let mut given = state.values.clone();
-    // what a class gives its things is no more than where they begin
-    let is_own = |(slot, _): &&(SlotId, f64)| {
-        let given = state.structure.given(*slot);
-        given.is_some_and(|given| state.lowered.is_own_given(given.origin))
-    };
-    let yielded: Vec<_> = state.yielded.iter().filter(is_own).collect();
-    let named = yielded.iter().take(MOST_NAMED).map(|&&(slot, was)| {
-        given.numbers[slot] = was;
-        let (is, was) = (shown(&state.values, slot), shown(&given, slot));
-        format!("{} is {is}, given as {was}", state.slot_path(slot))
+    let named = state.gave_way.iter().take(MOST_NAMED).map(|(slot, was)| {
+        given.put(*slot, was.clone());
+        let (is, was) = (shown(&state.values, *slot), shown(&given, *slot));
+        format!("{} is {is}, given as {was}", state.slot_path(*slot))
     });
     let named: Vec<String> = named.collect();
-    let more = match yielded.len().saturating_sub(named.len()) {
+    let more = match state.gave_way.len().saturating_sub(named.len()) {
         0 => String::new(),
         n => format!(", and {n} more"),
     };
-    (!named.is_empty()).then(|| format!("given numbers gave way: {}{more}", named.join(", ")))
+    (!named.is_empty()).then(|| format!("given values gave way: {}{more}", named.join(", ")))
 }
 
 fn unmet(open: &Open, u: &plan::Unmet) -> Option<Unmet> {

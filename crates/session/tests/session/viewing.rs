@@ -206,7 +206,7 @@ fn the_status_says_which_given_numbers_gave_way() {
     assert!(status.satisfied);
     assert_eq!(
         status.notes,
-        ["given numbers gave way: v1 is 1.5, given as 1, v2 is 1.5, given as 2"]
+        ["given values gave way: v1 is 1.5, given as 1, v2 is 1.5, given as 2"]
     );
     // what an edit comes to is what the text gives from then on
     desk.set("v", 4.0).expect("both follow");

@@ -47,7 +47,8 @@ fn net(stays: &[u8], relations: &[(u8, [usize; 3], bool)]) -> Net {
     for (i, stay) in (0..).zip(stays) {
         let stay = match stay {
             0 => Stay::Fixed,
-            1 | 2 => Stay::Given,
+            1 => Stay::Given(Giver::Document),
+            2 => Stay::Given(Giver::Class),
             3 => Stay::Free,
             // two by two they are places
             _ => Stay::Kept { group: i / 2 },
@@ -118,8 +119,11 @@ impl Net {
         let stay = |s: u32| self.classes.stay[s as usize];
         let mut open: BTreeSet<u32> =
             self.slots().filter(|&s| matches!(stay(s), Stay::Kept { .. } | Stay::Free)).collect();
-        let given: BTreeSet<u32> = self.slots().filter(|&s| stay(s) == Stay::Given).collect();
-        let all: BTreeSet<u32> = open.union(&given).copied().collect();
+        let given = |giver| self.slots().filter(move |&s| stay(s) == Stay::Given(giver));
+        let with_defaults: BTreeSet<u32> =
+            open.iter().copied().chain(given(Giver::Class)).collect();
+        let all: BTreeSet<u32> =
+            with_defaults.iter().copied().chain(given(Giver::Document)).collect();
         let mut order: Vec<usize> = (0..self.rows.len()).collect();
         order.sort_by_key(|&r| (self.rows[r].level, r));
         let (mut accepted, mut dependent) = (Vec::new(), Vec::new());
@@ -136,14 +140,15 @@ impl Net {
             }
             accepted.push(r);
         }
-        // a given number yields if what is not given cannot do without it
+        // a given number yields if what is given less firmly, or not at all, cannot do without it
         let others = self.rank(&accepted, &open);
-        let helps = |g: &u32| {
-            let mut wider = open.clone();
+        let helps = |looser: &BTreeSet<u32>, g: &u32| {
+            let mut wider = looser.clone();
             wider.insert(*g);
-            self.rank(&accepted, &wider) > others
+            self.rank(&accepted, &wider) > self.rank(&accepted, looser)
         };
-        let yielding: Vec<u32> = given.iter().copied().filter(helps).collect();
+        let mut yielding: Vec<u32> = given(Giver::Class).filter(|g| helps(&open, g)).collect();
+        yielding.extend(given(Giver::Document).filter(|g| helps(&with_defaults, g)));
         // but how much it yields is decided first: what is computed stays where the rest, by itself,
         // can do as much without it
         for group in 0..self.classes.representative.len() as u32 {
@@ -308,7 +313,7 @@ proptest! {
             prop_assert!(block.rows.iter().all(|&r| peeled.rows.mentions(r).iter().all(is_there)));
         }
         let made = super::peeled(system, &net.classes, &peeled.rows, &is_determined);
-        prop_assert_eq!(made.yields(), found.yields());
+        prop_assert_eq!(made.yields(&net.classes), found.yields(&net.classes));
         prop_assert_eq!((made.freedom, made.unknown), (found.freedom, found.unknown));
     }
     #[test]

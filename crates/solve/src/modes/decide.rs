@@ -151,7 +151,7 @@ pub(super) enum Yielding {
     /// Those that do in the first mode.
     Known(BTreeSet<u32>),
     /// Fewer than so many.
-    Fewer(usize),
+    Fewer([usize; 2]),
 }
 
 pub(super) struct Deciding<'a> {
@@ -239,8 +239,8 @@ impl Deciding<'_> {
         }
         self.most = self.most.min(self.tried.len() + MOST_BETTER);
         loop {
-            let yielded = found.tried.plan.report.yielded.len();
-            if yielded == 0 {
+            let yielded = found.tried.plan.yields();
+            if yielded == [0; 2] {
                 return found;
             }
             self.yielding = Yielding::Fewer(yielded);
@@ -350,7 +350,7 @@ impl Deciding<'_> {
             Yielding::Known(known) => {
                 yielded.iter().copied().filter(|s| !known.contains(s)).collect()
             }
-            Yielding::Fewer(count) if yielded.len() < *count => Vec::new(),
+            Yielding::Fewer(count) if plan.yields() < *count => Vec::new(),
             Yielding::Fewer(_) => yielded.clone(),
         };
         (!too_many.is_empty()).then(|| self.behind(plan, &too_many))

@@ -3,7 +3,7 @@
 //! In: the state when an edit began, and the values now. Out: the mode to begin with.
 
 use super::{Formula, Mode, Modes, Sides, Tree};
-use crate::moved::Extents;
+use crate::moved::{self, Extents, Moved};
 use crate::system::{Stay, TRUTH};
 use crate::truth::Comparing;
 use crate::whole::Constants;
@@ -40,7 +40,7 @@ impl Modes {
     /// Returns the way that is nearest to hold, of equals the first.
     fn nearest_way(&self, ways: &[Tree], values: &[f64]) -> usize {
         let extents = &Extents::of(&self.conditional.system.slots, values);
-        let mut nearest = (0, [f64::INFINITY; 2]);
+        let mut nearest = (0, [f64::INFINITY; 3]);
         for (i, away) in ways.iter().map(|way| self.away(way, values, extents)).enumerate() {
             if away < nearest.1 {
                 nearest = (i, away);
@@ -52,51 +52,58 @@ impl Modes {
     /// Returns how far given numbers have to go until it holds, and how far others that have a value, squared, in parts
     /// of their extents and to first order: given numbers go where nothing else does, what has no value goes anywhere,
     /// and what is true or not goes no way.
-    fn away(&self, tree: &Tree, values: &[f64], extents: &Extents) -> [f64; 2] {
+    fn away(&self, tree: &Tree, values: &[f64], extents: &Extents) -> Moved {
         match tree {
             Tree::Holds(c) => self.comparison_away(*c, values, extents),
             Tree::All(parts) => {
                 let parts = parts.iter().map(|part| self.away(part, values, extents));
-                parts.fold([0.0; 2], |[a, b], [c, d]| [a + c, b + d])
+                parts.fold([0.0; 3], |[a, b, c], [d, e, f]| [a + d, b + e, c + f])
             }
             Tree::Any { ways, .. } | Tree::Either(ways) => {
                 let ways = ways.iter().map(|way| self.away(way, values, extents));
-                ways.fold([f64::INFINITY; 2], |a, b| if b < a { b } else { a })
+                ways.fold([f64::INFINITY; 3], |a, b| if b < a { b } else { a })
             }
         }
     }
 
-    fn comparison_away(&self, index: u32, values: &[f64], extents: &Extents) -> [f64; 2] {
+    fn comparison_away(&self, index: u32, values: &[f64], extents: &Extents) -> Moved {
         let Sides { comparing, sides: Formula { pattern, arguments }, .. } =
             &self.comparisons[index as usize];
         if self.comparison_holds(index, values) {
-            return [0.0; 2];
+            return [0.0; 3];
         }
         let mut arena = pattern.arena().clone();
         let difference = arena.sub(pattern.roots()[0], pattern.roots()[1]);
         let vars: Vec<Var> = arena.variables(difference).into_iter().collect();
         let slopes = gradient(&mut arena, difference, &vars);
         let now: Vec<f64> = arguments.iter().map(|&s| values[s as usize]).collect();
-        let [mut given, mut kept, mut free] = [0.0; 3];
+        let (mut valued, mut free): (Moved, f64) = ([0.0; 3], 0.0);
         for (var, slope) in vars.iter().zip(slopes) {
             let slot = &self.conditional.system.slots[arguments[var.index()] as usize];
             let slope = arena.evaluate(slope, &now) * extents.at(slot);
             match slot.stay {
                 Stay::Fixed => {}
                 _ if slot.scale == TRUTH => free += slope * slope,
-                Stay::Given => given += slope * slope,
-                Stay::Kept { .. } => kept += slope * slope,
                 Stay::Free => free += slope * slope,
+                stay @ (Stay::Given(_) | Stay::Kept { .. }) => {
+                    valued[moved::rank(stay)] += slope * slope;
+                }
             }
         }
         let gap = arena.evaluate(difference, &now);
         let gap = gap * gap;
         let can_hold = *comparing != Comparing::Differ && gap.is_finite();
-        match can_hold {
-            true if free > 0.0 => [0.0; 2],
-            true if kept > 0.0 => [0.0, gap / kept],
-            true if given > 0.0 => [gap / given, 0.0],
-            _ => [f64::INFINITY; 2],
+        if can_hold && free > 0.0 {
+            return [0.0; 3];
+        }
+        // what holds least goes
+        match valued.iter().rposition(|&own| own > 0.0).filter(|_| can_hold) {
+            Some(rank) => {
+                let mut away = [0.0; 3];
+                away[rank] = gap / valued[rank];
+                away
+            }
+            None => [f64::INFINITY; 3],
         }
     }
 }

@@ -23,7 +23,8 @@ const ALIKE: f64 = 1e-6;
 struct Worth {
     /// The sum of squared errors at every level that is not required.
     unmet: [f64; Level::SOFT.len()],
-    yielded: usize,
+    /// How many given numbers yield: of the document, then defaults.
+    yielded: [usize; 2],
     /// How far given numbers moved, then all others: squared, in parts of the extent of what is measured alike.
     moved: Moved,
     /// How many bounds are stopped short of.
@@ -33,15 +34,14 @@ struct Worth {
 impl Worth {
     fn is_better(&self, other: &Self) -> bool {
         let differ = |a: f64, b: f64, by: f64| ((a - b).abs() > by).then_some(a < b);
-        let unequal = |a: usize, b: usize| (a != b).then_some(a < b);
+        let yields = (self.yielded != other.yielded).then(|| self.yielded < other.yielded);
         let mut unmet = self.unmet.iter().zip(&other.unmet);
         let mut moved = self.moved.iter().zip(&other.moved);
         unmet
             .find_map(|(&a, &b)| differ(a, b, ALIKE * a.max(b)))
-            .or_else(|| unequal(self.yielded, other.yielded))
+            .or(yields)
             .or_else(|| moved.find_map(|(a, b)| differ(a.sqrt(), b.sqrt(), ALIKE)))
-            .or_else(|| unequal(self.short, other.short))
-            .unwrap_or(false)
+            .unwrap_or(self.short < other.short)
     }
 }
 
@@ -58,14 +58,16 @@ impl Modes {
         let moved = moved(&system.slots, start, &tried.values);
         let is_strict = |c: &&u32| self.comparisons[**c as usize].comparing == Comparing::Less;
         let short = mode.active.iter().filter(is_strict).count();
-        Worth { unmet, yielded: tried.plan.report.yielded.len(), moved, short }
+        Worth { unmet, yielded: tried.plan.yields(), moved, short }
     }
 
     /// Returns true if given numbers move no further than at another try.
     pub(super) fn moves_no_more(&self, tried: &Tried, than: &Tried, start: &[f64]) -> bool {
         let slots = &self.conditional.system.slots;
-        let [moved, most] = [tried, than].map(|t| moved(slots, start, &t.values)[0].sqrt());
-        moved <= most + ALIKE
+        let [ways, most] = [tried, than].map(|t| moved(slots, start, &t.values).map(f64::sqrt));
+        let mut given = ways.into_iter().zip(most).take(2);
+        let differ = |(a, b): (f64, f64)| ((a - b).abs() > ALIKE).then_some(a < b);
+        given.find_map(differ).unwrap_or(true)
     }
 
     /// Returns true if something that is wished is not reached.

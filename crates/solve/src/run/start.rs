@@ -84,7 +84,7 @@ fn share(plan: &Plan, x0: &mut [f64], begins: Begins) -> bool {
     }
     let stay = |slot: SlotIndex| plan.slots()[slot as usize].stay;
     let counts = |slot, root| match (stay(slot), stay(root)) {
-        (Stay::Given, Stay::Given) => true,
+        (Stay::Given(slot), Stay::Given(root)) => slot == root,
         (Stay::Kept { .. }, Stay::Kept { .. }) => begins == Begins::Edit,
         _ => false,
     };

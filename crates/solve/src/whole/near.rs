@@ -24,9 +24,9 @@ struct Cell {
     extent: f64,
 }
 
-/// How far numbers are from those at the start, squared, in parts of their extent: given ones, then whole ones
-/// that had a value, then those that had none, from zero.
-type Distance = [f64; 3];
+/// How far numbers are from those at the start, squared, in parts of their extent: given ones, the firmest
+/// first, then whole ones that had a value, then those that had none, from zero.
+type Distance = [f64; 4];
 
 /// A box that is to be looked at.
 pub(crate) struct Open {
@@ -47,12 +47,12 @@ impl Near {
         let cell = |(slot, own): (SlotIndex, &Slot)| {
             let is_whole = whole.binary_search(&slot).is_ok();
             let rank = match own.stay {
-                Stay::Given => 0,
-                Stay::Kept { .. } => 1,
-                Stay::Free | Stay::Fixed => 2,
+                Stay::Given(giver) => giver as usize,
+                Stay::Kept { .. } => 2,
+                Stay::Free | Stay::Fixed => 3,
             };
-            let near = if rank < 2 { start[slot as usize] } else { 0.0 };
-            let counts = is_whole || (with_reals && rank == 0 && own.is_number);
+            let near = if rank < 3 { start[slot as usize] } else { 0.0 };
+            let counts = is_whole || (with_reals && rank < 2 && own.is_number);
             counts.then(|| Cell { slot, is_whole, near, rank, extent: extents.at(own) })
         };
         Self { cells: (0..).zip(slots).filter_map(cell).collect() }
@@ -60,7 +60,7 @@ impl Near {
 
     /// Returns a distance that no numbers in the boxes come below.
     fn distance(&self, boxes: &[Interval]) -> Distance {
-        let mut distance = [0.0; 3];
+        let mut distance = [0.0; 4];
         for cell in &self.cells {
             let own = boxes[cell.slot as usize];
             let to = if cell.is_whole {

@@ -39,7 +39,7 @@ fn bridge(load: f64) -> (Sheet, Vec<[u32; 2]>, u32) {
         .enumerate()
         .map(|(i, &(x, y))| if i % 8 == 0 { s.anchor(x, y) } else { [s.free(x), s.free(y)] })
         .collect();
-    let load = s.slot(solve::Stay::Given, 1, load);
+    let load = s.slot(solve::Stay::Given(solve::Giver::Document), 1, load);
     for node in 1..8 {
         let mut sides = Vec::new();
         for axis in 0..2 {

@@ -27,7 +27,7 @@ impl Sheet {
         self.slot(Stay::Fixed, 0, value)
     }
     pub(crate) fn given(&mut self, value: f64) -> SlotIndex {
-        self.slot(Stay::Given, 0, value)
+        self.slot(Stay::Given(solve::Giver::Document), 0, value)
     }
     pub(crate) fn free(&mut self, start: f64) -> SlotIndex {
         self.slot(Stay::Free, 0, start)

@@ -62,7 +62,7 @@ fn a_given_number_yields_only_where_nothing_else_can() {
     let mut arena = Arena::new();
     let [x, y] = [0, 1].map(|v| arena.var(Var(v)));
     let less = arena.binary(Binary::Less, x, y);
-    let puzzle = puzzle(&[Stay::Given, KEPT], 9, &arena, &[less]);
+    let puzzle = puzzle(&[Stay::Given(solve::Giver::Document), KEPT], 9, &arena, &[less]);
     let start = [5.0, 4.0];
     assert_eq!(puzzle.nearest(&start, &start), Verdict::Found(vec![5.0, 6.0]));
     let start = [9.0, 4.0];

@@ -114,8 +114,8 @@ fn all_given_numbers_of_a_circuit_yield_together() {
 pub(crate) fn divider() -> (Sheet, [u32; 4]) {
     let mut s = Sheet::default();
     let battery = s.fixed(1.5);
-    let r1 = s.slot(solve::Stay::Given, 1, 100.0);
-    let r2 = s.slot(solve::Stay::Given, 1, 100.0);
+    let r1 = s.slot(solve::Stay::Given(solve::Giver::Document), 1, 100.0);
+    let r2 = s.slot(solve::Stay::Given(solve::Giver::Document), 1, 100.0);
     let i = s.slot(solve::Stay::Free, 2, 0.0);
     let out = s.free(0.0);
     let (vb, v1, v2, vi, vo) = (s.v(battery), s.v(r1), s.v(r2), s.v(i), s.v(out));

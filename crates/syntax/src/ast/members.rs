@@ -119,6 +119,10 @@ impl Modify {
 }
 
 impl Part {
+    /// Returns true for `constant x: C = value`: it never yields.
+    pub fn is_constant(&self) -> bool {
+        has_keyword(&self.syntax, "constant")
+    }
     /// Returns the names: several share one class.
     pub fn names(&self) -> impl Iterator<Item = Word> + use<> {
         words(&self.syntax, SyntaxKind::Ident)

@@ -27,6 +27,7 @@ pub(crate) const KEYWORDS: &[&str] = &[
     "merge",
     "stay",
     "anchor",
+    "constant",
     "insert",
     "default",
     "combining",
@@ -101,6 +102,7 @@ pub(super) fn member(p: &mut Parser<'_>) -> bool {
         "stay" => one(p, Stay, paths),
         "when" => when(p),
         "anchor" => one(p, Anchor, paths),
+        "constant" => constant(p),
         "merge" => one(p, Merge, merge),
         "insert" => one(p, Insert, |p| {
             path(p);
@@ -185,6 +187,22 @@ fn named(p: &mut Parser<'_>) -> bool {
 fn part(p: &mut Parser<'_>) {
     p.start_documented(Part);
     p.bump();
+    rest_of_part(p);
+    p.finish();
+}
+
+/// `constant g: Acceleration = 9.81 m/s^2`
+fn constant(p: &mut Parser<'_>) {
+    p.start_documented(Part);
+    p.bump_keyword();
+    if p.expect(Ident, "expected-name", "the constant's name") {
+        rest_of_part(p);
+    }
+    p.finish();
+}
+
+/// What follows the first name of a part.
+fn rest_of_part(p: &mut Parser<'_>) {
     while p.eat(Comma) {
         p.expect(Ident, "expected-name", "a part's name");
     }
@@ -200,7 +218,6 @@ fn part(p: &mut Parser<'_>) {
     if p.at(LBrace) {
         body(p, Scope::Thing);
     }
-    p.finish();
 }
 
 /// `p1.x = 3`

@@ -1,0 +1,108 @@
+//! What is given and gave way when a document was opened: a warning at its line.
+//!
+//! In: a state, and the planner that opened it. Out: for every line that gives such a value, what it is, what was
+//! given, what it became, and the constraints that made it so. What a class gives its things is told where the
+//! document declares the thing, for there it can be given another value.
+
+use crate::state::State;
+use crate::words::{listed, show_thing, source_in_words};
+use crate::write_back::unit_of_writing;
+use base::{Diagnostic, Place};
+use kernel::{DOCUMENT, SlotId, ThingId};
+use plan::{Planner, Source};
+use std::collections::{BTreeMap, BTreeSet};
+
+/// The code of the warning.
+pub(crate) const CODE: &str = "given-yields";
+
+/// How many values of one line are named.
+const MOST_NAMED: usize = 3;
+
+/// What one line gives that gave way.
+struct Line {
+    of_class: bool,
+    units: Vec<ThingId>,
+    slots: BTreeSet<SlotId>,
+}
+
+/// Returns a warning for every line that gives what gave way.
+///
+/// Cost: nothing where nothing gave way, else that of going through the steps of what was opened.
+pub(crate) fn warnings(state: &State, planner: &Planner) -> Vec<Diagnostic> {
+    if state.gave_way.is_empty() {
+        return Vec::new();
+    }
+    let mut lines: BTreeMap<(u32, u32, u32), (Place, Line)> = BTreeMap::new();
+    for &(slot, _) in &state.gave_way {
+        let Some((place, of_class)) = line_of(state, slot) else { continue };
+        let key = (place.file.0, place.span.start, place.span.end);
+        let (_, line) = lines.entry(key).or_insert_with(|| {
+            (place, Line { of_class, units: Vec::new(), slots: BTreeSet::new() })
+        });
+        let unit = unit_of_writing(state, slot);
+        if !line.units.contains(&unit) {
+            line.units.push(unit);
+        }
+        line.of_class &= of_class;
+        line.slots.insert(slot);
+    }
+    let slots = state.gave_way.iter().map(|(slot, _)| *slot).collect();
+    let behind = planner.behind(&slots);
+    lines.into_values().map(|(place, line)| warning(state, place, &line, &behind)).collect()
+}
+
+/// Returns where the document itself speaks of what a slot is given, and whether a class gives it.
+fn line_of(state: &State, slot: SlotId) -> Option<(Place, bool)> {
+    let given = state.structure.given(slot)?;
+    if !given.of_class {
+        return Some((state.lowered.place(given.origin), false));
+    }
+    let structure = &state.structure;
+    let mut thing = structure.slots[slot].given?.me;
+    while let Some(owner) = structure.things[thing].owner.filter(|&t| t != DOCUMENT) {
+        thing = owner;
+    }
+    let field = structure.things[thing].field as usize;
+    let layout = structure.layout(structure.things[DOCUMENT].class)?;
+    let part = state.lowered.document.declared(*layout.fields.get(field)?)?;
+    Some((state.lowered.place(part.origin), true))
+}
+
+fn warning(
+    state: &State,
+    place: Place,
+    line: &Line,
+    behind: &BTreeMap<SlotId, BTreeSet<Source>>,
+) -> Diagnostic {
+    let mut given = state.values.clone();
+    for (slot, was) in state.gave_way.iter().filter(|(slot, _)| line.slots.contains(slot)) {
+        given.put(*slot, was.clone());
+    }
+    let path = |unit| state.structure.path(&state.lowered.document, unit).to_string();
+    let told = |&unit: &ThingId| {
+        let was = show_thing(state, unit, &given).unwrap_or_default();
+        let is = show_thing(state, unit, &state.values).unwrap_or_default();
+        let by = if line.of_class { "by its class" } else { "here" };
+        format!("{} is given {by} as {was}, and became {is}", path(unit))
+    };
+    let mut all: Vec<String> = line.units.iter().take(MOST_NAMED).map(told).collect();
+    let more = line.units.len() - all.len();
+    if more > 0 {
+        all.push(format!("{more} more gave way"));
+    }
+    let sources: BTreeSet<Source> =
+        line.slots.iter().filter_map(|slot| behind.get(slot)).flatten().copied().collect();
+    let constraints: Vec<String> =
+        sources.iter().filter_map(|&source| source_in_words(state, source)).collect();
+    let because = match constraints.is_empty() {
+        true => String::new(),
+        false => format!(", because of {}", listed(&constraints)),
+    };
+    let hint = match line.of_class {
+        true => "give it a value with which the constraints hold, in the body of the part",
+        false => {
+            "give a value with which the constraints hold, or `anchor` it and let another yield"
+        }
+    };
+    Diagnostic::warning(CODE, place, format!("{}{because}", all.join("; "))).hint(hint)
+}
