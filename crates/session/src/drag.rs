@@ -131,6 +131,30 @@ pub(crate) fn press_computed(
     })
 }
 
+/// Returns the way to a place that is computed in a thing that has none of its own, neither in its parts: the
+/// first that its class, or one above it, answers with.
+pub(crate) fn computed_place(state: &State, thing: ThingId) -> Option<Path> {
+    let (structure, document) = (&state.structure, &state.lowered.document);
+    if structure.slot_of(thing).is_some() || !places(structure, thing).is_empty() {
+        return None;
+    }
+    let evaluator = state.evaluator(&state.values);
+    let mut classes = document.primary_line(structure.things[thing].class).into_iter();
+    let is_place = |name: &base::Name| {
+        let answer = evaluator.ask(thing, name).ok();
+        answer.is_some_and(|answer| match &answer {
+            Answer::Made(made) => document.is_place(made.class) && numbers_of(&answer).is_some(),
+            _ => false,
+        })
+    };
+    classes.find_map(|class| {
+        let messages = document.classes[class].messages.iter();
+        let mut own = messages.filter(|m| m.parameters.is_empty() && !m.is_default);
+        let found = own.find(|m| is_place(&m.name))?;
+        Some(Path(vec![kernel::Step::Part(found.name.clone())]))
+    })
+}
+
 /// Returns the number that an answer is, or the two of a place.
 fn numbers_of(answer: &Answer<'_>) -> Option<Vec<(f64, Dimension)>> {
     let number = |answer: &Answer<'_>| match answer {

@@ -16,6 +16,7 @@ pub mod view;
 mod advice;
 mod apply;
 mod check;
+mod classing;
 mod complaints;
 mod difference;
 mod document;

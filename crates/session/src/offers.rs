@@ -45,7 +45,9 @@ pub(crate) fn offers(state: &State, paths: &[Path]) -> Vec<Offer> {
     };
     let offerer = Offerer { state, things: &things };
     let mut offers = Vec::new();
-    offers.extend(offerer.joint(paths));
+    // points are merged more often than anything else is said of them, lines hardly ever
+    let of_places = things.iter().all(|one| offerer.is_place(one.class));
+    offers.extend(offerer.joint(paths).filter(|_| of_places));
     offers.extend(offerer.levels());
     offers.extend(offerer.alone());
     offers.extend(offerer.pairs());
@@ -53,6 +55,7 @@ pub(crate) fn offers(state: &State, paths: &[Path]) -> Vec<Offer> {
     offers.extend(offerer.middles());
     offers.extend(offerer.dimensions());
     offers.extend(offerer.classes(&offers));
+    offers.extend(offerer.joint(paths).filter(|_| !of_places));
     offers
 }
 

@@ -3,6 +3,7 @@
 use crate::advice;
 use crate::apply::{self, Aim};
 use crate::check;
+use crate::classing;
 use crate::complaints;
 use crate::document::Open;
 use crate::drag;
@@ -167,6 +168,12 @@ impl Session {
         let state = open.state.clone();
         let aim = apply::aim(&state, path);
         let drag = match aim.map_err(|r| words::find(&state, path).err().unwrap_or(r))? {
+            // what has no place of its own is held by one that is computed
+            Aim::Thing(thing) if drag::computed_place(&state, thing).is_some() => {
+                let place = drag::computed_place(&state, thing).unwrap_or_default();
+                let term = kernel::Term::at(kernel::Term::Me, &path.join(&place));
+                drag::press_computed(&state, &mut open.planner, term, path.clone())
+            }
             Aim::Thing(thing) => drag::press(&state, &mut open.planner, thing, path.clone()),
             Aim::Term(term) => drag::press_computed(&state, &mut open.planner, term, path.clone()),
         };
@@ -315,6 +322,20 @@ impl Session {
     ) -> Result<(Command, String), Refusal> {
         let beside = Beside::of(&*self.host, &self.documents, id);
         tools::copies::duplication(self.document(id), &beside, paths)
+    }
+    /// Returns the command that makes a class of some things of the document, whose one thing they then are, and
+    /// what that is called.
+    ///
+    /// # Errors
+    /// A path is no thing of the document itself, or the name is none for a new class.
+    pub fn class_of(
+        &self,
+        id: DocumentId,
+        paths: &[Path],
+        class: &str,
+    ) -> Result<(Command, String), Refusal> {
+        let beside = Beside::of(&*self.host, &self.documents, id);
+        classing::class_of(self.document(id), &beside, paths, class)
     }
     /// Returns what goes when something is deleted, besides itself, as it is written.
     pub fn along_with(&self, id: DocumentId, path: &Path) -> Vec<String> {

@@ -13,6 +13,8 @@ use session::view::Offer;
 pub enum Wish {
     /// The name that the document is saved under.
     SaveAs,
+    /// The name of the class that the selection becomes the parts of.
+    ClassOf,
     /// The value of a dimension.
     Dimension(Offer),
     /// Another name for what a path leads to.
@@ -42,6 +44,7 @@ fn Open(lab: Lab, wish: Wish) -> impl IntoView {
             let name = path.rsplit('.').next().unwrap_or_default();
             (words::new_name_of(path), String::from(name))
         }
+        Wish::ClassOf => (String::from(words::NAME_OF_CLASS), String::new()),
         Wish::Dimension(offer) => {
             (words::value_of(&offer.label), offer.value.clone().unwrap_or_default())
         }
@@ -69,6 +72,10 @@ fn Open(lab: Lab, wish: Wish) -> impl IntoView {
                     }
                 }
             }),
+            Wish::ClassOf => match lab.class_of_selection(typed.trim()) {
+                Ok(()) => lab.wish.set(None),
+                Err(sentence) => error.set(Some(sentence)),
+            },
             Wish::Dimension(offer) => match lab.set_dimension(&offer, typed.trim()) {
                 Ok(()) => lab.wish.set(None),
                 Err(sentence) => error.set(Some(sentence)),
@@ -104,6 +111,24 @@ fn Open(lab: Lab, wish: Wish) -> impl IntoView {
 }
 
 impl Lab {
+    /// Makes a class of what is selected.
+    ///
+    /// # Errors
+    /// Why not, in one sentence.
+    pub fn class_of_selection(self, class: &str) -> Result<(), String> {
+        self.flush_text();
+        let Some(id) = self.id() else { return Ok(()) };
+        let paths: Vec<_> =
+            self.selection_untracked().iter().filter_map(|p| session::parse_path(p)).collect();
+        let made = self.ask(|session| session.class_of(id, &paths, class));
+        let (command, name) = made.map_err(|refusal| crate::field::reason(&refusal))?;
+        if self.apply_as_meant(&command) {
+            self.select(Some(name));
+            return Ok(());
+        }
+        refused(self)
+    }
+
     /// Says a dimension with the value that was typed.
     ///
     /// # Errors

@@ -14,7 +14,7 @@ use crate::{js, route, theme, words};
 use drawing::Point;
 use leptos::prelude::*;
 use session::view::{
-    Analysis, Caught, Change, DocumentId, DragState, Explanation, FixView, Ghost, HeldView,
+    Analysis, Caught, Change, Choice, DocumentId, DragState, Explanation, FixView, Ghost, HeldView,
     PictureView, Question, Recognised, Refusal, RowKind, Status, StructureRow, TextView, ToolView,
     ValueRow, Velocity,
 };
@@ -135,8 +135,10 @@ pub struct Lab {
     pub carried: StoredValue<bool>,
     /// What the thing that is dragged would be joined with.
     pub dropping: RwSignal<Option<(Path, Caught)>>,
-    /// Whether the left drawer shows the bin.
-    pub bin: RwSignal<bool>,
+    /// What the left drawer shows.
+    pub drawer: RwSignal<Drawer>,
+    /// The value that is typed in the picture, and where on the canvas.
+    pub editing: RwSignal<Option<InPlace>>,
     /// The menu that is open.
     pub menu: RwSignal<Option<Menu>>,
     /// What a person is asked to type.
@@ -166,6 +168,28 @@ pub struct Marked {
     pub selected: Vec<String>,
     /// What is under the pointer.
     pub hovered: Option<String>,
+}
+
+/// What the left drawer shows.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub enum Drawer {
+    /// The tree of things.
+    Structure,
+    /// The classes that things can be made of.
+    Bin,
+    /// The steps.
+    History,
+}
+
+/// A value that is typed where it is seen.
+#[derive(Clone, PartialEq, Debug)]
+pub struct InPlace {
+    /// Whose value.
+    pub path: String,
+    /// The value now, as a person types it.
+    pub value: String,
+    /// Where on the canvas.
+    pub at: (f64, f64),
 }
 
 /// A change of the picture's view that comes from elsewhere than the picture.
@@ -228,7 +252,8 @@ impl Lab {
             cursor: RwSignal::new(None),
             carried: StoredValue::new(false),
             dropping: RwSignal::new(None),
-            bin: RwSignal::new(false),
+            drawer: RwSignal::new(Drawer::Structure),
+            editing: RwSignal::new(None),
             menu: RwSignal::new(None),
             wish: RwSignal::new(None),
             grid: RwSignal::new(theme::keep(GRID_KEY).is_none_or(|kept| kept != "off")),
@@ -322,6 +347,7 @@ impl Lab {
         self.flush_text();
         let Some(opened) = self.opened.with_value(|all| all.get(path).cloned()) else { return };
         self.drop_tool();
+        self.editing.set(None);
         self.select(None);
         self.hovered.set(None);
         self.motion.set(Vec::new());
@@ -472,6 +498,64 @@ impl Lab {
         match self.ask(|session| session.join(id, &paths)) {
             Ok(command) => drop(self.apply(&command)),
             Err(refusal) => self.notice.set(Some(Notice::Refused(refusal))),
+        }
+    }
+
+    /// Deletes what is selected; where more goes with it, that is told first.
+    pub fn delete_selection(self) {
+        self.flush_text();
+        let Some(path) = self.selected.get_untracked() else { return };
+        let (Some(id), Some(parsed)) = (self.id(), session::parse_path(&path)) else { return };
+        let command = Command::Delete(parsed.clone());
+        let asked = self.ask(|session| session.preview(id, &command).ok().flatten());
+        let along = self.ask(|session| session.along_with(id, &parsed));
+        if asked.is_some() || along.is_empty() {
+            self.apply(&command);
+            return;
+        }
+        let message = words::goes_along(&path, &along);
+        let choices = vec![Choice { label: words::delete_all(along.len() + 1), command }];
+        self.notice.set(Some(Notice::Asked(Question { message, choices })));
+    }
+
+    /// Makes copies of what is selected, a little aside, and selects the first.
+    pub fn duplicate_selection(self) {
+        self.flush_text();
+        let Some(id) = self.id() else { return };
+        let paths: Vec<Path> =
+            self.selection_untracked().iter().filter_map(|p| session::parse_path(p)).collect();
+        match self.ask(|session| session.duplication(id, &paths)) {
+            Ok((command, name)) => {
+                if self.apply_as_meant(&command) {
+                    self.select(Some(name));
+                }
+            }
+            Err(refusal) => self.notice.set(Some(Notice::Refused(refusal))),
+        }
+    }
+
+    /// Opens the editor of a thing's value in the picture: of the one that a word there shows, else of the
+    /// outermost that the text gives.
+    pub fn edit_in_place(self, path: &str, word: Option<&str>, at: (f64, f64)) {
+        let found = self.values.with_untracked(|rows| {
+            let is_coordinate = |path: &str| matches!(path.rsplit('.').next(), Some("x" | "y"));
+            let own =
+                rows.iter().filter(|row| covers(path, &row.path) && !is_coordinate(&row.path));
+            let depth = |row: &ValueRow| row.path.matches('.').count();
+            let is_shown = |row: &ValueRow| {
+                word.is_some_and(|word| !row.text.is_empty() && word.contains(&row.text))
+            };
+            own.min_by_key(|row| (!is_shown(row), row.is_virtual, depth(row), !row.given)).map(
+                |row| {
+                    let unit =
+                        if row.unit.is_empty() { String::new() } else { format!(" {}", row.unit) };
+                    InPlace { path: row.path.clone(), value: format!("{}{unit}", row.text), at }
+                },
+            )
+        });
+        match found {
+            Some(found) => self.editing.set(Some(found)),
+            None => self.notice.set(Some(Notice::Said(words::no_value_to_type(path)))),
         }
     }
 

@@ -18,6 +18,7 @@ pub mod dialog;
 pub mod field;
 pub mod files;
 pub mod gallery;
+pub mod history;
 pub mod icons;
 pub mod js;
 pub mod lab;

@@ -4,7 +4,8 @@ use crate::actions::{self, Action};
 use crate::bin_panel::Bin;
 use crate::dialog::Dialog;
 use crate::gallery::Gallery;
-use crate::lab::Lab;
+use crate::history::History;
+use crate::lab::{Drawer, Lab};
 use crate::menu::{self, MenuView};
 use crate::palette::Palette;
 use crate::picture::Picture;
@@ -203,29 +204,28 @@ fn Document(lab: Lab) -> impl IntoView {
     }
 }
 
-/// The left drawer: the structure, or the bin.
+/// The left drawer: the structure, the bin, the history.
 #[component]
 fn Drawer(lab: Lab) -> impl IntoView {
-    let tab = move |label: &'static str, is_bin: bool| {
+    let tab = move |label: &'static str, shown: Drawer| {
         view! {
-            <button role="tab" id=if is_bin { "tab-bin" } else { "tab-structure" }
-                aria-controls="drawer"
-                aria-selected=move || (lab.bin.get() == is_bin).to_string()
-                on:click=move |_| lab.bin.set(is_bin)>{label}</button>
+            <button role="tab" id=format!("tab-{}", label.to_lowercase()) aria-controls="drawer"
+                aria-selected=move || (lab.drawer.get() == shown).to_string()
+                on:click=move |_| lab.drawer.set(shown)>{label}</button>
         }
     };
     view! {
         <div class="drawer">
-            <div class="tabs" role="tablist">
-                {tab(words::STRUCTURE, false)}
-                {tab(words::BIN, true)}
+            <div class="tabs" role="tablist" aria-label=words::VIEWS>
+                {tab(words::STRUCTURE, Drawer::Structure)}
+                {tab(words::BIN, Drawer::Bin)}
+                {tab(words::HISTORY, Drawer::History)}
             </div>
-            <div class="shelf" id="drawer" role="tabpanel"
-                aria-labelledby=move || if lab.bin.get() { "tab-bin" } else { "tab-structure" }>
-                {move || if lab.bin.get() {
-                    view! { <Bin lab=lab /> }.into_any()
-                } else {
-                    view! { <Structure lab=lab /> }.into_any()
+            <div class="shelf" id="drawer" role="tabpanel" aria-label=words::VIEWS>
+                {move || match lab.drawer.get() {
+                    Drawer::Bin => view! { <Bin lab=lab /> }.into_any(),
+                    Drawer::History => view! { <History lab=lab /> }.into_any(),
+                    Drawer::Structure => view! { <Structure lab=lab /> }.into_any(),
                 }}
             </div>
         </div>

@@ -3,6 +3,7 @@
 //! Pointer moves are taken at most once a frame; key presses are commands of their own, so that none
 //! is lost.
 
+use crate::field::Edit;
 use crate::js::{self, Painter};
 use crate::lab::{Lab, Marked, Zoom, first_path};
 use crate::paint::{DisplayList, Mark, arrows, caught, display_list, ghosts, grid, preview};
@@ -10,7 +11,7 @@ use crate::sheet::{View, fit};
 use crate::words;
 use drawing::{Point, Vertical};
 use js_sys::Array;
-use leptos::ev::{KeyboardEvent, PointerEvent, WheelEvent};
+use leptos::ev::{KeyboardEvent, MouseEvent, PointerEvent, WheelEvent};
 use leptos::html::Canvas;
 use leptos::prelude::*;
 use session::view::{Freedom, Grip, PictureView, StructureRow};
@@ -103,6 +104,7 @@ pub fn Picture(
                 on:pointerup=move |e: PointerEvent| hand.up(&e)
                 on:pointercancel=move |e: PointerEvent| hand.lost(&e)
                 on:pointerleave=move |_| hand.left()
+                on:dblclick=move |e: MouseEvent| hand.edit(&e)
                 on:wheel=move |e: WheelEvent| wheel(lab, canvas, &e)
                 on:contextmenu=move |e| hand.menu(&e)
                 on:keydown=move |e: KeyboardEvent| key(lab, hand, size.get_untracked(), &e)
@@ -110,6 +112,21 @@ pub fn Picture(
                     if e.key() == " " { hand.hold_space(hand::Space::Up); }
                 }
             ></canvas>
+            {move || lab.editing.get().map(|found| {
+                let path = found.path.clone();
+                view! {
+                    <div class="inplace" style:left=format!("{}px", found.at.0) style:top=format!("{}px", found.at.1)>
+                        <Edit lab=lab path=Memo::new(move |_| path.clone()) value=found.value
+                            done=move || {
+                                lab.editing.set(None);
+                                if let Some(canvas) = canvas.get_untracked() {
+                                    // The picture stands in the page.
+                                    let _ = canvas.focus();
+                                }
+                            } />
+                    </div>
+                }
+            })}
             <p id="picture-live" class="unseen" aria-live="polite">{live}</p>
             <div class="corner" role="group" aria-label=words::TOOLS>
                 <button title=words::ZOOM_OUT aria-label=words::ZOOM_OUT
@@ -249,6 +266,17 @@ fn key(lab: Lab, hand: hand::Hand, size: (f64, f64), e: &KeyboardEvent) {
         "ArrowUp" => nudge(lab, 0.0, -far),
         "ArrowDown" => nudge(lab, 0.0, far),
         "Tab" => next_grip(lab, if e.shift_key() { -1 } else { 1 }),
+        "Enter" => match lab.selected.get_untracked() {
+            Some(path) => {
+                let at = selected_grip(lab).map_or((size.0 / 2.0, size.1 / 2.0), |grip| {
+                    let p = Point { x: grip.x, y: grip.y };
+                    lab.view.with_untracked(|view| view.screen_from_sheet(p))
+                });
+                lab.edit_in_place(&path, None, at);
+                true
+            }
+            None => false,
+        },
         " " => {
             hand.hold_space(hand::Space::Down);
             true

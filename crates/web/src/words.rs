@@ -32,6 +32,7 @@ pub const OPEN_FILE: &str = "Open a file of this machine";
 pub const FILE: &str = "File";
 pub const RENAME: &str = "Rename";
 pub const MENU: &str = "Menu of the selection";
+pub const VIEWS: &str = "Structure, bin and history";
 pub const BIN: &str = "Bin";
 pub const FILTER_BIN: &str = "Filter the bin";
 pub const OWN_CLASSES: &str = "this document";
@@ -49,6 +50,11 @@ pub const DIMENSION: &str = "Dimension: a length, a distance, an angle, a radius
 pub const NO_DIMENSION: &str =
     "choose two points, a line, a circle or two lines: then D gives them a value";
 pub const NOTHING_TO_SAY: &str = "nothing can be said of this selection";
+pub const HISTORY: &str = "History";
+pub const AS_OPENED: &str = "as it was opened";
+pub const DUPLICATE: &str = "Make a copy of the selection";
+pub const CLASS_OF: &str = "Make a class of the selection";
+pub const NAME_OF_CLASS: &str = "Name of the class that the selection becomes the parts of";
 pub const NAME: &str = "Name";
 pub const NAME_OF_DOCUMENT: &str = "Save under the name";
 pub const DOWNLOAD: &str = "Download the text";
@@ -263,6 +269,21 @@ pub fn typed_length(typed: &str) -> String {
 /// What is asked of a dimension.
 pub fn value_of(label: &str) -> String {
     format!("Value of the {label}")
+}
+
+/// What goes with something that is to be deleted.
+pub fn goes_along(path: &str, along: &[String]) -> String {
+    format!("With {path} goes what speaks of it: {}", along.join("; "))
+}
+
+/// A button that deletes so many members.
+pub fn delete_all(members: usize) -> String {
+    format!("Delete all {members}")
+}
+
+/// That a thing has no value of its own to type.
+pub fn no_value_to_type(path: &str) -> String {
+    format!("{path} has no value but its place")
 }
 
 /// What was saved.

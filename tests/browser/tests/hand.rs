@@ -185,15 +185,17 @@ async fn a_quadrilateral_and_its_midpoints_are_drawn_from_nothing_and_saved() {
     drag(&visit, corner, (corner.0 + 30.0, corner.1 + 25.0)).await;
     let dragged = state(&visit).await;
     assert_eq!(dragged["status"]["satisfied"], true);
-    let side = |path: &str| {
-        let (a, b) = (grip(&dragged, &format!("{path}.p1")), grip(&dragged, &format!("{path}.p2")));
+    let way = |from: &str, to: &str| {
+        let (a, b) = (grip(&dragged, from), grip(&dragged, to));
         (b.0 - a.0, b.1 - a.1)
     };
-    let (one, other) = (side("line5"), side("line7"));
+    let (one, other) = (way("line5.p1", "line5.p2"), way("line6.p2", "line7.p2"));
     assert!((one.0 + other.0).abs() < 0.01 && (one.1 + other.1).abs() < 0.01, "{one:?} {other:?}");
 
     chord(&visit, &[CONTROL], 's').await;
-    visit.until("document.querySelector('.asking input')").await;
+    visit
+        .until("document.activeElement.id === 'asked' && document.activeElement.selectionEnd > 0")
+        .await;
     keys(&visit, "middles").await;
     chord(&visit, &[], ENTER).await;
     visit.until("window.__thinglab.state().path === 'middles.thing'").await;
@@ -218,7 +220,9 @@ async fn a_line_is_drawn_named_and_given_a_length_by_the_keyboard_alone() {
     chord(&visit, &[], ESCAPE).await;
     chord(&visit, &[], ESCAPE).await;
     chord(&visit, &[], F2).await;
-    visit.until("document.querySelector('.asking input')").await;
+    visit
+        .until("document.activeElement.id === 'asked' && document.activeElement.selectionEnd > 0")
+        .await;
     keys(&visit, "base").await;
     chord(&visit, &[], ENTER).await;
     visit.until("window.__thinglab.state().text.includes('base.length = 120')").await;
@@ -382,8 +386,9 @@ async fn the_right_button_opens_a_menu_and_lines_are_made_parallel() {
 async fn selecting_a_corner_on_a_phone_leaves_the_picture_where_it_is() {
     let visit = Visit::open(None).await;
     visit.client.set_window_size(500, 844).await.expect("a narrow window");
+    visit.until("document.querySelector('main')").await;
     visit.script("location.hash = '#/gallery/quadrilateral.thing'").await;
-    visit.until("window.__thinglab.state().grips.length > 0").await;
+    visit.until("window.__thinglab && window.__thinglab.state().grips.length > 0").await;
     visit.until("document.getElementById('picture').width > 10").await;
     tokio::time::sleep(Duration::from_millis(300)).await;
     let (_, top, ..) = canvas(&visit).await;

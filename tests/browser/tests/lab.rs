@@ -74,6 +74,7 @@ async fn chord(visit: &Visit, held: &[char], key: char) {
 }
 
 const CONTROL: char = '\u{e009}';
+const SHIFT: char = '\u{e008}';
 const DELETE: char = '\u{e017}';
 const ENTER: char = '\u{e007}';
 const TAB: char = '\u{e004}';
@@ -250,7 +251,7 @@ async fn things_that_are_selected_together_are_recognised_and_made_one() {
     choose(&visit, "k", true).await;
     let chosen = state(&visit).await;
     assert_eq!((&chosen["selected"], &chosen["also"]), (&"l".into(), &serde_json::json!(["k"])));
-    chord(&visit, &[], 'r').await;
+    chord(&visit, &[SHIFT], 'R').await;
     visit.until("document.querySelector('.recognised')").await;
     let found = state(&visit).await;
     assert!(found["notice"].as_str().is_some_and(|n| n.contains("Elbow")), "{}", found["notice"]);

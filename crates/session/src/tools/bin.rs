@@ -1,11 +1,13 @@
 //! The bin: the classes that things can be made of, each with the picture of its prototype.
 
+use super::stages;
+use crate::joining;
 use crate::prototype::Lone;
 use crate::recognise;
 use crate::state::State;
 use crate::view::BinEntry;
 use eval::Evaluator;
-use kernel::ClassId;
+use kernel::{ClassId, SlotId, Value};
 
 /// Returns the classes that a document can make things of, in order of declaration, its own last.
 pub(crate) fn entries(state: &State) -> Vec<BinEntry> {
@@ -36,7 +38,20 @@ pub(crate) fn picture(state: &State, class: ClassId) -> drawing::Drawing {
     let Some(lone) = Lone::of(&state.lowered.document, class) else {
         return drawing::Drawing::default();
     };
-    let (values, _) = eval::given_values(&lone.document, &lone.structure);
+    let (mut values, _) = eval::given_values(&lone.document, &lone.structure);
+    let places: Vec<[SlotId; 2]> = joining::attachers(&lone.document, class)
+        .iter()
+        .filter_map(|part| lone.structure.follow(lone.thing, part).ok())
+        .filter_map(|part| stages::coordinates_in(&lone.structure, part))
+        .collect();
+    let at = |[x, y]: &[SlotId; 2]| (values.numbers[*x], values.numbers[*y]);
+    if places.len() > 1 && places.iter().all(|place| at(place) == at(&places[0])) {
+        for (n, [x, y]) in places.iter().enumerate() {
+            let (to_x, to_y) = stages::spot(places.len(), n);
+            values.put(*x, Value::Number(to_x));
+            values.put(*y, Value::Number(to_y));
+        }
+    }
     let evaluator = Evaluator::new(&lone.document, &lone.structure, &values);
     evaluator.picture(lone.thing).drawing
 }

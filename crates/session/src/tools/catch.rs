@@ -5,7 +5,7 @@ use crate::session::{parse_path, thing_at};
 use crate::state::State;
 use crate::view::{PictureView, Pointer};
 use base::Name;
-use base::number::hypot;
+use base::number::{hypot, rounded};
 use drawing::{Point, Shape};
 use kernel::{ClassId, Path, Step};
 
@@ -53,7 +53,17 @@ pub(crate) fn find(sight: &Sight<'_>, pointer: &Pointer) -> Catch {
         return Catch::at(pointer.at);
     }
     let found = at_point(sight, pointer).or_else(|| at_shape(sight, pointer));
-    found.or_else(|| level(sight, pointer)).unwrap_or_else(|| Catch::at(pointer.at))
+    let found = found.or_else(|| level(sight, pointer)).unwrap_or_else(|| Catch::at(pointer.at));
+    match found.joins {
+        // one with what is there, to the bit
+        Some(_) => found,
+        None => Catch { at: (short(found.at.0), short(found.at.1)), ..found },
+    }
+}
+
+/// A coordinate without the digits that only rounding has made.
+fn short(x: f64) -> f64 {
+    rounded(x, 9).parse().unwrap_or(x)
 }
 
 /// A grip that what is placed can become one with; for a radius, a point that the circle passes through.

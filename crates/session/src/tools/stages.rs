@@ -9,7 +9,7 @@ use crate::joining;
 use crate::session::thing_at;
 use crate::state::State;
 use base::Name;
-use kernel::{Command, Path, Step, ThingId};
+use kernel::{Command, Path, SlotId, Step, Structure, ThingId};
 
 /// What is set next; paths begin at the thing.
 #[derive(Clone, PartialEq, Debug)]
@@ -111,6 +111,28 @@ pub(crate) fn stages(trial: &State, name: &str) -> Vec<Stage> {
     stages
 }
 
+/// Where a place of a thing goes whose class leaves all of so many in one spot.
+pub(crate) fn spot(places: usize, n: usize) -> (f64, f64) {
+    let spots: &[(f64, f64)] = match places {
+        2 => &[(0.0, 0.0), (100.0, 0.0)],
+        3 => &[(0.0, 40.0), (0.0, -40.0), (90.0, 0.0)],
+        _ => &[],
+    };
+    spots.get(n).copied().unwrap_or((60.0 * n as f64, 0.0))
+}
+
+/// Returns where the coordinates are of the first place in a thing.
+pub(crate) fn coordinates_in(structure: &Structure, thing: ThingId) -> Option<[SlotId; 2]> {
+    let mut waiting = vec![thing];
+    while let Some(thing) = waiting.pop() {
+        if let Some([(_, x), (_, y)]) = drag::coordinates(structure, thing) {
+            return Some([x, y]);
+        }
+        waiting.extend(structure.parts(thing).rev());
+    }
+    None
+}
+
 /// Returns the first place in a thing: itself, or one of its parts at any depth.
 fn place_in(state: &State, thing: ThingId) -> Option<ThingId> {
     let mut waiting = vec![thing];
@@ -144,13 +166,8 @@ pub(crate) fn spread(trial: &mut Open, stages: &[Stage], host: &dyn Host) {
     if places.len() < 2 || places.iter().any(|p| at(p) != first) {
         return;
     }
-    let spots: &[(f64, f64)] = match places.len() {
-        2 => &[(0.0, 0.0), (100.0, 0.0)],
-        3 => &[(0.0, 40.0), (0.0, -40.0), (90.0, 0.0)],
-        _ => &[],
-    };
-    let spot = |n: usize| spots.get(n).copied().unwrap_or((60.0 * n as f64, 0.0));
     let targets = places.iter().enumerate();
+    let spot = |n: usize| spot(places.len(), n);
     let targets = targets.map(|(n, place)| at_place(whole.join(place), spot(n))).collect();
     // where constraints want them in one spot they stay there
     let _ = apply::apply(trial, host, &Command::Move(targets));

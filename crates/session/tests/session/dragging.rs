@@ -230,3 +230,16 @@ fn what_stands_where_no_rule_holds_is_let_go_where_all_do() {
     let between = base::number::hypot(big - small, length);
     assert!((between - 100.0).abs() < 1e-6, "{between}");
 }
+
+#[test]
+fn a_queen_that_is_drawn_at_a_computed_place_is_held_by_it() {
+    let mut desk = Desk::of(&gallery("queens"));
+    let rank = |desk: &Desk| desk.number("queens[0].rank");
+    let from = desk.session.press(desk.id, &at("queens[0]")).expect("she has a place");
+    let to = if rank(&desk) < 4.0 { 40.0 } else { -40.0 };
+    let before = rank(&desk);
+    desk.session.drag(desk.id, (from.0, from.1 + to));
+    desk.session.release(desk.id).expect("the others make way");
+    assert_eq!(rank(&desk), before + to / 40.0);
+    assert!(desk.session.status(desk.id).satisfied);
+}

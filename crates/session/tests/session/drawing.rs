@@ -253,3 +253,39 @@ fn what_goes_along_with_something_deleted_is_told_before() {
     assert_eq!(along, ["merge a.p2 = b.p1", "constraint a.length = b.length"]);
     assert!(desk.session.along_with(desk.id, &at("nowhere")).is_empty());
 }
+
+#[test]
+fn four_lines_that_are_equally_long_become_a_class_of_which_others_are_made() {
+    let mut desk = Desk::of("use geometry\n");
+    desk.session.take_tool(desk.id, "Line").expect("a tool");
+    for (x, y) in [(0.0, 0.0), (60.0, 30.0), (120.0, 0.0), (60.0, -30.0), (0.0, 0.0)] {
+        click(&mut desk, &pointer(x, y));
+    }
+    let lines = ["line", "line2", "line3", "line4"].map(at);
+    let offers = desk.session.offers(desk.id, &lines);
+    let equal = offers.iter().find(|offer| offer.label == "equal length").expect("it fits");
+    desk.apply(&equal.command(None)).expect("it can be said");
+    assert_eq!(desk.session.status(desk.id).freedom, 5);
+    let (command, name) = desk.session.class_of(desk.id, &lines, "Rhombus").expect("it can be one");
+    desk.apply(&command).expect("it can be made");
+    assert_eq!(name, "rhombus");
+    holds(&desk);
+    assert_eq!(desk.session.status(desk.id).freedom, 5);
+    assert_eq!(desk.place("rhombus.line2.p2"), (120.0, 0.0));
+    for _ in 0..2 {
+        let another = desk.session.insertion(desk.id, "Rhombus").expect("the bin has it");
+        desk.apply(&another).expect("there is room");
+    }
+    holds(&desk);
+    assert_eq!(desk.session.status(desk.id).freedom, 15);
+    // what is said of the class all three follow
+    let level = Command::Edit {
+        target: at("Rhombus"),
+        members: "constraint line.p1.y = line2.p2.y".into(),
+    };
+    desk.apply(&level).expect("a class can be edited");
+    assert_eq!(desk.session.status(desk.id).freedom, 12);
+    let again =
+        desk.session.class_of(desk.id, &[at("rhombus")], "Rhombus").expect_err("it is there");
+    assert_eq!(again.message, "there is a class Rhombus already");
+}

@@ -2,7 +2,7 @@
 
 use super::{Action, Context, Group};
 use crate::dialog::Wish;
-use crate::lab::{Lab, Zoom};
+use crate::lab::{Drawer, Lab, Zoom};
 use crate::{route, structure, words};
 use leptos::prelude::*;
 use session::view::{RowKind, StructureRow};
@@ -124,6 +124,15 @@ pub const ACTIONS: &[Action] = &[
         run: Lab::recognise,
     },
     Action {
+        id: "class-of",
+        group: Group::Join,
+        contexts: &[Context::Thing],
+        label: words::CLASS_OF,
+        keys: &["Shift+C"],
+        enabled: |lab| several(lab).map(drop),
+        run: |lab| lab.wish.set(Some(Wish::ClassOf)),
+    },
+    Action {
         id: "unmerge",
         group: Group::Join,
         contexts: &[Context::Thing],
@@ -164,7 +173,28 @@ pub const ACTIONS: &[Action] = &[
         label: words::DELETE,
         keys: &["Delete"],
         enabled: |lab| selected(lab).map(drop),
-        run: |lab| on_selection(lab, Command::Delete),
+        run: Lab::delete_selection,
+    },
+    Action {
+        id: "duplicate",
+        group: Group::Edit,
+        contexts: &[Context::Thing],
+        label: words::DUPLICATE,
+        keys: &["Ctrl+D"],
+        enabled: |lab| several(lab).map(drop),
+        run: Lab::duplicate_selection,
+    },
+    Action {
+        id: "history",
+        group: Group::Edit,
+        contexts: &[Context::Sheet],
+        label: words::HISTORY,
+        keys: &["Alt+H"],
+        enabled: |lab| document(lab).map(drop),
+        run: |lab| {
+            lab.drawer.set(Drawer::History);
+            request_animation_frame(|| focus(".history [aria-current]"));
+        },
     },
     Action {
         id: "rename",
@@ -274,7 +304,7 @@ pub const ACTIONS: &[Action] = &[
         keys: &["I"],
         enabled: |lab| document(lab).map(drop),
         run: |lab| {
-            lab.bin.set(true);
+            lab.drawer.set(Drawer::Bin);
             request_animation_frame(|| focus(".bin .tile"));
         },
     },
@@ -303,7 +333,10 @@ pub const ACTIONS: &[Action] = &[
         label: words::FIT,
         keys: &["F"],
         enabled: |lab| document(lab).map(drop),
-        run: |lab| lab.zoom.set(Some(Zoom::Fit)),
+        run: |lab| {
+            lab.zoom.set(Some(Zoom::Fit));
+            lab.fits.set_value(lab.tool.with_untracked(Option::is_none));
+        },
     },
     Action {
         id: "zoom-in",
@@ -348,7 +381,10 @@ pub const ACTIONS: &[Action] = &[
         label: words::GO_STRUCTURE,
         keys: &["Alt+2"],
         enabled: |lab| document(lab).map(drop),
-        run: |_| focus("[role=treeitem][tabindex='0']"),
+        run: |lab| {
+            lab.drawer.set(Drawer::Structure);
+            request_animation_frame(|| focus("[role=treeitem][tabindex='0']"));
+        },
     },
     Action {
         id: "go-values",

@@ -2,7 +2,7 @@
 //!
 //! A press does nothing until the pointer moves; then it drags what was under it, or the sheet.
 
-use super::pick::pick;
+use super::pick::{pick, pick_word};
 use super::sheet_point;
 use crate::actions::Context;
 use crate::js;
@@ -150,6 +150,24 @@ impl Hand {
                 Some(path) => Mode::Pressed { path, start: at },
                 None => Mode::Pan { last: at },
             });
+        }
+    }
+
+    /// Opens the editor of what was clicked twice: of the value that a word shows, or of the thing's own.
+    pub(super) fn edit(self, e: &MouseEvent) {
+        if self.lab.tool.with_untracked(Option::is_some) {
+            return;
+        }
+        let at = on_canvas(self.canvas, (f64::from(e.client_x()), f64::from(e.client_y())));
+        let view = self.lab.view.get_untracked();
+        let word = self.lab.picture.with_untracked(|picture| pick_word(picture, &view, at));
+        match word {
+            Some((path, word)) => self.lab.edit_in_place(&path, Some(&word), at),
+            None => {
+                if let Some(path) = self.pick(at) {
+                    self.lab.edit_in_place(&path, None, at);
+                }
+            }
         }
     }
 

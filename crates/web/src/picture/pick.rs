@@ -1,7 +1,7 @@
 //! What lies under the pointer: grips first, then lines and curves.
 
 use crate::sheet::View;
-use drawing::{Point, Shape};
+use drawing::{Anchoring, Placement, Point, Shape};
 use session::view::PictureView;
 
 /// Returns the path of what lies within `reach` pixels of a place on the screen.
@@ -19,10 +19,43 @@ pub(super) fn pick(
     if let Some((_, grip)) = grip {
         return Some(grip.path.clone());
     }
+    if let Some((path, _)) = pick_word(picture, view, at) {
+        return Some(path);
+    }
     let near =
         picture.drawing.elements.iter().map(|element| (from_shape(p, &element.shape), element));
     let nearest = near.filter(|(d, _)| *d <= 0.6 * reach).min_by(|a, b| a.0.total_cmp(&b.0))?;
     picture.paths.get(nearest.1.tag.0 as usize).cloned()
+}
+
+/// Returns the words at a place on the screen, and the path of the thing that they are of.
+pub(super) fn pick_word(
+    picture: &PictureView,
+    view: &View,
+    (x, y): (f64, f64),
+) -> Option<(String, String)> {
+    let at = |element: &drawing::Element| {
+        let Shape::Text { at, text, anchoring, placement } = &element.shape else { return false };
+        let (left, top) = view.screen_from_sheet(*at);
+        let height = match placement {
+            Placement::OnSheet(height) => height * view.scale,
+            Placement::OnScreen(height) => *height,
+        };
+        let width = drawing::metrics::text_width(text, height);
+        let left = match anchoring {
+            Anchoring::Start => left,
+            Anchoring::Middle => left - width / 2.0,
+            Anchoring::End => left - width,
+        };
+        (left..=left + width + 8.0).contains(&x)
+            && (top - 1.2 * height..=top + 0.6 * height).contains(&y)
+    };
+    let element = picture.drawing.elements.iter().rev().find(|element| at(element))?;
+    let path = picture.paths.get(element.tag.0 as usize)?;
+    match &element.shape {
+        Shape::Text { text, .. } => Some((path.clone(), text.clone())),
+        _ => None,
+    }
 }
 
 fn distance(p: Point, q: Point) -> f64 {
