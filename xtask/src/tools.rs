@@ -16,6 +16,8 @@ pub(crate) enum Tool {
     Clippy,
     /// Chromium and its driver.
     Browser,
+    /// Python with ezdxf, which audits drawings.
+    Ezdxf,
 }
 
 /// The compiler that makes the page.
@@ -29,6 +31,7 @@ pub(crate) enum WasmCompiler {
 
 const WASM: &str = "wasm32-unknown-unknown";
 const DEBIAN_WASM: [&str; 4] = ["rustc-web", "cargo-web", "rust-web-src", "lld-19"];
+const EZDXF: &str = "ezdxf==1.4.5";
 const DEBIAN_BROWSER: [&str; 2] = ["chromium", "chromium-driver"];
 
 impl Tool {
@@ -38,6 +41,7 @@ impl Tool {
             Tool::Rustfmt => succeeds(&mut cargo(&["fmt", "--version"])),
             Tool::Clippy => succeeds(&mut cargo(&["clippy", "--version"])),
             Tool::Browser => browser().is_some() && on_path(&["chromedriver"]).is_some(),
+            Tool::Ezdxf => succeeds(Command::new(ezdxf()).args(["-c", "import ezdxf"])),
         }
     }
 
@@ -53,6 +57,9 @@ impl Tool {
             Tool::Browser => format!(
                 "missing: Chromium and chromedriver; as root `apt-get install -y --no-install-recommends {}`, or `cargo verify --no-browser`",
                 DEBIAN_BROWSER.join(" ")
+            ),
+            Tool::Ezdxf => String::from(
+                "missing: ezdxf in target/ezdxf; `cargo verify --install` makes a Python environment of it",
             ),
         }
     }
@@ -71,6 +78,18 @@ impl Tool {
                 rustup(&["component", "add", "clippy"]);
             }
             Tool::Browser => apt(&DEBIAN_BROWSER),
+            Tool::Ezdxf => {
+                say!("installing: {EZDXF} in target/ezdxf");
+                let folder = crate::top().join("target/ezdxf");
+                let mut make = Command::new("python3");
+                let made = succeeds(make.args(["-m", "venv"]).arg(folder));
+                let pip = ["-m", "pip", "install", "--quiet", EZDXF];
+                if !made || !succeeds(Command::new(ezdxf()).args(pip)) {
+                    say!(
+                        "Python could not; it needs its modules venv and pip, and its package index"
+                    );
+                }
+            }
         }
     }
 }
@@ -109,6 +128,11 @@ pub(crate) fn wasm_compiler() -> Option<WasmCompiler> {
     let linker = on_path(&["lld-19", "lld"])?;
     let there = source.is_dir() && Path::new("/usr/bin/cargo").exists();
     there.then_some(WasmCompiler::Debian { linker })
+}
+
+/// The Python that has ezdxf.
+pub(crate) fn ezdxf() -> PathBuf {
+    crate::top().join("target/ezdxf/bin/python")
 }
 
 /// The browser for the tests.

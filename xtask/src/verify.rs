@@ -77,6 +77,11 @@ pub(crate) fn run(wish: &Wish) -> ExitCode {
         return ExitCode::from(2);
     }
     let mut count = native(wish.length);
+    // no part of the project needs it: without it the audit is left out, which is said
+    match tools::require(&[Tool::Ezdxf], wish.missing) {
+        0 => count.add(audit()),
+        _ => say!("left out: the audit of DXF files"),
+    }
     if wish.browser == Browser::Test {
         count.add(in_browser(wish.length));
     }
@@ -102,6 +107,28 @@ fn native(length: Length) -> Count {
     let mut documentation = tools::cargo(&["doc", "--quiet", "--no-deps"]);
     count.add(step("documentation", documentation.env("RUSTDOCFLAGS", "--deny warnings")));
     count.add(tests("tests", &[], &[], length));
+    count
+}
+
+/// Writes the gallery as DXF, and has every file audited by another program.
+fn audit() -> Count {
+    let (gallery, to) = (crate::top().join("gallery"), crate::top().join("target/dxf"));
+    let entries = std::fs::create_dir_all(&to).and_then(|()| std::fs::read_dir(gallery));
+    let mut documents: Vec<_> =
+        entries.into_iter().flatten().map_while(Result::ok).map(|e| e.path()).collect();
+    documents.retain(|path| path.extension().is_some_and(|e| e == "thing"));
+    documents.sort();
+    let (mut count, mut written) = (Count::default(), Vec::new());
+    for document in documents {
+        let file = to.join(document.file_stem().unwrap_or_default()).with_extension("dxf");
+        let mut draw = tools::cargo(&["run", "--quiet", "--bin", "thinglab", "--", "draw"]);
+        draw.arg(&document).arg("--output").arg(&file);
+        count.add(step(&format!("drawing {}", document.display()), &mut draw));
+        written.push(file);
+    }
+    let mut audit = Command::new(tools::ezdxf());
+    audit.arg(crate::top().join("xtask/dxf_audit.py")).args(written);
+    count.add(step("audit of DXF files", &mut audit));
     count
 }
 

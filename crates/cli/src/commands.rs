@@ -346,7 +346,7 @@ fn write_advice(words: &mut String, advice: &[Advice]) {
     }
 }
 
-/// Draws a document as SVG, into a file or onto standard output.
+/// Draws a document as SVG, into a file or onto standard output; as DXF into a file of that kind.
 ///
 /// # Errors
 /// If the file cannot be read or written.
@@ -358,6 +358,8 @@ pub(crate) fn draw(path: &Path, output: Option<&Path>, form: Form) -> Result<Rep
     let json = json!({ "path": path, "svg": svg, "undrawn": undrawn });
     let why: String =
         undrawn.iter().map(|why| format!("something is not drawn: {why}\n")).collect();
+    let is_dxf = output.and_then(Path::extension).is_some_and(|e| e.eq_ignore_ascii_case("dxf"));
+    let svg = if is_dxf { opened.session.dxf(opened.id) } else { svg };
     let Some(output) = output else {
         // what is printed is to be an SVG or nothing
         let words = if is_whole { svg } else { why };

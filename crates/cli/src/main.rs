@@ -67,7 +67,7 @@ enum Command {
         /// The document.
         file: PathBuf,
     },
-    /// Draws a document as SVG.
+    /// Draws a document as SVG, or as DXF where the file that it is written to ends in `.dxf`.
     Draw {
         /// The document.
         file: PathBuf,

@@ -3,8 +3,9 @@
 //! Coordinates are in the document's units of length on the sheet; `y` runs as the drawing says.
 //! Every element has a [`Tag`], which the session maps to the path of a thing.
 //!
-//! Reading order: [`element`], [`metrics`], [`mod@bounds`], [`svg`].
+//! Reading order: [`element`], [`metrics`], [`mod@bounds`], [`svg`], [`dxf`].
 pub mod bounds;
+pub mod dxf;
 pub mod element;
 pub mod metrics;
 pub mod svg;

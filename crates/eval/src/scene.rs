@@ -8,9 +8,9 @@ use crate::answer::Answer;
 use crate::evaluator::Evaluator;
 use crate::fault::Fault;
 use crate::picture::Picture;
-use base::IdVec;
+use base::{IdVec, Name};
 use drawing::{Color, Drawing, Element, Point, Shape, Tag, Vertical};
-use kernel::{ClassKind, SlotId, ThingId};
+use kernel::{ClassKind, DOCUMENT, Message, SlotId, Term, ThingId};
 use std::collections::{BTreeMap, BTreeSet};
 
 /// A picture, and what each part of it follows from.
@@ -28,10 +28,11 @@ pub struct Scene {
     grip_slots: Vec<[SlotId; 2]>,
 }
 
-/// A thing that draws.
+/// What draws: a thing, or what it computes by a name.
 #[derive(Clone, Debug)]
 struct Source {
     thing: ThingId,
+    computed: Option<Name>,
     /// For each element that it draws, where that stands in the picture.
     at: Vec<u32>,
     /// How many faults it has.
@@ -62,6 +63,8 @@ impl Evaluator<'_> {
         self.begin();
         let mut things = Vec::new();
         self.sources(thing, &mut things);
+        let computed = self.computed_figures(thing).into_iter().map(|name| (thing, Some(name)));
+        let sources = things.into_iter().map(|thing| (thing, None)).chain(computed);
         let slots = self.structure.slots.len();
         let mut scene = Scene {
             readers: IdVec::filled(Vec::new(), slots),
@@ -69,8 +72,8 @@ impl Evaluator<'_> {
             ..Scene::default()
         };
         let mut elements = Distinct::default();
-        for thing in things {
-            let drawn = self.drawn(thing);
+        for (thing, computed) in sources {
+            let drawn = self.drawn(thing, computed.as_ref());
             let number = scene.sources.len() as u32;
             for slot in drawn.reads {
                 scene.readers[slot].push(number);
@@ -81,7 +84,7 @@ impl Evaluator<'_> {
             for &at in &at {
                 scene.times[at as usize] += 1;
             }
-            scene.sources.push(Source { thing, at, faults: drawn.faults.len() });
+            scene.sources.push(Source { thing, computed, at, faults: drawn.faults.len() });
             scene.picture.faults.extend(drawn.faults);
         }
         let vertical = match self.document.vertical {
@@ -112,8 +115,8 @@ impl Evaluator<'_> {
         let mut times: BTreeMap<u32, u32> = BTreeMap::new();
         for &number in &stale {
             self.begin();
-            let drawn = self.drawn(scene.sources[number as usize].thing);
             let source = &scene.sources[number as usize];
+            let drawn = self.drawn(source.thing, source.computed.as_ref());
             if drawn.elements.len() != source.at.len() || drawn.faults.len() != source.faults {
                 return None;
             }
@@ -198,12 +201,42 @@ impl Evaluator<'_> {
         Some(parts.iter().filter_map(is_drawn).collect())
     }
 
-    /// Lets one thing draw, and listens to what it reads.
-    fn drawn(&self, thing: ThingId) -> Drawn {
+    /// Names what a document computes that is drawn with its parts: things that are made, as by a construction.
+    ///
+    /// Where the document says itself how it is drawn, that is all.
+    fn computed_figures(&self, thing: ThingId) -> Vec<Name> {
+        if thing != DOCUMENT || self.parts_drawn(thing).is_none() {
+            return Vec::new();
+        }
+        let class = &self.document.classes[self.structure.things[thing].class];
+        let messages = class.messages.iter().filter(|m| {
+            m.parameters.is_empty() && !m.is_of_class() && m.name != self.tables.picture
+        });
+        let is_figure = |m: &&Message| {
+            self.begin();
+            match self.ask(thing, &m.name) {
+                Ok(Answer::Made(_)) => true,
+                Ok(Answer::List(items)) => {
+                    !items.is_empty() && items.iter().all(|i| matches!(i, Answer::Made(_)))
+                }
+                Ok(_) => false,
+                Err(_) => makes_a_thing(&m.answer),
+            }
+        };
+        messages.filter(is_figure).map(|m| m.name.clone()).collect()
+    }
+
+    /// Lets a thing draw, or what it computes by a name, and listens to what that reads.
+    fn drawn(&self, thing: ThingId, computed: Option<&Name>) -> Drawn {
         self.faults.borrow_mut().clear();
-        let name = &self.tables.picture;
         let to = Answer::Thing(thing);
-        let (answer, reads) = self.listening(|| self.send(&to, name, Vec::new(), None, thing));
+        let (answer, reads) = self.listening(|| match computed {
+            None => self.send(&to, &self.tables.picture, Vec::new(), None, thing),
+            Some(name) => {
+                let made = self.send(&to, name, Vec::new(), None, thing)?;
+                self.join_pictures(&[made], thing)
+            }
+        });
         let elements = match answer {
             Ok(Answer::Picture(elements)) => elements.to_vec(),
             Ok(other) => {
@@ -218,6 +251,17 @@ impl Evaluator<'_> {
             }
         };
         Drawn { elements, faults: std::mem::take(&mut *self.faults.borrow_mut()), reads }
+    }
+}
+
+/// Returns true for a term that is a thing wherever it has an answer.
+fn makes_a_thing(term: &Term) -> bool {
+    match term {
+        Term::Make { .. } | Term::Construct { .. } => true,
+        Term::Send { to, .. } => matches!(**to, Term::Class(_)) || makes_a_thing(to),
+        Term::Let(_, _, body) => makes_a_thing(body),
+        Term::If(_, a, b) => makes_a_thing(a) && makes_a_thing(b),
+        _ => false,
     }
 }
 

@@ -400,6 +400,14 @@ impl Session {
     pub fn svg(&self, id: DocumentId) -> String {
         views::picture::svg(&self.picture(id))
     }
+    /// Returns the picture as a DXF text, in millimetres.
+    pub fn dxf(&self, id: DocumentId) -> String {
+        let options = drawing::dxf::DxfOptions {
+            millimetres_per_unit: self.document(id).state.lowered.millimetres_per_unit(),
+            ..drawing::dxf::DxfOptions::default()
+        };
+        drawing::dxf::write(&self.picture(id).drawing, &options)
+    }
     /// Says why some things have no picture, which is drawn without them; nothing is praise.
     pub fn undrawn(&self, id: DocumentId) -> Vec<String> {
         let open = self.document(id);

@@ -1,0 +1,449 @@
+//! The DXF writer: a drawing in, an AutoCAD R2000 text out, in millimetres.
+//!
+//! The same drawing gives the same bytes: handles are counted, and nothing tells the time. Curves stay what they are:
+//! arcs and circles are written as such. Each colour of the drawing is a layer; how a line is drawn is a line type.
+//! Shapes of DXF know no fill and no width here: they are not written.
+//!
+//! **Source:** Autodesk, *DXF Reference*, release 2000.
+
+use crate::bounds::bounds;
+use crate::element::{Anchoring, Color, Drawing, Element, Line, Placement, Point, Shape, Vertical};
+use std::collections::BTreeSet;
+use std::f64::consts::TAU;
+use std::fmt::Write as _;
+
+/// How a drawing is written.
+#[derive(Clone, Copy, Debug)]
+pub struct DxfOptions {
+    /// How many millimetres a unit of the sheet has.
+    pub millimetres_per_unit: f64,
+    /// How high words are, in millimetres, that have one height on the screen.
+    pub text_height: f64,
+}
+
+impl Default for DxfOptions {
+    fn default() -> Self {
+        Self { millimetres_per_unit: 1.0, text_height: 3.5 }
+    }
+}
+
+/// What stands in the header for a drawing of nothing.
+const EMPTY: f64 = 1.0;
+/// A full turn less than this is a circle.
+const CLOSED: f64 = 1e-12;
+/// The line types that a drawing uses: name, words, and the lengths of dashes and, negative, of gaps.
+const LINE_TYPES: [(&str, &str, &[f64]); 3] = [
+    ("Continuous", "Solid line", &[]),
+    ("DASHED", "Dashed __ __ __", &[3.0, -1.5]),
+    ("DOT", "Dotted . . .", &[0.0, -1.0]),
+];
+/// The layers of the colours that have no name of their own, each with an index of the palette.
+const LAYERS: [(&str, u8); 3] = [("0", 7), ("CONSTRUCTION", 8), ("ACCENT", 1)];
+
+/// Writes a drawing as a DXF text.
+///
+/// ```
+/// use drawing::{Drawing, Element, Point, Shape, dxf};
+/// let ring = Shape::Circle { center: Point { x: 3.0, y: 4.0 }, radius: 2.0 };
+/// let drawing = Drawing { elements: vec![Element::new(ring)], ..Drawing::default() };
+/// let text = dxf::write(&drawing, &dxf::DxfOptions::default());
+/// assert!(text.contains("AcDbCircle\n10\n3.0\n20\n4.0\n30\n0.0\n40\n2.0\n"));
+/// ```
+pub fn write(drawing: &Drawing, options: &DxfOptions) -> String {
+    let mut dxf = Writer { out: String::new(), handle: FIRST_HANDLE, options: *options, sign: 1.0 };
+    if drawing.vertical == Vertical::Down {
+        dxf.sign = -1.0;
+    }
+    let mut named: BTreeSet<String> = BTreeSet::new();
+    for element in &drawing.elements {
+        if let Color::Named(name) = &element.style.color {
+            named.insert(layer_name(name));
+        }
+    }
+    dxf.header(drawing);
+    dxf.section("CLASSES");
+    dxf.end();
+    dxf.tables(&named);
+    dxf.blocks();
+    dxf.section("ENTITIES");
+    let mut elements: Vec<&Element> = drawing.elements.iter().collect();
+    elements.sort_by_key(|e| e.layer);
+    elements.into_iter().for_each(|e| dxf.element(e));
+    dxf.end();
+    dxf.objects();
+    dxf.pair(0, "EOF");
+    dxf.out
+}
+
+/// Handles of what every file has, and after them those of entities.
+const BLOCK_RECORDS: [(u32, &str); 2] = [(0x1f, "*Model_Space"), (0x1e, "*Paper_Space")];
+const ROOT_DICTIONARY: u32 = 0xc;
+const GROUPS: u32 = 0xd;
+const FIRST_HANDLE: u32 = 0x100;
+/// The largest handle: what is free begins there.
+const SEED: &str = "FFFFFF";
+
+struct Writer {
+    out: String,
+    handle: u32,
+    options: DxfOptions,
+    /// -1 where `y` runs down.
+    sign: f64,
+}
+
+impl Writer {
+    fn pair(&mut self, code: u16, value: impl std::fmt::Display) {
+        writeln!(self.out, "{code}\n{value}").expect("a string takes any text");
+    }
+    fn real(&mut self, code: u16, x: f64) {
+        let x = x + 0.0;
+        writeln!(self.out, "{code}\n{x:?}").expect("a string takes any text");
+    }
+    fn hex(&mut self, code: u16, handle: u32) {
+        writeln!(self.out, "{code}\n{handle:X}").expect("a string takes any text");
+    }
+    fn next(&mut self) -> u32 {
+        self.handle += 1;
+        self.handle - 1
+    }
+    fn length(&self, x: f64) -> f64 {
+        x * self.options.millimetres_per_unit
+    }
+    fn at(&mut self, code: u16, p: Point) {
+        let (x, y) = (self.length(p.x), self.sign * self.length(p.y));
+        self.real(code, x);
+        self.real(code + 10, y);
+        self.real(code + 20, 0.0);
+    }
+    fn section(&mut self, name: &str) {
+        self.pair(0, "SECTION");
+        self.pair(2, name);
+    }
+    fn end(&mut self) {
+        self.pair(0, "ENDSEC");
+    }
+    fn header(&mut self, drawing: &Drawing) {
+        self.section("HEADER");
+        let (least, most) =
+            bounds(drawing).map_or((Point::default(), Point { x: EMPTY, y: EMPTY }), |b| {
+                match drawing.vertical {
+                    Vertical::Up => (b.least, b.most),
+                    Vertical::Down => {
+                        (Point { y: b.most.y, ..b.least }, Point { y: b.least.y, ..b.most })
+                    }
+                }
+            });
+        for (name, code, value) in [
+            ("$ACADVER", 1, "AC1015"),
+            ("$DWGCODEPAGE", 3, "ANSI_1252"),
+            ("$HANDSEED", 5, SEED),
+            ("$INSUNITS", 70, "4"),
+            ("$MEASUREMENT", 70, "1"),
+        ] {
+            self.pair(9, name);
+            self.pair(code, value);
+        }
+        for (name, corner) in [("$EXTMIN", least), ("$EXTMAX", most)] {
+            self.pair(9, name);
+            self.at(10, corner);
+        }
+        self.end();
+    }
+    /// Begins a table of so many entries; returns its handle.
+    fn table(&mut self, name: &str, count: usize) -> u32 {
+        let handle = self.next();
+        self.pair(0, "TABLE");
+        self.pair(2, name);
+        self.hex(5, handle);
+        self.hex(330, 0);
+        self.pair(100, "AcDbSymbolTable");
+        self.pair(70, count);
+        handle
+    }
+    /// Begins an entry of a table.
+    fn entry(&mut self, table: u32, kind: &str, class: &str, name: &str) {
+        let handle = self.next();
+        self.pair(0, kind);
+        self.hex(if kind == "DIMSTYLE" { 105 } else { 5 }, handle);
+        self.hex(330, table);
+        self.pair(100, "AcDbSymbolTableRecord");
+        self.pair(100, class);
+        self.pair(2, name);
+        self.pair(70, 0);
+    }
+    fn tables(&mut self, named: &BTreeSet<String>) {
+        self.section("TABLES");
+        let table = self.table("VPORT", 0);
+        let _ = table;
+        self.pair(0, "ENDTAB");
+        let types = LINE_TYPES.len() + 2;
+        let table = self.table("LTYPE", types);
+        let always: [(&str, &str, &[f64]); 2] = [("ByBlock", "", &[]), ("ByLayer", "", &[])];
+        for (name, words, dashes) in always.into_iter().chain(LINE_TYPES) {
+            self.entry(table, "LTYPE", "AcDbLinetypeTableRecord", name);
+            self.pair(3, words);
+            self.pair(72, 65);
+            self.pair(73, dashes.len());
+            self.real(40, dashes.iter().map(|d| d.abs()).sum());
+            for dash in dashes {
+                self.real(49, *dash);
+                self.pair(74, 0);
+            }
+        }
+        self.pair(0, "ENDTAB");
+        let table = self.table("LAYER", LAYERS.len() + named.len());
+        let layers = LAYERS.map(|(name, color)| (name.to_string(), color));
+        let others = named.iter().map(|name| (name.clone(), 7));
+        for (name, color) in layers.into_iter().chain(others) {
+            self.entry(table, "LAYER", "AcDbLayerTableRecord", &name);
+            self.pair(62, color);
+            self.pair(6, "Continuous");
+        }
+        self.pair(0, "ENDTAB");
+        let table = self.table("STYLE", 1);
+        self.entry(table, "STYLE", "AcDbTextStyleTableRecord", "Standard");
+        for (code, value) in [(40, 0.0), (41, 1.0), (50, 0.0)] {
+            self.real(code, value);
+        }
+        self.pair(71, 0);
+        self.real(42, self.options.text_height);
+        self.pair(3, "txt");
+        self.pair(4, "");
+        self.pair(0, "ENDTAB");
+        for name in ["VIEW", "UCS"] {
+            self.table(name, 0);
+            self.pair(0, "ENDTAB");
+        }
+        let table = self.table("APPID", 1);
+        self.entry(table, "APPID", "AcDbRegAppTableRecord", "ACAD");
+        self.pair(0, "ENDTAB");
+        let table = self.table("DIMSTYLE", 1);
+        self.pair(100, "AcDbDimStyleTable");
+        self.pair(71, 1);
+        self.entry(table, "DIMSTYLE", "AcDbDimStyleTableRecord", "Standard");
+        self.pair(0, "ENDTAB");
+        let table = self.table("BLOCK_RECORD", BLOCK_RECORDS.len());
+        for (handle, name) in BLOCK_RECORDS {
+            self.pair(0, "BLOCK_RECORD");
+            self.hex(5, handle);
+            self.hex(330, table);
+            self.pair(100, "AcDbSymbolTableRecord");
+            self.pair(100, "AcDbBlockTableRecord");
+            self.pair(2, name);
+        }
+        self.pair(0, "ENDTAB");
+        self.end();
+    }
+    fn blocks(&mut self) {
+        self.section("BLOCKS");
+        for (record, name) in BLOCK_RECORDS {
+            let handle = self.next();
+            self.pair(0, "BLOCK");
+            self.hex(5, handle);
+            self.hex(330, record);
+            self.pair(100, "AcDbEntity");
+            self.pair(8, "0");
+            self.pair(100, "AcDbBlockBegin");
+            self.pair(2, name);
+            self.pair(70, 0);
+            self.at(10, Point::default());
+            self.pair(3, name);
+            self.pair(1, "");
+            let handle = self.next();
+            self.pair(0, "ENDBLK");
+            self.hex(5, handle);
+            self.hex(330, record);
+            self.pair(100, "AcDbEntity");
+            self.pair(8, "0");
+            self.pair(100, "AcDbBlockEnd");
+        }
+        self.end();
+    }
+    fn objects(&mut self) {
+        self.section("OBJECTS");
+        for (handle, owner) in [(ROOT_DICTIONARY, 0), (GROUPS, ROOT_DICTIONARY)] {
+            self.pair(0, "DICTIONARY");
+            self.hex(5, handle);
+            self.hex(330, owner);
+            self.pair(100, "AcDbDictionary");
+            self.pair(281, 1);
+            if handle == ROOT_DICTIONARY {
+                self.pair(3, "ACAD_GROUP");
+                self.hex(350, GROUPS);
+            }
+        }
+        self.end();
+    }
+    /// Begins an entity; its own class follows.
+    fn begin(&mut self, kind: &str, class: &str, element: &Element) {
+        let handle = self.next();
+        self.pair(0, kind);
+        self.hex(5, handle);
+        self.hex(330, BLOCK_RECORDS[0].0);
+        self.pair(100, "AcDbEntity");
+        let layer = match &element.style.color {
+            Color::Ink => LAYERS[0].0.to_string(),
+            Color::Faint => LAYERS[1].0.to_string(),
+            Color::Accent => LAYERS[2].0.to_string(),
+            Color::Named(name) => layer_name(name),
+        };
+        self.pair(8, layer);
+        match element.style.line {
+            Line::Solid | Line::None => {}
+            Line::Dashed => self.pair(6, LINE_TYPES[1].0),
+            Line::Dotted => self.pair(6, LINE_TYPES[2].0),
+        }
+        self.pair(100, class);
+    }
+    fn element(&mut self, element: &Element) {
+        match &element.shape {
+            Shape::Dot(p) => {
+                self.begin("POINT", "AcDbPoint", element);
+                self.at(10, *p);
+            }
+            Shape::Segment(p, q) => {
+                self.begin("LINE", "AcDbLine", element);
+                self.at(10, *p);
+                self.at(11, *q);
+            }
+            Shape::Polyline { points, closed } => {
+                self.begin("LWPOLYLINE", "AcDbPolyline", element);
+                self.pair(90, points.len());
+                self.pair(70, u8::from(*closed));
+                for p in points {
+                    let (x, y) = (self.length(p.x), self.sign * self.length(p.y));
+                    self.real(10, x);
+                    self.real(20, y);
+                }
+            }
+            Shape::Circle { center, radius } => self.circle(*center, *radius, element),
+            Shape::Arc { center, radius, sweep, .. } if sweep.abs() > TAU - CLOSED => {
+                self.circle(*center, *radius, element);
+            }
+            Shape::Arc { center, radius, start, sweep } => {
+                self.begin("ARC", "AcDbCircle", element);
+                self.at(10, *center);
+                self.real(40, self.length(*radius));
+                self.pair(100, "AcDbArc");
+                // an arc of DXF runs to the left
+                let ends = [self.sign * start, self.sign * (start + sweep)];
+                let [from, to] = if self.sign * sweep < 0.0 { [ends[1], ends[0]] } else { ends };
+                self.real(50, degrees(from));
+                self.real(51, degrees(to));
+            }
+            Shape::Text { at, text, anchoring, placement } => {
+                let height = match placement {
+                    Placement::OnSheet(height) => self.length(*height),
+                    Placement::OnScreen(_) => self.options.text_height,
+                };
+                for (i, line) in text.lines().enumerate().filter(|(_, line)| !line.is_empty()) {
+                    self.words(element, *at, (line, *anchoring), (height, i));
+                }
+            }
+        }
+    }
+    fn circle(&mut self, center: Point, radius: f64, element: &Element) {
+        self.begin("CIRCLE", "AcDbCircle", element);
+        self.at(10, center);
+        self.real(40, self.length(radius));
+    }
+    fn words(
+        &mut self,
+        element: &Element,
+        at: Point,
+        (line, anchoring): (&str, Anchoring),
+        (height, row): (f64, usize),
+    ) {
+        /// How far lines of words are apart, as a part of their height.
+        const LEADING: f64 = 5.0 / 3.0;
+        let (x, y) = (self.length(at.x), self.sign * self.length(at.y));
+        let y = y - LEADING * height * row as f64;
+        let place = |w: &mut Self, code: u16| {
+            w.real(code, x);
+            w.real(code + 10, y);
+            w.real(code + 20, 0.0);
+        };
+        self.begin("TEXT", "AcDbText", element);
+        place(self, 10);
+        self.real(40, height);
+        self.pair(1, escaped(line));
+        let justified = match anchoring {
+            Anchoring::Start => 0,
+            Anchoring::Middle => 1,
+            Anchoring::End => 2,
+        };
+        if justified > 0 {
+            self.pair(72, justified);
+            place(self, 11);
+        }
+        self.pair(100, "AcDbText");
+    }
+}
+
+/// Returns an angle in degrees from 0 to 360.
+fn degrees(radians: f64) -> f64 {
+    let turned = radians.to_degrees() % 360.0;
+    if turned < 0.0 { turned + 360.0 } else { turned }
+}
+
+/// Returns the layer of a colour that a document names: letters and digits alone.
+fn layer_name(color: &str) -> String {
+    let plain = |c: char| if c.is_ascii_alphanumeric() { c.to_ascii_uppercase() } else { '_' };
+    format!("COLOR_{}", color.trim_start_matches('#').chars().map(plain).collect::<String>())
+}
+
+/// Writes a text so that every program reads it: what is not ASCII by its number.
+fn escaped(line: &str) -> String {
+    let mut out = String::new();
+    for c in line.chars() {
+        match c {
+            ' '..='~' => out.push(c),
+            c if c.is_control() => out.push(' '),
+            c => {
+                for unit in c.encode_utf16(&mut [0; 2]) {
+                    write!(out, "\\U+{unit:04X}").expect("a string takes any text");
+                }
+            }
+        }
+    }
+    out
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn drawn(shape: Shape, vertical: Vertical) -> String {
+        let drawing = Drawing { elements: vec![Element::new(shape)], vertical };
+        write(&drawing, &DxfOptions::default())
+    }
+
+    #[test]
+    fn an_arc_stays_an_arc_and_runs_to_the_left() {
+        let arc = |sweep| Shape::Arc { center: Point::default(), radius: 2.0, start: 0.0, sweep };
+        let quarter = std::f64::consts::FRAC_PI_2;
+        let left = drawn(arc(quarter), Vertical::Up);
+        assert!(left.contains("AcDbArc\n50\n0.0\n51\n90.0\n"), "{left}");
+        let right = drawn(arc(-quarter), Vertical::Up);
+        assert!(right.contains("AcDbArc\n50\n270.0\n51\n0.0\n"), "{right}");
+        // where y runs down, what is drawn to the left is seen to run to the right
+        let down = drawn(arc(quarter), Vertical::Down);
+        assert!(down.contains("AcDbArc\n50\n270.0\n51\n0.0\n"), "{down}");
+        assert!(drawn(arc(TAU), Vertical::Up).contains("\nCIRCLE\n"));
+    }
+    #[test]
+    fn lengths_are_millimetres_and_y_runs_up() {
+        let line = Shape::Segment(Point { x: 1.0, y: 2.0 }, Point { x: 3.0, y: 4.0 });
+        let drawing = Drawing { elements: vec![Element::new(line)], vertical: Vertical::Down };
+        let options = DxfOptions { millimetres_per_unit: 1000.0, ..DxfOptions::default() };
+        let text = write(&drawing, &options);
+        let ends = "AcDbLine\n10\n1000.0\n20\n-2000.0\n30\n0.0\n11\n3000.0\n21\n-4000.0\n31\n0.0\n";
+        assert!(text.contains(ends), "{text}");
+        assert_eq!(text, write(&drawing, &options));
+    }
+    #[test]
+    fn words_that_are_not_ascii_are_written_by_number() {
+        assert_eq!(escaped("Ø 8.4 °"), "\\U+00D8 8.4 \\U+00B0");
+        assert_eq!(layer_name("#b3401a"), "COLOR_B3401A");
+    }
+}
