@@ -159,7 +159,7 @@ pub struct FixView {
 }
 
 /// The state of a thing, as colour and word.
-#[derive(Clone, Copy, PartialEq, Eq, Debug, Serialize)]
+#[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Debug, Serialize)]
 #[serde(rename_all = "lowercase")]
 pub enum Freedom {
     /// It can still move.
@@ -192,8 +192,13 @@ pub struct PictureView {
 pub enum MovedView {
     /// Other elements are drawn than before: it was made anew.
     Everything,
-    /// These elements, by their places in the drawing.
-    Elements(Vec<u32>),
+    /// These, by their places in the drawing and among the grips, in order.
+    These {
+        /// Elements.
+        elements: Vec<u32>,
+        /// Grips.
+        grips: Vec<u32>,
+    },
 }
 
 /// Another state that the rules allow.

@@ -34,6 +34,8 @@ export function createPainter(canvas, onSize) {
   let colors = []
   let words = []
   let font = "sans-serif"
+  const under = document.createElement("canvas")
+  let kept = false
 
   const observer = new ResizeObserver(([entry]) => {
     const box = entry.contentRect
@@ -107,8 +109,10 @@ export function createPainter(canvas, onSize) {
       const c = context
       const onScreen = () => c.setTransform(ratio, 0, 0, ratio, 0, 0)
       const onSheet = () => c.setTransform(ratio * kx, 0, 0, ratio * ky, ratio * x, ratio * y)
+      c.setTransform(1, 0, 0, 1, 0, 0)
+      c.clearRect(0, 0, canvas.width, canvas.height)
+      if (kept) c.drawImage(under, 0, 0)
       onScreen()
-      c.clearRect(0, 0, width, height)
       c.lineJoin = "round"
       let fill = -1
       let stroke = -1
@@ -204,6 +208,16 @@ export function createPainter(canvas, onSize) {
         }
       }
       draw()
+    },
+    // What is on the canvas now lies under what is painted next, until it is forgotten.
+    keep() {
+      under.width = canvas.width
+      under.height = canvas.height
+      under.getContext("2d").drawImage(canvas, 0, 0)
+      kept = true
+    },
+    forget() {
+      kept = false
     },
     stop: () => observer.disconnect(),
   }

@@ -2,7 +2,7 @@
 
 use crate::js::Painter;
 use crate::lab::Lab;
-use crate::paint::display_list;
+use crate::paint::{Part, display_list};
 use crate::picture::{new_painter, paint};
 use crate::sheet::fit;
 use crate::words;
@@ -96,12 +96,12 @@ fn Tile(lab: Lab, entry: BinEntry) -> impl IntoView {
         lab.colors.changes.track();
         painter.with_value(|p| p.as_ref().map(Painter::look));
         let size = size.get();
-        let list = display_list(&picture, &[], &[]);
+        let list = display_list(&picture, Part::Whole, &[], &[]);
         let view = fit(&picture.drawing, size, 8.0);
         painter
             .with_value(|painter| {
                 let painter = painter.as_ref().filter(|_| size.0 > 0.0)?;
-                Some(paint(painter, &list, Vec::new(), &view, last))
+                Some(paint(painter, &list, Vec::new(), &view, last.unwrap_or_default()))
             })
             .unwrap_or_default()
     });

@@ -83,6 +83,14 @@ extern "C" {
     #[wasm_bindgen(method)]
     pub fn paint(this: &Painter, list: &[f64], x: f64, y: f64, kx: f64, ky: f64);
 
+    /// Keeps what is painted, so that the next lists are painted over it.
+    #[wasm_bindgen(method)]
+    pub fn keep(this: &Painter);
+
+    /// Forgets what was kept.
+    #[wasm_bindgen(method)]
+    pub fn forget(this: &Painter);
+
     /// Stops watching the canvas.
     #[wasm_bindgen(method)]
     pub fn stop(this: &Painter);

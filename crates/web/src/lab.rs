@@ -15,8 +15,8 @@ use drawing::Point;
 use leptos::prelude::*;
 use session::view::{
     Analysis, Caught, Change, Choice, DocumentId, DragState, Explanation, FixView, Ghost, HeldView,
-    PictureView, Question, Recognised, Refusal, RowKind, Status, StructureRow, TextView, ToolView,
-    ValueRow, Velocity,
+    MovedView, PictureView, Question, Recognised, Refusal, RowKind, Status, StructureRow, TextView,
+    ToolView, ValueRow, Velocity,
 };
 use session::{Command, Path, Session};
 use std::collections::BTreeMap;
@@ -105,6 +105,8 @@ pub struct Lab {
     pub hovered: RwSignal<Option<String>>,
     /// What is selected and hovered, each as the first path of its thing.
     pub marked: Memo<Marked>,
+    /// What of it has moved since the press of the drag that is going on.
+    pub moved: RwSignal<MovedView>,
     /// The motion that the picture shows by arrows.
     pub motion: RwSignal<Vec<Velocity>>,
     /// Where else the selection could be, as the picture shows it.
@@ -233,6 +235,7 @@ impl Lab {
             text: RwSignal::new(no_text()),
             status: RwSignal::new(Status::default()),
             picture: RwSignal::new(PictureView::default()),
+            moved: RwSignal::new(MovedView::Everything),
             selected,
             also,
             hovered,
@@ -665,7 +668,11 @@ impl Lab {
     /// Makes the views that a drag changes, as far as they are in the page.
     fn repaint(self) {
         let Some(id) = self.id() else { return };
-        self.picture.set(self.ask(|session| session.picture(id)));
+        let followed = self
+            .picture
+            .try_update_untracked(|view| self.ask(|session| session.follow_picture(id, view)));
+        self.set_moved(followed.unwrap_or(MovedView::Everything));
+        self.picture.notify();
         let dragged = self.structure.with_untracked(|rows| {
             let shown = self.shown_things.get_value();
             self.ask(|session| {
@@ -686,10 +693,17 @@ impl Lab {
         });
     }
 
+    fn set_moved(self, moved: MovedView) {
+        if self.moved.with_untracked(|before| *before != moved) {
+            self.moved.set(moved);
+        }
+    }
+
     /// Makes all views.
     fn refresh(self) {
         let Some(id) = self.id() else { return };
         let (picture, values) = self.ask(|session| (session.picture(id), session.values(id)));
+        self.set_moved(MovedView::Everything);
         self.picture.set(picture);
         self.values.set(values);
         let (structure, text, status, title) = self.ask(|session| {

@@ -16,7 +16,7 @@
 
 use crate::sheet::View;
 use drawing::{Anchoring, Color, Drawing, Element, Layer, Line, Placement, Point, Shape, Style};
-use session::view::{Caught, Freedom, PictureView, Velocity};
+use session::view::{Caught, Freedom, MovedView, PictureView, Velocity};
 use std::collections::BTreeSet;
 
 /// What is painted: numbers, and the words and colours that they speak of.
@@ -28,6 +28,53 @@ pub struct DisplayList {
     pub words: Vec<String>,
     /// The colours that the document names; they are numbered after the page's own.
     pub colors: Vec<String>,
+    /// The numbers of the latest style: what has the same follows in one path.
+    style: Option<[f64; 5]>,
+}
+
+/// Which part of a picture a list is of.
+#[derive(Clone, Copy, Debug)]
+pub enum Part<'a> {
+    /// All of it.
+    Whole,
+    /// What has moved since a drag was pressed.
+    Moving(&'a MovedView),
+    /// The rest.
+    Still(&'a MovedView),
+}
+
+impl Part<'_> {
+    /// The numbers below `n` that belong to it, in order.
+    fn of(self, n: usize, moved: impl Fn(&MovedView) -> Option<&[u32]>) -> Vec<usize> {
+        match self {
+            Part::Whole => (0..n).collect(),
+            Part::Moving(view) => match moved(view) {
+                Some(moved) => moved.iter().map(|&at| at as usize).filter(|&at| at < n).collect(),
+                None => (0..n).collect(),
+            },
+            Part::Still(view) => match moved(view) {
+                Some(moved) => {
+                    let mut next = moved.iter().map(|&at| at as usize).peekable();
+                    (0..n).filter(|&at| next.next_if_eq(&at).is_none()).collect()
+                }
+                None => Vec::new(),
+            },
+        }
+    }
+
+    fn elements(self, picture: &PictureView) -> Vec<usize> {
+        self.of(picture.drawing.elements.len(), |view| match view {
+            MovedView::Everything => None,
+            MovedView::These { elements, .. } => Some(elements),
+        })
+    }
+
+    fn grips(self, picture: &PictureView) -> Vec<usize> {
+        self.of(picture.grips.len(), |view| match view {
+            MovedView::Everything => None,
+            MovedView::These { grips, .. } => Some(grips),
+        })
+    }
 }
 
 /// The page's own colours, in the order of `ROLES` in `painter.js`.
@@ -76,16 +123,26 @@ const ARROW: f64 = 44.0;
 /// The radius of a point, in pixels.
 const POINT: f64 = 4.75;
 
-/// Returns the list for a picture. `freedom` is that of its grips, which are painted as points where
+/// Returns the list for a part of a picture. `freedom` is that of its grips, which are painted as points where
 /// the picture itself has none; `marks` are those of its tags and then of its grips.
 pub fn display_list(
     picture: &PictureView,
+    part: Part<'_>,
     freedom: &[Option<Freedom>],
     marks: &[Mark],
 ) -> DisplayList {
     let mut list = DisplayList::default();
-    let elements = in_layers(&picture.drawing.elements);
-    let bare = bare_grips(picture);
+    let all = &picture.drawing.elements;
+    let own: Vec<&Element> = part.elements(picture).into_iter().map(|at| &all[at]).collect();
+    let grips = part.grips(picture);
+    let bare = bare_grips(picture, &own, &grips);
+    let anchored: BTreeSet<&str> = grips
+        .iter()
+        .map(|at| &picture.grips[*at])
+        .filter(|grip| grip.anchored)
+        .map(|grip| grip.path.as_str())
+        .collect();
+    let elements = in_layers(picture, &own);
     for mark in [Mark::Hovered, Mark::Selected] {
         halos(&mut list, &elements, marks, mark);
         let marked = |at: &&usize| marks.get(picture.paths.len() + **at) == Some(&mark);
@@ -95,13 +152,13 @@ pub fn display_list(
     }
     let words = elements.iter().position(|e| e.layer == Layer::Words).unwrap_or(elements.len());
     let (below, words) = elements.split_at(words);
-    paint_elements(&mut list, picture, below);
+    paint_elements(&mut list, picture, &anchored, below);
     for at in bare {
         let grip = &picture.grips[at];
         let freedom = freedom.get(at).copied().flatten();
         dot(&mut list, Point { x: grip.x, y: grip.y }, freedom, grip.anchored);
     }
-    paint_elements(&mut list, picture, words);
+    paint_elements(&mut list, picture, &anchored, words);
     list
 }
 
@@ -175,46 +232,46 @@ pub fn caught(list: &mut DisplayList, found: &Caught) {
     shape(list, &text);
 }
 
-/// The numbers of the grips where the picture has no point.
-fn bare_grips(picture: &PictureView) -> Vec<usize> {
-    let dots = picture.drawing.elements.iter().filter(|e| matches!(e.shape, Shape::Dot(_)));
+/// Those of some grips where some elements have no point.
+fn bare_grips(picture: &PictureView, elements: &[&Element], grips: &[usize]) -> Vec<usize> {
+    let dots = elements.iter().filter(|e| matches!(e.shape, Shape::Dot(_)));
     let dotted: BTreeSet<&str> =
         dots.filter_map(|e| picture.paths.get(e.tag.0 as usize)).map(String::as_str).collect();
-    let grips = picture.grips.iter().enumerate();
-    grips.filter(|(_, grip)| !dotted.contains(grip.path.as_str())).map(|(at, _)| at).collect()
+    let is_bare = |at: &usize| !dotted.contains(picture.grips[*at].path.as_str());
+    grips.iter().copied().filter(is_bare).collect()
 }
 
-fn paint_elements(list: &mut DisplayList, picture: &PictureView, elements: &[&Element]) {
-    let anchored: BTreeSet<&str> =
-        picture.grips.iter().filter(|g| g.anchored).map(|g| g.path.as_str()).collect();
-    let mut style = None;
+fn paint_elements(
+    list: &mut DisplayList,
+    picture: &PictureView,
+    anchored: &BTreeSet<&str>,
+    elements: &[&Element],
+) {
     for element in elements {
         let tag = element.tag.0 as usize;
         let freedom = picture.freedom.get(tag).copied().flatten();
         if let Shape::Dot(p) = element.shape {
             let path = picture.paths.get(tag).map(String::as_str);
             dot(list, p, freedom, path.is_some_and(|path| anchored.contains(path)));
-            style = None;
             continue;
         }
         let now = style_of(list, &element.style, freedom);
-        if style != Some(now) {
-            list.numbers.push(1.0);
-            list.numbers.extend(now);
-            style = Some(now);
-        }
+        take_up(list, now);
         shape(list, &element.shape);
     }
 }
 
 /// Puts elements into the order in which they are painted. Where a layer has no fills, which hide
-/// what is behind them, those of one style come together, so that each style is drawn once.
-fn in_layers(elements: &[Element]) -> Vec<&Element> {
+/// what is behind them, those of one style come together, so that each style is drawn once; so do points.
+fn in_layers<'e>(picture: &PictureView, elements: &[&'e Element]) -> Vec<&'e Element> {
     let mut sorted: Vec<&Element> = Vec::with_capacity(elements.len());
     for layer in [Layer::Back, Layer::Lines, Layer::Points, Layer::Words] {
         let from = sorted.len();
-        sorted.extend(elements.iter().filter(|e| e.layer == layer));
+        sorted.extend(elements.iter().copied().filter(|e| e.layer == layer));
         let own = &mut sorted[from..];
+        if layer == Layer::Points {
+            own.sort_by_key(|e| picture.freedom.get(e.tag.0 as usize).copied().flatten());
+        }
         if layer == Layer::Lines && own.iter().all(|e| e.style.fill.is_none()) {
             let mut styles: Vec<&Style> = Vec::new();
             own.sort_by_cached_key(|e| {
@@ -232,7 +289,6 @@ fn in_layers(elements: &[Element]) -> Vec<&Element> {
 fn halos(list: &mut DisplayList, elements: &[&Element], marks: &[Mark], mark: Mark) {
     let Some(color) = halo_color(mark) else { return };
     let marked = |e: &&&Element| marks.get(e.tag.0 as usize) == Some(&mark);
-    let mut open = false;
     for element in elements.iter().filter(marked) {
         match element.shape {
             Shape::Dot(_) | Shape::Text { .. } => {}
@@ -240,10 +296,7 @@ fn halos(list: &mut DisplayList, elements: &[&Element], marks: &[Mark], mark: Ma
             | Shape::Polyline { .. }
             | Shape::Circle { .. }
             | Shape::Arc { .. } => {
-                if !open {
-                    begin(list, color, -1, Line::Solid, 9.0, Space::Sheet);
-                    open = true;
-                }
+                begin(list, color, -1, Line::Solid, 9.0, Space::Sheet);
                 shape(list, &element.shape);
             }
         }
@@ -278,14 +331,17 @@ enum Space {
 }
 
 fn begin(list: &mut DisplayList, stroke: i32, fill: i32, line: Line, width: f64, space: Space) {
-    list.numbers.extend([
-        1.0,
-        f64::from(stroke),
-        f64::from(fill),
-        line_number(line),
-        width,
-        f64::from(u8::from(space == Space::Screen)),
-    ]);
+    let on_screen = f64::from(u8::from(space == Space::Screen));
+    take_up(list, [f64::from(stroke), f64::from(fill), line_number(line), width, on_screen]);
+}
+
+/// Begins a path of another style than that of the latest.
+fn take_up(list: &mut DisplayList, style: [f64; 5]) {
+    if list.style != Some(style) {
+        list.numbers.push(1.0);
+        list.numbers.extend(style);
+        list.style = Some(style);
+    }
 }
 
 fn line_number(line: Line) -> f64 {
@@ -415,10 +471,10 @@ fn lines_between(a: f64, b: f64, step: f64) -> impl Iterator<Item = i64> {
 
 #[cfg(test)]
 mod tests {
-    use super::{Mark, display_list, grid};
+    use super::{Mark, Part, display_list, grid};
     use crate::sheet::View;
     use drawing::{Color, Drawing, Element, Layer, Point, Shape, Style, Tag};
-    use session::view::{Freedom, Grip, PictureView};
+    use session::view::{Freedom, Grip, MovedView, PictureView};
 
     fn element(shape: Shape, layer: Layer, style: Style) -> Element {
         Element { shape, style, layer, tag: Tag(0) }
@@ -437,8 +493,26 @@ mod tests {
     }
 
     #[test]
+    fn what_moves_and_what_rests_are_the_whole() {
+        let elements = [1.0, 2.0, 3.0].map(|x| element(segment(x), Layer::Lines, Style::default()));
+        let picture = picture(elements.to_vec(), None);
+        let moved = MovedView::These { elements: vec![1], grips: Vec::new() };
+        let numbers = |part| display_list(&picture, part, &[], &[]).numbers;
+        let style = [1.0, 0.0, -1.0, 0.0, 1.75, 0.0];
+        let line = |x: f64| [2.0, x, 0.0, x, 1.0];
+        assert_eq!(numbers(Part::Moving(&moved)), [&style[..], &line(2.0)].concat());
+        let rest = [&style[..], &line(1.0), &line(3.0)].concat();
+        assert_eq!(numbers(Part::Still(&moved)), rest);
+        assert_eq!(numbers(Part::Moving(&MovedView::Everything)), numbers(Part::Whole));
+        assert!(numbers(Part::Still(&MovedView::Everything)).is_empty());
+    }
+
+    #[test]
     fn an_empty_picture_is_an_empty_list() {
-        assert_eq!(display_list(&PictureView::default(), &[], &[]), super::DisplayList::default());
+        assert_eq!(
+            display_list(&PictureView::default(), Part::Whole, &[], &[]),
+            super::DisplayList::default()
+        );
     }
 
     #[test]
@@ -460,7 +534,7 @@ mod tests {
             element(segment(2.0), Layer::Lines, faint),
             element(segment(3.0), Layer::Lines, Style::default()),
         ];
-        let list = display_list(&picture(elements, None), &[], &[]);
+        let list = display_list(&picture(elements, None), Part::Whole, &[], &[]);
         assert_eq!(
             list.numbers,
             [
@@ -482,7 +556,7 @@ mod tests {
             element(segment(2.0), Layer::Lines, filled),
             element(segment(3.0), Layer::Lines, Style::default()),
         ];
-        let list = display_list(&picture(elements, None), &[], &[]);
+        let list = display_list(&picture(elements, None), Part::Whole, &[], &[]);
         let order: Vec<f64> = list
             .numbers
             .windows(5)
@@ -496,9 +570,12 @@ mod tests {
     #[test]
     fn a_point_in_conflict_is_a_red_cross_and_a_free_one_a_blue_disc() {
         let dots = || vec![element(Shape::Dot(Point::default()), Layer::Points, Style::default())];
-        let free = display_list(&picture(dots(), Some(Freedom::Free)), &[], &[]).numbers;
+        let free =
+            display_list(&picture(dots(), Some(Freedom::Free)), Part::Whole, &[], &[]).numbers;
         assert_eq!((free[2], free[6], free[7]), (4.0, 5.0, 0.0));
-        let wrong = display_list(&picture(dots(), Some(Freedom::Conflicting)), &[], &[]).numbers;
+        let wrong =
+            display_list(&picture(dots(), Some(Freedom::Conflicting)), Part::Whole, &[], &[])
+                .numbers;
         assert_eq!((wrong[12], wrong[18]), (6.0, 2.0));
     }
 
@@ -507,19 +584,24 @@ mod tests {
         let grip = Grip { path: String::from("p"), x: 3.0, y: 4.0, anchored: false };
         let lines = vec![element(segment(1.0), Layer::Lines, Style::default())];
         let bare = PictureView { grips: vec![grip.clone()], ..picture(lines, None) };
-        let list = display_list(&bare, &[Some(Freedom::Free)], &[]).numbers;
+        let list = display_list(&bare, Part::Whole, &[Some(Freedom::Free)], &[]).numbers;
         assert_eq!(list[list.len() - 5..], [5.0, 0.0, 3.0, 4.0, super::POINT]);
         let dots = vec![element(Shape::Dot(Point::default()), Layer::Points, Style::default())];
         let plain = picture(dots, Some(Freedom::Free));
         let dotted = PictureView { grips: vec![grip], ..plain.clone() };
-        assert_eq!(display_list(&dotted, &[], &[]), display_list(&plain, &[], &[]));
+        assert_eq!(
+            display_list(&dotted, Part::Whole, &[], &[]),
+            display_list(&plain, Part::Whole, &[], &[])
+        );
     }
 
     #[test]
     fn what_is_selected_has_a_halo_behind_it() {
         let elements = vec![element(segment(1.0), Layer::Lines, Style::default())];
-        let plain = display_list(&picture(elements.clone(), None), &[], &[Mark::None]).numbers;
-        let marked = display_list(&picture(elements, None), &[], &[Mark::Selected]).numbers;
+        let plain =
+            display_list(&picture(elements.clone(), None), Part::Whole, &[], &[Mark::None]).numbers;
+        let marked =
+            display_list(&picture(elements, None), Part::Whole, &[], &[Mark::Selected]).numbers;
         assert_eq!(&marked[..2], &[1.0, 8.0]);
         assert_eq!(&marked[marked.len() - plain.len()..], plain);
     }

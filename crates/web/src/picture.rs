@@ -6,7 +6,7 @@
 use crate::field::Edit;
 use crate::js::{self, Painter};
 use crate::lab::{Lab, Marked, Zoom, first_path};
-use crate::paint::{DisplayList, Mark, arrows, caught, display_list, ghosts, grid, preview};
+use crate::paint::{DisplayList, Mark, Part, arrows, caught, display_list, ghosts, grid, preview};
 use crate::sheet::{View, fit};
 use crate::words;
 use drawing::{Point, Vertical};
@@ -14,8 +14,9 @@ use js_sys::Array;
 use leptos::ev::{KeyboardEvent, MouseEvent, PointerEvent, WheelEvent};
 use leptos::html::Canvas;
 use leptos::prelude::*;
-use session::view::{Freedom, Grip, PictureView, StructureRow};
+use session::view::{Freedom, Grip, MovedView, PictureView, StructureRow};
 use std::collections::BTreeMap;
+use std::sync::Arc;
 use wasm_bindgen::closure::Closure;
 use wasm_bindgen::{JsCast, JsValue};
 
@@ -38,11 +39,29 @@ pub fn Picture(
     let hand = hand::Hand::new(lab, canvas);
     let marked = lab.marked;
     let states = Memo::new(move |_| lab.structure.with(|rows| states(rows)));
+    // what a drag leaves as it is
+    let form = Memo::new(move |_| lab.picture.with(|p| (p.made, p.paths.len(), p.grips.len())));
+    let freedom = Memo::new(move |_| {
+        form.track();
+        states.with(|states| lab.picture.with_untracked(|p| grip_freedom(p, states)))
+    });
+    let marks = Memo::new(move |_| {
+        form.track();
+        marked.with(|marked| lab.picture.with_untracked(|picture| marks(picture, marked)))
+    });
+    let listed = move |picture: &PictureView, part: Part<'_>| {
+        freedom.with(|freedom| marks.with(|marks| display_list(picture, part, freedom, marks)))
+    };
+    let still = Memo::new(move |_| {
+        lab.moved.with(|moved| {
+            let is_split = *moved != MovedView::Everything;
+            let list = || lab.picture.with_untracked(|p| listed(p, Part::Still(moved)));
+            is_split.then(|| Arc::new(list()))
+        })
+    });
     let list = Memo::new(move |_| {
         lab.picture.with(|picture| {
-            let freedom = states.with(|states| grip_freedom(picture, states));
-            let marks = marked.with(|marked| marks(picture, marked));
-            let mut list = display_list(picture, &freedom, &marks);
+            let mut list = lab.moved.with(|moved| listed(picture, Part::Moving(moved)));
             lab.ghosts.with(|drawn| ghosts(&mut list, drawn));
             lab.motion.with(|motion| arrows(&mut list, picture, motion));
             lab.tool_view.with(|tool| {
@@ -70,15 +89,34 @@ pub fn Picture(
         lab.colors.changes.track();
         painter.with_value(|p| p.as_ref().map(Painter::look));
     });
-    Effect::new(move |last: Option<(Vec<String>, Vec<String>)>| {
+    Effect::new(move |last: Option<Painted>| {
         lab.colors.changes.track();
-        let lines = if lab.grid.get() { grid(&lab.view.get(), size.get()) } else { Vec::new() };
-        list.with(|list| {
-            painter.with_value(|painter| {
-                painter.as_ref().map(|p| paint(p, list, lines, &lab.view.get(), last))
+        let grid_of = |view: &View| match lab.grid.get() {
+            true => grid(view, size.get()),
+            false => Vec::new(),
+        };
+        let (view, still, last) = (lab.view.get(), still.get(), last.unwrap_or_default());
+        let looks = lab.colors.changes.get_untracked();
+        let under =
+            still.map(|list| Under { list, view, size: size.get(), grid: lab.grid.get(), looks });
+        painter
+            .with_value(|painter| {
+                let painter = painter.as_ref()?;
+                let mut last = last;
+                match &under {
+                    Some(now) if last.under.as_ref() != Some(now) => {
+                        painter.forget();
+                        last.texts = paint(painter, &now.list, grid_of(&view), &view, last.texts);
+                        painter.keep();
+                    }
+                    Some(_) => {}
+                    None => painter.forget(),
+                }
+                let lines = if under.is_some() { Vec::new() } else { grid_of(&view) };
+                let texts = list.with(|list| paint(painter, list, lines, &view, last.texts));
+                Some(Painted { texts, under })
             })
-        })
-        .unwrap_or_default()
+            .unwrap_or_default()
     });
 
     let label = Memo::new(move |_| {
@@ -143,6 +181,26 @@ pub fn Picture(
     }
 }
 
+/// What the painter has painted last.
+#[derive(Default)]
+struct Painted {
+    texts: Texts,
+    under: Option<Under>,
+}
+
+/// Words and colours that the painter has.
+pub(crate) type Texts = (Vec<String>, Vec<String>);
+
+/// What lies under what moves: painted once while all of this is the same.
+#[derive(PartialEq)]
+struct Under {
+    list: Arc<DisplayList>,
+    view: View,
+    size: (f64, f64),
+    grid: bool,
+    looks: u32,
+}
+
 pub(crate) fn new_painter(
     canvas: &web_sys::HtmlCanvasElement,
     size: RwSignal<(f64, f64)>,
@@ -159,9 +217,8 @@ pub(crate) fn paint(
     list: &DisplayList,
     mut numbers: Vec<f64>,
     view: &View,
-    last: Option<(Vec<String>, Vec<String>)>,
-) -> (Vec<String>, Vec<String>) {
-    let (words, colors) = last.unwrap_or_default();
+    (words, colors): Texts,
+) -> Texts {
     let array =
         |texts: &[String]| texts.iter().map(|t| JsValue::from(t.as_str())).collect::<Array>();
     if words != list.words {

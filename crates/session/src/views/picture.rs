@@ -101,13 +101,15 @@ impl Shown {
             let now = &made.drawing.elements[at as usize];
             view.drawing.elements[at as usize].shape.clone_from(&now.shape);
         }
+        let mut grips = Vec::new();
         for &at in &self.moved.grips {
             if let Ok(shown) = self.grips.binary_search(&at) {
                 let now = made.grips[at as usize].at;
                 (view.grips[shown].x, view.grips[shown].y) = (now.x, now.y);
+                grips.push(shown as u32);
             }
         }
-        MovedView::Elements(self.moved.elements.iter().copied().collect())
+        MovedView::These { elements: self.moved.elements.iter().copied().collect(), grips }
     }
 }
 

@@ -275,7 +275,7 @@ fn a_picture_that_is_followed_is_the_one_that_is_made_anew() {
                 assert_eq!(view.drawing.elements, anew.drawing.elements, "{name}: {}", grip.path);
                 assert_eq!(view.grips, anew.grips, "{name}: {}", grip.path);
                 assert_eq!(view.paths, anew.paths, "{name}: {}", grip.path);
-                if let MovedView::Elements(moved) = moved {
+                if let MovedView::These { elements: moved, .. } = moved {
                     for (at, element) in before.elements.iter().enumerate() {
                         let same = *element == anew.drawing.elements[at];
                         assert!(same || moved.contains(&(at as u32)), "{name}: element {at}");

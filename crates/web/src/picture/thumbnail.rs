@@ -1,10 +1,10 @@
 //! A small picture of a document, which moves while one looks at it.
 
-use super::{grip_freedom, new_painter, paint, states};
+use super::{Texts, grip_freedom, new_painter, paint, states};
 use crate::js::{self, Painter};
 use crate::lab::Lab;
 use crate::orbit;
-use crate::paint::display_list;
+use crate::paint::{Part, display_list};
 use crate::sheet::fit;
 use leptos::html::Canvas;
 use leptos::prelude::*;
@@ -42,18 +42,18 @@ pub fn Thumbnail(
         lab.colors.changes.track();
         painter.with_value(|p| p.as_ref().map(Painter::look));
     });
-    Effect::new(move |last: Option<(Vec<String>, Vec<String>)>| {
+    Effect::new(move |last: Option<Texts>| {
         lab.colors.changes.track();
         let size = size.get();
         let view = rest.with_value(|drawing| fit(drawing, size, MARGIN));
         let list = picture.with(|picture| {
             let freedom = freedom.with_value(|states| grip_freedom(picture, states));
-            display_list(picture, &freedom, &[])
+            display_list(picture, Part::Whole, &freedom, &[])
         });
         painter
             .with_value(|painter| {
                 let painter = painter.as_ref().filter(|_| size.0 > 0.0)?;
-                Some(paint(painter, &list, Vec::new(), &view, last))
+                Some(paint(painter, &list, Vec::new(), &view, last.unwrap_or_default()))
             })
             .unwrap_or_default()
     });
