@@ -24,7 +24,7 @@ pub const DEEPEST_MESSAGES: u32 = 200;
 /// How deep terms may be nested in each other, those of opened messages included.
 const DEEPEST_TERMS: u32 = 1000;
 /// How many terms one question may evaluate: what a mistyped recursion may cost.
-const MOST_TERMS: u64 = 20_000_000;
+const MOST_TERMS: u64 = 10_000_000;
 /// How many terms the rule of a constraint may evaluate: one that opens into more than a million is not
 /// solved anyway.
 const MOST_TERMS_OF_RULE: u64 = 2_000_000;
@@ -51,6 +51,8 @@ pub struct Evaluator<'a> {
     messages: Cell<u32>,
     terms: Cell<u32>,
     pub(crate) fuel: Cell<u64>,
+    /// How much fuel a question gets: half as much after each that ran out, so that all of them together end soon.
+    most: Cell<u64>,
     /// What went wrong in parts whose siblings went on without them.
     pub(crate) faults: RefCell<Vec<Fault>>,
     /// The slots read since someone began to listen.
@@ -97,6 +99,7 @@ impl<'a> Evaluator<'a> {
             messages: Cell::new(0),
             terms: Cell::new(0),
             fuel: Cell::new(MOST_TERMS),
+            most: Cell::new(MOST_TERMS),
             faults: RefCell::new(Vec::new()),
             reads: RefCell::new(None),
             nudged: Cell::new(None),
@@ -164,13 +167,13 @@ impl<'a> Evaluator<'a> {
     pub(crate) fn begin(&self) {
         self.messages.set(0);
         self.terms.set(0);
-        self.fuel.set(MOST_TERMS);
+        self.fuel.set(self.most.get());
     }
 
     /// Begins the test of a constraint.
     pub(crate) fn begin_rule(&self) {
         self.begin();
-        self.fuel.set(MOST_TERMS_OF_RULE);
+        self.fuel.set(MOST_TERMS_OF_RULE.min(self.most.get()));
     }
 
     /// Computes the value of a term.
@@ -282,6 +285,7 @@ impl<'a> Evaluator<'a> {
                 Ok(())
             }
             None => {
+                self.most.set(self.most.get() / 2);
                 let message = String::from("too many steps without an end");
                 Err(Fault::new(FaultKind::Endless, message))
             }

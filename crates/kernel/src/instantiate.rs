@@ -78,10 +78,10 @@ impl FaultKind {
     }
 }
 
-/// How many things a document may have.
+/// How many things a document may have; of one with more, none is made.
 ///
 /// A thing costs some fifty bytes; the bound keeps a mistyped count from filling the memory.
-pub const MOST_THINGS: usize = 4_000_000;
+pub const MOST_THINGS: usize = 2_000_000;
 
 /// How many things may be made and copied on the way to a document.
 const MOST_COPIES: usize = 2 * MOST_THINGS;
@@ -94,7 +94,10 @@ pub fn instantiate(document: &Document) -> (Structure, Vec<Fault>) {
     let classes = document.classes.len();
     let mut maker = Maker::new(document, IdVec::filled(None, classes));
     let mut body = Body::new(document.root);
-    let has_grown = fill::grow(&mut maker, &mut body, body::ROOT, &[]);
+    let has_grown = fill::grow(&mut maker, &mut body, body::ROOT, &[]).is_some() && !maker.is_full;
+    if maker.is_full {
+        body = Body::new(document.root);
+    }
     let givens = Rc::new(std::mem::take(&mut maker.givens));
     let grown = (has_grown && maker.faults.is_empty()).then(|| {
         let layouts = maker.layouts.clone();
@@ -176,6 +179,8 @@ struct Maker<'d> {
     kinships: BTreeMap<(ClassId, ClassId), Option<Kinship>>,
     /// The classes whose things are being filled, each inside the one before it.
     on_the_way: Vec<ClassId>,
+    /// How many levels of parts lie above what is being filled.
+    depth: usize,
     /// How many things were made so far, those that were only copied from included.
     copied: usize,
     /// True once there were too many.
@@ -194,6 +199,7 @@ impl<'d> Maker<'d> {
             shared: Vec::new(),
             kinships: BTreeMap::new(),
             on_the_way: Vec::new(),
+            depth: 0,
             copied: 0,
             is_full: false,
             faults: Vec::new(),

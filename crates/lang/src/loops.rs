@@ -332,13 +332,14 @@ fn own_list(scope: &Scope, list: &Expr) -> Option<Name> {
     scope.element(&name).is_none().then_some(name)
 }
 
-/// Returns how many members these come to at least: loops count by the numbers that are written out.
+/// Returns how many members these come to at least, a turn without any counted as one: loops count by the numbers
+/// that are written out.
 fn fewest(members: &[Member]) -> usize {
     let of = |member: &Member| {
         let Member::For(each) = member else { return 1 };
         written_turns(each).saturating_mul(fewest(&members_of(each)))
     };
-    members.iter().map(of).fold(0, usize::saturating_add)
+    members.iter().map(of).fold(0, usize::saturating_add).max(1)
 }
 
 /// Returns how many turns a loop takes where its range is two numbers; else one.

@@ -351,16 +351,14 @@ impl Lowerer<'_> {
         for operand in chain.operands() {
             terms.push((self.expr(scope, &operand)?, operand.span()));
         }
-        let mut all: Option<Term> = None;
+        let mut links = Vec::new();
         for ((op, _), pair) in chain.ops().zip(terms.windows(2)) {
             let [(a, from), (b, to)] = pair else { continue };
             let (link, _) = self.combine(scope, op, from.join(*to), a.clone(), b.clone())?;
-            all = Some(match all {
-                None => link,
-                Some(before) => Term::Binary(BinaryOperator::And, Box::new(before), Box::new(link)),
-            });
+            links.push(link);
         }
-        Some((all?, Kind::Bool))
+        let both = |a, b| Term::Binary(BinaryOperator::And, Box::new(a), Box::new(b));
+        Some((base::number::joined(links, both)?, Kind::Bool))
     }
 
     /// Joins two operands, what they measure checked.

@@ -16,21 +16,41 @@ use eval::Answer;
 use kernel::{Command, DOCUMENT, Literal, Path, Term};
 use lang::{Check, Expectation, PlanKind, Statement, StatementKind};
 use std::collections::BTreeSet;
+use std::ops::Range;
 
 /// Runs every check of a document.
 pub(crate) fn run_all(state: &State, host: &dyn Host) -> Vec<CheckReport> {
-    (0..state.lowered.checks.len()).map(|index| run(state, index, host)).collect()
+    let document = lang::without_checks(&state.text);
+    let lines = LineIndex::new(&state.text);
+    let of = Checked { state, document: &document, lines: &lines };
+    state.lowered.checks.iter().map(|check| run(of, check, host)).collect()
+}
+
+/// The document whose checks are run.
+#[derive(Clone, Copy)]
+struct Checked<'h> {
+    state: &'h State,
+    /// Its text without checks.
+    document: &'h str,
+    lines: &'h LineIndex,
+}
+
+impl Checked<'_> {
+    fn line(&self, offset: u32) -> u32 {
+        self.lines.line_column(&self.state.text, offset).0
+    }
 }
 
 /// A check while it runs.
 struct Run<'h> {
     open: Open,
     host: &'h dyn Host,
-    /// The document's own state, whose check it is.
-    of: &'h State,
+    of: Checked<'h>,
     check: &'h Check,
-    /// What the statements mean in the present structure.
+    /// What statements mean in the present structure.
     statements: Vec<Statement>,
+    /// Which of the check's these are.
+    known: Range<usize>,
     /// What the latest `try` was refused with.
     refusal: Option<Refusal>,
     /// The state before the latest edit.
@@ -38,23 +58,22 @@ struct Run<'h> {
     shortfalls: Vec<Shortfall>,
 }
 
-fn run(state: &State, index: usize, host: &dyn Host) -> CheckReport {
-    let check = &state.lowered.checks[index];
+fn run(of: Checked<'_>, check: &Check, host: &dyn Host) -> CheckReport {
     let members: Vec<&str> = check.members.iter().map(|m| &**m).collect();
-    let document = lang::without_checks(&state.text);
-    let end = document.len() as u32;
-    let text = format!("{document}\n{}\n", members.join("\n"));
+    let end = of.document.len() as u32;
+    let text = format!("{}\n{}\n", of.document, members.join("\n"));
     let mut run = Run {
         open: Open::of("check", text, host),
         host,
-        of: state,
+        of,
         check,
         statements: Vec::new(),
+        known: 0..0,
         refusal: None,
         before: None,
         shortfalls: Vec::new(),
     };
-    run.statements = run.lowered(&check.statements).0;
+    run.know(0..check.statements.len());
     run.note_faults(end);
     if let Some(first) = check.statements.first() {
         run.note_violations(first);
@@ -65,20 +84,31 @@ fn run(state: &State, index: usize, host: &dyn Host) -> CheckReport {
             break;
         }
     }
-    let line = line_of(state, check.span.start);
     CheckReport {
         title: check.title.clone(),
-        line,
+        line: of.line(check.span.start),
         passed: run.shortfalls.is_empty(),
         shortfalls: run.shortfalls,
     }
 }
 
-fn line_of(state: &State, offset: u32) -> u32 {
-    LineIndex::new(&state.text).line_column(&state.text, offset).0
-}
-
 impl Run<'_> {
+    /// Finds out what some of the check's statements mean in the present structure.
+    fn know(&mut self, which: Range<usize>) {
+        self.statements = self.lowered(&self.check.statements[which.clone()]).0;
+        self.known = which;
+    }
+
+    /// Returns what a statement means in the present structure. After an edit of the structure one statement is
+    /// read, after that twice as many at a time.
+    fn meaning(&mut self, at: usize) -> Option<StatementKind> {
+        if !self.known.contains(&at) {
+            let more = (2 * self.known.len()).max(1);
+            self.know(at..self.check.statements.len().min(at + more));
+        }
+        self.statements.get(at - self.known.start).map(|s| s.kind.clone())
+    }
+
     /// Finds out what statements mean in the present structure, and what is wrong with them.
     fn lowered(&self, statements: &[Statement]) -> (Vec<Statement>, Option<String>) {
         let sources: Vec<&str> = statements.iter().map(|s| self.source(s)).collect();
@@ -98,20 +128,20 @@ impl Run<'_> {
             d.place.file == base::FileId(0)
                 && statement.span.range().contains(&(d.place.span.start as usize))
         };
-        self.of.diagnostics.iter().any(inside)
+        self.of.state.diagnostics.iter().any(inside)
     }
 
     fn source(&self, statement: &Statement) -> &str {
-        self.of.text.get(statement.span.range()).unwrap_or_default()
+        self.of.state.text.get(statement.span.range()).unwrap_or_default()
     }
 
     /// A check whose own members are wrong falls short at once.
     fn note_faults(&mut self, end: u32) {
-        let known = |m: &str| self.of.diagnostics.iter().any(|d| d.message == m);
+        let known = |m: &str| self.of.state.diagnostics.iter().any(|d| d.message == m);
         for d in &self.open.state.diagnostics {
             let own = d.place.file == base::FileId(0) && d.place.span.start >= end;
             if own && d.severity == base::Severity::Error && !known(&d.message) {
-                let line = line_of(self.of, self.check.span.start);
+                let line = self.of.line(self.check.span.start);
                 let statement = "its own members".to_string();
                 self.shortfalls.push(Shortfall { line, statement, message: d.message.clone() });
             }
@@ -120,7 +150,7 @@ impl Run<'_> {
 
     fn fall_short(&mut self, statement: &Statement, message: String) {
         let source = self.source(statement).trim().to_string();
-        let line = line_of(self.of, statement.span.start);
+        let line = self.of.line(statement.span.start);
         self.shortfalls.push(Shortfall { line, statement: source, message });
     }
 
@@ -141,7 +171,7 @@ impl Run<'_> {
     fn statement(&mut self, at: usize) -> Result<(), String> {
         let state = self.open.state.clone();
         let statement = &self.check.statements[at];
-        let kind = match self.statements.get(at).map(|s| s.kind.clone()) {
+        let kind = match self.meaning(at) {
             // the text's own diagnostics say so already
             Some(StatementKind::Unclear) | None if self.is_told(statement) => return Ok(()),
             Some(StatementKind::Unclear) | None => {
@@ -150,7 +180,7 @@ impl Run<'_> {
                 return match message {
                     Some(message) => Err(message),
                     // what it speaks of is wrong where it is declared, and that is said there
-                    None if self.of.diagnostics.iter().any(is_error) => Ok(()),
+                    None if self.of.state.diagnostics.iter().any(is_error) => Ok(()),
                     None => Err("this means nothing here".into()),
                 };
             }
@@ -197,7 +227,7 @@ impl Run<'_> {
         self.before = Some(self.open.state.clone());
         let change = apply::apply(&mut self.open, self.host, &command)?;
         if change.structure || matches!(kind, StatementKind::Command(_)) {
-            self.statements = self.lowered(&self.check.statements).0;
+            self.known = 0..0;
         }
         Ok(change)
     }

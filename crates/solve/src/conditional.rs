@@ -84,6 +84,13 @@ pub struct Conditional {
     pub ranges: Vec<SlotRange>,
 }
 
+/// Returns those that are a relation's, of what stands in the order of relations.
+pub(crate) fn of_relation<T>(all: &[T], relation: u32, own: impl Fn(&T) -> u32) -> &[T] {
+    let start = all.partition_point(|item| own(item) < relation);
+    let end = all.partition_point(|item| own(item) <= relation);
+    &all[start..end]
+}
+
 impl Conditional {
     /// Returns true if nothing in it asks for more than equations.
     pub fn is_plain(&self) -> bool {
@@ -91,10 +98,20 @@ impl Conditional {
             && self.guards.is_empty()
             && self.ranges.iter().all(|r| r.is_by_class)
     }
+    /// Returns the guards of a relation.
+    pub fn guards_of(&self, relation: u32) -> &[Guard] {
+        of_relation(&self.guards, relation, |g| g.relation)
+    }
+    /// Returns the demands of a relation.
+    pub fn demands_of(&self, relation: u32) -> &[Demand] {
+        of_relation(&self.demands, relation, |d| d.relation)
+    }
     /// Returns the slots that the conditions ask for under which a relation holds.
     pub fn conditions_of(&self, relation: u32) -> impl Iterator<Item = SlotIndex> {
-        let own = self.guards.iter().filter(move |g| g.relation == relation);
-        let asked = own.map(|g| self.conditions[g.condition as usize].arguments);
+        let asked = self
+            .guards_of(relation)
+            .iter()
+            .map(|g| self.conditions[g.condition as usize].arguments);
         asked.flat_map(|arguments| self.system.arguments(arguments).iter().copied())
     }
     /// Returns true for a slot whose whole number is unknown.

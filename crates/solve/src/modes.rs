@@ -20,7 +20,7 @@ pub use decide::{
     Decision, Ended, MOST_MODES, Tried, decide, decide_along, decide_nearest_pieces, decide_pieces,
 };
 
-use crate::conditional::{Conditional, DemandKind};
+use crate::conditional::{Conditional, DemandKind, of_relation};
 use crate::pattern::{Pattern, PatternId, Patterns, Scratch};
 use crate::system::{Equation, Level, RelationBody, SlotIndex, Span, System};
 use crate::truth::{Comparing, Comparison, Truth, truth};
@@ -225,7 +225,7 @@ impl Modes {
             let start = system.equations.len() as u32;
             system.equations.extend(whole.equations_of(relation));
             let mut acting = Vec::new();
-            for want in self.wants.iter().filter(|w| w.relation == index) {
+            for want in of_relation(&self.wants, index, |w| w.relation) {
                 self.acting(&want.tree, mode, &mut acting);
             }
             for &c in &acting {
@@ -292,7 +292,7 @@ impl Modes {
 
     /// Returns true for a relation whose guards are as assumed.
     fn counts(&self, relation: u32, mode: &Mode) -> bool {
-        let mut guards = self.conditional.guards.iter().filter(|g| g.relation == relation);
+        let mut guards = self.conditional.guards_of(relation).iter();
         guards.all(|g| mode.assumed[g.condition as usize] == g.truth)
     }
 

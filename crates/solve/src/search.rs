@@ -119,7 +119,7 @@ impl Puzzle {
                 let sides = patterns.get(e.pattern).write_out(&mut arena, slots);
                 equal.push((sides[0], sides[1]));
             }
-            for demand in conditional.demands.iter().filter(|d| d.relation == index) {
+            for demand in conditional.demands_of(index) {
                 let slots = system.arguments(demand.arguments);
                 let roots = patterns.get(demand.pattern).write_out(&mut arena, slots);
                 rows.push(match demand.kind {
@@ -131,9 +131,8 @@ impl Puzzle {
                 });
             }
             let unless: Vec<Row> = conditional
-                .guards
+                .guards_of(index)
                 .iter()
-                .filter(|g| g.relation == index)
                 .map(|g| {
                     let not = truth(&mut arena, conditions[g.condition as usize], !g.truth);
                     row(&arena, cells, not)

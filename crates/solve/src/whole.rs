@@ -34,7 +34,7 @@ use std::collections::BinaryHeap;
 const MOST_TRIALS: usize = 1_000;
 /// How many more are made in search of whole numbers that leave less of the wishes unmet.
 const IMPROVING: usize = 64;
-/// How many boxes are looked at for it, and how many numbers in all of them.
+/// How many boxes are looked at for it, and how many numbers are narrowed for them.
 const MOST_BOXES: usize = 20_000;
 const MOST_NUMBERS: usize = 2_000_000;
 /// Errors whose squares differ by less than this part of them count as equal.
@@ -194,8 +194,16 @@ impl Wholes {
             has_whole.then_some(Released::GivenWhole),
             (has_real && (opens || has_whole)).then_some(Released::All),
         ];
-        let mut looking =
-            Looking { wholes: self, start, values, opens, attempt, boxes: 0, is_spent: false };
+        let mut looking = Looking {
+            wholes: self,
+            start,
+            values,
+            opens,
+            attempt,
+            boxes: 0,
+            narrowed: 0,
+            is_spent: false,
+        };
         let mut is_complete = true;
         let mut best: Option<Best> = None;
         for released in turns.into_iter().flatten() {
@@ -231,6 +239,8 @@ struct Looking<'a> {
     opens: bool,
     attempt: &'a mut dyn FnMut(Constants, &[f64]) -> Trial,
     boxes: usize,
+    /// How many numbers were narrowed, every time that one was.
+    narrowed: usize,
     /// True once a trial has spent what may be spent.
     is_spent: bool,
 }
@@ -258,9 +268,11 @@ impl Looking<'_> {
         };
         let stays = self.wholes.slots.iter().map(|s| s.stay).enumerate();
         let known = stays.map(|(i, stay)| is_known(i, stay).then(|| self.values[i]));
-        let Some(whole) = self.wholes.net.ground(known) else { return (None, true) };
+        let Some(whole) = self.wholes.net.ground(known, &mut self.narrowed) else {
+            return (None, true);
+        };
         let near = Near::new(&self.wholes.whole, &self.wholes.slots, self.start, self.opens);
-        let most = self.boxes + MOST_BOXES.min(MOST_NUMBERS / whole.len().max(1));
+        let (most, most_narrowed) = (self.boxes + MOST_BOXES, self.narrowed + MOST_NUMBERS);
         let mut open = BinaryHeap::from([Open::new(Boxes::from(whole), &near, 0)]);
         let mut best: Option<Best> = None;
         let mut left = MOST_TRIALS;
@@ -272,7 +284,7 @@ impl Looking<'_> {
             if known.any(|moved| !is_nearer([distance[0], distance[1]], moved)) {
                 break;
             }
-            if self.is_spent || self.boxes >= most || left == 0 {
+            if self.is_spent || self.boxes >= most || self.narrowed >= most_narrowed || left == 0 {
                 is_complete = false;
                 break;
             }
@@ -309,7 +321,8 @@ impl Looking<'_> {
                 continue;
             };
             for part in parts.into_iter().filter(|part| !part.is_none()) {
-                if let Some(smaller) = self.wholes.net.with(&boxes, slot, part) {
+                if let Some(smaller) = self.wholes.net.with(&boxes, slot, part, &mut self.narrowed)
+                {
                     made += 1;
                     open.push(Open::new(Boxes::from(smaller), &near, made));
                 }

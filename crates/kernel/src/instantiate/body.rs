@@ -36,6 +36,8 @@ pub(super) struct Body {
     pub(super) members: Vec<(ThingId, ThingId)>,
     /// What could not be followed in here.
     pub(super) waiting: Vec<Waiting>,
+    /// How many levels of parts lie below its thing.
+    pub(super) below: usize,
     /// True if a list in it has as many elements as are given.
     pub(super) counts_givens: bool,
 }

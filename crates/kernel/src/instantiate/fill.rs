@@ -9,17 +9,19 @@ use crate::structure::ThingId;
 use crate::term::{OriginId, Term};
 use std::rc::Rc;
 
-/// How deep parts may lie in parts of classes: what the stack holds.
+/// How deep parts may lie in parts, elements of lists included: what the stack holds, here and wherever parts
+/// are gone through.
 const DEEPEST: usize = 200;
 
-/// Makes what is below a thing. `bindings` are given values from its owners, the outermost last.
-pub(super) fn fill<'d>(
+/// Makes what is below a thing; returns how many levels of parts that is. `bindings` are given values from its
+/// owners, the outermost last.
+fn fill<'d>(
     maker: &mut Maker<'d>,
     body: &mut Body,
     thing: ThingId,
     bindings: &[Binding<'d>],
     origin: OriginId,
-) {
+) -> usize {
     let document = maker.document;
     let class = body.things[thing].class;
     if document.classes[class].is_abstract {
@@ -27,23 +29,37 @@ pub(super) fn fill<'d>(
         let message = format!("{name} is abstract: it has no things of its own");
         maker.fault(origin, FaultKind::AbstractPart, message);
     }
-    match document.classes[class].kind {
-        ClassKind::Primitive(_) | ClassKind::Reference(_) | ClassKind::Set(_) => {}
+    let below = match document.classes[class].kind {
+        ClassKind::Primitive(_) | ClassKind::Reference(_) | ClassKind::Set(_) => 0,
         ClassKind::List(element) => {
             return fill_list(maker, body, thing, element, bindings, origin);
         }
         ClassKind::Composite => {
-            let Some(known) = body_of(maker, class, origin) else { return };
+            let Some(known) = body_of(maker, class, origin) else { return 0 };
             if known.counts_givens && !bindings.is_empty() {
-                return fill_fields(maker, body, thing, bindings);
+                return fill_fields(maker, body, thing, bindings).unwrap_or(0);
             }
-            if !has_room(maker, body, known.len(), origin) {
-                return;
+            if is_too_deep(maker, known.below, origin)
+                || !has_room(maker, body, known.len(), origin)
+            {
+                return 0;
             }
             body.copy(thing, &known);
+            known.below
         }
-    }
+    };
     bindings.iter().for_each(|&b| put(maker, body, thing, b));
+    below
+}
+
+/// Tests whether so many levels of parts may not lie below what is being filled; reports it where they may not.
+fn is_too_deep(maker: &mut Maker<'_>, below: usize, origin: OriginId) -> bool {
+    let is_too_deep = maker.depth + below > DEEPEST;
+    if is_too_deep {
+        let message = format!("parts of parts more than {DEEPEST} deep");
+        maker.fault(origin, FaultKind::TooDeep, message);
+    }
+    is_too_deep
 }
 
 /// Returns the body of a class: what its things have below them where nothing else is given.
@@ -57,9 +73,7 @@ pub(super) fn body_of(maker: &mut Maker<'_>, class: ClassId, origin: OriginId) -
         maker.fault(origin, FaultKind::EndlessParts, message);
         return None;
     }
-    if maker.on_the_way.len() >= DEEPEST {
-        let message = format!("parts of parts more than {DEEPEST} deep");
-        maker.fault(origin, FaultKind::TooDeep, message);
+    if is_too_deep(maker, 1, origin) {
         return None;
     }
     let body = Rc::new(make_body(maker, class));
@@ -70,7 +84,7 @@ pub(super) fn body_of(maker: &mut Maker<'_>, class: ClassId, origin: OriginId) -
 /// Makes what things of a class have below them.
 fn make_body(maker: &mut Maker<'_>, class: ClassId) -> Body {
     let mut body = Body::new(class);
-    fill_fields(maker, &mut body, ROOT, &[]);
+    body.below = fill_fields(maker, &mut body, ROOT, &[]).unwrap_or(0);
     rules::settle(&mut body);
     body
 }
@@ -93,7 +107,7 @@ fn fill_list<'d>(
     element: ClassId,
     bindings: &[Binding<'d>],
     origin: OriginId,
-) {
+) -> usize {
     // what comes to a list only when it is evaluated gives elements values, and makes none
     let whole = bindings.iter().rev().filter(|b| b.path.is_empty());
     let mut written = whole.filter_map(|b| match &maker.givens[b.given.value].term {
@@ -110,13 +124,13 @@ fn fill_list<'d>(
             given
         }
     };
-    if !has_room(maker, body, count, origin) {
-        return;
+    if is_too_deep(maker, 1, origin) || !has_room(maker, body, count, origin) {
+        return 0;
     }
     let elements = &maker.document.classes[body.things[thing].class].elements;
     let class = |i| elements.get(i).copied().unwrap_or(element);
     body.add_parts(thing, (0..count).map(class));
-    fill_parts(maker, body, thing, bindings, |_| origin);
+    fill_parts(maker, body, thing, bindings, |_| origin)
 }
 
 /// Returns the field that a thing is, and how many elements its declaration says.
@@ -132,48 +146,52 @@ fn fill_fields<'d>(
     body: &mut Body,
     thing: ThingId,
     bindings: &[Binding<'d>],
-) {
+) -> Option<usize> {
     let waiting = body.waiting.len();
-    if grow(maker, body, thing, bindings) {
-        rules::apply(maker, body, thing, waiting);
-    }
+    let below = grow(maker, body, thing, bindings)?;
+    rules::apply(maker, body, thing, waiting);
+    Some(below)
 }
 
-/// Makes the parts of a thing, of which its classes have still to speak; false where it has no room.
+/// Makes the parts of a thing, of which its classes have still to speak; returns how many levels of parts it then
+/// has, none where there is no room for them.
 pub(super) fn grow<'d>(
     maker: &mut Maker<'d>,
     body: &mut Body,
     thing: ThingId,
     bindings: &[Binding<'d>],
-) -> bool {
+) -> Option<usize> {
     let document = maker.document;
     let class = body.things[thing].class;
     let layout = maker.layout(class);
     let origin = document.classes[class].origin;
-    if !has_room(maker, body, layout.fields.len(), origin) {
-        return false;
+    if is_too_deep(maker, 1, origin) || !has_room(maker, body, layout.fields.len(), origin) {
+        return None;
     }
     body.add_parts(thing, layout.classes.iter().copied());
     let mut all = own_bindings(maker, thing, class);
     all.extend(bindings);
     maker.on_the_way.push(class);
-    fill_parts(maker, body, thing, &all, |i| field_origin(document, layout.fields[i]));
+    let below = fill_parts(maker, body, thing, &all, |i| field_origin(document, layout.fields[i]));
     maker.on_the_way.pop();
-    true
+    Some(below)
 }
 
-/// Fills the parts of a thing in order, each with its share of the given values.
+/// Fills the parts of a thing in order, each with its share of the given values; returns how many levels of parts
+/// the thing then has.
 fn fill_parts<'d>(
     maker: &mut Maker<'d>,
     body: &mut Body,
     thing: ThingId,
     bindings: &[Binding<'d>],
     origin: impl Fn(usize) -> OriginId,
-) {
+) -> usize {
+    maker.depth += 1;
     let shared = shares(maker, body, thing, bindings);
     let mut rest = shared.as_slice();
     let mut of_part = Vec::new();
     let mut rank = body.rank[thing] + 1;
+    let mut below = 0;
     for i in 0..body.things[thing].parts as usize {
         let here = rest.iter().take_while(|s| s.part == i as u32).count();
         of_part.clear();
@@ -182,9 +200,11 @@ fn fill_parts<'d>(
         let part = body.part(thing, i);
         Rc::make_mut(&mut body.rank)[part] = rank;
         let before = body.len();
-        fill(maker, body, part, &of_part, origin(i));
+        below = below.max(1 + fill(maker, body, part, &of_part, origin(i)));
         rank += 1 + (body.len() - before) as u32;
     }
+    maker.depth -= 1;
+    below
 }
 
 fn field_origin(document: &Document, field: PartRef) -> OriginId {

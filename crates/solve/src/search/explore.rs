@@ -10,6 +10,9 @@ use super::row::Row;
 use std::collections::VecDeque;
 use std::rc::Rc;
 
+/// How many times a row is run, on an average, until the bounds of what is still open are let be: those of contrary
+/// rows may creep towards one another without end.
+const TURNS: usize = 1_000;
 /// What it costs to look at one cell of a row, in multiplications, roughly.
 const CELL: u64 = 50;
 
@@ -39,7 +42,7 @@ impl<'a> Net<'a> {
         Self { rows, partners, watching, costs }
     }
 
-    /// Runs every row to the end.
+    /// Runs every row until nothing shrinks, or creeps.
     pub(crate) fn settle_all(&self, field: &mut Field<'_>) -> Result<(), Dead> {
         self.settle(field, (0..self.rows.len() as u32).collect())
     }
@@ -52,6 +55,7 @@ impl<'a> Net<'a> {
     fn settle(&self, field: &mut Field<'_>, mut waiting: VecDeque<u32>) -> Result<(), Dead> {
         let mut waits = vec![false; self.rows.len()];
         waiting.iter().for_each(|&r| waits[r as usize] = true);
+        let mut turns = TURNS * self.rows.len();
         loop {
             for cell in std::mem::take(&mut field.shrunk) {
                 for &row in &self.watching[cell as usize] {
@@ -62,6 +66,12 @@ impl<'a> Net<'a> {
             }
             let Some(row) = waiting.pop_front() else { return Ok(()) };
             waits[row as usize] = false;
+            let is_open = |c: &u32| field.domains[*c as usize].known().is_none();
+            if turns == 0 && self.rows[row as usize].cells().iter().any(is_open) {
+                // it is run again when one of these shrinks
+                continue;
+            }
+            turns = turns.saturating_sub(1);
             field.spent += self.costs[row as usize];
             match &self.partners[row as usize] {
                 Some(partners) => field.pair_up(partners)?,

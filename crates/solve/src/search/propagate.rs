@@ -193,38 +193,52 @@ impl<'a> Field<'a> {
                 (None, _) | (Some(_), Some(_)) => Ok(()),
             };
         }
-        loop {
-            let before = self.shrunk.len();
-            let (low, high) = self.extent(linear);
-            if low > constant || linear.comparing == Sum::Equal && high < constant {
-                return Err(Dead);
+        let (low, high) = self.extent(linear);
+        if low > constant || linear.comparing == Sum::Equal && high < constant {
+            return Err(Dead);
+        }
+        if linear.comparing == Sum::Equal && !self.divides(linear) {
+            return Err(Dead);
+        }
+        let (mut low, mut high) = (low, high);
+        for &(cell, c) in &linear.terms {
+            let (l, h) = self.term(cell, c);
+            let most = constant - (low - l);
+            let least = match linear.comparing {
+                Sum::Equal => constant - (high - h),
+                Sum::AtMost | Sum::Differ => i128::MIN / 4,
+            };
+            // least <= c * x <= most
+            let wide = |x: i128| x.clamp(-2 * i128::from(MOST), 2 * i128::from(MOST)) as i64;
+            let c = i128::from(c);
+            let (from, to) = if c > 0 {
+                (ceiling(least, c), floor(most, c))
+            } else {
+                (ceiling(-most, -c), floor(-least, -c))
+            };
+            let domain = self.of(cell).clip(wide(from), wide(to));
+            self.put(cell, domain)?;
+            let (newer_l, newer_h) = self.term(cell, c as i64);
+            low += newer_l - l;
+            high += newer_h - h;
+        }
+        Ok(())
+    }
+
+    /// Returns true if the greatest common divisor of the open terms divides what the known ones leave, without
+    /// which no whole numbers make the sum.
+    fn divides(&self, linear: &Linear) -> bool {
+        let (mut rest, mut divisor) = (i128::from(linear.constant), 0u64);
+        for &(cell, c) in &linear.terms {
+            match self.of(cell).known() {
+                Some(v) => rest -= i128::from(c) * i128::from(v),
+                None => divisor = common_divisor(divisor, c.unsigned_abs()),
             }
-            let (mut low, mut high) = (low, high);
-            for &(cell, c) in &linear.terms {
-                let (l, h) = self.term(cell, c);
-                let most = constant - (low - l);
-                let least = match linear.comparing {
-                    Sum::Equal => constant - (high - h),
-                    Sum::AtMost | Sum::Differ => i128::MIN / 4,
-                };
-                // least <= c * x <= most
-                let wide = |x: i128| x.clamp(-2 * i128::from(MOST), 2 * i128::from(MOST)) as i64;
-                let c = i128::from(c);
-                let (from, to) = if c > 0 {
-                    (ceiling(least, c), floor(most, c))
-                } else {
-                    (ceiling(-most, -c), floor(-least, -c))
-                };
-                let domain = self.of(cell).clip(wide(from), wide(to));
-                self.put(cell, domain)?;
-                let (newer_l, newer_h) = self.term(cell, c as i64);
-                low += newer_l - l;
-                high += newer_h - h;
-            }
-            if self.shrunk.len() == before {
-                return Ok(());
+            if divisor == 1 {
+                return true;
             }
         }
+        divisor == 0 || rest % i128::from(divisor) == 0
     }
 
     fn different(&mut self, cells: &[Shifted]) -> Result<(), Dead> {
@@ -555,6 +569,11 @@ pub(crate) struct Partners {
 
 fn floor(a: i128, b: i128) -> i128 {
     a.div_euclid(b)
+}
+
+/// Returns the greatest common divisor of two numbers; of nothing and a number, that number.
+fn common_divisor(a: u64, b: u64) -> u64 {
+    if b == 0 { a } else { common_divisor(b, a % b) }
 }
 
 fn ceiling(a: i128, b: i128) -> i128 {

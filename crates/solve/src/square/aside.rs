@@ -269,7 +269,7 @@ impl Square {
         if self.block.is_linear || self.block.has_pieces() {
             return false;
         }
-        let stood = || (0..n).all(|c| values[self.slot(c)] == last[self.slot(c)]);
+        let stood = || (0..n).all(|c| last.get(self.slot(c)) == Some(&values[self.slot(c)]));
         let is_asked = match size > 0.0 {
             true => size > ROUNDED,
             false => self.is_dense() && self.is_flat(scales, s) && !stood(),

@@ -65,7 +65,7 @@ impl Net {
                 let (left, right) = (sides[0], sides[1]);
                 parts.push(Truth::Holds(Comparison { comparing: Comparing::Equal, left, right }));
             }
-            for demand in conditional.demands.iter().filter(|d| d.relation == index) {
+            for demand in conditional.demands_of(index) {
                 let slots = system.arguments(demand.arguments);
                 let roots = patterns.get(demand.pattern).write_out(&mut arena, slots);
                 match demand.kind {
@@ -74,7 +74,7 @@ impl Net {
                 }
             }
             let mut unless = Vec::new();
-            for guard in conditional.guards.iter().filter(|g| g.relation == index) {
+            for guard in conditional.guards_of(index) {
                 let condition = &conditional.conditions[guard.condition as usize];
                 let slots = system.arguments(condition.arguments);
                 let root = patterns.get(condition.pattern).write_out(&mut arena, slots)[0];
@@ -101,13 +101,18 @@ impl Net {
         Self { arena, rows, watching, is_whole, ranges }
     }
 
-    /// Returns the boxes that are left around what is known; nothing where no box is.
-    pub(crate) fn ground(&self, known: impl Iterator<Item = Option<f64>>) -> Option<Vec<Interval>> {
+    /// Returns the boxes that are left around what is known; nothing where no box is. Counts numbers as they are
+    /// narrowed.
+    pub(crate) fn ground(
+        &self,
+        known: impl Iterator<Item = Option<f64>>,
+        narrowed: &mut usize,
+    ) -> Option<Vec<Interval>> {
         let own = known.zip(&self.ranges);
         let mut boxes: Vec<Interval> =
             own.map(|(known, &range)| known.map_or(range, Interval::point)).collect();
         let all = (0..self.rows.len() as u32).collect();
-        self.narrow(&mut boxes, all).then_some(boxes)
+        self.narrow(&mut boxes, all, narrowed).then_some(boxes)
     }
 
     /// Returns the boxes that are left where a slot is in a part of its own.
@@ -116,14 +121,21 @@ impl Net {
         boxes: &[Interval],
         slot: SlotIndex,
         part: Interval,
+        narrowed: &mut usize,
     ) -> Option<Vec<Interval>> {
+        *narrowed += boxes.len();
         let mut boxes = boxes.to_vec();
         boxes[slot as usize] = part;
         let rows = self.watching[slot as usize].iter().copied().collect();
-        self.narrow(&mut boxes, rows).then_some(boxes)
+        self.narrow(&mut boxes, rows, narrowed).then_some(boxes)
     }
 
-    fn narrow(&self, boxes: &mut [Interval], mut waiting: VecDeque<u32>) -> bool {
+    fn narrow(
+        &self,
+        boxes: &mut [Interval],
+        mut waiting: VecDeque<u32>,
+        narrowed: &mut usize,
+    ) -> bool {
         let mut waits = vec![false; self.rows.len()];
         waiting.iter().for_each(|&r| waits[r as usize] = true);
         let mut turns = TURNS * self.rows.len();
@@ -135,6 +147,7 @@ impl Net {
             turns -= 1;
             waits[index as usize] = false;
             let row = &self.rows[index as usize];
+            *narrowed += row.slots.len();
             before.clear();
             before.extend(row.slots.iter().map(|&s| boxes[s as usize]));
             if !self.leave(&row.truth, row.within, boxes) {
