@@ -13,6 +13,8 @@ pub(crate) enum OpenError {
     Unreadable { path: PathBuf, source: std::io::Error },
     #[error("{0}: no document (NAME.thing) here")]
     NoDocuments(PathBuf),
+    #[error("{0}")]
+    Refused(String),
     #[error("{path}: {source}")]
     Unsaved { path: PathBuf, source: disk::DiskError },
 }
@@ -47,6 +49,13 @@ pub(crate) struct Opened {
     pub(crate) id: DocumentId,
     pub(crate) path: PathBuf,
     pub(crate) text: String,
+}
+
+impl Opened {
+    /// Returns everything that the document's meaning follows from: its text, and those that it uses.
+    pub(crate) fn meaning(&self) -> String {
+        self.session.sources(self.id).join("\n")
+    }
 }
 
 /// Opens one file.

@@ -12,6 +12,7 @@ mod commands;
 mod disk;
 mod documents;
 mod embedded;
+mod family;
 mod serve;
 
 /// A constraint laboratory: documents whose constraints stay true.
@@ -75,6 +76,8 @@ enum Command {
         #[arg(short, long)]
         output: Option<PathBuf>,
     },
+    /// Draws every row of a table with a program, each at scale, with an index of all.
+    Family(family::Arguments),
     /// Lays documents out as the language wants it, keeping comments.
     Fmt {
         /// Files, or folders with documents.
@@ -103,6 +106,7 @@ fn main() -> ExitCode {
         Command::Recognise { file, parts } => commands::recognise(file, parts, form),
         Command::Analyse { file } => commands::analyse(file, form),
         Command::Draw { file, output } => commands::draw(file, output.as_deref(), form),
+        Command::Family(arguments) => family::run(arguments, form),
         Command::Fmt { files, check } => {
             let mode = if *check { FormatMode::Check } else { FormatMode::Write };
             commands::fmt(files, mode, form)

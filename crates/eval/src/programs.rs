@@ -177,6 +177,24 @@ impl<'a> Evaluator<'a> {
         Ok(Rc::new(self.draw_program(program, class, of, kernel::DOCUMENT)))
     }
 
+    /// Returns whether a rule that speaks of a program's parameters and steps is true of a run.
+    ///
+    /// # Errors
+    /// A rule without a value.
+    pub fn holds(&self, rule: &'a Term, run: &Rc<Context<'a>>) -> Result<bool> {
+        self.begin();
+        self.truth(rule, &Frame::sent(Answer::Context(run.clone()), kernel::DOCUMENT))
+    }
+
+    /// Returns what something draws that is no thing of the document.
+    pub fn elements(&self, of: &Answer<'a>) -> Vec<drawing::Element> {
+        self.begin();
+        match self.send(of, &self.tables.picture, Vec::new(), None, kernel::DOCUMENT) {
+            Ok(Answer::Picture(elements)) => elements.to_vec(),
+            Ok(_) | Err(_) => Vec::new(),
+        }
+    }
+
     /// Runs a program that is called: what a thing of its class that was made with values draws.
     pub(crate) fn called(&self, made: Answer<'a>, nearest: ThingId) -> Result<Answer<'a>> {
         let Some(class) = self.class_of(&made) else { return Ok(made) };

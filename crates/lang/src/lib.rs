@@ -17,8 +17,8 @@
 //! **Invariants**: lowering never fails; a member with an error is left out, or what it said before
 //! stays in force; reading a number that was written gives its bits.
 //!
-//! Reading order: `origins`, `lower`, `files`, `visible`, `classes`, `scope`, `members`, `programs`, `loops`, `rules`,
-//! `switches`, `kept`, `names`, `paths`, `refine`, `terms`, `components`, `calls`, `kin`, `kinds`, `settle`, `restore`,
+//! Reading order: `origins`, `lower`, `files`, `visible`, `classes`, `scope`, `members`, `programs`, `families`, `loops`,
+//! `rules`, `switches`, `kept`, `names`, `paths`, `refine`, `terms`, `components`, `calls`, `kin`, `kinds`, `settle`, `restore`,
 //! `checks`,
 //! `numbers`, `write`, `uses`,
 //! `edits`.
@@ -29,6 +29,7 @@ mod components;
 mod constraints;
 mod counts;
 mod edits;
+mod families;
 mod files;
 mod kept;
 mod kin;
@@ -59,6 +60,7 @@ mod write;
 
 pub use checks::{Check, Expectation, PlanKind, Statement, StatementKind, without_checks};
 pub use edits::{Restructuring, edits_for, for_every, is_count, of_constraint, write_sides};
+pub use families::Family;
 pub use files::File;
 pub use lower::{Lowered, lower};
 pub use numbers::{Wanted, read_literal, show_limit, show_number};

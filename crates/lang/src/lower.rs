@@ -6,6 +6,7 @@
 
 use crate::checks::{self, Check};
 use crate::counts::Counts;
+use crate::families::Family;
 use crate::files::File;
 use crate::kept::Added;
 use crate::kin::Kin;
@@ -40,6 +41,8 @@ pub struct Lowered {
     pub document: Document,
     /// The `check` blocks of the document's own text.
     pub checks: Vec<Check>,
+    /// The families of the document's own text and of those that it uses.
+    pub families: Vec<Family>,
     /// Where every member was written.
     pub origins: Origins,
     /// What is wrong, in no particular order.
@@ -116,7 +119,7 @@ pub(crate) fn lower_text(
     before: Option<&Lowered>,
 ) -> Lowered {
     let mut l = Lowerer::new(load, before);
-    let checks = l.run(text);
+    let (checks, families) = l.run(text);
     let doc = l.first_doc();
     let own = &l.files[OWN];
     let classes = own.members_of(&[SyntaxKind::Class, SyntaxKind::Program]);
@@ -125,6 +128,7 @@ pub(crate) fn lower_text(
         masters: l.placed.masters.map(|(name, _)| name),
         document: l.document,
         checks,
+        families,
         origins: l.origins,
         diagnostics: l.diagnostics,
         doc,
@@ -287,8 +291,8 @@ impl<'l> Lowerer<'l> {
         l
     }
 
-    /// Lowers a text, and returns its checks.
-    fn run(&mut self, text: &str) -> Vec<Check> {
+    /// Lowers a text, and returns its checks and families.
+    fn run(&mut self, text: &str) -> (Vec<Check>, Vec<Family>) {
         self.read("", text);
         self.declare_classes();
         self.declare_counts();
@@ -296,9 +300,10 @@ impl<'l> Lowerer<'l> {
         self.declare_members();
         self.define_members();
         let checks = checks::lower(self);
+        let families = crate::families::lower(self);
         self.refine_parts();
         self.settle();
-        checks
+        (checks, families)
     }
 
     /// Returns what the comment for readers above the first `use` or line of units says; one above anything

@@ -105,9 +105,9 @@ impl Lowerer<'_> {
                     self.pending.push(Pending::Member(scope.clone(), member.clone()));
                 }
                 Member::Unit(_) | Member::Y(_) | Member::Use(_) | Member::Error(_) => {}
-                Member::Class(_) | Member::Program(_) | Member::Check(_)
+                Member::Class(_) | Member::Program(_) | Member::Family(_) | Member::Check(_)
                     if self.is_top_level(scope) => {}
-                Member::Class(_) | Member::Program(_) if scope.file != OWN => {}
+                Member::Class(_) | Member::Program(_) | Member::Family(_) if scope.file != OWN => {}
                 Member::Check(_) if scope.file != OWN => {}
                 other => self.refuse(scope.file, other, span),
             }
@@ -141,7 +141,7 @@ impl Lowerer<'_> {
             Member::Toolbox(_) => "toolboxes are",
             Member::Lesson(_) => "lessons are",
             Member::Program(_) => "programs inside of others are",
-            Member::Family(_) => "families are",
+            Member::Family(_) => "families inside of others are",
             Member::Class(_) => "classes inside of others are",
             Member::Check(_) => "checks inside of classes are",
             Member::Repeat(_) | Member::While(_) | Member::Next(_) | Member::Erase(_) => {

@@ -359,7 +359,7 @@ fn to_set(
     }
 }
 
-fn literal_of(answer: &Answer<'_>) -> Result<Literal, Refusal> {
+pub(crate) fn literal_of(answer: &Answer<'_>) -> Result<Literal, Refusal> {
     Ok(match answer {
         Answer::Number(x, _) => Literal::Number(*x),
         Answer::Bool(b) => Literal::Bool(*b),

@@ -21,6 +21,7 @@ mod complaints;
 mod difference;
 mod document;
 mod drag;
+mod families;
 mod fixes;
 mod general;
 mod ghosts;

@@ -16,8 +16,8 @@ use crate::state::State;
 use crate::tools::{self, Tool};
 use crate::view::{
     Advice, Affected, Analysis, BinEntry, Change, CheckReport, DocumentId, DragState, Explanation,
-    FixView, Ghost, HeldView, MovedView, Offer, PictureView, Pointer, Question, Recognised,
-    Refusal, Status, StructureRow, TextView, ToolView, ValueRow,
+    FamilyRow, FamilyView, FixView, Ghost, HeldView, MovedView, Offer, PictureView, Pointer, Question, Recognised,
+    Refusal, RowOutcome, Status, StructureRow, TableView, TextView, ToolView, ValueRow,
 };
 use crate::views;
 use crate::words;
@@ -412,6 +412,39 @@ impl Session {
     pub fn undrawn(&self, id: DocumentId) -> Vec<String> {
         let open = self.document(id);
         views::picture::undrawn(&open.state, open.values())
+    }
+    /// Returns the texts that a document's meaning follows from, its own first.
+    pub fn sources(&self, id: DocumentId) -> Vec<String> {
+        let files = self.document(id).state.lowered.files.iter();
+        files.map(|(_, file)| file.text.to_string()).collect()
+    }
+    /// Returns the families that a document knows.
+    pub fn families(&self, id: DocumentId) -> Vec<FamilyView> {
+        crate::families::list(&self.document(id).state)
+    }
+    /// Reads the rows of a family, or of a program with a table.
+    ///
+    /// # Errors
+    /// No such program, a table that cannot be read, a column that is missing.
+    pub fn family_rows(
+        &self,
+        id: DocumentId,
+        name: &str,
+        table: Option<&str>,
+    ) -> Result<TableView, Refusal> {
+        crate::families::rows(&self.document(id).state, name, table)
+    }
+    /// Draws a row of a family, or of a program.
+    ///
+    /// # Errors
+    /// No such program.
+    pub fn draw_row(
+        &self,
+        id: DocumentId,
+        name: &str,
+        row: &FamilyRow,
+    ) -> Result<RowOutcome, Refusal> {
+        crate::families::draw(&self.document(id).state, name, row)
     }
     /// Returns the structure: the picture's accessible twin.
     pub fn structure(&self, id: DocumentId) -> Vec<StructureRow> {

@@ -601,3 +601,55 @@ pub struct Shortfall {
     /// What was found and what was wanted, with the values.
     pub message: String,
 }
+
+/// A family: a program, and a table of its parameters.
+#[derive(Clone, PartialEq, Debug, Serialize)]
+pub struct FamilyView {
+    /// Its name.
+    pub name: String,
+    /// The program.
+    pub program: String,
+    /// The file with the table, where the text names one.
+    pub table: Option<String>,
+    /// What `///` says of it.
+    pub doc: String,
+}
+
+/// The rows of a family, and what is odd about them.
+#[derive(Clone, PartialEq, Debug, Default)]
+pub struct TableView {
+    /// The rows, in order.
+    pub rows: Vec<FamilyRow>,
+    /// Names that stand twice, rows alike, columns that go back where they grow.
+    pub notes: Vec<String>,
+}
+
+/// A row: a name, and values of parameters. What is not said is the program's own example.
+#[derive(Clone, PartialEq, Debug)]
+pub struct FamilyRow {
+    /// Its name: the designation, or its number.
+    pub name: String,
+    /// Parameters and values.
+    pub values: Vec<(String, kernel::Literal)>,
+    /// The line of the table, from 1; 0 for a row of the document.
+    pub line: u32,
+    /// Why a cell is no value, where one is none.
+    pub fault: Option<String>,
+}
+
+/// What came of a row.
+#[derive(Clone, PartialEq, Debug, Default, Serialize)]
+pub struct RowOutcome {
+    /// The row's name.
+    pub name: String,
+    /// `drawn`, `outside`, `failed` or `too-long`.
+    pub outcome: String,
+    /// The demand that is not met, or the step without an outcome; `table` for a cell that is no value.
+    pub step: String,
+    /// What was found and what was wanted.
+    pub message: String,
+    /// The numbers of what was drawn, by their paths.
+    pub measures: Vec<(String, f64)>,
+    /// The drawing at scale.
+    pub svg: String,
+}

@@ -1,0 +1,346 @@
+//! `thinglab family`: every row of a table drawn by a program, in parallel.
+//!
+//! Rows are drawn by several threads, each with the document open for itself; what is written depends on the
+//! rows alone. `manifest.jsonl` says of each row what came of it; a row whose line there has the hash of the
+//! same program, values and formats, and whose files stand, is not drawn again. `index.html` shows all of them.
+
+use crate::commands::{Form, Report};
+use crate::documents::{OpenError, open};
+use clap::ValueEnum;
+use serde_json::{Value, json};
+use session::view::{FamilyRow, RowOutcome};
+use std::collections::BTreeMap;
+use std::fmt::Write as _;
+use std::fs;
+use std::io::{IsTerminal as _, Write as _};
+use std::path::{Path, PathBuf};
+use std::sync::atomic::{AtomicUsize, Ordering};
+use std::sync::mpsc;
+
+/// How many rows a thread takes at once.
+const CHUNK: usize = 64;
+/// What is said of every row.
+const MANIFEST: &str = "manifest.jsonl";
+
+/// What a drawing is written as.
+#[derive(Clone, Copy, PartialEq, Eq, Debug, ValueEnum)]
+pub(crate) enum Format {
+    /// SVG at scale.
+    Svg,
+}
+
+/// What is asked for.
+#[derive(Debug, clap::Args)]
+pub(crate) struct Arguments {
+    /// The document.
+    file: PathBuf,
+    /// The program, or a family of it.
+    program: String,
+    /// The table: CSV with a header of parameters, `inner [mm]`; of a family, its own without it.
+    #[arg(long)]
+    table: Option<PathBuf>,
+    /// The folder to write to.
+    #[arg(long)]
+    out: PathBuf,
+    /// What to write each drawing as.
+    #[arg(long, value_enum, value_delimiter = ',', default_value = "svg")]
+    format: Vec<Format>,
+    /// How many threads draw; as many as the machine has without it.
+    #[arg(long)]
+    jobs: Option<usize>,
+}
+
+/// A row that is done.
+struct Done {
+    at: usize,
+    line: Value,
+    outcome: String,
+}
+
+/// Draws every row.
+///
+/// # Errors
+/// If a file cannot be read or written, or there is no such program or table.
+pub(crate) fn run(arguments: &Arguments, form: Form) -> Result<Report, OpenError> {
+    let opened = open(&arguments.file)?;
+    let refused = |refusal: session::view::Refusal| OpenError::Refused(refusal.message);
+    let families = opened.session.families(opened.id);
+    let family = families.iter().find(|f| f.name == arguments.program);
+    let beside = arguments.file.parent().unwrap_or(Path::new("."));
+    let named = family.and_then(|f| f.table.as_ref()).map(|table| beside.join(table));
+    let table = match arguments.table.clone().or(named) {
+        Some(path) => Some(read(&path)?),
+        None => None,
+    };
+    let rows = opened.session.family_rows(opened.id, &arguments.program, table.as_deref());
+    let rows = rows.map_err(refused)?;
+    fs::create_dir_all(&arguments.out).map_err(|source| unreadable(&arguments.out, source))?;
+    let source = format!("{}\n{}\n{:?}", opened.meaning(), arguments.program, arguments.format);
+    let hashes: Vec<String> =
+        rows.rows.iter().map(|row| hash(&format!("{source}\n{row:?}"))).collect();
+    let before = manifest(&arguments.out);
+    let files = names(&rows.rows);
+    let is_done = |at: usize| {
+        let line = before.get(&hashes[at])?;
+        let written = line["files"].as_array()?;
+        let stands = |file: &Value| {
+            let file = file.as_str().map(|file| arguments.out.join(file));
+            file.is_some_and(|file| file.is_file())
+        };
+        (line["row"] == json!(at) && written.iter().all(stands)).then(|| line.clone())
+    };
+    let todo: Vec<usize> = (0..rows.rows.len()).filter(|&at| is_done(at).is_none()).collect();
+    let mut lines: BTreeMap<usize, Value> =
+        (0..rows.rows.len()).filter_map(|at| Some((at, is_done(at)?))).collect();
+    let skipped = lines.len();
+    let cores = std::thread::available_parallelism().map_or(1, std::num::NonZero::get);
+    let jobs = arguments.jobs.unwrap_or(cores).clamp(1, 64).min(todo.len().div_ceil(CHUNK).max(1));
+    let next = AtomicUsize::new(0);
+    let mut failure = None;
+    std::thread::scope(|scope| {
+        let (send, receive) = mpsc::channel::<Result<Done, OpenError>>();
+        for _ in 0..jobs {
+            let send = send.clone();
+            let (todo, rows, next, hashes, files) = (&todo, &rows.rows, &next, &hashes, &files);
+            scope.spawn(move || {
+                let work = || -> Result<(), OpenError> {
+                    let opened = open(&arguments.file)?;
+                    loop {
+                        let from = next.fetch_add(CHUNK, Ordering::Relaxed);
+                        if from >= todo.len() {
+                            return Ok(());
+                        }
+                        for &at in &todo[from..(from + CHUNK).min(todo.len())] {
+                            let row = &rows[at];
+                            let outcome =
+                                opened.session.draw_row(opened.id, &arguments.program, row);
+                            let outcome = outcome.map_err(|r| OpenError::Refused(r.message))?;
+                            let done =
+                                finish(arguments, at, (row, outcome), &files[at], &hashes[at])?;
+                            // nobody listens where another thread failed
+                            if send.send(Ok(done)).is_err() {
+                                return Ok(());
+                            }
+                        }
+                    }
+                };
+                if let Err(error) = work() {
+                    let _ = send.send(Err(error));
+                }
+            });
+        }
+        drop(send);
+        let mut progress = Progress::of(todo.len());
+        for done in receive {
+            match done {
+                Ok(done) => {
+                    progress.step(&done.outcome);
+                    lines.insert(done.at, done.line);
+                }
+                Err(error) => {
+                    failure = Some(error);
+                    break;
+                }
+            }
+        }
+        progress.end();
+    });
+    // what was drawn before something failed is kept
+    let manifest: String = lines.values().map(|line| format!("{line}\n")).collect();
+    write(&arguments.out.join(MANIFEST), &manifest)?;
+    if let Some(failure) = failure {
+        return Err(failure);
+    }
+    let index = index_page(&arguments.program, &lines, &rows.notes);
+    write(&arguments.out.join("index.html"), &index)?;
+    Ok(report(arguments, &lines, (&rows.notes, skipped), form))
+}
+
+/// Says what came of the rows.
+fn report(
+    arguments: &Arguments,
+    lines: &BTreeMap<usize, Value>,
+    (notes, skipped): (&[String], usize),
+    form: Form,
+) -> Report {
+    let count = |outcome: &str| lines.values().filter(|l| l["outcome"] == outcome).count();
+    let drawn = count("drawn");
+    let mut words = String::new();
+    for line in lines.values().filter(|l| l["outcome"] != "drawn") {
+        let text = |key: &str| line[key].as_str().unwrap_or_default().to_string();
+        let _ = writeln!(words, "{}: {}: {}", text("name"), text("outcome"), text("message"));
+    }
+    for note in notes {
+        let _ = writeln!(words, "note: {note}");
+    }
+    let _ = writeln!(
+        words,
+        "{} rows: {drawn} drawn, {} outside, {} failed, {} too long; {skipped} were there already; {}",
+        lines.len(),
+        count("outside"),
+        count("failed"),
+        count("too-long"),
+        arguments.out.join("index.html").display()
+    );
+    let json = json!({
+        "program": arguments.program,
+        "rows": lines.values().collect::<Vec<_>>(),
+        "notes": notes,
+        "skipped": skipped,
+    });
+    let text = match form {
+        Form::Words => words,
+        Form::Json => format!("{json}\n"),
+    };
+    Report { text, good: drawn == lines.len() }
+}
+
+/// Writes a row's files, and says what came of it.
+fn finish(
+    arguments: &Arguments,
+    at: usize,
+    (row, outcome): (&FamilyRow, RowOutcome),
+    file: &str,
+    hash: &str,
+) -> Result<Done, OpenError> {
+    let mut files = Vec::new();
+    for format in &arguments.format {
+        let (extension, bytes) = match format {
+            Format::Svg => ("svg", &outcome.svg),
+        };
+        if !bytes.is_empty() {
+            let name = format!("{file}.{extension}");
+            write(&arguments.out.join(&name), bytes)?;
+            files.push(name);
+        }
+    }
+    let measures: serde_json::Map<String, Value> =
+        outcome.measures.iter().map(|(path, x)| (path.clone(), json!(x))).collect();
+    let line = json!({
+        "row": at,
+        "name": row.name,
+        "line": row.line,
+        "hash": hash,
+        "outcome": outcome.outcome,
+        "step": outcome.step,
+        "message": outcome.message,
+        "files": files,
+        "measures": measures,
+    });
+    Ok(Done { at, line, outcome: outcome.outcome })
+}
+
+/// Returns a name of a file for each row, none twice.
+fn names(rows: &[FamilyRow]) -> Vec<String> {
+    let mut taken: BTreeMap<String, u32> = BTreeMap::new();
+    let plain = |c: char| if c.is_alphanumeric() || ".-_".contains(c) { c } else { '-' };
+    let name = |row: &FamilyRow| {
+        let name: String = row.name.chars().map(plain).collect();
+        let name = match name.trim_matches(['.', '-']) {
+            "" => "row".to_string(),
+            // what a file system takes for one name is one
+            name => name.to_lowercase(),
+        };
+        let times = taken.entry(name.clone()).or_default();
+        *times += 1;
+        if *times == 1 { name } else { format!("{name}_{times}") }
+    };
+    rows.iter().map(name).collect()
+}
+
+/// Reads what an earlier run said of its rows, by their hashes.
+fn manifest(out: &Path) -> BTreeMap<String, Value> {
+    let text = fs::read_to_string(out.join(MANIFEST)).unwrap_or_default();
+    let lines = text.lines().filter_map(|line| serde_json::from_str::<Value>(line).ok());
+    lines.filter_map(|line| Some((line["hash"].as_str()?.to_string(), line))).collect()
+}
+
+/// Mixes a text into sixteen digits. **Source:** FNV-1a, 64 bits.
+fn hash(text: &str) -> String {
+    let mix = |h: u64, byte: u8| (h ^ u64::from(byte)).wrapping_mul(0x0100_0000_01b3);
+    format!("{:016x}", text.bytes().fold(0xcbf2_9ce4_8422_2325, mix))
+}
+
+fn index_page(program: &str, lines: &BTreeMap<usize, Value>, notes: &[String]) -> String {
+    let mut page = format!(
+        "<!doctype html><html lang=\"en\"><meta charset=\"utf-8\"><title>{0}</title>\n\
+         <style>body{{font:15px system-ui,sans-serif;margin:2rem}}\
+         .sheet{{display:grid;grid-template-columns:repeat(auto-fill,minmax(14rem,1fr));gap:1rem}}\
+         figure{{margin:0;border:1px solid #ccc;padding:.5rem}}\
+         img{{width:100%;height:11rem;object-fit:contain}}\
+         figcaption b{{color:#b3401a}}</style>\n<h1>{0}</h1>\n",
+        escaped(program)
+    );
+    for note in notes {
+        let _ = writeln!(page, "<p>{}</p>", escaped(note));
+    }
+    page.push_str("<div class=\"sheet\">\n");
+    for line in lines.values() {
+        let text = |key: &str| escaped(line[key].as_str().unwrap_or_default());
+        let name = text("name");
+        let picture = line["files"].as_array().into_iter().flatten().filter_map(Value::as_str);
+        let picture =
+            picture.map(|f| format!("<img src=\"{}\" alt=\"{name}\">", escaped(f))).next();
+        let said = match line["outcome"].as_str() {
+            Some("drawn") => String::new(),
+            _ => format!(" <b>{}</b> {}", text("outcome"), text("message")),
+        };
+        let picture = picture.unwrap_or_default();
+        let _ = writeln!(page, "<figure>{picture}<figcaption>{name}{said}</figcaption></figure>");
+    }
+    page.push_str("</div></html>\n");
+    page
+}
+
+fn escaped(text: &str) -> String {
+    text.replace('&', "&amp;").replace('<', "&lt;").replace('>', "&gt;").replace('"', "&quot;")
+}
+
+fn read(path: &Path) -> Result<String, OpenError> {
+    fs::read_to_string(path).map_err(|source| unreadable(path, source))
+}
+
+fn unreadable(path: &Path, source: std::io::Error) -> OpenError {
+    OpenError::Unreadable { path: path.to_path_buf(), source }
+}
+
+/// Writes a file beside its place, then puts it there: it is whole or as it was.
+fn write(path: &Path, text: &str) -> Result<(), OpenError> {
+    let mut aside = path.as_os_str().to_owned();
+    aside.push(".part");
+    let aside = PathBuf::from(aside);
+    fs::write(&aside, text).map_err(|source| unreadable(&aside, source))?;
+    fs::rename(&aside, path).map_err(|source| unreadable(path, source))
+}
+
+/// How far it is, on a terminal.
+struct Progress {
+    all: usize,
+    done: usize,
+    odd: usize,
+    is_shown: bool,
+}
+
+impl Progress {
+    /// How many characters the bar has.
+    const WIDTH: usize = 30;
+
+    fn of(all: usize) -> Self {
+        Self { all, done: 0, odd: 0, is_shown: std::io::stderr().is_terminal() }
+    }
+    fn step(&mut self, outcome: &str) {
+        self.done += 1;
+        self.odd += usize::from(outcome != "drawn");
+        if self.is_shown && (self.done.is_multiple_of(CHUNK) || self.done == self.all) {
+            let full = Self::WIDTH * self.done / self.all.max(1);
+            let bar = "#".repeat(full) + &"-".repeat(Self::WIDTH - full);
+            let (done, all, odd) = (self.done, self.all, self.odd);
+            let _ = write!(std::io::stderr(), "\r[{bar}] {done}/{all}, {odd} not drawn");
+        }
+    }
+    fn end(&self) {
+        if self.is_shown && self.done > 0 {
+            let _ = writeln!(std::io::stderr());
+        }
+    }
+}

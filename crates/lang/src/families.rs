@@ -1,0 +1,112 @@
+//! Families: a program with a table of its parameters, or with rows written out.
+
+use crate::kinds::Kind;
+use crate::lower::Lowerer;
+use crate::scope::Scope;
+use base::{Diagnostic, FileId, Name, Place};
+use kernel::{ClassId, Term};
+use std::collections::BTreeSet;
+use syntax::SyntaxKind;
+use syntax::ast::{self, AstNode, Member};
+
+/// A program, and the values that its parameters take.
+#[derive(Clone, PartialEq, Debug)]
+pub struct Family {
+    /// Its name.
+    pub name: Name,
+    /// What `///` says of it.
+    pub doc: String,
+    /// The program.
+    pub program: ClassId,
+    /// The name of the file with the table, where there is one.
+    pub table: Option<String>,
+    /// The rows that are written out, each in the order of the parameters.
+    pub rows: Vec<Vec<Term>>,
+    /// What all rows have to fulfil, each as it is written.
+    pub rules: Vec<(String, Term)>,
+}
+
+/// Lowers the families of all texts.
+pub(crate) fn lower(l: &mut Lowerer<'_>) -> Vec<Family> {
+    let mut families = Vec::new();
+    let mut names = BTreeSet::new();
+    for file in l.order.clone() {
+        for member in l.files[file].members_of(&[SyntaxKind::Family]) {
+            let Member::Family(family) = member else { continue };
+            let Some(word) = family.name() else { continue };
+            if !names.insert((file, word.name())) {
+                let message = format!("there is a family {} already", word.text());
+                l.error("duplicate-name", file, word.span(), message);
+                continue;
+            }
+            families.extend(lower_family(l, file, &word, &family));
+        }
+    }
+    families
+}
+
+fn lower_family(
+    l: &mut Lowerer<'_>,
+    file: FileId,
+    word: &ast::Word,
+    family: &ast::Family,
+) -> Option<Family> {
+    let of = family.program()?;
+    let program = l.class_of_type(file, &of)?;
+    if l.document.program(program).is_none() {
+        let message = format!("{} is no program", l.document.classes[program].name);
+        let d = Diagnostic::error("not-a-program", Place { file, span: of.span() }, message);
+        l.report(d.hint("a family draws the rows of a table with a program"));
+        return None;
+    }
+    let mut made = Family {
+        name: word.name(),
+        doc: ast::doc_comment(family.syntax()).unwrap_or_default(),
+        program,
+        table: None,
+        rows: Vec::new(),
+        rules: Vec::new(),
+    };
+    for member in family.body().into_iter().flat_map(|b| b.members()) {
+        match member {
+            Member::Table(table) => made.table = table.file().map(|w| w.unquoted()),
+            Member::Rows(rows) => {
+                made.rows.extend(rows.rows().filter_map(|row| lower_row(l, file, program, &row)));
+            }
+            Member::Constraint(constraint) => {
+                let Some(ast::Rule::Holds(rule)) = constraint.rule() else { continue };
+                let scope = Scope::of(file, program);
+                let said = constraint.name().map_or_else(
+                    || rule.syntax().text().to_string().trim().to_string(),
+                    |name| name.text().to_string(),
+                );
+                let rule = l.expr_of(&scope, &rule, &Kind::Bool);
+                made.rules.extend(rule.map(|rule| (said, rule)));
+            }
+            Member::Error(_) => {}
+            other => {
+                let message = "a family has a table, rows and rules for them".to_string();
+                l.error("not-a-row", file, other.span(), message);
+            }
+        }
+    }
+    Some(made)
+}
+
+fn lower_row(
+    l: &mut Lowerer<'_>,
+    file: FileId,
+    program: ClassId,
+    row: &ast::TupleExpr,
+) -> Option<Vec<Term>> {
+    let kinds = crate::kinds::fields(&l.document, program);
+    let values: Vec<ast::Expr> = row.elements().collect();
+    if values.len() > kinds.len() {
+        let (name, n) = (&l.document.classes[program].name, kinds.len());
+        let message = format!("{name} has {n} parameters, here are {} values", values.len());
+        l.error("wrong-arity", file, row.span(), message);
+        return None;
+    }
+    let scope = Scope::of(file, l.object);
+    values.iter().zip(kinds).map(|(value, kind)| l.expr_of(&scope, value, &kind)).collect()
+}

@@ -1,0 +1,339 @@
+//! Families: the rows of a table, each drawn by a program; what is odd about the table is told.
+//!
+//! In: a document with a program, and a table as text. Out: rows of plain values, and for each what came of
+//! it: it is drawn, or it lies outside of what the program demands, or a step has no outcome, or it takes too
+//! long. Every row is on its own.
+
+use crate::state::State;
+use crate::view::{FamilyRow, FamilyView, Refusal, RowOutcome, TableView};
+use crate::words;
+use drawing::{Drawing, Vertical, svg};
+use eval::{Answer, Evaluator, Why};
+use kernel::{ClassId, ClassKind, DOCUMENT, Literal, Primitive};
+use lang::{Family, Wanted};
+use std::collections::BTreeMap;
+
+/// Of what was drawn at most this many measures are told.
+const MOST_MEASURES: usize = 200;
+/// So many pixels a millimetre has, where an inch has 96.
+const PIXELS_PER_MILLIMETRE: f64 = 96.0 / 25.4;
+
+/// Returns the families that a document knows, and its programs.
+pub(crate) fn list(state: &State) -> Vec<FamilyView> {
+    let document = &state.lowered.document;
+    let family = |family: &Family| FamilyView {
+        name: family.name.to_string(),
+        program: document.classes[family.program].name.to_string(),
+        table: family.table.clone(),
+        doc: family.doc.clone(),
+    };
+    state.lowered.families.iter().map(family).collect()
+}
+
+/// Finds a program by its name, or by that of a family.
+fn find<'s>(state: &'s State, name: &str) -> Result<(ClassId, Option<&'s Family>), Refusal> {
+    let document = &state.lowered.document;
+    let family = state.lowered.families.iter().find(|f| f.name == *name);
+    if let Some(family) = family {
+        return Ok((family.program, Some(family)));
+    }
+    let program = document.class_named(name).filter(|&c| document.program(c).is_some());
+    program.map(|program| (program, None)).ok_or_else(|| {
+        let programs = document.classes.iter().filter(|(_, c)| c.program.is_some());
+        let programs: Vec<&str> = programs.map(|(_, c)| c.name.as_str()).collect();
+        words::refuse(match programs.as_slice() {
+            [] => format!("there is no program {name}, and no other"),
+            known => format!("there is no program or family {name}; there is {}", known.join(", ")),
+        })
+    })
+}
+
+/// Reads the rows of a family, or of a program with a table: CSV, `#` begins a comment, a header of names, each
+/// with its unit in brackets where it has one.
+///
+/// # Errors
+/// No such program, a table that cannot be read, a column that is missing.
+pub(crate) fn rows(state: &State, name: &str, table: Option<&str>) -> Result<TableView, Refusal> {
+    let (program, family) = find(state, name)?;
+    let mut read = TableView::default();
+    match (table, family) {
+        (Some(table), _) => read_table(state, program, table, &mut read)?,
+        (None, Some(family)) => written_rows(state, family, &mut read)?,
+        (None, None) => {
+            return Err(words::refuse(format!("{name} has no table: say which with --table")));
+        }
+    }
+    note_duplicates(&mut read);
+    Ok(read)
+}
+
+fn written_rows(state: &State, family: &Family, read: &mut TableView) -> Result<(), Refusal> {
+    let document = &state.lowered.document;
+    let evaluator = state.evaluator(&state.values);
+    let fields = document.layout(family.program);
+    for (i, row) in family.rows.iter().enumerate() {
+        let mut values = Vec::new();
+        for (term, &field) in row.iter().zip(&fields) {
+            let answer =
+                evaluator.evaluate(term, DOCUMENT).map_err(|f| words::refuse(f.message))?;
+            let name = document.field_name(field).to_string();
+            values.push((name, crate::check::literal_of(&answer)?));
+        }
+        let name = (i + 1).to_string();
+        read.rows.push(FamilyRow { name, values, line: 0, fault: None });
+    }
+    Ok(())
+}
+
+fn read_table(
+    state: &State,
+    program: ClassId,
+    table: &str,
+    read: &mut TableView,
+) -> Result<(), Refusal> {
+    let document = &state.lowered.document;
+    let mut reader = csv::ReaderBuilder::new()
+        .comment(Some(b'#'))
+        .trim(csv::Trim::All)
+        .flexible(true)
+        .from_reader(table.as_bytes());
+    let refused = |e: &csv::Error| words::refuse(format!("the table cannot be read: {e}"));
+    let headers = reader.headers().map_err(|e| refused(&e))?.clone();
+    let columns: Vec<(String, String)> = headers.iter().map(name_and_unit).collect();
+    let fields = document.layout(program);
+    let field = |name: &str| {
+        fields.iter().find(|&&f| *document.field_name(f) == *name).map(|&f| document.field_class(f))
+    };
+    if !columns.iter().any(|(name, _)| field(name).is_some()) {
+        let names: Vec<&str> = fields.iter().map(|&f| document.field_name(f).as_str()).collect();
+        let message = format!("no column is a parameter: wanted are {}", names.join(", "));
+        return Err(words::refuse(message));
+    }
+    let designation = columns.iter().position(|(name, _)| field(name).is_none());
+    let mut numbers: Vec<Vec<(f64, String)>> = vec![Vec::new(); columns.len()];
+    for (i, record) in reader.records().enumerate() {
+        let record = record.map_err(|e| refused(&e))?;
+        let line = record.position().map_or(0, |p| p.line() as u32);
+        let designated = designation.and_then(|at| record.get(at)).filter(|cell| !cell.is_empty());
+        let name = designated.map_or_else(|| (i + 1).to_string(), str::to_string);
+        let mut row = FamilyRow { name: name.clone(), values: Vec::new(), line, fault: None };
+        if record.len() > columns.len() {
+            let (n, m) = (columns.len(), record.len());
+            row.fault = Some(format!("{m} cells, where the table has {n} columns"));
+        }
+        for ((cell, (column, unit)), numbers) in record.iter().zip(&columns).zip(&mut numbers) {
+            if let Ok(number) = cell.parse::<f64>() {
+                numbers.push((number, name.clone()));
+            }
+            // an empty cell is the program's own example
+            let Some(class) = field(column).filter(|_| !cell.is_empty()) else { continue };
+            match literal(document, class, cell, unit) {
+                Ok(value) => row.values.push((column.clone(), value)),
+                Err(message) => row.fault = Some(format!("{column}: {message}")),
+            }
+        }
+        read.rows.push(row);
+    }
+    for ((column, _), numbers) in columns.iter().zip(&numbers) {
+        note_disorder(column, numbers, read);
+    }
+    Ok(())
+}
+
+/// Returns the name and the unit of a header: `outer [mm]`.
+fn name_and_unit(header: &str) -> (String, String) {
+    match header.split_once('[') {
+        Some((name, unit)) => {
+            (name.trim().to_string(), unit.trim_end_matches([']', ' ']).trim().to_string())
+        }
+        None => (header.trim().to_string(), String::new()),
+    }
+}
+
+/// Reads a cell as a value of a class.
+fn literal(
+    document: &kernel::Document,
+    class: ClassId,
+    cell: &str,
+    unit: &str,
+) -> Result<Literal, String> {
+    let is_real = matches!(document.classes[class].kind, ClassKind::Primitive(Primitive::Real(_)));
+    let typed = match is_real && !unit.is_empty() && cell.parse::<f64>().is_ok() {
+        true => format!("{cell} {unit}"),
+        false => cell.to_string(),
+    };
+    lang::read_literal(&typed, Wanted::Class(class), document).map_err(|d| d.message)
+}
+
+/// Notes names that stand twice, and rows that say the same.
+fn note_duplicates(read: &mut TableView) {
+    let mut names: BTreeMap<&str, u32> = BTreeMap::new();
+    let mut said: BTreeMap<String, &str> = BTreeMap::new();
+    let mut notes = Vec::new();
+    for row in &read.rows {
+        let times = names.entry(&row.name).or_default();
+        *times += 1;
+        if *times == 2 {
+            notes.push(format!("{} stands in the table more than once", row.name));
+        }
+        if let Some(before) = said.insert(format!("{:?}", row.values), &row.name)
+            && before != row.name
+        {
+            notes.push(format!("{before} and {} have the same values", row.name));
+        }
+    }
+    read.notes.extend(notes);
+}
+
+/// Notes where a column that grows, or shrinks, goes back.
+fn note_disorder(column: &str, numbers: &[(f64, String)], read: &mut TableView) {
+    /// Of so many steps that go one way, one the other way is odd.
+    const MOST: usize = 4;
+    let steps = || numbers.windows(2).map(|w| (w[1].0 - w[0].0, &w[0], &w[1]));
+    let up = steps().filter(|s| s.0 > 0.0).count();
+    let down = steps().filter(|s| s.0 < 0.0).count();
+    let odd = |sign: f64| steps().filter(move |s| s.0 * sign < 0.0);
+    let (way, sign) = match up >= down {
+        true => ("grows", 1.0),
+        false => ("shrinks", -1.0),
+    };
+    if up.min(down) * MOST > up.max(down) || up.min(down) == 0 {
+        return;
+    }
+    for (_, before, after) in odd(sign) {
+        read.notes.push(format!(
+            "{column} {way}, but is {} at {} and {} at {}",
+            before.0, before.1, after.0, after.1
+        ));
+    }
+}
+
+/// Draws a row.
+///
+/// # Errors
+/// No such program.
+pub(crate) fn draw(state: &State, name: &str, row: &FamilyRow) -> Result<RowOutcome, Refusal> {
+    let (program, family) = find(state, name)?;
+    let document = &state.lowered.document;
+    let evaluator = state.evaluator(&state.values);
+    let mut outcome = RowOutcome { name: row.name.clone(), ..RowOutcome::default() };
+    if let Some(fault) = &row.fault {
+        outcome.outcome = "failed".into();
+        outcome.step = "table".into();
+        outcome.message = fault.clone();
+        return Ok(outcome);
+    }
+    let fields = document.layout(program);
+    let value = |(name, literal): &(String, Literal)| {
+        let field = *fields.iter().find(|&&f| *document.field_name(f) == **name)?;
+        Some((document.field_name(field), answer(document, document.field_class(field), literal)))
+    };
+    let values = row.values.iter().filter_map(value).collect();
+    let run = evaluator.run_with(program, values).map_err(|f| words::refuse(f.message))?;
+    let elements = evaluator.elements(&Answer::Context(run.clone()));
+    outcome.outcome = "drawn".into();
+    if let Some(ended) = &run.ended {
+        outcome.outcome = match ended.why {
+            Why::Outside => "outside",
+            Why::Failed => "failed",
+            Why::TooLong => "too-long",
+        }
+        .into();
+        outcome.step.clone_from(&ended.step);
+        outcome.message = ended.to_string();
+        return Ok(outcome);
+    }
+    for (said, rule) in family.map_or(&[][..], |f| &f.rules) {
+        if !evaluator.holds(rule, &run).unwrap_or(false) {
+            outcome.outcome = "outside".into();
+            outcome.step.clone_from(said);
+            outcome.message = format!("{said} is not met");
+            return Ok(outcome);
+        }
+    }
+    measures(&evaluator, &Answer::Context(run), &mut String::new(), &mut outcome.measures);
+    let vertical = match document.vertical {
+        kernel::Vertical::Up => Vertical::Up,
+        kernel::Vertical::Down => Vertical::Down,
+    };
+    let millimetres_per_unit = 1000.0 / document.units_per_metre;
+    let is_metric = document.units_per_metre != 1.0;
+    let options = svg::SvgOptions {
+        pixels_per_unit: if is_metric { PIXELS_PER_MILLIMETRE * millimetres_per_unit } else { 1.0 },
+        margin: 16.0,
+        title: Some(&row.name),
+        path: &|_| None,
+    };
+    outcome.svg = svg::write(&Drawing { elements, vertical }, &options);
+    Ok(outcome)
+}
+
+/// Returns a literal as what an expression would be worth.
+fn answer<'d>(document: &kernel::Document, class: ClassId, literal: &Literal) -> Answer<'d> {
+    let kind = &document.classes[class].kind;
+    match literal {
+        Literal::Number(x) => match kind {
+            ClassKind::Primitive(primitive) => Answer::Number(*x, primitive.dimension()),
+            ClassKind::Composite
+            | ClassKind::List(_)
+            | ClassKind::Set(_)
+            | ClassKind::Reference(_) => Answer::plain(*x),
+        },
+        Literal::Bool(b) => Answer::Bool(*b),
+        Literal::Text(text) => Answer::text(text),
+        Literal::Tuple(items) => {
+            let fields = document.layout(class);
+            let item = |(i, item): (usize, &Literal)| {
+                let of = fields.get(i).map_or(class, |&f| document.field_class(f));
+                answer(document, of, item)
+            };
+            Answer::List(items.iter().enumerate().map(item).collect())
+        }
+        Literal::Path(path) => Answer::text(&path.to_string()),
+    }
+}
+
+/// Collects the numbers of what was drawn, by their paths.
+fn measures(
+    evaluator: &Evaluator<'_>,
+    answer: &Answer<'_>,
+    path: &mut String,
+    found: &mut Vec<(String, f64)>,
+) {
+    if found.len() >= MOST_MEASURES {
+        return;
+    }
+    let end = path.len();
+    let mut add = |name: &str, answer: &Answer<'_>, path: &mut String| {
+        if !path.is_empty() && !name.starts_with('[') {
+            path.push('.');
+        }
+        path.push_str(name);
+        measures(evaluator, answer, path, found);
+        path.truncate(end);
+    };
+    match answer {
+        Answer::Number(x, _) => found.push((path.clone(), *x)),
+        Answer::Made(made) => {
+            let layout = evaluator.document.layout(made.class);
+            for (field, answer) in layout.into_iter().zip(&made.fields) {
+                add(evaluator.document.field_name(field), answer, path);
+            }
+        }
+        Answer::Context(context) => {
+            for entry in context.made.iter().filter(|e| !e.name.is_empty()) {
+                add(&entry.name, &entry.answer, path);
+            }
+        }
+        Answer::List(items) => {
+            for (i, item) in items.iter().enumerate() {
+                add(&format!("[{i}]"), item, path);
+            }
+        }
+        Answer::Bool(_)
+        | Answer::Text(_)
+        | Answer::Thing(_)
+        | Answer::Picture(_)
+        | Answer::Function(_) => {}
+    }
+}
