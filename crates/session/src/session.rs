@@ -16,8 +16,9 @@ use crate::state::State;
 use crate::tools::{self, Tool};
 use crate::view::{
     Advice, Affected, Analysis, BinEntry, Change, CheckReport, DocumentId, DragState, Explanation,
-    FamilyRow, FamilyView, FixView, Ghost, HeldView, MovedView, Offer, PictureView, Pointer, Question, Recognised,
-    Refusal, RowOutcome, Status, StructureRow, TableView, TextView, ToolView, ValueRow,
+    FamilyRow, FamilyView, FixView, Ghost, HeldView, MovedView, Offer, PictureView, Pointer,
+    Question, Recognised, Refusal, RowOutcome, Status, StructureRow, TableView, TextView, ToolView,
+    ValueRow,
 };
 use crate::views;
 use crate::words;
