@@ -28,7 +28,10 @@ impl<'a> Evaluator<'a> {
         {
             return part;
         }
-        if matches!(to, Answer::List(_) | Answer::Context(_)) && is_of_each(name) {
+        if !arguments.is_empty()
+            && matches!(to, Answer::List(_) | Answer::Context(_))
+            && is_of_each(name)
+        {
             return self.each_in_set(to, name, &arguments, nearest);
         }
         if let Answer::Thing(thing) = to

@@ -135,7 +135,7 @@ impl Lowerer<'_> {
             };
             return Some((unchecked(args), known.unwrap_or(Kind::Unknown)));
         }
-        if builtin::is_of_each(&name) && self.is_set(receiver) {
+        if builtin::is_of_each(&name) && !args.is_empty() && self.is_set(receiver) {
             return Some((unchecked(args), receiver.clone()));
         }
         match receiver {
