@@ -27,6 +27,8 @@ const MANIFEST: &str = "manifest.jsonl";
 pub(crate) enum Format {
     /// SVG at scale.
     Svg,
+    /// DXF in millimetres: arcs stay arcs.
+    Dxf,
 }
 
 /// What is asked for.
@@ -207,6 +209,7 @@ fn finish(
     for format in &arguments.format {
         let (extension, bytes) = match format {
             Format::Svg => ("svg", &outcome.svg),
+            Format::Dxf => ("dxf", &outcome.dxf),
         };
         if !bytes.is_empty() {
             let name = format!("{file}.{extension}");
@@ -279,6 +282,7 @@ fn index_page(program: &str, lines: &BTreeMap<usize, Value>, notes: &[String]) -
         let text = |key: &str| escaped(line[key].as_str().unwrap_or_default());
         let name = text("name");
         let picture = line["files"].as_array().into_iter().flatten().filter_map(Value::as_str);
+        let picture = picture.filter(|file| file.ends_with(".svg"));
         let picture =
             picture.map(|f| format!("<img src=\"{}\" alt=\"{name}\">", escaped(f))).next();
         let said = match line["outcome"].as_str() {

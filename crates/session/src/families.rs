@@ -7,7 +7,7 @@
 use crate::state::State;
 use crate::view::{FamilyRow, FamilyView, Refusal, RowOutcome, TableView};
 use crate::words;
-use drawing::{Drawing, Vertical, svg};
+use drawing::{Drawing, Vertical, dxf, svg};
 use eval::{Answer, Evaluator, Why};
 use kernel::{ClassId, ClassKind, DOCUMENT, Literal, Primitive};
 use lang::{Family, Wanted};
@@ -264,7 +264,11 @@ pub(crate) fn draw(state: &State, name: &str, row: &FamilyRow) -> Result<RowOutc
         title: Some(&row.name),
         path: &|_| None,
     };
-    outcome.svg = svg::write(&Drawing { elements, vertical }, &options);
+    let drawing = Drawing { elements, vertical };
+    outcome.svg = svg::write(&drawing, &options);
+    let millimetres_per_unit = state.lowered.millimetres_per_unit();
+    let options = dxf::DxfOptions { millimetres_per_unit, ..dxf::DxfOptions::default() };
+    outcome.dxf = dxf::write(&drawing, &options);
     Ok(outcome)
 }
 

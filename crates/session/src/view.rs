@@ -650,6 +650,8 @@ pub struct RowOutcome {
     pub message: String,
     /// The numbers of what was drawn, by their paths.
     pub measures: Vec<(String, f64)>,
-    /// The drawing at scale.
+    /// The drawing at scale, as SVG.
     pub svg: String,
+    /// The drawing in millimetres, as DXF.
+    pub dxf: String,
 }
