@@ -385,8 +385,7 @@ impl<'l> Lowerer<'l> {
 impl Lowered {
     /// Returns how many millimetres a unit of the sheet has; one where the text names no unit.
     pub fn millimetres_per_unit(&self) -> f64 {
-        let is_said =
-            self.effective_parse.outline().any(|(kind, _)| kind == SyntaxKind::UnitLine);
+        let is_said = self.effective_parse.outline().any(|(kind, _)| kind == SyntaxKind::UnitLine);
         if is_said { 1000.0 / self.document.units_per_metre } else { 1.0 }
     }
     /// Turns faults of the structure into diagnostics at the members that they come from.
