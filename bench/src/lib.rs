@@ -5,10 +5,11 @@
 //! rooms that every document is solved by. [`residual::largest`] tests what came out against the case
 //! alone. Nothing here is a second solver.
 //!
-//! Reading order: [`case`], [`document`], [`opened`], [`sketch`], [`residual`], [`measure`], [`report`],
-//! [`families`], [`documents`], [`browser`].
+//! Reading order: [`case`], [`document`], [`opened`], [`sketch`], [`residual`], [`measure`], [`displaced`],
+//! [`report`], [`families`], [`documents`], [`browser`].
 pub mod browser;
 pub mod case;
+pub mod displaced;
 pub mod document;
 pub mod documents;
 pub mod families;

@@ -1,12 +1,13 @@
 //! `cargo bench-table`: the figures, beside their goals, and beside ezpz where it can do the same.
 //!
 //! `cargo bench-table SECTION` prints one section, `cargo bench-table SECTION NAME` the rows whose names
-//! begin so: `cargo bench-table sketches rects`. The sections: `sketches`, `drags`, `circuits`, `trusses`,
-//! `rows`, `instances`, `tape`, `things`, `gallery` (`gallery NAME GRIP` drags by one grip), `browser` (in
+//! begin so: `cargo bench-table sketches rects`. The sections: `sketches`, `drags`, `displaced`, `circuits`,
+//! `trusses`, `rows`, `instances`, `tape`, `things`, `gallery` (`gallery NAME GRIP` drags by one grip), `browser` (in
 //! WebAssembly, in a browser). Figures to
 //! read, not tests: nothing here fails for being slow.
 
 mod circuits;
+mod displacements;
 mod gallery;
 mod instances;
 mod rows;
@@ -18,9 +19,10 @@ use std::io::{self, Write};
 use std::process::{Command, Stdio};
 
 /// The sections, in the order in which they are printed.
-const SECTIONS: [&str; 10] = [
+const SECTIONS: [&str; 11] = [
     "sketches",
     "drags",
+    "displaced",
     "circuits",
     "trusses",
     "rows",
@@ -46,6 +48,7 @@ fn main() -> io::Result<()> {
         match *section {
             "sketches" => sketches::first_solves(out, filter)?,
             "drags" => sketches::drags(out, filter)?,
+            "displaced" => displacements::table(out, filter)?,
             "circuits" => circuits::grids(out, filter)?,
             "trusses" => circuits::trusses(out, filter)?,
             "rows" => rows::table(out, filter)?,

@@ -119,14 +119,21 @@ pub(crate) fn drags(out: &mut impl Write, filter: &str) -> std::io::Result<()> {
     Ok(())
 }
 
-/// The cases with files and the generated ones, by family and size.
-fn cases(filter: &str) -> std::io::Result<Vec<Case>> {
+/// Reads the cases with files.
+pub(crate) fn read() -> std::io::Result<Vec<Case>> {
     let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("../tests/cases/geometry");
     let mut cases = Vec::new();
     for entry in fs::read_dir(folder)? {
         let text = fs::read_to_string(entry?.path())?;
         cases.push(Case::read(&text).map_err(std::io::Error::other)?);
     }
+    cases.sort_by(|a, b| a.name.cmp(&b.name));
+    Ok(cases)
+}
+
+/// The cases with files and the generated ones, by family and size.
+fn cases(filter: &str) -> std::io::Result<Vec<Case>> {
+    let mut cases = read()?;
     cases.extend(GENERATED.map(|(family, size)| generate(family, size, 1)));
     cases.retain(|c| c.name.starts_with(filter));
     let place = |case: &Case| {

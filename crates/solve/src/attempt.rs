@@ -590,14 +590,15 @@ impl Run<'_> {
         };
         for &way in ways {
             self.start_from_last(&step.targets);
+            let is_told = way != Trust::Branch && self.has_start(step);
             let Buffers { work, square: scratch, sides, .. } = &mut *self.buffers;
-            let mut no_side = Side::default();
+            let mut start = if is_told { square.side_of(self.last, work) } else { Side::default() };
             let side = match way {
                 Trust::Branch => {
                     sides.resize(sides.len().max(self.index + 1), Side::default());
                     &mut sides[self.index]
                 }
-                Trust::Any | Trust::Leap | Trust::Nearest => &mut no_side,
+                Trust::Any | Trust::Leap | Trust::Nearest => &mut start,
             };
             let course = Course { last: self.last, trust: way, side };
             match square.solve(course, self.values, &self.frame.scales, work, scratch) {
@@ -613,6 +614,13 @@ impl Run<'_> {
             return Ok(());
         }
         self.fail(step)
+    }
+
+    /// Returns true if everything that a step speaks of had a value where the edit began: that tells its side.
+    fn has_start(&self, step: &Step) -> bool {
+        let slots = self.plan.slots();
+        let has_value = |&s: &SlotIndex| slots[s as usize].stay != Stay::Free;
+        step.reads.iter().all(has_value) && step.targets.iter().all(has_value)
     }
 
     /// Goes from a double root to a double root, where there was one when the edit began: two branches lie one on the
@@ -653,6 +661,7 @@ impl Run<'_> {
         };
         let target = step.targets[0] as usize;
         let count = roots.guards.len();
+        let has_start = count > 1 && self.has_start(step);
         let size = count + roots.guards.iter().map(Vec::len).sum::<usize>();
         let Buffers { work, out: now, notes, .. } = &mut *self.buffers;
         work.run(&roots.tape, &row.arguments, self.values, size);
@@ -668,9 +677,14 @@ impl Run<'_> {
             chosen = match (on_branch.next(), on_branch.next()) {
                 (Some(one), None) => Some(one),
                 (None, _) if self.trust != Trust::Any => None,
-                (None | Some(_), _) => (0..count)
-                    .filter(|&i| now[at(i)].is_finite())
-                    .min_by(|&a, &b| off(now, a).total_cmp(&off(now, b))),
+                (None | Some(_), _) => {
+                    // where the start has roots of its own, it tells beside which of them it lies
+                    let is_told = has_start && (0..count).all(|i| before[at(i)].is_finite());
+                    let roots = if is_told { before } else { &now[..] };
+                    (0..count)
+                        .filter(|&i| now[at(i)].is_finite())
+                        .min_by(|&a, &b| off(roots, a).total_cmp(&off(roots, b)))
+                }
             };
         }
         if let Some(i) = chosen {

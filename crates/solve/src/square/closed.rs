@@ -37,10 +37,11 @@ impl Square {
         let here = match side(conics) {
             Some(side) => side,
             None if is_branch => return None,
+            None if course.side.closed != 0 => f64::from(course.side.closed),
             None => return self.solve_undecided(&base, values, scales, w),
         };
         let side = match course.side.closed {
-            _ if !is_branch => here,
+            0 if !is_branch => here,
             0 => side(&self.block.conics(closed, course.last, w))?,
             known => f64::from(known),
         };
@@ -70,6 +71,12 @@ impl Square {
             }
         }
         Some(Solved::Failed)
+    }
+
+    /// Returns on which side a state lies, as the closed form tells it; zero where that is not told.
+    pub(super) fn closed_side(&self, state: &[f64], w: &mut Workspace) -> i8 {
+        let closed = self.block.closed();
+        closed.and_then(|c| side(&self.block.conics(c, state, w))).map_or(0, |side| side as i8)
     }
 
     /// Solves from a start that lies on neither side: it takes the nearer solution; of two that are as near that in

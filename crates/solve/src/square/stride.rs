@@ -36,6 +36,11 @@ struct Piece {
 }
 
 impl Square {
+    /// Returns on which side a state lies, as far as the closed form tells.
+    pub(crate) fn side_of(&self, state: &[f64], w: &mut Workspace) -> Side {
+        Side { closed: self.closed_side(state, w), ..Side::default() }
+    }
+
     /// Returns true if no branch ends and no pole lies between the last state and that in which its rows were last
     /// evaluated, as far as the states on the straight way between them tell.
     pub(super) fn stays(
