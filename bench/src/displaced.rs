@@ -134,11 +134,12 @@ pub fn typed(case: &Case, c: usize, times: f64) -> Option<Typed> {
     Some(if alike { Typed::Alike } else { Typed::Flipped })
 }
 
-/// Returns where the points of a case's document are in a session.
+/// Returns where the points of a case's document are in a session; what is merged with one before it is told of that
+/// one alone, and lies at nothing.
 fn points(session: &Session, id: session::DocumentId, count: usize) -> Vec<[f64; 2]> {
     let rows = session.values(id);
     let numbers: BTreeMap<&str, f64> =
         rows.iter().filter_map(|row| Some((row.path.as_str(), row.number?))).collect();
-    let number = |path: String| numbers.get(path.as_str()).copied().unwrap_or(f64::NAN);
+    let number = |path: String| numbers.get(path.as_str()).copied().unwrap_or(0.0);
     (0..count).map(|p| [number(format!("p{p}.x")), number(format!("p{p}.y"))]).collect()
 }

@@ -25,7 +25,9 @@ fn a_displaced_sketch_opens_on_the_sides_where_it_lay() {
     let families = [
         (Family::Rects, 12),
         (Family::Rectsc, 7),
+        (Family::Arcs, 14),
         (Family::Truss, 40),
+        (Family::Henneberg2, 10),
         (Family::Grid, 5),
         (Family::Gridr, 4),
         (Family::Linkage, 4),

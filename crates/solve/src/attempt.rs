@@ -19,6 +19,7 @@ use crate::test::{Place, TestScratch};
 use std::cell::{Cell, OnceCell};
 
 mod backtrack;
+pub(crate) mod carry;
 pub(crate) mod others;
 mod peeled;
 mod region;
@@ -59,6 +60,8 @@ pub(crate) struct Buffers {
     /// For every step up to the last that follows a branch, the side on which it does.
     pub(crate) sides: Vec<Side>,
     pub(crate) test: TestScratch,
+    /// Where places were and are that carry a step's targets along.
+    moves: Vec<carry::Move>,
     /// The regions that were approached.
     pub(crate) approached: Vec<u32>,
     pub(crate) notes: Vec<Note>,
@@ -588,11 +591,16 @@ impl Run<'_> {
             }
             Trust::Any | Trust::Leap => &[Trust::Any, Trust::Leap],
         };
+        let is_told =
+            self.trust != Trust::Branch && !square.block.is_linear && self.has_start(step);
         for &way in ways {
             self.start_from_last(&step.targets);
-            let is_told = way != Trust::Branch && self.has_start(step);
+            let is_carried = is_told && self.carry(step) > 1;
             let Buffers { work, square: scratch, sides, .. } = &mut *self.buffers;
-            let mut start = if is_told { square.side_of(self.last, work) } else { Side::default() };
+            let mut start = match is_told && !is_carried {
+                true => square.side_of(self.last, work),
+                false => Side::default(),
+            };
             let side = match way {
                 Trust::Branch => {
                     sides.resize(sides.len().max(self.index + 1), Side::default());
@@ -661,7 +669,12 @@ impl Run<'_> {
         };
         let target = step.targets[0] as usize;
         let count = roots.guards.len();
-        let has_start = count > 1 && self.has_start(step);
+        let has_start = count > 1 && self.trust == Trust::Any && self.has_start(step);
+        let mut carried = None;
+        if has_start {
+            self.start_from_last(&step.targets);
+            carried = (self.carry(step) > 0).then(|| self.values[target]);
+        }
         let size = count + roots.guards.iter().map(Vec::len).sum::<usize>();
         let Buffers { work, out: now, notes, .. } = &mut *self.buffers;
         work.run(&roots.tape, &row.arguments, self.values, size);
@@ -671,19 +684,23 @@ impl Run<'_> {
         if count > 1 {
             let previous = self.last[target];
             let before = work.run(&roots.tape, &row.arguments, self.last, size);
-            let off = |out: &[f64], i: usize| (out[at(i)] - previous).abs();
+            let away = |out: &[f64], i: usize, from: f64| (out[at(i)] - from).abs();
             let near = 1e-6 * previous.abs().max(self.frame.scales[target]);
-            let mut on_branch = (0..count).filter(|&i| off(before, i) <= near);
+            let mut on_branch = (0..count).filter(|&i| away(before, i, previous) <= near);
             chosen = match (on_branch.next(), on_branch.next()) {
                 (Some(one), None) => Some(one),
                 (None, _) if self.trust != Trust::Any => None,
                 (None | Some(_), _) => {
                     // where the start has roots of its own, it tells beside which of them it lies
                     let is_told = has_start && (0..count).all(|i| before[at(i)].is_finite());
-                    let roots = if is_told { before } else { &now[..] };
+                    let (roots, from) = match carried {
+                        Some(carried) => (&now[..], carried),
+                        None if is_told => (&before[..], previous),
+                        None => (&now[..], previous),
+                    };
                     (0..count)
                         .filter(|&i| now[at(i)].is_finite())
-                        .min_by(|&a, &b| off(roots, a).total_cmp(&off(roots, b)))
+                        .min_by(|&a, &b| away(roots, a, from).total_cmp(&away(roots, b, from)))
                 }
             };
         }

@@ -4,6 +4,7 @@
 //! every state of every component of that shape. Substitute, accept, direct, order, lower.
 
 use crate::accept::{self, Acceptance};
+use crate::attempt::carry::Places;
 use crate::direct::{self, Direction};
 use crate::few::Few;
 use crate::joint::{Gathered, Joint};
@@ -172,6 +173,8 @@ pub struct Plan {
     pub(crate) bends: bool,
     stated: Stated,
     relaxed: OnceCell<Option<Box<Plan>>>,
+    /// The places of two coordinates, found when something that hangs on them is carried along.
+    coordinates: OnceCell<Places>,
     /// Every equation, laid out to be tested when that is first asked.
     tests: OnceCell<Tests>,
     /// What the latest drag could change.
@@ -383,6 +386,7 @@ fn plan_of(stated: Stated, classes: &Classes, report: Report, lowered: Lowered) 
         has_large_core,
         stated,
         relaxed: OnceCell::new(),
+        coordinates: OnceCell::new(),
         tests: OnceCell::new(),
         slice: RefCell::default(),
         met_at: RefCell::default(),
@@ -761,6 +765,10 @@ impl Plan {
     /// Returns true if a whole number is unknown.
     pub(crate) fn has_whole_unknowns(&self) -> bool {
         self.slots().iter().any(|s| s.is_number && s.is_discrete && s.stay != Stay::Fixed)
+    }
+    /// The places of two coordinates.
+    pub(crate) fn coordinates(&self) -> &Places {
+        self.coordinates.get_or_init(|| Places::new(&self.stated.system, &self.stood_for))
     }
     /// The plan in which every place may yield: for a state that does not hold, where those that
     /// structure lets yield cannot reach far enough. None where nothing more would yield.
