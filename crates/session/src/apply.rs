@@ -3,6 +3,7 @@
 use crate::difference::difference;
 use crate::document::{Direction, Open};
 use crate::drag::{self, coordinates};
+use crate::following;
 use crate::general;
 use crate::host::Host;
 use crate::limits;
@@ -388,7 +389,14 @@ fn take_text(open: &mut Open, host: &dyn Host, text: &str) -> Change {
     if before.text == text {
         return Change { label, ..Change::default() };
     }
-    take_state(open, host, text.into(), label)
+    let held = open.status.satisfied;
+    let plans = open.planner.take_plans();
+    let mut opened = State::of(text.into(), Some(&before), host, plans);
+    if held {
+        opened = following::follow(&before, opened, host);
+    }
+    let (state, planner) = opened;
+    step_to(open, label, state, planner)
 }
 
 fn travel(open: &mut Open, host: &dyn Host, direction: Direction) -> Result<Change, Refusal> {

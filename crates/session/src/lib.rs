@@ -23,6 +23,7 @@ mod document;
 mod drag;
 mod families;
 mod fixes;
+mod following;
 mod general;
 mod ghosts;
 mod joining;

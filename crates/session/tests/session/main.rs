@@ -5,6 +5,7 @@ mod dragging;
 mod drawing;
 mod explaining;
 mod fixing;
+mod following;
 mod ghosts;
 mod limits;
 mod offering;
