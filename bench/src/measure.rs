@@ -1,6 +1,7 @@
 //! Measuring: a case solved, analysed and dragged, with the times that it took.
 
 use crate::case::{Case, Drag};
+use crate::document;
 use crate::residual;
 use crate::sketch::{Sketch, constraints_at, wishes};
 use kernel::Values;
@@ -24,6 +25,10 @@ pub struct Figures {
     pub build: f64,
     /// Whole solves from the start, planning included.
     pub solve: Vec<f64>,
+    /// The same with nothing of it in the processor's caches.
+    pub cold: Vec<f64>,
+    /// From the text of the document to its solution.
+    pub whole: Vec<f64>,
     /// Solves from the start with the plan kept.
     pub numbers: Vec<f64>,
     /// Where the points are after the solve.
@@ -110,6 +115,17 @@ fn measured(case: &Case, begin: Instant, repeat: Repeat) -> Result<Figures, Stri
     let build = begin.elapsed().as_secs_f64();
     let (solve, (mut planner, values)) =
         repeated_after(repeat, || sketch.templates(), |templates| sketch.solve(templates));
+    let cold = match repeat {
+        Repeat::Once => Vec::new(),
+        Repeat::Enough => cold(|| sketch.templates(), |templates| sketch.solve(templates)),
+    };
+    let text = document::text(case);
+    let whole = match repeat {
+        Repeat::Once => Vec::new(),
+        Repeat::Enough => {
+            repeated(repeat, || Sketch::of(case, &text).map(|s| s.solve(s.templates()))).0
+        }
+    };
     let (numbers, _) = repeated(repeat, || sketch.solve_again(&mut planner));
     let points = sketch.points(&values);
     let residual = residual::largest(case, &case.constraints, &points);
@@ -130,6 +146,8 @@ fn measured(case: &Case, begin: Instant, repeat: Repeat) -> Result<Figures, Stri
     Ok(Figures {
         build,
         solve,
+        cold,
+        whole,
         numbers,
         points,
         residual,
@@ -192,6 +210,26 @@ pub fn repeated_after<N, T>(
             return (times, result);
         }
     }
+}
+
+/// How much is written to have everything else out of the caches, in bytes, and how often something is run so.
+const CACHES: usize = 64 << 20;
+const COLD_RUNS: usize = 5;
+
+/// Runs something a few times, each time after the processor's caches were filled with something else; returns the
+/// seconds of each run. Every run needs something new, which is made before.
+pub fn cold<N, T>(mut make: impl FnMut() -> N, mut run: impl FnMut(N) -> T) -> Vec<f64> {
+    let mut other = vec![0u8; CACHES];
+    (0..COLD_RUNS)
+        .map(|i| {
+            let new = make();
+            other.iter_mut().step_by(64).for_each(|b| *b = b.wrapping_add(i as u8 | 1));
+            black_box(&mut other);
+            let start = Instant::now();
+            black_box(run(new));
+            start.elapsed().as_secs_f64()
+        })
+        .collect()
 }
 
 /// Returns the middle one; nothing of nothing.

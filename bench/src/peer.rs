@@ -1,7 +1,7 @@
 //! The peer: ezpz, given the same cases, as its own documentation says.
 
 use crate::case::{Case, Constraint, Drag, End};
-use crate::measure::{Repeat, repeated};
+use crate::measure::{Repeat, cold, repeated};
 use crate::residual;
 use crate::sketch::constraints_at;
 use ezpz::datatypes::inputs::{DatumCircularArc, DatumLineSegment, DatumPoint};
@@ -14,6 +14,8 @@ use std::time::Instant;
 pub struct PeerFigures {
     /// Whole solves from the start.
     pub solve: Vec<f64>,
+    /// The same with nothing of it in the processor's caches.
+    pub cold: Vec<f64>,
     /// The largest error of a constraint; not a number where it gave up.
     pub residual: f64,
     /// Solving and saying which variables are free.
@@ -31,6 +33,10 @@ pub fn measure(case: &Case, repeat: Repeat) -> PeerFigures {
     let guesses = guesses(&case.start);
     let (times, solved) = repeated(repeat, || solve(&requests, guesses.clone(), Config::default()));
     let mut figures = PeerFigures { solve: times, residual: f64::NAN, ..PeerFigures::default() };
+    if repeat == Repeat::Enough {
+        figures.cold =
+            cold(|| guesses.clone(), |guesses| solve(&requests, guesses, Config::default()));
+    }
     let Ok(outcome) = solved else { return figures };
     let points = points(outcome.final_values());
     figures.residual = residual::largest(case, &case.constraints, &points);

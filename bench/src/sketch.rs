@@ -21,7 +21,15 @@ impl Sketch {
     /// # Errors
     /// What the language says against the document: a case that no document can say.
     pub fn new(case: &Case) -> Result<Self, String> {
-        let opened = Opened::new(&document::text(case))?;
+        Self::of(case, &document::text(case))
+    }
+
+    /// Makes the things of a case whose document has been written.
+    ///
+    /// # Errors
+    /// What the language says against the document.
+    pub fn of(case: &Case, text: &str) -> Result<Self, String> {
+        let opened = Opened::new(text)?;
         let place = |i: usize| match opened.slots(&format!("p{i}"))[..] {
             [x, y] => Ok([x, y]),
             _ => Err(format!("point {i} has no place")),

@@ -23,19 +23,23 @@ const GENERATED: [(Family, usize); 12] = [
     (Family::Linkdrag, 200),
 ];
 
-/// Whole solves from the start, and numbers alone, in milliseconds.
+/// Whole solves from the start, and numbers alone, in milliseconds: solves again and again, *cold* with the
+/// processor's caches full of something else, and *whole* from the document's text on.
 ///
 /// Goals: none slower than the peer, 5 times as fast in the geometric mean, 10 times on grids and
 /// coincident rectangles; numbers alone 20 times; freedom and redundancy in less time than the solve.
 pub(crate) fn first_solves(out: &mut impl Write, filter: &str) -> std::io::Result<()> {
     writeln!(
         out,
-        "{:16} {:>9} {:>9} {:>7} {:>6} {:>9} {:>7} {:>6} {:>9} {:>8} {:>9}  state",
+        "{:16} {:>9} {:>9} {:>7} {:>6} {:>9} {:>9} {:>9} {:>9} {:>7} {:>6} {:>9} {:>8} {:>9}  state",
         "ms",
         "solve",
         "ezpz",
         "times",
         "goal",
+        "cold",
+        "ezpz",
+        "whole",
         "numbers",
         "times",
         "goal",
@@ -60,11 +64,14 @@ pub(crate) fn first_solves(out: &mut impl Write, filter: &str) -> std::io::Resul
         }
         writeln!(
             out,
-            "{:16} {:9.4} {:9.4} {:7.2} {goal:>6} {:9.4} {:7.1} {:>6} {:9.4} {:8.2} {:9.3}  {}",
+            "{:16} {:9.4} {:9.4} {:7.2} {goal:>6} {:9.4} {:9.4} {:9.4} {:9.4} {:7.1} {:>6} {:9.4} {:8.2} {:9.3}  {}",
             case.name,
             solve * 1e3,
             peer.solve * 1e3,
             ratio(solve),
+            middle(&figures.cold) * 1e3,
+            peer.cold * 1e3,
+            middle(&figures.whole) * 1e3,
             numbers * 1e3,
             ratio(numbers),
             "20",
@@ -76,12 +83,15 @@ pub(crate) fn first_solves(out: &mut impl Write, filter: &str) -> std::io::Resul
     }
     writeln!(
         out,
-        "{:16} {:>9} {:>9} {:7.2} {:>6} {:>9} {:7.1} {:>6}",
+        "{:16} {:>9} {:>9} {:7.2} {:>6} {:>9} {:>9} {:>9} {:>9} {:7.1} {:>6}",
         "geometric mean",
         "",
         "",
         mean(&first),
         "5",
+        "",
+        "",
+        "",
         "",
         mean(&again),
         "20"
@@ -173,6 +183,7 @@ fn state(figures: &Figures, peer: &Peer) -> String {
 /// Medians of the peer's figures, in seconds.
 struct Peer {
     solve: f64,
+    cold: f64,
     analysis: f64,
     step: f64,
     is_solved: bool,
@@ -183,6 +194,7 @@ fn peer(case: &Case) -> Peer {
     let figures = apart(|| bench::peer::measure(case, Repeat::Enough));
     Peer {
         solve: middle(&figures.solve),
+        cold: middle(&figures.cold),
         analysis: middle(&figures.analysis),
         step: middle(&figures.steps),
         // its own measure of satisfaction
@@ -192,7 +204,7 @@ fn peer(case: &Case) -> Peer {
 
 #[cfg(not(feature = "ezpz"))]
 fn peer(_: &Case) -> Peer {
-    Peer { solve: f64::NAN, analysis: f64::NAN, step: f64::NAN, is_solved: false }
+    Peer { solve: f64::NAN, cold: f64::NAN, analysis: f64::NAN, step: f64::NAN, is_solved: false }
 }
 
 fn middle(times: &[f64]) -> f64 {

@@ -35,7 +35,7 @@ impl Places {
         };
         let group = |(slot, s): (SlotIndex, &Slot)| match s.stay {
             Stay::Kept { group } => Some((group, slot)),
-            Stay::Fixed | Stay::Given | Stay::Free => None,
+            Stay::Fixed | Stay::Given(_) | Stay::Free => None,
         };
         let mut kept: Vec<(u32, SlotIndex)> = (0..).zip(&system.slots).filter_map(group).collect();
         kept.sort_unstable();
@@ -106,8 +106,13 @@ impl Run<'_> {
         moves.clear();
         for &read in &step.reads {
             let whole = |p: &Coordinates| p.roots[0] == read && step.reads.contains(&p.roots[1]);
-            let read = places.of(read).filter(whole);
-            moves.extend(read.map(|p| [at(self.last, p.own), at(self.values, p.roots)]));
+            for place in places.of(read).filter(whole) {
+                let to = at(self.values, place.roots);
+                // places that are one tell the same, wherever each began
+                if moves.iter().all(|known: &Move| known[1] != to) {
+                    moves.push([at(self.last, place.own), to]);
+                }
+            }
         }
         if moves.iter().any(|[from, to]| from != to) {
             let map = Similarity::of(&moves);
