@@ -37,7 +37,7 @@ pub(crate) fn follow(
     let Followed { values, typed, sides } = followed;
     let (next, planner) = write_back(&state, &values, &typed, host, planner.into_plans());
     let (next, planner) = write_sides(next, planner, &sides, host);
-    let is_kept = next.diagnostics.len() == state.diagnostics.len()
+    let is_kept = next.diagnostics.len() <= state.diagnostics.len()
         && next.structure.slots.len() == state.structure.slots.len()
         && differing(&next, &values).next().is_none();
     if is_kept {
@@ -50,7 +50,8 @@ pub(crate) fn follow(
 /// refused, or where another number that is given would yield.
 fn followed(before: &State, state: &State, planner: &mut Planner) -> Option<Followed> {
     let (old, new) = (&before.structure, &state.structure);
-    if !Rc::ptr_eq(&old.form, &new.form) || !state.diagnostics.is_empty() {
+    let is_wrong = state.diagnostics.iter().any(|d| d.severity == base::Severity::Error);
+    if !Rc::ptr_eq(&old.form, &new.form) || is_wrong {
         return None;
     }
     let is_typed = |&slot: &SlotId| {
