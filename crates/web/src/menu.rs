@@ -30,7 +30,11 @@ pub fn open_below(lab: Lab, e: &MouseEvent, group: Group) {
 
 /// Opens the menu of what was pressed at a place of the page.
 pub fn open_at(lab: Lab, at: (f64, f64), context: Context) {
-    let actions = ACTIONS.iter().filter(|action| action.contexts.contains(&context)).collect();
+    // of a thing only what can be done with it: what is of another kind need not say why not
+    let can =
+        |action: &&Action| context == Context::Sheet || untrack(|| (action.enabled)(lab)).is_ok();
+    let actions = ACTIONS.iter().filter(|action| action.contexts.contains(&context));
+    let actions = actions.filter(can).collect();
     lab.menu.set(Some(Menu { at, label: words::MENU, actions }));
 }
 
