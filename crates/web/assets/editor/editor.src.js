@@ -233,7 +233,10 @@ export function createEditor(parent, options) {
     // Moves the cursor there and brings it into sight.
     setCursor(offset) {
       const at = inDoc(view.state).inside(offset)
-      page({ selection: { anchor: at }, effects: EditorView.scrollIntoView(at, { y: "nearest", yMargin: 40 }) })
+      // Where the panels lie one below the other, the editor would take the whole page along.
+      const stacked = matchMedia("(max-width: 900px)").matches
+      const sight = stacked ? [] : EditorView.scrollIntoView(at, { y: "nearest", yMargin: 40 })
+      page({ selection: { anchor: at }, effects: sight })
     },
     focus: () => view.focus(),
     destroy: () => view.destroy(),
