@@ -8,6 +8,8 @@
 //!   there are none but these, in the suite only in a file that names one
 //! - `//~ value PATH = TEXT`: what the values view shows, unit included
 //! - `//~ note WORDS`: something that the status says, by its first words
+//! - `//~ problem[code] LINE:COLUMN: MESSAGE` (place optional): what was found while solving; a file that names one
+//!   names all
 //! - `//~ redundant NAME`: a required constraint that says nothing new; a file that names one names all
 //! - `//~ unsatisfied NAME`: a required constraint that does not hold; without any, all must hold
 //!
@@ -67,7 +69,7 @@ fn opened(path: &Path, text: &str) -> (Session, DocumentId) {
 
 /// Opens a document and returns everything that differs from what it says of itself.
 fn differences(path: &Path, text: &str) -> String {
-    let (session, id) = opened(path, text);
+    let (mut session, id) = opened(path, text);
     let mut out = String::new();
     let wanted = |word: &str| {
         let prefix = format!("//~ {word}");
@@ -97,6 +99,7 @@ fn differences(path: &Path, text: &str) -> String {
             let _ = writeln!(out, "  nothing is noted like {claim}: {notes:?}");
         }
     }
+    compare_problems(&mut session, id, &wanted("problem["), &mut out);
     let broken = wanted("unsatisfied ");
     let status = session.status(id);
     let redundant = wanted("redundant ");
@@ -123,6 +126,23 @@ fn differences(path: &Path, text: &str) -> String {
         }
     }
     out
+}
+
+/// Compares what was found while solving with what a file says of it, if it says something: `CODE] LINE:COLUMN: WORDS`,
+/// the words being the first of the message.
+fn compare_problems(session: &mut Session, id: DocumentId, wanted: &[String], out: &mut String) {
+    if wanted.is_empty() {
+        return;
+    }
+    let found = session.problems(id);
+    let said: Vec<String> = found
+        .iter()
+        .map(|d| format!("{}] {}:{}: {}", d.code, d.line, d.column, d.message))
+        .collect();
+    let is_alike = |(found, wanted): (&String, &String)| found.starts_with(wanted);
+    if said.len() != wanted.len() || !said.iter().zip(wanted).all(is_alike) {
+        let _ = writeln!(out, "  found while solving: {said:#?}");
+    }
 }
 
 fn compare_diagnostics(mut found: Vec<DiagnosticView>, wanted: Vec<String>, out: &mut String) {

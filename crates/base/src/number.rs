@@ -155,6 +155,20 @@ pub fn shortest(x: f64) -> String {
     }
 }
 
+/// Returns `x` rounded to so many significant digits, one at least, as its [`shortest`] decimal.
+///
+/// ```
+/// assert_eq!(base::number::significant(163.857384, 6), "163.857");
+/// assert_eq!(base::number::significant(-0.00022857142857, 3), "-0.000229");
+/// assert_eq!(base::number::significant(1500.0, 6), "1500");
+/// ```
+pub fn significant(x: f64, digits: usize) -> String {
+    if !x.is_finite() {
+        return shortest(x);
+    }
+    shortest(format!("{x:.*e}", digits.max(1) - 1).parse().unwrap_or(x))
+}
+
 /// Which way a number goes.
 #[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Debug)]
 pub enum Toward {

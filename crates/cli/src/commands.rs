@@ -1,15 +1,16 @@
 //! The subcommands that work on documents: each returns what to print and whether all is well.
 //!
-//! With `--json` each prints one JSON object: `check` {files: [{path, diagnostics, status}], errors,
-//! warnings}, `test` {files: [{path, checks, diagnostics}], passed, failed}, `run` {path, values, status,
-//! diagnostics}, `explain` the explanation, with what holds the thing in `held`, where else it could be in
+//! With `--json` each prints one JSON object: `check` {files: [{path, diagnostics, problems, status}], errors,
+//! warnings}, `test` {files: [{path, checks, diagnostics}], passed, failed}, `run` {path, values,
+//! arbitrary, status, diagnostics}, `explain` the explanation, with what holds the thing in `held`, where else it could be in
 //! `ghosts` and what would make less to be solved together in `advice`, `analyse` the analysis, `recognise`
-//! {path, classes}, `draw` {path, svg}, `fmt` {files: [{path, changed}]}. The shapes of their parts are
+//! {path, classes}, `draw` {path, svg, undrawn, unpictured}, `fmt` {files: [{path, changed, error}]}. The shapes of their parts are
 //! those of `session::view`.
 
 use crate::documents::{self, OpenError, Opened, find, open};
 use serde_json::{Value, json};
 use session::view::{Advice, CheckReport, DiagnosticView, Explanation, ValueRow};
+use std::collections::BTreeSet;
 use std::fmt::Write as _;
 use std::path::{Path, PathBuf};
 
@@ -17,6 +18,8 @@ use std::path::{Path, PathBuf};
 pub(crate) struct Report {
     /// For standard output.
     pub(crate) text: String,
+    /// For people beside it, where standard output is for a program.
+    pub(crate) aside: String,
     /// Whether the command found everything in order.
     pub(crate) good: bool,
 }
@@ -44,7 +47,7 @@ fn report(form: Form, good: bool, words: String, json: &Value) -> Report {
         Form::Words => words,
         Form::Json => format!("{json}\n"),
     };
-    Report { text, good }
+    Report { text, aside: String::new(), good }
 }
 
 /// Prints the diagnostics of documents, with their source lines.
@@ -58,9 +61,10 @@ pub(crate) fn check(
 ) -> Result<Report, OpenError> {
     let (mut words, mut files, mut errors, mut warnings) = (String::new(), Vec::new(), 0, 0);
     for path in find(arguments)? {
-        let opened = open(&path)?;
+        let mut opened = open(&path)?;
         let diagnostics = opened.session.text(opened.id).diagnostics;
-        for d in &diagnostics {
+        let problems = opened.session.problems(opened.id);
+        for d in diagnostics.iter().chain(&problems) {
             words.push_str(&show_diagnostic(&opened, d));
             match d.severity.as_str() {
                 "error" => errors += 1,
@@ -71,19 +75,13 @@ pub(crate) fn check(
         for note in &status.notes {
             let _ = writeln!(words, "{}: {note}", path.display());
         }
-        if !status.satisfied {
-            errors += status.unmet.len();
-            for unmet in &status.unmet {
-                let _ = writeln!(
-                    words,
-                    "{}: {} does not hold: {}",
-                    path.display(),
-                    unmet.constraint,
-                    unmet.rule
-                );
-            }
-        }
-        files.push(json!({ "path": path, "diagnostics": diagnostics, "status": status }));
+        let found = json!({
+            "path": path,
+            "diagnostics": diagnostics,
+            "problems": problems,
+            "status": status,
+        });
+        files.push(found);
     }
     let _ = writeln!(words, "{} files, {errors} errors, {warnings} warnings", files.len());
     Ok(report(
@@ -115,7 +113,8 @@ fn around(text: &str, at: usize) -> (String, usize) {
 
 fn show_diagnostic(opened: &Opened, d: &DiagnosticView) -> String {
     let mut words = String::new();
-    let file = if d.file.is_empty() { opened.path.display().to_string() } else { d.file.clone() };
+    let own = || opened.path.display().to_string();
+    let file = if d.file.is_empty() { own() } else { d.file.clone() };
     let _ = writeln!(words, "{}[{}]: {}", d.severity, d.code, d.message);
     let _ = writeln!(words, "  --> {file}:{}:{}", d.line, d.column);
     if d.file.is_empty() {
@@ -132,6 +131,10 @@ fn show_diagnostic(opened: &Opened, d: &DiagnosticView) -> String {
             "^".repeat(width)
         );
     }
+    for label in &d.labels {
+        let file = if label.file.is_empty() { own() } else { label.file.clone() };
+        let _ = writeln!(words, "  {file}:{}:{}: {}", label.line, label.column, label.message);
+    }
     if let Some(hint) = &d.hint {
         let _ = writeln!(words, "  hint: {hint}");
     }
@@ -146,7 +149,7 @@ fn show_diagnostic(opened: &Opened, d: &DiagnosticView) -> String {
 ///
 /// # Errors
 /// If a file cannot be read.
-pub(crate) fn test(arguments: &[PathBuf], form: Form) -> Result<Report, OpenError> {
+pub(crate) fn test(arguments: &[PathBuf], which: Checks, form: Form) -> Result<Report, OpenError> {
     let (mut words, mut files, mut passed, mut failed) = (String::new(), Vec::new(), 0, 0);
     for path in find(arguments)? {
         let opened = open(&path)?;
@@ -159,7 +162,7 @@ pub(crate) fn test(arguments: &[PathBuf], form: Form) -> Result<Report, OpenErro
         for check in &checks {
             passed += usize::from(check.passed);
             failed += usize::from(!check.passed);
-            words.push_str(&show_check(&path, check));
+            words.push_str(&show_check(&path, check, which));
         }
         failed += usize::from(!broken.is_empty());
         files.push(json!({ "path": path, "checks": checks, "diagnostics": diagnostics }));
@@ -173,9 +176,23 @@ pub(crate) fn test(arguments: &[PathBuf], form: Form) -> Result<Report, OpenErro
     ))
 }
 
-fn show_check(path: &Path, check: &CheckReport) -> String {
+/// Which checks `test` names.
+#[derive(Clone, Copy, PartialEq, Eq)]
+pub(crate) enum Checks {
+    /// Those that fell short.
+    Failed,
+    /// Each.
+    All,
+}
+
+fn show_check(path: &Path, check: &CheckReport, which: Checks) -> String {
     if check.passed {
-        return String::new();
+        return match which {
+            Checks::Failed => String::new(),
+            Checks::All => {
+                format!("{}:{}: check \"{}\" passed\n", path.display(), check.line, check.title)
+            }
+        };
     }
     let mut words = String::new();
     let _ =
@@ -189,36 +206,73 @@ fn show_check(path: &Path, check: &CheckReport) -> String {
     words
 }
 
-/// Opens a document and prints its values.
+/// Which values `run` lists.
+#[derive(Clone, Copy, PartialEq, Eq)]
+pub(crate) enum Rows {
+    /// Those that are not of layout alone.
+    OfLaw,
+    /// All.
+    All,
+}
+
+/// Opens a document and prints its values: to six digits in an engineer's units, or exactly with `--json`.
 ///
 /// # Errors
 /// If the file cannot be read.
-pub(crate) fn run(path: &Path, form: Form) -> Result<Report, OpenError> {
-    let opened = open(path)?;
+pub(crate) fn run(path: &Path, which: Rows, form: Form) -> Result<Report, OpenError> {
+    let mut opened = open(path)?;
     let mut words = String::new();
     let diagnostics = opened.session.text(opened.id).diagnostics;
     for d in &diagnostics {
         words.push_str(&show_diagnostic(&opened, d));
     }
+    let arbitrary = opened.session.arbitrary(opened.id);
     let rows: Vec<ValueRow> = opened.session.values(opened.id);
-    let width = rows.iter().map(|r| r.path.chars().count()).max().unwrap_or(0);
-    for row in &rows {
-        let mark = if row.anchored {
-            "!"
-        } else if row.given {
-            "="
-        } else {
-            " "
-        };
+    let listed: Vec<&ValueRow> =
+        rows.iter().filter(|row| which == Rows::All || !row.is_layout).collect();
+    let width = listed.iter().map(|r| r.shortest.chars().count()).max().unwrap_or(0);
+    let digits = listed.iter().map(|r| before_point(&r.text)).max().unwrap_or(0);
+    for row in &listed {
         let unit = if row.unit.is_empty() { String::new() } else { format!(" {}", row.unit) };
-        let _ = writeln!(words, "{:width$} {mark} {}{unit}", row.path, row.text);
+        let pad = if row.number.is_some() { digits - before_point(&row.text) } else { 0 };
+        let (path, mark, text) = (&row.shortest, mark(row, &arbitrary), &row.text);
+        let _ = writeln!(words, "{path:width$} {mark} {:pad$}{text}{unit}", "");
+    }
+    if listed.iter().any(|row| mark(row, &arbitrary) == '~') {
+        words.push_str("~ arbitrary: nothing decides it\n");
     }
     let status = opened.session.status(opened.id);
     let _ = writeln!(words, "{}", status.message);
     let good = status.satisfied && diagnostics.iter().all(|d| d.severity != "error");
-    let json =
-        json!({ "path": path, "values": rows, "status": status, "diagnostics": diagnostics });
+    let json = json!({
+        "path": path,
+        "values": rows,
+        "arbitrary": arbitrary,
+        "status": status,
+        "diagnostics": diagnostics,
+    });
     Ok(report(form, good, words, &json))
+}
+
+/// Marks how a value comes about.
+fn mark(row: &ValueRow, arbitrary: &BTreeSet<String>) -> char {
+    if row.anchored {
+        '!'
+    } else if row.given {
+        '='
+    } else if !row.is_virtual && arbitrary.contains(&row.path) {
+        '~'
+    } else {
+        ' '
+    }
+}
+
+/// Returns how many letters of a number stand before its decimal point; none of what is no number.
+fn before_point(text: &str) -> usize {
+    match text.parse::<f64>() {
+        Ok(_) => text.find(['.', 'e']).unwrap_or(text.len()),
+        Err(_) => 0,
+    }
 }
 
 /// Explains the plan of a document, or why one value is what it is.
@@ -355,7 +409,9 @@ pub(crate) fn draw(path: &Path, output: Option<&Path>, form: Form) -> Result<Rep
     let svg = opened.session.svg(opened.id);
     let undrawn = opened.session.undrawn(opened.id);
     let is_whole = undrawn.is_empty();
-    let json = json!({ "path": path, "svg": svg, "undrawn": undrawn });
+    let unpictured = opened.session.unpictured(opened.id);
+    let json = json!({ "path": path, "svg": svg, "undrawn": undrawn, "unpictured": unpictured });
+    let missing = unpictured.map_or(String::new(), |said| format!("{said}\n"));
     let why: String =
         undrawn.iter().map(|why| format!("something is not drawn: {why}\n")).collect();
     let is_dxf = output.and_then(Path::extension).is_some_and(|e| e.eq_ignore_ascii_case("dxf"));
@@ -363,11 +419,12 @@ pub(crate) fn draw(path: &Path, output: Option<&Path>, form: Form) -> Result<Rep
     let Some(output) = output else {
         // what is printed is to be an SVG or nothing
         let words = if is_whole { svg } else { why };
-        return Ok(report(form, is_whole, words, &json));
+        let aside = if form == Form::Words { missing } else { String::new() };
+        return Ok(Report { aside, ..report(form, is_whole, words, &json) });
     };
     std::fs::write(output, &svg)
         .map_err(|source| OpenError::Unreadable { path: output.to_path_buf(), source })?;
-    Ok(report(form, is_whole, format!("{}\n{why}", output.display()), &json))
+    Ok(report(form, is_whole, format!("{}\n{why}{missing}", output.display()), &json))
 }
 
 /// Lays documents out as the language wants, keeping comments; `write` false only says which would change.
@@ -383,6 +440,12 @@ pub(crate) fn fmt(
     for path in find(arguments)? {
         let text = std::fs::read_to_string(&path)
             .map_err(|source| OpenError::Unreadable { path: path.clone(), source })?;
+        if let Some((line, column, message)) = session::misspelled(&text) {
+            good = false;
+            let _ = writeln!(words, "{}:{line}:{column}: not laid out: {message}", path.display());
+            files.push(json!({ "path": path, "changed": false, "error": message }));
+            continue;
+        }
         let formatted = session::format(&text);
         let changed = formatted != text;
         if changed {

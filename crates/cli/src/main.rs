@@ -42,11 +42,19 @@ enum Command {
         /// Files, or folders with documents.
         #[arg(required = true)]
         files: Vec<PathBuf>,
+        /// Names each check, those that passed as well.
+        #[arg(short, long)]
+        verbose: bool,
     },
-    /// Opens a document and prints its values (`=` given, `!` anchored).
+    /// Opens a document and prints its values.
+    ///
+    /// Marks: `=` given in the text, `!` anchored, `~` arbitrary, as nothing decides it.
     Run {
         /// The document.
         file: PathBuf,
+        /// Lists everything, where things are drawn and what pictures compute as well.
+        #[arg(long)]
+        all: bool,
     },
     /// Explains the plan of a document, or why one value is what it is.
     Explain {
@@ -100,8 +108,14 @@ fn main() -> ExitCode {
             let most = if *strict { Leniency::Nothing } else { Leniency::Warnings };
             commands::check(files, form, most)
         }
-        Command::Test { files } => commands::test(files, form),
-        Command::Run { file } => commands::run(file, form),
+        Command::Test { files, verbose } => {
+            let checks = if *verbose { commands::Checks::All } else { commands::Checks::Failed };
+            commands::test(files, checks, form)
+        }
+        Command::Run { file, all } => {
+            let rows = if *all { commands::Rows::All } else { commands::Rows::OfLaw };
+            commands::run(file, rows, form)
+        }
         Command::Explain { file, path } => commands::explain(file, path.as_deref(), form),
         Command::Recognise { file, parts } => commands::recognise(file, parts, form),
         Command::Analyse { file } => commands::analyse(file, form),
@@ -121,6 +135,7 @@ fn finish(report: Result<Report, OpenError>) -> ExitCode {
         Ok(report) => {
             // A reader that went away has read enough.
             let _ = std::io::stdout().write_all(report.text.as_bytes());
+            let _ = std::io::stderr().write_all(report.aside.as_bytes());
             if report.good { ExitCode::SUCCESS } else { ExitCode::FAILURE }
         }
         Err(error) => {

@@ -29,3 +29,99 @@ fn a_picture_without_end_is_no_empty_drawing() {
     let nothing = "class Leaf { size: Real = 3  picture => picture() }\nl: Leaf\n";
     assert!(asked("draw-nothing", nothing, "draw", &[]).stdout.starts_with(b"<svg"));
 }
+
+/// Returns what a command printed.
+fn printed(name: &str, text: &str, command: &str, about: &[&str]) -> String {
+    String::from_utf8(asked(name, text, command, about).stdout).expect("words are printed")
+}
+
+const DIVIDER: &str = "use circuits
+battery: Battery { emf = 10 V  anchor emf }
+r1: Resistor { resistance = 1 kohm }
+r2: Resistor { resistance = 500 ohm }
+ground: Ground
+merge battery.a.node = r1.a.node
+merge r1.b.node = r2.a.node
+merge r2.b.node = battery.b.node = ground.lead.node
+";
+
+#[test]
+fn values_are_read_in_units_of_engineers_without_what_pictures_compute() {
+    let words = printed("run-divider", DIVIDER, "run", &[]);
+    let row = |path: &str| words.lines().find(|line| line.split(' ').next() == Some(path));
+    let value = |path: &str| {
+        let row = row(path).map(|row| row.split_once(' ').map_or("", |(_, rest)| rest.trim()));
+        row.unwrap_or_else(|| panic!("no {path} in\n{words}")).to_string()
+    };
+    assert_eq!(value("r1.current"), "6.66667 mA");
+    assert_eq!(value("r1.drop"), "6.66667 V");
+    assert_eq!(value("r1.resistance"), "=   1 kohm");
+    assert_eq!(value("r2.resistance"), "= 500 ohm");
+    assert_eq!(value("battery.emf"), "!  10 V");
+    for helper in ["r1.span", "r1.half", "r1.reach", "battery.a.node.at.x"] {
+        assert_eq!(row(helper), None);
+    }
+    assert!(words.ends_with("all constraints hold; nothing is free\n"), "{words}");
+    let all = printed("run-all", DIVIDER, "run", &["--all"]);
+    assert!(all.contains("r1.span ") && all.contains("battery.a.node.at.x "), "{all}");
+    let exact = printed("run-json", DIVIDER, "run", &["--json"]);
+    assert!(exact.contains("0.006666666666666667"), "{exact}");
+}
+
+#[test]
+fn what_nothing_decides_is_marked() {
+    let text = "a: Real = 2\nb, c, phi: Real\nturn: Angle\nconstraint b + c = a\nconstraint turn = 30 deg\n";
+    let words = printed("run-arbitrary", text, "run", &[]);
+    let wanted = "a    =  2\nb    ~  1\nc    ~  1\nphi  ~  0\nturn   30 deg\n~ arbitrary: nothing decides it\n";
+    assert!(words.starts_with(wanted), "{words}");
+}
+
+#[test]
+fn a_contradiction_is_told_at_the_line_of_each_of_its_constraints() {
+    let text = "a, b: Length\nconstraint first: a = 3 m\nconstraint second: b = a\nconstraint third: b = 4 m\n";
+    let checked = asked("check-contradiction", text, "check", &[]);
+    let words = String::from_utf8_lossy(&checked.stdout).into_owned();
+    assert!(!checked.status.success());
+    assert!(
+        words.starts_with("error[contradiction]: first, second, third contradict each other"),
+        "{words}"
+    );
+    for line in [":2:1: first: a = 3 m", ":3:1: second: b = a", ":4:1: third: b = 4 m"] {
+        assert!(words.contains(line), "{line} in\n{words}");
+    }
+    assert!(words.contains("hint: delete first or switch it off; then a is 4"), "{words}");
+}
+
+#[test]
+fn each_check_is_named_where_that_is_asked_for() {
+    let text = "a: Real = 1\ncheck \"one\" { expect a = 1 }\n";
+    assert_eq!(printed("test-quiet", text, "test", &[]), "1 passed, 0 failed\n");
+    let words = printed("test-verbose", text, "test", &["--verbose"]);
+    assert!(words.contains(":2: check \"one\" passed\n1 passed, 0 failed"), "{words}");
+}
+
+#[test]
+fn what_cannot_be_laid_out_is_said_and_stays() {
+    let text = "a:Real = 1\nb: Real = (\n";
+    let laid = asked("fmt-broken", text, "fmt", &[]);
+    let words = String::from_utf8_lossy(&laid.stdout).into_owned();
+    assert!(!laid.status.success() && words.contains(": not laid out: "), "{words}");
+    let path = std::env::temp_dir().join("thinglab-fmt-broken.thing");
+    assert_eq!(std::fs::read_to_string(path).expect("it is there"), text);
+}
+
+#[test]
+fn a_drawing_fits_whatever_the_units_and_says_what_it_lacks() {
+    let metres = "use geometry\nunit km\nl: Line { p1 = (0, 0)  p2 = (3, 0.4) }\nclass Plain { x: Real }\np: Plain\n";
+    let drawn = asked("draw-small", metres, "draw", &[]);
+    assert!(String::from_utf8_lossy(&drawn.stdout).contains("width=\"832\""), "{drawn:?}");
+    assert_eq!(String::from_utf8_lossy(&drawn.stderr), "p has no picture\n");
+}
+
+#[test]
+fn what_has_no_place_is_drawn_apart() {
+    let svg = printed("draw-unplaced", DIVIDER, "draw", &[]);
+    let width = svg.split("width=\"").nth(1).and_then(|w| w.split('"').next());
+    assert!(width.and_then(|w| w.parse::<f64>().ok()).is_some_and(|w| w > 150.0), "{svg}");
+    assert!(!svg.contains("NaN"));
+}

@@ -8,7 +8,7 @@ use crate::element::{
     Anchoring, Color, Drawing, Element, Line, Placement, Point, Shape, Style, Tag, Vertical,
 };
 use crate::metrics;
-use base::number::shortest;
+use base::number::{rounded, shortest};
 use std::f64::consts::TAU;
 use std::fmt::Write as _;
 
@@ -73,7 +73,7 @@ pub fn write(drawing: &Drawing, options: &SvgOptions<'_>) -> String {
     };
     let (width, height) = (around.width() + 2.0 * margin, around.height() + 2.0 * margin);
     let mut out = String::new();
-    let pixels = |length: f64| shortest(length * options.pixels_per_unit);
+    let pixels = |length: f64| rounded(length * options.pixels_per_unit, 2);
     line(
         &mut out,
         format_args!(

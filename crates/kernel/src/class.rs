@@ -201,6 +201,8 @@ pub struct Part {
     pub count: Option<Count>,
     /// The values that an integer may take, both ends included.
     pub range: Option<(i64, i64)>,
+    /// True if it only says where a thing is drawn: no degree of freedom of the thing.
+    pub is_layout: bool,
     /// Where it was written.
     pub origin: OriginId,
 }
@@ -245,6 +247,8 @@ pub struct Message {
     pub doc: String,
     /// The parameters, in order.
     pub parameters: Vec<Parameter>,
+    /// The class of the answer, where one is written; of a message in a loop, that of an element.
+    pub class: Option<ClassId>,
     /// The answer.
     pub answer: Term,
     /// True if it gives way to any other definition.

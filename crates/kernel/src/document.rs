@@ -30,6 +30,8 @@ pub struct Document {
     pub vertical: Vertical,
     /// How many base units of length are in a metre: 1000 for `unit mm`, 1 without a unit line.
     pub units_per_metre: f64,
+    /// How the unit of the sheet is spelled: `mm` for `unit mm`; nothing without a unit line.
+    pub unit: Option<Name>,
 }
 
 /// Which way a place or a number goes from where two branches meet, and its values do not say it.

@@ -41,6 +41,8 @@ pub struct Slot {
     pub given: Option<GivenIn>,
     /// True if an anchor holds it.
     pub anchored: bool,
+    /// True if it only says where something is drawn: every part that has it is of layout, or of a whole that is.
+    pub is_layout: bool,
     /// The place that it is a coordinate of, named by that place's thing.
     pub place: Option<ThingId>,
 }

@@ -269,6 +269,37 @@ pub enum BinaryOperator {
 }
 
 impl Term {
+    /// Returns the terms that it is directly made of, in order.
+    pub fn operands(&self) -> Vec<&Self> {
+        match self {
+            Self::Number { .. }
+            | Self::Text(_)
+            | Self::Bool(_)
+            | Self::Me
+            | Self::Owner
+            | Self::Document
+            | Self::Local(_)
+            | Self::Step(_)
+            | Self::Result
+            | Self::All(_) => Vec::new(),
+            Self::Send { to, arguments, .. } => {
+                std::iter::once(&**to).chain(arguments.iter().map(|a| &a.value)).collect()
+            }
+            Self::Call { arguments, .. } | Self::Make { arguments, .. } => {
+                arguments.iter().map(|a| &a.value).collect()
+            }
+            Self::Tuple(terms) | Self::List(terms) => terms.iter().collect(),
+            Self::Range(a, b) | Self::Index(a, b) | Self::Binary(_, a, b) | Self::Let(_, a, b) => {
+                vec![a, b]
+            }
+            Self::If(a, b, c) => vec![a, b, c],
+            Self::Unary(_, a)
+            | Self::Lambda(_, a)
+            | Self::IsA(a, _)
+            | Self::Copy(a)
+            | Self::OfConstraint { of: a, .. } => vec![a],
+        }
+    }
     /// Makes the term for a part of `Me`, step by step.
     pub fn part(names: &[&str]) -> Self {
         names.iter().fold(Self::Me, |to, name| Self::send(to, name))

@@ -2,7 +2,7 @@
 
 use crate::lower::{Lowerer, OWN};
 use crate::scope::Scope;
-use base::{Diagnostic, FileId, Place};
+use base::{Diagnostic, FileId, Name, Place};
 use expr::dimension::Dimension;
 use kernel::{ClassId, OriginId, Part, Step, Vertical};
 use std::rc::Rc;
@@ -136,6 +136,7 @@ impl Lowerer<'_> {
                     class: things,
                     count: None,
                     range: None,
+                    is_layout: false,
                     origin,
                 };
                 self.add_part(Place { file, span: last.span() }, class, part);
@@ -176,6 +177,7 @@ impl Lowerer<'_> {
             Some((metres, Dimension::LENGTH)) => {
                 // 1 mm is 0.001 m; the factor is exact the other way round.
                 self.document.units_per_metre = (1.0 / metres).round().max(1.0 / metres);
+                self.document.unit = Some(Name::new(&spelling));
             }
             Some(_) | None => {
                 let message = format!("{spelling} is no unit of length");

@@ -20,7 +20,7 @@
 //! Reading order: `origins`, `lower`, `files`, `visible`, `classes`, `scope`, `members`, `programs`, `families`, `loops`,
 //! `rules`, `switches`, `kept`, `names`, `paths`, `refine`, `terms`, `components`, `calls`, `kin`, `kinds`, `settle`, `restore`,
 //! `checks`,
-//! `numbers`, `write`, `uses`,
+//! `numbers`, `shown`, `write`, `uses`,
 //! `edits`.
 mod calls;
 mod checks;
@@ -50,6 +50,7 @@ mod restore;
 mod rules;
 mod scope;
 mod settle;
+mod shown;
 mod statics;
 mod switches;
 mod terms;
@@ -63,6 +64,7 @@ pub use edits::{Restructuring, edits_for, for_every, is_count, of_constraint, wr
 pub use families::Family;
 pub use files::File;
 pub use lower::{Lowered, lower};
-pub use numbers::{Wanted, read_literal, show_limit, show_number};
+pub use numbers::{Wanted, read_literal, show_limit};
 pub use origins::Origins;
+pub use shown::{Quantity, Shown, show_quantity};
 pub use write::write_values;

@@ -247,6 +247,7 @@ impl<'l> Lowerer<'l> {
                 root: ClassId(0),
                 vertical: Vertical::Up,
                 units_per_metre: 1.0,
+                unit: None,
             },
             visible: Visible::default(),
             origins: Origins::default(),

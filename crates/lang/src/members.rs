@@ -281,7 +281,8 @@ impl Lowerer<'_> {
                 None => self.class_for_body(scope, &name, class, body.clone(), origin),
             };
             let doc = part.doc().unwrap_or_default();
-            let declared = Part { name: name.clone(), doc, class, count, range, origin };
+            let is_layout = part.is_layout();
+            let declared = Part { name: name.clone(), doc, class, count, range, is_layout, origin };
             let place = Place { file: scope.file, span: word.span() };
             self.add_part(place, scope.class(), declared);
             if part.is_constant() {
@@ -317,7 +318,15 @@ impl Lowerer<'_> {
         let name = word.name();
         let doc = reference.doc().unwrap_or_default();
         let origin = self.origin(scope.file, span_without_doc(reference.syntax()));
-        let declared = Part { name: name.clone(), doc, class, count: None, range: None, origin };
+        let declared = Part {
+            name: name.clone(),
+            doc,
+            class,
+            count: None,
+            range: None,
+            is_layout: false,
+            origin,
+        };
         let place = Place { file: scope.file, span: word.span() };
         self.add_part(place, scope.class(), declared);
         let Some(value) = reference.target() else {
@@ -452,6 +461,7 @@ impl Lowerer<'_> {
                 name: word.name(),
                 doc,
                 parameters: Vec::new(),
+                class,
                 answer: Term::Me,
                 is_default: false,
                 is_combining: false,
@@ -476,7 +486,8 @@ impl Lowerer<'_> {
             return;
         }
         let (parameters, inner) = self.parameters_of(scope, message);
-        if let Some(class) = message.class().and_then(|ty| self.class_of_type(scope.file, &ty)) {
+        let class = message.class().and_then(|ty| self.class_of_type(scope.file, &ty));
+        if let Some(class) = class {
             let kind = Kind::of_class(&self.document, class).listed(loops.len());
             self.message_kinds.insert((scope.class(), name.name()), Some(kind));
         }
@@ -486,6 +497,7 @@ impl Lowerer<'_> {
             name: name.name(),
             doc,
             parameters,
+            class,
             answer: Term::Me,
             is_default: message.is_default(),
             is_combining: message.is_combining(),

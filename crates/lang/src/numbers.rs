@@ -2,6 +2,7 @@
 
 use crate::kinds::dimension_in_words;
 use crate::lower::OWN;
+use crate::shown::{Quantity, in_unit, spelling_for};
 use base::number::{RULE_TOLERANCE, rounded, shortest};
 use base::{Diagnostic, Place, Span};
 use expr::dimension::Dimension;
@@ -27,12 +28,12 @@ pub(crate) fn from_bare(document: &Document, x: f64, dimension: Dimension) -> f6
 }
 
 /// Returns what to write for a number without its unit: what [`from_bare`] reads.
-fn to_bare(document: &Document, x: f64, dimension: Dimension) -> f64 {
+pub(crate) fn to_bare(document: &Document, x: f64, dimension: Dimension) -> f64 {
     if is_of_the_sheet(dimension) { x } else { to_si(document, x, dimension) }
 }
 
 /// Returns true for plain numbers, lengths, areas, volumes.
-fn is_of_the_sheet(dimension: Dimension) -> bool {
+pub(crate) fn is_of_the_sheet(dimension: Dimension) -> bool {
     dimension.0[1..].iter().all(|&exponent| exponent == 0)
 }
 
@@ -55,35 +56,19 @@ fn shifted(document: &Document, x: f64, power: i32) -> f64 {
         .unwrap_or(x * base::number::pow(scale, f64::from(power)))
 }
 
-/// Returns a number of base units as text and unit: what a person reads and may type back.
-///
-/// What a bare number means in the sheet's own units has no unit: lengths, areas, plain numbers.
-pub fn show_number(x: f64, dimension: Dimension, document: &Document) -> (String, String) {
-    let unit = units::preferred(dimension).filter(|_| !is_of_the_sheet(dimension));
-    (shortest(to_bare(document, x, dimension)), unit.unwrap_or_default().into())
-}
-
 /// Returns a limit of a way that began at `from` as text and unit: as few digits as say it to a
 /// thousandth, rounded towards the beginning, so that what is read lies on the way.
 ///
-/// In the unit that the part's value is written in, angles in degrees, else as [`show_number`].
+/// The unit is that of [`show_quantity`](crate::show_quantity).
 pub fn show_limit(
     limit: f64,
     from: f64,
-    written: &str,
-    dimension: Dimension,
+    quantity: Quantity<'_>,
     document: &Document,
 ) -> (String, String) {
-    let last = written.trim_end_matches([')', ']', ',']).rsplit(char::is_whitespace).next();
-    let fits = |spelling: &&str| units::unit(spelling).is_some_and(|u| u.dimension == dimension);
-    let sheet = is_of_the_sheet(dimension);
-    let spelling = last.filter(fits).or(units::preferred(dimension).filter(|_| !sheet));
-    let in_unit = |x: f64| {
-        let unit = spelling.and_then(units::unit);
-        let shown = unit.and_then(|u| u.show(to_si(document, x, dimension)));
-        shown.unwrap_or(to_bare(document, x, dimension))
-    };
-    (short_of(in_unit(limit), in_unit(from)), spelling.unwrap_or_default().into())
+    let spelling = spelling_for(limit, quantity, document);
+    let shown = |x: f64| in_unit(x, quantity.dimension, &spelling, document);
+    (short_of(shown(limit), shown(from)), spelling)
 }
 
 /// Writes a limit with as few decimals as say it to a thousandth, rounded towards `from`.

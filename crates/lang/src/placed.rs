@@ -118,7 +118,15 @@ impl Lowerer<'_> {
 
     fn add_hidden_part(&mut self, owner: ClassId, name: Name, class: ClassId, origin: OriginId) {
         let place = Place { file: OWN, span: Span::default() };
-        let part = Part { name, doc: String::new(), class, count: None, range: None, origin };
+        let part = Part {
+            name,
+            doc: String::new(),
+            class,
+            count: None,
+            range: None,
+            is_layout: false,
+            origin,
+        };
         self.add_part(place, owner, part);
     }
 
@@ -218,6 +226,7 @@ impl Lowerer<'_> {
             name,
             doc: String::new(),
             parameters: Vec::new(),
+            class: None,
             answer,
             is_default: false,
             is_combining: false,

@@ -87,7 +87,8 @@ impl Lowerer<'_> {
         let prompt = param.prompt().map(|w| w.unquoted());
         let doc = param.doc().or(prompt).unwrap_or_default();
         let name = word.name();
-        let part = Part { name: name.clone(), doc, class, count, range: None, origin };
+        let part =
+            Part { name: name.clone(), doc, class, count, range: None, is_layout: false, origin };
         self.add_part(Place { file: scope.file, span: word.span() }, scope.class(), part);
         if let Some(value) = param.value() {
             let (scope, prefix) = (scope.clone(), vec![Step::Part(name)]);
@@ -119,6 +120,7 @@ impl Lowerer<'_> {
             name: name.clone(),
             doc: String::new(),
             parameters: Vec::new(),
+            class: None,
             answer,
             is_default: false,
             is_combining: false,

@@ -537,7 +537,7 @@ mod tests {
                 parts: 0,
             });
             let (primitive, given, anchored) = (Primitive::Integer, None, dice.below(5) == 0);
-            form.slots.push(Slot { thing, primitive, given, anchored, place });
+            form.slots.push(Slot { thing, primitive, given, anchored, is_layout: false, place });
         }
         form.things = Rc::new(things);
         Structure { form: Rc::new(form), ..Structure::default() }

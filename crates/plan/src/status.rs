@@ -15,7 +15,8 @@ use std::collections::BTreeSet;
 pub struct Status {
     /// True if every required constraint holds.
     pub satisfied: bool,
-    /// In how many independent ways the numbers can still move, given numbers and anchors held.
+    /// In how many independent ways the numbers can still move, given numbers and anchors held; what is of layout
+    /// alone is not counted.
     pub freedom: usize,
     /// The constraints of any strength that do not hold, in order of declaration.
     pub unmet: Vec<Unmet>,
@@ -66,19 +67,22 @@ impl Planner {
             redundancy.add(i, found);
         }
         let mut slots = IdVec::filled(SlotState::Fixed, structure.slots.len());
-        let mut freedom = redundancy.theorem_motions();
+        let mut freedom = 0;
         for (slot, s) in structure.slots.iter() {
             let lone = self.net.rules_of(slot).is_empty();
             if lone && Self::resting_hold(structure, slot) == Holding::Kept {
                 slots[slot] = SlotState::Free;
-                freedom += usize::from(s.primitive.is_number());
+                freedom += usize::from(s.primitive.is_number() && !s.is_layout);
             }
         }
-        for task in &tasks {
+        for (i, task) in tasks.iter().enumerate() {
             let in_mode = task.by_values(self, model, values, host);
             let task = in_mode.as_ref().unwrap_or(task);
-            if !matches!(task.course, Course::Search(_)) {
-                freedom += task.plan.report.freedom;
+            if !task.is_of_layout(structure) {
+                freedom += redundancy.theorems.get(&i).copied().unwrap_or_default();
+                if !matches!(task.course, Course::Search(_)) {
+                    freedom += task.plan.report.freedom;
+                }
             }
             for slot in task.movable() {
                 slots[slot] = SlotState::Free;
@@ -97,6 +101,63 @@ impl Planner {
             redundant: redundancy.sorted().constraints,
             slots,
         }
+    }
+
+    /// Returns the numbers that are arbitrary: neither given, nor determined by constraints and by all that is
+    /// given, the places that are given as well. Layout is arbitrary by its nature and none of them.
+    ///
+    /// Plans what speaks of a number that is not given once more. Changes nothing.
+    pub fn arbitrary(
+        &mut self,
+        model: Model<'_>,
+        values: &Values,
+        host: &mut dyn Host,
+    ) -> BTreeSet<SlotId> {
+        let structure = model.structure;
+        let is_asked = |slot: SlotId| {
+            let s = &structure.slots[slot];
+            s.given.is_none() && !s.anchored && !s.is_layout && s.primitive.is_number()
+        };
+        let lone = |&slot: &SlotId| is_asked(slot) && self.net.rules_of(slot).is_empty();
+        let mut found: BTreeSet<SlotId> = structure.slots.ids().filter(lone).collect();
+        let mut components = self.whole(structure).components.clone();
+        components.retain(|component| component.slots().iter().any(|&s| is_asked(s)));
+        let holding = |slot: SlotId| match Self::resting_hold(structure, slot) {
+            Holding::Kept if structure.slots[slot].given.is_some() => Holding::Given,
+            held => held,
+        };
+        for task in self.tasks(structure, components, &holding, &[], None) {
+            let in_mode = task.by_values(self, model, values, host);
+            let task = in_mode.as_ref().unwrap_or(&task);
+            // whole numbers are searched for, nearest to where they are
+            if matches!(task.course, Course::Search(_)) || task.plan.report.freedom == 0 {
+                continue;
+            }
+            let could: BTreeSet<SlotId> = task.movable().filter(|&s| is_asked(s)).collect();
+            if !could.is_empty() {
+                let moves = |s: &SlotId| {
+                    structure.slots[*s].primitive.is_number()
+                        && !matches!(holding(*s), Holding::Given | Holding::Fixed)
+                };
+                let moving = self.moving(model, task, values, &moves, host);
+                found.extend(moving.into_iter().filter(|s| could.contains(s)));
+            }
+        }
+        found
+    }
+
+    /// Returns true if no constraint speaks of a number.
+    pub fn is_lone(&self, slot: SlotId) -> bool {
+        self.net.rules_of(slot).is_empty()
+    }
+
+    /// Returns the numbers that hang together with one of these by constraints, in order.
+    pub fn connected(&mut self, model: Model<'_>, slots: &BTreeSet<SlotId>) -> Vec<SlotId> {
+        let components = self.resting_around(model.structure, slots, &[]);
+        let mut found: Vec<SlotId> = components.iter().flat_map(|c| c.slots().to_vec()).collect();
+        found.sort_unstable();
+        found.dedup();
+        found
     }
 
     /// Returns true if nothing was to be told of a component before, in this state.

@@ -355,6 +355,10 @@ impl Task {
     fn of((system, plan, course, stated): Known, component: Component) -> Self {
         Self { system, plan, course, component, stated }
     }
+    /// Returns true if all it speaks of only says where something is drawn.
+    pub(crate) fn is_of_layout(&self, structure: &Structure) -> bool {
+        self.component.slots().iter().all(|&s| structure.slots[s].is_layout)
+    }
     /// Returns what a source of the system is.
     pub(crate) fn origin(&self, source: u32) -> Origin {
         match self.stated.relations[source as usize] {

@@ -107,6 +107,7 @@ fn edit(
         let refusal = one_way(open, refusal, &report, &aims);
         let refusal = while_anchored(open, refusal, reason, &report, &aims);
         let refusal = of_computed(refusal, &aims);
+        let refusal = too_hard(open, refusal, reason, &aims);
         return Err(match report.limit {
             Some(limit) => limited(&state, refusal, &aims, limit),
             None => match (reason, &aims[..]) {
@@ -119,6 +120,21 @@ fn edit(
     }
     let edited = aims.iter().flat_map(|(aim, _)| slots_of(&state, aim)).collect();
     keep(open, host, label, edited, &values, &report.undecided)
+}
+
+/// Says of what was too hard how many values hang together with what was to change.
+fn too_hard(
+    open: &mut Open,
+    refusal: Refusal,
+    reason: &RefusalReason,
+    aims: &[(Aim, Vec<Value>)],
+) -> Refusal {
+    if !matches!(reason, RefusalReason::NotDecided(_)) {
+        return refusal;
+    }
+    let slots = aims.iter().flat_map(|(aim, _)| slots_of(&open.state, aim)).collect();
+    let together = words::solved_together(open, &slots);
+    Refusal { message: format!("{}; {together}", refusal.message), ..refusal }
 }
 
 /// Says of the one constraint that would not hold what it has no method for: there is no way back to that.
@@ -476,24 +492,24 @@ pub(crate) fn take_state(open: &mut Open, host: &dyn Host, text: String, label: 
 
 /// Reads again what a document uses; its own text stays, and it is no step of its own.
 ///
-/// Returns the things that could be satisfied before and cannot be now; nothing if all is as it was.
+/// Returns the constraints that could be satisfied before and cannot be now; nothing if all is as it was.
 pub(crate) fn catch_up(open: &mut Open, host: &dyn Host) -> Option<Vec<String>> {
     if open.state.is_up_to_date(host) {
         return None;
     }
-    let before = words::unmet_things(&open.state, &open.status);
+    let before = words::unmet_in_words(&open.state, &open.status);
     open.read_again(host);
-    let mut unsatisfied = words::unmet_things(&open.state, &open.status);
+    let mut unsatisfied = words::unmet_in_words(&open.state, &open.status);
     unsatisfied.retain(|path| !before.contains(path));
     Some(unsatisfied)
 }
 
-/// Makes a state the present one, and says which things could be satisfied before and cannot be now.
+/// Makes a state the present one, and says which constraints could be satisfied before and cannot be now.
 fn step_to(open: &mut Open, label: String, state: State, planner: Planner) -> Change {
     let before = open.state.clone();
-    let unmet = words::unmet_things(&before, &open.status);
+    let unmet = words::unmet_in_words(&before, &open.status);
     open.step_to(label.clone(), Vec::new(), state, planner);
-    let mut unsatisfied = words::unmet_things(&open.state, &open.status);
+    let mut unsatisfied = words::unmet_in_words(&open.state, &open.status);
     unsatisfied.retain(|path| !unmet.contains(path));
     Change { unsatisfied, ..change(label, &before, &open.state) }
 }

@@ -44,5 +44,5 @@ mod yielding;
 
 pub use host::Host;
 pub use kernel::{Command, Literal, Path, Step};
-pub use session::{Session, format, parse_path};
+pub use session::{Session, format, misspelled, parse_path};
 pub use view::DocumentId;

@@ -7,6 +7,7 @@ use crate::words;
 use base::number::Toward;
 use expr::Dimension;
 use kernel::{DOCUMENT, Primitive, SlotId, Term, ThingId, Value};
+use lang::Quantity;
 use plan::{ActingKind, ModeChange, Source};
 
 /// How straight a place, the pointer and an anchored place lie for a reach: as a sine.
@@ -44,7 +45,7 @@ pub(crate) fn of_term(state: &State, term: &Term, wanted: &[Value], part: f64) -
     };
     let limit = from + (wanted - from) * part;
     let document = &state.lowered.document;
-    let (text, unit) = lang::show_limit(limit, from, "", dimension, document);
+    let (text, unit) = lang::show_limit(limit, from, of_dimension(dimension), document);
     Some(Limit { path: words::term_path(term), value: words::with_unit(text, &unit) })
 }
 
@@ -86,7 +87,7 @@ pub(crate) fn of_drag(state: &State, drag: &Drag) -> (Limit, String) {
     if let Some(now) = drag.computed_now(state) {
         let show = |(&(x, dimension), &from): (&(f64, Dimension), &f64)| {
             let document = &state.lowered.document;
-            let (text, unit) = lang::show_limit(x, from, "", dimension, document);
+            let (text, unit) = lang::show_limit(x, from, of_dimension(dimension), document);
             words::with_unit(text, &unit)
         };
         let shown: Vec<String> = now.iter().zip(drag.start()).map(show).collect();
@@ -158,22 +159,18 @@ fn away(from: [f64; 2], to: [f64; 2]) -> f64 {
 
 /// Shows a number at the end of a way, in the unit that its value is written in.
 fn show(state: &State, slot: SlotId, limit: f64, from: f64) -> String {
-    let s = &state.structure.slots[slot];
-    let dimension = match s.primitive {
-        Primitive::Real(dimension) => dimension,
-        Primitive::Integer | Primitive::Bool | Primitive::Text | Primitive::Color => {
-            return base::number::shortest(limit);
-        }
-    };
-    let is_angle = words::class_name(state, s.thing) == "Angle";
-    let written = match state.structure.given(slot) {
-        _ if is_angle => "deg".into(),
-        Some(given) => state.lowered.source_of(given.origin),
-        None => String::new(),
-    };
-    let document = &state.lowered.document;
-    let (text, unit) = lang::show_limit(limit, from, &written, dimension, document);
+    if !matches!(state.structure.slots[slot].primitive, Primitive::Real(_)) {
+        return base::number::shortest(limit);
+    }
+    let written = words::written_for(state, slot);
+    let quantity = words::quantity_of(state, slot, &written);
+    let (text, unit) = lang::show_limit(limit, from, quantity, &state.lowered.document);
     words::with_unit(text, &unit)
+}
+
+/// Returns what is known of a computed number.
+fn of_dimension(dimension: Dimension) -> Quantity<'static> {
+    Quantity { dimension, ..Quantity::default() }
 }
 
 fn tuple(numbers: &[String]) -> String {

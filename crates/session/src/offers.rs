@@ -246,10 +246,11 @@ impl Offerer<'_> {
         }
     }
 
-    /// The same as a person writes it.
+    /// The same as a person writes it, with all its digits: what is added moves nothing.
     fn written(&self, (x, dimension): (f64, Dimension)) -> String {
-        let (text, unit) = lang::show_number(x, dimension, &self.state.lowered.document);
-        words::with_unit(text, &unit)
+        let quantity = lang::Quantity { dimension, ..lang::Quantity::default() };
+        let shown = lang::show_quantity(x, quantity, &self.state.lowered.document);
+        words::with_unit(shown.exact, &shown.unit)
     }
 
     /// Classes that say something of such things and draw nothing of their own.

@@ -3,6 +3,9 @@
 //! What constraints or merges determine is where these want it. Any other place is as far from its
 //! neighbour as in the prototype: the neighbour is the prototype's nearest place that is given. A thing
 //! that lies where its prototype does needs nothing; for any other the place is given in its own text.
+//!
+//! What a class only draws with (`layout at: Point`) and nobody gives is put where there is room when a document is
+//! opened, each on a spot of its own.
 
 use crate::host::Host;
 use crate::prototype::Lone;
@@ -12,6 +15,7 @@ use crate::write_back::write_back;
 use base::number::{close, hypot};
 use kernel::{Path, SlotId, Structure, ThingId, Value, Values};
 use plan::{EditKind, Planner, SlotState, Target};
+use std::collections::BTreeSet;
 
 /// A place of a new part, and the place that it is put beside.
 struct Place {
@@ -73,6 +77,59 @@ pub(crate) fn place_new_parts(
         }
         Some(_) | None => (state, planner),
     }
+}
+
+/// How far the spots for places without a place lie apart, in units of the sheet.
+const APART: f64 = 100.0;
+/// A sheet is looked at in squares of this side: in one with a place that is given, and next to it, is no room.
+const ROOM: f64 = 50.0;
+
+/// Puts every place of layout that neither is given nor is spoken of by a constraint on a spot of its own, where none
+/// that is given lies near. Those declared later come later, so that a new one moves none that was there.
+///
+/// The spots lie on a spiral as the seeds of a sunflower do: evenly apart, and hardly ever three in a line.
+/// **Source:** Vogel, *A better way to construct the sunflower head*, Math. Biosci. 44 (1979).
+pub(crate) fn place_layout(structure: &Structure, planner: &Planner, values: &mut Values) {
+    let places: Vec<[SlotId; 2]> = structure
+        .slots
+        .iter()
+        .filter(|(_, slot)| slot.is_layout)
+        .filter_map(|(id, slot)| {
+            let own = structure.slots_under(slot.place?);
+            <[SlotId; 2]>::try_from(own).ok().filter(|own| own[0] == id)
+        })
+        .collect();
+    let is_open = |slot: &SlotId| {
+        let s = &structure.slots[*slot];
+        s.given.is_none() && !s.anchored && planner.is_lone(*slot)
+    };
+    let (open, taken): (Vec<_>, Vec<_>) = places.into_iter().partition(|p| p.iter().all(is_open));
+    if open.is_empty() {
+        return;
+    }
+    let cell = |at: [f64; 2]| at.map(|x| (x / ROOM).floor() as i64);
+    let taken: BTreeSet<[i64; 2]> =
+        taken.iter().map(|p| cell(p.map(|slot| values.numbers[slot]))).collect();
+    let has_room = |at: &[f64; 2]| {
+        let [x, y] = cell(*at);
+        let mut around = (-1..=1).flat_map(|i| (-1..=1).map(move |j| [i, j]));
+        around.all(|[i, j]| !taken.contains(&[x.saturating_add(i), y.saturating_add(j)]))
+    };
+    let mut spots = (0..).map(spot).filter(has_room);
+    for [x, y] in open {
+        let Some([at_x, at_y]) = spots.next() else { return };
+        (values.numbers[x], values.numbers[y]) = (at_x, at_y);
+    }
+}
+
+/// The `k`th spot, to whole units.
+fn spot(k: u32) -> [f64; 2] {
+    /// The golden angle, in radians.
+    const TURN: f64 = 2.399_963_229_728_653;
+    let (k, away) = (f64::from(k), APART * base::number::sqrt(f64::from(k)));
+    let (x, y) = (away * base::number::cos(k * TURN), away * base::number::sin(k * TURN));
+    // whole, and never a negative zero
+    [x.round() + 0.0, y.round() + 0.0]
 }
 
 /// What is moved, and where to.

@@ -38,8 +38,15 @@ impl Lone {
         root.switches.clear();
         let (name, doc) = (base::Name::new("lone"), String::new());
         let origin = root.origin;
-        root.parts =
-            vec![Part { name: name.clone(), doc, class, count: None, range: None, origin }];
+        root.parts = vec![Part {
+            name: name.clone(),
+            doc,
+            class,
+            count: None,
+            range: None,
+            is_layout: false,
+            origin,
+        }];
         let (structure, faults) = kernel::instantiate(&document);
         let thing = structure.follow(kernel::DOCUMENT, &Path(vec![Step::Part(name)])).ok()?;
         faults.is_empty().then_some(Self { document, structure, thing })

@@ -13,9 +13,10 @@ use crate::joining;
 use crate::offers;
 use crate::recognise;
 use crate::state::State;
+use crate::texts::Texts;
 use crate::tools::{self, Tool};
 use crate::view::{
-    Advice, Affected, Analysis, BinEntry, Change, CheckReport, DocumentId, DragState, Explanation,
+    Advice, Affected, Analysis, BinEntry, Change, CheckReport, DiagnosticView, DocumentId, DragState, Explanation,
     FamilyRow, FamilyView, FixView, Ghost, HeldView, MovedView, Offer, PictureView, Pointer,
     Question, Recognised, Refusal, RowOutcome, Status, StructureRow, TableView, TextView, ToolView,
     ValueRow,
@@ -23,6 +24,7 @@ use crate::view::{
 use crate::views;
 use crate::words;
 use kernel::{Command, Path, Step, ThingId};
+use std::collections::BTreeSet;
 
 /// A set of open documents.
 ///
@@ -447,6 +449,13 @@ impl Session {
     ) -> Result<RowOutcome, Refusal> {
         crate::families::draw(&self.document(id).state, name, row)
     }
+    /// Says of which things there is nothing in the picture, as their classes have none; nothing if all are there.
+    pub fn unpictured(&self, id: DocumentId) -> Option<String> {
+        let paths = views::picture::unpictured(&self.document(id).state, &self.picture(id));
+        let have = if paths.len() == 1 { "has" } else { "have" };
+        let listed = words::listed(&paths);
+        (!paths.is_empty()).then(|| format!("{listed} {have} no picture"))
+    }
     /// Returns the structure: the picture's accessible twin.
     pub fn structure(&self, id: DocumentId) -> Vec<StructureRow> {
         let open = self.document(id);
@@ -456,6 +465,19 @@ impl Session {
     pub fn values(&self, id: DocumentId) -> Vec<ValueRow> {
         let open = self.document(id);
         views::values::rows(&open.state, open.values(), &open.status)
+    }
+    /// Returns what was found while solving, at the lines that it comes from: what contradicts what, what has no
+    /// value, what nothing holds. Beside what is wrong with the text.
+    pub fn problems(&mut self, id: DocumentId) -> Vec<DiagnosticView> {
+        views::problems::view(self.document_mut(id))
+    }
+    /// Returns the paths of the numbers that nothing decides: neither given, nor determined by what is.
+    pub fn arbitrary(&mut self, id: DocumentId) -> BTreeSet<String> {
+        let open = self.document_mut(id);
+        let state = open.state.clone();
+        let mut texts = Texts::new(&state.lowered.document, &state.structure);
+        let found = open.planner.arbitrary(state.model(), &state.values, &mut texts);
+        found.into_iter().map(|slot| state.slot_path(slot).to_string()).collect()
     }
     /// Brings rows of the values view up to date while dragging. Cost: that of these rows alone.
     pub fn renew_values<'r>(
@@ -559,6 +581,14 @@ pub fn parse_path(text: &str) -> Option<Path> {
 /// Lays a text out as the language wants it, keeping comments.
 pub fn format(text: &str) -> String {
     syntax::format(&syntax::parse(base::FileId(0), text))
+}
+
+/// Says why a text cannot be laid out: where its spelling is wrong first, as line, column and message.
+pub fn misspelled(text: &str) -> Option<(u32, u32, String)> {
+    let parse = syntax::parse(base::FileId(0), text);
+    let d = parse.diagnostics().first()?;
+    let (line, column) = base::LineIndex::new(text).line_column(text, d.place.span.start);
+    Some((line, column, d.message.clone()))
 }
 
 /// Finds the thing at a path, for whoever has one.

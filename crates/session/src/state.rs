@@ -67,6 +67,7 @@ impl State {
         let mut given = eval::Given::of(&lowered.document, &structure);
         let mut values = Values::new(structure.slots.len());
         let double_roots = opened(model, &mut planner, &mut given, &mut values);
+        crate::placing::place_layout(&structure, &planner, &mut values);
         let gave_way = gave_way(&structure, &given.values, &values);
         let mut diagnostics = lowered.diagnostics.clone();
         diagnostics.extend(lowered.fault_diagnostics(&faults));

@@ -1,8 +1,8 @@
 //! Views: what there is to see of a document, as plain data.
 //!
 //! Paths are written as in the language (`q.outer.side1.p1`). Offsets are bytes in the text.
-//! Angles are radians, lengths the document's units; a number's `text` is what a person reads and
-//! may type back.
+//! A `number` counts in base units: angles in radians, lengths in the document's units. A number's
+//! `text` is what a person reads and may type back: six digits in its `unit`, angles in degrees.
 
 use serde::{Deserialize, Serialize};
 
@@ -27,7 +27,7 @@ pub struct Change {
     pub class: Option<String>,
     /// The members that went along or were shortened, as they were written.
     pub along: Vec<String>,
-    /// The paths of the things that have constraints which cannot hold, and could before.
+    /// The constraints that cannot hold, and could before: their paths, and the rules of those without a name.
     pub unsatisfied: Vec<String>,
     /// The other open documents that use this one, and so have changed as well.
     pub documents: Vec<Affected>,
@@ -61,7 +61,7 @@ pub struct Limit {
 pub struct Affected {
     /// Which it is.
     pub document: DocumentId,
-    /// The paths of its things that have constraints which cannot hold, and could before.
+    /// Its constraints that cannot hold, and could before.
     pub unsatisfied: Vec<String>,
 }
 
@@ -145,8 +145,23 @@ pub struct DiagnosticView {
     pub line: u32,
     /// The column in characters, from 1.
     pub column: u32,
+    /// Further places that it speaks of.
+    pub labels: Vec<LabelView>,
     /// Edits of the document's text that would mend it, one of which can be chosen.
     pub fixes: Vec<FixView>,
+}
+
+/// A further place that a diagnostic speaks of.
+#[derive(Clone, PartialEq, Eq, Debug, Serialize)]
+pub struct LabelView {
+    /// The file; empty for the document itself.
+    pub file: String,
+    /// The line, from 1.
+    pub line: u32,
+    /// The column in characters, from 1.
+    pub column: u32,
+    /// What is there.
+    pub message: String,
 }
 
 /// An edit of the text that would mend what a diagnostic speaks of.
@@ -327,6 +342,8 @@ pub struct StructureRow {
     pub doc: String,
     /// The value as text, for things that have one (a number, a text, a place).
     pub value: Option<String>,
+    /// The same with all its digits: what an editor begins with.
+    pub exact: Option<String>,
     /// The path of the first thing that it is merged with, where it is not the first itself.
     pub merged_with: Option<String>,
     /// Of a merge, the paths that it makes one.
@@ -376,14 +393,18 @@ impl RowKind {
 /// One row of the values view.
 #[derive(Clone, PartialEq, Debug, Serialize)]
 pub struct ValueRow {
-    /// The path.
+    /// The path; of merged parts that of the first.
     pub path: String,
+    /// The shortest of its paths: `r1.current`, though `r1.a.current` is declared first.
+    pub shortest: String,
     /// The class: `Length`, `Voltage`, `Text`, ….
     pub class: String,
-    /// The value without its unit, as a person may type it back.
+    /// The value in its unit, to six digits, as a person reads it and may type it back.
     pub text: String,
     /// The unit, or nothing.
     pub unit: String,
+    /// The value in the same unit with all its digits: what an editor begins with.
+    pub exact: String,
     /// The value in base units, for numbers.
     pub number: Option<f64>,
     /// Whether the text gives it (others are what the constraints make them).
@@ -392,6 +413,8 @@ pub struct ValueRow {
     pub is_virtual: bool,
     /// Whether an anchor holds it.
     pub anchored: bool,
+    /// Whether it only says how something is drawn: a part of layout, or what is computed for a picture.
+    pub is_layout: bool,
     /// Its state.
     pub freedom: Option<Freedom>,
     /// What `///` says of it.

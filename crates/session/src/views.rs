@@ -3,6 +3,7 @@ pub(crate) mod analysis;
 pub(crate) mod explain;
 pub(crate) mod held;
 pub(crate) mod picture;
+pub(crate) mod problems;
 pub(crate) mod status;
 pub(crate) mod structure;
 pub(crate) mod text;

@@ -5,11 +5,13 @@ use crate::state::State;
 use crate::view::{Freedom, Refusal};
 use crate::views;
 use base::Diagnostic;
+use expr::Dimension;
 use indexmap::IndexSet;
 use kernel::{
     ClassId, ClassKind, Command, ConstraintInstance, Document, Literal, Path, Primitive, SlotId,
     Step, Structure, Term, ThingId, Value, Values,
 };
+use lang::{Quantity, Shown};
 use plan::{Acting, ActingKind, EditReport, NotDecided, RefusalReason, Source};
 use std::collections::BTreeSet;
 
@@ -42,7 +44,7 @@ pub(crate) fn refusal_for(state: &State, reason: &RefusalReason, report: &EditRe
         RefusalReason::Unmet if are_several => format!("refused: {said} would not all hold"),
         RefusalReason::Unmet => format!("refused: {said} would not hold"),
         RefusalReason::NotDecided(bound) => {
-            format!("not decided: no solution was found in {}", given_up(*bound))
+            format!("not decided: {}", given_up(*bound))
         }
         RefusalReason::OutOfRange(slot) => {
             let path = state.slot_path(*slot);
@@ -84,17 +86,142 @@ pub(crate) fn refusing(state: &State, report: &EditReport) -> (Vec<Source>, bool
     (conflicting, are_several)
 }
 
-/// Names the bound at which a search was given up.
+/// Says where a search was given up: how much was done, in round words. It counts steps of work and no time, so
+/// that it is the same on every machine.
 pub(crate) fn given_up(bound: NotDecided) -> String {
     match bound {
-        NotDecided::Search(n) => format!("{n} states of the search, and not all were looked at"),
-        NotDecided::Round => "one round of methods, and no other was tried".into(),
-        NotDecided::Modes(n) => format!("{n} modes, and not all were tried"),
-        NotDecided::Whole(n) => {
-            format!("{n} choices of whole numbers, and not all were looked at")
+        NotDecided::Search(n) => {
+            format!(
+                "too hard: stopped after {} states of the search, and there were more",
+                round(n)
+            )
         }
-        NotDecided::Work(n) => format!("{n} multiplications, and there was more to do"),
-        NotDecided::Roots(n) => format!("{n} choices among roots, and not all were tried"),
+        NotDecided::Round => "methods in a ring ran once round, and no other way was tried".into(),
+        NotDecided::Modes(n) => {
+            format!("too hard: stopped after {} combinations of conditions and bounds", round(n))
+        }
+        NotDecided::Whole(n) => {
+            format!("too hard: stopped after {} choices of whole numbers", round(n))
+        }
+        NotDecided::Work(n) => {
+            format!("too hard: stopped after {} steps of arithmetic", round(n))
+        }
+        NotDecided::Roots(n) => {
+            format!("too hard: stopped after {} choices among several solutions", round(n))
+        }
+    }
+}
+
+/// Returns the slots that constraints read where they are tested.
+pub(crate) fn read_by(state: &State, sources: &[Source]) -> BTreeSet<SlotId> {
+    let evaluator = state.evaluator(&state.values);
+    let constraints = sources.iter().filter_map(|source| match *source {
+        Source::Constraint(index) => Some(state.structure.constraints[index as usize]),
+        Source::Stay(_) | Source::Wish(_) => None,
+    });
+    constraints.flat_map(|c| evaluator.listening(|| evaluator.test(c)).1).collect()
+}
+
+/// Says how many values hang together with some.
+pub(crate) fn solved_together(open: &mut Open, slots: &BTreeSet<SlotId>) -> String {
+    let state = open.state.clone();
+    let moves = |s: &SlotId| !state.structure.slots[*s].anchored;
+    let count = open.planner.connected(state.model(), slots).into_iter().filter(moves).count();
+    format!("{count} values are solved together")
+}
+
+/// Says a count in round words: `912 million`.
+fn round(count: u64) -> String {
+    let scaled = |by: u64, word: &str| {
+        format!("{} {word}", base::number::significant(count as f64 / by as f64, 2))
+    };
+    match count {
+        0..10_000 => count.to_string(),
+        10_000..1_000_000 => scaled(1000, "thousand"),
+        1_000_000..1_000_000_000 => scaled(1_000_000, "million"),
+        _ => scaled(1_000_000_000, "billion"),
+    }
+}
+
+/// Returns a number as an engineer writes the sides of a constraint's rule, in their unit.
+pub(crate) fn amount(state: &State, source: Source, x: f64) -> String {
+    let Shown { text, unit, .. } = match measure(state, source) {
+        Some(dimension) => {
+            let quantity = Quantity { dimension, ..Quantity::default() };
+            lang::show_quantity(x, quantity, &state.lowered.document)
+        }
+        None => plain(base::number::significant(x, 6)),
+    };
+    with_unit(text, &unit)
+}
+
+/// Returns what the sides of a constraint's rule measure, where it compares two numbers.
+pub(crate) fn measure(state: &State, source: Source) -> Option<Dimension> {
+    let (instance, left, _) = sides_of(state, source)?;
+    let evaluator = state.evaluator(&state.values);
+    match evaluator.evaluate(left, instance.owner).ok()? {
+        eval::Answer::Number(_, dimension) => Some(dimension),
+        _ => None,
+    }
+}
+
+/// Returns the two sides of a constraint's rule, where it is a comparison, and the constraint.
+fn sides_of(state: &State, source: Source) -> Option<(ConstraintInstance, &Term, &Term)> {
+    let Source::Constraint(index) = source else { return None };
+    let instance = state.structure.constraints[index as usize];
+    let class = &state.lowered.document.classes[instance.class];
+    match &class.constraints[instance.index as usize].rule {
+        Term::Binary(operator, left, right) => {
+            use kernel::BinaryOperator::{Equal, Greater, GreaterEqual, Less, LessEqual};
+            let compares = matches!(operator, Equal | Greater | GreaterEqual | Less | LessEqual);
+            compares.then_some((instance, &**left, &**right))
+        }
+        _ => None,
+    }
+}
+
+/// Says what the sides of a constraint's rule are with these values: `a is 3 V, b is 4 V`; nothing where it is not
+/// of the form `a = b`, or a side has no value.
+pub(crate) fn sides_in_words(state: &State, source: Source, values: &Values) -> Option<String> {
+    let Source::Constraint(index) = source else { return None };
+    let (instance, left, right) = sides_of(state, source)?;
+    let rule = rule_alone(state, index);
+    let [written_left, written_right] = rule.split(" = ").collect::<Vec<_>>()[..] else {
+        return None;
+    };
+    let written_right = written_right.split(" within ").next().unwrap_or(written_right);
+    let evaluator = state.evaluator(values);
+    let said = |term, written: &str| {
+        let answer = evaluator.evaluate(term, instance.owner).ok()?;
+        let value = views::values::in_words(&state.lowered.document, &answer)?;
+        // a number needs no saying what it is
+        (!written.starts_with(|c: char| c.is_ascii_digit()))
+            .then(|| format!("{written} is {value}"))
+    };
+    match (said(left, written_left.trim()), said(right, written_right.trim())) {
+        (Some(left), Some(right)) => Some(format!("{left}, {right}")),
+        (one, other) => one.or(other),
+    }
+}
+
+/// Says why the rule of a constraint has no value; nothing where it has one.
+pub(crate) fn fault(state: &State, source: Source, values: &Values) -> Option<String> {
+    let Source::Constraint(index) = source else { return None };
+    let instance = state.structure.constraints[index as usize];
+    state.evaluator(values).test(instance).err().map(|fault| fault.message)
+}
+
+/// Says why a constraint does not hold: that a side has no value, or by how much they differ.
+pub(crate) fn shortfall(state: &State, source: Source, values: &Values) -> Option<String> {
+    let Source::Constraint(index) = source else { return None };
+    let instance = state.structure.constraints[index as usize];
+    match state.evaluator(values).test(instance) {
+        Err(fault) => Some(fault.message),
+        Ok(verdict) if verdict.holds => None,
+        Ok(verdict) => sides_in_words(state, source, values).or_else(|| {
+            let error = verdict.error.filter(|e| e.is_finite())?;
+            Some(format!("it is off by {}", amount(state, source, error.abs())))
+        }),
     }
 }
 
@@ -109,21 +236,10 @@ pub(crate) fn refusal_of_status(state: &State, status: &plan::Status) -> Option<
     (!status.satisfied).then(|| Refusal { message, constraints, ..Refusal::default() })
 }
 
-/// Returns the paths of the things that have a required constraint which does not hold.
-pub(crate) fn unmet_things(state: &State, status: &plan::Status) -> Vec<String> {
-    let mut paths: Vec<String> = Vec::new();
+/// Names the required constraints that do not hold, with the rules of those that have no name.
+pub(crate) fn unmet_in_words(state: &State, status: &plan::Status) -> Vec<String> {
     let unmet = status.unmet.iter().filter(|u| u.level == solve::Level::Required);
-    for thing in unmet.filter_map(|u| match u.source {
-        Source::Constraint(c) => Some(state.structure.constraints[c as usize].owner),
-        Source::Stay(s) => Some(state.structure.stays[s as usize].thing),
-        Source::Wish(_) => None,
-    }) {
-        let path = state.structure.path(&state.lowered.document, thing).to_string();
-        if !paths.contains(&path) {
-            paths.push(path);
-        }
-    }
-    paths
+    unmet.filter_map(|u| source_in_words(state, u.source)).collect()
 }
 
 /// Lists names for a sentence: the first few, and how many more there are.
@@ -305,16 +421,55 @@ pub(crate) fn find(state: &State, path: &Path) -> Result<ThingId, Refusal> {
     })
 }
 
-/// Returns a value as text and unit, as a person reads it.
-pub(crate) fn show_slot(state: &State, slot: SlotId, values: &Values) -> (String, String) {
-    match (state.structure.slots[slot].primitive, values.get(slot)) {
-        (Primitive::Real(dimension), Value::Number(x)) => {
-            lang::show_number(x, dimension, &state.lowered.document)
+/// Returns what is known of the number in a slot beside its value, and what is written for it.
+pub(crate) fn quantity_of<'s>(state: &'s State, slot: SlotId, written: &'s str) -> Quantity<'s> {
+    let s = &state.structure.slots[slot];
+    let dimension = match s.primitive {
+        Primitive::Real(dimension) => dimension,
+        Primitive::Integer | Primitive::Bool | Primitive::Text | Primitive::Color => {
+            Dimension::NONE
         }
-        (Primitive::Bool, Value::Number(x)) => ((x != 0.0).to_string(), String::new()),
-        (_, Value::Number(x)) => (base::number::shortest(x), String::new()),
-        (_, Value::Text(t)) => (t.to_string(), String::new()),
+    };
+    let document = &state.lowered.document;
+    let class = document.named_class(state.structure.things[s.thing].class);
+    Quantity { dimension, class: &document.classes[class].name, written }
+}
+
+/// Returns the text of the value that is given to a slot; empty where none is.
+pub(crate) fn written_for(state: &State, slot: SlotId) -> String {
+    let given = state.structure.given(slot);
+    given.map_or_else(String::new, |given| state.lowered.source_of(given.origin))
+}
+
+/// Returns a value as a person reads it: six digits and its unit.
+pub(crate) fn show_slot(state: &State, slot: SlotId, values: &Values) -> Shown {
+    match (state.structure.slots[slot].primitive, values.get(slot)) {
+        (Primitive::Real(_), Value::Number(x)) => {
+            let written = written_for(state, slot);
+            let quantity = quantity_of(state, slot, &written);
+            lang::show_quantity(x, quantity, &state.lowered.document)
+        }
+        (Primitive::Bool, Value::Number(x)) => plain((x != 0.0).to_string()),
+        (_, Value::Number(x)) => plain(base::number::shortest(x)),
+        (_, Value::Text(t)) => plain(t.to_string()),
     }
+}
+
+/// Returns what has no unit, as it is.
+pub(crate) fn plain(text: String) -> Shown {
+    Shown { exact: text.clone(), text, unit: String::new() }
+}
+
+/// Returns a value with its unit, as a person reads it.
+pub(crate) fn slot_in_words(state: &State, slot: SlotId, values: &Values) -> String {
+    let Shown { text, unit, .. } = show_slot(state, slot, values);
+    with_unit(text, &unit)
+}
+
+/// Returns a value with its unit and all its digits.
+pub(crate) fn slot_exactly(state: &State, slot: SlotId, values: &Values) -> String {
+    let Shown { exact, unit, .. } = show_slot(state, slot, values);
+    with_unit(exact, &unit)
 }
 
 /// Puts a number and its unit together, where it has one.
@@ -322,17 +477,22 @@ pub(crate) fn with_unit(text: String, unit: &str) -> String {
     if unit.is_empty() { text } else { format!("{text} {unit}") }
 }
 
-/// Returns the value of a thing, if it is primitive or a place.
+/// Returns the value of a thing to six digits, if it is primitive or a place.
 pub(crate) fn show_thing(state: &State, thing: ThingId, values: &Values) -> Option<String> {
-    let joined = |slot| {
-        let (text, unit) = show_slot(state, slot, values);
-        with_unit(text, &unit)
-    };
+    each_slot(state, thing, |slot| slot_in_words(state, slot, values))
+}
+
+/// Returns the value of a thing with all its digits, if it is primitive or a place.
+pub(crate) fn show_thing_exactly(state: &State, thing: ThingId, values: &Values) -> Option<String> {
+    each_slot(state, thing, |slot| slot_exactly(state, slot, values))
+}
+
+fn each_slot(state: &State, thing: ThingId, show: impl Fn(SlotId) -> String) -> Option<String> {
     match state.structure.slot_of(thing) {
-        Some(slot) => Some(joined(slot)),
+        Some(slot) => Some(show(slot)),
         None if state.lowered.document.is_place(state.structure.things[thing].class) => {
             let slots = state.structure.slots_under(thing);
-            Some(format!("({})", slots.into_iter().map(joined).collect::<Vec<_>>().join(", ")))
+            Some(format!("({})", slots.into_iter().map(show).collect::<Vec<_>>().join(", ")))
         }
         None => None,
     }

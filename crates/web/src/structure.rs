@@ -3,7 +3,6 @@
 //! All rows are equally high; only those in sight, and the one that has the keyboard, are in the page.
 
 use crate::lab::{Lab, Notice};
-use crate::values::rounded_all;
 use crate::{field, icons, words};
 use leptos::attr::custom::custom_attribute;
 use leptos::ev::KeyboardEvent;
@@ -366,6 +365,7 @@ fn Row(tree: Tree, place: usize, shown: Shown) -> impl IntoView {
         let dragged = lab.dragged_values.with(|values| values.get(&at).cloned());
         dragged.or_else(|| row.with(|row| row.as_ref().and_then(|row| row.value.clone())))
     });
+    let exact = Memo::new(move |_| row.with(|row| row.as_ref().and_then(|r| r.exact.clone())));
     let merged = Memo::new(move |_| row.with(|r| r.as_ref().and_then(|r| r.merged_with.clone())));
     let depth = Memo::new(move |_| row.with(|row| row.as_ref().map_or(0, |row| row.depth)));
     let open = Memo::new(move |_| {
@@ -447,11 +447,11 @@ fn Row(tree: Tree, place: usize, shown: Shown) -> impl IntoView {
             })}
             {move || if tree.editing.get() == Some(at) {
                 view! {
-                    <field::Edit lab=lab path=path value=value.get_untracked().unwrap_or_default()
+                    <field::Edit lab=lab path=path value=exact.get_untracked().unwrap_or_default()
                         done=move || { tree.editing.set(None); tree.focus(at); } />
                 }.into_any()
             } else {
-                view! { <span class="value">{move || value.get().map(|value| rounded_all(&value))}</span> }.into_any()
+                view! { <span class="value">{move || value.get()}</span> }.into_any()
             }}
             <span class=move || format!("state {}", state.get()) title=state>
                 <span class="unseen">{state}</span>
@@ -523,6 +523,7 @@ mod tests {
             detail: String::new(),
             doc: String::new(),
             value: None,
+            exact: None,
             merged_with: None,
             makes_one: Vec::new(),
             freedom: None,

@@ -21,8 +21,11 @@ pub fn Values(
         let wanted = filter.get().to_lowercase();
         lab.values.with(|rows| {
             let fits = |row: &ValueRow| {
-                wanted.is_empty()
-                    || row.path.to_lowercase().contains(&wanted)
+                // where things are drawn is listed where it is asked for
+                if wanted.is_empty() {
+                    return !row.is_layout;
+                }
+                row.path.to_lowercase().contains(&wanted)
                     || row.class.to_lowercase().contains(&wanted)
             };
             let all = rows.iter().enumerate().filter(|(_, row)| fits(row)).map(|(at, _)| at);
@@ -246,6 +249,9 @@ fn Field(lab: Lab, row: Memo<Option<ValueRow>>) -> impl IntoView {
     let text = Memo::new(move |_| {
         row.with(|row| row.as_ref().map(|r| r.text.clone()).unwrap_or_default())
     });
+    let exact = Memo::new(move |_| {
+        row.with(|row| row.as_ref().map(|r| r.exact.clone()).unwrap_or_default())
+    });
     let path = Memo::new(move |_| {
         row.with(|row| row.as_ref().map(|r| r.path.clone()).unwrap_or_default())
     });
@@ -278,7 +284,7 @@ fn Field(lab: Lab, row: Memo<Option<ValueRow>>) -> impl IntoView {
             spellcheck="false"
             aria-label=path
             aria-invalid=move || error.with(Option::is_some).to_string()
-            prop:value=move || typed.get().unwrap_or_else(|| text.with(|t| if active.get() { t.clone() } else { rounded(t) }))
+            prop:value=move || typed.get().unwrap_or_else(|| if active.get() { exact.get() } else { text.get() })
             on:focus=move |_| {
                 active.set(true);
                 lab.select(Some(path.get_untracked()));
@@ -297,33 +303,6 @@ fn Field(lab: Lab, row: Memo<Option<ValueRow>>) -> impl IntoView {
         />
         {move || error.get().map(|error| view! { <span class="error" role="alert">{error}</span> })}
     }
-}
-
-/// The same for every number of a place: `(1.5, 59.99999999999999)` is `(1.5, 60)`.
-pub(crate) fn rounded_all(text: &str) -> String {
-    let words = text.split_inclusive(|c: char| "(), ".contains(c));
-    let shown = words.map(|word| {
-        let number = word.trim_end_matches(|c: char| "(), ".contains(c));
-        rounded(number) + &word[number.len()..]
-    });
-    shown.collect()
-}
-
-/// A long number as it is shown while nobody types it: to seven figures.
-fn rounded(text: &str) -> String {
-    match text.parse::<f64>() {
-        Ok(number) if text.len() > 9 && number.is_finite() => {
-            let digits = 7 - 1 - decimal_exponent(number);
-            base::number::rounded(number, digits.clamp(0, 12) as usize)
-        }
-        Ok(_) | Err(_) => String::from(text),
-    }
-}
-
-/// The power of ten of a number's first figure.
-fn decimal_exponent(number: f64) -> i32 {
-    let written = format!("{number:e}");
-    written.rsplit('e').next().and_then(|exponent| exponent.parse().ok()).unwrap_or(0)
 }
 
 /// A bare number is meant in the unit that stands beside the field.
@@ -364,7 +343,7 @@ fn focus_beside(e: &KeyboardEvent, which: Beside) -> bool {
 
 #[cfg(test)]
 mod tests {
-    use super::{rounded, rounded_all, split, step, with_unit};
+    use super::{split, step, with_unit};
 
     #[test]
     fn a_bare_number_takes_the_unit_beside_it() {
@@ -372,17 +351,6 @@ mod tests {
         assert_eq!(with_unit("0.3 kohm", "ohm"), "0.3 kohm");
         assert_eq!(with_unit("300", ""), "300");
         assert_eq!(with_unit("hello", "ohm"), "hello");
-    }
-
-    #[test]
-    fn long_numbers_are_shown_short() {
-        assert_eq!(rounded("217.0921463342237"), "217.0921");
-        assert_eq!(rounded("59.99999999999999"), "60");
-        assert_eq!(rounded("251.5"), "251.5");
-        assert_eq!(rounded("0.0037500000000000003"), "0.00375");
-        assert_eq!(rounded("some words"), "some words");
-        assert_eq!(rounded_all("(180, 164.51260387656265)"), "(180, 164.5126)");
-        assert_eq!(rounded_all("7.185222099999999 N"), "7.185222 N");
     }
 
     #[test]

@@ -42,7 +42,8 @@ impl Build {
         let length = primitive("Length", Primitive::Real(Dimension::LENGTH));
         let current = primitive("Current", Primitive::Real(Dimension::CURRENT));
         let root = classes.push(blank("", ClassKind::Composite, up()));
-        let document = Document { classes, root, vertical: Vertical::Up, units_per_metre: 1.0 };
+        let document =
+            Document { classes, root, vertical: Vertical::Up, units_per_metre: 1.0, unit: None };
         let mut b = Self {
             document,
             real,
@@ -105,6 +106,7 @@ impl Build {
             class: of,
             count: None,
             range: None,
+            is_layout: false,
             origin,
         };
         self.document.classes[class].parts.push(part);
@@ -129,6 +131,7 @@ impl Build {
             name: Name::new(name),
             doc: String::new(),
             parameters: parameters.iter().map(parameter).collect(),
+            class: None,
             answer,
             is_default: false,
             is_combining: false,

@@ -9,7 +9,7 @@ use crate::document::{Document, Side};
 use crate::structure::{Form, GivenIn, Givens, NO_SLOT, Slot, ThingId, Unlike};
 use crate::term::OriginId;
 use base::IdVec;
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 
 /// Gives slots to the primitive things, and members to the sets.
 pub(super) fn finish(maker: &mut Maker<'_>, body: Body, givens: &Givens) -> Form {
@@ -134,6 +134,7 @@ fn give_slots(
     let has_range = |c: &Class| c.parts.iter().any(|p| p.range.is_some());
     let has_ranges = document.classes.iter().any(|(_, c)| has_range(c));
     let mut places: IdVec<ClassId, Option<usize>> = IdVec::filled(None, document.classes.len());
+    let layout = of_layout(document, structure, body, order);
     for &thing in order {
         let t = &body.things[thing];
         let ClassKind::Primitive(primitive) = document.classes[t.class].kind else { continue };
@@ -150,9 +151,11 @@ fn give_slots(
                 primitive,
                 given: None,
                 anchored: false,
+                is_layout: true,
                 place,
             })
         });
+        structure.slots[slot].is_layout &= layout.contains(&thing);
         structure.own_slots[first] = slot;
         structure.own_slots[thing] = slot;
         if let Some(given) = body.givens[thing] {
@@ -181,6 +184,30 @@ fn give_slots(
             maker.fault(origin, FaultKind::UnlikeMerge, message);
         }
     }
+}
+
+/// Returns the things that only say where something is drawn, and all their parts.
+fn of_layout(
+    document: &Document,
+    structure: &Form,
+    body: &Body,
+    order: &[ThingId],
+) -> BTreeSet<ThingId> {
+    let mut found = BTreeSet::new();
+    if document.classes.iter().all(|(_, class)| class.parts.iter().all(|part| !part.is_layout)) {
+        return found;
+    }
+    for &thing in order {
+        let t = &body.things[thing];
+        let Some(owner) = t.owner else { continue };
+        let layout = structure.layouts[body.things[owner].class].as_ref();
+        let field = layout.and_then(|layout| layout.fields.get(t.field as usize));
+        let part = field.and_then(|field| document.declared(*field));
+        if found.contains(&owner) || part.is_some_and(|part| part.is_layout) {
+            found.insert(thing);
+        }
+    }
+    found
 }
 
 /// Returns how deep in the document the text stands that gives a value: 0 for what the document itself says, in

@@ -48,7 +48,15 @@ impl Builder {
         count: Option<Count>,
     ) {
         let (name, doc) = (name.into(), String::new());
-        self.0[owner].parts.push(Part { name, doc, class, count, range: None, origin: ORIGIN });
+        self.0[owner].parts.push(Part {
+            name,
+            doc,
+            class,
+            count,
+            range: None,
+            is_layout: false,
+            origin: ORIGIN,
+        });
     }
     pub(crate) fn merge(&mut self, class: ClassId, paths: &[&[&str]]) {
         let paths = paths.iter().map(|p| Path::of(p)).collect();
@@ -71,6 +79,6 @@ impl Builder {
         });
     }
     pub(crate) fn document(self, root: ClassId) -> Document {
-        Document { classes: self.0, root, vertical: Vertical::Up, units_per_metre: 1.0 }
+        Document { classes: self.0, root, vertical: Vertical::Up, units_per_metre: 1.0, unit: None }
     }
 }

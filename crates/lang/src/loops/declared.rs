@@ -117,7 +117,7 @@ impl<'l> Lowerer<'l> {
                 let element = self.reference_to(to);
                 let doc = reference.doc().unwrap_or_default();
                 let class = self.lists_of(scope, loops, shape, &mut Leaves::Alike(element));
-                self.add_list(repeated, &word, class, shape.len(), (doc, None, span));
+                self.add_list(repeated, &word, class, shape.len(), (doc, None, false, span));
             }
             _ => {}
         }
@@ -150,7 +150,13 @@ impl<'l> Lowerer<'l> {
                 }
             };
             let doc = part.doc().unwrap_or_default();
-            self.add_list(repeated, &word, class, shape.len(), (doc, range, span));
+            self.add_list(
+                repeated,
+                &word,
+                class,
+                shape.len(),
+                (doc, range, part.is_layout(), span),
+            );
         }
     }
 
@@ -160,7 +166,7 @@ impl<'l> Lowerer<'l> {
         word: &ast::Word,
         class: ClassId,
         turns: u32,
-        (doc, range, span): (String, Option<(i64, i64)>, Span),
+        (doc, range, is_layout, span): (String, Option<(i64, i64)>, bool, Span),
     ) {
         if !self.is_new(scope, word) {
             return;
@@ -174,7 +180,7 @@ impl<'l> Lowerer<'l> {
         }
         let origin = self.origin(scope.file, span);
         let count = Some(Count::Fixed(turns));
-        let part = Part { name: word.name(), doc, class, count, range, origin };
+        let part = Part { name: word.name(), doc, class, count, range, is_layout, origin };
         self.add_part(Place { file: scope.file, span: word.span() }, scope.class(), part);
     }
 }

@@ -2,7 +2,7 @@
 
 use super::{load, lower, right};
 use kernel::{Literal, Path, Step};
-use lang::{Wanted, read_literal, show_number, write_values};
+use lang::{Quantity, Shown, Wanted, read_literal, show_quantity, write_values};
 
 fn place(x: f64, y: f64) -> Literal {
     Literal::Tuple(vec![Literal::Number(x), Literal::Number(y)])
@@ -241,7 +241,8 @@ fn what_is_shown_may_be_typed_back() {
         let lowered = right(document);
         for name in expr::dimension::Dimension::names() {
             let dimension = expr::dimension::Dimension::by_name(name).unwrap();
-            let (text, unit) = show_number(7.5, dimension, &lowered.document);
+            let quantity = Quantity { dimension, class: name, written: "" };
+            let Shown { text, unit, .. } = show_quantity(7.5, quantity, &lowered.document);
             let literal = typed(&format!("{text} {unit}"), name, document);
             let Ok(Literal::Number(x)) = literal else {
                 panic!("{name}: {text} {unit}: {literal:?}")

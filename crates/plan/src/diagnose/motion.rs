@@ -77,7 +77,8 @@ impl Planner {
         let mut scratch = Scratch::default();
         let mut lone: BTreeMap<ThingId, Vec<SlotId>> = BTreeMap::new();
         for (slot, s) in model.structure.slots.iter() {
-            let moves = self.net.rules_of(slot).is_empty() && s.primitive.is_number();
+            let moves =
+                self.net.rules_of(slot).is_empty() && s.primitive.is_number() && !s.is_layout;
             if moves && Self::resting_hold(model.structure, slot) == Holding::Kept {
                 lone.entry(s.place.unwrap_or(s.thing)).or_default().push(slot);
             }
@@ -88,8 +89,8 @@ impl Planner {
             out.motions.push(Motion { kind: MotionKind::Alone, moves: vec![(slot, 1.0)] });
         }
         for (index, task) in tasks.iter().enumerate() {
-            if matches!(task.course, Course::Search(_)) {
-                // whole numbers do not move by degrees
+            if matches!(task.course, Course::Search(_)) || task.is_of_layout(model.structure) {
+                // whole numbers do not move by degrees, and layout is free by its nature
                 continue;
             }
             let in_mode = task.by_values(self, model, values, host);
@@ -121,6 +122,19 @@ impl Planner {
         out.free.sort_unstable();
         out.free.dedup();
         out
+    }
+
+    /// Returns the slots of a component that can move at this state while those that do not move, as `moves` says, are
+    /// constants.
+    pub(crate) fn moving(
+        &self,
+        model: Model<'_>,
+        task: &Task,
+        values: &Values,
+        moves: &dyn Fn(&SlotId) -> bool,
+        host: &mut dyn Host,
+    ) -> Vec<SlotId> {
+        Space::of(self, model, task, values, (moves, &BTreeSet::new()), host).movable()
     }
 
     /// Returns true if a small step along a motion can be completed to one that holds, by next to nothing.
@@ -194,12 +208,25 @@ impl Space {
         superfluous: &BTreeSet<Source>,
         host: &mut dyn Host,
     ) -> Self {
-        let scratch = &mut Scratch::default();
         let structure = model.structure;
         let moves = |&s: &SlotId| {
             structure.slots[s].primitive.is_number()
                 && matches!(Planner::resting_hold(structure, s), Holding::Kept | Holding::Alone)
         };
+        Self::of(planner, model, task, values, (&moves, superfluous), host)
+    }
+
+    /// Returns that of the slots that `moves` says can move.
+    fn of(
+        planner: &Planner,
+        model: Model<'_>,
+        task: &Task,
+        values: &Values,
+        (moves, superfluous): (&dyn Fn(&SlotId) -> bool, &BTreeSet<Source>),
+        host: &mut dyn Host,
+    ) -> Self {
+        let scratch = &mut Scratch::default();
+        let structure = model.structure;
         let columns: Vec<SlotId> = task.component.slots().iter().copied().filter(moves).collect();
         let column = |s: SlotId| columns.binary_search(&s).ok().map(|i| i as u32);
         let patterns = planner.plans.patterns();

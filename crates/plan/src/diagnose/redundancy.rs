@@ -59,10 +59,6 @@ impl Redundancy {
         self.constraints.sort();
         self
     }
-    /// Returns how many more motions there are than form says.
-    pub(crate) fn theorem_motions(&self) -> usize {
-        self.theorems.values().sum()
-    }
 }
 
 /// Up to so many slots of a component it is asked which rules imply another.

@@ -17,8 +17,8 @@ pub enum Repair {
     LeaveOut {
         /// The constraint.
         source: Source,
-        /// What its sides then are, where they are numbers.
-        sides: Option<(f64, f64)>,
+        /// What the numbers that it speaks of then are.
+        numbers: Vec<(SlotId, f64)>,
     },
     /// Let go of the anchor that holds this slot and the others of its place.
     LetGo {
@@ -99,7 +99,10 @@ impl Suspects<'_> {
             if self.planner.try_rules(self.setup, &rest, &mut there, host) != Trial::Holds {
                 continue;
             }
-            works.push(Repair::LeaveOut { source: unit.source, sides: self.sides(unit, &there) });
+            let slots = unit.rules.iter().flat_map(|&r| self.planner.rules.get(r).slots.to_vec());
+            let then: BTreeMap<SlotId, f64> = slots.map(|s| (s, there.numbers[s])).collect();
+            let then = then.into_iter().collect();
+            works.push(Repair::LeaveOut { source: unit.source, numbers: then });
             for slot in self.given(unit) {
                 if let Some(to) = self.number_for(unit, slot, &there) {
                     numbers.entry(slot).or_insert(to);
@@ -126,23 +129,6 @@ impl Suspects<'_> {
             }
         }
         works
-    }
-
-    /// Returns the sides of the first equation of a unit that does not hold.
-    fn sides(&self, unit: &Unit, values: &Values) -> Option<(f64, f64)> {
-        let patterns = self.planner.plans.patterns();
-        let mut scratch = solve::Scratch::default();
-        for &r in &unit.rules {
-            let rule = self.planner.rules.get(r);
-            let Body::Equations(equations) = &rule.shape.body else { continue };
-            for equation in equations {
-                let sides = rule.evaluate(equation, patterns, &values.numbers, &mut scratch);
-                if !base::number::close(sides[0], sides[1]) {
-                    return Some((sides[0], sides[1]));
-                }
-            }
-        }
-        None
     }
 
     /// Returns the given numbers that a unit speaks of.

@@ -39,8 +39,13 @@ impl Builder {
             primitive("Length", Primitive::Real(Dimension::LENGTH)),
             primitive("Text", Primitive::Text),
         ]);
-        let document =
-            Document { classes, root: OBJECT, vertical: Vertical::Up, units_per_metre: 1.0 };
+        let document = Document {
+            classes,
+            root: OBJECT,
+            vertical: Vertical::Up,
+            units_per_metre: 1.0,
+            unit: None,
+        };
         let mut builder = Self { document };
         assert_eq!(builder.class("Point", &[("x", LENGTH), ("y", LENGTH)]), POINT);
         let set = blank("Set of Real", ClassKind::Set(REAL), object);
@@ -66,6 +71,7 @@ impl Builder {
                 class,
                 count: None,
                 range: None,
+                is_layout: false,
                 origin: OriginId(0),
             })
             .collect();
@@ -111,6 +117,7 @@ impl Builder {
             name: Name::new(name),
             doc: String::new(),
             parameters,
+            class: None,
             answer,
             is_default: false,
             is_combining: false,

@@ -4,7 +4,7 @@ use crate::document::Open;
 use crate::texts::Texts;
 use crate::view::{Analysis, ContradictionView, MotionView, RedundantView, Velocity};
 use crate::words;
-use kernel::{Primitive, SlotId, ThingId};
+use kernel::{Primitive, SlotId, ThingId, Values};
 use plan::{
     Certainty, Combination, Contradiction, Motion, MotionKind, Redundant, RedundantKind, Repair,
     Said,
@@ -93,14 +93,21 @@ fn motion(open: &Open, motion: &Motion) -> MotionView {
         }
     }
     let short = |x: &f64| base::number::rounded(*x, 3);
-    let along = |v: &Velocity| match v.direction.as_slice() {
-        [_] => "alone".to_string(),
-        many => format!("along ({})", many.iter().map(short).collect::<Vec<_>>().join(", ")),
+    let along = |direction: &[f64]| {
+        let rounded: Vec<String> = direction.iter().map(short).collect();
+        let moving: Vec<usize> = (0..rounded.len()).filter(|&i| rounded[i] != "0").collect();
+        match moving[..] {
+            // along an axis there is no need for numbers
+            [axis] => ["x", "y", "z"][axis].to_string(),
+            _ => format!("({})", rounded.join(", ")),
+        }
     };
     let summary = match (motion.kind, moves.as_slice()) {
-        (MotionKind::Alone, [only]) => format!("{} moves {}", only.path, along(only)),
-        (MotionKind::Translation, [first, ..]) => {
-            format!("everything around {} moves {} as one", first.path, along(first))
+        (MotionKind::Alone, [only]) if only.direction.len() == 1 => {
+            format!("{} moves alone", only.path)
+        }
+        (MotionKind::Alone, [only]) => {
+            format!("{} moves along {}", only.path, along(&only.direction))
         }
         (MotionKind::Rotation { center }, [first, ..]) => {
             let [x, y] = center.map(|c| short(&c));
@@ -110,22 +117,55 @@ fn motion(open: &Open, motion: &Motion) -> MotionView {
             let shown = things.keys().zip(moves).filter_map(|(thing, v)| {
                 let own = fastest.iter().find(|known| known.0 == measure(thing))?.1;
                 let direction: Vec<f64> = v.direction.iter().map(|x| x / own).collect();
+                let rests = own <= STILL || direction.iter().all(|x| short(x) == "0");
+                let has_direction = direction.len() > 1;
                 let v = Velocity { path: v.path.clone(), direction };
-                let rests = own <= STILL || v.direction.iter().all(|x| short(x) == "0");
-                let has_direction = v.direction.len() > 1;
-                (!(has_direction && rests)).then(|| format!("{} {}", v.path, along(&v)))
+                (!(has_direction && rests)).then_some(v)
             });
-            let each: Vec<String> = shown.collect();
-            format!("together: {}", words::listed(&each))
+            together(&shown.collect::<Vec<_>>(), along)
         }
     };
     MotionView { summary, moves }
 }
 
+/// Says how several places and numbers move together: what goes the same way in one breath.
+fn together(moves: &[Velocity], along: impl Fn(&[f64]) -> String) -> String {
+    let way = |v: &Velocity| match v.direction.as_slice() {
+        [speed] => base::number::rounded(*speed, 3),
+        direction => along(direction),
+    };
+    let mut groups: Vec<(bool, String, Vec<String>)> = Vec::new();
+    for v in moves {
+        let (is_number, way) = (v.direction.len() == 1, way(v));
+        match groups.iter_mut().find(|g| (g.0, &g.1) == (is_number, &way)) {
+            Some(group) => group.2.push(v.path.clone()),
+            None => groups.push((is_number, way, vec![v.path.clone()])),
+        }
+    }
+    let listed = |paths: &[String]| words::listed(paths);
+    match groups.as_slice() {
+        [(false, way, paths)] if paths.len() > 1 => {
+            format!("{} slide together along {way}", listed(paths))
+        }
+        [(true, _, paths)] if paths.len() > 1 => format!("{} move together", listed(paths)),
+        groups => {
+            let is_alone =
+                |is_number: &bool| groups.iter().filter(|g| g.0 == *is_number).count() < 2;
+            let each = groups.iter().map(|(is_number, way, paths)| match is_number {
+                false => format!("{} along {way}", listed(paths)),
+                true if is_alone(is_number) => listed(paths),
+                true => format!("{} by {way}", listed(paths)),
+            });
+            let each: Vec<String> = each.collect();
+            format!("together: {}", words::listed(&each))
+        }
+    }
+}
+
 /// How many constraints of a search that was given up are named.
 const FEW: usize = 4;
 
-fn contradiction(open: &Open, c: &Contradiction) -> ContradictionView {
+pub(crate) fn contradiction(open: &Open, c: &Contradiction) -> ContradictionView {
     let state = &open.state;
     let constraints = names(open, &c.constraints);
     let anchors: Vec<String> = c.anchors.iter().map(|&a| place(open, a)).collect();
@@ -139,11 +179,10 @@ fn contradiction(open: &Open, c: &Contradiction) -> ContradictionView {
             let proof = proof.map_or(String::new(), |p| format!(": {p}"));
             (true, format!("{list} contradict each other{proof}"))
         }
-        (Certainty::NoSolution { starts }, 1) => {
-            (true, format!("no solution of {list} was found, from {starts} starts"))
-        }
-        (Certainty::NoSolution { starts }, _) => {
-            (true, format!("no solution of {list} together was found, from {starts} starts"))
+        (Certainty::NoSolution { starts }, count) => {
+            let together = if count == 1 { "" } else { " together" };
+            let why = no_value(open, c).map_or(String::new(), |why| format!(": {why}"));
+            (true, format!("no solution of {list}{together} was found, from {starts} starts{why}"))
         }
         (Certainty::Holds, _) => {
             (false, format!("{list} can hold with all the others, but not from where things are"))
@@ -157,27 +196,25 @@ fn contradiction(open: &Open, c: &Contradiction) -> ContradictionView {
             let more =
                 if count > FEW { format!(" and {} more", count - FEW) } else { String::new() };
             let bound = words::given_up(bound);
-            (
-                false,
-                format!(
-                    "not decided whether {few}{more} can hold: no solution was found in {bound}"
-                ),
-            )
+            (false, format!("not decided whether {few}{more} can hold: {bound}"))
         }
     };
-    let shown = |x: f64| base::number::rounded(x, 6);
+    let message = match one_way(open, c) {
+        Some(reads) if decided => format!("{message}; {reads}"),
+        _ => message,
+    };
     let set = |slot: SlotId, to: f64| {
         let mut values = state.values.clone();
         values.numbers[slot] = to;
-        let (text, unit) = words::show_slot(state, slot, &values);
-        format!("set {} to {}", state.slot_path(slot), format!("{text} {unit}").trim())
+        // what is to be typed keeps its digits: the rules hold for that value
+        let exact = words::slot_exactly(state, slot, &values);
+        format!("set {} to {exact}", state.slot_path(slot))
     };
     let repair = |r: &Repair| match *r {
-        Repair::LeaveOut { source, sides } => {
+        Repair::LeaveOut { source, ref numbers } => {
             let name = words::source_name(state, source)?;
-            let sides = sides.map_or(String::new(), |(left, right)| {
-                format!("; its sides are then {} and {}", shown(left), shown(right))
-            });
+            let sides = words::sides_in_words(state, source, &left(open, numbers));
+            let sides = sides.map_or(String::new(), |sides| format!("; then {sides}"));
             Some(format!("delete {name} or switch it off{sides}"))
         }
         Repair::LetGo { slot } => Some(format!("let go of {}", place(open, slot))),
@@ -192,9 +229,47 @@ fn contradiction(open: &Open, c: &Contradiction) -> ContradictionView {
     ContradictionView { constraints, anchors, decided, message, repairs }
 }
 
+/// Returns the values of the document as a repair would leave them.
+fn left(open: &Open, numbers: &[(SlotId, f64)]) -> Values {
+    let mut values = open.state.values.clone();
+    numbers.iter().for_each(|&(slot, x)| values.numbers[slot] = x);
+    values
+}
+
+/// Says which constraint has no value where the others hold: it divides by zero, or the like.
+fn no_value(open: &Open, c: &Contradiction) -> Option<String> {
+    let faulty = |repair: &Repair| {
+        let Repair::LeaveOut { source, numbers } = repair else { return None };
+        let name = words::source_name(&open.state, *source)?;
+        let fault = words::fault(&open.state, *source, &left(open, numbers))?;
+        Some(format!("{name} has no value: {fault}"))
+    };
+    c.repairs.iter().find_map(faulty)
+}
+
+/// Names what constraints of a contradiction only read, as `reads` says or since no method computes it.
+fn one_way(open: &Open, c: &Contradiction) -> Option<String> {
+    let state = &open.state;
+    let said = |&source: &plan::Source| {
+        let plan::Source::Constraint(index) = source else { return None };
+        let instance = state.structure.constraints[index as usize];
+        let class = &state.lowered.document.classes[instance.class];
+        let reads = class.constraints[instance.index as usize].reads.iter();
+        let named = reads.filter_map(|path| state.structure.follow(instance.owner, path).ok());
+        let mut read = open.planner.only_read(source);
+        read.extend(named.flat_map(|thing| state.structure.slots_under(thing)));
+        let read: Vec<SlotId> = read.into_iter().collect();
+        let name = words::source_name(state, source)?;
+        let read = words::listed(&words::slots_listed(state, &read));
+        (!read.is_empty()).then(|| format!("{name} only reads {read}"))
+    };
+    let said: Vec<String> = c.constraints.iter().filter_map(said).collect();
+    (!said.is_empty()).then(|| words::listed(&said))
+}
+
 /// Says a proof: `2 × a + b says 30, c says 31`.
 fn combination(open: &Open, proof: &Combination) -> Option<String> {
-    let shown = |x: f64| base::number::rounded(x, 6);
+    let shown = |x: f64| base::number::significant(x, 6);
     let mut sum = String::new();
     for &(source, factor) in &proof.terms {
         let name = words::source_name(&open.state, source)?;
@@ -210,10 +285,11 @@ fn combination(open: &Open, proof: &Combination) -> Option<String> {
         }
         sum.push_str(&name);
     }
+    let measured = |x: f64| words::amount(&open.state, proof.against, x);
     let says = |said: Said| match said {
-        Said::Is(x) => shown(x),
-        Said::AtMost(x) => format!("at most {}", shown(x)),
-        Said::AtLeast(x) => format!("at least {}", shown(x)),
+        Said::Is(x) => measured(x),
+        Said::AtMost(x) => format!("at most {}", measured(x)),
+        Said::AtLeast(x) => format!("at least {}", measured(x)),
     };
     let against = words::source_name(&open.state, proof.against)?;
     let (said, denied) = (says(proof.says), says(proof.denies));

@@ -181,12 +181,16 @@ fn judged(
     constraint: ConstraintInstance,
     verdict: Option<eval::Verdict>,
 ) -> String {
-    let short = |x: f64| base::number::rounded(x, 6);
+    let off = |error: f64| {
+        let index = state.structure.constraints.iter().position(|c| *c == constraint);
+        let source = Source::Constraint(index.unwrap_or_default() as u32);
+        words::amount(state, source, error.abs())
+    };
     match verdict {
         _ if !state.structure.is_on(constraint) => format!("{path} is switched off"),
         Some(verdict) if verdict.holds => format!("{path} holds"),
         Some(eval::Verdict { error: Some(error), .. }) => {
-            format!("{path} does not hold: it is off by {}", short(error.abs()))
+            format!("{path} does not hold: it is off by {}", off(error))
         }
         Some(_) => format!("{path} does not hold"),
         None => format!("{path} cannot be tested"),
@@ -238,8 +242,7 @@ fn enumerated(items: &[String]) -> String {
 }
 
 fn value(open: &Open, slot: SlotId) -> String {
-    let (text, unit) = words::show_slot(&open.state, slot, open.values());
-    if unit.is_empty() { text } else { format!("{text} {unit}") }
+    words::slot_in_words(&open.state, slot, open.values())
 }
 
 fn step(open: &Open, s: &plan::ExplainedStep) -> ExplainedStep {

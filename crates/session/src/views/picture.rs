@@ -3,7 +3,7 @@
 use crate::state::State;
 use crate::view::{Grip, MovedView, PictureView};
 use crate::words;
-use kernel::{DOCUMENT, SlotId, ThingId, Values};
+use kernel::{ClassKind, DOCUMENT, SlotId, ThingId, Values};
 use std::collections::BTreeSet;
 use std::rc::Rc;
 
@@ -150,10 +150,42 @@ pub(crate) fn changed(
     made
 }
 
-/// Returns a picture as SVG, each element with the path of its thing.
+/// A picture whose longer side is not within these many pixels at a pixel for a unit of the sheet is scaled.
+const READABLE: std::ops::RangeInclusive<f64> = 200.0..=1600.0;
+/// So many pixels long is then its longer side.
+const FITTED: f64 = 800.0;
+
+/// Returns a picture as SVG of a readable size, each element with the path of its thing.
 pub(crate) fn svg(picture: &PictureView) -> String {
     let path = |tag: drawing::Tag| picture.paths.get(tag.0 as usize).cloned();
+    let around = drawing::bounds(&picture.drawing);
+    let longest = around.map_or(0.0, |b| b.width().max(b.height()));
+    let is_readable = READABLE.contains(&longest) || longest <= 0.0 || !longest.is_finite();
+    let pixels_per_unit = if is_readable { 1.0 } else { FITTED / longest };
     let options =
-        drawing::svg::SvgOptions { pixels_per_unit: 1.0, margin: 16.0, title: None, path: &path };
+        drawing::svg::SvgOptions { pixels_per_unit, margin: 16.0, title: None, path: &path };
     drawing::svg::write(&picture.drawing, &options)
+}
+
+/// Returns the paths of the document's parts that nothing in its picture stands for: those of classes without a
+/// picture. A number, a text or a list of them has none and needs none.
+pub(crate) fn unpictured(state: &State, picture: &PictureView) -> Vec<String> {
+    let (document, structure) = (&state.lowered.document, &state.structure);
+    let is_thing = |part: &ThingId| {
+        let mut class = structure.things[*part].class;
+        while let ClassKind::List(element) = document.classes[class].kind {
+            class = element;
+        }
+        document.classes[class].kind == ClassKind::Composite
+    };
+    let own = |part: ThingId| structure.path(document, part).to_string();
+    let is_pictured = |path: &str| {
+        let below = |of: &String| {
+            of.strip_prefix(path)
+                .is_some_and(|rest| rest.is_empty() || rest.starts_with(['.', '[']))
+        };
+        picture.paths.iter().any(below)
+    };
+    let parts = structure.parts(DOCUMENT).filter(|&part| structure.merged[part] == part);
+    parts.filter(is_thing).map(own).filter(|path| !is_pictured(path)).collect()
 }

@@ -20,10 +20,7 @@ pub(crate) fn view(open: &Open) -> Status {
         status.redundant.iter().filter_map(|r| words::source_name(state, r.source)).collect();
     let satisfied = status.unmet.iter().all(|u| u.level != Level::Required);
     let errors = state.diagnostics.iter().filter(|d| d.severity == base::Severity::Error).count();
-    let double_roots = state.double_roots.iter().map(|&slot| {
-        format!("{} is a double root: two solutions coincide there", state.slot_path(slot))
-    });
-    let notes: Vec<String> = double_roots.chain(yielded(state)).collect();
+    let notes: Vec<String> = double_roots(state).into_iter().chain(yielded(state)).collect();
     let said: Vec<String> =
         status.unmet.iter().filter_map(|u| words::source_in_words(state, u.source)).collect();
     let mut message = sentence(satisfied, &said, status.freedom, errors);
@@ -42,12 +39,24 @@ pub(crate) fn view(open: &Open) -> Status {
     }
 }
 
+/// Says where two solutions coincide, in one sentence.
+fn double_roots(state: &State) -> Option<String> {
+    let mut paths: Vec<String> =
+        state.double_roots.iter().map(|&slot| state.slot_path(slot).to_string()).collect();
+    paths.dedup();
+    match paths.as_slice() {
+        [] => None,
+        [one] => Some(format!("{one} is a double root: two solutions coincide there")),
+        several => {
+            let listed = words::listed(several);
+            Some(format!("{listed} are double roots: two solutions coincide there"))
+        }
+    }
+}
+
 /// Says which numbers are others than the text gives them, because something had to give way.
 fn yielded(state: &State) -> Option<String> {
-    let shown = |values: &Values, slot: SlotId| {
-        let (text, unit) = words::show_slot(state, slot, values);
-        words::with_unit(text, &unit)
-    };
+    let shown = |values: &Values, slot: SlotId| words::slot_in_words(state, slot, values);
     let mut given = state.values.clone();
     let named = state.gave_way.iter().take(MOST_NAMED).map(|(slot, was)| {
         given.put(*slot, was.clone());
@@ -83,7 +92,7 @@ fn sentence(satisfied: bool, unmet: &[String], freedom: usize, errors: usize) ->
         (true, 1) => "all required constraints hold, one softer one does not".to_string(),
         (true, n) => format!("all required constraints hold, {n} softer ones do not"),
         (false, 1) => format!("{} does not hold", unmet[0]),
-        (false, n) => format!("{n} constraints do not hold"),
+        (false, _) => format!("{} do not hold", words::listed(unmet)),
     };
     let free = match freedom {
         0 => "nothing is free".to_string(),

@@ -49,6 +49,7 @@ impl Maker<'_> {
             detail: String::new(),
             doc: String::new(),
             value: None,
+            exact: None,
             merged_with: None,
             makes_one: Vec::new(),
             freedom: None,
@@ -80,6 +81,7 @@ impl Maker<'_> {
         row.detail = words::description(self.state, thing, self.values);
         row.doc = words::doc_of(self.state, thing);
         row.value = words::show_thing(self.state, thing, self.values);
+        row.exact = words::show_thing_exactly(self.state, thing, self.values);
         row.merged_with = (first != thing).then(|| structure.path(document, first).to_string());
         row.freedom = words::freedom_of(structure, self.status, thing);
         row.anchored = !slots.is_empty() && slots.iter().all(|&s| structure.slots[s].anchored);

@@ -1,8 +1,8 @@
 //! The text view: the source, its colours, and what is wrong with it.
 
 use crate::state::State;
-use crate::view::{DiagnosticView, FixView, TextChange, TextView, TokenView};
-use base::{Diagnostic, FileId, LineIndex, Severity};
+use crate::view::{DiagnosticView, FixView, LabelView, TextChange, TextView, TokenView};
+use base::{Diagnostic, FileId, LineIndex, Place, Severity};
 use std::collections::BTreeMap;
 use syntax::{SyntaxKind, SyntaxToken};
 
@@ -37,7 +37,7 @@ fn token(token: &SyntaxToken) -> Option<TokenView> {
 
 /// Returns a fix as an editor offers it; nothing for one of another text than the document's own.
 fn fix(fix: &base::Fix) -> Option<FixView> {
-    let change = |(place, insert): &(base::Place, String)| {
+    let change = |(place, insert): &(Place, String)| {
         let (start, end) = (place.span.start, place.span.end);
         let own = place.file == FileId(0);
         own.then(|| TextChange { start, end, insert: insert.clone() })
@@ -49,17 +49,25 @@ fn fix(fix: &base::Fix) -> Option<FixView> {
 /// Returns diagnostics as an editor shows them.
 pub(crate) fn diagnostics(state: &State, all: &[Diagnostic]) -> Vec<DiagnosticView> {
     let mut lines: BTreeMap<FileId, LineIndex> = BTreeMap::new();
-    let view = |d: &Diagnostic| {
-        let text = &state.lowered.files[d.place.file].text;
-        let lines = lines.entry(d.place.file).or_insert_with(|| LineIndex::new(text));
-        diagnostic(state, d, lines)
+    let mut find = |place: Place| {
+        let file = &state.lowered.files[place.file];
+        let lines = lines.entry(place.file).or_insert_with(|| LineIndex::new(&file.text));
+        let name = if place.file == FileId(0) { String::new() } else { file.name.clone() };
+        (name, lines.line_column(&file.text, place.span.start))
     };
-    all.iter().map(view).collect()
+    all.iter().map(|d| diagnostic(d, &mut find)).collect()
 }
 
-fn diagnostic(state: &State, d: &Diagnostic, lines: &LineIndex) -> DiagnosticView {
-    let file = &state.lowered.files[d.place.file];
-    let (line, column) = lines.line_column(&file.text, d.place.span.start);
+/// Returns the name of a place's file, its line and its column.
+type Find<'f> = dyn FnMut(Place) -> (String, (u32, u32)) + 'f;
+
+fn diagnostic(d: &Diagnostic, find: &mut Find<'_>) -> DiagnosticView {
+    let (file, (line, column)) = find(d.place);
+    let label = |label: &base::Label| {
+        let (file, (line, column)) = find(label.place);
+        LabelView { file, line, column, message: label.message.clone() }
+    };
+    let labels = d.labels.iter().map(label).collect();
     let severity = match d.severity {
         Severity::Error => "error",
         Severity::Warning => "warning",
@@ -70,11 +78,12 @@ fn diagnostic(state: &State, d: &Diagnostic, lines: &LineIndex) -> DiagnosticVie
         code: d.code.into(),
         message: d.message.clone(),
         hint: d.hint.clone(),
-        file: if d.place.file == FileId(0) { String::new() } else { file.name.clone() },
+        file,
         start: d.place.span.start,
         end: d.place.span.end,
         line,
         column,
+        labels,
         fixes: d.fixes.iter().filter_map(fix).collect(),
     }
 }

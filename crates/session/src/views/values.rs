@@ -7,8 +7,9 @@ use base::Name;
 use eval::{Answer, Evaluator};
 use indexmap::IndexMap;
 use kernel::builtin::{FUNCTIONS, Kind, PICTURE_MESSAGES, find};
-use kernel::{ClassId, ClassKind, Document, Path, SlotId, Step, Term, ThingId, Values};
-use std::collections::BTreeMap;
+use kernel::{ClassId, ClassKind, Document, Message, Path, SlotId, Step, Term, ThingId, Values};
+use lang::{Quantity, Shown};
+use std::collections::{BTreeMap, BTreeSet};
 use std::fmt::Write;
 use std::rc::Rc;
 
@@ -49,7 +50,9 @@ pub(crate) fn renew<'r>(
                     // of what a program drew
                     None => {
                         let answer = evaluator.at(&path).ok();
-                        answer.and_then(|a| show_answer(&state.lowered.document, &a)).map(|s| s.0)
+                        answer
+                            .and_then(|a| show_answer(&state.lowered.document, &a, ""))
+                            .map(|s| s.0)
                     }
                 }
             }
@@ -58,22 +61,22 @@ pub(crate) fn renew<'r>(
                 .map(|slot| show(state, values, slot)),
         };
         if let Some(shown) = shown {
-            (row.text, row.unit, row.number) = (shown.text, shown.unit, shown.number);
+            let Shown { text, unit, exact } = shown.words;
+            (row.text, row.unit, row.exact, row.number) = (text, unit, exact, shown.number);
         }
     }
 }
 
-/// A value in words.
-struct Shown {
-    text: String,
-    unit: String,
+/// A value in words, and its number if it is one.
+struct Cell {
+    words: Shown,
     number: Option<f64>,
 }
 
-fn show(state: &State, values: &Values, slot: SlotId) -> Shown {
-    let (text, unit) = words::show_slot(state, slot, values);
+fn show(state: &State, values: &Values, slot: SlotId) -> Cell {
     let is_number = state.structure.slots[slot].primitive.is_number();
-    Shown { text, unit, number: is_number.then(|| values.numbers[slot]) }
+    let number = is_number.then(|| values.numbers[slot]);
+    Cell { words: words::show_slot(state, slot, values), number }
 }
 
 fn show_virtual(
@@ -81,15 +84,23 @@ fn show_virtual(
     evaluator: &Evaluator<'_>,
     owner: ThingId,
     name: &Name,
-) -> Option<Shown> {
+) -> Option<Cell> {
     let document = &state.lowered.document;
+    let class = answer_class(document, state.structure.things[owner].class, name);
     let answer = evaluator.ask(owner, name).or_else(|fault| {
         let table = evaluator.ask(owner, &Name::new("values"))?;
         let Answer::List(items) = table else { return Err(fault) };
         let named = items.iter().filter_map(entry).find(|(n, _)| **n == **name);
         named.map(|(_, value)| value).ok_or(fault)
     });
-    show_answer(document, &answer.ok()?).map(|shown| shown.0)
+    show_answer(document, &answer.ok()?, class).map(|shown| shown.0)
+}
+
+/// Returns the name of the class that is written for what a message answers; empty where none is.
+fn answer_class<'d>(document: &'d Document, class: ClassId, name: &Name) -> &'d str {
+    let mut line = document.primary_line(class).into_iter();
+    let message = line.find_map(|c| document.classes[c].messages.iter().find(|m| m.name == *name));
+    message.and_then(|m| m.class).map_or("", |c| &document.classes[c].name)
 }
 
 /// Returns the name and the value that a row of a table consists of.
@@ -101,14 +112,19 @@ fn entry<'r, 'd>(row: &'r Answer<'d>) -> Option<(&'r str, Answer<'d>)> {
     }
 }
 
-/// Returns an answer in words, and its class; nothing where it is no value.
-fn show_answer<'d>(document: &Document, answer: &Answer<'d>) -> Option<(Shown, &'d str)> {
-    let plain = |text: String| Shown { text, unit: String::new(), number: None };
+/// Returns an answer of a class in words, and its class; nothing where it is no value.
+fn show_answer<'d>(
+    document: &'d Document,
+    answer: &Answer<'d>,
+    class: &'d str,
+) -> Option<(Cell, &'d str)> {
+    let plain = |text: String| Cell { words: words::plain(text), number: None };
     match answer {
         Answer::Number(x, dimension) => {
-            let (text, unit) = lang::show_number(*x, *dimension, document);
-            let class = dimension.named().unwrap_or("Real");
-            Some((Shown { text, unit, number: Some(*x) }, class))
+            let quantity = Quantity { dimension: *dimension, class, written: "" };
+            let words = lang::show_quantity(*x, quantity, document);
+            let class = if class.is_empty() { dimension.named().unwrap_or("Real") } else { class };
+            Some((Cell { words, number: Some(*x) }, class))
         }
         Answer::Text(t) => Some((plain(t.to_string()), "Text")),
         Answer::Bool(b) => Some((plain(b.to_string()), "Bool")),
@@ -123,7 +139,7 @@ fn show_answer<'d>(document: &Document, answer: &Answer<'d>) -> Option<(Shown, &
 
 /// Returns an answer with its unit, as a person reads it; nothing where it is no value.
 pub(crate) fn in_words(document: &Document, answer: &Answer<'_>) -> Option<String> {
-    let (Shown { text, unit, .. }, _) = show_answer(document, answer)?;
+    let (Cell { words: Shown { text, unit, .. }, .. }, _) = show_answer(document, answer, "")?;
     Some(words::with_unit(text, &unit))
 }
 
@@ -133,7 +149,7 @@ struct Maker<'a> {
     status: &'a plan::Status,
     evaluator: Evaluator<'a>,
     /// The virtual parts of every class met so far.
-    virtual_parts: BTreeMap<ClassId, Rc<[(Name, String)]>>,
+    virtual_parts: BTreeMap<ClassId, Rc<[Answers]>>,
     /// The things whose rows are being added: what a class says may lead back to them.
     open: Vec<ThingId>,
     rows: Vec<ValueRow>,
@@ -149,16 +165,20 @@ impl Maker<'_> {
         }
         if let Some(slot) = structure.slot_of(thing) {
             let s = &structure.slots[slot];
-            let Shown { text, unit, number } = show(state, self.values, slot);
+            let Cell { words: Shown { text, unit, exact }, number } =
+                show(state, self.values, slot);
             self.rows.push(ValueRow {
                 path: path.clone(),
+                shortest: shortest_path(state, thing),
                 class: document.classes[structure.things[thing].class].name.to_string(),
                 text,
                 unit,
+                exact,
                 number,
                 given: s.given.is_some(),
                 is_virtual: false,
                 anchored: s.anchored,
+                is_layout: s.is_layout,
                 freedom: words::freedom_of(structure, self.status, thing),
                 doc: words::doc_of(state, thing),
             });
@@ -225,7 +245,7 @@ impl Maker<'_> {
                 },
             };
             append(path, &name);
-            self.rows.extend(value.and_then(|v| answered(document, path, &v, "")));
+            self.rows.extend(value.and_then(|v| answered(document, path, &v, ["", ""], false)));
             path.truncate(end);
         }
     }
@@ -238,10 +258,15 @@ impl Maker<'_> {
         let end = path.len();
         let draws = document.program(class).is_some();
         let most = self.rows.len() + MOST_DRAWN;
-        for (name, doc) in parts.clone().iter() {
-            let Ok(answer) = self.evaluator.ask(thing, name) else { continue };
+        for Answers { name, doc, is_pictured } in parts.clone().iter() {
+            let (answer, read) = self.evaluator.listening(|| self.evaluator.ask(thing, name));
+            let Ok(answer) = answer else { continue };
+            let slots = &self.state.structure.slots;
+            let is_layout = read.iter().all(|&slot| slots[slot].is_layout)
+                && (*is_pictured || !read.is_empty());
             append(path, name);
-            match answered(document, path, &answer, doc) {
+            let said = [answer_class(document, class, name), doc];
+            match answered(document, path, &answer, said, is_layout) {
                 None if draws => self.add_drawn(&answer, path, most),
                 row => self.rows.extend(row),
             }
@@ -255,7 +280,7 @@ impl Maker<'_> {
         if self.rows.len() >= most || path.len() > LONGEST_PATH {
             return;
         }
-        if let Some(row) = answered(document, path, answer, "") {
+        if let Some(row) = answered(document, path, answer, ["", ""], false) {
             return self.rows.push(row);
         }
         let end = path.len();
@@ -292,20 +317,37 @@ impl Maker<'_> {
 }
 
 /// Returns the row of what a thing answers; nothing where that is no value.
-fn answered(document: &Document, path: &str, answer: &Answer<'_>, doc: &str) -> Option<ValueRow> {
-    let (shown, class) = show_answer(document, answer)?;
+fn answered(
+    document: &Document,
+    path: &str,
+    answer: &Answer<'_>,
+    [class, doc]: [&str; 2],
+    is_layout: bool,
+) -> Option<ValueRow> {
+    let (Cell { words, number }, class) = show_answer(document, answer, class)?;
     Some(ValueRow {
         path: path.into(),
+        shortest: path.into(),
         class: class.into(),
-        text: shown.text,
-        unit: shown.unit,
-        number: shown.number,
+        text: words.text,
+        unit: words.unit,
+        exact: words.exact,
+        number,
         given: false,
         is_virtual: true,
         anchored: false,
+        is_layout,
         freedom: None,
         doc: doc.into(),
     })
+}
+
+/// Returns the shortest path to a thing, the first declared of several.
+fn shortest_path(state: &State, thing: ThingId) -> String {
+    let paths = state.structure.merged_with(thing).into_iter();
+    let paths = paths.map(|t| state.structure.path(&state.lowered.document, t));
+    let shortest = paths.min_by_key(|path| path.0.len());
+    shortest.map_or_else(String::new, |path| path.to_string())
 }
 
 /// Adds a step to the part of this name.
@@ -316,13 +358,23 @@ fn append(path: &mut String, name: &str) {
     path.push_str(name);
 }
 
+/// A message that reads as a value.
+struct Answers {
+    name: Name,
+    doc: String,
+    /// Whether a picture speaks of it.
+    is_pictured: bool,
+}
+
 /// Returns the messages that read as values, with what `///` says of them, in order of declaration.
 ///
 /// One that a subclass defines anew stands where it was first declared, once. What the lab shows in
 /// views of its own is no value, whatever it answers, and a picture is none.
-fn virtual_parts(document: &Document, class: ClassId) -> Rc<[(Name, String)]> {
+fn virtual_parts(document: &Document, class: ClassId) -> Rc<[Answers]> {
     let mut found: IndexMap<&Name, (&str, bool)> = IndexMap::new();
-    for class in document.primary_line(class).into_iter().rev() {
+    let line: Vec<ClassId> = document.primary_line(class).into_iter().rev().collect();
+    let messages = || line.iter().flat_map(|&class| &document.classes[class].messages);
+    for &class in &line {
         if document.classes[class].supers.is_empty() {
             continue;
         }
@@ -337,8 +389,29 @@ fn virtual_parts(document: &Document, class: ClassId) -> Rc<[(Name, String)]> {
             *is_drawn = is_picture(&message.answer);
         }
     }
+    // what pictures speak of, and what that speaks of in turn
+    let mut pictured: BTreeSet<Name> = BTreeSet::new();
+    let is_drawn = |m: &&Message| m.name.as_str() == "picture" || is_picture(&m.answer);
+    let mut open: Vec<&Message> = messages().filter(is_drawn).collect();
+    while let Some(message) = open.pop() {
+        let mut terms = vec![&message.answer];
+        while let Some(term) = terms.pop() {
+            terms.extend(term.operands());
+            if let Term::Send { to, name, .. } = term
+                && **to == Term::Me
+                && pictured.insert(name.clone())
+            {
+                open.extend(messages().filter(|m| m.name == *name));
+            }
+        }
+    }
     let read = found.into_iter().filter(|(_, (_, is_drawn))| !is_drawn);
-    read.map(|(name, (doc, _))| (name.clone(), doc.to_string())).collect()
+    read.map(|(name, (doc, _))| Answers {
+        name: name.clone(),
+        doc: doc.to_string(),
+        is_pictured: pictured.contains(name),
+    })
+    .collect()
 }
 
 /// Returns true if a term answers a picture, whatever it is asked of.

@@ -199,6 +199,6 @@ fn a_limit_too_dear_to_find_out_is_told_as_far_as_it_was_seen() {
     let told = format!("refused: r3.current goes to {}, and how much further", limit.value);
     assert!(refusal.message.starts_with(&told), "{}", refusal.message);
     desk.type_in("r3.current", &limit.value).expect("what is told can be set");
-    let came: Option<f64> = limit.value.strip_suffix(" A").and_then(|x| x.parse().ok());
-    assert!(came.is_some_and(|x| (0.0116..0.0119).contains(&x)), "{limit:?}");
+    let came: Option<f64> = limit.value.strip_suffix(" mA").and_then(|x| x.parse().ok());
+    assert!(came.is_some_and(|x| (11.6..11.9).contains(&x)), "{limit:?}");
 }

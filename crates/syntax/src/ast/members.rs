@@ -127,6 +127,10 @@ impl Part {
     pub fn names(&self) -> impl Iterator<Item = Word> + use<> {
         words(&self.syntax, SyntaxKind::Ident)
     }
+    /// Returns true for a part that only says where a thing is drawn.
+    pub fn is_layout(&self) -> bool {
+        has_keyword(&self.syntax, "layout")
+    }
     /// Returns the class.
     pub fn class(&self) -> Option<Type> {
         child(&self.syntax)

@@ -28,6 +28,7 @@ pub(crate) const KEYWORDS: &[&str] = &[
     "stay",
     "anchor",
     "constant",
+    "layout",
     "insert",
     "default",
     "combining",
@@ -103,6 +104,7 @@ pub(super) fn member(p: &mut Parser<'_>) -> bool {
         "when" => when(p),
         "anchor" => one(p, Anchor, paths),
         "constant" => constant(p),
+        "layout" if p.nth(1) == Ident => part(p),
         "merge" => one(p, Merge, merge),
         "insert" => one(p, Insert, |p| {
             path(p);
@@ -183,9 +185,12 @@ fn named(p: &mut Parser<'_>) -> bool {
     true
 }
 
-/// `x, y: Length in 0..9 = 3 { … }`, `length: Length => …`
+/// `x, y: Length in 0..9 = 3 { … }`, `length: Length => …`, `layout at: Point`
 fn part(p: &mut Parser<'_>) {
     p.start_documented(Part);
+    if p.at_word(0, "layout") && p.nth(1) == Ident {
+        p.bump_keyword();
+    }
     p.bump();
     rest_of_part(p);
     p.finish();

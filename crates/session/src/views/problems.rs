@@ -1,0 +1,184 @@
+//! Problems: what was found while solving, said at the lines of the text that it comes from.
+//!
+//! In: an open document. Out: diagnostics as an editor shows them: of every contradiction the whole set,
+//! each constraint at its line; of what has no value why; what nothing holds though it is loaded.
+
+use super::analysis::contradiction;
+use crate::document::Open;
+use crate::state::State;
+use crate::texts::Texts;
+use crate::view::DiagnosticView;
+use crate::words;
+use base::{Diagnostic, FileId, Place};
+use expr::Dimension;
+use kernel::{Primitive, SlotId, ThingId};
+use plan::{Certainty, Contradiction, Source};
+use solve::Level;
+use std::collections::BTreeSet;
+
+/// Returns what was found, in the order of the text.
+pub(crate) fn view(open: &mut Open) -> Vec<DiagnosticView> {
+    let state = open.state.clone();
+    let mut texts = Texts::new(&state.lowered.document, &state.structure);
+    let unmet = &open.status.unmet;
+    let against = open.planner.contradictions(state.model(), &state.values, unmet, &mut texts);
+    let mechanism = mechanism(open, &state);
+    let falls = mechanism.as_ref().map_or(&[][..], |(_, unbalanced)| unbalanced);
+    let mut problems: Vec<Diagnostic> = Vec::new();
+    for c in &against {
+        if c.certainty == Certainty::Holds && c.constraints.iter().all(|s| falls.contains(s)) {
+            continue;
+        }
+        let together = match c.certainty {
+            Certainty::GivenUp(_) => {
+                Some(words::solved_together(open, &words::read_by(&state, &c.constraints)))
+            }
+            _ => None,
+        };
+        problems.extend(of_contradiction(open, c, together));
+    }
+    // where something contradicts, what hangs together with it was not solved, and says nothing of itself
+    let told: Vec<Source> = against.iter().flat_map(|c| c.constraints.clone()).collect();
+    let around = open.planner.connected(state.model(), &words::read_by(&state, &told));
+    let around: BTreeSet<SlotId> = around.into_iter().collect();
+    let is_told =
+        |s: &Source| told.contains(s) || !words::read_by(&state, &[*s]).is_disjoint(&around);
+    let required = open.status.unmet.iter().filter(|u| u.level == Level::Required);
+    let untold = required.map(|u| u.source).filter(|s| !is_told(s));
+    problems.extend(untold.filter_map(|source| of_unmet(&state, source)));
+    problems.extend(mechanism.map(|(problem, _)| problem));
+    problems.sort_by_key(|d| (d.place.file, d.place.span.start));
+    super::text::diagnostics(&state, &problems)
+}
+
+fn of_contradiction(
+    open: &Open,
+    c: &Contradiction,
+    together: Option<String>,
+) -> Option<Diagnostic> {
+    let state = &open.state;
+    let said = contradiction(open, c);
+    let code = match c.certainty {
+        Certainty::Contradiction => "contradiction",
+        Certainty::NoSolution { .. } => "no-solution",
+        Certainty::Holds => "out-of-reach",
+        Certainty::NotDecided { .. } | Certainty::GivenUp(_) => "not-decided",
+    };
+    let places: Vec<(Place, String)> =
+        c.constraints.iter().filter_map(|&source| place_of(state, source)).collect();
+    let (first, others) = places.split_first()?;
+    let message = match together {
+        Some(together) => format!("{}; {together}", said.message),
+        None => said.message,
+    };
+    let mut d = Diagnostic::error(code, first.0, message);
+    let mut known = BTreeSet::from([first.clone()]);
+    // where the first stands is marked already
+    let alone = others.is_empty() && first.0.file == FileId(0);
+    if !alone {
+        d = d.label(first.0, first.1.clone());
+    }
+    for (place, rule) in others {
+        if known.insert((*place, rule.clone())) {
+            d = d.label(*place, rule.clone());
+        }
+    }
+    Some(match said.repairs.as_slice() {
+        [] => d,
+        repairs => d.hint(repairs.join("; or ")),
+    })
+}
+
+fn of_unmet(state: &State, source: Source) -> Option<Diagnostic> {
+    let name = words::source_in_words(state, source)?;
+    let (place, _) = place_of(state, source)?;
+    let why = words::shortfall(state, source, &state.values);
+    let why = why.map_or(String::new(), |why| format!(": {why}"));
+    Some(Diagnostic::error("unmet", place, format!("{name} does not hold{why}")))
+}
+
+/// Returns where a constraint is said, and what it says: of one of a library the document's own part that has it.
+fn place_of(state: &State, source: Source) -> Option<(Place, String)> {
+    let name = words::source_name(state, source)?;
+    let Source::Constraint(index) = source else { return None };
+    let instance = state.structure.constraints[index as usize];
+    let class = &state.lowered.document.classes[instance.class];
+    let place = state.lowered.place(class.constraints[instance.index as usize].origin);
+    let rule = words::rule_alone(state, index);
+    let said = format!("{name}: {rule}");
+    if place.file == FileId(0) {
+        return Some((place, said));
+    }
+    Some((own_place(state, instance.owner).unwrap_or(place), said))
+}
+
+/// Returns where the innermost part of the document's own text that a thing belongs to is declared.
+fn own_place(state: &State, thing: ThingId) -> Option<Place> {
+    let structure = &state.structure;
+    let mut at = Some(thing);
+    while let Some(thing) = at {
+        let t = &structure.things[thing];
+        let layout = t.owner.and_then(|owner| structure.layout(structure.things[owner].class));
+        let field = layout.and_then(|layout| layout.fields.get(t.field as usize));
+        let part = field.and_then(|field| state.lowered.document.declared(*field));
+        if let Some(place) = part.map(|part| state.lowered.place(part.origin))
+            && place.file == FileId(0)
+        {
+            return Some(place);
+        }
+        at = t.owner;
+    }
+    None
+}
+
+/// Says that what is loaded can move without resistance: forces that do not balance, or a load that gave way,
+/// where lengths hang together with them that nothing decides. Returns the constraints that do not balance as well.
+fn mechanism(open: &mut Open, state: &State) -> Option<(Diagnostic, Vec<Source>)> {
+    let is_load = |dimension| matches!(dimension, Dimension::FORCE | Dimension::MOMENT);
+    let measures = |slot: SlotId| match state.structure.slots[slot].primitive {
+        Primitive::Real(dimension) => Some(dimension),
+        Primitive::Integer | Primitive::Bool | Primitive::Text | Primitive::Color => None,
+    };
+    let required = open.status.unmet.iter().filter(|u| u.level == Level::Required);
+    let unmet = required.map(|u| u.source);
+    let unbalanced: Vec<Source> =
+        unmet.filter(|&s| words::measure(state, s).is_some_and(is_load)).collect();
+    let gave_way: Vec<SlotId> = state.yielded.iter().map(|(slot, _)| *slot).collect();
+    let gave_way: Vec<SlotId> =
+        gave_way.into_iter().filter(|&s| measures(s).is_some_and(is_load)).collect();
+    let mut loaded = words::read_by(state, &unbalanced);
+    loaded.extend(&gave_way);
+    if loaded.is_empty() {
+        return None;
+    }
+    let place = match (unbalanced.first(), gave_way.first()) {
+        (Some(&source), _) => place_of(state, source)?.0,
+        (None, Some(&slot)) => state.lowered.place(state.structure.given(slot)?.origin),
+        (None, None) => return None,
+    };
+    let mut texts = Texts::new(&state.lowered.document, &state.structure);
+    let arbitrary = open.planner.arbitrary(state.model(), &state.values, &mut texts);
+    let around = open.planner.connected(state.model(), &loaded);
+    let moves = |s: &SlotId| {
+        let is_length = measures(*s) == Some(Dimension::LENGTH);
+        arbitrary.contains(s) && (is_length || is_angle(state, *s))
+    };
+    let moving: Vec<SlotId> = around.into_iter().filter(moves).collect();
+    if moving.is_empty() {
+        return None;
+    }
+    let moving = words::listed(&words::slots_listed(state, &moving));
+    let names: Vec<String> =
+        unbalanced.iter().filter_map(|&s| words::source_name(state, s)).collect();
+    let so = match names.is_empty() {
+        true => String::new(),
+        false => format!(", so {} cannot be met", words::listed(&names)),
+    };
+    let message = format!("a mechanism under load: nothing holds {moving}{so}");
+    let hint = "add a bar or a support that keeps it from moving, or take the load away";
+    Some((Diagnostic::error("mechanism", place, message).hint(hint), unbalanced))
+}
+
+fn is_angle(state: &State, slot: SlotId) -> bool {
+    words::class_name(state, state.structure.slots[slot].thing) == "Angle"
+}
