@@ -125,3 +125,24 @@ fn what_has_no_place_is_drawn_apart() {
     assert!(width.and_then(|w| w.parse::<f64>().ok()).is_some_and(|w| w > 150.0), "{svg}");
     assert!(!svg.contains("NaN"));
 }
+
+#[test]
+fn the_book_shows_what_is_printed() {
+    let top = concat!(env!("CARGO_MANIFEST_DIR"), "/../..");
+    let page = std::fs::read_to_string(format!("{top}/book/reading.md")).expect("it is there");
+    let mut blocks = 0;
+    for block in page.split("```console\n").skip(1) {
+        let block = block.split("```").next().expect("a block ends");
+        let mut lines = block.lines();
+        let asked = lines.next().and_then(|l| l.strip_prefix("$ thinglab ")).expect("a command");
+        let mut thinglab = Command::new(env!("CARGO_BIN_EXE_thinglab"));
+        let said = thinglab.args(asked.split(' ')).current_dir(top).output().expect("it starts");
+        let said = String::from_utf8(said.stdout).expect("words are printed");
+        let mut printed = said.lines();
+        for line in lines.filter(|line| *line != "…") {
+            assert!(printed.any(|p| p == line), "{asked}: {line:?} is not in\n{said}");
+        }
+        blocks += 1;
+    }
+    assert!(blocks >= 4, "{blocks}");
+}

@@ -106,9 +106,13 @@ fn of_the_sheet(
     if power != 1 {
         return format!("{own}^{power}");
     }
-    // nobody speaks of a tenth of a decimetre
-    let is_step = units::unit(own).is_some_and(|u| u.mantissa != 1.0 || u.exponent % 3 == 0);
-    let least = if is_step { 0.1 } else { 1.0 };
+    // sheets are laid out in decimetres, but nobody reads a table of them
+    let unit = units::unit(own);
+    let is_read = own == "cm" || unit.is_some_and(|u| u.mantissa != 1.0 || u.exponent % 3 == 0);
+    if !is_read {
+        return prefixed("m", size);
+    }
+    let least = if own == "cm" { 1.0 } else { 0.1 };
     let shown = size(own);
     if shown == 0.0 || (least..1e5).contains(&shown) { own.into() } else { prefixed("m", size) }
 }
@@ -214,7 +218,7 @@ mod tests {
         assert_eq!(shown(2e5, "Length", "", &mm), "200 m");
         assert_eq!(shown(400.0, "Area", "", &mm), "400 mm^2");
         let dm = document("unit dm");
-        assert_eq!(shown(300.0, "Length", "", &dm), "300 dm");
+        assert_eq!(shown(300.0, "Length", "", &dm), "30 m");
         assert_eq!(shown(-0.568_75, "Length", "", &dm), "-56.875 mm");
     }
     #[test]

@@ -141,8 +141,8 @@ fn parts_of_a_circuit_stick_to_each_other_by_their_nodes() {
     click(&mut desk, &pointer(0.0, 198.0));
     holds(&desk);
     // 1.5 V over twice 100 ohm
-    assert_eq!(shown(&desk, "resistor.current"), "0.0075 A");
-    assert_eq!(shown(&desk, "resistor2.a.node.voltage"), "0.75 V");
+    assert_eq!(shown(&desk, "resistor.current"), "7.5 mA");
+    assert_eq!(shown(&desk, "resistor2.a.node.voltage"), "750 mV");
 }
 
 #[test]
@@ -159,7 +159,7 @@ fn terminals_that_are_joined_become_one_node_and_not_one_place() {
     join(&mut desk, "battery.a.node.at", "r.a.node.at");
     join(&mut desk, "battery.b.node.at", "r.b.node.at");
     assert!(desk.text().contains("battery.a.node = r.a.node"), "{}", desk.text());
-    assert_eq!(shown(&desk, "r.current"), "0.015 A");
+    assert_eq!(shown(&desk, "r.current"), "15 mA");
     let again = desk.session.join(desk.id, &[at("battery.a.node.at"), at("r.a.node.at")]);
     let refusal = again.expect_err("they are one");
     assert_eq!(refusal.message, "battery.a.node and r.a.node are one already");
