@@ -281,6 +281,7 @@ impl Term {
             | Self::Local(_)
             | Self::Step(_)
             | Self::Result
+            | Self::Class(_)
             | Self::All(_) => Vec::new(),
             Self::Send { to, arguments, .. } => {
                 std::iter::once(&**to).chain(arguments.iter().map(|a| &a.value)).collect()
@@ -288,7 +289,9 @@ impl Term {
             Self::Call { arguments, .. } | Self::Make { arguments, .. } => {
                 arguments.iter().map(|a| &a.value).collect()
             }
-            Self::Tuple(terms) | Self::List(terms) => terms.iter().collect(),
+            Self::Tuple(terms) | Self::List(terms) | Self::Construct { of: terms, .. } => {
+                terms.iter().collect()
+            }
             Self::Range(a, b) | Self::Index(a, b) | Self::Binary(_, a, b) | Self::Let(_, a, b) => {
                 vec![a, b]
             }

@@ -138,6 +138,7 @@ impl Lowerer<'_> {
             name: name.clone(),
             doc: message.doc().unwrap_or_default(),
             parameters,
+            class: answers,
             answer: Term::Me,
             is_default: false,
             is_combining: false,
