@@ -7,7 +7,7 @@ use crate::rule::Source;
 use crate::task::{Course, Holding, Task};
 use base::IdVec;
 use kernel::{SlotId, Values};
-use solve::Level;
+use solve::{Giver, Level};
 use std::collections::BTreeSet;
 
 /// The state of a document at rest.
@@ -123,7 +123,9 @@ impl Planner {
         let mut components = self.whole(structure).components.clone();
         components.retain(|component| component.slots().iter().any(|&s| is_asked(s)));
         let holding = |slot: SlotId| match Self::resting_hold(structure, slot) {
-            Holding::Kept if structure.slots[slot].given.is_some() => Holding::Given,
+            Holding::Kept if structure.slots[slot].given.is_some() => {
+                Holding::Given(Giver::Document)
+            }
             held => held,
         };
         for task in self.tasks(structure, components, &holding, &[], None) {
@@ -137,7 +139,7 @@ impl Planner {
             if !could.is_empty() {
                 let moves = |s: &SlotId| {
                     structure.slots[*s].primitive.is_number()
-                        && !matches!(holding(*s), Holding::Given | Holding::Fixed)
+                        && !matches!(holding(*s), Holding::Given(_) | Holding::Fixed)
                 };
                 let moving = self.moving(model, task, values, &moves, host);
                 found.extend(moving.into_iter().filter(|s| could.contains(s)));

@@ -143,9 +143,8 @@ fn mechanism(open: &mut Open, state: &State) -> Option<(Diagnostic, Vec<Source>)
     let unmet = required.map(|u| u.source);
     let unbalanced: Vec<Source> =
         unmet.filter(|&s| words::measure(state, s).is_some_and(is_load)).collect();
-    let gave_way: Vec<SlotId> = state.yielded.iter().map(|(slot, _)| *slot).collect();
     let gave_way: Vec<SlotId> =
-        gave_way.into_iter().filter(|&s| measures(s).is_some_and(is_load)).collect();
+        state.yielded().filter(|&s| measures(s).is_some_and(is_load)).collect();
     let mut loaded = words::read_by(state, &unbalanced);
     loaded.extend(&gave_way);
     if loaded.is_empty() {

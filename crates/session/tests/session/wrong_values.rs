@@ -13,7 +13,7 @@ const WRONG: &[(&str, &str, &str, &str)] = &[
     ),
     ("p: Real\nconstraint p = 0\nz: Real = 1 / p", "no-answer", "1 / p", "divided by zero"),
     ("a: Real = 1 / 0", "no-answer", "1 / 0", "divided by zero"),
-    ("a: Real = sqrt(0 - 1)", "no-answer", "sqrt(0 - 1)", "square root of -1"),
+    ("a: Real = sqrt(0 - 1)", "no-answer", "sqrt(0 - 1)", "sqrt(-1)"),
     ("a: Integer = 5 / 2", "wrong-kind", "5 / 2", "whole number"),
     ("a: Real = \"x\".number", "no-answer", "\"x\".number", "number"),
     (
