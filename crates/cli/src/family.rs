@@ -194,7 +194,7 @@ fn report(
         Form::Words => words,
         Form::Json => format!("{json}\n"),
     };
-    Report { text, good: drawn == lines.len() }
+    Report { text, aside: String::new(), good: drawn == lines.len() }
 }
 
 /// Writes a row's files, and says what came of it.

@@ -16,10 +16,10 @@ use crate::state::State;
 use crate::texts::Texts;
 use crate::tools::{self, Tool};
 use crate::view::{
-    Advice, Affected, Analysis, BinEntry, Change, CheckReport, DiagnosticView, DocumentId, DragState, Explanation,
-    FamilyRow, FamilyView, FixView, Ghost, HeldView, MovedView, Offer, PictureView, Pointer,
-    Question, Recognised, Refusal, RowOutcome, Status, StructureRow, TableView, TextView, ToolView,
-    ValueRow,
+    Advice, Affected, Analysis, BinEntry, Change, CheckReport, DiagnosticView, DocumentId,
+    DragState, Explanation, FamilyRow, FamilyView, FixView, Ghost, HeldView, MovedView, Offer,
+    PictureView, Pointer, Question, Recognised, Refusal, RowOutcome, Status, StructureRow,
+    TableView, TextView, ToolView, ValueRow,
 };
 use crate::views;
 use crate::words;
