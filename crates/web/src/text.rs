@@ -232,6 +232,7 @@ mod tests {
             detail: String::new(),
             doc: String::new(),
             value: None,
+            exact: None,
             merged_with: None,
             makes_one: Vec::new(),
             freedom: None,
