@@ -67,8 +67,6 @@ fn differences(cases: Vec<(&'static str, String, Said)>) -> String {
     let all = move || {
         let mut out = String::new();
         for (name, text, said) in cases {
-            // what the test harness shows where it ends here
-            println!("{name}");
             let (session, id) = ask(&text);
             let diagnostics = session.text(id).diagnostics;
             let errors: Vec<String> =

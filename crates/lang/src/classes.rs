@@ -255,7 +255,7 @@ impl Lowerer<'_> {
         from: &[ast::Word],
         word: &ast::Word,
     ) -> Option<ClassId> {
-        let name = from.iter().map(|w| w.text()).collect::<Vec<&str>>().join(".");
+        let name = from.iter().map(ast::Word::text).collect::<Vec<&str>>().join(".");
         let first = from.first()?;
         let Some(text) = self.text_named(file, &name) else {
             let message = format!("{name} is no text that is used here");

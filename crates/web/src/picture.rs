@@ -38,40 +38,7 @@ pub fn Picture(
     let painter = StoredValue::new_local(None::<Painter>);
     let hand = hand::Hand::new(lab, canvas);
     let marked = lab.marked;
-    let states = Memo::new(move |_| lab.structure.with(|rows| states(rows)));
-    // what a drag leaves as it is
-    let form = Memo::new(move |_| lab.picture.with(|p| (p.made, p.paths.len(), p.grips.len())));
-    let freedom = Memo::new(move |_| {
-        form.track();
-        states.with(|states| lab.picture.with_untracked(|p| grip_freedom(p, states)))
-    });
-    let marks = Memo::new(move |_| {
-        form.track();
-        marked.with(|marked| lab.picture.with_untracked(|picture| marks(picture, marked)))
-    });
-    let listed = move |picture: &PictureView, part: Part<'_>| {
-        freedom.with(|freedom| marks.with(|marks| display_list(picture, part, freedom, marks)))
-    };
-    let still = Memo::new(move |_| {
-        lab.moved.with(|moved| {
-            let is_split = *moved != MovedView::Everything;
-            let list = || lab.picture.with_untracked(|p| listed(p, Part::Still(moved)));
-            is_split.then(|| Arc::new(list()))
-        })
-    });
-    let list = Memo::new(move |_| {
-        lab.picture.with(|picture| {
-            let mut list = lab.moved.with(|moved| listed(picture, Part::Moving(moved)));
-            lab.ghosts.with(|drawn| ghosts(&mut list, drawn));
-            lab.motion.with(|motion| arrows(&mut list, picture, motion));
-            lab.tool_view.with(|tool| {
-                preview(&mut list, &tool.preview);
-                tool.caught.iter().for_each(|found| caught(&mut list, found));
-            });
-            lab.dropping.with(|d| d.iter().for_each(|(_, found)| caught(&mut list, found)));
-            list
-        })
-    });
+    let lists = lists(lab);
     Effect::new(move |_| {
         if let Some(canvas) = canvas.get() {
             painter.set_value(Some(new_painter(&canvas, size)));
@@ -89,35 +56,7 @@ pub fn Picture(
         lab.colors.changes.track();
         painter.with_value(|p| p.as_ref().map(Painter::look));
     });
-    Effect::new(move |last: Option<Painted>| {
-        lab.colors.changes.track();
-        let grid_of = |view: &View| match lab.grid.get() {
-            true => grid(view, size.get()),
-            false => Vec::new(),
-        };
-        let (view, still, last) = (lab.view.get(), still.get(), last.unwrap_or_default());
-        let looks = lab.colors.changes.get_untracked();
-        let under =
-            still.map(|list| Under { list, view, size: size.get(), grid: lab.grid.get(), looks });
-        painter
-            .with_value(|painter| {
-                let painter = painter.as_ref()?;
-                let mut last = last;
-                match &under {
-                    Some(now) if last.under.as_ref() != Some(now) => {
-                        painter.forget();
-                        last.texts = paint(painter, &now.list, grid_of(&view), &view, last.texts);
-                        painter.keep();
-                    }
-                    Some(_) => {}
-                    None => painter.forget(),
-                }
-                let lines = if under.is_some() { Vec::new() } else { grid_of(&view) };
-                let texts = list.with(|list| paint(painter, list, lines, &view, last.texts));
-                Some(Painted { texts, under })
-            })
-            .unwrap_or_default()
-    });
+    keep_painted(lab, painter, size, lists);
 
     let label = Memo::new(move |_| {
         let title = lab.document.with(|d| d.as_ref().map_or_else(String::new, |d| d.title.clone()));
@@ -179,6 +118,86 @@ pub fn Picture(
             </div>
         </section>
     }
+}
+
+/// The display lists of the picture: what lies under what moves, where something is dragged, and the rest.
+type Lists = (Memo<Option<Arc<DisplayList>>>, Memo<DisplayList>);
+
+fn lists(lab: Lab) -> Lists {
+    let marked = lab.marked;
+    let states = Memo::new(move |_| lab.structure.with(|rows| states(rows)));
+    // what a drag leaves as it is
+    let form = Memo::new(move |_| lab.picture.with(|p| (p.made, p.paths.len(), p.grips.len())));
+    let freedom = Memo::new(move |_| {
+        form.track();
+        states.with(|states| lab.picture.with_untracked(|p| grip_freedom(p, states)))
+    });
+    let marks = Memo::new(move |_| {
+        form.track();
+        marked.with(|marked| lab.picture.with_untracked(|picture| marks(picture, marked)))
+    });
+    let listed = move |picture: &PictureView, part: Part<'_>| {
+        freedom.with(|freedom| marks.with(|marks| display_list(picture, part, freedom, marks)))
+    };
+    let still = Memo::new(move |_| {
+        lab.moved.with(|moved| {
+            let is_split = *moved != MovedView::Everything;
+            let list = || lab.picture.with_untracked(|p| listed(p, Part::Still(moved)));
+            is_split.then(|| Arc::new(list()))
+        })
+    });
+    let list = Memo::new(move |_| {
+        lab.picture.with(|picture| {
+            let mut list = lab.moved.with(|moved| listed(picture, Part::Moving(moved)));
+            lab.ghosts.with(|drawn| ghosts(&mut list, drawn));
+            lab.motion.with(|motion| arrows(&mut list, picture, motion));
+            lab.tool_view.with(|tool| {
+                preview(&mut list, &tool.preview);
+                tool.caught.iter().for_each(|found| caught(&mut list, found));
+            });
+            lab.dropping.with(|d| d.iter().for_each(|(_, found)| caught(&mut list, found)));
+            list
+        })
+    });
+    (still, list)
+}
+
+/// Paints a frame whenever something in it is another.
+fn keep_painted(
+    lab: Lab,
+    painter: StoredValue<Option<Painter>, LocalStorage>,
+    size: RwSignal<(f64, f64)>,
+    (still, list): Lists,
+) {
+    Effect::new(move |last: Option<Painted>| {
+        lab.colors.changes.track();
+        let grid_of = |view: &View| match lab.grid.get() {
+            true => grid(view, size.get()),
+            false => Vec::new(),
+        };
+        let (view, still, last) = (lab.view.get(), still.get(), last.unwrap_or_default());
+        let looks = lab.colors.changes.get_untracked();
+        let under =
+            still.map(|list| Under { list, view, size: size.get(), grid: lab.grid.get(), looks });
+        painter
+            .with_value(|painter| {
+                let painter = painter.as_ref()?;
+                let mut last = last;
+                match &under {
+                    Some(now) if last.under.as_ref() != Some(now) => {
+                        painter.forget();
+                        last.texts = paint(painter, &now.list, grid_of(&view), &view, last.texts);
+                        painter.keep();
+                    }
+                    Some(_) => {}
+                    None => painter.forget(),
+                }
+                let lines = if under.is_some() { Vec::new() } else { grid_of(&view) };
+                let texts = list.with(|list| paint(painter, list, lines, &view, last.texts));
+                Some(Painted { texts, under })
+            })
+            .unwrap_or_default()
+    });
 }
 
 /// What the painter has painted last.

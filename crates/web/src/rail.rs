@@ -76,7 +76,7 @@ impl Lab {
 
     /// Lays the tool down.
     pub fn drop_tool(self) {
-        self.tell(|session, id| session.drop_tool(id));
+        self.tell(session::Session::drop_tool);
         self.tool.set(None);
         self.carried.set_value(false);
         self.cursor.set(None);
@@ -96,7 +96,7 @@ impl Lab {
     pub fn escape_tool(self) {
         match self.tool.get_untracked() {
             Some(class) if self.tool_view.with_untracked(|view| view.begun) => {
-                self.take_tool(&class)
+                self.take_tool(&class);
             }
             _ => self.drop_tool(),
         }
@@ -132,7 +132,7 @@ impl Lab {
             return;
         }
         self.select(Some(view.makes));
-        match self.tell(|session, id| session.take_tool_again(id)) {
+        match self.tell(session::Session::take_tool_again) {
             Some(Some(view)) => self.show_tool(view),
             _ => self.drop_tool(),
         }
@@ -196,11 +196,11 @@ impl Lab {
         let Some(id) = self.id() else { return };
         match self.ask(|session| session.insertion(id, class)) {
             Ok(command) => {
-                let before = self.structure.with_untracked(|rows| rows.len());
+                let before = self.structure.with_untracked(Vec::len);
                 self.apply_as_meant(&command);
                 let made = self.structure.with_untracked(|rows| {
-                    let own = rows.iter().filter(|row| row.depth == 1 && row.kind.is_thing());
-                    own.last().map(|row| row.path.clone()).filter(|_| rows.len() > before)
+                    let mut own = rows.iter().filter(|row| row.depth == 1 && row.kind.is_thing());
+                    own.next_back().map(|row| row.path.clone()).filter(|_| rows.len() > before)
                 });
                 self.select(made);
             }

@@ -70,7 +70,8 @@ pub fn Splitter(
     };
     let now = RwSignal::new(least);
     Effect::new(move |_| {
-        (size.track(), bar.track());
+        size.track();
+        bar.track();
         request_animation_frame(move || {
             // A bar that is gone needs no value.
             let _ = now.try_set(present());

@@ -32,9 +32,8 @@ fn main() -> ExitCode {
     });
     let further: Vec<PathBuf> = arguments.map(PathBuf::from).collect();
     let written = result.map_err(|error| format!("{error:#}")).and_then(|()| {
-        let all = made.iter().chain(&further);
-        all.map(|file| compress(file, Path::new(&folder)))
-            .collect::<io::Result<()>>()
+        let mut all = made.iter().chain(&further);
+        all.try_for_each(|file| compress(file, Path::new(&folder)))
             .map_err(|error| error.to_string())
     });
     match written {

@@ -128,7 +128,7 @@ fn on_segment((x, y): (f64, f64), a: Point, b: Point) -> Option<(f64, f64)> {
     let (dx, dy) = (b.x - a.x, b.y - a.y);
     let square = dx * dx + dy * dy;
     let along = ((x - a.x) * dx + (y - a.y) * dy) / square;
-    (0.0..=1.0).contains(&along).then(|| (a.x + along * dx, a.y + along * dy))
+    (0.0..=1.0).contains(&along).then_some((a.x + along * dx, a.y + along * dy))
 }
 
 /// The nearest point of a circle.

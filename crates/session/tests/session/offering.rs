@@ -79,7 +79,7 @@ fn a_dimension_begins_with_what_is_measured_and_takes_another_value() {
     desk.undo();
     take(&mut desk, &["p", "q"], "distance", Some("100"));
     let (p, q) = (desk.place("p"), desk.place("q"));
-    assert!(((q.0 - p.0).hypot(q.1 - p.1) - 100.0).abs() < 1e-9);
+    assert!((base::number::hypot(q.0 - p.0, q.1 - p.1) - 100.0).abs() < 1e-9);
     // it is a thing of its own, whose value can be typed
     desk.type_in("distance.value", "20").expect("it can be set");
 }
