@@ -186,6 +186,98 @@ fn the_suite_comes_out_as_it_says() {
     assert_as_written("tests/suite");
 }
 
+/// What a document is told: a line for each diagnostic, with its hint below.
+fn told(text: &str) -> String {
+    let (session, id) = opened(Path::new("mistake"), text);
+    let mut out = String::new();
+    let errors = session.text(id).diagnostics.into_iter().filter(|d| d.severity == "error");
+    for d in errors {
+        let _ = writeln!(out, ">> {} {}:{} {}", d.code, d.line, d.column, d.message);
+        if let Some(hint) = d.hint {
+            let _ = writeln!(out, "   {hint}");
+        }
+    }
+    out
+}
+
+/// Every mistake of the table is told by its code, at its place, in these words; none is told twice or not at all. With
+/// `UPDATE_MISTAKES` set, the table is written anew.
+#[test]
+fn mistakes_of_beginners_are_told_as_a_teacher_would() {
+    let path = root().join("tests/suite/diagnostics/mistakes.txt");
+    let table = read(&path);
+    let mut blocks = table.split("\n== ");
+    let mut renewed = blocks.next().expect("the table begins with its explanation").to_string();
+    let mut count = 0;
+    for block in blocks {
+        count += 1;
+        let (title, rest) = block.split_once('\n').expect("a title has a document");
+        let is_answer = |line: &&str| line.starts_with(">> ");
+        let document: Vec<&str> = rest.lines().take_while(|line| !is_answer(line)).collect();
+        let document = document.join("\n");
+        let answer = told(&document);
+        assert!(!answer.is_empty(), "{title}: nobody says a word");
+        let _ = write!(renewed, "\n== {title}\n{document}\n{}", answer.trim_end());
+    }
+    assert!(count >= 60, "the table has {count} mistakes");
+    if std::env::var_os("UPDATE_MISTAKES").is_some() {
+        fs::write(&path, format!("{renewed}\n")).expect("the table can be written");
+    } else {
+        let differing = renewed.lines().zip(table.lines()).find(|(now, was)| now != was);
+        assert!(renewed.trim_end() == table.trim_end(), "now and in the table: {differing:#?}");
+    }
+}
+
+/// The tables of the language's own words, as the manual shows them.
+fn tables_of_words() -> String {
+    use session::vocabulary::{functions, prefixes, quantities, units};
+    let mut out = String::from("| function | of | where | |\n|---|---|---|---|\n");
+    for f in functions().iter().filter(|f| !f.answers.contains("picture")) {
+        let _ = writeln!(out, "| `{}` | {} | {} | {} |", f.call, f.takes, f.domain, f.doc);
+    }
+    out += "\n| units | of |\n|---|---|\n";
+    let mut rows: Vec<(String, Vec<String>)> = Vec::new();
+    for unit in units() {
+        let star = if unit.is_prefixed { "\\*" } else { "" };
+        let word = format!("`{}`{star} {}", unit.spelling, unit.name);
+        match rows.iter_mut().find(|(quantity, _)| *quantity == unit.quantity) {
+            Some((_, words)) => words.push(word),
+            None => rows.push((unit.quantity.clone(), vec![word])),
+        }
+    }
+    for (quantity, words) in rows {
+        let _ = writeln!(out, "| {} | {quantity} |", words.join(", "));
+    }
+    let prefixes = prefixes().map(|(letter, name, _)| format!("`{letter}` {name}"));
+    let _ = writeln!(out, "\nUnits with a star take every prefix of SI: {}.", prefixes.join(", "));
+    let quantity = |(name, unit): (&str, String)| match unit.is_empty() {
+        true => format!("`{name}`"),
+        false => format!("`{name}` ({unit})"),
+    };
+    let quantities: Vec<String> = quantities().into_iter().map(quantity).collect();
+    let _ = writeln!(out, "\nThe quantities are {}.", quantities.join(", "));
+    out
+}
+
+/// The page lists every function, unit and quantity that there is. With `UPDATE_BOOK` set, the lists are written anew.
+#[test]
+fn the_book_lists_the_words_of_the_language() {
+    const FIRST: &str = "<!-- words -->\n";
+    const LAST: &str = "<!-- end of words -->";
+    let path = root().join("book/language.md");
+    let page = read(&path);
+    let (before, rest) = page.split_once(FIRST).expect("the page has a place for them");
+    let (written, after) = rest.split_once(LAST).expect("the place has an end");
+    let words = tables_of_words();
+    if std::env::var_os("UPDATE_BOOK").is_some() {
+        fs::write(&path, format!("{before}{FIRST}{words}{LAST}{after}"))
+            .expect("it can be written");
+    } else {
+        let differing = words.lines().zip(written.lines()).find(|(now, was)| now != was);
+        assert!(words == written, "in the table and in the book: {differing:#?}");
+    }
+}
+
 #[test]
 fn the_gallery_comes_out_as_it_says() {
     assert_as_written("gallery");

@@ -8,7 +8,7 @@ use crate::operate::finite;
 use base::Name;
 use base::number::{
     acos, acosh, asin, asinh, atan, atan2, atanh, cbrt, cos, cosh, exp, joined, ln, log2, log10,
-    rounded, shortest, sin, sinh, sqrt, tan, tanh,
+    pow, rounded, shortest, sin, sinh, sqrt, tan, tanh,
 };
 use drawing::metrics;
 use expr::dimension::Dimension;
@@ -160,6 +160,15 @@ impl<'a> Evaluator<'a> {
             NumberMessage::Text => {
                 let digits = arguments.first().map(|d| self.digits(d)).transpose()?;
                 Ok(Answer::text(&number_text(x, digits)))
+            }
+            NumberMessage::Shown => {
+                let scale = pow(self.document.units_per_metre, f64::from(dimension.0[0]));
+                // what the sheet's own unit measures has none
+                if dimension.0[1..].iter().all(|&exponent| exponent == 0) {
+                    return Ok(Answer::text(&expr::units::six_digits(x)));
+                }
+                let (number, unit) = expr::units::engineering(x / scale, dimension);
+                Ok(Answer::text(format!("{number} {unit}").trim_end()))
             }
             NumberMessage::Sqrt => finite(sqrt(x), measure::power(dimension, 0.5)),
             NumberMessage::Abs => Ok(Answer::Number(x.abs(), dimension)),

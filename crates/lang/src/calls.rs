@@ -152,7 +152,8 @@ impl Lowerer<'_> {
             Kind::Thing(class) => {
                 self.refer(Place { file: scope.file, span: word.span() }, &name, *class);
                 if let Some(part) = self.class_of_part(*class, &name) {
-                    self.takes_none(scope, word, &args)?;
+                    let is_list = matches!(Kind::of_class(&self.document, part), Kind::List(_));
+                    self.takes_none(scope, word, &args, is_list)?;
                     return Some((Vec::new(), Kind::of_class(&self.document, part)));
                 }
                 match self.find_message(*class, &name, None).map(|(c, _)| c) {
@@ -182,12 +183,17 @@ impl Lowerer<'_> {
         }
     }
 
-    fn takes_none(&mut self, scope: &Scope, word: &ast::Word, args: &[Arg]) -> Option<()> {
+    fn takes_none(
+        &mut self,
+        scope: &Scope,
+        word: &ast::Word,
+        args: &[Arg],
+        is_list: bool,
+    ) -> Option<()> {
         if args.is_empty() {
             return Some(());
         }
-        let message = format!("{} is a part: it takes no arguments", word.text());
-        self.error("wrong-arity", scope.file, word.span(), message);
+        self.takes_no_arguments(scope, word, is_list);
         None
     }
 

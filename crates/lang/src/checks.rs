@@ -3,6 +3,7 @@
 //! A check's own members are kept as text: whoever runs the check adds them to a copy of the
 //! document. Its statements are lowered as if they stood at the end of that copy.
 
+use crate::loops::{members_of, turn_of};
 use crate::lower::{Lowerer, OWN};
 use crate::paths::loose_path;
 use crate::scope::Scope;
@@ -32,6 +33,8 @@ pub struct Statement {
     pub kind: StatementKind,
     /// Where it stands.
     pub span: Span,
+    /// Where the loop or condition stands that it is part of, the outermost; else where it stands.
+    pub whole: Span,
 }
 
 /// What a statement says.
@@ -114,20 +117,60 @@ fn lower_check(l: &mut Lowerer<'_>, check: &ast::Check) -> Check {
     let scope = Scope::of(OWN, class);
     let mut lowered = Vec::new();
     let mut restructured = false;
-    for member in statements {
-        let span = ast::span_without_doc(member.syntax());
-        // what stands after an edit of the structure can be told only once that edit is made
-        l.silent += u32::from(restructured);
-        let kind = statement(l, &scope, &member).unwrap_or(StatementKind::Unclear);
-        l.silent -= u32::from(restructured);
-        restructured |= restructures(l, scope.class(), &kind);
-        lowered.push(Statement { kind, span });
+    for member in &statements {
+        let whole = ast::span_without_doc(member.syntax());
+        let before = lowered.len();
+        let one = std::slice::from_ref(member);
+        lower_statements(l, &scope, one, (&mut lowered, &mut restructured));
+        lowered.iter_mut().skip(before).for_each(|s: &mut Statement| s.whole = whole);
     }
     Check {
         title: check.name().map(|w| w.unquoted()).unwrap_or_default(),
         span: ast::span_without_doc(check.syntax()),
         members: own.iter().map(|m| m.syntax().text().to_string().into()).collect(),
         statements: lowered,
+    }
+}
+
+/// Lowers statements in order; those in a `for` once for every turn, those under a condition of constants where it
+/// holds.
+fn lower_statements(
+    l: &mut Lowerer<'_>,
+    scope: &Scope,
+    statements: &[Member],
+    (lowered, restructured): (&mut Vec<Statement>, &mut bool),
+) {
+    for member in statements {
+        match member {
+            Member::For(each) => {
+                let members = members_of(each);
+                let (Some(turns), Some(range)) = (l.turns(scope, each), each.range()) else {
+                    continue;
+                };
+                let count = (turns.count as usize).saturating_mul(members.len().max(1));
+                if !l.may_unroll(scope, &range, count) {
+                    return;
+                }
+                for turn in 0..turns.count {
+                    let inner = turn_of(scope, &turns, turn);
+                    lower_statements(l, &inner, &members, (&mut *lowered, &mut *restructured));
+                }
+            }
+            Member::If(choice) => {
+                let chosen = l.chosen(scope, choice).unwrap_or_default();
+                lower_statements(l, scope, &chosen, (&mut *lowered, &mut *restructured));
+            }
+            _ => {
+                let span = ast::span_without_doc(member.syntax());
+                // what stands after an edit of the structure can be told only once that edit is made
+                let silent = u32::from(*restructured);
+                l.silent += silent;
+                let kind = statement(l, scope, member).unwrap_or(StatementKind::Unclear);
+                l.silent -= silent;
+                *restructured |= restructures(l, scope.class(), &kind);
+                lowered.push(Statement { kind, span, whole: span });
+            }
+        }
     }
 }
 
@@ -160,6 +203,12 @@ fn restructures(l: &Lowerer<'_>, class: ClassId, statement: &StatementKind) -> b
 }
 
 fn is_statement(member: &Member) -> bool {
+    if let Member::For(each) = member {
+        return members_of(each).iter().any(is_statement);
+    }
+    if let Member::If(choice) = member {
+        return choice.then_body().is_some_and(|b| b.members().any(|m| is_statement(&m)));
+    }
     matches!(
         member,
         Member::Set(_)
@@ -231,9 +280,17 @@ fn statement(l: &mut Lowerer<'_>, scope: &Scope, member: &Member) -> Option<Stat
 /// Reads the path that a command is about. It may lead to what an edit before it adds.
 fn spoken_of(l: &mut Lowerer<'_>, scope: &Scope, e: &ast::Expr) -> Option<Path> {
     l.silent += 1;
-    let _ = l.expr(scope, e);
+    let found = l.expr(scope, e);
     l.silent -= 1;
-    loose_path(e)
+    path_in_turn(scope, e, found.map(|(term, _)| term))
+}
+
+/// Returns the path that an expression is; in a turn of a `for` the one that its names stand for there.
+fn path_in_turn(scope: &Scope, e: &ast::Expr, term: Option<Term>) -> Option<Path> {
+    match term {
+        Some(term) if !scope.turns.is_empty() => term.path().or_else(|| loose_path(e)),
+        _ => loose_path(e),
+    }
 }
 
 fn targets(
@@ -249,8 +306,8 @@ fn targets(
             continue;
         }
         // the path may be virtual: it is lowered as an expression to be checked
-        let (_, kind) = l.expr(scope, &e)?;
-        let Some(path) = loose_path(&e) else {
+        let (term, kind) = l.expr(scope, &e)?;
+        let Some(path) = path_in_turn(scope, &e, Some(term)) else {
             let message = "a path is wanted: `a.b.c`".to_string();
             l.error("not-a-path", scope.file, e.span(), message);
             return None;
@@ -304,7 +361,11 @@ fn expectation(l: &mut Lowerer<'_>, scope: &Scope, e: &ast::Expect) -> Option<Ex
             for path in &paths {
                 l.expr(scope, path)?;
             }
-            let paths: Option<Vec<Path>> = paths.iter().map(loose_path).collect();
+            let path = |e: &ast::Expr| {
+                let term = l.expr(scope, e).map(|(term, _)| term);
+                path_in_turn(scope, e, term)
+            };
+            let paths: Option<Vec<Path>> = paths.iter().map(path).collect();
             Some(Expectation::Moved(paths?))
         }
         ast::Expectation::Free(n) => {

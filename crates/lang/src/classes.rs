@@ -25,7 +25,7 @@ impl Lowerer<'_> {
         ];
         let quantities = Dimension::names().filter_map(|name| {
             let dimension = Dimension::by_name(name)?;
-            (!dimension.is_none()).then_some((name, Primitive::Real(dimension)))
+            (!matches!(name, "Real" | "Angle")).then_some((name, Primitive::Real(dimension)))
         });
         for (name, primitive) in primitives.into_iter().chain(quantities) {
             let object = self.object;

@@ -564,6 +564,10 @@ fn names_of_counts(node: &SyntaxNode) -> impl Iterator<Item = Name> {
         if let Some(each) = ast::For::cast(n.clone()) {
             return each.range().filter(|r| matches!(r, Expr::Range(_)));
         }
+        if let Some(choice) = ast::If::cast(n.clone()) {
+            let in_program = n.ancestors().any(|above| above.kind() == SyntaxKind::Program);
+            return choice.condition().filter(|_| !in_program);
+        }
         match ast::Type::cast(n)?.shape() {
             TypeShape::List { count, .. } => count,
             _ => None,

@@ -18,7 +18,8 @@
 //! stays in force; reading a number that was written gives its bits.
 //!
 //! Reading order: `origins`, `lower`, `files`, `visible`, `classes`, `scope`, `members`, `programs`, `families`, `loops`,
-//! `rules`, `switches`, `kept`, `names`, `paths`, `refine`, `terms`, `components`, `calls`, `kin`, `kinds`, `settle`, `restore`,
+//! `rules`, `switches`, `kept`, `names`, `hints`, `paths`, `refine`, `terms`, `components`, `calls`, `kin`, `kinds`,
+//! `settle`, `restore`,
 //! `checks`,
 //! `numbers`, `shown`, `write`, `uses`,
 //! `edits`.
@@ -31,6 +32,7 @@ mod counts;
 mod edits;
 mod families;
 mod files;
+mod hints;
 mod kept;
 mod kin;
 mod kinds;

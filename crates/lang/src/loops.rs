@@ -149,7 +149,12 @@ impl Lowerer<'_> {
             let place = Place { file: scope.file, span: list.span() };
             let message = "a `for` goes through a range of whole numbers, a list that is a part, or what is listed";
             let d = Diagnostic::error("not-a-path", place, message);
-            self.report(d.hint("declare the list as a part, or write `for a in [b, c]`"));
+            let counted = matches!(list, Expr::Number(_));
+            let number = list.syntax().text();
+            self.report(match counted {
+                true => d.hint(format!("write `0..<{number}` for the numbers below {number}")),
+                false => d.hint("declare the list as a part, or write `for a in [b, c]`"),
+            });
             return None;
         }
         let (path, class) = self.path(scope, &list)?;
@@ -348,7 +353,8 @@ fn written_turns(each: &ast::For) -> usize {
     match (range.start(), range.end()) {
         (Some(Expr::Number(from)), Some(Expr::Number(to))) => {
             let ends = from.value().zip(to.value());
-            ends.map_or(1, |(from, to)| (to - from + 1.0).max(0.0) as usize)
+            let last = f64::from(u8::from(!range.is_open()));
+            ends.map_or(1, |(from, to)| (to - from + last).max(0.0) as usize)
         }
         _ => 1,
     }

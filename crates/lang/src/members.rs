@@ -11,7 +11,7 @@ use kernel::{
     Term,
 };
 use std::collections::BTreeMap;
-use syntax::ast::{self, AstNode, Expr, Member, TypeShape, span_without_doc};
+use syntax::ast::{self, AstNode, BinaryOp, Expr, Member, TypeShape, span_without_doc};
 
 /// A member whose expressions are still to be lowered.
 #[derive(Clone, Debug)]
@@ -71,6 +71,7 @@ impl Lowerer<'_> {
                 Member::Ref(reference) => self.declare_reference(scope, reference),
                 Member::Message(message) => self.declare_message(scope, &[], message),
                 Member::For(each) => self.unroll(scope, each),
+                Member::If(choice) => self.declare_choice(scope, choice),
                 Member::Modify(modify) => self.declare_modify(scope, modify),
                 Member::Assign(assign) if assign.is_guide() => {
                     let place = Place { file: scope.file, span: self.first_line(scope.file, span) };
@@ -135,7 +136,6 @@ impl Lowerer<'_> {
 
     fn refuse(&mut self, file: FileId, member: &Member, span: Span) {
         let what = match member {
-            Member::If(_) => "members under a condition are",
             Member::When(_) => "events are",
             Member::View(_) => "views of one's own are",
             Member::Toolbox(_) => "toolboxes are",
@@ -208,7 +208,80 @@ impl Lowerer<'_> {
     pub(crate) fn constant_range(&mut self, scope: &Scope, range: &Expr) -> Option<(i64, i64)> {
         let Expr::Range(range) = range else { return None };
         let from = self.constant(scope, &range.start()?)?;
-        Some((from, self.constant(scope, &range.end()?)?))
+        let end = self.constant(scope, &range.end()?)?;
+        Some((from, end.saturating_sub(i64::from(range.is_open()))))
+    }
+
+    /// Declares the members of the branch that a condition of constants chooses.
+    fn declare_choice(&mut self, scope: &Scope, choice: &ast::If) {
+        if let Some(members) = self.chosen(scope, choice) {
+            self.declare_body(scope, members);
+        }
+    }
+
+    /// Returns the members of the branch that a condition of constants chooses; reports one that no constants decide.
+    pub(crate) fn chosen(&mut self, scope: &Scope, choice: &ast::If) -> Option<Vec<Member>> {
+        let condition = choice.condition()?;
+        let Some(holds) = self.constant_truth(scope, &condition) else {
+            let message = "members stand under a condition that is known as the text stands";
+            let place = Place { file: scope.file, span: condition.span() };
+            let d = Diagnostic::error("not-a-constant", place, message);
+            let hint = "what depends on values is a rule: `constraint if c { a = b } else { … }`";
+            self.report(d.hint(hint));
+            return None;
+        };
+        match (holds, choice.else_branch()) {
+            (true, _) => Some(choice.then_body()?.members().collect()),
+            (false, Some(ast::Else::Body(body))) => Some(body.members().collect()),
+            (false, Some(ast::Else::If(next))) => self.chosen(scope, &next),
+            (false, None) => Some(Vec::new()),
+        }
+    }
+
+    /// Returns the truth value that an expression of constants is.
+    fn constant_truth(&mut self, scope: &Scope, e: &Expr) -> Option<bool> {
+        match e {
+            Expr::Bool(b) => Some(b.value()),
+            Expr::Paren(inner) => self.constant_truth(scope, &inner.inner()?),
+            Expr::Unary(u) if u.op()? == ast::UnaryOp::Not => {
+                Some(!self.constant_truth(scope, &u.operand()?)?)
+            }
+            Expr::Binary(b) => {
+                let (op, left, right) = (b.op()?, b.left()?, b.right()?);
+                match op {
+                    BinaryOp::And => Some(
+                        self.constant_truth(scope, &left)? && self.constant_truth(scope, &right)?,
+                    ),
+                    BinaryOp::Or => Some(
+                        self.constant_truth(scope, &left)? || self.constant_truth(scope, &right)?,
+                    ),
+                    _ => self.compared(scope, op, &left, &right),
+                }
+            }
+            Expr::Chain(chain) => {
+                let operands: Vec<Expr> = chain.operands().collect();
+                let mut holds = true;
+                for ((op, _), pair) in chain.ops().zip(operands.windows(2)) {
+                    holds &= self.compared(scope, op, &pair[0], &pair[1])?;
+                }
+                Some(holds)
+            }
+            _ => None,
+        }
+    }
+
+    /// Compares two numbers that are constants.
+    fn compared(&mut self, scope: &Scope, op: BinaryOp, a: &Expr, b: &Expr) -> Option<bool> {
+        let (a, b) = (self.constant_number(scope, a)?, self.constant_number(scope, b)?);
+        Some(match op {
+            BinaryOp::Equal => a == b,
+            BinaryOp::NotEqual => a != b,
+            BinaryOp::Less => a < b,
+            BinaryOp::LessEqual => a <= b,
+            BinaryOp::Greater => a > b,
+            BinaryOp::GreaterEqual => a >= b,
+            _ => return None,
+        })
     }
 
     /// Returns the whole number that an expression of constants is.

@@ -123,6 +123,8 @@ impl Lowerer<'_> {
         if self.visible.class(scope.file, word.text()).is_some() {
             let made = format!("it is a class: `{}(…)` makes a thing of it", word.text());
             d = d.hint(made);
+        } else if let Some(hint) = crate::hints::called_otherwise(word.text()) {
+            d = d.hint(hint);
         } else if self.may_guess() {
             let locals = scope.locals.iter().map(|(n, _)| n.to_string());
             let elements = scope.elements.iter().map(|e| e.name.to_string());

@@ -214,7 +214,7 @@ fn literal(expr: &Expr, class: Option<ClassId>, document: &Document) -> Result<L
         }
         Expr::Text(t) => match kind {
             None | Some(ClassKind::Primitive(Primitive::Text | Primitive::Color)) => {
-                Ok(Literal::Text(t.text().ok_or(Wrong::Value)?.unquoted()))
+                Ok(Literal::Text(t.plain().ok_or(Wrong::Value)?))
             }
             _ => Err(Wrong::Value),
         },

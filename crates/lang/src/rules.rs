@@ -138,7 +138,10 @@ impl Lowerer<'_> {
                 Some(c) if !path.is_empty() => vec![c],
                 _ => vec![scope.class()],
             };
-            let Some((rest, kind)) = self.path(&own, target) else { return };
+            let before = self.diagnostics.len();
+            let Some((rest, kind)) = self.path(&own, target) else {
+                return self.hint_target(before, &own, target, value);
+            };
             path = path.join(&rest);
             class = kind;
         }
@@ -148,7 +151,7 @@ impl Lowerer<'_> {
         if self.is_reference(scope.class(), &path) {
             self.leads_nowhere(before);
         }
-        let Some((term, kind)) = found else { return };
+        let Some((term, kind)) = found else { return self.hint_value(before, &wanted, value) };
         if let (Kind::Thing(given), Some(wanted)) = (&kind, class)
             && let Some((name, is, other)) = self.counts_apart(wanted, *given)
         {
@@ -165,7 +168,7 @@ impl Lowerer<'_> {
             let d = Diagnostic::error(code_for(&kind, &wanted), place, message);
             return self.report(match unit_before_equals(value) {
                 Some(unit) => d.hint(format!("`{unit}` is a unit here: write `;` before it")),
-                None => d,
+                None => self.with_value_hint(d, (&kind, &wanted), value),
             });
         }
         if class.is_some_and(|class| self.loses_elements(scope, &path, class, value)) {

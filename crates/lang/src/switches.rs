@@ -78,7 +78,7 @@ impl Lowerer<'_> {
     /// Reads a strength: one of four words.
     fn strength_named(&mut self, scope: &Scope, value: &Expr) -> Option<Strength> {
         let word = match value {
-            Expr::Text(text) => text.text().map(|w| w.unquoted()).unwrap_or_default(),
+            Expr::Text(text) => text.plain().unwrap_or_default(),
             Expr::Name(name) => name.name()?.text().to_string(),
             _ => String::new(),
         };

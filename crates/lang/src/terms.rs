@@ -23,7 +23,7 @@ impl Lowerer<'_> {
     fn expr_inside(&mut self, scope: &Scope, e: &Expr) -> Lowered {
         match e {
             Expr::Number(n) => self.number(scope, n),
-            Expr::Text(t) => Some((Term::Text(t.text()?.unquoted()), Kind::Text)),
+            Expr::Text(t) => self.text(scope, t),
             Expr::Bool(b) => Some((Term::Bool(b.value()), Kind::Bool)),
             Expr::Paren(inner) => self.expr(scope, &inner.inner()?),
             Expr::Name(n) => self.name(scope, &n.name()?),
@@ -53,7 +53,16 @@ impl Lowerer<'_> {
             Expr::Chain(chain) => self.chain(scope, chain),
             Expr::Range(range) => {
                 let a = self.plain(scope, &range.start()?)?;
-                let b = self.plain(scope, &range.end()?)?;
+                let end = self.plain(scope, &range.end()?)?;
+                let b = if range.is_open() {
+                    Term::Binary(
+                        BinaryOperator::Subtract,
+                        Box::new(end),
+                        Box::new(Term::number(1.0)),
+                    )
+                } else {
+                    end
+                };
                 let kind = Kind::List(Box::new(Kind::PLAIN));
                 Some((Term::Range(Box::new(a), Box::new(b)), kind))
             }
@@ -94,6 +103,47 @@ impl Lowerer<'_> {
         None
     }
 
+    /// Lowers a text: its words, and what is said of the values in it, joined.
+    fn text(&mut self, scope: &Scope, text: &ast::TextExpr) -> Lowered {
+        let mut joined: Option<Term> = None;
+        for piece in text.pieces() {
+            let term = match piece {
+                ast::TextPiece::Words(words) if words.is_empty() => continue,
+                ast::TextPiece::Words(words) => Term::Text(words),
+                ast::TextPiece::Value(value) => {
+                    let (term, kind) = self.expr(scope, &value)?;
+                    self.said(scope, value.span(), term, &kind)?
+                }
+            };
+            joined = Some(match joined {
+                None => term,
+                Some(before) => Term::Binary(BinaryOperator::Add, Box::new(before), Box::new(term)),
+            });
+        }
+        Some((joined.unwrap_or_else(|| Term::Text(String::new())), Kind::Text))
+    }
+
+    /// Makes the text that a value in a text is read as; reports one that is none.
+    fn said(&mut self, scope: &Scope, span: Span, term: Term, kind: &Kind) -> Option<Term> {
+        match kind {
+            Kind::Text => Some(term),
+            Kind::Number(_) => Some(Term::send(term, "shown")),
+            Kind::Bool | Kind::Unknown => Some(Term::send(term, "text")),
+            Kind::Thing(_) | Kind::List(_) | Kind::Tuple(_) | Kind::Picture | Kind::Function => {
+                let what = kind.words(&self.document);
+                let message =
+                    format!("found {what} in a text, wanted a number, a text or a truth value");
+                let d = Diagnostic::error(
+                    "value-of-wrong-class",
+                    Place { file: scope.file, span },
+                    message,
+                );
+                self.report(d.hint("name a part of it: `{p.x}`; a brace itself is doubled: `{{`"));
+                None
+            }
+        }
+    }
+
     fn plain(&mut self, scope: &Scope, e: &Expr) -> Option<Term> {
         self.expr_of(scope, e, &Kind::PLAIN)
     }
@@ -121,7 +171,7 @@ impl Lowerer<'_> {
         };
         let mut d = Diagnostic::error(code_for(left, right), place, message);
         if let (Kind::Text, Kind::Number(_)) | (Kind::Number(_), Kind::Text) = (left, right) {
-            d = d.hint("write `.text` after the number");
+            d = d.hint("put the value into the text: `\"x = {x}\"`");
         }
         if (left, right) == (&Kind::Picture, &Kind::Picture) {
             d = d.hint("`picture(a, b)` draws both");
@@ -168,7 +218,9 @@ impl Lowerer<'_> {
         // a unit after it or an operator's words: each of its factors by itself
         let meant = expr::units::meant(spelling);
         self.report(match meant.as_slice() {
-            [] => d,
+            [] => d.hint(
+                "known are m, s, kg, N, J, W, V, A, ohm, … with every prefix, and ft, lb, psi, …",
+            ),
             [one] => d.meant(one),
             several => d.hint(format!("write {}", several.join(" or "))),
         });
@@ -195,7 +247,17 @@ impl Lowerer<'_> {
             Kind::Unknown => Kind::Unknown,
             other => {
                 let message = format!("{} has no elements", other.words(&self.document));
-                self.error("value-of-wrong-class", scope.file, list.span(), message);
+                let place = Place { file: scope.file, span: list.span() };
+                let d = Diagnostic::error("value-of-wrong-class", place, message);
+                let is_literal = matches!(list, Expr::Number(_));
+                let written = (list.syntax().text(), at.syntax().text());
+                self.report(match is_literal {
+                    true => d.hint(format!(
+                        "a unit stands behind its number without brackets: `{} {}`",
+                        written.0, written.1
+                    )),
+                    false => d,
+                });
                 return None;
             }
         };

@@ -111,7 +111,10 @@ impl Run<'_> {
 
     /// Finds out what statements mean in the present structure, and what is wrong with them.
     fn lowered(&self, statements: &[Statement]) -> (Vec<Statement>, Option<String>) {
-        let sources: Vec<&str> = statements.iter().map(|s| self.source(s)).collect();
+        let mut wholes: Vec<base::Span> = statements.iter().map(|s| s.whole).collect();
+        wholes.dedup();
+        let source = |span: &base::Span| self.of.state.text.get(span.range()).unwrap_or_default();
+        let sources: Vec<&str> = wholes.iter().map(source).collect();
         let document = &self.open.state.text;
         let text = format!("{document}\ncheck \"\" {{\n{}\n}}\n", sources.join("\n"));
         let lowered = lang::lower(&text, &|name| self.host.read(name), None);
@@ -120,7 +123,16 @@ impl Run<'_> {
         });
         let message = own.map(|d| d.message.clone());
         let check = lowered.checks.into_iter().next();
-        (check.map(|c| c.statements).unwrap_or_default(), message)
+        let mut all = check.map(|c| c.statements).unwrap_or_default();
+        // a loop is read as a whole: what stands before these in it is left out
+        if let Some(first) = statements.first() {
+            let known = &self.check.statements;
+            let at = known.iter().position(|s| std::ptr::eq(s, first)).unwrap_or(0);
+            let before = known[..at].iter().rev().take_while(|s| s.whole == first.whole);
+            let before = before.count().min(all.len());
+            all.drain(..before);
+        }
+        (all, message)
     }
 
     fn is_told(&self, statement: &Statement) -> bool {

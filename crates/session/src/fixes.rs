@@ -8,13 +8,25 @@ use syntax::edit::{Spot, insert_member};
 /// Adds to every diagnostic of an unknown class the `use` that would bring it.
 pub(crate) fn add_uses(text: &str, diagnostics: &mut [Diagnostic], host: &dyn Host) {
     let own = FileId(0);
+    let missing = |d: &&mut Diagnostic| d.code == "missing-file" && d.place.file == own;
+    for diagnostic in diagnostics.iter_mut().filter(missing) {
+        let word = text.get(diagnostic.place.span.range()).unwrap_or_default();
+        let libraries = host.libraries();
+        let near = base::diagnostic::nearest(word, libraries.iter().map(String::as_str));
+        *diagnostic = match near {
+            Some(near) => diagnostic.clone().meant(near),
+            None if libraries.is_empty() => continue,
+            None => diagnostic.clone().hint(format!("the libraries are {}", libraries.join(", "))),
+        };
+    }
     let unknown = |d: &&mut Diagnostic| {
         matches!(d.code, "unknown-class" | "unknown-name") && d.place.file == own
     };
     let mut libraries: Option<Vec<(String, String)>> = None;
     for diagnostic in diagnostics.iter_mut().filter(unknown) {
         let word = text.get(diagnostic.place.span.range()).unwrap_or_default();
-        if !word.starts_with(char::is_uppercase) {
+        let is_visible = diagnostic.hint.as_ref().is_some_and(|h| h.starts_with("it is a class"));
+        if !word.starts_with(char::is_uppercase) || is_visible {
             continue;
         }
         let libraries = libraries.get_or_insert_with(|| {

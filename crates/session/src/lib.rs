@@ -38,6 +38,7 @@ mod state;
 mod texts;
 mod tools;
 mod views;
+pub mod vocabulary;
 mod words;
 mod write_back;
 mod yielding;

@@ -12,8 +12,8 @@ mod statements;
 pub use expressions::{
     AllExpr, Arg, ArgList, BinaryExpr, BinaryOp, Binding, BoolExpr, CallExpr, ChainExpr, CopyExpr,
     Expr, FieldExpr, IfExpr, IndexExpr, IsExpr, LambdaExpr, LetExpr, ListExpr, NameExpr,
-    NumberExpr, OwnerExpr, ParenExpr, RangeExpr, SuperExpr, TextExpr, TupleExpr, UnaryExpr,
-    UnaryOp,
+    NumberExpr, OwnerExpr, ParenExpr, RangeExpr, SuperExpr, TextExpr, TextPiece, TupleExpr,
+    UnaryExpr, UnaryOp,
 };
 pub use members::{
     Assign, Attachers, Class, Domain, DottedName, Message, Modify, Param, ParamList, Part, Ref,
@@ -120,21 +120,26 @@ impl Word {
         let text = self.token.text();
         let inner = text.strip_prefix('"').unwrap_or(text);
         let inner = inner.strip_suffix('"').unwrap_or(inner);
-        let mut out = String::with_capacity(inner.len());
-        let mut chars = inner.chars();
-        while let Some(c) = chars.next() {
-            out.push(match c {
-                '\\' => match chars.next() {
-                    Some('n') => '\n',
-                    Some('t') => '\t',
-                    Some(other) => other,
-                    None => '\\',
-                },
-                _ => c,
-            });
-        }
-        out
+        unescaped(inner)
     }
+}
+
+/// Reads escapes: `\n`, `\t`, `\"`, `\\`.
+pub(crate) fn unescaped(inner: &str) -> String {
+    let mut out = String::with_capacity(inner.len());
+    let mut chars = inner.chars();
+    while let Some(c) = chars.next() {
+        out.push(match c {
+            '\\' => match chars.next() {
+                Some('n') => '\n',
+                Some('t') => '\t',
+                Some(other) => other,
+                None => '\\',
+            },
+            _ => c,
+        });
+    }
+    out
 }
 
 pub(crate) fn child<N: AstNode>(node: &SyntaxNode) -> Option<N> {

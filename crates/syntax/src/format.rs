@@ -32,7 +32,12 @@ struct Piece {
 /// let parse = syntax::parse(base::FileId(0), "class A{x:Real=1\n   y :Real}");
 /// assert_eq!(syntax::format(&parse), "class A { x: Real = 1\n    y: Real }\n");
 /// ```
+///
+/// A text with a brace that nothing closes stays as it is: how its lines are indented says where the brace ends.
 pub fn format(parse: &Parse) -> String {
+    if parse.diagnostics().iter().any(|d| d.code == "expected-brace") {
+        return parse.text().to_string();
+    }
     let pieces = pieces(&parse.syntax());
     let mut layout = Layout::default();
     for i in 0..pieces.len() {
@@ -261,6 +266,8 @@ fn tight(pieces: &[Piece], i: usize) -> bool {
 fn joins(left: &Piece, right: &Piece) -> bool {
     let tight_left = match left.kind {
         SyntaxKind::LParen | SyntaxKind::LBracket | SyntaxKind::Dot | SyntaxKind::DotDot => true,
+        SyntaxKind::TextOpen | SyntaxKind::TextMiddle => true,
+        SyntaxKind::Less => left.parent == SyntaxKind::RangeExpr,
         SyntaxKind::Caret => true,
         SyntaxKind::Minus | SyntaxKind::Plus => left.parent == SyntaxKind::UnaryExpr,
         SyntaxKind::Slash => left.parent == SyntaxKind::UnitLine,
@@ -274,6 +281,8 @@ fn joins(left: &Piece, right: &Piece) -> bool {
         | SyntaxKind::Colon
         | SyntaxKind::Dot
         | SyntaxKind::DotDot
+        | SyntaxKind::TextMiddle
+        | SyntaxKind::TextClose
         | SyntaxKind::Caret => true,
         SyntaxKind::LParen => {
             matches!(right.parent, SyntaxKind::ArgList | SyntaxKind::ParamList)

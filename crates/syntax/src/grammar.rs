@@ -4,6 +4,7 @@
 
 mod expressions;
 mod members;
+mod mistakes;
 mod programs;
 mod rules;
 mod statements;
@@ -31,7 +32,8 @@ pub(crate) fn file(p: &mut Parser<'_>, scope: Scope) {
     elements(p, scope);
     while !p.at(Eof) {
         p.begin_member();
-        p.report("unexpected-brace", "found `}`, which closes nothing".into(), None);
+        let hint = "take it away, or write the `{` that it closes";
+        p.report("unexpected-brace", "found `}`, which closes nothing".into(), Some(hint.into()));
         p.skip_line();
         elements(p, scope);
     }
@@ -59,11 +61,19 @@ fn body(p: &mut Parser<'_>, scope: Scope) {
     }
     p.nested(|p| {
         outside_brackets(p, |p| {
+            let opener = p.pos();
+            let indent = (!p.is_closed()).then(|| p.indent());
+            let outside = std::mem::replace(&mut p.unclosed_body, indent);
             p.start(Body);
             p.bump();
             elements(p, scope);
-            p.expect(RBrace, "expected-brace", "`}`");
+            if indent.is_some() {
+                mistakes::unclosed(p, opener);
+            } else {
+                p.expect(RBrace, "expected-brace", "`}`");
+            }
             p.finish();
+            p.unclosed_body = outside;
         });
     });
 }
@@ -79,7 +89,7 @@ fn outside_brackets(p: &mut Parser<'_>, f: impl FnOnce(&mut Parser<'_>)) {
 /// The members or statements up to a `}` or the end.
 fn elements(p: &mut Parser<'_>, scope: Scope) {
     list(p, |p| {
-        if !(p.at(IfKw) && statements::conditional(p, scope)
+        if !(p.at(IfKw) && !p.names_itself(1) && statements::conditional(p, scope)
             || statements::statement(p, scope)
             || programs::member(p, scope)
             || members::member(p))
@@ -94,6 +104,9 @@ fn list(p: &mut Parser<'_>, mut element: impl FnMut(&mut Parser<'_>)) {
     while !p.at(Eof) && !p.at(RBrace) {
         if p.eat(Semicolon) {
             continue;
+        }
+        if p.unclosed_body.is_some_and(|indent| p.begins_line(0) && p.indent() <= indent) {
+            break;
         }
         let before = p.pos();
         p.begin_member();

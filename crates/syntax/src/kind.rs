@@ -30,6 +30,12 @@ kinds! {
     Unit,
     /// `"…"`, with its quotes.
     Text,
+    /// `"… {`: a text up to the first value in it.
+    TextOpen,
+    /// `} … {`: a text between two values in it.
+    TextMiddle,
+    /// `} …"`: a text behind the last value in it.
+    TextClose,
     /// A name.
     Ident,
     /// A word that is a keyword only where it stands.

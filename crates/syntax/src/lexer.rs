@@ -17,6 +17,7 @@ pub(crate) struct RawToken {
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub(crate) enum Fault {
     UnterminatedText,
+    UnterminatedValue,
     UnterminatedComment,
     UnknownCharacter,
 }
@@ -35,11 +36,23 @@ pub(crate) struct Lexed {
 pub(crate) fn lex(text: &str) -> Lexed {
     assert!(u32::try_from(text.len()).is_ok(), "a text is shorter than 4 GiB");
     let mut lexed = Lexed { tokens: Vec::with_capacity(text.len() / 3 + 2), faults: Vec::new() };
-    let mut at = 0;
+    add_tokens(text, 0, &mut lexed);
+    lexed.tokens.push(RawToken { kind: SyntaxKind::Eof, start: text.len() as u32 });
+    lexed
+}
+
+/// Adds the tokens of a text from a place on.
+fn add_tokens(text: &str, from: usize, lexed: &mut Lexed) {
+    let mut at = from;
     let mut after_of = false;
     while at < text.len() {
         let (kind, length) = token(&text[at..]);
         let end = at + length;
+        if kind == SyntaxKind::Text && closed(&text[at..end]) && add_pieces(&text[..end], at, lexed)
+        {
+            (at, after_of) = (end, false);
+            continue;
+        }
         lexed.tokens.push(RawToken { kind, start: at as u32 });
         if let Some(fault) = fault(kind, &text[at..end]) {
             lexed.faults.push((Span::new(at as u32, end as u32), fault));
@@ -53,8 +66,39 @@ pub(crate) fn lex(text: &str) -> Lexed {
             after_of = kind == SyntaxKind::Ident && &text[start..end] == "of";
         }
     }
-    lexed.tokens.push(RawToken { kind: SyntaxKind::Eof, start: at as u32 });
-    lexed
+}
+
+/// Adds the tokens of the quoted text that begins at `start` and ends `text`, if there are values in it: `"R = {r} ohm"`.
+///
+/// Returns false where there are none. Braces that are no values are doubled.
+fn add_pieces(text: &str, start: usize, lexed: &mut Lexed) -> bool {
+    let bytes = text.as_bytes();
+    let mut piece = (SyntaxKind::TextOpen, start);
+    let mut at = start + 1;
+    while at + 1 < text.len() {
+        match bytes[at] {
+            b'\\' => at += 2,
+            b'{' if bytes[at + 1] == b'{' => at += 2,
+            b'{' => {
+                let Some(length) = text[at..].find('}') else {
+                    let span = Span::new(at as u32, text.len() as u32);
+                    lexed.faults.push((span, Fault::UnterminatedValue));
+                    break;
+                };
+                lexed.tokens.push(RawToken { kind: piece.0, start: piece.1 as u32 });
+                add_tokens(&text[..at + length], at + 1, lexed);
+                at += length;
+                piece = (SyntaxKind::TextMiddle, at);
+                at += 1;
+            }
+            _ => at += 1,
+        }
+    }
+    if piece.0 == SyntaxKind::TextOpen {
+        return false;
+    }
+    lexed.tokens.push(RawToken { kind: SyntaxKind::TextClose, start: piece.1 as u32 });
+    true
 }
 
 /// Adds the unit of the number that ends at `end`, if it has one; returns where to go on.
@@ -313,6 +357,15 @@ mod tests {
         check("\"a\nb", "Text \"a | Ident b");
         assert_eq!(lex("\"a\\\"").faults.len(), 1);
         assert_eq!(lex("\"a\\\\\"").faults.len(), 0);
+    }
+    #[test]
+    fn a_text_has_values_in_it() {
+        check(
+            r#""R = {r.x} ohm, {2 mm}" x"#,
+            r#"TextOpen "R = { | Ident r | Dot . | Ident x | TextMiddle } ohm, { | Number 2 | Unit mm | TextClose }" | Ident x"#,
+        );
+        check(r#""{{a}} \\{b""#, r#"Text "{{a}} \\{b""#);
+        assert_eq!(lex(r#""a {b""#).faults.len(), 1);
     }
     #[test]
     fn comments() {

@@ -48,15 +48,24 @@ pub(crate) struct Parser<'t> {
     pub(crate) unclosed: u32,
     /// Inside the bindings of a `let`, where `in` is not an operator.
     pub(crate) in_bindings: bool,
+    /// How far the line is indented that opens a brace which nothing closes: what begins a line no further in stands
+    /// behind it.
+    pub(crate) unclosed_body: Option<usize>,
 }
 
 impl<'t> Parser<'t> {
     pub(crate) fn new(file: FileId, text: &'t str, lexed: Lexed) -> Self {
-        let diagnostics = lexed
-            .faults
-            .iter()
-            .map(|&(span, fault)| token_fault(file, text, span, fault))
-            .collect();
+        // the same strange character again on a line, as the other quote, says nothing new
+        let is_new = |&(i, (span, fault)): &(usize, &(Span, Fault))| {
+            let again = i.checked_sub(1).and_then(|i| lexed.faults.get(i));
+            again.is_none_or(|(before, other)| {
+                let alike = fault == other && text[before.range()] == text[span.range()];
+                !alike || text[before.range().start..span.range().start].contains('\n')
+            })
+        };
+        let faults = lexed.faults.iter().enumerate().filter(is_new);
+        let diagnostics =
+            faults.map(|(_, &(span, fault))| token_fault(file, text, span, fault)).collect();
         let mut tokens = significant(text, &lexed.tokens);
         match_brackets(&mut tokens);
         Self {
@@ -75,6 +84,7 @@ impl<'t> Parser<'t> {
             brackets: 0,
             unclosed: 0,
             in_bindings: false,
+            unclosed_body: None,
         }
     }
 
@@ -144,6 +154,42 @@ impl<'t> Parser<'t> {
             0 => Eof,
             closer => self.tokens[closer + 1].kind,
         }
+    }
+    /// The kind of the token `n` before this one.
+    pub(crate) fn behind(&self, n: usize) -> SyntaxKind {
+        self.pos.checked_sub(n).map_or(Eof, |i| self.tokens[i].kind)
+    }
+    /// Returns true if nothing stands between the token `n` ahead and the one before it.
+    pub(crate) fn is_adjacent(&self, n: usize) -> bool {
+        let at = (self.pos + n).min(self.tokens.len() - 1);
+        at > 0 && self.tokens[at].raw == self.tokens[at - 1].raw + 1
+    }
+    /// Where the token of this index stands.
+    pub(crate) fn span_at(&self, index: usize) -> Span {
+        let raw = self.tokens[index.min(self.tokens.len() - 1)].raw as usize;
+        let end = self.raw.get(raw + 1).map_or(self.text.len() as u32, |t| t.start);
+        Span::new(self.raw[raw].start, end)
+    }
+    /// The text of the tokens from one to another, the last one included.
+    pub(crate) fn text_between(&self, first: usize, last: usize) -> &'t str {
+        let (from, to) = (self.span_at(first).start, self.span_at(last).end);
+        self.text.get(from as usize..(to as usize).max(from as usize)).unwrap_or_default()
+    }
+    /// The index of the last token of this line and body.
+    pub(crate) fn line_end(&self) -> usize {
+        let mut n = 0;
+        while !matches!(self.nth(n + 1), Eof | SyntaxKind::RBrace | SyntaxKind::Semicolon)
+            && !self.begins_line(n + 1)
+        {
+            n += 1;
+        }
+        self.pos + n
+    }
+    /// How far the line of the token here is indented.
+    pub(crate) fn indent(&self) -> usize {
+        let start = self.span_at(self.pos).start as usize;
+        let line = &self.text[self.text[..start].rfind('\n').map_or(0, |n| n + 1)..];
+        line.len() - line.trim_start_matches([' ', '\t']).len()
     }
     /// Returns true if the bracket here is closed somewhere.
     pub(crate) fn is_closed(&self) -> bool {
@@ -278,6 +324,27 @@ impl<'t> Parser<'t> {
             diagnostic.hint = hint;
             self.diagnostics.push(diagnostic);
         }
+        self.last_error = Some(self.pos);
+    }
+    /// Reports a fault of the tokens from one to another, unless something was reported here already; with a correction
+    /// of the text, if there is one.
+    pub(crate) fn report_mistake(
+        &mut self,
+        (first, last): (usize, usize),
+        (code, message, hint): (&'static str, String, String),
+        fix: Option<(Span, String)>,
+    ) {
+        if self.last_error == Some(self.pos) {
+            return;
+        }
+        let span = self.span_at(first).join(self.span_at(last));
+        let mut d = Diagnostic::error(code, Place { file: self.file, span }, message).hint(hint);
+        if let Some((span, insert)) = fix {
+            let title = if insert.trim().is_empty() { "take it away" } else { "write" };
+            let title = format!("{title} {}", insert.trim()).trim().to_string();
+            d = d.fix(title, [(Place { file: self.file, span }, insert)]);
+        }
+        self.diagnostics.push(d);
         self.last_error = Some(self.pos);
     }
     /// Reports a fault of what was understood: the tokens from `start` to the last one taken.
@@ -424,6 +491,12 @@ fn token_fault(file: FileId, text: &str, span: Span, fault: Fault) -> Diagnostic
             Diagnostic::error("unterminated-text", place, "found the end of the line in a text")
                 .hint("a text ends on its line: close it with `\"`")
         }
+        Fault::UnterminatedValue => {
+            let place = Place { file, span: Span::new(span.start, span.start + 1) };
+            Diagnostic::error("unterminated-value", place, "found `{` without `}` in a text").hint(
+                "a value in a text stands in braces, `\"R = {r.resistance}\"`; a brace itself is doubled: `{{`",
+            )
+        }
         Fault::UnterminatedComment => {
             let place = Place { file, span: Span::new(span.start, span.start + 2) };
             Diagnostic::error(
@@ -437,8 +510,32 @@ fn token_fault(file: FileId, text: &str, span: Span, fault: Fault) -> Diagnostic
             let all = &text[span.range()];
             let first: String = all.chars().take(8).collect();
             let more = if first.len() < all.len() { "…" } else { "" };
-            let message = format!("found `{}{more}`, which begins nothing", first.escape_debug());
-            Diagnostic::error("unknown-character", place, message)
+            let message = format!("found `{first}{more}`, which begins nothing");
+            let d = Diagnostic::error("unknown-character", place, message);
+            let hint = match all.chars().next() {
+                Some('\'' | '“' | '”' | '„' | '«' | '»' | '‘' | '’') => {
+                    "a text stands between straight double quotes: `\"hello\"`"
+                }
+                Some('&') => "write `and`",
+                Some('|') => "write `or`; a size is `abs(x)`",
+                Some('!') => "write `not`",
+                Some('%') => "the remainder is `x mod 3`; right after a number `%` is percent",
+                Some('#') => "a comment begins with `//`",
+                Some('×' | '·' | '∙') => "write `*`",
+                Some('÷') => "write `/`",
+                Some('−' | '–') => "write `-`",
+                Some('≤') => "write `<=`",
+                Some('≥') => "write `>=`",
+                Some('≠') => "write `!=`",
+                Some('√') => "write `sqrt(x)`",
+                Some('²') => "write `^2`",
+                Some('³') => "write `^3`",
+                Some('$' | '@' | '\\' | '~' | '?' | '`') => {
+                    "names are made of letters, digits and `_`"
+                }
+                _ => return d,
+            };
+            d.hint(hint)
         }
     }
 }

@@ -93,7 +93,9 @@ fn pieces_parsed(
         let was = green.children().take(children.end).rev().filter_map(NodeOrToken::into_node);
         let now = parse.green().children().rev().filter_map(NodeOrToken::into_node);
         let same = now.zip(was).take(NEIGHBOURS).filter(|(a, b)| a == b).count();
-        if bytes.end < before.len() && same < NEIGHBOURS {
+        // where a brace is open, how far the lines around it are indented counts
+        let is_open = parse.diagnostics().iter().any(|d| d.code == "expected-brace");
+        if is_open || bytes.end < before.len() && same < NEIGHBOURS {
             return None;
         }
         diagnostics.extend(parse.diagnostics().iter().map(|d| d.clone().moved(start as u32)));

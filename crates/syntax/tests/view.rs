@@ -105,7 +105,7 @@ fn expressions_have_operands_and_operators() {
     assert_eq!(ops, [BinaryOp::LessEqual, BinaryOp::Less]);
     assert_eq!(chain.operands().count(), 3);
     let Expr::Text(text) = expr("\"a\\\"b\\n\\\\\"") else { panic!() };
-    assert_eq!(text.text().unwrap().unquoted(), "a\"b\n\\");
+    assert_eq!(text.plain().unwrap(), "a\"b\n\\");
     let Expr::If(choice) = expr("if a then b else c.d") else { panic!() };
     assert!(matches!(choice.else_value(), Some(Expr::Field(_))));
     let Expr::Let(bindings) = expr("let a = 1, b = 2 in a in b") else { panic!() };

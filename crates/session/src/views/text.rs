@@ -23,7 +23,10 @@ fn token(token: &SyntaxToken) -> Option<TokenView> {
         SyntaxKind::LineComment | SyntaxKind::BlockComment => "comment",
         SyntaxKind::DocComment => "doc",
         SyntaxKind::Number | SyntaxKind::Unit => "number",
-        SyntaxKind::Text => "text",
+        SyntaxKind::Text
+        | SyntaxKind::TextOpen
+        | SyntaxKind::TextMiddle
+        | SyntaxKind::TextClose => "text",
         SyntaxKind::Keyword => "keyword",
         kind if kind.is_reserved() => "keyword",
         SyntaxKind::Ident if token.text().starts_with(char::is_uppercase) => "class",

@@ -1,6 +1,8 @@
 //! Expressions.
 
-use super::{Type, Word, ast_enum, ast_nodes, child, child_after, children, word, words};
+use super::{
+    AstNode, Type, Word, ast_enum, ast_nodes, child, child_after, children, unescaped, word, words,
+};
 use crate::kind::{SyntaxElement, SyntaxKind, SyntaxNode};
 
 ast_nodes! {
@@ -205,10 +207,40 @@ impl NumberExpr {
         word(&self.syntax, SyntaxKind::Unit)
     }
 }
+/// A piece of a text: words as they are read, or the value of an expression.
+#[derive(Clone, Debug)]
+pub enum TextPiece {
+    /// Words, without quotes and escapes.
+    Words(String),
+    /// A value in braces.
+    Value(Expr),
+}
+
 impl TextExpr {
-    /// Returns the text, quoted.
-    pub fn text(&self) -> Option<Word> {
-        word(&self.syntax, SyntaxKind::Text)
+    /// Returns the text where no value stands in it, without quotes and escapes.
+    pub fn plain(&self) -> Option<String> {
+        word(&self.syntax, SyntaxKind::Text).map(|w| without_doubled(&w.unquoted()))
+    }
+    /// Returns its pieces, in order: words, and values where some stand in it.
+    pub fn pieces(&self) -> impl Iterator<Item = TextPiece> + use<> {
+        self.syntax.children_with_tokens().filter_map(|child| match child {
+            SyntaxElement::Node(node) => Expr::cast(node).map(TextPiece::Value),
+            SyntaxElement::Token(token) => {
+                let cut = |before: char, after: char| {
+                    let text = token.text();
+                    let text = text.strip_prefix(before).unwrap_or(text);
+                    let inner = text.strip_suffix(after).unwrap_or(text);
+                    Some(TextPiece::Words(without_doubled(&unescaped(inner))))
+                };
+                match token.kind() {
+                    SyntaxKind::Text => cut('"', '"'),
+                    SyntaxKind::TextOpen => cut('"', '{'),
+                    SyntaxKind::TextMiddle => cut('}', '{'),
+                    SyntaxKind::TextClose => cut('}', '"'),
+                    _ => None,
+                }
+            }
+        })
     }
 }
 impl BoolExpr {
@@ -326,12 +358,21 @@ impl ChainExpr {
         children(&self.syntax)
     }
 }
+/// Reads doubled braces as braces.
+fn without_doubled(text: &str) -> String {
+    text.replace("{{", "{").replace("}}", "}")
+}
+
 impl RangeExpr {
     /// Returns the first value.
     pub fn start(&self) -> Option<Expr> {
         child(&self.syntax)
     }
-    /// Returns the last value.
+    /// Returns true if the value after `..<` is not part of it.
+    pub fn is_open(&self) -> bool {
+        word(&self.syntax, SyntaxKind::Less).is_some()
+    }
+    /// Returns the last value, or after `..<` the one behind it.
     pub fn end(&self) -> Option<Expr> {
         children(&self.syntax).nth(1)
     }

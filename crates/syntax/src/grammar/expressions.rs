@@ -1,5 +1,6 @@
 //! Expressions, by binding power; each function returns the height of the tree that it made.
 
+use super::mistakes;
 use super::types::class_name;
 use crate::kind::SyntaxKind::{
     self, AllExpr, AndKw, Arg, ArgList, BinaryExpr, Binding, BoolExpr, CallExpr, Caret, ChainExpr,
@@ -7,8 +8,8 @@ use crate::kind::SyntaxKind::{
     FieldExpr, Greater, GreaterEq, Ident, IfExpr, IfKw, IndexExpr, IsExpr, LBrace, LBracket,
     LParen, LambdaExpr, Less, LessEq, LetExpr, LetKw, ListExpr, Minus, NameExpr, NotEq, NotKw,
     Number, NumberExpr, OrKw, OwnerExpr, OwnerKw, ParenExpr, Plus, RBrace, RBracket, RParen,
-    RangeExpr, Slash, Star, SuperExpr, SuperKw, Text, TextExpr, ThenKw, TrueKw, TupleExpr,
-    UnaryExpr, Unit,
+    RangeExpr, Semicolon, Slash, Star, SuperExpr, SuperKw, Text, TextClose, TextExpr, TextMiddle,
+    TextOpen, ThenKw, TrueKw, TupleExpr, UnaryExpr, Unit,
 };
 use crate::parser::{MAX_HEIGHT, Parser};
 use rowan::Checkpoint;
@@ -142,7 +143,16 @@ fn infix(p: &mut Parser<'_>, start: Checkpoint, power: Power) -> u32 {
         }
         Power::Compare => comparisons(p, start),
         Power::Or | Power::And | Power::Not | Power::Add | Power::Multiply | Power::Sign => {
+            let twice = p.at(Star) && p.nth(1) == Star && p.is_adjacent(1);
             bump_operator(p);
+            if twice {
+                let at = p.pos();
+                let said =
+                    ("power", "found `**`, wanted `^`".to_string(), "a power is `x^2`".to_string());
+                let span = p.span_at(at - 1).join(p.span_at(at));
+                p.report_mistake((at - 1, at), said, Some((span, "^".into())));
+                p.bump();
+            }
             binary(p, start, power.tighter(), BinaryExpr)
         }
         Power::Raise => {
@@ -151,6 +161,7 @@ fn infix(p: &mut Parser<'_>, start: Checkpoint, power: Power) -> u32 {
         }
         Power::Range => {
             p.bump();
+            p.eat(Less);
             binary(p, start, Power::Add, RangeExpr)
         }
     }
@@ -167,7 +178,16 @@ fn binary(p: &mut Parser<'_>, start: Checkpoint, right: Power, kind: SyntaxKind)
 fn comparisons(p: &mut Parser<'_>, start: Checkpoint) -> u32 {
     let (mut height, mut count) = (0, 0);
     while operator(p) == Some(Power::Compare) && !(p.at(Ident) && p.word(0) == "is") {
+        let turned = p.at(Less) && p.nth(1) == Greater && p.is_adjacent(1);
         bump_operator(p);
+        if turned {
+            let at = p.pos();
+            let said =
+                ("unlike", "found `<>`, wanted `!=`".to_string(), "unlike is `!=`".to_string());
+            let span = p.span_at(at - 1).join(p.span_at(at));
+            p.report_mistake((at - 1, at), said, Some((span, "!=".into())));
+            p.bump();
+        }
         height = height.max(operators(p, Power::Range));
         count += 1;
     }
@@ -219,6 +239,11 @@ fn operand(p: &mut Parser<'_>, start: Checkpoint) -> u32 {
                 p.start_at(start, IndexExpr);
                 p.finish();
             }
+            Ident if mistakes::unit_after_name(p) => {
+                p.bump();
+                p.start_at(start, BinaryExpr);
+                p.finish();
+            }
             _ => return height,
         }
         height += 1;
@@ -233,8 +258,15 @@ fn primary(p: &mut Parser<'_>, start: Checkpoint) -> u32 {
             p.bump();
             p.eat(Unit);
             p.finish();
+            if mistakes::implied_product(p) {
+                let height = operators(p, Power::Sign);
+                p.start_at(start, BinaryExpr);
+                p.finish();
+                return height + 1;
+            }
         }
         Text => name(p, TextExpr),
+        TextOpen => return text_with_values(p),
         TrueKw | FalseKw => name(p, BoolExpr),
         SuperKw => name(p, SuperExpr),
         OwnerKw => name(p, OwnerExpr),
@@ -248,10 +280,38 @@ fn primary(p: &mut Parser<'_>, start: Checkpoint) -> u32 {
             p.finish();
             return height;
         }
+        Ident if mistakes::unit_before_number(p) || mistakes::bare_call(p) => {
+            p.start(BinaryExpr);
+            p.bump();
+            p.bump();
+            p.eat(Unit);
+            p.finish();
+        }
         Ident => return named(p),
         _ => p.expected("expected-expression", "an expression"),
     }
     1
+}
+
+/// `"R = {r} ohm"`
+fn text_with_values(p: &mut Parser<'_>) -> u32 {
+    p.start(TextExpr);
+    p.bump();
+    let outside = std::mem::replace(&mut p.in_bindings, false);
+    let mut height = 0;
+    loop {
+        height = height.max(operators(p, Power::Or));
+        if p.eat(TextClose) {
+            break;
+        }
+        if !p.eat(TextMiddle) {
+            p.expected("expected-brace", "`}` after the value");
+            break;
+        }
+    }
+    p.in_bindings = outside;
+    p.finish();
+    height + 1
 }
 
 /// Returns true if the line is over and what begins the next one cannot belong to an expression.
@@ -275,6 +335,19 @@ fn named(p: &mut Parser<'_>) -> u32 {
             class_name(p);
             p.finish();
             1
+        }
+        "new" if p.nth(1) == Ident && !p.line_ended(1) => {
+            let at = p.pos();
+            let said = (
+                "unknown-name",
+                "found `new`, wanted a value".to_string(),
+                format!("a thing is made by its class's name alone: `{}(…)`", p.word(1)),
+            );
+            let (new, class) = (p.span_at(at), p.span_at(at + 1));
+            let fix = (base::Span::new(new.start, class.start), String::new());
+            p.report_mistake((at, at), said, Some(fix));
+            p.bump_keyword();
+            named(p)
         }
         "copy" if p.at_word(1, "of") => {
             p.start(CopyExpr);
@@ -375,6 +448,12 @@ pub(super) fn bracketed(
         while !p.at(closer) && !p.at(Eof) && !p.at(RBrace) && !begins_next_member(p) {
             let before = p.pos();
             height = height.max(element(p));
+            if p.at(Semicolon) && p.brackets > 0 {
+                let hint = Some("elements stand between commas: `[1, 2]`".to_string());
+                p.expected_hint("expected-comma", "`,`", hint);
+                p.bump();
+                continue;
+            }
             if !p.eat(Comma) || p.pos() == before {
                 break;
             }

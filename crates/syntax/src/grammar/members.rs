@@ -3,11 +3,12 @@
 use super::expressions::{expression, path};
 use super::rules::{constraint, methods_if_any, rule, tolerance, when};
 use super::types::{class_name, domain, dotted_name, parameters, paths};
-use super::{Scope, body, programs, statements};
+use super::{Scope, body, mistakes, programs, statements};
 use crate::kind::SyntaxKind::{
     self, Anchor, Arrow, Assign, Attachers, Class, Colon, ColonEq, Comma, Dot, Eq, Erase, FatArrow,
-    Ident, IfKw, Insert, LBrace, LBracket, LParen, Merge, Message, Modify, Part, Ref, Replace,
-    Side, Slash, Stay, Superclass, Text, Toolbox, UnitLine, Use, View, Without, YLine,
+    Greater, GreaterEq, Ident, IfKw, Insert, LBrace, LBracket, LParen, Less, LessEq, Merge,
+    Message, Minus, Modify, NotEq, Part, Plus, Ref, Replace, Side, Slash, Star, Stay, Superclass,
+    Text, Toolbox, UnitLine, Use, View, Without, YLine,
 };
 use crate::parser::Parser;
 
@@ -177,8 +178,9 @@ fn named(p: &mut Parser<'_>) -> bool {
             value(p);
             p.finish();
             let message = "found `:=` among members, wanted `=`".into();
-            let hint = "`:=` stands in the methods of a constraint and in `when`";
-            p.report_since(start, "assignment-outside-method", message, hint);
+            let written = p.text_between(start, p.pos() - 1).replacen(":=", "=", 1);
+            let hint = format!("write `{written}`; `:=` stands in the methods of a constraint");
+            p.report_since(start, "assignment-outside-method", message, &hint);
         }
         _ => return false,
     }
@@ -212,6 +214,9 @@ fn rest_of_part(p: &mut Parser<'_>) {
         p.expect(Ident, "expected-name", "a part's name");
     }
     if p.expect(Colon, "expected-class", "`:` and the parts' class") {
+        if named_constraint(p) {
+            return;
+        }
         class_name(p);
         domain(p);
     }
@@ -225,6 +230,22 @@ fn rest_of_part(p: &mut Parser<'_>) {
     }
 }
 
+/// `sum: constraint x = 3`: the name stands behind the word. Returns true where that was reported.
+fn named_constraint(p: &mut Parser<'_>) -> bool {
+    let is_one = p.at(Ident) && p.word(0) == "constraint" && p.nth(1) == Ident;
+    if is_one {
+        let (at, name) = (p.pos(), p.text_between(p.pos() - 2, p.pos() - 2));
+        let said = (
+            "expected-class",
+            "found `constraint`, wanted a class".to_string(),
+            format!("the name of a constraint stands behind the word: `constraint {name}: …`"),
+        );
+        p.report_mistake((at, at), said, None);
+        p.skip_line();
+    }
+    is_one
+}
+
 /// `p1.x = 3`
 fn assign(p: &mut Parser<'_>) {
     p.start_documented(Assign);
@@ -234,7 +255,18 @@ fn assign(p: &mut Parser<'_>) {
 
 /// `ring = Circle(…)`, after the word `guide` where a step is one.
 fn assigned(p: &mut Parser<'_>) {
+    let first = p.pos();
     path(p);
+    if matches!(p.current(), Less | LessEq | Greater | GreaterEq | NotEq | Plus | Minus | Star)
+        && !p.line_ended(0)
+    {
+        let last = p.line_end();
+        mistakes::equation_since(p, first, last);
+        return p.skip_line();
+    }
+    if mistakes::arrow(p, first) {
+        return p.skip_line();
+    }
     if p.expect(Eq, "expected-value", "`=` and a value") {
         value(p);
     }
@@ -310,7 +342,19 @@ fn class(p: &mut Parser<'_>) {
 
 /// `is B as b, C`
 pub(super) fn superclasses(p: &mut Parser<'_>) {
-    if !p.eat_word("is") {
+    let elsewhere = p.at(Colon) && p.nth(1) == Ident
+        || p.at(Ident) && matches!(p.word(0), "extends" | "inherits" | "implements");
+    if elsewhere {
+        let (at, class, above) = (p.pos(), p.text_between(p.pos() - 1, p.pos() - 1), p.word(1));
+        let said = (
+            "expected-is",
+            format!("found `{}`, wanted `is`", p.word(0)),
+            format!("write `class {class} is {above}`"),
+        );
+        let is = if p.is_adjacent(0) { " is" } else { "is" };
+        p.report_mistake((at, at), said, Some((p.span_at(at), is.into())));
+        p.bump();
+    } else if !p.eat_word("is") {
         return;
     }
     loop {
@@ -357,7 +401,8 @@ fn merge(p: &mut Parser<'_>) {
     }
     path(p);
     if !p.at(Eq) {
-        p.expected("expected-merge", "`=` and what to merge it with");
+        let hint = p.at(Comma).then(|| "merged are things with `=`: `merge a = b`".to_string());
+        p.expected_hint("expected-merge", "`=` and what to merge it with", hint);
     }
     while p.eat(Eq) {
         path(p);
@@ -396,6 +441,10 @@ pub(super) fn unknown(p: &mut Parser<'_>) {
     if p.current().is_reserved() && p.names_itself(1) {
         let message = format!("found the reserved word `{}`, wanted a name", p.word(0));
         p.report("reserved-word", message, Some("give it another name".into()));
+        p.skip_line();
+        return;
+    }
+    if mistakes::of_member(p) {
         p.skip_line();
         return;
     }

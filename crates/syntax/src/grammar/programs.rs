@@ -92,7 +92,10 @@ pub(super) fn block_value(p: &mut Parser<'_>) -> bool {
 fn for_rest(p: &mut Parser<'_>, scope: Scope) {
     p.bump_keyword();
     loop {
-        p.expect(Ident, "expected-name", "a name");
+        if !p.eat(Ident) {
+            let hint = "a loop goes through numbers or a list: `for i in 0..<3 { … }`".to_string();
+            p.expected_hint("expected-name", "a name", Some(hint));
+        }
         if !p.eat(Comma) {
             break;
         }

@@ -2,10 +2,10 @@
 
 use super::expressions::{conditional_rest, expression, path};
 use super::types::paths;
-use super::{list, outside_brackets};
+use super::{list, mistakes, outside_brackets};
 use crate::kind::SyntaxKind::{
-    Colon, ColonEq, Comma, Constraint, Derived, Ellipsis, ElseKw, Ident, IfKw, IfRule, LBrace,
-    Method, MethodList, RBrace, Reads, RuleBlock, When, Within,
+    BinaryExpr, Colon, ColonEq, Comma, Constraint, Derived, Ellipsis, ElseKw, Ident, IfKw, IfRule,
+    LBrace, Method, MethodList, RBrace, Reads, RuleBlock, When, Within,
 };
 use crate::parser::Parser;
 
@@ -29,7 +29,14 @@ pub(super) fn constraint(p: &mut Parser<'_>) {
 /// A rule: an expression, or `if c { rules } else { rules }`.
 pub(super) fn rule(p: &mut Parser<'_>) {
     if !p.at(IfKw) {
+        let start = p.checkpoint();
         expression(p);
+        if mistakes::turned_comparison(p) {
+            p.bump();
+            expression(p);
+            p.start_at(start, BinaryExpr);
+            p.finish();
+        }
         return;
     }
     p.nested(|p| {

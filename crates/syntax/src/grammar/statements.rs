@@ -4,17 +4,20 @@ use super::expressions::{conditional_rest, expression, path};
 use super::members::{self, into, one};
 use super::rules::tolerance;
 use super::types::paths;
-use super::{Scope, body};
+use super::{Scope, body, mistakes};
 use crate::kind::SyntaxKind::{
-    Comma, Delete, Dot, Edit, ElseKw, Eq, Expect, Hint, Ident, If, IfKw, LBrace, LBracket, Move,
-    Number, OwnerKw, Promote, Redo, Rename, Say, Set, Simulate, Target, Task, Text, Try, Undo,
-    Unmerge,
+    Comma, Delete, Dot, Edit, ElseKw, Eq, Expect, Hint, Ident, If, IfExpr, IfKw, LBrace, LBracket,
+    Move, Number, OwnerKw, Promote, Redo, Rename, Say, Set, Simulate, Target, Task, Text, Try,
+    Undo, Unmerge,
 };
 use crate::parser::Parser;
 
 /// `"name" { … }`, after `check` and `lesson`
 pub(super) fn text_body(p: &mut Parser<'_>, scope: Scope) {
-    p.expect(Text, "expected-text", "a name in quotes");
+    if !p.eat(Text) {
+        let hint = "what it promises stands in quotes: `check \"…\" { }`".to_string();
+        p.expected_hint("expected-text", "a name in quotes", Some(hint));
+    }
     body(p, scope);
 }
 
@@ -102,8 +105,17 @@ fn quoted(p: &mut Parser<'_>, wanted: &str) {
 fn targets(p: &mut Parser<'_>) {
     loop {
         p.start(Target);
+        let first = p.pos();
         path(p);
-        into(p, "to", expression);
+        if p.at(Eq) {
+            let (of, value) = (p.text_between(first, p.pos() - 1), p.word(1));
+            let hint = format!("write `{of} to {value}`");
+            p.expected_hint("expected-word", "`to`", Some(hint));
+            p.bump();
+            expression(p);
+        } else {
+            into(p, "to", expression);
+        }
         p.finish();
         if !p.eat(Comma) {
             break;
@@ -159,7 +171,13 @@ pub(super) fn conditional_value(p: &mut Parser<'_>) {
     let start = p.checkpoint();
     p.bump();
     expression(p);
-    if p.at(LBrace) {
+    if p.at(LBrace) && mistakes::holds_value(p) {
+        let hint = "a value is chosen by `if c then a else b`".to_string();
+        p.expected_hint("expected-then", "`then`", Some(hint));
+        p.skip_line();
+        p.start_at(start, IfExpr);
+        p.finish();
+    } else if p.at(LBrace) {
         branches(p, Scope::Thing);
         p.start_at(start, If);
         p.finish();

@@ -10,7 +10,8 @@ use crate::parser::Parser;
 /// `List of 12 C`, `Set of C`, `Path to C`, `Placed of C`, `geometry.Line`.
 pub(super) fn class_name(p: &mut Parser<'_>) {
     if !(p.at(Ident) || p.at(Unit)) || p.line_ended(0) && p.nth(1) == Colon {
-        p.expected("expected-class", "a class");
+        let hint = if p.line_ended(0) { None } else { super::mistakes::value_for_class(p) };
+        p.expected_hint("expected-class", "a class", hint);
         return;
     }
     p.nested(|p| {

@@ -1,0 +1,149 @@
+//! Hints: what to write instead, where a value, a target or a word is not what can stand there.
+
+use crate::kinds::Kind;
+use crate::lower::Lowerer;
+use crate::scope::Scope;
+use base::{Diagnostic, Place};
+use syntax::ast::{self, AstNode, Expr};
+
+/// How many names a hint lists.
+const MOST_LISTED: usize = 12;
+
+impl Lowerer<'_> {
+    /// Says of an unknown word that was to be a text, that texts stand in quotes.
+    pub(crate) fn hint_value(&mut self, before: usize, wanted: &Kind, value: &Expr) {
+        let Expr::Name(name) = value else { return };
+        let (Some(word), Kind::Text) = (name.name(), wanted) else { return };
+        let unknown = |d: &&mut Diagnostic| d.code == "unknown-name" && d.place.span == word.span();
+        if let Some(d) = self.diagnostics.iter_mut().skip(before).find(unknown) {
+            let quoted = format!("\"{}\"", word.text());
+            let place = d.place;
+            let plain = Diagnostic::error(d.code, place, d.message.clone());
+            *d = plain
+                .hint(format!("a text stands in quotes: `{quoted}`"))
+                .fix(format!("write {quoted}"), [(place, quoted)]);
+        }
+    }
+
+    /// Says of an unknown name that is given a value, how it is declared, or which names there are.
+    pub(crate) fn hint_target(
+        &mut self,
+        before: usize,
+        scope: &Scope,
+        target: &Expr,
+        value: &Expr,
+    ) {
+        let Expr::Name(name) = target else { return };
+        let Some(word) = name.name() else { return };
+        let unknown = |d: &Diagnostic| d.code == "unknown-name" && d.place.span == word.span();
+        let Some(at) = self.diagnostics.iter().skip(before).position(unknown) else { return };
+        let class = scope.class();
+        let names = self.names_of(class);
+        let near = self.nearest(word.text(), names.iter().map(String::as_str)).map(str::to_string);
+        let of_one = self.document.classes[class].is_of_one || names.is_empty();
+        let d = &self.diagnostics[before + at];
+        let plain = Diagnostic::error(d.code, d.place, d.message.clone());
+        let written = value.syntax().text().to_string();
+        let written = written.lines().next().unwrap_or_default();
+        self.diagnostics[before + at] = match near {
+            Some(near) => plain.meant(&near),
+            None if class == self.document.root || of_one && names.is_empty() => {
+                let class = class_for(value);
+                plain.hint(format!(
+                    "declare it with its class: `{}: {class} = {written}`",
+                    word.text()
+                ))
+            }
+            None if names.len() > MOST_LISTED => {
+                plain.hint(format!("there are {}, …", names[..MOST_LISTED].join(", ")))
+            }
+            None => plain.hint(format!("there are {}", names.join(", "))),
+        };
+    }
+
+    /// Adds what to write instead of a value of another kind, where that can be told.
+    pub(crate) fn with_value_hint(
+        &self,
+        d: Diagnostic,
+        (found, wanted): (&Kind, &Kind),
+        value: &Expr,
+    ) -> Diagnostic {
+        let written = value.syntax().text().to_string().trim().to_string();
+        let place = d.place;
+        match (found, wanted, value) {
+            (Kind::Number(_), Kind::Text, Expr::Number(_)) => {
+                let quoted = format!("\"{written}\"");
+                d.hint(format!("a text stands in quotes: `{quoted}`"))
+                    .fix(format!("write {quoted}"), [(place, quoted)])
+            }
+            (Kind::Number(_), Kind::Text, _) => {
+                d.hint(format!("put the value into a text: `\"{{{written}}}\"`"))
+            }
+            (Kind::Text, Kind::Number(_), Expr::Text(text)) => match text.plain() {
+                Some(plain) if plain.trim().parse::<f64>().is_ok() => {
+                    let plain = plain.trim().to_string();
+                    d.hint(format!("a number has no quotes: `{plain}`"))
+                        .fix(format!("write {plain}"), [(place, plain)])
+                }
+                _ => d,
+            },
+            (Kind::List(_), Kind::Thing(_), Expr::List(list)) => {
+                let items: Vec<String> =
+                    list.elements().map(|e| e.syntax().text().to_string()).collect();
+                let round = format!("({})", items.join(", "));
+                d.hint(format!("the parts of a thing stand in round brackets: `{round}`"))
+                    .fix(format!("write {round}"), [(place, round)])
+            }
+            _ => d,
+        }
+    }
+
+    /// Reports a part that is called like a message; an element of a list stands in square brackets.
+    pub(crate) fn takes_no_arguments(&mut self, scope: &Scope, word: &ast::Word, is_list: bool) {
+        let message = format!("{} is a part: it takes no arguments", word.text());
+        let place = Place { file: scope.file, span: word.span() };
+        let d = Diagnostic::error("wrong-arity", place, message);
+        self.report(match is_list {
+            true => d.hint(format!("an element stands in square brackets: `{}[0]`", word.text())),
+            false => d,
+        });
+    }
+}
+
+/// Returns what to write for a word that other languages have and this one has not.
+pub(crate) fn called_otherwise(word: &str) -> Option<&'static str> {
+    Some(match word {
+        "log" => "write `log10(x)` for the base 10, `ln(x)` for the natural logarithm",
+        "lg" => "write `log10(x)`",
+        "pow" | "power" => "a power is `x^2`",
+        "sqr" | "square" => "a square is `x^2`, its root `sqrt(x)`",
+        "fabs" | "magnitude" => "write `abs(x)`",
+        "atn" | "arctan" | "arctg" => "write `atan(x)`",
+        "tg" => "write `tan(x)`",
+        "degrees" | "radians" | "toRadians" => "an angle is in radians; `30 deg` says degrees",
+        "ceiling" => "write `ceil(x)`",
+        "trunc" | "int" => "write `floor(x)` or `round(x)`",
+        "PI" | "Pi" | "π" => "write `pi`",
+        "this" | "self" | "me" => "a part is named by itself: `width`",
+        "null" | "nil" | "none" | "None" => "what nothing is said of is zero, false or empty",
+        "True" | "TRUE" | "yes" => "write `true`",
+        "False" | "FALSE" | "no" => "write `false`",
+        _ => return None,
+    })
+}
+
+/// Returns the class that a new part with this value is likely to be of.
+fn class_for(value: &Expr) -> String {
+    match value {
+        Expr::Text(_) => "Text".into(),
+        Expr::Bool(_) => "Bool".into(),
+        Expr::Tuple(_) => "Point".into(),
+        Expr::Call(call) => call.name().map_or("Real".into(), |w| w.text().to_string()),
+        Expr::Number(n) => {
+            let read = n.digits().zip(n.unit());
+            let read = read.and_then(|(d, u)| expr::units::read_quantity(d.text(), u.text()));
+            read.and_then(|(_, dimension)| dimension.named()).unwrap_or("Real").into()
+        }
+        _ => "Real".into(),
+    }
+}

@@ -1,0 +1,307 @@
+//! Mistakes that beginners make, each told as a teacher would: what it is, and what to write instead.
+
+use super::members::is_keyword;
+use crate::kind::SyntaxKind::{
+    Arrow, Comma, Eof, Eq, EqEq, FatArrow, Greater, GreaterEq, Ident, LBracket, LParen, Less,
+    LessEq, LetKw, Minus, NotEq, Number, RBrace, RBracket, RParen, Text, Unit,
+};
+use crate::parser::Parser;
+use crate::units::unit_length;
+use base::Span;
+
+/// Reports a `{` that nothing closes, and what its body ended at.
+pub(super) fn unclosed(p: &mut Parser<'_>, opener: usize) {
+    let hint = match p.current() {
+        Eof => "write `}` at its end".to_string(),
+        _ => format!("by its indentation it ends before `{}`: write `}}` there", p.word(0)),
+    };
+    let said = ("expected-brace", "found no `}` for this `{`".to_string(), hint);
+    p.report_mistake((opener, opener), said, None);
+}
+
+/// Reports what begins no member as the mistake that it is; returns false where it is none that is known.
+pub(super) fn of_member(p: &mut Parser<'_>) -> bool {
+    decimal_comma(p)
+        || comment(p)
+        || declared_elsewhere(p)
+        || bare_equation(p)
+        || name_and_class(p)
+        || anchored_value(p)
+}
+
+/// `3,5`
+fn decimal_comma(p: &mut Parser<'_>) -> bool {
+    let is_one = p.at(Comma)
+        && p.behind(1) == Number
+        && p.nth(1) == Number
+        && p.is_adjacent(0)
+        && p.is_adjacent(1);
+    if is_one {
+        let at = p.pos();
+        let number = format!("{}.{}", p.text_between(at - 1, at - 1), p.word(1));
+        let said = (
+            "decimal-comma",
+            format!("found `{}`, wanted a decimal point", p.text_between(at - 1, at + 1)),
+            format!("write `{number}`"),
+        );
+        let span = p.span_at(at - 1).join(p.span_at(at + 1));
+        p.report_mistake((at - 1, at + 1), said, Some((span, number)));
+    }
+    is_one
+}
+
+/// `x mm`
+pub(super) fn unit_after_name(p: &mut Parser<'_>) -> bool {
+    let is_one = p.at(Ident)
+        && !p.line_ended(0)
+        && !p.begins_line(0)
+        && !p.names_itself(1)
+        && !matches!(p.word(0), "in" | "as")
+        && matches!(p.behind(1), Ident | RParen | RBracket)
+        && unit_length(p.word(0)) == p.word(0).len();
+    if is_one {
+        let (at, unit) = (p.pos(), p.word(0));
+        let said = (
+            "unit-after-name",
+            format!("found the unit `{unit}` after a name, wanted it after a number"),
+            format!("write `* 1 {unit}`"),
+        );
+        p.report_mistake((at, at), said, Some((p.span_at(at), format!("* 1 {unit}"))));
+    }
+    is_one
+}
+
+/// `-- words`
+fn comment(p: &mut Parser<'_>) -> bool {
+    let is_one = p.at(Minus) && p.nth(1) == Minus && p.begins_line(0);
+    if is_one {
+        let at = p.pos();
+        let said =
+            ("comment", "found `--`, wanted `//`".to_string(), "a comment begins with `//`".into());
+        p.report_mistake(
+            (at, at + 1),
+            said,
+            Some((p.span_at(at).join(p.span_at(at + 1)), "//".into())),
+        );
+    }
+    is_one
+}
+
+/// `let x = 3`, `var x`, `const g = 9.81`, `int n`
+fn declared_elsewhere(p: &mut Parser<'_>) -> bool {
+    const WORDS: [&str; 12] = [
+        "let", "var", "val", "const", "def", "dim", "int", "float", "double", "number", "string",
+        "part",
+    ];
+    let is_one = (p.at(LetKw) || p.at(Ident) && WORDS.contains(&p.word(0)))
+        && p.nth(1) == Ident
+        && !p.begins_line(1);
+    if is_one {
+        let (at, name) = (p.pos(), p.word(1));
+        let has_value = p.nth(2) == Eq && !p.begins_line(2);
+        let value = if has_value { format!(" = {}", p.word(3)) } else { String::new() };
+        let said = (
+            "expected-member",
+            format!("found `{}`, wanted a part, constraint, message or value", p.word(0)),
+            format!("a part is declared with its class: `{name}: Real{value}`"),
+        );
+        p.report_mistake((at, at), said, None);
+    }
+    is_one
+}
+
+/// `x + y = 3`, `x > 3`
+fn bare_equation(p: &mut Parser<'_>) -> bool {
+    let first = p.pos();
+    let last = p.line_end();
+    let begins = matches!(p.current(), Ident | Number | LParen | Minus | Text);
+    let compares = |n| matches!(p.nth(n), Eq | EqEq | Less | LessEq | Greater | GreaterEq | NotEq);
+    let joins = p.at(Ident) && p.nth(1) == Ident;
+    let is_one = begins && !joins && p.begins_line(0) && (1..=last - first).any(compares);
+    if is_one {
+        equation_since(p, first, last);
+    }
+    is_one
+}
+
+/// Reports a comparison that stands among members.
+pub(super) fn equation_since(p: &mut Parser<'_>, first: usize, last: usize) {
+    let rule = p.text_between(first, last);
+    let short = if rule.len() > 60 { "x = y" } else { rule };
+    let said = (
+        "bare-equation",
+        "found an equation by itself, wanted a part, constraint, message or value".to_string(),
+        format!("write `constraint {short}`"),
+    );
+    let start = p.span_at(first).start;
+    let fix = (Span::new(start, start), "constraint ".to_string());
+    p.report_mistake((first, last), said, Some(fix));
+}
+
+/// `a Line`, `Line a`
+fn name_and_class(p: &mut Parser<'_>) -> bool {
+    let is_one = p.at(Ident) && p.nth(1) == Ident && !p.begins_line(1) && !is_keyword(p.word(0));
+    if !is_one {
+        return false;
+    }
+    let (a, b) = (p.word(0), p.word(1));
+    let is_class = |word: &str| word.starts_with(char::is_uppercase);
+    let (name, class) = match (is_class(a), is_class(b)) {
+        (false, true) => (a, b),
+        (true, false) => (b, a),
+        _ => return false,
+    };
+    let at = p.pos();
+    let said = (
+        "expected-member",
+        format!("found `{a} {b}`, wanted a part with its class"),
+        format!("write `{name}: {class}`"),
+    );
+    let span = p.span_at(at).join(p.span_at(at + 1));
+    p.report_mistake((at, at + 1), said, Some((span, format!("{name}: {class}"))));
+    true
+}
+
+/// `anchor x = 3`
+fn anchored_value(p: &mut Parser<'_>) -> bool {
+    let is_one = p.at(Eq) && !p.begins_line(0) && p.behind(1) == Ident && p.behind(2) == Ident;
+    if is_one {
+        let at = p.pos();
+        let (name, value) = (p.text_between(at - 1, at - 1), p.word(1));
+        let word = p.text_between(at - 2, at - 2);
+        let said = (
+            "expected-member",
+            "found `=`, wanted the end of the line".to_string(),
+            format!("give the value by itself: `{name} = {value}`, and then `{word} {name}`"),
+        );
+        p.report_mistake((at, at), said, None);
+    }
+    is_one
+}
+
+/// `2x`, `2 (x + 1)`: a product without its operator. Returns true where one was reported.
+pub(super) fn implied_product(p: &mut Parser<'_>) -> bool {
+    const WORDS: [&str; 14] = [
+        "is", "in", "subset", "union", "mod", "within", "until", "to", "as", "into", "only",
+        "times", "with", "of",
+    ];
+    let is_word = is_keyword(p.word(0)) || WORDS.contains(&p.word(0));
+    let is_name = p.at(Ident)
+        && p.is_adjacent(0)
+        && !is_word
+        && !p.names_itself(1)
+        && expr::units::meant(p.word(0)).is_empty();
+    let is_bracket = p.at(LParen) && !p.line_ended(0);
+    let is_one = p.behind(1) == Number && (is_name || is_bracket);
+    if is_one {
+        let at = p.pos();
+        let number = p.text_between(at - 1, at - 1);
+        let factor = if is_name { p.word(0) } else { "(…)" };
+        let said = (
+            "implied-product",
+            format!("found a number before `{}`, wanted an operator between them", p.word(0)),
+            format!("write `{number} * {factor}`"),
+        );
+        let span = p.span_at(at);
+        p.report_mistake(
+            (at - 1, at),
+            said,
+            Some((Span::new(span.start, span.start), " * ".into())),
+        );
+    }
+    is_one
+}
+
+/// `mm 3`: a unit before its number. Returns true where one was reported.
+pub(super) fn unit_before_number(p: &mut Parser<'_>) -> bool {
+    let is_one = p.nth(1) == Number
+        && !p.begins_line(1)
+        && p.nth(2) != Unit
+        && unit_length(p.word(0)) == p.word(0).len();
+    if is_one {
+        let at = p.pos();
+        let right = format!("{} {}", p.word(1), p.word(0));
+        let said = (
+            "unit-before-number",
+            format!("found the unit `{}` before its number", p.word(0)),
+            format!("write `{right}`"),
+        );
+        p.report_mistake((at, at + 1), said, Some((p.span_at(at).join(p.span_at(at + 1)), right)));
+    }
+    is_one
+}
+
+/// `sqrt 4`: a function without brackets. Returns true where one was reported.
+pub(super) fn bare_call(p: &mut Parser<'_>) -> bool {
+    let is_one = p.nth(1) == Number && !p.line_ended(1) && !p.begins_line(1);
+    if is_one {
+        let at = p.pos();
+        let unit = if p.nth(2) == Unit { format!(" {}", p.word(2)) } else { String::new() };
+        let call = format!("{}({}{unit})", p.word(0), p.word(1));
+        let said = (
+            "bare-call",
+            format!("found `{}` right after a name, wanted an operator", p.word(1)),
+            format!("what a function is of stands in brackets: `{call}`"),
+        );
+        let last = at + 1 + usize::from(!unit.is_empty());
+        p.report_mistake((at, last), said, Some((p.span_at(at).join(p.span_at(last)), call)));
+    }
+    is_one
+}
+
+/// Returns the hint for a value that stands where a class is wanted, `x: 3`.
+pub(super) fn value_for_class(p: &Parser<'_>) -> Option<String> {
+    let name = p.pos().checked_sub(2).map(|i| p.text_between(i, i)).unwrap_or_default();
+    let value = p.word(0);
+    match p.current() {
+        Number => Some(format!(
+            "write `{name} = {value}` for a value, `{name}: Real = {value}` for a new part"
+        )),
+        Text => Some(format!(
+            "write `{name} = {value}` for a value, `{name}: Text = {value}` for a new part"
+        )),
+        LParen | LBracket | Minus => {
+            Some(format!("a class follows `:`; a value is given with `=`: `{name} = …`"))
+        }
+        _ => None,
+    }
+}
+
+/// Reports what joins two things in other languages, `a.p1 -> b.p1`.
+pub(super) fn arrow(p: &mut Parser<'_>, first: usize) -> bool {
+    let is_one = p.at(Arrow) && p.nth(1) == Ident;
+    if is_one {
+        let last = p.line_end();
+        let left = p.text_between(first, p.pos() - 1);
+        let right = p.text_between(p.pos() + 1, last);
+        let said = (
+            "expected-value",
+            "found `->`, wanted `=` and a value".to_string(),
+            format!("write `merge {left} = {right}` to make the two one"),
+        );
+        p.report_mistake((first, last), said, None);
+    }
+    is_one
+}
+
+/// Returns true if the braces here hold a value, as those of an `if` in other languages do.
+pub(super) fn holds_value(p: &Parser<'_>) -> bool {
+    let is_value = matches!(p.nth(1), Number | Text | Minus | LParen);
+    let has_unit = usize::from(p.nth(2) == Unit);
+    is_value && p.nth(2 + has_unit) == RBrace || p.nth(1) == Ident && p.nth(2) == RBrace
+}
+
+/// `=>` for `>=`: returns true where it was reported.
+pub(super) fn turned_comparison(p: &mut Parser<'_>) -> bool {
+    let is_one = p.at(FatArrow);
+    if is_one {
+        let at = p.pos();
+        let said = (
+            "expected-comparison",
+            "found `=>`, wanted a comparison".to_string(),
+            "greater or equal is `>=`".to_string(),
+        );
+        p.report_mistake((at, at), said, Some((p.span_at(at), ">=".into())));
+    }
+    is_one
+}
