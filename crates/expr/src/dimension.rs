@@ -14,7 +14,7 @@ use std::fmt;
 pub struct Dimension(pub [i8; 7]);
 
 /// Names of quantities; of several names for one dimension the first is shown.
-const NAMES: [(&str, Dimension); 65] = [
+const NAMES: [(&str, Dimension); 64] = [
     ("Real", Dimension::NONE),
     ("Angle", Dimension::ANGLE),
     ("Length", Dimension::LENGTH),
@@ -77,7 +77,6 @@ const NAMES: [(&str, Dimension); 65] = [
     ("Irradiance", Dimension::HEAT_FLUX),
     ("LuminousFlux", Dimension::LUMINOUS_INTENSITY),
     ("ElasticModulus", Dimension::PRESSURE),
-    ("Strain", Dimension::NONE),
     ("SectionModulus", Dimension::VOLUME),
     ("ReactivePower", Dimension::POWER),
 ];

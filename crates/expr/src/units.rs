@@ -253,17 +253,17 @@ pub fn meant(word: &str) -> Vec<String> {
     if let Some((_, spelling)) = COLLOQUIAL.iter().find(|(said, _)| *said == lower) {
         return vec![(*spelling).to_string()];
     }
-    let other_case =
-        prefixed(&|prefix, _, named| format!("{prefix}{}", named.spelling).to_lowercase() == lower);
-    if !other_case.is_empty() {
-        return other_case;
-    }
     let factors = (1..word.len()).filter(|&i| word.is_char_boundary(i)).find_map(|i| {
         let (a, b) = word.split_at(i);
         (simple(a).is_some() && ["m", "s", "h"].contains(&b)).then(|| format!("{a}*{b}"))
     });
     if let Some(factors) = factors {
         return vec![factors];
+    }
+    let other_case =
+        prefixed(&|prefix, _, named| format!("{prefix}{}", named.spelling).to_lowercase() == lower);
+    if !other_case.is_empty() {
+        return other_case;
     }
     let slips = prefixed(&|prefix, _, named| {
         let Some(rest) = word.strip_prefix(prefix) else { return false };

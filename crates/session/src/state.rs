@@ -186,13 +186,16 @@ fn opened(
     }
 }
 
-/// Returns what is given and is another now, with what it is given.
+/// Returns what is given and is another now, with what it is given. Where a class puts the places of a new thing
+/// promises nothing: these yield as places do.
 fn gave_way(structure: &Structure, given: &Values, values: &Values) -> Vec<(SlotId, Value)> {
     let is_other = |slot: SlotId| match (given.get(slot), values.get(slot)) {
         (Value::Number(was), Value::Number(is)) => !base::number::close(was, is),
         (was, is) => !was.same_bits(&is),
     };
-    let is_given = |slot: SlotId| structure.slots[slot].given.is_some();
+    let is_given = |slot: SlotId| {
+        structure.given(slot).is_some_and(|g| !g.of_class || structure.slots[slot].place.is_none())
+    };
     let moved = values.changed(given).filter(|&slot| is_given(slot) && is_other(slot));
     moved.map(|slot| (slot, given.get(slot))).collect()
 }

@@ -155,11 +155,13 @@ fn a_file_that_appears_before_the_last_step_is_not_overwritten() {
 }
 
 #[test]
-fn a_folder_that_is_not_there_is_not_made() {
+fn a_folder_that_is_not_there_is_made_for_a_new_document_alone() {
     let folder = Folder::new();
-    let result = save(&folder.root(), "sub/a.thing", "x", &Version::absent());
-    assert!(matches!(result, Err(DiskError::Missing)), "{result:?}");
+    let result = save(&folder.root(), "sub/a.thing", "x", &Version::of("old"));
+    assert!(result.is_err(), "{result:?}");
     assert!(folder.entries().is_empty());
+    save(&folder.root(), "sub/a.thing", "x", &Version::absent()).unwrap();
+    assert_eq!(read(&folder.root(), "sub/a.thing").unwrap().text, "x");
 }
 
 #[test]

@@ -199,6 +199,9 @@ const BENT: usize = 64;
 /// By how much numbers are moved to find how slopes turn, in parts of the largest of their kind.
 const NUDGE: f64 = 1e-5;
 
+/// Which slots can move.
+type Moves<'m> = &'m dyn Fn(&SlotId) -> bool;
+
 impl Space {
     fn new(
         planner: &Planner,
@@ -222,7 +225,7 @@ impl Space {
         model: Model<'_>,
         task: &Task,
         values: &Values,
-        (moves, superfluous): (&dyn Fn(&SlotId) -> bool, &BTreeSet<Source>),
+        (moves, superfluous): (Moves<'_>, &BTreeSet<Source>),
         host: &mut dyn Host,
     ) -> Self {
         let scratch = &mut Scratch::default();

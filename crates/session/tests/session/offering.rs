@@ -28,7 +28,10 @@ fn take(desk: &mut Desk, paths: &[&str], label: &str, value: Option<&str>) {
     desk.apply(&command).expect("it can be said");
     let status = desk.session.status(desk.id);
     assert!(status.satisfied, "{label}: {}", status.message);
-    assert_eq!(desk.wrong(), [], "{label}: {}", desk.text());
+    // the places that the text gives have to yield
+    let others: Vec<_> =
+        desk.wrong().into_iter().filter(|(code, _)| code != "given-yields").collect();
+    assert_eq!(others, [], "{label}: {}", desk.text());
 }
 
 #[test]

@@ -106,8 +106,7 @@ fn a_reason_that_would_take_long_to_find_is_left_out() {
     let refusal = refused(&mut desk, |d| d.set("bridge.beam2.tension", 200.0));
     assert_eq!(
         refusal.message,
-        "refused: bridge.beam2.tension goes to 6.4 N, and how much further was not decided; \
-         what stands fixed does not leave room for this; bridge.beam2.tension is computed"
+        "refused: what stands fixed does not leave room for this; bridge.beam2.tension is computed"
     );
     assert!(refusal.constraints.is_empty(), "{refusal:?}");
 }

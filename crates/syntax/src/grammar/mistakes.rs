@@ -2,8 +2,8 @@
 
 use super::members::is_keyword;
 use crate::kind::SyntaxKind::{
-    Arrow, Comma, Eof, Eq, EqEq, FatArrow, Greater, GreaterEq, Ident, LBracket, LParen, Less,
-    LessEq, LetKw, Minus, NotEq, Number, RBrace, RBracket, RParen, Text, Unit,
+    Arrow, Colon, Comma, Eof, Eq, EqEq, FatArrow, Greater, GreaterEq, Ident, LBracket, LParen,
+    Less, LessEq, LetKw, Minus, NotEq, Number, RBrace, RBracket, RParen, Text, Unit,
 };
 use crate::parser::Parser;
 use crate::units::unit_length;
@@ -189,7 +189,7 @@ pub(super) fn implied_product(p: &mut Parser<'_>) -> bool {
     let is_name = p.at(Ident)
         && p.is_adjacent(0)
         && !is_word
-        && !p.names_itself(1)
+        && p.nth(1) != Colon
         && expr::units::meant(p.word(0)).is_empty();
     let is_bracket = p.at(LParen) && !p.line_ended(0);
     let is_one = p.behind(1) == Number && (is_name || is_bracket);
