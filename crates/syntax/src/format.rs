@@ -34,10 +34,25 @@ struct Piece {
 /// ```
 ///
 /// A text with a brace that nothing closes stays as it is: how its lines are indented says where the brace ends.
+/// So does a text with another error that would be read otherwise once laid out: there white space decides what is meant.
 pub fn format(parse: &Parse) -> String {
-    if parse.diagnostics().iter().any(|d| d.code == "expected-brace") {
-        return parse.text().to_string();
+    let as_it_is = || parse.text().to_string();
+    if parse.diagnostics().is_empty() {
+        return lay_out(parse);
     }
+    if parse.diagnostics().iter().any(|d| d.code == "expected-brace") {
+        return as_it_is();
+    }
+    let laid_out = lay_out(parse);
+    let again = crate::parse(base::FileId(0), &laid_out);
+    let reads_alike = pieces(&again.syntax())
+        .iter()
+        .map(Piece::token)
+        .eq(pieces(&parse.syntax()).iter().map(Piece::token));
+    if reads_alike && lay_out(&again) == laid_out { laid_out } else { as_it_is() }
+}
+
+fn lay_out(parse: &Parse) -> String {
     let pieces = pieces(&parse.syntax());
     let mut layout = Layout::default();
     for i in 0..pieces.len() {
@@ -89,6 +104,12 @@ fn pieces(root: &SyntaxNode) -> Vec<Piece> {
         }
     }
     pieces
+}
+
+impl Piece {
+    fn token(&self) -> (SyntaxKind, &str) {
+        (self.kind, &self.text)
+    }
 }
 
 fn holds_elements(kind: SyntaxKind) -> bool {

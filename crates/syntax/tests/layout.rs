@@ -144,6 +144,13 @@ const PIECES: &[&str] = &[
     "!",
 ];
 
+#[test]
+fn a_text_with_an_error_stays_where_white_space_decides() {
+    let text = "m :=  constraint  in/* c\nd */12List ( merge  Listelse";
+    assert_eq!(format(&parse(FileId(0), text)), text);
+    check("x:Real y=1 z", "x: Real  y = 1 z\n");
+}
+
 proptest! {
     #![proptest_config(ProptestConfig { cases: 600, failure_persistence: None, ..ProptestConfig::default() })]
 
