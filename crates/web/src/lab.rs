@@ -8,22 +8,22 @@ use crate::dialog::Wish;
 use crate::files::{FileSet, Files};
 use crate::menu::{self, Menu};
 use crate::picture::covers;
-use crate::server::{self, Listed, Saved, Stored};
+use crate::server::{Listed, Stored};
 use crate::sheet::View;
-use crate::{js, route, theme, words};
+use crate::theme;
 use drawing::Point;
 use leptos::prelude::*;
 use session::view::{
-    Analysis, Caught, Change, Choice, DocumentId, DragState, Explanation, FixView, Ghost, HeldView,
-    MovedView, PictureView, Question, Recognised, Refusal, RowKind, Status, StructureRow, TextView,
-    ToolView, ValueRow, Velocity,
+    Analysis, Caught, DocumentId, DragState, Explanation, Ghost, HeldView, MovedView, PictureView,
+    Question, Recognised, Refusal, RowKind, Status, StructureRow, TextView, ToolView, ValueRow,
+    Velocity,
 };
-use session::{Command, Path, Session};
+use session::{Path, Session};
 use std::collections::BTreeMap;
 use std::fmt;
-use std::time::Duration;
-use wasm_bindgen::JsCast;
-use wasm_bindgen::closure::Closure;
+
+mod documents;
+mod edits;
 
 /// An open document.
 #[derive(Clone, PartialEq, Debug)]
@@ -51,10 +51,6 @@ impl Opened {
 
 /// What the server calls the version of a file that is not there.
 const ABSENT: &str = "absent";
-/// What stands in a new document.
-const NEW_TEXT: &str = "use geometry\n";
-/// What a new document is called before it is saved.
-const UNTITLED: &str = "untitled";
 
 /// What the lab has to say after the last command.
 #[derive(Clone, PartialEq, Debug)]
@@ -267,112 +263,6 @@ impl Lab {
         }
     }
 
-    /// Fetches the library once; without it documents open with diagnostics.
-    pub async fn fetch_library(self) {
-        match server::library().await {
-            Ok(library) => self.files.update_value(|files| {
-                files.libraries = library.iter().map(|(file, _)| used_as(file)).collect();
-                files
-                    .texts
-                    .extend(library.into_iter().map(|(file, text)| (used_as(&file), Some(text))));
-            }),
-            Err(message) => self.say_refused(message),
-        }
-    }
-
-    /// Asks the server what documents there are.
-    ///
-    /// # Errors
-    /// One sentence, where it does not say.
-    pub async fn fetch_list(self) -> Result<Vec<Listed>, String> {
-        let listed = server::documents().await?;
-        self.listed.set(listed.clone());
-        Ok(listed)
-    }
-
-    /// Opens a document in the session, if it is not open already, and returns it.
-    ///
-    /// # Errors
-    /// One sentence, where the server does not give it.
-    pub async fn load(self, path: &str) -> Result<Opened, String> {
-        if let Some(opened) = self.opened.with_value(|all| all.get(path).cloned())
-            && (opened.dirty || stands(path).await.is_ok_and(|s| s.version == opened.version))
-        {
-            return Ok(opened);
-        }
-        let stored = stands(path).await?;
-        self.take_up(path, stored).await
-    }
-
-    /// Opens a text in the session under a path, with the files that it uses.
-    async fn take_up(self, path: &str, stored: Stored) -> Result<Opened, String> {
-        let mut id = self.open(path, &stored.text);
-        while self.fetch_used(path).await {
-            id = self.open(path, &stored.text);
-        }
-        let title = self.session.with_value(|session| session.title(id));
-        let opened = Opened {
-            id,
-            title,
-            version: stored.version,
-            writable: stored.writable,
-            saved: stored.text,
-            dirty: false,
-        };
-        self.opened.update_value(|all| {
-            all.insert(String::from(path), opened.clone());
-        });
-        Ok(opened)
-    }
-
-    fn open(self, path: &str, text: &str) -> DocumentId {
-        self.order(|session| session.open(path, text))
-    }
-
-    /// Fetches the files that a document was found to use; returns whether there are new ones.
-    async fn fetch_used(self, path: &str) -> bool {
-        let folder = path.rsplit_once('/').map_or("", |(folder, _)| folder);
-        let wanted = self.files.try_update_value(|f| std::mem::take(&mut f.wanted));
-        let mut found = false;
-        for name in wanted.unwrap_or_default() {
-            let stored = server::document(&beside(folder, &name)).await.ok().flatten();
-            let text = stored.map(|stored| stored.text);
-            found |= text.is_some();
-            self.files.update_value(|files| {
-                files.texts.insert(name, text);
-            });
-        }
-        found
-    }
-
-    /// Shows a document that is loaded.
-    pub fn show(self, path: &str) {
-        self.flush_text();
-        let Some(opened) = self.opened.with_value(|all| all.get(path).cloned()) else { return };
-        self.drop_tool();
-        self.editing.set(None);
-        self.select(None);
-        self.hovered.set(None);
-        self.motion.set(Vec::new());
-        self.ghosts.set(Vec::new());
-        self.notice.set(None);
-        self.conflict.set(None);
-        let draft = theme::keep(&draft_key(path)).filter(|draft| *draft != opened.saved);
-        self.draft.set(draft.filter(|_| !opened.dirty));
-        self.current.set(Some(String::from(path)));
-        self.document.set(Some(opened));
-        self.refresh();
-        self.zoom.set(Some(Zoom::Fit));
-    }
-
-    /// Shows the gallery.
-    pub fn leave(self) {
-        self.flush_text();
-        self.drop_tool();
-        self.current.set(None);
-        self.document.set(None);
-    }
-
     /// Returns the shown document's id.
     pub fn id(self) -> Option<DocumentId> {
         self.document.with_untracked(|d| d.as_ref().map(|d| d.id))
@@ -392,187 +282,6 @@ impl Lab {
     pub(crate) fn tell<T>(self, order: impl FnOnce(&mut Session, DocumentId) -> T) -> Option<T> {
         let id = self.id()?;
         Some(self.order(|session| order(session, id)))
-    }
-
-    /// Applies a command to the shown document, or asks first what it is meant of; what comes of it
-    /// stands in the signals.
-    pub fn apply(self, command: &Command) -> bool {
-        self.flush_text();
-        let asked = self.id().and_then(|id| self.ask(|session| session.preview(id, command).ok()));
-        match asked.flatten() {
-            Some(question) => {
-                self.notice.set(Some(Notice::Asked(question)));
-                false
-            }
-            None => self.apply_as_meant(command),
-        }
-    }
-
-    /// Mends the text by a fix of one of its diagnostics, if it is still the text that is shown.
-    pub fn fix(self, fix: &FixView) {
-        self.flush_text();
-        let shown = self.text.with_untracked(|text| text.source.clone());
-        let present = self.id().map(|id| self.ask(|session| session.text(id).source));
-        if present == Some(shown) {
-            self.settle(self.tell(|session, id| session.fix(id, fix)));
-        }
-    }
-
-    /// Applies a command without asking.
-    pub fn apply_as_meant(self, command: &Command) -> bool {
-        self.settle(self.tell(|session, id| session.apply(id, command)))
-    }
-
-    /// Sets a value as a person types it.
-    ///
-    /// # Errors
-    /// Why not; the caller shows it beside the field.
-    pub fn set_typed(self, path: &str, typed: &str) -> Result<(), Refusal> {
-        self.flush_text();
-        match self.tell(|session, id| session.set_typed(id, path, typed)) {
-            Some(Err(refusal)) => Err(refusal),
-            outcome => {
-                self.settle(outcome);
-                Ok(())
-            }
-        }
-    }
-
-    /// Begins a drag; returns where the handle of what is dragged lies on the sheet, if there is one.
-    pub fn press(self, path: &str) -> Option<(f64, f64)> {
-        self.flush_text();
-        let path = session::parse_path(path)?;
-        match self.tell(|session, id| session.press(id, &path))? {
-            Ok(handle) => {
-                self.notice.set(None);
-                self.dragging.set(Some(DragState::default()));
-                Some(handle)
-            }
-            Err(refusal) => {
-                self.notice.set(Some(Notice::Refused(refusal)));
-                None
-            }
-        }
-    }
-
-    /// Goes on with a drag, in the sheet's coordinates.
-    pub fn drag(self, to: (f64, f64)) {
-        let state = self.tell(|session, id| session.drag(id, to));
-        self.repaint();
-        if state != self.dragging.get_untracked() {
-            self.dragging.set(state);
-        }
-    }
-
-    /// Ends a drag: one step for the undo list.
-    pub fn release(self) {
-        self.dragging.set(None);
-        self.settle(self.tell(Session::release));
-    }
-
-    /// Looks whether what is dragged, brought to a place, would be joined with one of some paths, nearest first.
-    pub fn look_for_joint(self, near: &[Caught]) {
-        let found = self.id().and_then(|id| {
-            near.iter().find_map(|caught| {
-                let path = session::parse_path(&caught.word)?;
-                let joined = self.ask(|session| session.joint(id, &path))?;
-                let caught = Caught { word: words::joins(&joined), ..caught.clone() };
-                Some((path, caught))
-            })
-        });
-        if self.dropping.with_untracked(|old| *old != found) {
-            self.dropping.set(found);
-        }
-    }
-
-    /// Ends a drag where it joins something: one step for the undo list.
-    pub fn release_onto(self, target: &Path) {
-        self.dragging.set(None);
-        self.dropping.set(None);
-        self.settle(self.tell(|session, id| session.release_onto(id, target)));
-    }
-
-    /// Merges what is selected: of each what sticks there.
-    pub fn join_selection(self) {
-        self.flush_text();
-        let Some(id) = self.id() else { return };
-        let paths: Vec<Path> =
-            self.selection_untracked().iter().filter_map(|p| session::parse_path(p)).collect();
-        match self.ask(|session| session.join(id, &paths)) {
-            Ok(command) => drop(self.apply(&command)),
-            Err(refusal) => self.notice.set(Some(Notice::Refused(refusal))),
-        }
-    }
-
-    /// Deletes what is selected; where more goes with it, that is told first.
-    pub fn delete_selection(self) {
-        self.flush_text();
-        let Some(path) = self.selected.get_untracked() else { return };
-        let (Some(id), Some(parsed)) = (self.id(), session::parse_path(&path)) else { return };
-        let command = Command::Delete(parsed.clone());
-        let asked = self.ask(|session| session.preview(id, &command).ok().flatten());
-        let along = self.ask(|session| session.along_with(id, &parsed));
-        if asked.is_some() || along.is_empty() {
-            self.apply(&command);
-            return;
-        }
-        let message = words::goes_along(&path, &along);
-        let choices = vec![Choice { label: words::delete_all(along.len() + 1), command }];
-        self.notice.set(Some(Notice::Asked(Question { message, choices })));
-    }
-
-    /// Makes copies of what is selected, a little aside, and selects the first.
-    pub fn duplicate_selection(self) {
-        self.flush_text();
-        let Some(id) = self.id() else { return };
-        let paths: Vec<Path> =
-            self.selection_untracked().iter().filter_map(|p| session::parse_path(p)).collect();
-        match self.ask(|session| session.duplication(id, &paths)) {
-            Ok((command, name)) => {
-                if self.apply_as_meant(&command) {
-                    self.select(Some(name));
-                }
-            }
-            Err(refusal) => self.notice.set(Some(Notice::Refused(refusal))),
-        }
-    }
-
-    /// Opens the editor of a thing's value in the picture: of the one that a word there shows, else of the
-    /// outermost that the text gives.
-    pub fn edit_in_place(self, path: &str, word: Option<&str>, at: (f64, f64)) {
-        let found = self.values.with_untracked(|rows| {
-            let is_coordinate = |path: &str| matches!(path.rsplit('.').next(), Some("x" | "y"));
-            let own =
-                rows.iter().filter(|row| covers(path, &row.path) && !is_coordinate(&row.path));
-            let depth = |row: &ValueRow| row.path.matches('.').count();
-            let is_shown = |row: &ValueRow| {
-                word.is_some_and(|word| !row.text.is_empty() && word.contains(&row.text))
-            };
-            own.min_by_key(|row| (!is_shown(row), row.is_virtual, depth(row), !row.given)).map(
-                |row| {
-                    let unit =
-                        if row.unit.is_empty() { String::new() } else { format!(" {}", row.unit) };
-                    InPlace { path: row.path.clone(), value: format!("{}{unit}", row.text), at }
-                },
-            )
-        });
-        match found {
-            Some(found) => self.editing.set(Some(found)),
-            None => self.notice.set(Some(Notice::Said(words::no_value_to_type(path)))),
-        }
-    }
-
-    /// The names of the libraries.
-    pub fn libraries(self) -> Vec<String> {
-        self.files.with_value(|files| files.libraries.clone())
-    }
-
-    /// Ends a drag as if it had never begun.
-    pub fn cancel(self) {
-        self.dragging.set(None);
-        self.dropping.set(None);
-        self.tell(Session::cancel);
-        self.refresh();
     }
 
     /// The reasons for what is selected, or for everything.
@@ -595,69 +304,6 @@ impl Lab {
     pub fn elsewhere(self, about: &Path) -> Vec<Ghost> {
         let found = self.tell(|session, id| session.ghosts(id, about));
         found.and_then(Result::ok).unwrap_or_default()
-    }
-
-    /// Says which classes the selected things could be the parts of.
-    pub fn recognise(self) {
-        self.flush_text();
-        let Some(id) = self.id() else { return };
-        let paths: Vec<Path> =
-            self.selection().iter().filter_map(|p| session::parse_path(p)).collect();
-        self.notice.set(Some(match self.ask(|session| session.recognise(id, &paths)) {
-            Ok(found) if found.is_empty() => Notice::Said(String::from(words::NOT_RECOGNISED)),
-            Ok(found) => Notice::Recognised(found),
-            Err(refusal) => Notice::Refused(refusal),
-        }));
-    }
-
-    /// Takes note of what the editor holds; it becomes a command a little later, or before the next
-    /// one.
-    pub fn typed_text(self, text: String) {
-        self.pending_text.set_value(Some(text));
-        self.typing.update_value(|n| *n += 1);
-        let mine = self.typing.get_value();
-        set_timeout(
-            move || {
-                if self.typing.try_get_value() == Some(mine) {
-                    self.flush_text();
-                }
-            },
-            TYPING_PAUSE,
-        );
-    }
-
-    /// Whether the editor holds words that the session has not been given yet.
-    pub fn is_typing(self) -> bool {
-        self.pending_text.with_value(Option::is_some)
-    }
-
-    /// Hands the session what was typed into the editor and not yet handed over.
-    pub fn flush_text(self) {
-        let typed = self.pending_text.try_update_value(Option::take).flatten();
-        if let Some(text) = typed {
-            self.settle(self.tell(|session, id| session.apply(id, &Command::Text(text))));
-        }
-    }
-
-    /// Shows what came of a command.
-    fn settle(self, outcome: Option<Result<Change, Refusal>>) -> bool {
-        match outcome {
-            Some(Ok(change)) => {
-                self.refresh();
-                self.renew_tool();
-                if change.structure && self.fits.get_value() {
-                    self.zoom.set(Some(Zoom::Fit));
-                }
-                self.notice.set(words::done(&change).map(Notice::Said));
-                true
-            }
-            Some(Err(refusal)) => {
-                self.refresh();
-                self.notice.set(Some(Notice::Refused(refusal)));
-                false
-            }
-            None => false,
-        }
     }
 
     /// Shows a sentence as a refusal.
@@ -718,189 +364,6 @@ impl Lab {
         });
         self.keep_draft(&text.source);
         self.text.set(text);
-    }
-
-    fn update_document(self, change: impl FnOnce(&mut Opened)) {
-        let Some(path) = self.current.get_untracked() else { return };
-        let Some(mut document) = self.document.get_untracked() else { return };
-        change(&mut document);
-        if self.document.with_untracked(|old| old.as_ref() != Some(&document)) {
-            self.opened.update_value(|all| {
-                all.insert(path, document.clone());
-            });
-            self.document.set(Some(document));
-        }
-    }
-
-    /// Keeps unsaved text in the browser, outside the bundle's memory.
-    fn keep_draft(self, source: &str) {
-        let Some(path) = self.current.get_untracked() else { return };
-        let dirty = self.document.with_untracked(|d| d.as_ref().is_some_and(|d| d.dirty));
-        if dirty {
-            theme::put(&draft_key(&path), Some(source));
-        } else if self.draft.with_untracked(Option::is_none) {
-            theme::put(&draft_key(&path), None);
-        }
-    }
-
-    /// Takes up the unsaved text of an earlier visit, or forgets it.
-    pub fn decide_draft(self, restore: bool) {
-        let Some(draft) = self.draft.get_untracked() else { return };
-        self.draft.set(None);
-        if restore {
-            self.apply(&Command::Text(draft));
-        } else {
-            let source = self.text.with_untracked(|text| text.source.clone());
-            self.keep_draft(&source);
-        }
-    }
-
-    /// Returns true if any open document has changes that are not on disk.
-    pub fn any_unsaved(self) -> bool {
-        self.pending_text.with_value(Option::is_some)
-            || self.opened.with_value(|all| all.values().any(|opened| opened.dirty))
-    }
-
-    /// Begins a new document, under a name that no other has.
-    pub fn begin_new(self) {
-        leptos::task::spawn_local(async move {
-            let path = self.free_path(UNTITLED).await;
-            route::go(&route::to(&path));
-        });
-    }
-
-    /// A path that no document has, here or on the server.
-    async fn free_path(self, name: &str) -> String {
-        // Without the list there are still the documents that are open.
-        let _ = self.fetch_list().await;
-        let paths = std::iter::once(format!("{name}.thing"))
-            .chain((2..).map(|n| format!("{name}-{n}.thing")));
-        let is_free = |path: &String| {
-            !self.opened.with_value(|all| all.contains_key(path))
-                && !self.listed.with_untracked(|all| all.iter().any(|one| one.path == *path))
-        };
-        { paths }.find(is_free).unwrap_or_default()
-    }
-
-    /// Lets a person choose a file of the machine; its text becomes a new document of that name.
-    pub fn open_file(self) {
-        let took = Closure::once_into_js(move |name: String, text: String| {
-            leptos::task::spawn_local(async move {
-                let path = self.free_path(name.strip_suffix(".thing").unwrap_or(&name)).await;
-                let stored = Stored { text, version: String::from(ABSENT), writable: true };
-                match self.take_up(&path, stored).await {
-                    Ok(_) => route::go(&route::to(&path)),
-                    Err(message) => self.say_refused(message),
-                }
-            });
-        });
-        js::choose_file(took.unchecked_ref());
-    }
-
-    /// Saves the shown document under another name, which becomes its own.
-    ///
-    /// # Errors
-    /// One sentence: a document of that name is there, or it is no name for one.
-    pub async fn save_as(self, name: &str) -> Result<(), String> {
-        self.flush_text();
-        let name = name.trim().trim_end_matches(".thing");
-        let path = format!("{name}.thing");
-        let (Some(old), Some(document)) =
-            (self.current.get_untracked(), self.document.get_untracked())
-        else {
-            return Ok(());
-        };
-        let text = self.text.with_untracked(|text| text.source.clone());
-        let outcome = server::save(&path, &text, ABSENT).await;
-        match outcome {
-            Saved::Done(version) => {
-                theme::put(&draft_key(&old), None);
-                self.order(|session| session.rename(document.id, &path));
-                let writable = true;
-                let opened = Opened { version, writable, saved: text, dirty: false, ..document };
-                self.opened.update_value(|all| {
-                    all.remove(&old);
-                    all.insert(path.clone(), opened.clone());
-                });
-                self.current.set(Some(path.clone()));
-                self.document.set(Some(opened));
-                route::replace(&route::to(&path));
-                self.refresh();
-                self.notice.set(Some(Notice::Said(words::saved(&path))));
-                Ok(())
-            }
-            Saved::Changed(_) => Err(words::name_taken(&path)),
-            Saved::Failed(message) => Err(message),
-        }
-    }
-
-    /// Saves the shown document; a new one is asked for its name first.
-    pub fn save(self) {
-        self.flush_text();
-        let untitled = self.document.with_untracked(|d| d.as_ref().is_some_and(Opened::is_new))
-            && self.current.with_untracked(|path| {
-                path.as_ref().is_some_and(|path| path.starts_with(UNTITLED))
-            });
-        if untitled {
-            self.wish.set(Some(Wish::SaveAs));
-            return;
-        }
-        let Some(path) = self.current.get_untracked() else { return };
-        let Some(document) = self.document.get_untracked() else { return };
-        let text = self.text.with_untracked(|text| text.source.clone());
-        leptos::task::spawn_local(async move {
-            let outcome = server::save(&path, &text, &document.version).await;
-            self.saved(&path, text, outcome);
-        });
-    }
-
-    fn saved(self, path: &str, text: String, outcome: Saved) {
-        if self.current.with_untracked(|current| current.as_deref() != Some(path)) {
-            return;
-        }
-        match outcome {
-            Saved::Done(version) => {
-                let now = self.text.with_untracked(|text| text.source.clone());
-                self.conflict.set(None);
-                self.update_document(|document| {
-                    document.dirty = now != text;
-                    (document.version, document.saved, document.writable) = (version, text, true);
-                });
-                self.keep_draft(&now);
-                self.notice.set(Some(Notice::Said(words::saved(path))));
-            }
-            Saved::Changed(theirs) => self.conflict.set(Some(theirs)),
-            Saved::Failed(message) => self.say_refused(message),
-        }
-    }
-
-    /// Takes what stands on disk instead: one step, which can be taken back.
-    pub fn take_theirs(self) {
-        if let Some(Some(theirs)) = self.conflict.get_untracked() {
-            self.conflict.set(None);
-            self.update_document(|document| {
-                (document.version, document.saved) = (theirs.version, theirs.text.clone());
-            });
-            self.apply(&Command::Text(theirs.text));
-        }
-    }
-
-    /// Saves over what stands on disk instead.
-    pub fn overwrite(self) {
-        if let Some(theirs) = self.conflict.get_untracked() {
-            self.conflict.set(None);
-            let version = theirs.map_or_else(|| String::from("absent"), |stored| stored.version);
-            self.update_document(|document| document.version = version);
-            self.save();
-        }
-    }
-
-    /// Hands the user the text as a file.
-    pub fn download(self) {
-        self.flush_text();
-        let Some(path) = self.current.get_untracked() else { return };
-        let name = path.rsplit('/').next().unwrap_or(&path);
-        self.text.with_untracked(|text| js::download(name, &text.source));
     }
 
     /// Shows or hides the grid, and remembers it.
@@ -979,24 +442,6 @@ impl Default for Lab {
 }
 
 const GRID_KEY: &str = "thinglab/grid";
-const TYPING_PAUSE: Duration = Duration::from_millis(150);
-
-/// What stands under a path: on disk, in the gallery, or the beginning of a document that is not there yet.
-async fn stands(path: &str) -> Result<Stored, String> {
-    let begun =
-        || Stored { text: String::from(NEW_TEXT), version: String::from(ABSENT), writable: true };
-    Ok(server::document(path).await?.unwrap_or_else(begun))
-}
-
-fn draft_key(path: &str) -> String {
-    format!("thinglab/draft/{path}")
-}
-
-/// The path of a file that a document names in `use`: `parts.bolts` is `parts/bolts.thing` beside it.
-fn beside(folder: &str, name: &str) -> String {
-    let file = format!("{}.thing", name.replace('.', "/"));
-    if folder.is_empty() { file } else { format!("{folder}/{file}") }
-}
 
 /// Returns the path that a path is the same thing as: the first of those merged.
 pub fn first_path(rows: &[StructureRow], path: String) -> String {
@@ -1004,24 +449,7 @@ pub fn first_path(rows: &[StructureRow], path: String) -> String {
     row.and_then(|row| row.merged_with.clone()).unwrap_or(path)
 }
 
-/// What `use` calls a file: `parts/bolts.thing` is `parts.bolts`.
-fn used_as(file: &str) -> String {
-    file.strip_suffix(".thing").unwrap_or(file).replace('/', ".")
-}
-
 /// The text view of no document.
 fn no_text() -> TextView {
     TextView { source: String::new(), tokens: Vec::new(), diagnostics: Vec::new() }
-}
-
-#[cfg(test)]
-mod tests {
-    use super::{beside, used_as};
-
-    #[test]
-    fn a_used_file_lies_beside_its_user() {
-        assert_eq!(beside("", "bolts"), "bolts.thing");
-        assert_eq!(beside("gallery", "parts.bolts"), "gallery/parts/bolts.thing");
-        assert_eq!(used_as("parts/bolts.thing"), "parts.bolts");
-    }
 }

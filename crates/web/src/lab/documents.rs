@@ -1,0 +1,348 @@
+//! Documents: loading, showing, saving, and what is kept of them in the browser.
+
+use super::{ABSENT, Lab, Opened, Zoom};
+use crate::dialog::Wish;
+use crate::lab::Notice;
+use crate::server::{self, Listed, Saved, Stored};
+use crate::{js, route, theme, words};
+use leptos::prelude::*;
+use session::Command;
+use session::view::DocumentId;
+use wasm_bindgen::JsCast;
+use wasm_bindgen::closure::Closure;
+
+/// What a new document is called before it is saved.
+const UNTITLED: &str = "untitled";
+
+/// What stands in a new document.
+const NEW_TEXT: &str = "use geometry\n";
+
+impl Lab {
+    /// Fetches the library once; without it documents open with diagnostics.
+    pub async fn fetch_library(self) {
+        match server::library().await {
+            Ok(library) => self.files.update_value(|files| {
+                files.libraries = library.iter().map(|(file, _)| used_as(file)).collect();
+                files
+                    .texts
+                    .extend(library.into_iter().map(|(file, text)| (used_as(&file), Some(text))));
+            }),
+            Err(message) => self.say_refused(message),
+        }
+    }
+
+    /// Asks the server what documents there are.
+    ///
+    /// # Errors
+    /// One sentence, where it does not say.
+    pub async fn fetch_list(self) -> Result<Vec<Listed>, String> {
+        let listed = server::documents().await?;
+        self.listed.set(listed.clone());
+        Ok(listed)
+    }
+
+    /// Opens a document in the session, if it is not open already, and returns it.
+    ///
+    /// # Errors
+    /// One sentence, where the server does not give it.
+    pub async fn load(self, path: &str) -> Result<Opened, String> {
+        if let Some(opened) = self.opened.with_value(|all| all.get(path).cloned())
+            && (opened.dirty || stands(path).await.is_ok_and(|s| s.version == opened.version))
+        {
+            return Ok(opened);
+        }
+        let stored = stands(path).await?;
+        self.take_up(path, stored).await
+    }
+
+    /// Opens a text in the session under a path, with the files that it uses.
+    pub(super) async fn take_up(self, path: &str, stored: Stored) -> Result<Opened, String> {
+        let mut id = self.open(path, &stored.text);
+        while self.fetch_used(path).await {
+            id = self.open(path, &stored.text);
+        }
+        let title = self.session.with_value(|session| session.title(id));
+        let opened = Opened {
+            id,
+            title,
+            version: stored.version,
+            writable: stored.writable,
+            saved: stored.text,
+            dirty: false,
+        };
+        self.opened.update_value(|all| {
+            all.insert(String::from(path), opened.clone());
+        });
+        Ok(opened)
+    }
+
+    pub(super) fn open(self, path: &str, text: &str) -> DocumentId {
+        self.order(|session| session.open(path, text))
+    }
+
+    /// Fetches the files that a document was found to use; returns whether there are new ones.
+    pub(super) async fn fetch_used(self, path: &str) -> bool {
+        let folder = path.rsplit_once('/').map_or("", |(folder, _)| folder);
+        let wanted = self.files.try_update_value(|f| std::mem::take(&mut f.wanted));
+        let mut found = false;
+        for name in wanted.unwrap_or_default() {
+            let stored = server::document(&beside(folder, &name)).await.ok().flatten();
+            let text = stored.map(|stored| stored.text);
+            found |= text.is_some();
+            self.files.update_value(|files| {
+                files.texts.insert(name, text);
+            });
+        }
+        found
+    }
+
+    /// Shows a document that is loaded.
+    pub fn show(self, path: &str) {
+        self.flush_text();
+        let Some(opened) = self.opened.with_value(|all| all.get(path).cloned()) else { return };
+        self.drop_tool();
+        self.editing.set(None);
+        self.select(None);
+        self.hovered.set(None);
+        self.motion.set(Vec::new());
+        self.ghosts.set(Vec::new());
+        self.notice.set(None);
+        self.conflict.set(None);
+        let draft = theme::keep(&draft_key(path)).filter(|draft| *draft != opened.saved);
+        self.draft.set(draft.filter(|_| !opened.dirty));
+        self.current.set(Some(String::from(path)));
+        self.document.set(Some(opened));
+        self.refresh();
+        self.zoom.set(Some(Zoom::Fit));
+    }
+
+    /// Shows the gallery.
+    pub fn leave(self) {
+        self.flush_text();
+        self.drop_tool();
+        self.current.set(None);
+        self.document.set(None);
+    }
+
+    /// The names of the libraries.
+    pub fn libraries(self) -> Vec<String> {
+        self.files.with_value(|files| files.libraries.clone())
+    }
+
+    pub(super) fn update_document(self, change: impl FnOnce(&mut Opened)) {
+        let Some(path) = self.current.get_untracked() else { return };
+        let Some(mut document) = self.document.get_untracked() else { return };
+        change(&mut document);
+        if self.document.with_untracked(|old| old.as_ref() != Some(&document)) {
+            self.opened.update_value(|all| {
+                all.insert(path, document.clone());
+            });
+            self.document.set(Some(document));
+        }
+    }
+
+    /// Keeps unsaved text in the browser, outside the bundle's memory.
+    pub(super) fn keep_draft(self, source: &str) {
+        let Some(path) = self.current.get_untracked() else { return };
+        let dirty = self.document.with_untracked(|d| d.as_ref().is_some_and(|d| d.dirty));
+        if dirty {
+            theme::put(&draft_key(&path), Some(source));
+        } else if self.draft.with_untracked(Option::is_none) {
+            theme::put(&draft_key(&path), None);
+        }
+    }
+
+    /// Takes up the unsaved text of an earlier visit, or forgets it.
+    pub fn decide_draft(self, restore: bool) {
+        let Some(draft) = self.draft.get_untracked() else { return };
+        self.draft.set(None);
+        if restore {
+            self.apply(&Command::Text(draft));
+        } else {
+            let source = self.text.with_untracked(|text| text.source.clone());
+            self.keep_draft(&source);
+        }
+    }
+
+    /// Returns true if any open document has changes that are not on disk.
+    pub fn any_unsaved(self) -> bool {
+        self.pending_text.with_value(Option::is_some)
+            || self.opened.with_value(|all| all.values().any(|opened| opened.dirty))
+    }
+
+    /// Begins a new document, under a name that no other has.
+    pub fn begin_new(self) {
+        leptos::task::spawn_local(async move {
+            let path = self.free_path(UNTITLED).await;
+            route::go(&route::to(&path));
+        });
+    }
+
+    /// A path that no document has, here or on the server.
+    pub(super) async fn free_path(self, name: &str) -> String {
+        // Without the list there are still the documents that are open.
+        let _ = self.fetch_list().await;
+        let paths = std::iter::once(format!("{name}.thing"))
+            .chain((2..).map(|n| format!("{name}-{n}.thing")));
+        let is_free = |path: &String| {
+            !self.opened.with_value(|all| all.contains_key(path))
+                && !self.listed.with_untracked(|all| all.iter().any(|one| one.path == *path))
+        };
+        { paths }.find(is_free).unwrap_or_default()
+    }
+
+    /// Lets a person choose a file of the machine; its text becomes a new document of that name.
+    pub fn open_file(self) {
+        let took = Closure::once_into_js(move |name: String, text: String| {
+            leptos::task::spawn_local(async move {
+                let path = self.free_path(name.strip_suffix(".thing").unwrap_or(&name)).await;
+                let stored = Stored { text, version: String::from(ABSENT), writable: true };
+                match self.take_up(&path, stored).await {
+                    Ok(_) => route::go(&route::to(&path)),
+                    Err(message) => self.say_refused(message),
+                }
+            });
+        });
+        js::choose_file(took.unchecked_ref());
+    }
+
+    /// Saves the shown document under another name, which becomes its own.
+    ///
+    /// # Errors
+    /// One sentence: a document of that name is there, or it is no name for one.
+    pub async fn save_as(self, name: &str) -> Result<(), String> {
+        self.flush_text();
+        let name = name.trim().trim_end_matches(".thing");
+        let path = format!("{name}.thing");
+        let (Some(old), Some(document)) =
+            (self.current.get_untracked(), self.document.get_untracked())
+        else {
+            return Ok(());
+        };
+        let text = self.text.with_untracked(|text| text.source.clone());
+        let outcome = server::save(&path, &text, ABSENT).await;
+        match outcome {
+            Saved::Done(version) => {
+                theme::put(&draft_key(&old), None);
+                self.order(|session| session.rename(document.id, &path));
+                let writable = true;
+                let opened = Opened { version, writable, saved: text, dirty: false, ..document };
+                self.opened.update_value(|all| {
+                    all.remove(&old);
+                    all.insert(path.clone(), opened.clone());
+                });
+                self.current.set(Some(path.clone()));
+                self.document.set(Some(opened));
+                route::replace(&route::to(&path));
+                self.refresh();
+                self.notice.set(Some(Notice::Said(words::saved(&path))));
+                Ok(())
+            }
+            Saved::Changed(_) => Err(words::name_taken(&path)),
+            Saved::Failed(message) => Err(message),
+        }
+    }
+
+    /// Saves the shown document; a new one is asked for its name first.
+    pub fn save(self) {
+        self.flush_text();
+        let untitled = self.document.with_untracked(|d| d.as_ref().is_some_and(Opened::is_new))
+            && self.current.with_untracked(|path| {
+                path.as_ref().is_some_and(|path| path.starts_with(UNTITLED))
+            });
+        if untitled {
+            self.wish.set(Some(Wish::SaveAs));
+            return;
+        }
+        let Some(path) = self.current.get_untracked() else { return };
+        let Some(document) = self.document.get_untracked() else { return };
+        let text = self.text.with_untracked(|text| text.source.clone());
+        leptos::task::spawn_local(async move {
+            let outcome = server::save(&path, &text, &document.version).await;
+            self.saved(&path, text, outcome);
+        });
+    }
+
+    pub(super) fn saved(self, path: &str, text: String, outcome: Saved) {
+        if self.current.with_untracked(|current| current.as_deref() != Some(path)) {
+            return;
+        }
+        match outcome {
+            Saved::Done(version) => {
+                let now = self.text.with_untracked(|text| text.source.clone());
+                self.conflict.set(None);
+                self.update_document(|document| {
+                    document.dirty = now != text;
+                    (document.version, document.saved, document.writable) = (version, text, true);
+                });
+                self.keep_draft(&now);
+                self.notice.set(Some(Notice::Said(words::saved(path))));
+            }
+            Saved::Changed(theirs) => self.conflict.set(Some(theirs)),
+            Saved::Failed(message) => self.say_refused(message),
+        }
+    }
+
+    /// Takes what stands on disk instead: one step, which can be taken back.
+    pub fn take_theirs(self) {
+        if let Some(Some(theirs)) = self.conflict.get_untracked() {
+            self.conflict.set(None);
+            self.update_document(|document| {
+                (document.version, document.saved) = (theirs.version, theirs.text.clone());
+            });
+            self.apply(&Command::Text(theirs.text));
+        }
+    }
+
+    /// Saves over what stands on disk instead.
+    pub fn overwrite(self) {
+        if let Some(theirs) = self.conflict.get_untracked() {
+            self.conflict.set(None);
+            let version = theirs.map_or_else(|| String::from("absent"), |stored| stored.version);
+            self.update_document(|document| document.version = version);
+            self.save();
+        }
+    }
+
+    /// Hands the user the text as a file.
+    pub fn download(self) {
+        self.flush_text();
+        let Some(path) = self.current.get_untracked() else { return };
+        let name = path.rsplit('/').next().unwrap_or(&path);
+        self.text.with_untracked(|text| js::download(name, &text.source));
+    }
+}
+
+/// What stands under a path: on disk, in the gallery, or the beginning of a document that is not there yet.
+async fn stands(path: &str) -> Result<Stored, String> {
+    let begun =
+        || Stored { text: String::from(NEW_TEXT), version: String::from(ABSENT), writable: true };
+    Ok(server::document(path).await?.unwrap_or_else(begun))
+}
+
+fn draft_key(path: &str) -> String {
+    format!("thinglab/draft/{path}")
+}
+
+/// The path of a file that a document names in `use`: `parts.bolts` is `parts/bolts.thing` beside it.
+fn beside(folder: &str, name: &str) -> String {
+    let file = format!("{}.thing", name.replace('.', "/"));
+    if folder.is_empty() { file } else { format!("{folder}/{file}") }
+}
+
+/// What `use` calls a file: `parts/bolts.thing` is `parts.bolts`.
+fn used_as(file: &str) -> String {
+    file.strip_suffix(".thing").unwrap_or(file).replace('/', ".")
+}
+
+#[cfg(test)]
+mod tests {
+    use super::{beside, used_as};
+
+    #[test]
+    fn a_used_file_lies_beside_its_user() {
+        assert_eq!(beside("", "bolts"), "bolts.thing");
+        assert_eq!(beside("gallery", "parts.bolts"), "gallery/parts/bolts.thing");
+        assert_eq!(used_as("parts/bolts.thing"), "parts.bolts");
+    }
+}

@@ -1,0 +1,252 @@
+//! Edits: commands, drags, joins, typed text, and what came of them.
+
+use super::{InPlace, Lab, Notice, Zoom};
+use crate::picture::covers;
+use crate::words;
+use leptos::prelude::*;
+use session::view::{Caught, Change, Choice, DragState, FixView, Question, Refusal, ValueRow};
+use session::{Command, Path, Session};
+use std::time::Duration;
+
+const TYPING_PAUSE: Duration = Duration::from_millis(150);
+
+impl Lab {
+    /// Applies a command to the shown document, or asks first what it is meant of; what comes of it
+    /// stands in the signals.
+    pub fn apply(self, command: &Command) -> bool {
+        self.flush_text();
+        let asked = self.id().and_then(|id| self.ask(|session| session.preview(id, command).ok()));
+        match asked.flatten() {
+            Some(question) => {
+                self.notice.set(Some(Notice::Asked(question)));
+                false
+            }
+            None => self.apply_as_meant(command),
+        }
+    }
+
+    /// Mends the text by a fix of one of its diagnostics, if it is still the text that is shown.
+    pub fn fix(self, fix: &FixView) {
+        self.flush_text();
+        let shown = self.text.with_untracked(|text| text.source.clone());
+        let present = self.id().map(|id| self.ask(|session| session.text(id).source));
+        if present == Some(shown) {
+            self.settle(self.tell(|session, id| session.fix(id, fix)));
+        }
+    }
+
+    /// Applies a command without asking.
+    pub fn apply_as_meant(self, command: &Command) -> bool {
+        self.settle(self.tell(|session, id| session.apply(id, command)))
+    }
+
+    /// Sets a value as a person types it.
+    ///
+    /// # Errors
+    /// Why not; the caller shows it beside the field.
+    pub fn set_typed(self, path: &str, typed: &str) -> Result<(), Refusal> {
+        self.flush_text();
+        match self.tell(|session, id| session.set_typed(id, path, typed)) {
+            Some(Err(refusal)) => Err(refusal),
+            outcome => {
+                self.settle(outcome);
+                Ok(())
+            }
+        }
+    }
+
+    /// Begins a drag; returns where the handle of what is dragged lies on the sheet, if there is one.
+    pub fn press(self, path: &str) -> Option<(f64, f64)> {
+        self.flush_text();
+        let path = session::parse_path(path)?;
+        match self.tell(|session, id| session.press(id, &path))? {
+            Ok(handle) => {
+                self.notice.set(None);
+                self.dragging.set(Some(DragState::default()));
+                Some(handle)
+            }
+            Err(refusal) => {
+                self.notice.set(Some(Notice::Refused(refusal)));
+                None
+            }
+        }
+    }
+
+    /// Goes on with a drag, in the sheet's coordinates.
+    pub fn drag(self, to: (f64, f64)) {
+        let state = self.tell(|session, id| session.drag(id, to));
+        self.repaint();
+        if state != self.dragging.get_untracked() {
+            self.dragging.set(state);
+        }
+    }
+
+    /// Ends a drag: one step for the undo list.
+    pub fn release(self) {
+        self.dragging.set(None);
+        self.settle(self.tell(Session::release));
+    }
+
+    /// Looks whether what is dragged, brought to a place, would be joined with one of some paths, nearest first.
+    pub fn look_for_joint(self, near: &[Caught]) {
+        let found = self.id().and_then(|id| {
+            near.iter().find_map(|caught| {
+                let path = session::parse_path(&caught.word)?;
+                let joined = self.ask(|session| session.joint(id, &path))?;
+                let caught = Caught { word: words::joins(&joined), ..caught.clone() };
+                Some((path, caught))
+            })
+        });
+        if self.dropping.with_untracked(|old| *old != found) {
+            self.dropping.set(found);
+        }
+    }
+
+    /// Ends a drag where it joins something: one step for the undo list.
+    pub fn release_onto(self, target: &Path) {
+        self.dragging.set(None);
+        self.dropping.set(None);
+        self.settle(self.tell(|session, id| session.release_onto(id, target)));
+    }
+
+    /// Merges what is selected: of each what sticks there.
+    pub fn join_selection(self) {
+        self.flush_text();
+        let Some(id) = self.id() else { return };
+        let paths: Vec<Path> =
+            self.selection_untracked().iter().filter_map(|p| session::parse_path(p)).collect();
+        match self.ask(|session| session.join(id, &paths)) {
+            Ok(command) => drop(self.apply(&command)),
+            Err(refusal) => self.notice.set(Some(Notice::Refused(refusal))),
+        }
+    }
+
+    /// Deletes what is selected; where more goes with it, that is told first.
+    pub fn delete_selection(self) {
+        self.flush_text();
+        let Some(path) = self.selected.get_untracked() else { return };
+        let (Some(id), Some(parsed)) = (self.id(), session::parse_path(&path)) else { return };
+        let command = Command::Delete(parsed.clone());
+        let asked = self.ask(|session| session.preview(id, &command).ok().flatten());
+        let along = self.ask(|session| session.along_with(id, &parsed));
+        if asked.is_some() || along.is_empty() {
+            self.apply(&command);
+            return;
+        }
+        let message = words::goes_along(&path, &along);
+        let choices = vec![Choice { label: words::delete_all(along.len() + 1), command }];
+        self.notice.set(Some(Notice::Asked(Question { message, choices })));
+    }
+
+    /// Makes copies of what is selected, a little aside, and selects the first.
+    pub fn duplicate_selection(self) {
+        self.flush_text();
+        let Some(id) = self.id() else { return };
+        let paths: Vec<Path> =
+            self.selection_untracked().iter().filter_map(|p| session::parse_path(p)).collect();
+        match self.ask(|session| session.duplication(id, &paths)) {
+            Ok((command, name)) => {
+                if self.apply_as_meant(&command) {
+                    self.select(Some(name));
+                }
+            }
+            Err(refusal) => self.notice.set(Some(Notice::Refused(refusal))),
+        }
+    }
+
+    /// Opens the editor of a thing's value in the picture: of the one that a word there shows, else of the
+    /// outermost that the text gives.
+    pub fn edit_in_place(self, path: &str, word: Option<&str>, at: (f64, f64)) {
+        let found = self.values.with_untracked(|rows| {
+            let is_coordinate = |path: &str| matches!(path.rsplit('.').next(), Some("x" | "y"));
+            let own =
+                rows.iter().filter(|row| covers(path, &row.path) && !is_coordinate(&row.path));
+            let depth = |row: &ValueRow| row.path.matches('.').count();
+            let is_shown = |row: &ValueRow| {
+                word.is_some_and(|word| !row.text.is_empty() && word.contains(&row.text))
+            };
+            own.min_by_key(|row| (!is_shown(row), row.is_virtual, depth(row), !row.given)).map(
+                |row| {
+                    let unit =
+                        if row.unit.is_empty() { String::new() } else { format!(" {}", row.unit) };
+                    InPlace { path: row.path.clone(), value: format!("{}{unit}", row.text), at }
+                },
+            )
+        });
+        match found {
+            Some(found) => self.editing.set(Some(found)),
+            None => self.notice.set(Some(Notice::Said(words::no_value_to_type(path)))),
+        }
+    }
+
+    /// Ends a drag as if it had never begun.
+    pub fn cancel(self) {
+        self.dragging.set(None);
+        self.dropping.set(None);
+        self.tell(Session::cancel);
+        self.refresh();
+    }
+
+    /// Says which classes the selected things could be the parts of.
+    pub fn recognise(self) {
+        self.flush_text();
+        let Some(id) = self.id() else { return };
+        let paths: Vec<Path> =
+            self.selection().iter().filter_map(|p| session::parse_path(p)).collect();
+        self.notice.set(Some(match self.ask(|session| session.recognise(id, &paths)) {
+            Ok(found) if found.is_empty() => Notice::Said(String::from(words::NOT_RECOGNISED)),
+            Ok(found) => Notice::Recognised(found),
+            Err(refusal) => Notice::Refused(refusal),
+        }));
+    }
+
+    /// Takes note of what the editor holds; it becomes a command a little later, or before the next
+    /// one.
+    pub fn typed_text(self, text: String) {
+        self.pending_text.set_value(Some(text));
+        self.typing.update_value(|n| *n += 1);
+        let mine = self.typing.get_value();
+        set_timeout(
+            move || {
+                if self.typing.try_get_value() == Some(mine) {
+                    self.flush_text();
+                }
+            },
+            TYPING_PAUSE,
+        );
+    }
+
+    /// Whether the editor holds words that the session has not been given yet.
+    pub fn is_typing(self) -> bool {
+        self.pending_text.with_value(Option::is_some)
+    }
+
+    /// Hands the session what was typed into the editor and not yet handed over.
+    pub fn flush_text(self) {
+        let typed = self.pending_text.try_update_value(Option::take).flatten();
+        if let Some(text) = typed {
+            self.settle(self.tell(|session, id| session.apply(id, &Command::Text(text))));
+        }
+    }
+
+    /// Shows what came of a command.
+    pub(super) fn settle(self, outcome: Option<Result<Change, Refusal>>) -> bool {
+        match outcome {
+            Some(Ok(change)) => {
+                self.refresh();
+                self.renew_tool();
+                if change.structure && self.fits.get_value() {
+                    self.zoom.set(Some(Zoom::Fit));
+                }
+                self.notice.set(words::done(&change).map(Notice::Said));
+                true
+            }
+            Some(Err(refusal)) => {
+                self.refresh();
+                self.notice.set(Some(Notice::Refused(refusal)));
+                false
+            }
+            None => false,
+        }
+    }
+}
