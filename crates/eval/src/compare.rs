@@ -104,7 +104,8 @@ impl<'a> Evaluator<'a> {
         })
     }
 
-    pub(crate) fn class_of(&self, answer: &Answer<'a>) -> Option<ClassId> {
+    /// Returns the class of a thing, or of what was made; nothing for values.
+    pub fn class_of(&self, answer: &Answer<'a>) -> Option<ClassId> {
         match answer {
             Answer::Thing(t) => Some(self.structure.things[*t].class),
             Answer::Made(made) => Some(made.class),

@@ -53,6 +53,24 @@ impl<'a> Evaluator<'a> {
         self.make(class, &given, nearest)
     }
 
+    /// Returns a part of something, or what it answers: `p1` of a line.
+    ///
+    /// # Errors
+    /// It has none of that name.
+    pub fn of_part(&self, of: &Answer<'a>, name: &str) -> Result<Answer<'a>> {
+        self.begin();
+        self.part_of(of, name, kernel::DOCUMENT)
+    }
+
+    /// Returns the figure that something is: a point, a straight, or a circle, that of an arc too.
+    ///
+    /// # Errors
+    /// It is none.
+    pub fn figure_of(&self, answer: &Answer<'a>) -> Result<Figure<f64>> {
+        self.begin();
+        self.figure(answer, kernel::DOCUMENT)
+    }
+
     /// Reads a figure: a point, a straight, or a circle, that of an arc too.
     fn figure(&self, of: &Answer<'a>, nearest: ThingId) -> Result<Figure<f64>> {
         let kind = self.class_of(of).and_then(|class| self.document.figure(class));

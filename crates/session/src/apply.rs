@@ -505,7 +505,7 @@ pub(crate) fn catch_up(open: &mut Open, host: &dyn Host) -> Option<Vec<String>> 
 }
 
 /// Makes a state the present one, and says which constraints could be satisfied before and cannot be now.
-fn step_to(open: &mut Open, label: String, state: State, planner: Planner) -> Change {
+pub(crate) fn step_to(open: &mut Open, label: String, state: State, planner: Planner) -> Change {
     let before = open.state.clone();
     let unmet = words::unmet_in_words(&before, &open.status);
     open.step_to(label.clone(), Vec::new(), state, planner);

@@ -38,6 +38,10 @@ pub(crate) struct Open {
     pub(crate) undone: Vec<Step>,
     /// What the hand holds besides, to place things with.
     pub(crate) tool: Option<crate::tools::Tool>,
+    /// A construction that waits for its operands.
+    pub(crate) dialogue: Option<crate::drafting::Dialogue>,
+    /// The program that is recorded, if any.
+    pub(crate) recording: Option<crate::drafting::Recording>,
     /// A drag between press and release.
     pub(crate) drag: Option<crate::drag::Drag>,
     /// The picture as it was asked for last.
@@ -66,6 +70,8 @@ impl Open {
             done: Vec::new(),
             undone: Vec::new(),
             tool: None,
+            dialogue: None,
+            recording: None,
             drag: None,
             shown: RefCell::new(None),
         }

@@ -20,6 +20,7 @@ mod classing;
 mod complaints;
 mod difference;
 mod document;
+pub mod drafting;
 mod drag;
 mod families;
 mod fixes;

@@ -41,8 +41,8 @@ use std::collections::BTreeSet;
 /// assert_eq!(session.text(id).source, "a: Real = 4\nb: Real\nconstraint b = a + 1\n");
 /// ```
 pub struct Session {
-    host: Box<dyn Host>,
-    documents: Vec<Open>,
+    pub(crate) host: Box<dyn Host>,
+    pub(crate) documents: Vec<Open>,
 }
 
 impl std::fmt::Debug for Session {
@@ -68,10 +68,10 @@ impl Session {
     pub fn rename(&mut self, id: DocumentId, name: &str) {
         self.document_mut(id).name = name.into();
     }
-    fn document(&self, id: DocumentId) -> &Open {
+    pub(crate) fn document(&self, id: DocumentId) -> &Open {
         self.documents.get(id.0 as usize).expect("a document id comes from this session's open")
     }
-    fn document_mut(&mut self, id: DocumentId) -> &mut Open {
+    pub(crate) fn document_mut(&mut self, id: DocumentId) -> &mut Open {
         self.documents.get_mut(id.0 as usize).expect("a document id comes from this session's open")
     }
     /// Applies a command: one undo step with all that it implies.
@@ -92,7 +92,7 @@ impl Session {
         Ok(change)
     }
     /// Brings documents that use another up to date with it, and says what that did to them.
-    fn reach(&mut self, id: DocumentId) -> Vec<Affected> {
+    pub(crate) fn reach(&mut self, id: DocumentId) -> Vec<Affected> {
         let name = self.document(id).name.clone();
         let mut affected = Vec::new();
         for i in 0..self.documents.len() {

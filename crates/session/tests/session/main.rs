@@ -1,5 +1,6 @@
 //! The session, from outside: what a person does to a document, and what its text says then.
 mod desk;
+mod drafting;
 mod dragging;
 
 mod drawing;

@@ -1,0 +1,190 @@
+//! The outcome of a construction: every way to turn its operands is tried in a copy of the text, and the one
+//! nearest to where they were picked is taken; of equal ones that with the fewest reversals.
+//!
+//! What is shown as a ghost, what is written and what is drawn then are one answer.
+
+use super::catalogue::{Call, SlotKind, Tool};
+use super::scene::Curve;
+use super::{Home, Operand, text};
+use crate::host::Host;
+use crate::state::State;
+use crate::view::Refusal;
+use crate::words;
+use base::Severity;
+use eval::{Answer, Evaluator};
+use kernel::{ClassId, Step};
+use plan::Plans;
+
+/// The outcome that is taken.
+#[derive(Clone, Debug)]
+pub(crate) struct Chosen {
+    /// How it is written.
+    pub(crate) text: String,
+    /// How it looks.
+    pub(crate) drawing: drawing::Drawing,
+}
+
+/// Looks at what a trial came to.
+type Look<'l> =
+    dyn for<'a> FnMut(&'a State, usize, &Evaluator<'a>, Result<Answer<'a>, eval::Fault>) + 'l;
+
+/// What answers the trials of a copy.
+const TRIAL: &str = "outcome__";
+
+/// Chooses among the outcomes of a construction from its operands, with where the pointer is.
+///
+/// # Errors
+/// Why there is none.
+pub(crate) fn choose(
+    state: &State,
+    host: &dyn Host,
+    home: &Home,
+    (tool, operands, pointer): (&Tool, &[Operand], Option<(f64, f64)>),
+) -> Result<Chosen, Refusal> {
+    let ways = ways(tool, operands);
+    let texts: Vec<String> = ways.iter().map(|(text, _)| text.clone()).collect();
+    let picks: Vec<(f64, f64)> = operands.iter().filter_map(|o| o.at).chain(pointer).collect();
+    let mut best: Option<(f64, u32, Chosen)> = None;
+    let mut why = None;
+    let unwritten = try_all(state, host, home, &texts, &mut |tried, i, evaluator, answer| {
+        let answer = match answer {
+            Ok(answer) => answer,
+            Err(fault) => {
+                why.get_or_insert(fault.message);
+                return;
+            }
+        };
+        let curve = Curve::of(evaluator, tried, &answer);
+        let away = curve.map_or(0.0, |c| picks.iter().map(|&p| c.distance(p)).sum());
+        let reversals = ways[i].1;
+        let is_better = best.as_ref().is_none_or(|(least, fewest, _)| {
+            let same = (away - least).abs() <= 1e-9 * (1.0 + least.abs());
+            if same { reversals < *fewest } else { away < *least }
+        });
+        if is_better {
+            let elements = evaluator.elements(&answer);
+            let drawing = drawing::Drawing { elements, ..drawing::Drawing::default() };
+            best = Some((away, reversals, Chosen { text: texts[i].clone(), drawing }));
+        }
+    });
+    match best {
+        Some((_, _, chosen)) => Ok(chosen),
+        None => {
+            let why = unwritten.or(why).unwrap_or_else(|| "there is no such figure".into());
+            Err(words::refuse(why))
+        }
+    }
+}
+
+/// Checks that an operand is what a slot wants.
+///
+/// # Errors
+/// What it is instead, or what is wrong with its text.
+pub(crate) fn fits(
+    state: &State,
+    host: &dyn Host,
+    home: &Home,
+    (operand, class, kind): (&str, &str, SlotKind),
+) -> Result<(), Refusal> {
+    let mut outcome = Err(words::refuse(format!("{operand} has no value")));
+    let texts = [operand.to_string()];
+    let unwritten = try_all(state, host, home, &texts, &mut |tried, _, evaluator, answer| {
+        let document = &tried.lowered.document;
+        let is_wanted = |found: ClassId| {
+            document.class_named(class).is_some_and(|wanted| document.is_a(found, wanted))
+        };
+        outcome = match answer {
+            Err(fault) => Err(words::refuse(format!("{operand}: {}", fault.message))),
+            Ok(Answer::Number(..) | Answer::Bool(_)) if kind == SlotKind::Value => Ok(()),
+            Ok(answer) => match evaluator.class_of(&answer) {
+                Some(found) if is_wanted(found) => Ok(()),
+                Some(found) => {
+                    let found = &document.classes[found].name;
+                    Err(words::refuse(format!("{operand} is a {found}, where a {class} is wanted")))
+                }
+                None => Err(words::refuse(format!(
+                    "{operand} is {}, where a {class} is wanted",
+                    answer.kind()
+                ))),
+            },
+        };
+    });
+    match unwritten {
+        Some(message) => Err(words::refuse(format!("{operand}: {message}"))),
+        None => outcome,
+    }
+}
+
+/// Reads the value of expressions in a home; returns what is wrong with the text of them all.
+pub(crate) fn try_all(
+    state: &State,
+    host: &dyn Host,
+    home: &Home,
+    texts: &[String],
+    look: &mut Look<'_>,
+) -> Option<String> {
+    let line = |(i, text): (usize, &String)| format!("{TRIAL}{i} => {text}");
+    let lines: Vec<String> = texts.iter().enumerate().map(line).collect();
+    let edited = match text::with_members(&state.text, home, &lines.join("\n")) {
+        Ok(edited) => edited,
+        Err(refusal) => return Some(refusal.message),
+    };
+    let (tried, _) = State::of(edited, Some(state), host, Plans::default());
+    let evaluator = tried.evaluator(&tried.values);
+    let path = home.path();
+    let mut any = false;
+    for i in 0..texts.len() {
+        let answer = evaluator.at(&path.then(Step::Part(format!("{TRIAL}{i}").as_str().into())));
+        any |= answer.is_ok();
+        look(&tried, i, &evaluator, answer);
+    }
+    let is_new = |d: &&base::Diagnostic| {
+        d.severity == Severity::Error && !state.diagnostics.iter().any(|b| b.message == d.message)
+    };
+    let wrong = tried.diagnostics.iter().find(is_new).map(|d| d.message.clone());
+    wrong.filter(|_| !any)
+}
+
+/// Returns every way to write a construction, with how many operands are turned round.
+fn ways(tool: &Tool, operands: &[Operand]) -> Vec<(String, u32)> {
+    let texts: Vec<String> = operands.iter().map(|o| o.text.clone()).collect();
+    if !matches!(tool.call, Call::Class(_)) {
+        return vec![(tool.written(&texts), 0)];
+    }
+    let is_curve = |i: &usize| tool.slots[*i].kind == SlotKind::Curve;
+    let curves: Vec<usize> = (0..texts.len()).filter(is_curve).collect();
+    let mut orders = vec![texts.clone()];
+    if let [a, b, ..] = tool.slots.as_slice()
+        && a.class == b.class
+        && texts.len() > 1
+        && a.label.is_none()
+    {
+        let mut other = texts;
+        other.swap(0, 1);
+        orders.push(other);
+    }
+    let mut all = Vec::new();
+    for (order, texts) in orders.iter().enumerate() {
+        for turned in 0..1_u32 << curves.len() {
+            let mut texts = texts.clone();
+            for (bit, &i) in curves.iter().enumerate() {
+                if turned >> bit & 1 == 1 {
+                    texts[i] = turned_round(&texts[i]);
+                }
+            }
+            // an order other than the picks' costs as much as a reversal
+            all.push((tool.written(&texts), turned.count_ones() + order as u32));
+        }
+    }
+    all
+}
+
+/// Writes a curve turned round.
+pub(crate) fn turned_round(text: &str) -> String {
+    let is_path = |t: &str| t.chars().all(|c| c.is_alphanumeric() || "_.[]".contains(c));
+    match text.strip_prefix('-') {
+        Some(rest) if is_path(rest) => rest.into(),
+        _ if is_path(text) => format!("-{text}"),
+        _ => format!("-({text})"),
+    }
+}

@@ -1,0 +1,73 @@
+//! Operands as they are typed: `3,4`, `@10,0`, `20<45`, a number, any expression.
+
+use super::catalogue::{Slot, SlotKind};
+use crate::view::Refusal;
+use crate::words;
+use base::number::shortest;
+
+/// Writes a place of the sheet.
+pub(crate) fn place((x, y): (f64, f64)) -> String {
+    format!("Point({}, {})", shortest(x), shortest(y))
+}
+
+/// Returns what is typed as the language writes it. `last` is the point that was given last.
+///
+/// # Errors
+/// Nothing is typed; a place is said from a point, and there is none.
+pub(crate) fn operand(slot: &Slot, typed: &str, last: Option<&str>) -> Result<String, Refusal> {
+    let typed = typed.trim();
+    if typed.is_empty() {
+        return Err(words::refuse(format!("{} is wanted", slot.name)));
+    }
+    let from = || {
+        let none = || words::refuse(format!("{typed} goes from a point, and none was given yet"));
+        last.map(String::from).ok_or_else(none)
+    };
+    Ok(match slot.kind {
+        SlotKind::Curve => typed.into(),
+        SlotKind::Value if *slot.class == *"Angle" && is_number(typed) => format!("{typed} deg"),
+        SlotKind::Value => typed.into(),
+        SlotKind::Point => match (typed.strip_prefix('@'), pair(typed, '<')) {
+            (Some(by), _) => {
+                let wrong = || words::refuse(format!("{typed}: `@dx,dy` is wanted"));
+                let (dx, dy) = pair(by, ',').ok_or_else(wrong)?;
+                let from = from()?;
+                format!("Point({from}.x + {}, {from}.y + {})", grouped(dx), grouped(dy))
+            }
+            (None, Some((length, angle))) => {
+                let angle = if is_number(angle) { format!("{angle} deg") } else { angle.into() };
+                format!("Point.polar(from: {}, distance: {length}, angle: {angle})", from()?)
+            }
+            (None, None) => match pair(typed, ',') {
+                Some((x, y)) => format!("Point({x}, {y})"),
+                None => typed.into(),
+            },
+        },
+    })
+}
+
+fn is_number(text: &str) -> bool {
+    text.trim().parse::<f64>().is_ok()
+}
+
+/// Writes an expression so that it can be added.
+fn grouped(text: &str) -> String {
+    let is_plain = text.chars().all(|c| c.is_alphanumeric() || "._ ".contains(c));
+    if is_plain { text.into() } else { format!("({text})") }
+}
+
+/// Splits what is typed in two, outside of any brackets.
+fn pair(text: &str, at: char) -> Option<(&str, &str)> {
+    let mut depth = 0;
+    let split = text.char_indices().find(|(_, c)| {
+        match c {
+            '(' | '[' => depth += 1,
+            ')' | ']' => depth -= 1,
+            _ => {}
+        }
+        depth == 0 && *c == at
+    });
+    let (i, _) = split?;
+    let (a, b) = (text[..i].trim(), text[i + at.len_utf8()..].trim());
+    (!a.is_empty() && !b.is_empty()).then_some((a, b))
+}
