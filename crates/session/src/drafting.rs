@@ -7,11 +7,12 @@
 //! Nothing is known of any construction: [`catalogue`] finds them in the classes in scope, [`outcome`] tries
 //! them in a copy of the text. So a construction that a library gains is a tool at once.
 //!
-//! Reading order: `catalogue`, `scene`, `typed`, `outcome`, `hands`, `recording`, `steps`, `text`.
+//! Reading order: `catalogue`, `scene`, `typed`, `outcome`, `hands`, `recording`, `repeat`, `steps`, `text`.
 mod catalogue;
 mod hands;
 mod outcome;
 mod recording;
+mod repeat;
 mod scene;
 mod steps;
 mod text;
@@ -39,6 +40,8 @@ pub(crate) enum Home {
         program: Name,
         /// The thing of the document that shows it.
         example: Name,
+        /// The loop whose first turn is drawn, if any.
+        block: Option<Name>,
     },
 }
 
@@ -49,6 +52,8 @@ pub(crate) struct Recording {
     pub(crate) program: Name,
     /// Its example.
     pub(crate) example: Name,
+    /// The loop that is open in it.
+    pub(crate) block: Option<repeat::Loop>,
 }
 
 impl Home {
@@ -56,7 +61,22 @@ impl Home {
     fn path(&self) -> Path {
         match self {
             Self::Document => Path::default(),
-            Self::Program { example, .. } => Path::of(&[example]),
+            Self::Program { example, block: None, .. } => Path::of(&[example]),
+            Self::Program { example, block: Some(block), .. } => {
+                Path::of(&[example, block]).then(kernel::Step::Index(0))
+            }
+        }
+    }
+
+    /// Where what is drawn goes while something is recorded, or nothing is.
+    pub(crate) fn of(recording: Option<&Recording>) -> Self {
+        match recording {
+            Some(recording) => Self::Program {
+                program: recording.program.clone(),
+                example: recording.example.clone(),
+                block: recording.block.as_ref().map(|block| block.name.clone()),
+            },
+            None => Self::Document,
         }
     }
 }
@@ -146,10 +166,9 @@ impl Dialogue {
         }
         let outside = match home {
             Home::Document => None,
-            Home::Program { .. } => {
+            Home::Program { example, .. } => {
                 let all = scene::scene(state, &Home::Document);
-                let example = home.path().to_string();
-                let is_outside = |f: &Found| !f.text.starts_with(&example);
+                let is_outside = |f: &Found| !f.text.starts_with(example.as_str());
                 let all: Vec<Found> = all.into_iter().filter(is_outside).collect();
                 nearest(state, slot, &all, pointer).map(|f| f.text.clone())
             }
@@ -207,6 +226,14 @@ fn nearest<'f>(
     let near = all.iter().filter(fits).map(|f| (f.curve.distance(pointer.at), f));
     let near = near.filter(|(far, _)| *far <= pointer.reach);
     near.min_by(|a, b| a.0.total_cmp(&b.0)).map(|(_, f)| f)
+}
+
+/// Returns the name of the nearest curve under a pointer.
+pub(crate) fn object_at(state: &State, home: &Home, pointer: &Pointer) -> Option<String> {
+    let found = scene::scene(state, home);
+    let near = found.iter().filter(|f| !f.curve.is_point());
+    let near = near.map(|f| (f.curve.distance(pointer.at), f)).filter(|(d, _)| *d <= pointer.reach);
+    near.min_by(|a, b| a.0.total_cmp(&b.0)).map(|(_, f)| f.text.clone())
 }
 
 /// Returns the measure that a figure has: a circle's radius, a line's length.

@@ -5,6 +5,7 @@
 
 use crate::actions::Context;
 use crate::dialog::Wish;
+use crate::drafting::Drafting;
 use crate::files::{FileSet, Files};
 use crate::menu::{self, Menu};
 use crate::picture::covers;
@@ -133,6 +134,8 @@ pub struct Lab {
     pub carried: StoredValue<bool>,
     /// What the thing that is dragged would be joined with.
     pub dropping: RwSignal<Option<(Path, Caught)>>,
+    /// What of drafting there is.
+    pub drafting: Drafting,
     /// What the left drawer shows.
     pub drawer: RwSignal<Drawer>,
     /// The value that is typed in the picture, and where on the canvas.
@@ -173,6 +176,8 @@ pub struct Marked {
 pub enum Drawer {
     /// The tree of things.
     Structure,
+    /// Constructions, and programs recorded.
+    Draw,
     /// The classes that things can be made of.
     Bin,
     /// The steps.
@@ -251,6 +256,7 @@ impl Lab {
             cursor: RwSignal::new(None),
             carried: StoredValue::new(false),
             dropping: RwSignal::new(None),
+            drafting: Drafting::new(),
             drawer: RwSignal::new(Drawer::Structure),
             editing: RwSignal::new(None),
             menu: RwSignal::new(None),

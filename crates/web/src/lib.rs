@@ -15,6 +15,7 @@ pub mod actions;
 pub mod bench;
 pub mod bin_panel;
 pub mod dialog;
+pub mod drafting;
 pub mod field;
 pub mod files;
 pub mod gallery;

@@ -3,6 +3,7 @@
 use crate::actions::{self, Action};
 use crate::bin_panel::Bin;
 use crate::dialog::Dialog;
+use crate::drafting::{Drawing, PromptLine};
 use crate::gallery::Gallery;
 use crate::history::History;
 use crate::lab::{Drawer, Lab};
@@ -187,6 +188,7 @@ fn Document(lab: Lab) -> impl IntoView {
                 <Rail lab=lab />
                 <Picture lab=lab />
                 <Strip lab=lab />
+                <PromptLine lab=lab />
                 <Show when=move || lab.why.get()>
                     <Splitter name="why" way=Way::Up least=96.0 most=640.0 />
                     <Why lab=lab />
@@ -218,11 +220,13 @@ fn Drawer(lab: Lab) -> impl IntoView {
         <div class="drawer">
             <div class="tabs" role="tablist" aria-label=words::VIEWS>
                 {tab(words::STRUCTURE, Drawer::Structure)}
+                {tab(words::DRAW, Drawer::Draw)}
                 {tab(words::BIN, Drawer::Bin)}
                 {tab(words::HISTORY, Drawer::History)}
             </div>
             <div class="shelf" id="drawer" role="tabpanel" aria-label=words::VIEWS>
                 {move || match lab.drawer.get() {
+                    Drawer::Draw => view! { <Drawing lab=lab /> }.into_any(),
                     Drawer::Bin => view! { <Bin lab=lab /> }.into_any(),
                     Drawer::History => view! { <History lab=lab /> }.into_any(),
                     Drawer::Structure => view! { <Structure lab=lab /> }.into_any(),

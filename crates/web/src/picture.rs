@@ -74,7 +74,9 @@ pub fn Picture(
                 aria-label=label
                 aria-describedby="picture-live"
                 class=("gripping", move || lab.dragging.with(Option::is_some))
-                class=("drawing", move || lab.tool.with(Option::is_some))
+                class=("drawing", move || {
+                    lab.tool.with(Option::is_some) || lab.drafting.prompt.with(Option::is_some)
+                })
                 class=("over", move || lab.hovered.with(Option::is_some))
                 on:pointerdown=move |e: PointerEvent| hand.down(&e)
                 on:pointermove=move |e: PointerEvent| hand.moved(&e)

@@ -39,7 +39,11 @@ pub fn StatusLine(
         let typed = (!typed.is_empty()).then(|| words::typed_length(&typed));
         lab.tool.with(Option::is_some).then(|| typed.unwrap_or(hint))
     });
-    let heard = Memo::new(move |_| drag.get().or_else(|| said.get()).or_else(|| hint.get()));
+    let wanted =
+        move || lab.drafting.prompt.with(|prompt| prompt.as_ref().map(|p| p.words.clone()));
+    let heard = Memo::new(move |_| {
+        drag.get().or_else(wanted).or_else(|| said.get()).or_else(|| hint.get())
+    });
     view! {
         <footer class="status" class:wrong=move || !holds.get() class:doubtful=doubtful>
             <button class="verdict" aria-expanded=move || lab.why.get().to_string()

@@ -16,7 +16,9 @@ pub fn Strip(
     lab: Lab,
 ) -> impl IntoView {
     let offers = Memo::new(move |_| {
-        let idle = lab.tool.with(Option::is_none) && lab.dragging.with(Option::is_none);
+        let idle = lab.drafting.prompt.with(Option::is_none)
+            && lab.tool.with(Option::is_none)
+            && lab.dragging.with(Option::is_none);
         if idle { lab.offers() } else { Vec::new() }
     });
     view! {

@@ -299,3 +299,89 @@ pub fn theme(theme: crate::theme::Theme) -> &'static str {
         crate::theme::Theme::Dark => "Dark",
     }
 }
+
+/// The drawer of constructions and recording.
+pub const DRAW: &str = "Draw";
+/// The prompt of a construction.
+pub const CONSTRUCTION: &str = "Construction";
+/// The field of an operand.
+pub const OPERAND: &str = "type it, or pick it";
+/// What is drawn is for construction alone.
+pub const GUIDE: &str = "guide";
+/// Takes the latest operand back.
+pub const BACK: &str = "Back";
+/// Ends a construction.
+pub const GIVE_UP: &str = "Done";
+/// Begins to record.
+pub const RECORD: &str = "Record";
+/// Ends a recording.
+pub const STOP: &str = "Stop";
+/// The field for the name of a program.
+pub const PROGRAM_NAME: &str = "Program, as Washer";
+/// Defines a parameter.
+pub const DEFINE: &str = "Define";
+/// The field for the name of a parameter.
+pub const PARAMETER_NAME: &str = "parameter";
+/// The field for the example of a parameter.
+pub const EXAMPLE: &str = "example";
+/// The field for what is asked.
+pub const QUESTION: &str = "question?";
+/// Deletes a step.
+pub const DELETE_STEP: &str = "Delete step";
+/// The field that finds constructions.
+pub const FILTER_CONSTRUCTIONS: &str = "Find a construction";
+
+/// What is recorded.
+pub fn recording(program: &str) -> String {
+    format!("Recording {program}")
+}
+
+/// Whose steps are listed.
+pub fn steps_of(program: &str) -> String {
+    format!("{program}, step by step")
+}
+
+/// What goes with a step.
+pub fn deleted_along(along: &[String]) -> String {
+    match along {
+        [] => String::from("Nothing else speaks of it."),
+        all => format!("Goes along: {}.", all.join(", ")),
+    }
+}
+
+/// Begins a loop.
+pub const REPEAT: &str = "Repeat";
+/// The field for the name of a loop.
+pub const LOOP_NAME: &str = "loop, as column";
+/// Ends the first turn of a loop.
+pub const END_TURN: &str = "First turn drawn";
+/// What is asked of the second turn.
+pub const SECOND_TURN: &str = "Second turn";
+/// The answer that an operand stays.
+pub const THE_SAME: &str = "The same";
+/// The field for another answer.
+pub const OTHER: &str = "pick it, or type it";
+/// Gives an answer.
+pub const ANSWER: &str = "Answer";
+/// The field for what ends a loop.
+pub const ENDS: &str = "until …, while … or 6 times";
+/// Closes a loop.
+pub const CLOSE_LOOP: &str = "Run the rest";
+
+/// What is drawn now.
+pub fn first_turn(name: &str) -> String {
+    format!("Draw the first turn of {name}.")
+}
+
+/// What is asked of the second turn.
+pub fn recurrence(q: &session::drafting::view::RecurrenceQuestion) -> String {
+    format!(
+        "Second turn, {} of {}: {} of {} was {}. The same, or which object of the turn before?",
+        q.number, q.of, q.operand, q.step, q.first
+    )
+}
+
+/// What is asked at last.
+pub fn loop_ends(name: &str) -> String {
+    format!("When does {name} end?")
+}

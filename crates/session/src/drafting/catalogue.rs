@@ -169,7 +169,7 @@ fn of_message(document: &Document, id: ClassId, message: &Message) -> Option<Too
     let mut slots: Vec<Slot> = Vec::new();
     let call = match message.is_of_class() {
         true => Call::Class(word.clone()),
-        false if makes_its_kind(message) => {
+        false if made_by(message).is_some() => {
             slots.push(Slot::of(document, "what", None, id));
             Call::Message(word.clone())
         }
@@ -181,9 +181,10 @@ fn of_message(document: &Document, id: ClassId, message: &Message) -> Option<Too
         slots.push(Slot::of(document, &label, written, parameter.class?));
     }
     let separator = if message.is_of_class() { "." } else { ":" };
+    let made = made_by(message).filter(|_| !message.is_of_class()).unwrap_or(id);
     Some(Tool {
         id: format!("{}{separator}{}", class.name, message.name),
-        class: class.name.clone(),
+        class: document.classes[made].name.clone(),
         label: format!("{} {word}", class.name.to_lowercase()),
         doc: message.doc.clone(),
         call,
@@ -191,14 +192,14 @@ fn of_message(document: &Document, id: ClassId, message: &Message) -> Option<Too
     })
 }
 
-/// Whether a message answers a new thing for what it is sent to and given.
-fn makes_its_kind(message: &Message) -> bool {
-    fn makes(term: &Term) -> bool {
-        match term {
-            Term::Make { .. } => true,
-            Term::Let(_, _, body) => makes(body),
-            _ => false,
-        }
+/// Returns the class of the new thing that a message answers for what it is given, if it does.
+fn made_by(message: &Message) -> Option<ClassId> {
+    let mut answer = &message.answer;
+    while let Term::Let(_, _, body) = answer {
+        answer = body;
     }
-    !message.parameters.is_empty() && makes(&message.answer)
+    match answer {
+        Term::Make { class, .. } if !message.parameters.is_empty() => Some(*class),
+        _ => None,
+    }
 }

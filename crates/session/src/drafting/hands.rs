@@ -1,8 +1,10 @@
 //! Drafting at the boundary: what the page asks of a session.
 
 use super::steps;
-use super::view::{ConstructionRow, Hover, NewParameter, Prompt, StepsView, Turn};
-use super::{Dialogue, Home, Operand, SlotKind, catalogue, outcome, recording, typed};
+use super::view::{
+    ConstructionRow, Hover, NewParameter, Prompt, RecurrenceQuestion, StepsView, Turn,
+};
+use super::{Dialogue, Home, Operand, SlotKind, catalogue, outcome, recording, repeat, typed};
 use crate::document::Open;
 use crate::host::Beside;
 use crate::session::Session;
@@ -11,12 +13,7 @@ use crate::words;
 
 /// Where an open document's drawing goes.
 pub(crate) fn home(open: &Open) -> Home {
-    match &open.recording {
-        Some(recording) => {
-            Home::Program { program: recording.program.clone(), example: recording.example.clone() }
-        }
-        None => Home::Document,
-    }
+    Home::of(open.recording.as_ref())
 }
 
 impl Session {
@@ -176,6 +173,55 @@ impl Session {
         open.dialogue = None;
     }
 
+    /// Begins a loop in the program that is recorded; what is drawn next is its first turn.
+    ///
+    /// # Errors
+    /// Nothing is recorded, a loop is open already, the name is none or taken.
+    pub fn begin_loop(&mut self, id: DocumentId, name: &str) -> Result<Change, Refusal> {
+        let beside = Beside::of(&*self.host, &self.documents, id);
+        let change = repeat::begin(&mut self.documents[id.0 as usize], &beside, name)?;
+        Ok(*self.with_reach(id, change))
+    }
+
+    /// Ends the first turn of the loop; returns what is asked of the second.
+    ///
+    /// # Errors
+    /// No loop is open, or nothing is drawn in it.
+    pub fn end_turn(&mut self, id: DocumentId) -> Result<Option<RecurrenceQuestion>, Refusal> {
+        repeat::end_turn(self.document_mut(id))
+    }
+
+    /// Returns what lies under a pointer of what is drawn, by the name that it has where things are drawn now.
+    pub fn object_at(&self, id: DocumentId, pointer: &Pointer) -> Option<String> {
+        let open = self.document(id);
+        super::object_at(&open.state, &home(open), pointer)
+    }
+
+    /// Answers what is asked of the second turn: nothing for the same, else an object of the turn before, or an
+    /// expression over it. Where it was picked decides which way round a curve is taken.
+    ///
+    /// # Errors
+    /// Nothing is asked, or the second turn would have no outcome.
+    pub fn answer_recurrence(
+        &mut self,
+        id: DocumentId,
+        answer: Option<&str>,
+        at: Option<(f64, f64)>,
+    ) -> Result<Option<RecurrenceQuestion>, Refusal> {
+        let beside = Beside::of(&*self.host, &self.documents, id);
+        repeat::answer(&mut self.documents[id.0 as usize], &beside, (answer, at))
+    }
+
+    /// Closes the loop by what ends it: `until ring.radius < least`, `while r > least`, `6 times`.
+    ///
+    /// # Errors
+    /// No loop is open, something is asked still, or the condition is none.
+    pub fn close_loop(&mut self, id: DocumentId, ends: &str) -> Result<Change, Refusal> {
+        let beside = Beside::of(&*self.host, &self.documents, id);
+        let change = repeat::close(&mut self.documents[id.0 as usize], &beside, ends)?;
+        Ok(*self.with_reach(id, change))
+    }
+
     /// Defines a parameter of the program that is recorded.
     ///
     /// # Errors
@@ -194,7 +240,10 @@ impl Session {
     /// Returns the steps of the program that is recorded, or of that of a thing.
     pub fn steps(&self, id: DocumentId, thing: Option<&str>) -> Option<StepsView> {
         let open = self.document(id);
-        steps::view(&open.state, open.values(), &home(open), thing)
+        let block = open.recording.as_ref().and_then(|recording| recording.block.as_ref());
+        let open_loop = block.map(repeat::Loop::view);
+        let view = steps::view(&open.state, open.values(), &home(open), thing)?;
+        Some(StepsView { open_loop, ..view })
     }
 
     /// Returns what something comes to, in words: a number, a place, a circle's centre and radius. Of whatever a path

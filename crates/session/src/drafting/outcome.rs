@@ -123,6 +123,7 @@ pub(crate) fn try_all(
     texts: &[String],
     look: &mut Look<'_>,
 ) -> Option<String> {
+    let (home, texts) = &from_outside(state, home, texts);
     let line = |(i, text): (usize, &String)| format!("{TRIAL}{i} => {text}");
     let lines: Vec<String> = texts.iter().enumerate().map(line).collect();
     let edited = match text::with_members(&state.text, home, &lines.join("\n")) {
@@ -143,6 +144,21 @@ pub(crate) fn try_all(
     };
     let wrong = tried.diagnostics.iter().find(is_new).map(|d| d.message.clone());
     wrong.filter(|_| !any)
+}
+
+/// Says from outside of a loop what is said in the turn that is drawn: its steps are `column[0].ring` there.
+fn from_outside(state: &State, home: &Home, texts: &[String]) -> (Home, Vec<String>) {
+    let Home::Program { program, example, block: Some(block) } = home else {
+        return (home.clone(), texts.to_vec());
+    };
+    let names = text::steps_of_block(&state.text, program, block);
+    let outside = |text: &String| {
+        names.iter().fold(text.clone(), |text, name| {
+            text::renamed(&text, name, &format!("{block}[0].{name}"))
+        })
+    };
+    let outer = Home::Program { program: program.clone(), example: example.clone(), block: None };
+    (outer, texts.iter().map(outside).collect())
 }
 
 /// Returns every way to write a construction, with how many operands are turned round.

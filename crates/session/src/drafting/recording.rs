@@ -33,13 +33,30 @@ pub(crate) fn line(state: &State, home: &Home, dialogue: &Dialogue, made: &str) 
         }
         Home::Program { program, .. } => {
             let document = &state.lowered.document;
-            let of = document.class_named(program).unwrap_or(document.root);
+            let of = class_of_home(state, home)
+                .or_else(|| document.class_named(program))
+                .unwrap_or(document.root);
             let name = free_name(state, of, class);
             let guide = if dialogue.is_guide { "guide " } else { "" };
             let text = format!("{guide}{name} = {made}");
             Line { name, text }
         }
     }
+}
+
+/// Returns the class whose messages the steps of a home are.
+fn class_of_home(state: &State, home: &Home) -> Option<ClassId> {
+    let evaluator = state.evaluator(&state.values);
+    let answer = evaluator.at(&home.path()).ok()?;
+    evaluator.class_of(&answer)
+}
+
+/// Returns the first error of a state that the one before it has not.
+pub(crate) fn new_error(before: &State, after: &State) -> Option<String> {
+    let is_new = |d: &&base::Diagnostic| {
+        d.severity == Severity::Error && before.diagnostics.iter().all(|b| b.message != d.message)
+    };
+    after.diagnostics.iter().find(is_new).map(|d| d.message.clone())
 }
 
 /// Returns a name that no part and nothing computed of a class has, for a thing of another.
@@ -137,7 +154,7 @@ pub(crate) fn begin(open: &mut Open, host: &dyn Host, name: &str) -> Result<Chan
     };
     let none = || words::refuse(format!("there is no example of {name}"));
     let example = example_of(&open.state, &program).ok_or_else(none)?;
-    open.recording = Some(Recording { program, example });
+    open.recording = Some(Recording { program, example, block: None });
     open.dialogue = None;
     Ok(change)
 }

@@ -50,6 +50,11 @@ impl Curve {
         Some(Self { figure, arc, is_endless: !is_of("Line") })
     }
 
+    /// Whether it is a point.
+    pub(crate) fn is_point(&self) -> bool {
+        matches!(self.figure, Figure::Point(_))
+    }
+
     /// How far a place is from it.
     pub(crate) fn distance(&self, at: (f64, f64)) -> f64 {
         let away = |[x, y]: [f64; 2]| hypot(at.0 - x, at.1 - y);
@@ -109,11 +114,19 @@ pub(crate) fn scene(state: &State, home: &Home) -> Vec<Found> {
     let mut all = Scene { state, evaluator: &evaluator, found: Vec::new() };
     match home {
         Home::Document => all.document(),
-        Home::Program { example, .. } => {
+        Home::Program { example, block, .. } => {
             if let Ok(example) = state.structure.follow(DOCUMENT, &Path::of(&[example]))
                 && let Ok(Some(run)) = evaluator.run(example)
             {
                 all.context("", &run);
+                // of the turn that is drawn its steps are called by their own names
+                if let Some(block) = block {
+                    let inside = format!("{block}[0]");
+                    all.found.retain(|found| !found.text.starts_with(&inside));
+                    if let Ok(Answer::Context(turn)) = evaluator.at(&home.path()) {
+                        all.context("", &turn);
+                    }
+                }
             }
         }
     }

@@ -45,6 +45,7 @@ pub(crate) fn view(
         is_recorded: *home != Home::Document,
         parameters: program.parameters.iter().map(parameter).collect(),
         rows: rows.rows,
+        open_loop: None,
         example,
     })
 }
@@ -200,30 +201,12 @@ pub(crate) fn dependents(text: &str, program: &str, step: &str) -> Vec<String> {
         let name = assign.target().map(|t| t.syntax().text().to_string().trim().to_string());
         let Some(name) = name.filter(|name| !gone.contains(name)) else { continue };
         let says = assign.value().map(|v| v.syntax().text().to_string()).unwrap_or_default();
-        if gone.iter().any(|g| mentions(&says, g)) {
+        if gone.iter().any(|g| !text::places_of(&says, g).is_empty()) {
             gone.insert(name.clone());
             found.push(name);
         }
     }
     found
-}
-
-/// Whether a text has a name in it that is not a part of something else.
-fn mentions(says: &str, name: &str) -> bool {
-    let is_word = |c: char| c.is_alphanumeric() || c == '_';
-    let mut from = 0;
-    while let Some(at) = says[from..].find(name).map(|i| i + from) {
-        let before = says[..at].chars().next_back();
-        let rest = &says[at + name.len()..];
-        let is_label = rest.trim_start().starts_with(':');
-        let is_whole = !before.is_some_and(|c| is_word(c) || c == '.')
-            && !rest.chars().next().is_some_and(is_word);
-        if is_whole && !is_label {
-            return true;
-        }
-        from = at + name.len();
-    }
-    false
 }
 
 /// Returns a text without a step and those that speak of it.

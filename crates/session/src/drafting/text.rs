@@ -26,12 +26,60 @@ pub(crate) fn program(text: &str, name: &str) -> Option<syntax::ast::Program> {
 pub(crate) fn with_members(text: &str, home: &Home, members: &str) -> Result<String, Refusal> {
     match home {
         Home::Document => Ok(format!("{}\n{members}\n", text.trim_end())),
-        Home::Program { program: name, .. } => {
+        Home::Program { program: name, block: Some(step), .. } => {
+            let none = || words::refuse(format!("{name} has no loop {step}"));
+            let body = block(text, name, step).ok_or_else(none)?;
+            Ok(with_lines(text, &body, 2, members))
+        }
+        Home::Program { program: name, block: None, .. } => {
             let none = || words::refuse(format!("the document has no program {name}"));
             let body = program(text, name).and_then(|p| p.body()).ok_or_else(none)?;
             Ok(with_lines(text, &body, 1, members))
         }
     }
+}
+
+/// Finds the body of a loop of a program.
+pub(crate) fn block(text: &str, program_name: &str, step: &str) -> Option<syntax::ast::Body> {
+    let body = program(text, program_name)?.body()?;
+    match assigned(&body, step)?.value()? {
+        Value::Repeat(block) => block.body(),
+        _ => None,
+    }
+}
+
+/// Returns the names of the steps of a loop.
+pub(crate) fn steps_of_block(text: &str, program_name: &str, step: &str) -> Vec<String> {
+    let Some(body) = block(text, program_name, step) else { return Vec::new() };
+    let name = |member: Member| match member {
+        Member::Assign(assign) => {
+            assign.target().map(|target| target.syntax().text().to_string().trim().to_string())
+        }
+        _ => None,
+    };
+    body.members().filter_map(name).collect()
+}
+
+/// Where a text speaks of a name: not of a part of something else, and not by a label.
+pub(crate) fn places_of(text: &str, name: &str) -> Vec<usize> {
+    let is_word = |c: char| c.is_alphanumeric() || c == '_';
+    let is_name = |&(at, _): &(usize, &str)| {
+        let before = text[..at].chars().next_back();
+        let rest = &text[at + name.len()..];
+        !before.is_some_and(|c| is_word(c) || c == '.')
+            && !rest.chars().next().is_some_and(is_word)
+            && !rest.trim_start().starts_with(':')
+    };
+    text.match_indices(name).filter(is_name).map(|(at, _)| at).collect()
+}
+
+/// Returns an expression in which a name is another.
+pub(crate) fn renamed(text: &str, name: &str, to: &str) -> String {
+    let mut text = text.to_string();
+    for at in places_of(&text, name).into_iter().rev() {
+        text.replace_range(at..at + name.len(), to);
+    }
+    text
 }
 
 /// Adds lines before the closing brace of a body.

@@ -72,6 +72,8 @@ pub struct StepsView {
     pub example: String,
     /// Whether it is recorded now.
     pub is_recorded: bool,
+    /// The loop that is open in it.
+    pub open_loop: Option<LoopView>,
     /// Its parameters: name and the example's value.
     pub parameters: Vec<ParameterRow>,
     /// Its steps, in order.
@@ -104,6 +106,32 @@ pub struct StepRow {
     pub value: Option<String>,
     /// Whether it is drawn for construction alone.
     pub is_guide: bool,
+}
+
+/// What is asked of the second turn of a loop: the same, or which object of the turn before?
+#[derive(Clone, PartialEq, Eq, Debug, Default)]
+pub struct RecurrenceQuestion {
+    /// Which question it is, from 1.
+    pub number: usize,
+    /// Of how many.
+    pub of: usize,
+    /// The step whose operand is meant.
+    pub step: String,
+    /// The operand.
+    pub operand: String,
+    /// What it is in the first turn.
+    pub first: String,
+}
+
+/// A loop that is demonstrated.
+#[derive(Clone, PartialEq, Eq, Debug, Default)]
+pub struct LoopView {
+    /// Its step.
+    pub name: String,
+    /// Whether its first turn is drawn.
+    pub is_drawn: bool,
+    /// What is asked of the second turn.
+    pub question: Option<RecurrenceQuestion>,
 }
 
 /// A parameter to be defined.

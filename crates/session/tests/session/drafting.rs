@@ -50,6 +50,7 @@ fn every_construction_of_the_library_is_a_tool() {
         "Axis.directed(from,angle)",
         "Arc.fillet(first,second,radius)",
         "Circle:mirrored",
+        "Circle:at",
     ] {
         assert!(has(id), "{id}: {:?}", tools.iter().map(|t| &t.id).collect::<Vec<_>>());
     }
@@ -238,4 +239,69 @@ fn what_is_outside_of_a_recorded_program_cannot_be_picked() {
     assert_eq!(refused.message, "floor is outside of the program that is recorded");
     let refused = desk.session.record(desk.id, "Circle").expect_err("there is one");
     assert_eq!(refused.message, "there is a class Circle already");
+}
+
+/// Records figure 7.6 up to its loop: two lines, then a ring that touches both and one around its centre.
+fn rings() -> Desk {
+    let mut desk = Desk::of("use geometry\nunit mm\n");
+    desk.session.record(desk.id, "Rings").expect("a new program");
+    for (name, example) in [("radius", "40"), ("least", "2")] {
+        desk.session.define_parameter(desk.id, &parameter(name, example, "")).expect("it is new");
+    }
+    begin(&mut desk, "Axis.horizontal(y)");
+    made(enter(&mut desk, "0"));
+    begin(&mut desk, "Axis.vertical(x)");
+    made(enter(&mut desk, "0"));
+    desk.session.begin_loop(desk.id, "column").expect("a loop");
+    begin(&mut desk, "Circle.tangent(first,second,radius)");
+    point(&mut desk, -40.0, 0.0);
+    point(&mut desk, 0.0, 40.0);
+    assert_eq!(made(enter(&mut desk, "radius")), "Circle.tangent(axis, axis2, radius: radius)");
+    begin(&mut desk, "Circle.concentric(with,radius)");
+    point(&mut desk, -80.0, 40.0);
+    made(enter(&mut desk, "circle.radius / 2"));
+    desk
+}
+
+#[test]
+fn figure_7_6_is_drawn_by_its_first_turn_and_the_answers_for_the_second() {
+    let mut desk = rings();
+    let ask = desk.session.end_turn(desk.id).expect("the turn is drawn").expect("it is asked");
+    assert_eq!((ask.number, ask.of, &*ask.step, &*ask.first), (1, 3, "circle", "axis"));
+    // the horizontal becomes the ring before, which is picked on the side of the vertical
+    let at = Some((-20.0, 76.0));
+    let ask = desk.session.answer_recurrence(desk.id, Some("circle"), at);
+    let ask = ask.expect("it fits").expect("it is asked");
+    assert_eq!(&*ask.first, "axis2");
+    let ask = desk.session.answer_recurrence(desk.id, None, None).expect("the same");
+    assert_eq!(&*ask.expect("it is asked").first, "radius");
+    let early = desk.session.close_loop(desk.id, "until circle.radius < least").expect_err("early");
+    assert_eq!(early.message, "radius of circle is asked first");
+    let half = Some("circle.radius / 2");
+    let ask = desk.session.answer_recurrence(desk.id, half, None).expect("an expression");
+    assert_eq!(ask, None);
+    desk.session.close_loop(desk.id, "until circle.radius < least").expect("it ends");
+    assert_eq!(desk.wrong(), [], "{}", desk.text());
+    // 40, 20, 10, 5, 2.5, 1.25
+    assert_eq!(value(&desk, "rings.column"), "6 turns");
+    assert_eq!(value(&desk, "rings.column[5].circle.radius"), "1.25");
+    assert_eq!(value(&desk, "rings.column[5].circle2.radius"), "0.625");
+    // the centres are 60 apart, 20 of it sideways
+    assert_eq!(value(&desk, "rings.column[1].circle"), "centre (-20, 96.5685), radius 20");
+    desk.set("rings.least", 5.0).expect("a parameter can be set");
+    assert_eq!(value(&desk, "rings.column"), "5 turns");
+    let steps = desk.session.history(desk.id).0;
+    assert_eq!(steps.iter().filter(|step| step.contains("column")).count(), 1, "{steps:?}");
+}
+
+#[test]
+fn an_answer_that_has_no_turn_is_refused() {
+    let mut desk = rings();
+    desk.session.end_turn(desk.id).expect("the turn is drawn");
+    let refused = desk.session.answer_recurrence(desk.id, Some("circle9"), None);
+    assert!(refused.expect_err("there is none").message.contains("circle9"));
+    let refused = desk.session.answer_recurrence(desk.id, Some("radius"), None);
+    assert!(refused.is_err(), "a number where a curve is wanted");
+    let refused = desk.session.begin_loop(desk.id, "other").expect_err("one is open");
+    assert_eq!(refused.message, "a loop is open already: end it first");
 }

@@ -230,7 +230,7 @@ impl Lab {
     }
 
     /// Shows what came of a command.
-    pub(super) fn settle(self, outcome: Option<Result<Change, Refusal>>) -> bool {
+    pub(crate) fn settle(self, outcome: Option<Result<Change, Refusal>>) -> bool {
         match outcome {
             Some(Ok(change)) => {
                 self.refresh();

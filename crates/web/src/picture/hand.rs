@@ -134,6 +134,11 @@ impl Hand {
             self.set_mode(pinch);
         } else if e.button() == 1 || (e.button() == 0 && space == Space::Down) {
             self.set_mode(Mode::Pan { last: at });
+        } else if e.button() == 0 && self.lab.drafts() {
+            self.lab.draft_point(&self.pointer(at));
+            // The keyboard stays with what is typed.
+            e.prevent_default();
+            self.set_mode(Mode::Idle);
         } else if e.button() == 0 && self.lab.tool.with_untracked(Option::is_some) {
             self.lab.tool_set(&self.pointer(at));
             self.set_mode(Mode::Tool { start: at });
@@ -239,6 +244,7 @@ impl Hand {
                 self.lab.tool_moved(&self.pointer(at));
             }
             Mode::Tool { .. } => {}
+            Mode::Idle if self.lab.drafts() => self.lab.draft_hover(&self.pointer(at)),
             Mode::Idle => self.lab.hover(self.pick(at)),
             Mode::Pressed { path, start } => {
                 if distance(at, start) >= STIR {
