@@ -1,5 +1,6 @@
 //! Bounds: the smallest upright box around a drawing.
 
+use crate::curve;
 use crate::element::{Anchoring, Drawing, Element, Placement, Point, Shape, Vertical};
 use crate::metrics;
 use base::number::{cos, sin};
@@ -72,6 +73,15 @@ fn corners(element: &Element, vertical: Vertical, say: &mut dyn FnMut(Point)) {
         }
         Shape::Arc { center, radius, start, sweep } => {
             arc_corners(*center, *radius, *start, *sweep, say);
+        }
+        Shape::Ellipse { center, major, ratio, start, sweep } => {
+            let extremes = curve::extremes(*major, *ratio, *start, *sweep).into_iter();
+            extremes.map(|at| curve::on_ellipse(*center, *major, *ratio, at)).for_each(say);
+        }
+        Shape::Region(rings) => {
+            for shape in rings.iter().flat_map(|ring| curve::edges(ring)) {
+                corners(&Element::new(shape), vertical, say);
+            }
         }
         Shape::Text { at, text, anchoring, placement } => match placement {
             Placement::OnScreen(_) => say(*at),

@@ -7,7 +7,9 @@
 //! **Source:** Autodesk, *DXF Reference*, release 2000.
 
 use crate::bounds::bounds;
-use crate::element::{Anchoring, Color, Drawing, Element, Line, Placement, Point, Shape, Vertical};
+use crate::element::{
+    Anchoring, Color, Corner, Drawing, Element, Line, Placement, Point, Shape, Vertical,
+};
 use std::collections::BTreeSet;
 use std::f64::consts::TAU;
 use std::fmt::Write as _;
@@ -32,10 +34,11 @@ const EMPTY: f64 = 1.0;
 /// A full turn less than this is a circle.
 const CLOSED: f64 = 1e-12;
 /// The line types that a drawing uses: name, words, and the lengths of dashes and, negative, of gaps.
-const LINE_TYPES: [(&str, &str, &[f64]); 3] = [
+const LINE_TYPES: [(&str, &str, &[f64]); 4] = [
     ("Continuous", "Solid line", &[]),
     ("DASHED", "Dashed __ __ __", &[3.0, -1.5]),
     ("DOT", "Dotted . . .", &[0.0, -1.0]),
+    ("CENTER", "Center ____ _ ____", &[6.0, -1.5, 1.5, -1.5]),
 ];
 /// The layers of the colours that have no name of their own, each with an index of the palette.
 const LAYERS: [(&str, u8); 3] = [("0", 7), ("CONSTRUCTION", 8), ("ACCENT", 1)];
@@ -56,8 +59,9 @@ pub fn write(drawing: &Drawing, options: &DxfOptions) -> String {
     }
     let mut named: BTreeSet<String> = BTreeSet::new();
     for element in &drawing.elements {
-        if let Color::Named(name) = &element.style.color {
-            named.insert(layer_name(name));
+        let layer = layer_of(element);
+        if LAYERS.iter().all(|(name, _)| *name != layer) {
+            named.insert(layer);
         }
     }
     dxf.header(drawing);
@@ -281,17 +285,12 @@ impl Writer {
         self.hex(5, handle);
         self.hex(330, BLOCK_RECORDS[0].0);
         self.pair(100, "AcDbEntity");
-        let layer = match &element.style.color {
-            Color::Ink => LAYERS[0].0.to_string(),
-            Color::Faint => LAYERS[1].0.to_string(),
-            Color::Accent => LAYERS[2].0.to_string(),
-            Color::Named(name) => layer_name(name),
-        };
-        self.pair(8, layer);
+        self.pair(8, layer_of(element));
         match element.style.line {
             Line::Solid | Line::None => {}
             Line::Dashed => self.pair(6, LINE_TYPES[1].0),
             Line::Dotted => self.pair(6, LINE_TYPES[2].0),
+            Line::Chained => self.pair(6, LINE_TYPES[3].0),
         }
         self.pair(100, class);
     }
@@ -331,6 +330,15 @@ impl Writer {
                 self.real(50, degrees(from));
                 self.real(51, degrees(to));
             }
+            Shape::Ellipse { center, major, ratio, start, sweep } => {
+                self.ellipse(element, (*center, *major, *ratio), (*start, *sweep));
+            }
+            Shape::Region(rings) => {
+                if element.style.fill.is_some() {
+                    self.hatch(element, rings);
+                }
+                rings.iter().for_each(|ring| self.ring(element, ring));
+            }
             Shape::Text { at, text, anchoring, placement } => {
                 let height = match placement {
                     Placement::OnSheet(height) => self.length(*height),
@@ -341,6 +349,61 @@ impl Writer {
                 }
             }
         }
+    }
+    fn ellipse(
+        &mut self,
+        element: &Element,
+        (center, major, ratio): (Point, Point, f64),
+        (start, sweep): (f64, f64),
+    ) {
+        self.begin("ELLIPSE", "AcDbEllipse", element);
+        self.at(10, center);
+        self.at(11, major);
+        self.pair(210, "0.0\n220\n0.0\n230\n1.0");
+        self.real(40, ratio);
+        // an ellipse of DXF runs to the left
+        let ends = [self.sign * start, self.sign * (start + sweep)];
+        let [from, to] = if self.sign * sweep < 0.0 { [ends[1], ends[0]] } else { ends };
+        let is_whole = sweep.abs() > TAU - CLOSED;
+        self.real(41, if is_whole { 0.0 } else { from });
+        self.real(42, if is_whole { TAU } else { to });
+    }
+    /// Writes a closed ring, its arcs as arcs.
+    fn ring(&mut self, element: &Element, ring: &[Corner]) {
+        self.begin("LWPOLYLINE", "AcDbPolyline", element);
+        self.pair(90, ring.len());
+        self.pair(70, 1);
+        self.corners(ring);
+    }
+    fn corners(&mut self, ring: &[Corner]) {
+        for corner in ring {
+            let (x, y) = (self.length(corner.at.x), self.sign * self.length(corner.at.y));
+            self.real(10, x);
+            self.real(20, y);
+            self.real(42, self.sign * corner.bulge);
+        }
+    }
+    /// Fills rings.
+    fn hatch(&mut self, element: &Element, rings: &[Vec<Corner>]) {
+        self.begin("HATCH", "AcDbHatch", element);
+        self.at(10, Point::default());
+        self.pair(210, "0.0\n220\n0.0\n230\n1.0");
+        self.pair(2, "SOLID");
+        self.pair(70, 1);
+        self.pair(71, 0);
+        self.pair(91, rings.len());
+        for (i, ring) in rings.iter().enumerate() {
+            // a polyline, the first one outside of the others
+            self.pair(92, if i == 0 { 3 } else { 2 });
+            self.pair(72, 1);
+            self.pair(73, 1);
+            self.pair(93, ring.len());
+            self.corners(ring);
+            self.pair(97, 0);
+        }
+        self.pair(75, 0);
+        self.pair(76, 1);
+        self.pair(98, 0);
     }
     fn circle(&mut self, center: Point, radius: f64, element: &Element) {
         self.begin("CIRCLE", "AcDbCircle", element);
@@ -386,10 +449,28 @@ fn degrees(radians: f64) -> f64 {
     if turned < 0.0 { turned + 360.0 } else { turned }
 }
 
+/// Returns the layer of an element: the one that the document names, else that of its colour.
+fn layer_of(element: &Element) -> String {
+    if let Some(layer) = &element.style.sheet_layer {
+        return plain(layer);
+    }
+    match &element.style.color {
+        Color::Ink => LAYERS[0].0.to_string(),
+        Color::Faint => LAYERS[1].0.to_string(),
+        Color::Accent => LAYERS[2].0.to_string(),
+        Color::Named(name) => layer_name(name),
+    }
+}
+
+/// Returns a name of capital letters and digits alone.
+fn plain(name: &str) -> String {
+    let plain = |c: char| if c.is_ascii_alphanumeric() { c.to_ascii_uppercase() } else { '_' };
+    name.chars().map(plain).collect()
+}
+
 /// Returns the layer of a colour that a document names: letters and digits alone.
 fn layer_name(color: &str) -> String {
-    let plain = |c: char| if c.is_ascii_alphanumeric() { c.to_ascii_uppercase() } else { '_' };
-    format!("COLOR_{}", color.trim_start_matches('#').chars().map(plain).collect::<String>())
+    format!("COLOR_{}", plain(color.trim_start_matches('#')))
 }
 
 /// Writes a text so that every program reads it: what is not ASCII by its number.
@@ -440,6 +521,29 @@ mod tests {
         let ends = "AcDbLine\n10\n1000.0\n20\n-2000.0\n30\n0.0\n11\n3000.0\n21\n-4000.0\n31\n0.0\n";
         assert!(text.contains(ends), "{text}");
         assert_eq!(text, write(&drawing, &options));
+    }
+    #[test]
+    fn a_region_is_a_hatch_with_rings_whose_arcs_stay_arcs() {
+        let at = |x, y, bulge| Corner { at: Point { x, y }, bulge };
+        let ring = vec![at(0.0, 0.0, 0.0), at(4.0, 0.0, 1.0), at(4.0, 2.0, 0.0)];
+        let mut element = Element::new(Shape::Region(vec![ring]));
+        let open = Drawing { elements: vec![element.clone()], vertical: Vertical::Down };
+        let text = write(&open, &DxfOptions::default());
+        assert!(text.contains("10\n4.0\n20\n0.0\n42\n-1.0\n10\n4.0\n20\n-2.0\n"), "{text}");
+        assert!(!text.contains("HATCH"), "{text}");
+        element.style.fill = Some(Color::Faint);
+        element.style.sheet_layer = Some("section a".into());
+        let filled = Drawing { elements: vec![element], vertical: Vertical::Up };
+        let text = write(&filled, &DxfOptions::default());
+        assert!(text.contains("\nHATCH\n") && text.contains("8\nSECTION_A\n"), "{text}");
+    }
+    #[test]
+    fn an_ellipse_runs_to_the_left() {
+        let (center, major) = (Point::default(), Point { x: 0.0, y: 3.0 });
+        let shape = Shape::Ellipse { center, major, ratio: 0.5, start: 1.0, sweep: -0.5 };
+        let text = drawn(shape, Vertical::Up);
+        assert!(text.contains("11\n0.0\n21\n3.0\n31\n0.0\n"), "{text}");
+        assert!(text.contains("40\n0.5\n41\n0.5\n42\n1.0\n"), "{text}");
     }
     #[test]
     fn words_that_are_not_ascii_are_written_by_number() {

@@ -1,5 +1,7 @@
 //! Elements: what a drawing is made of.
 
+use std::sync::Arc;
+
 /// A point on the sheet.
 #[derive(Clone, Copy, PartialEq, Debug, Default)]
 pub struct Point {
@@ -61,6 +63,8 @@ pub enum Line {
     Dashed,
     /// In dots.
     Dotted,
+    /// In long and short dashes by turns: middle lines.
+    Chained,
     /// Not at all: a fill alone.
     None,
 }
@@ -76,6 +80,8 @@ pub struct Style {
     pub line: Line,
     /// The line's width in screen pixels at a zoom of 1; 0 for the usual.
     pub width: f64,
+    /// The layer of the sheet that it is on, where the document names one.
+    pub sheet_layer: Option<Arc<str>>,
 }
 
 /// Which point of a text lies at its position.
@@ -97,6 +103,16 @@ pub enum Placement {
     OnSheet(f64),
     /// Its height is in screen pixels, whatever the zoom.
     OnScreen(f64),
+}
+
+/// A corner of a ring, and how what leaves it bends.
+#[derive(Clone, Copy, PartialEq, Debug, Default)]
+pub struct Corner {
+    /// Where it is.
+    pub at: Point,
+    /// The tangent of a quarter of the angle that the arc to the next corner turns; 0 for a segment, positive where
+    /// it turns from the x axis towards the y axis.
+    pub bulge: f64,
 }
 
 /// What an element is. Curves are exact.
@@ -131,6 +147,21 @@ pub enum Shape {
         /// The signed angle that it turns through, in radians.
         sweep: f64,
     },
+    /// An ellipse, or an arc of one.
+    Ellipse {
+        /// The centre.
+        center: Point,
+        /// The way from the centre to the end of the longer half axis.
+        major: Point,
+        /// How long the shorter half axis is, as a part of the longer: above 0, at most 1.
+        ratio: f64,
+        /// The parameter of its start, in radians from the longer axis.
+        start: f64,
+        /// The signed parameter that it runs through, in radians.
+        sweep: f64,
+    },
+    /// Closed rings of segments and arcs; what an odd number of them surrounds is inside.
+    Region(Vec<Vec<Corner>>),
     /// A text in one or more lines.
     Text {
         /// Where its anchor point lies.
@@ -166,7 +197,9 @@ impl Element {
             Shape::Segment(..)
             | Shape::Polyline { .. }
             | Shape::Circle { .. }
-            | Shape::Arc { .. } => Layer::Lines,
+            | Shape::Arc { .. }
+            | Shape::Ellipse { .. }
+            | Shape::Region(_) => Layer::Lines,
         };
         Self { shape, style: Style::default(), layer, tag: Tag::default() }
     }

@@ -5,10 +5,10 @@
 
 use crate::bounds::{Bounds, bounds, point_on_circle};
 use crate::element::{
-    Anchoring, Color, Drawing, Element, Line, Placement, Point, Shape, Style, Tag, Vertical,
+    Anchoring, Color, Corner, Drawing, Element, Line, Placement, Point, Shape, Style, Tag, Vertical,
 };
-use crate::metrics;
-use base::number::{rounded, shortest};
+use crate::{curve, metrics};
+use base::number::{atan2, rounded, shortest};
 use std::f64::consts::TAU;
 use std::fmt::Write as _;
 
@@ -184,6 +184,14 @@ fn write_element(
                 ),
             );
         }
+        Shape::Ellipse { center, major, ratio, start, sweep } => {
+            let data = ellipse_data((*center, *major, *ratio), (*start, *sweep), vertical);
+            line(out, format_args!(r#"<path d="{data}"{look}/>"#));
+        }
+        Shape::Region(rings) => {
+            let data: String = rings.iter().map(|ring| ring_data(ring, vertical)).collect();
+            line(out, format_args!(r#"<path d="{data}" fill-rule="evenodd"{look}/>"#));
+        }
         Shape::Text { at, text, anchoring, placement } => {
             let (x, y) = p(*at);
             let size = match placement {
@@ -201,6 +209,59 @@ fn write_element(
             write_text(out, (&x, &y), text, *anchoring, size, &format!("{width}{look}"));
         }
     }
+}
+
+/// Returns a point as SVG has it, whose `y` runs down.
+fn placed(p: Point, vertical: Vertical) -> String {
+    let y = if vertical == Vertical::Up { -p.y } else { p.y };
+    format!("{} {}", shortest(p.x), shortest(y))
+}
+
+/// Returns an arc's part of a path, to its end; `ratio` is that of its half axes.
+fn arc_data(
+    (rx, ry, turned): (f64, f64, f64),
+    sweep: f64,
+    end: &str,
+    vertical: Vertical,
+) -> String {
+    let long = u8::from(sweep.abs() > TAU / 2.0);
+    let clockwise = u8::from((sweep > 0.0) == (vertical == Vertical::Down));
+    let turned = if vertical == Vertical::Up { -turned } else { turned };
+    let [rx, ry, turned] = [rx, ry, turned.to_degrees()].map(shortest);
+    format!("A{rx} {ry} {turned} {long} {clockwise} {end}")
+}
+
+/// Returns a closed ring as a path.
+fn ring_data(ring: &[Corner], vertical: Vertical) -> String {
+    let Some(first) = ring.first() else { return String::new() };
+    let mut data = format!("M{}", placed(first.at, vertical));
+    let next = ring.iter().skip(1).chain(ring.first());
+    for (edge, to) in curve::edges(ring).zip(next) {
+        let end = placed(to.at, vertical);
+        data += &match edge {
+            Shape::Arc { radius, sweep, .. } => {
+                arc_data((radius, radius, 0.0), sweep, &end, vertical)
+            }
+            _ => format!("L{end}"),
+        };
+    }
+    data.push('Z');
+    data
+}
+
+/// Returns an elliptic arc as a path: in two parts, since SVG draws no whole turn in one.
+fn ellipse_data(
+    (center, major, ratio): (Point, Point, f64),
+    (start, sweep): (f64, f64),
+    vertical: Vertical,
+) -> String {
+    let sweep = sweep.clamp(-TAU, TAU);
+    let at =
+        |part: f64| placed(curve::on_ellipse(center, major, ratio, start + part * sweep), vertical);
+    let length = curve::half_axis(major);
+    let axes = (length, ratio * length, atan2(major.y, major.x));
+    let half = |end: &str| arc_data(axes, 0.5 * sweep, end, vertical);
+    format!("M{}{}{}", at(0.0), half(&at(0.5)), half(&at(1.0)))
 }
 
 /// Widens a box by words of a constant size on the screen, as large as they are in this file.
@@ -222,7 +283,9 @@ fn with_labels(around: Bounds, drawing: &Drawing, options: &SvgOptions<'_>) -> B
         | Shape::Segment(..)
         | Shape::Polyline { .. }
         | Shape::Circle { .. }
-        | Shape::Arc { .. } => around,
+        | Shape::Arc { .. }
+        | Shape::Ellipse { .. }
+        | Shape::Region(_) => around,
     })
 }
 
@@ -255,7 +318,7 @@ fn write_text(
 
 /// Writes the attributes that say how an element looks and what it pictures.
 fn looks(element: &Element, path: Option<String>) -> String {
-    let Style { color, fill, line, width } = &element.style;
+    let Style { color, fill, line, width, sheet_layer } = &element.style;
     let mut classes = Vec::new();
     let mut attributes = String::new();
     let mut add = |name: &str, value: &str| {
@@ -286,7 +349,8 @@ fn looks(element: &Element, path: Option<String>) -> String {
         match line {
             Line::Dashed if !dot => add("stroke-dasharray", "6 4"),
             Line::Dotted if !dot => add("stroke-dasharray", "1.5 4"),
-            Line::Solid | Line::Dashed | Line::Dotted | Line::None => {}
+            Line::Chained if !dot => add("stroke-dasharray", "14 3 3 3"),
+            Line::Solid | Line::Dashed | Line::Dotted | Line::Chained | Line::None => {}
         }
     }
     if !classes.is_empty() {
@@ -294,6 +358,9 @@ fn looks(element: &Element, path: Option<String>) -> String {
     }
     if !own.is_empty() {
         add("style", own.trim_end_matches(';'));
+    }
+    if let Some(layer) = sheet_layer {
+        add("data-layer", layer);
     }
     if let Some(path) = path {
         add("data-path", &path);
@@ -345,6 +412,22 @@ mod tests {
     fn a_whole_turn_is_a_circle() {
         let arc = Shape::Arc { center: p(1.0, 2.0), radius: 3.0, start: 1.0, sweep: -TAU };
         assert!(drawn(Element::new(arc), Vertical::Up).contains(r#"cx="1" cy="-2" r="3""#));
+    }
+    #[test]
+    fn a_region_has_holes_and_arcs() {
+        let at = |x, y, bulge| Corner { at: p(x, y), bulge };
+        let outer = vec![at(0.0, 0.0, 0.0), at(4.0, 0.0, 1.0), at(4.0, 2.0, 0.0)];
+        let hole = vec![at(1.0, 0.5, 0.0), at(2.0, 0.5, 0.0), at(2.0, 1.0, 0.0)];
+        let out = drawn(Element::new(Shape::Region(vec![outer, hole])), Vertical::Up);
+        assert!(out.contains(r#"d="M0 0L4 0A1 1 0 0 0 4 -2L0 0ZM1 -0.5L"#), "{out}");
+        assert!(out.contains(r#"fill-rule="evenodd""#), "{out}");
+    }
+    #[test]
+    fn an_ellipse_is_drawn_in_two_halves() {
+        let (center, major) = (p(1.0, 0.0), p(2.0, 0.0));
+        let shape = Shape::Ellipse { center, major, ratio: 0.5, start: 0.0, sweep: TAU };
+        let out = drawn(Element::new(shape), Vertical::Up);
+        assert!(out.contains(r#"d="M3 0A2 1 0 0 0 -1 "#), "{out}");
     }
     #[test]
     fn words_are_escaped_and_never_mirrored() {

@@ -85,6 +85,8 @@ impl<'a> Evaluator<'a> {
             | Function::Circle
             | Function::Arc
             | Function::Rectangle
+            | Function::Ellipse
+            | Function::Region
             | Function::Label
             | Function::Text
             | Function::Picture => self.draw(builtin.function, &arguments, nearest),

@@ -309,6 +309,16 @@ fn fingerprint(element: &Element) -> u64 {
             point(*q);
         }
         Shape::Polyline { points, .. } => points.iter().for_each(|p| point(*p)),
+        Shape::Ellipse { center, major, ratio, start, sweep } => {
+            point(*center);
+            point(*major);
+            point(Point { x: *start, y: *sweep });
+            point(Point { x: *ratio, y: 0.0 });
+        }
+        Shape::Region(rings) => rings.iter().flatten().for_each(|corner| {
+            point(corner.at);
+            point(Point { x: corner.bulge, y: 0.0 });
+        }),
         Shape::Arc { center, start, sweep, .. } => {
             point(*center);
             point(Point { x: *start, y: *sweep });

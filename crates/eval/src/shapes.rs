@@ -4,10 +4,14 @@ use crate::answer::Answer;
 use crate::evaluator::{Evaluator, Result};
 use crate::fault::Fault;
 use base::Name;
-use drawing::{Anchoring, Color, Element, Layer, Line, Placement, Point, Shape, Tag};
+use drawing::{
+    Anchoring, Color, Corner, Element, Layer, Line, Placement, Point, Shape, Tag, curve,
+};
 use kernel::builtin::{Function, PictureMessage};
 use kernel::{ClassKind, ThingId};
+use std::f64::consts::TAU;
 use std::rc::Rc;
+use std::sync::Arc;
 
 /// How high a label's letters are, in pixels.
 const LABEL_PIXELS: f64 = 13.0;
@@ -39,6 +43,20 @@ impl<'a> Evaluator<'a> {
                 start: number(2)?,
                 sweep: number(3)?,
             },
+            Function::Ellipse => {
+                let (center, end) = (place(0)?, place(1)?);
+                let major = Point { x: end.x - center.x, y: end.y - center.y };
+                let from = if arguments.len() > 3 { number(3)? } else { 0.0 };
+                let sweep = if arguments.len() > 4 { number(4)? } else { TAU };
+                curve::ellipse(center, major, number(2)?, from, sweep)
+            }
+            Function::Region => {
+                let ring = |ring: &Answer<'a>| {
+                    self.items(ring)?.iter().map(|corner| self.bent(corner)).collect::<Result<_>>()
+                };
+                let rings = self.rings(arguments)?;
+                Shape::Region(rings.iter().map(ring).collect::<Result<_>>()?)
+            }
             Function::Rectangle => {
                 let (a, c) = (place(0)?, place(1)?);
                 let (b, d) = (Point { x: c.x, y: a.y }, Point { x: a.x, y: c.y });
@@ -92,6 +110,39 @@ impl<'a> Evaluator<'a> {
         };
         let points = places.iter().map(|p| self.place(p)).collect::<Result<_>>()?;
         Ok(Shape::Polyline { points, closed })
+    }
+
+    /// Returns rings: each an argument, or all in one list.
+    fn rings(&self, arguments: &[Answer<'a>]) -> Result<Vec<Answer<'a>>> {
+        if let [one] = arguments {
+            let items = self.items(one)?;
+            let is_ring = |of: &Answer<'a>| matches!(of, Answer::List(_)) && self.bent(of).is_err();
+            if items.first().is_some_and(is_ring) {
+                return Ok(items.to_vec());
+            }
+        }
+        Ok(arguments.to_vec())
+    }
+
+    /// Reads a corner of a ring: a place, which may have a part `bulge`, or `(place, bulge)`.
+    fn bent(&self, corner: &Answer<'a>) -> Result<Corner> {
+        if let Ok(at) = self.place(corner) {
+            let name = Name::new("bulge");
+            let class = self.class_of(corner);
+            let bends = class.is_some_and(|class| self.layout(class).index.contains_key(&name));
+            let bulge = match bends {
+                true => {
+                    let nearest = corner.thing().unwrap_or(kernel::DOCUMENT);
+                    self.number(&self.send(corner, &name, Vec::new(), None, nearest)?)?.0
+                }
+                false => 0.0,
+            };
+            return Ok(Corner { at, bulge });
+        }
+        match &self.items(corner)?[..] {
+            [at, bulge] => Ok(Corner { at: self.place(at)?, bulge: self.number(bulge)?.0 }),
+            _ => Err(Fault::wrong("a corner of a ring is a place, or (place, bulge)")),
+        }
     }
 
     fn words(&self, arguments: &[Answer<'a>], placement: Placement) -> Result<Shape> {
@@ -193,12 +244,22 @@ impl<'a> Evaluator<'a> {
         elements: &Rc<Vec<Element>>,
         arguments: &[Answer<'a>],
     ) -> Result<Answer<'a>> {
-        let color = arguments.first().map(|a| self.color(a)).transpose()?;
+        let layer = match (message, arguments.first()) {
+            (PictureMessage::OnLayer, Some(Answer::Text(name))) => Some(Arc::from(&**name)),
+            _ => None,
+        };
+        let color = match message {
+            PictureMessage::Colored | PictureMessage::Filled => arguments.first(),
+            _ => None,
+        };
+        let color = color.map(|a| self.color(a)).transpose()?;
         let mut elements = Vec::clone(elements);
         for element in &mut elements {
             let style = &mut element.style;
             match message {
                 PictureMessage::Dotted => style.line = Line::Dotted,
+                PictureMessage::Chained => style.line = Line::Chained,
+                PictureMessage::OnLayer => style.sheet_layer.clone_from(&layer),
                 PictureMessage::Dashed => style.line = Line::Dashed,
                 PictureMessage::Faint => style.color = Color::Faint,
                 PictureMessage::Accent => style.color = Color::Accent,

@@ -209,6 +209,8 @@ table! {
     Polygon "polygon" Any [many("corner", Kind::Any)] Picture "Segments from place to place and back to the first.";
     Circle "circle" Any [one("center", Kind::Place), one("radius", Kind::Length)] Picture "A circle.";
     Arc "arc" Any [one("center", Kind::Place), one("radius", Kind::Length), one("from", Kind::Plain), one("sweep", Kind::Plain)] Picture "An arc from an angle through a signed angle, in radians.";
+    Ellipse "ellipse" Any [one("center", Kind::Place), one("end", Kind::Place), one("across", Kind::Length), perhaps("from", Kind::Plain), perhaps("sweep", Kind::Plain)] Picture "An ellipse by the end of a half axis and the length of the other, or its arc from a parameter through a signed one, in radians.";
+    Region "region" Any [many("ring", Kind::Any)] Picture "What closed rings surround, a hole in each other one: a ring is a list of corners, each a place or a place and how the arc to the next bends.";
     Rectangle "rectangle" Any [one("corner", Kind::Place), one("opposite", Kind::Place)] Picture "An upright box between two opposite corners.";
     Label "label" Any [one("at", Kind::Place), one("text", Kind::Text)] Picture "Words of one height on the screen, whatever the zoom.";
     Text "text" Any [one("at", Kind::Place), one("text", Kind::Text), one("size", Kind::Length)] Picture "Words whose height is a length on the sheet.";
@@ -264,6 +266,8 @@ table! {
     /// A message that pictures know.
     PictureMessage, PICTURE_MESSAGES:
     Dotted "dotted" Picture [] Picture "The picture in dotted lines.";
+    Chained "chained" Picture [] Picture "The picture in long and short dashes by turns, as middle lines are drawn.";
+    OnLayer "onLayer" Picture [one("name", Kind::Text)] Picture "The picture on a layer of the sheet, by its name in what is exported.";
     Dashed "dashed" Picture [] Picture "The picture in dashed lines.";
     Faint "faint" Picture [] Picture "The picture in the quieter foreground.";
     Accent "accent" Picture [] Picture "The picture in the colour that catches the eye.";

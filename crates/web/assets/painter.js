@@ -4,7 +4,7 @@
 
 // The colours by their part in the picture, in the order of `Hue` in `src/paint.rs`.
 const ROLES = ["ink", "faint", "accent", "paper", "free", "fixed", "conflict", "redundant", "halo", "halo-soft", "grid", "grid-strong"]
-const DASHES = [[], [7, 5], [0.5, 4]]
+const DASHES = [[], [7, 5], [0.5, 4], [], [14, 3, 3, 3]]
 const NO_LINE = 3
 const PAPER = ROLES.indexOf("paper")
 
@@ -118,17 +118,18 @@ export function createPainter(canvas, onSize) {
       let stroke = -1
       let line = NO_LINE
       let thickness = 1
+      let rule = "nonzero"
       // A path is built where its numbers live and drawn on the screen, where widths are pixels.
       const draw = () => {
         onScreen()
         if (fill >= 0) {
           c.fillStyle = colors[fill]
-          c.fill()
+          c.fill(rule)
         }
         if (line !== NO_LINE && stroke >= 0) {
           c.strokeStyle = colors[stroke]
           c.lineWidth = thickness
-          c.lineCap = line === 1 ? "butt" : "round"
+          c.lineCap = line === 1 || line === 4 ? "butt" : "round"
           c.setLineDash(DASHES[line])
           c.stroke()
         }
@@ -205,6 +206,39 @@ export function createPainter(canvas, onSize) {
             i += 5
             break
           }
+          case 8: {
+            const [cx, cy, a, b, turned, start, sweep] = list.subarray(i, i + 7)
+            const [px, py] = [a * Math.cos(start), b * Math.sin(start)]
+            const [ex, ey] = [Math.cos(turned), Math.sin(turned)]
+            c.moveTo(cx + px * ex - py * ey, cy + px * ey + py * ex)
+            c.ellipse(cx, cy, a, b, turned, start, start + sweep, sweep < 0)
+            i += 7
+            break
+          }
+          case 9:
+            c.moveTo(list[i], list[i + 1])
+            i += 2
+            break
+          case 10:
+            c.lineTo(list[i], list[i + 1])
+            i += 2
+            break
+          case 11:
+            c.closePath()
+            break
+          case 12: {
+            const [cx, cy, r, start, sweep] = list.subarray(i, i + 5)
+            c.arc(cx, cy, r, start, start + sweep, sweep < 0)
+            i += 5
+            break
+          }
+          case 13:
+            // a hole of a region is one by its number alone, whichever way it runs
+            draw()
+            c.beginPath()
+            onSheet()
+            rule = list[i++] ? "evenodd" : "nonzero"
+            break
         }
       }
       draw()

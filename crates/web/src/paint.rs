@@ -13,6 +13,12 @@
 //! | 5, sign, x, y, pixels | a point's `Sign` |
 //! | 6, word, x, y, anchoring, height, on sheet | words, by number |
 //! | 7, x, y, dx, dy, pixels | an arrow from a point, so many pixels for each unit of its direction |
+//! | 8, x, y, a, b, turned, start, sweep | an arc of an ellipse |
+//! | 9, x, y | a ring begins here |
+//! | 10, x, y | the ring goes straight to here |
+//! | 11 | the ring is closed |
+//! | 12, x, y, radius, start, sweep | the ring goes on by an arc |
+//! | 13, begins | a region of rings begins, or ends where 0 |
 
 use crate::sheet::View;
 use drawing::{Anchoring, Color, Drawing, Element, Layer, Line, Placement, Point, Shape, Style};
@@ -188,7 +194,9 @@ pub fn ghosts(list: &mut DisplayList, drawn: &[Drawing]) {
             Shape::Segment(..)
             | Shape::Polyline { .. }
             | Shape::Circle { .. }
-            | Shape::Arc { .. } => {
+            | Shape::Arc { .. }
+            | Shape::Ellipse { .. }
+            | Shape::Region(_) => {
                 begin(list, Hue::Faint as i32, -1, Line::Dashed, USUAL_WIDTH, Space::Sheet);
                 shape(list, &element.shape);
             }
@@ -209,6 +217,8 @@ pub fn preview(list: &mut DisplayList, drawn: &Drawing) {
             | Shape::Polyline { .. }
             | Shape::Circle { .. }
             | Shape::Arc { .. }
+            | Shape::Ellipse { .. }
+            | Shape::Region(_)
             | Shape::Text { .. } => {
                 begin(list, accent, -1, element.style.line, USUAL_WIDTH, Space::Sheet);
                 shape(list, &element.shape);
@@ -295,7 +305,9 @@ fn halos(list: &mut DisplayList, elements: &[&Element], marks: &[Mark], mark: Ma
             Shape::Segment(..)
             | Shape::Polyline { .. }
             | Shape::Circle { .. }
-            | Shape::Arc { .. } => {
+            | Shape::Arc { .. }
+            | Shape::Ellipse { .. }
+            | Shape::Region(_) => {
                 begin(list, color, -1, Line::Solid, 9.0, Space::Sheet);
                 shape(list, &element.shape);
             }
@@ -350,6 +362,7 @@ fn line_number(line: Line) -> f64 {
         Line::Dashed => 1.0,
         Line::Dotted => 2.0,
         Line::None => 3.0,
+        Line::Chained => 4.0,
     }
 }
 
@@ -427,6 +440,22 @@ fn shape(list: &mut DisplayList, shape: &Shape) {
         Shape::Arc { center, radius, start, sweep } => {
             out.extend([4.0, center.x, center.y, radius.max(0.0), *start, *sweep]);
         }
+        Shape::Ellipse { center, major, ratio, start, sweep } => {
+            let (length, turned) =
+                (drawing::curve::half_axis(*major), base::number::atan2(major.y, major.x));
+            out.extend([8.0, center.x, center.y, length, ratio * length, turned, *start, *sweep]);
+        }
+        Shape::Region(rings) => {
+            out.extend([13.0, 1.0]);
+            for ring in rings {
+                let mut is_first = true;
+                for edge in drawing::curve::edges(ring) {
+                    region_edge(out, &edge, std::mem::take(&mut is_first));
+                }
+                out.push(11.0);
+            }
+            out.extend([13.0, 0.0]);
+        }
         Shape::Text { at, text, anchoring, placement } => {
             let word = list.words.len() as f64;
             list.words.push(text.clone());
@@ -444,6 +473,26 @@ fn shape(list: &mut DisplayList, shape: &Shape) {
             };
             out.extend([6.0, word, at.x, at.y, anchoring, height, width]);
         }
+    }
+}
+
+/// Goes on along a ring; its first edge begins it.
+fn region_edge(out: &mut Vec<f64>, edge: &Shape, is_first: bool) {
+    match edge {
+        Shape::Segment(p, q) => {
+            if is_first {
+                out.extend([9.0, p.x, p.y]);
+            }
+            out.extend([10.0, q.x, q.y]);
+        }
+        Shape::Arc { center, radius, start, sweep } => {
+            if is_first {
+                let at = |f: fn(f64) -> f64, c: f64| c + radius * f(*start);
+                out.extend([9.0, at(base::number::cos, center.x), at(base::number::sin, center.y)]);
+            }
+            out.extend([12.0, center.x, center.y, *radius, *start, *sweep]);
+        }
+        _ => {}
     }
 }
 

@@ -130,6 +130,13 @@ pub fn bounds(drawing: &Drawing) -> Bounds {
                 add(center.x - radius, center.y - radius);
                 add(center.x + radius, center.y + radius);
             }
+            Shape::Ellipse { .. } | Shape::Region(_) => {
+                let one = Drawing { elements: vec![element.clone()], vertical: drawing.vertical };
+                if let Some(b) = drawing::bounds(&one) {
+                    add(b.least.x, b.least.y);
+                    add(b.most.x, b.most.y);
+                }
+            }
             Shape::Text { at, text, anchoring, placement } => {
                 let height = match placement {
                     drawing::Placement::OnSheet(height) => *height,

@@ -110,7 +110,12 @@ fn at_shape(sight: &Sight<'_>, pointer: &Pointer) -> Option<Catch> {
                 on_segment(pointer.at, *a, *b)
             }
             Shape::Circle { center, radius } => on_circle(pointer.at, *center, *radius),
-            Shape::Dot(_) | Shape::Polyline { .. } | Shape::Arc { .. } | Shape::Text { .. } => None,
+            Shape::Dot(_)
+            | Shape::Polyline { .. }
+            | Shape::Arc { .. }
+            | Shape::Ellipse { .. }
+            | Shape::Region(_)
+            | Shape::Text { .. } => None,
         };
         let Some(foot) = foot.filter(|_| answers("passes")) else { continue };
         let far = hypot(foot.0 - x, foot.1 - y);

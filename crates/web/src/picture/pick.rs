@@ -81,6 +81,17 @@ fn from_shape(p: Point, shape: &Shape) -> f64 {
             open.chain(last).map(|(a, b)| from_segment(p, a, b)).fold(f64::INFINITY, f64::min)
         }
         Shape::Circle { center, radius } => (distance(p, *center) - radius).abs(),
+        Shape::Ellipse { center, major, ratio, start, sweep } => {
+            /// An ellipse is picked as so many segments.
+            const PARTS: u32 = 96;
+            let part = |i: u32| start + sweep * f64::from(i) / f64::from(PARTS);
+            let at = |i| drawing::curve::on_ellipse(*center, *major, *ratio, part(i));
+            (0..PARTS).map(|i| from_segment(p, at(i), at(i + 1))).fold(f64::INFINITY, f64::min)
+        }
+        Shape::Region(rings) => {
+            let edges = rings.iter().flat_map(|ring| drawing::curve::edges(ring));
+            edges.map(|edge| from_shape(p, &edge)).fold(f64::INFINITY, f64::min)
+        }
         Shape::Arc { center, radius, start, sweep } => {
             let angle = base::number::atan2(p.y - center.y, p.x - center.x);
             let turned = (angle - start) * sweep.signum();
