@@ -41,9 +41,23 @@ fn find<'s>(state: &'s State, name: &str) -> Result<(ClassId, Option<&'s Family>
     program.map(|program| (program, None)).ok_or_else(|| {
         let programs = document.classes.iter().filter(|(_, c)| c.program.is_some());
         let programs: Vec<&str> = programs.map(|(_, c)| c.name.as_str()).collect();
-        words::refuse(match programs.as_slice() {
-            [] => format!("there is no program {name}, and no other"),
-            known => format!("there is no program or family {name}; there is {}", known.join(", ")),
+        let families = state.lowered.families.iter();
+        let families: Vec<String> = families
+            .map(|f| format!("{} of {}", f.name, document.classes[f.program].name))
+            .collect();
+        words::refuse(match (families.as_slice(), programs.as_slice()) {
+            (_, []) => format!("there is no program {name}, and no other"),
+            ([], known) => {
+                format!(
+                    "there is no program or family {name}; of programs there is {}",
+                    known.join(", ")
+                )
+            }
+            (families, programs) => format!(
+                "there is no program or family {name}; of families there is {}, of programs {}",
+                families.join(", "),
+                programs.join(", ")
+            ),
         })
     })
 }
@@ -60,11 +74,27 @@ pub(crate) fn rows(state: &State, name: &str, table: Option<&str>) -> Result<Tab
         (Some(table), _) => read_table(state, program, table, &mut read)?,
         (None, Some(family)) => written_rows(state, family, &mut read)?,
         (None, None) => {
-            return Err(words::refuse(format!("{name} has no table: say which with --table")));
+            return Err(words::refuse(without_table(state, program, name)));
         }
     }
     note_duplicates(&mut read);
     Ok(read)
+}
+
+/// Says that a program has no rows of its own, and where there are some.
+fn without_table(state: &State, program: ClassId, name: &str) -> String {
+    let own = state.lowered.families.iter().filter(|f| f.program == program);
+    let own: Vec<&str> = own.map(|f| f.name.as_str()).collect();
+    match own.as_slice() {
+        [] => format!("{name} is a program without a family: say which table with --table"),
+        [one] => {
+            format!("{name} is a program: its family is {one}, or say which table with --table")
+        }
+        several => format!(
+            "{name} is a program: its families are {}, or say which table with --table",
+            several.join(", ")
+        ),
+    }
 }
 
 fn written_rows(state: &State, family: &Family, read: &mut TableView) -> Result<(), Refusal> {

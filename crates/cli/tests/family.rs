@@ -1,0 +1,115 @@
+//! `thinglab family`: tables, what is odd about them, what is written, and what is not drawn again.
+
+use std::fs;
+use std::path::{Path, PathBuf};
+use std::process::Command;
+
+const DISC: &str = "use geometry
+unit mm
+program Disc(r: Length in 1 mm..50 mm = 4 mm, hole: Length = 1 mm) {
+    constraint wall: hole < r
+    rim = Circle(center: Point(0, 0), radius: r)
+    bore = Circle(center: Point(0, 0), radius: hole)
+}
+family Discs of Disc { table \"discs.csv\" }
+";
+
+/// A fresh folder with a document and its table.
+fn folder(name: &str, table: &str) -> PathBuf {
+    let folder = std::env::temp_dir().join(format!("thinglab-family-{name}"));
+    let _ = fs::remove_dir_all(&folder);
+    fs::create_dir_all(&folder).expect("there is a folder for such files");
+    fs::write(folder.join("disc.thing"), DISC).expect("it can be written");
+    fs::write(folder.join("discs.csv"), table).expect("it can be written");
+    folder
+}
+
+/// Draws into `out` below the folder; returns whether all was drawn, and what was said.
+fn drawn(folder: &Path, name: &str, about: &[&str]) -> (bool, String) {
+    let mut thinglab = Command::new(env!("CARGO_BIN_EXE_thinglab"));
+    thinglab.current_dir(folder).args(["family", "disc.thing", name]).args(about);
+    let said = thinglab.output().expect("the command starts");
+    let words = [said.stdout, said.stderr].concat();
+    (said.status.success(), String::from_utf8(words).expect("words are printed"))
+}
+
+const TABLE: &str = "# discs, r in millimetres
+disc,r [mm],hole [cm]
+small,2,0.1
+middle,4,
+large,8,0.2
+";
+
+#[test]
+fn a_table_is_read_with_its_units_and_its_empty_cells() {
+    let folder = folder("units", TABLE);
+    let (good, words) = drawn(&folder, "Discs", &["--out", "out", "--format", "dxf,svg"]);
+    assert!(good && words.contains("3 rows: 3 drawn, 0 outside"), "{words}");
+    let read = |name: &str| fs::read_to_string(folder.join("out").join(name)).expect("it is there");
+    let circle = |r: &str| format!("AcDbCircle\n10\n0.0\n20\n0.0\n30\n0.0\n40\n{r}\n");
+    assert!(read("middle.dxf").contains(&circle("4.0")));
+    assert!(read("middle.dxf").contains(&circle("1.0")), "an empty cell is the program's own");
+    assert!(read("large.dxf").contains(&circle("2.0")), "0.2 cm");
+    assert!(read("index.html").contains("small.svg"));
+}
+
+#[test]
+fn rows_that_fail_say_why_and_the_others_go_on() {
+    let table = format!("{TABLE}thin,5,0.6\nwrong,wide,0.1\nhuge,60,0.1\n");
+    let folder = folder("rows", &table);
+    let (good, words) = drawn(&folder, "Discs", &["--out", "out"]);
+    assert!(!good, "{words}");
+    assert!(words.contains("6 rows: 3 drawn, 2 outside, 1 failed, 0 too long"), "{words}");
+    assert!(words.contains("thin: outside: wall is not met"), "{words}");
+    assert!(words.contains("wrong: failed: r: "), "{words}");
+}
+
+#[test]
+fn what_is_odd_about_a_table_is_noted() {
+    let table = "disc,r [mm]\na,2\nb,3\nc,4\nd,5\ne,6\nf,5.5\ng,8\na,9\nh,9\n";
+    let (_, words) = drawn(&folder("odd", table), "Discs", &["--out", "out"]);
+    assert!(words.contains("note: a stands in the table more than once"), "{words}");
+    assert!(words.contains("note: a and h have the same values"), "{words}");
+    assert!(
+        words.contains("note: r [mm] grows, but is 6 at e and 5.5 at f")
+            || words.contains("note: r grows, but is 6 at e and 5.5 at f"),
+        "{words}"
+    );
+}
+
+#[test]
+fn the_same_bytes_for_any_number_of_threads_and_nothing_twice() {
+    let rows: String = (1..200).map(|i| format!("d{i},{}\n", 2.0 + f64::from(i) / 10.0)).collect();
+    let folder = folder("threads", &format!("disc,r [mm]\n{rows}"));
+    for (out, jobs) in [("one", "1"), ("three", "3")] {
+        let (good, words) = drawn(&folder, "Discs", &["--out", out, "--jobs", jobs]);
+        assert!(good && words.contains("199 drawn"), "{words}");
+    }
+    for name in ["manifest.jsonl", "d7.svg", "d199.svg", "index.html"] {
+        let read = |out: &str| fs::read(folder.join(out).join(name)).expect("it is there");
+        assert!(read("one") == read("three"), "{name} differs");
+    }
+    let (_, words) = drawn(&folder, "Discs", &["--out", "one"]);
+    assert!(words.contains("199 were there already"), "{words}");
+    // a row with other values is another drawing, and so is one whose file is gone
+    fs::write(
+        folder.join("discs.csv"),
+        format!("disc,r [mm]\n{}", rows.replace("d5,2.5", "d5,2.55")),
+    )
+    .expect("it can be written");
+    fs::remove_file(folder.join("one/d9.svg")).expect("it is there");
+    let (_, words) = drawn(&folder, "Discs", &["--out", "one"]);
+    assert!(words.contains("197 were there already"), "{words}");
+}
+
+#[test]
+fn a_name_that_is_wrong_is_answered_with_those_that_there_are() {
+    let folder = folder("names", TABLE);
+    let (good, words) = drawn(&folder, "Washers", &["--out", "out"]);
+    assert!(!good);
+    assert!(words.contains("of families there is Discs of Disc, of programs Disc"), "{words}");
+    let (_, words) = drawn(&folder, "Disc", &["--out", "out"]);
+    assert!(words.contains("Disc is a program: its family is Discs"), "{words}");
+    fs::remove_file(folder.join("discs.csv")).expect("it is there");
+    assert!(!drawn(&folder, "Discs", &["--out", "out"]).0);
+}
