@@ -156,7 +156,8 @@ impl<'a> Evaluator<'a> {
         let field_class = document.field_class(field);
         let count = document.declared(field).and_then(|p| p.count);
         let line = document.primary_line(so_far.class).into_iter().rev();
-        let givens = line.flat_map(|c| &document.classes[c].givens);
+        let classes = line.map(|c| &document.classes[c]);
+        let givens = classes.flat_map(|c| c.connections.iter().chain(&c.givens));
         let mut value = None;
         for given in givens.filter(|g| g.path.0.first() == Some(&Step::Part(name.clone()))) {
             let me = Answer::Made(Rc::new(so_far.clone()));

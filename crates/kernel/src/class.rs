@@ -120,10 +120,14 @@ pub struct Class {
     pub parts: Vec<Part>,
     /// Given values of its parts and subparts, in order of declaration; later ones win.
     pub givens: Vec<Rc<Given>>,
+    /// What its parts are connected with, as values: a thing that a constructor makes has these, for it has no merges.
+    pub connections: Vec<Rc<Given>>,
     /// Messages and virtual parts.
     pub messages: Vec<Message>,
     /// The constraints that it adds.
     pub constraints: Vec<Constraint>,
+    /// Which of these are bindings, in order of the constraints.
+    pub bindings: Vec<Binding>,
     /// The merges that it adds.
     pub merges: Vec<Merge>,
     /// The set memberships that it adds.
@@ -163,8 +167,10 @@ impl Class {
             is_abstract: false,
             parts: Vec::new(),
             givens: Vec::new(),
+            connections: Vec::new(),
             messages: Vec::new(),
             constraints: Vec::new(),
+            bindings: Vec::new(),
             merges: Vec::new(),
             inserts: Vec::new(),
             stays: Vec::new(),
@@ -309,6 +315,19 @@ pub struct Constraint {
     pub within: Option<Term>,
     /// Where it was written.
     pub origin: OriginId,
+}
+
+/// A part that is given an expression of other parts: `size = 2 * width`.
+///
+/// It is a constraint that holds where nothing nearer gives the part a value, and no given value.
+#[derive(Clone, PartialEq, Debug)]
+pub struct Binding {
+    /// The index of its constraint.
+    pub constraint: u32,
+    /// From a thing of the class to the part.
+    pub path: Path,
+    /// Where the value was written: that of its given value, too.
+    pub value: OriginId,
 }
 
 /// A way to make a rule hold: `fahrenheit := celsius * 1.8 + 32`.

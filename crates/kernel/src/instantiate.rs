@@ -14,6 +14,7 @@ use base::IdVec;
 use std::collections::BTreeMap;
 use std::rc::Rc;
 
+mod bind;
 mod body;
 mod copies;
 mod fill;

@@ -24,8 +24,8 @@ pub mod term;
 pub mod values;
 
 pub use class::{
-    Class, ClassId, ClassKind, Constraint, Count, Given, Insert, Merge, Message, Method, Parameter,
-    Part, Primitive, Setting, Stay, Strength, Superclass, Switch, form,
+    Binding, Class, ClassId, ClassKind, Constraint, Count, Given, Insert, Merge, Message, Method,
+    Parameter, Part, Primitive, Setting, Stay, Strength, Superclass, Switch, form,
 };
 pub use command::{Command, Literal};
 pub use document::{Document, PartRef, PartRole, Side, SideWay, Vertical, Voices};

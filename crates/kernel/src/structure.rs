@@ -151,6 +151,8 @@ pub struct Form {
     pub ranges: BTreeMap<SlotId, (i64, i64)>,
     /// Every constraint, in order of declaration, each merged one once.
     pub constraints: Rc<Vec<ConstraintInstance>>,
+    /// What bindings say: slots that are given by others at all times, and have no given value.
+    pub bound: BTreeSet<SlotId>,
     /// The constraints that are switched off.
     pub off: BTreeSet<ConstraintInstance>,
     /// The constraints that hold only while something else is true.

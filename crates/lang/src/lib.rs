@@ -23,10 +23,12 @@
 //! `checks`,
 //! `numbers`, `shown`, `write`, `uses`,
 //! `edits`.
+mod bindings;
 mod calls;
 mod checks;
 mod classes;
 mod components;
+mod connections;
 mod constraints;
 mod counts;
 mod edits;

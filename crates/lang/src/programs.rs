@@ -295,7 +295,9 @@ impl Lowerer<'_> {
                 Some(Step::Part(name)) => of.parts.iter().all(|p| p.name != *name),
                 Some(_) | None => true,
             };
-            let demands = of.constraints.iter().filter(|c| {
+            let is_binding = |i: &u32| of.bindings.iter().any(|b| b.constraint == *i);
+            let demands = (0..).zip(&of.constraints).filter(|(i, _)| !is_binding(i));
+            let demands = demands.map(|(_, c)| c).filter(|c| {
                 let mut said = Vec::new();
                 mentions(&c.rule, &mut said);
                 c.strength == kernel::Strength::Required && !said.iter().any(is_step)

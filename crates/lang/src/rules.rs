@@ -83,7 +83,17 @@ impl Lowerer<'_> {
         });
         // merges come first, so that what is known of their paths stays true
         let mut trails = Trails::default();
+        let is_merge = |p: &Pending| matches!(p, Pending::Member(_, Member::Merge(_)));
+        let others = pending.split_off(pending.partition_point(is_merge));
         for pending in pending {
+            if let Pending::Member(scope, member) = pending {
+                self.define(&scope, &member, &mut trails);
+            }
+        }
+        for pending in others {
+            if self.connect(&pending) {
+                continue;
+            }
             match pending {
                 Pending::Kept(run) => self.keep_values(run),
                 Pending::Note => noted = self.so_far(),
@@ -182,6 +192,7 @@ impl Lowerer<'_> {
             return;
         }
         let origin = self.origin(scope.file, value.span());
+        self.bind_value(scope, (&path, class), (value, &term), origin);
         self.document.classes[scope.class()].givens.push(Rc::new(Given {
             path,
             value: term,

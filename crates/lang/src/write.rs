@@ -3,6 +3,7 @@
 //! A value that the thing's own text gives is rewritten where it stands, number by number; any other
 //! is added to the thing's own body, never to a class.
 
+use crate::connections::is_bare_path;
 use crate::lower::{Lowered, OWN};
 use crate::numbers::{from_bare, from_si, write_number};
 use crate::paths::loose_path;
@@ -241,6 +242,10 @@ impl Writer<'_> {
         value: Value<'_>,
     ) -> bool {
         let Some((step, rest)) = rest.split_first() else {
+            if is_bare_path(written) && matches!(value.literal, Literal::Tuple(_)) {
+                // it stays one with what it is connected with
+                return false;
+            }
             self.write_over(written, value);
             return true;
         };

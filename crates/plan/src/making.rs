@@ -39,7 +39,8 @@ impl<'a> Opening<'a> {
         let me = Meaning::Made(Rc::new(Made { class, fields: so_far.to_vec() }));
         let own = |given: &&'a Rc<Given>| given.path.0.first() == Some(&Step::Part(name.clone()));
         let line = document.primary_line(class).into_iter().rev();
-        let givens = line.flat_map(|c| &document.classes[c].givens).filter(own);
+        let classes = line.map(|c| &document.classes[c]);
+        let givens = classes.flat_map(|c| c.connections.iter().chain(&c.givens)).filter(own);
         let givens: Vec<&'a Rc<Given>> = givens.collect();
         // a value of the whole stands for all that was said before
         let from = givens.iter().rposition(|given| given.path.0.len() == 1).unwrap_or(0);

@@ -467,7 +467,7 @@ fn restructure(open: &mut Open, host: &dyn Host, command: &Command) -> Result<Ch
     };
     let carried = carried_over(command, &before, &state, &anew);
     let carried = carried.filter(|values| differing(&state, values).next().is_some());
-    let (state, planner) = match (carried, &class) {
+    let (state, mut planner) = match (carried, &class) {
         (Some(mut values), _) => {
             // what holds no more is computed anew, so that no given number has to yield to what is kept
             let mut texts = Texts::new(&state.lowered.document, &state.structure);
@@ -477,6 +477,13 @@ fn restructure(open: &mut Open, host: &dyn Host, command: &Command) -> Result<Ch
         (None, Some(class)) => place_new_parts(&before, state, planner, class, host),
         (None, None) => (state, planner),
     };
+    if matches!(command, Command::Merge(_)) && open.status.satisfied {
+        let status = state.status(&mut planner);
+        if let Some(refusal) = words::refusal_of_status(&state, &status) {
+            open.planner.give_plans(planner.into_plans());
+            return Err(refusal);
+        }
+    }
     let change = step_to(open, words::command_label(command), state, planner);
     let class_of_one = done.class_of_one.filter(|_| class.is_none()).map(|p| p.to_string());
     Ok(Change { class_of_one, class, along: done.along, ..change })

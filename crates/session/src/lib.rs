@@ -38,6 +38,7 @@ mod session;
 mod state;
 mod texts;
 mod tools;
+mod unlike;
 mod views;
 pub mod vocabulary;
 mod words;

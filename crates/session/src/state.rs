@@ -94,7 +94,8 @@ impl State {
             double_roots,
             gave_way,
         };
-        let warnings = crate::yielding::warnings(&state, &planner);
+        let mut warnings = crate::yielding::warnings(&state, &planner);
+        warnings.extend(crate::unlike::warnings(&state));
         if !warnings.is_empty() {
             state.diagnostics.extend(warnings);
             state.diagnostics.sort_by_key(|d| (d.place.file, d.place.span.start));

@@ -58,6 +58,11 @@ pub(crate) fn write_back(
         };
         let mut missing: Vec<SlotId> =
             differing(&next, wanted).filter(|&slot| !written.contains(&unit(slot))).collect();
+        // what is bound to others comes of these, where they can be written
+        let is_bound = |slot: &SlotId| state.structure.bound.contains(slot);
+        if !missing.iter().all(is_bound) {
+            missing.retain(|slot| !is_bound(slot));
+        }
         missing.sort_by_key(rank);
         missing.truncate(more);
         if missing.is_empty() {

@@ -1,7 +1,7 @@
 //! Finishing: the document's body in, its structure out, with slots and sets.
 
+use super::bind::bind;
 use super::body::Body;
-use super::copies::forget_computed;
 use super::refer::refer;
 use super::{FaultKind, Maker};
 use crate::class::{Class, ClassId, ClassKind};
@@ -48,7 +48,7 @@ pub(super) fn finish(maker: &mut Maker<'_>, body: Body, givens: &Givens) -> Form
         }
     }
     refer(maker, &mut structure, givens, &references);
-    forget_computed(&mut structure, givens);
+    bind(maker.document, &mut structure, givens);
     say_sides(maker.document, &order, &mut structure);
     structure
 }

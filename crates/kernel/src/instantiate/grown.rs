@@ -224,6 +224,7 @@ pub(super) fn is_form_kept(
     let (a, b) = (&document.classes[document.root], &was.classes[was.root]);
     let says_same = a.merges == b.merges
         && a.constraints == b.constraints
+        && a.bindings == b.bindings
         && a.messages == b.messages
         && a.inserts == b.inserts
         && a.stays == b.stays

@@ -40,8 +40,9 @@ impl Text<'_> {
         let mut done = Restructuring::default();
         // what each body says of the path in its merges; of these things one each
         let mut left: Vec<Path> = Vec::new();
+        left.extend(self.disconnect(path, &mut done.edits));
         let mut members = members.into_iter().peekable();
-        let is_named = members.peek().is_some();
+        let is_named = members.peek().is_some() || !left.is_empty();
         while let Some(member) = members.next() {
             let mut together = vec![member];
             while let Some(next) = members.next_if(|m| m.parent() == together[0].parent()) {

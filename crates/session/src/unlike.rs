@@ -1,0 +1,83 @@
+//! Parts that are one and are given unlike values: a warning that says which of these counts.
+//!
+//! In: a state. Out: for every line of the document that gives a value which does not count, where another part's
+//! does. What a class gives its things yields without a word: that is what a default is for.
+
+use crate::state::State;
+use crate::words::show_thing;
+use base::{Diagnostic, Place};
+use kernel::{SlotId, Term, ThingId, Value};
+use std::collections::BTreeMap;
+
+/// The code of the warning.
+const CODE: &str = "unlike-given";
+
+/// What one line gives that does not count.
+struct Line {
+    /// The part that the line speaks of, and the one that counts.
+    parts: [ThingId; 2],
+    /// Where the value that counts is given.
+    counts: Place,
+    /// By slot, what the line gives and what counts.
+    values: Vec<(SlotId, [Value; 2])>,
+}
+
+/// Returns a warning for every line that gives what does not count.
+///
+/// Cost: a look at every thing that is merged.
+pub(crate) fn warnings(state: &State) -> Vec<Diagnostic> {
+    let structure = &state.structure;
+    let mut lines: BTreeMap<(u32, u32), (Place, Line)> = BTreeMap::new();
+    let merged = structure.merged.iter().filter(|(t, _)| structure.merged_with(*t).len() > 1);
+    for (thing, _) in merged {
+        let Some(slot) = structure.slot_of(thing) else { continue };
+        let (Some(given), Some(own)) = (structure.given(slot), structure.given_apart(thing)) else {
+            continue;
+        };
+        let is_own = |origin| state.lowered.is_own_given(origin);
+        let (Some(is), Some(was)) = (value(&given.term), value(&own.term)) else { continue };
+        if given.origin == own.origin || is == was || !is_own(own.origin) || !is_own(given.origin) {
+            continue;
+        }
+        let giver = |t: &ThingId| structure.given_apart(*t) == Some(given);
+        let Some(by) = structure.merged_with(thing).into_iter().find(giver) else { continue };
+        let place = state.lowered.place(own.origin);
+        let (_, line) = lines.entry((place.span.start, place.span.end)).or_insert_with(|| {
+            let parts = [whole(state, thing), whole(state, by)];
+            let counts = state.lowered.place(given.origin);
+            (place, Line { parts, counts, values: Vec::new() })
+        });
+        line.values.push((slot, [was, is]));
+    }
+    lines.into_values().map(|(place, line)| warning(state, place, &line)).collect()
+}
+
+/// Returns the place that a coordinate belongs to, or the thing itself.
+fn whole(state: &State, thing: ThingId) -> ThingId {
+    let structure = &state.structure;
+    let is_place = |t: &ThingId| state.lowered.document.is_place(structure.things[*t].class);
+    structure.owner(thing).filter(is_place).unwrap_or(thing)
+}
+
+fn value(term: &Term) -> Option<Value> {
+    match term {
+        Term::Number { value, .. } => Some(Value::Number(*value)),
+        Term::Text(text) => Some(Value::Text(text.as_str().into())),
+        _ => None,
+    }
+}
+
+fn warning(state: &State, place: Place, line: &Line) -> Diagnostic {
+    let path = |thing| state.structure.path(&state.lowered.document, thing).to_string();
+    let shown = |which: usize| {
+        let mut values = state.values.clone();
+        line.values.iter().for_each(|(slot, both)| values.put(*slot, both[which].clone()));
+        show_thing(state, line.parts[0], &values).unwrap_or_default()
+    };
+    let [part, other] = line.parts.map(path);
+    let (was, is) = (shown(0), shown(1));
+    let message = format!("{part} is given here as {was}, and is one with {other}: {is} counts");
+    Diagnostic::warning(CODE, place, message)
+        .label(line.counts, "here")
+        .hint("give the value once, where it counts")
+}
