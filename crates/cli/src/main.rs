@@ -13,6 +13,7 @@ mod disk;
 mod documents;
 mod embedded;
 mod family;
+mod import;
 mod serve;
 
 /// A constraint laboratory: documents whose constraints stay true.
@@ -86,6 +87,14 @@ enum Command {
     },
     /// Draws every row of a table with a program, each at scale, with an index of all.
     Family(family::Arguments),
+    /// Makes a document of a DXF drawing; points that coincide are merged, what is not understood is listed.
+    Import {
+        /// The drawing.
+        file: PathBuf,
+        /// Where to write; standard output without it.
+        #[arg(short, long)]
+        output: Option<PathBuf>,
+    },
     /// Lays documents out as the language wants it, keeping comments.
     Fmt {
         /// Files, or folders with documents.
@@ -121,6 +130,7 @@ fn main() -> ExitCode {
         Command::Analyse { file } => commands::analyse(file, form),
         Command::Draw { file, output } => commands::draw(file, output.as_deref(), form),
         Command::Family(arguments) => family::run(arguments, form),
+        Command::Import { file, output } => import::run(file, output.as_deref(), form),
         Command::Fmt { files, check } => {
             let mode = if *check { FormatMode::Check } else { FormatMode::Write };
             commands::fmt(files, mode, form)

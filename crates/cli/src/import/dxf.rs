@@ -1,0 +1,290 @@
+//! The DXF reader: text in, figures in millimetres out.
+//!
+//! **Source:** Autodesk, *DXF Reference*, release 2000.
+
+use base::number::{cos, sin};
+use drawing::{Corner, Point, Shape, curve};
+use std::f64::consts::TAU;
+
+/// What a drawing holds.
+#[derive(Default, Debug)]
+pub(crate) struct Read {
+    pub(crate) found: Vec<Found>,
+    /// What is not understood, once for each time.
+    pub(crate) notes: Vec<String>,
+}
+
+/// A figure with where it was found.
+#[derive(Debug)]
+pub(crate) struct Found {
+    pub(crate) figure: Figure,
+    pub(crate) layer: String,
+    pub(crate) line_type: String,
+}
+
+/// What an entity is, in millimetres.
+#[derive(Debug, PartialEq)]
+pub(crate) enum Figure {
+    Point(Point),
+    Line(Point, Point),
+    Circle {
+        center: Point,
+        radius: f64,
+    },
+    Arc {
+        center: Point,
+        start: Point,
+        end: Point,
+        is_clockwise: bool,
+    },
+    /// With the parameter of its start and what it runs through, where it is no whole one.
+    Ellipse {
+        center: Point,
+        end: Point,
+        across: f64,
+        sweep: Option<(f64, f64)>,
+    },
+    Words {
+        at: Point,
+        words: String,
+        size: f64,
+    },
+}
+
+/// An entity: its kind, and its values by their codes.
+struct Entity<'t> {
+    kind: &'t str,
+    values: Vec<(i32, &'t str)>,
+}
+
+impl Entity<'_> {
+    fn text(&self, code: i32) -> Option<&str> {
+        self.values.iter().find(|(c, _)| *c == code).map(|(_, value)| *value)
+    }
+    fn number(&self, code: i32) -> Option<f64> {
+        self.text(code)?.trim().parse().ok().filter(|x: &f64| x.is_finite())
+    }
+    /// Returns the point of a code in millimetres.
+    fn point(&self, code: i32, scale: f64) -> Option<Point> {
+        Some(Point { x: scale * self.number(code)?, y: scale * self.number(code + 10)? })
+    }
+    /// Returns true where it lies in the plane of the sheet, seen from above.
+    fn is_flat(&self) -> bool {
+        let upright = self.number(230).is_none_or(|z| (z - 1.0).abs() < 1e-9);
+        upright && [30, 31, 38].iter().all(|&z| self.number(z).is_none_or(|z| z == 0.0))
+    }
+}
+
+/// Reads a drawing.
+///
+/// # Errors
+/// What is no DXF text: the line at which it is none.
+pub(crate) fn read(text: &str) -> Result<Read, String> {
+    if text.starts_with("AutoCAD Binary DXF") {
+        return Err("found a binary DXF, wanted a text: save it as text".into());
+    }
+    let pairs = pairs(text)?;
+    let mut read = Read::default();
+    let scale = scale(&pairs, &mut read.notes);
+    let entities = entities(&pairs)?;
+    let mut all = entities.iter().peekable();
+    while let Some(entity) = all.next() {
+        let before = read.found.len();
+        if entity.kind == "POLYLINE" {
+            let mut corners = Vec::new();
+            while let Some(vertex) = all.next_if(|e| e.kind == "VERTEX") {
+                corners.extend(corner(vertex, scale));
+            }
+            all.next_if(|e| e.kind == "SEQEND");
+            let is_closed = entity.number(70).is_some_and(|flags| flags as i64 & 1 == 1);
+            along(&corners, is_closed, entity, &mut read);
+        } else if !entity.is_flat() {
+            read.notes.push(format!("{} that does not lie flat on the sheet", entity.kind));
+        } else {
+            figures(entity, scale, &mut read);
+        }
+        let line_type = entity.text(6).unwrap_or("ByLayer");
+        for found in &mut read.found[before..] {
+            found.layer = entity.text(8).unwrap_or("0").to_string();
+            found.line_type = line_type.to_string();
+        }
+    }
+    Ok(read)
+}
+
+/// Reads codes and values, two lines each.
+fn pairs(text: &str) -> Result<Vec<(i32, &str)>, String> {
+    let mut lines = text.lines().enumerate();
+    let mut pairs = Vec::new();
+    while let Some((at, code)) = lines.next() {
+        if code.trim().is_empty() && lines.clone().all(|(_, rest)| rest.trim().is_empty()) {
+            break;
+        }
+        let number = code.trim().parse::<i32>();
+        let number = number.map_err(|_| {
+            let found: String = code.chars().take(40).collect();
+            format!("line {}: found `{found}`, wanted a group code of DXF", at + 1)
+        })?;
+        let value = lines.next();
+        let (_, value) = value.ok_or_else(|| format!("line {}: a code without a value", at + 1))?;
+        pairs.push((number, value.trim_end_matches('\r')));
+    }
+    Ok(pairs)
+}
+
+/// Returns how many millimetres a unit of the drawing has.
+fn scale(pairs: &[(i32, &str)], notes: &mut Vec<String>) -> f64 {
+    let units = pairs.windows(2).find(|w| w[0] == (9, "$INSUNITS")).map(|w| w[1].1.trim());
+    match units {
+        Some("1") => 25.4,
+        Some("2") => 304.8,
+        Some("4") => 1.0,
+        Some("5") => 10.0,
+        Some("6") => 1000.0,
+        Some("0") | None => {
+            notes.push("a unit, which the drawing does not say: taken for millimetres".into());
+            1.0
+        }
+        Some(other) => {
+            notes.push(format!("the unit {other}: taken for millimetres"));
+            1.0
+        }
+    }
+}
+
+/// Finds the entities.
+fn entities<'t>(pairs: &[(i32, &'t str)]) -> Result<Vec<Entity<'t>>, String> {
+    let is_start = |w: &[(i32, &str)]| w[0] == (0, "SECTION") && w[1] == (2, "ENTITIES");
+    let start = pairs.windows(2).position(is_start);
+    let start = start.ok_or("found no section ENTITIES, wanted a drawing in DXF")?;
+    let mut entities: Vec<Entity<'t>> = Vec::new();
+    for &(code, value) in &pairs[start + 2..] {
+        match (code, entities.last_mut()) {
+            (0, _) if value.trim() == "ENDSEC" => break,
+            (0, _) => entities.push(Entity { kind: value.trim(), values: Vec::new() }),
+            (code, Some(entity)) => entity.values.push((code, value)),
+            (_, None) => {}
+        }
+    }
+    Ok(entities)
+}
+
+/// Reads one entity.
+fn figures(entity: &Entity<'_>, scale: f64, read: &mut Read) {
+    let figure = match entity.kind {
+        "POINT" => entity.point(10, scale).map(Figure::Point),
+        "LINE" => {
+            entity.point(10, scale).zip(entity.point(11, scale)).map(|(p, q)| Figure::Line(p, q))
+        }
+        "CIRCLE" => circle(entity, scale),
+        "ARC" => arc(entity, scale),
+        "ELLIPSE" => ellipse(entity, scale),
+        "TEXT" => words(entity, scale),
+        "LWPOLYLINE" => {
+            let corners = light_corners(entity, scale);
+            let is_closed = entity.number(70).is_some_and(|flags| flags as i64 & 1 == 1);
+            return along(&corners, is_closed, entity, read);
+        }
+        other => {
+            read.notes.push(format!("{other}, which is not understood"));
+            return;
+        }
+    };
+    match figure {
+        Some(Figure::Line(p, q)) if p == q => read.notes.push("LINE of no length".into()),
+        Some(figure) => read.found.push(found(figure)),
+        None => read.notes.push(format!("{} without all of its numbers", entity.kind)),
+    }
+}
+
+fn found(figure: Figure) -> Found {
+    Found { figure, layer: String::new(), line_type: String::new() }
+}
+
+fn circle(entity: &Entity<'_>, scale: f64) -> Option<Figure> {
+    let radius = entity.number(40).filter(|r| *r > 0.0)?;
+    Some(Figure::Circle { center: entity.point(10, scale)?, radius: scale * radius })
+}
+
+fn arc(entity: &Entity<'_>, scale: f64) -> Option<Figure> {
+    let Some(Figure::Circle { center, radius }) = circle(entity, scale) else { return None };
+    let at = |code| {
+        let angle = entity.number(code)?.to_radians();
+        Some(Point { x: center.x + radius * cos(angle), y: center.y + radius * sin(angle) })
+    };
+    Some(Figure::Arc { center, start: at(50)?, end: at(51)?, is_clockwise: false })
+}
+
+fn ellipse(entity: &Entity<'_>, scale: f64) -> Option<Figure> {
+    let (center, major) = (entity.point(10, scale)?, entity.point(11, scale)?);
+    let across = entity.number(40)? * curve::half_axis(major);
+    let end = Point { x: center.x + major.x, y: center.y + major.y };
+    let from = entity.number(41).unwrap_or(0.0);
+    let sweep = entity.number(42).unwrap_or(TAU) - from;
+    let sweep = if sweep < 0.0 { sweep + TAU } else { sweep };
+    let is_whole = sweep > TAU - 1e-9;
+    Some(Figure::Ellipse { center, end, across, sweep: (!is_whole).then_some((from, sweep)) })
+}
+
+fn words(entity: &Entity<'_>, scale: f64) -> Option<Figure> {
+    let (at, size) = (entity.point(10, scale)?, scale * entity.number(40)?);
+    Some(Figure::Words { at, words: unescaped(entity.text(1)?), size })
+}
+
+/// Returns a text whose characters may be written by their numbers: `\U+00D8`, `%%c`.
+fn unescaped(text: &str) -> String {
+    let text = text.replace("%%c", "Ø").replace("%%d", "°").replace("%%p", "±");
+    let mut parts = text.split("\\U+");
+    let mut units: Vec<u16> = parts.next().unwrap_or_default().encode_utf16().collect();
+    for part in parts {
+        let number = part.get(..4).and_then(|hex| u16::from_str_radix(hex, 16).ok());
+        match number {
+            Some(unit) => {
+                units.push(unit);
+                units.extend(part[4..].encode_utf16());
+            }
+            None => units.extend("\\U+".encode_utf16().chain(part.encode_utf16())),
+        }
+    }
+    String::from_utf16_lossy(&units)
+}
+
+fn corner(vertex: &Entity<'_>, scale: f64) -> Option<Corner> {
+    Some(Corner { at: vertex.point(10, scale)?, bulge: vertex.number(42).unwrap_or(0.0) })
+}
+
+fn light_corners(entity: &Entity<'_>, scale: f64) -> Vec<Corner> {
+    let mut corners: Vec<Corner> = Vec::new();
+    for &(code, value) in &entity.values {
+        let number = value.trim().parse::<f64>().unwrap_or_default();
+        match (code, corners.last_mut()) {
+            (10, _) => corners.push(Corner { at: Point { x: scale * number, y: 0.0 }, bulge: 0.0 }),
+            (20, Some(last)) => last.at.y = scale * number,
+            (42, Some(last)) => last.bulge = number,
+            _ => {}
+        }
+    }
+    corners
+}
+
+/// Takes a polyline apart: its segments and arcs.
+fn along(corners: &[Corner], is_closed: bool, entity: &Entity<'_>, read: &mut Read) {
+    if corners.len() < 2 {
+        read.notes.push(format!("{} of fewer than two corners", entity.kind));
+        return;
+    }
+    let edges = if is_closed { corners.len() } else { corners.len() - 1 };
+    for i in 0..edges {
+        let (from, to) = (corners[i], corners[(i + 1) % corners.len()]);
+        if from.at == to.at {
+            read.notes.push(format!("an edge of no length of a {}", entity.kind));
+            continue;
+        }
+        read.found.push(found(match curve::edge(from, to) {
+            Shape::Arc { center, sweep, .. } => {
+                Figure::Arc { center, start: from.at, end: to.at, is_clockwise: sweep < 0.0 }
+            }
+            _ => Figure::Line(from.at, to.at),
+        }));
+    }
+}
