@@ -49,8 +49,8 @@ pub(crate) fn run(path: &Path, output: Option<&Path>, form: Form) -> Result<Repo
 fn listed(read: &Read) -> Vec<String> {
     let mut times: BTreeMap<&str, usize> = BTreeMap::new();
     read.notes.iter().for_each(|note| *times.entry(note).or_default() += 1);
-    let say = |(note, times)| match times {
-        1 => format!("{note}"),
+    let say = |(note, times): (&str, usize)| match times {
+        1 => note.to_string(),
         n => format!("{note}, {n} times"),
     };
     times.into_iter().map(say).collect()
