@@ -18,6 +18,7 @@ mod apply;
 mod check;
 mod classing;
 mod complaints;
+mod completing;
 mod difference;
 mod document;
 pub mod drafting;

@@ -16,9 +16,9 @@ use crate::state::State;
 use crate::texts::Texts;
 use crate::tools::{self, Tool};
 use crate::view::{
-    Advice, Affected, Analysis, BinEntry, Change, CheckReport, DiagnosticView, DocumentId,
-    DragState, Explanation, FamilyRow, FamilyView, FixView, Ghost, HeldView, MovedView, Offer,
-    PictureView, Pointer, Question, Recognised, Refusal, RowOutcome, Status, StructureRow,
+    Advice, Affected, Analysis, BinEntry, Change, CheckReport, CompletionView, DiagnosticView,
+    DocumentId, DragState, Explanation, FamilyRow, FamilyView, FixView, Ghost, HeldView, MovedView,
+    Offer, PictureView, Pointer, Question, Recognised, Refusal, RowOutcome, Status, StructureRow,
     TableView, TextView, ToolView, ValueRow,
 };
 use crate::views;
@@ -529,6 +529,10 @@ impl Session {
     pub fn advice(&self, id: DocumentId) -> Vec<Advice> {
         let beside = Beside::of(&*self.host, &self.documents, id);
         advice::advice(self.document(id), &beside)
+    }
+    /// Returns the words that may stand at an offset of a text that is being written in a document.
+    pub fn completions(&self, id: DocumentId, text: &str, offset: u32) -> Vec<CompletionView> {
+        crate::completing::completions(&self.document(id).state, text, offset)
     }
     /// Returns what the document calls itself: the first words of its first `///`, else its name.
     pub fn title(&self, id: DocumentId) -> String {

@@ -215,6 +215,9 @@ impl Tool {
             drag.release(&mut self.trial, host)?;
         }
         self.set.push(catch);
+        if let Some(Stage::Far { .. }) = stage {
+            self.turn_box(host);
+        }
         if let Some(Stage::Place { place, .. }) = stage {
             let path = Path(vec![Step::Part(Name::new(&self.name))]).join(&place);
             let command = Command::Anchor { path, held: true };
@@ -222,6 +225,30 @@ impl Tool {
             let _ = apply::apply(&mut self.trial, host, &command);
         }
         self.begin()
+    }
+
+    /// Of a box that was drawn to the left or down, the corner goes to where both sizes are positive. One whose
+    /// first corner is joined to something keeps it, and its signs.
+    fn turn_box(&mut self, host: &dyn Host) {
+        let (Some(first), Some(last)) = (self.set.first(), self.set.last()) else { return };
+        let (from, to) = (first.at, last.at);
+        let is_upright = from.0 <= to.0 && from.1 <= to.1;
+        let Some(Stage::Place { place, .. }) = self.stages.first() else { return };
+        if is_upright || first.joins.is_some() || !first.rules.is_empty() {
+            return;
+        }
+        let whole = Path(vec![Step::Part(Name::new(&self.name))]);
+        let corner = whole.join(place);
+        let size = |name: &str, size: f64| {
+            (whole.join(&Path(vec![Step::Part(Name::new(name))])), Literal::Number(size))
+        };
+        let targets = vec![
+            at_place(corner, (from.0.min(to.0), from.1.min(to.1))),
+            size("width", (to.0 - from.0).abs()),
+            size("height", (to.1 - from.1).abs()),
+        ];
+        // where the class has it otherwise, the box stays as it was drawn
+        let _ = apply::apply(&mut self.trial, host, &Command::Set(targets));
     }
 
     /// The command that makes the thing as it is in the trial, joined to what its places were caught by.

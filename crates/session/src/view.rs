@@ -443,6 +443,17 @@ pub struct TokenView {
     pub kind: String,
 }
 
+/// A word that may stand where someone writes.
+#[derive(Clone, PartialEq, Eq, Debug, Serialize)]
+pub struct CompletionView {
+    /// The word.
+    pub label: String,
+    /// `property`, `class`, `function` or `unit`.
+    pub kind: String,
+    /// A part's class, how a function is called, what a unit measures.
+    pub detail: String,
+}
+
 /// What the status line says.
 #[derive(Clone, PartialEq, Debug, Default, Serialize)]
 pub struct Status {
@@ -587,7 +598,7 @@ pub struct RedundantView {
 }
 
 /// Required constraints that cannot hold together, none of which can be spared.
-#[derive(Clone, PartialEq, Eq, Debug, Serialize)]
+#[derive(Clone, PartialEq, Debug, Serialize)]
 pub struct ContradictionView {
     /// Their paths and names.
     pub constraints: Vec<String>,
@@ -599,6 +610,9 @@ pub struct ContradictionView {
     pub message: String,
     /// What would work, each tried.
     pub repairs: Vec<String>,
+    /// The same as commands, where one command does it.
+    #[serde(skip)]
+    pub choices: Vec<Choice>,
 }
 
 /// How a `check` block came out.

@@ -32,6 +32,74 @@ export function download(name, text) {
   setTimeout(() => URL.revokeObjectURL(link.href), 1000)
 }
 
+// Hands the user an SVG as a PNG of twice its size, on white.
+export function downloadPng(name, svg) {
+  const picture = new Image()
+  picture.onload = () => {
+    const canvas = document.createElement("canvas")
+    canvas.width = 2 * (picture.naturalWidth || 800)
+    canvas.height = 2 * (picture.naturalHeight || 600)
+    const pen = canvas.getContext("2d")
+    pen.fillStyle = "white"
+    pen.fillRect(0, 0, canvas.width, canvas.height)
+    pen.drawImage(picture, 0, 0, canvas.width, canvas.height)
+    canvas.toBlob((blob) => {
+      const link = document.createElement("a")
+      link.href = URL.createObjectURL(blob)
+      link.download = name
+      link.click()
+      setTimeout(() => URL.revokeObjectURL(link.href), 1000)
+    }, "image/png")
+    URL.revokeObjectURL(picture.src)
+  }
+  picture.src = URL.createObjectURL(new Blob([svg], { type: "image/svg+xml" }))
+}
+
+export const printPage = () => window.print()
+
+// Copies a text; false where the browser does not let it.
+export async function copy(text) {
+  try {
+    await navigator.clipboard.writeText(text)
+    return true
+  } catch {
+    return false
+  }
+}
+
+// Compresses a text into letters that an address may have, and brings it back.
+export async function pack(text) {
+  const stream = new Blob([text]).stream().pipeThrough(new CompressionStream("deflate-raw"))
+  const bytes = new Uint8Array(await new Response(stream).arrayBuffer())
+  let letters = ""
+  for (const byte of bytes) letters += String.fromCharCode(byte)
+  return btoa(letters).replaceAll("+", "-").replaceAll("/", "_").replaceAll("=", "")
+}
+
+// A link may unpack to so much and no more.
+const MOST_UNPACKED = 1 << 20
+
+export async function unpack(packed) {
+  try {
+    const letters = atob(packed.replaceAll("-", "+").replaceAll("_", "/"))
+    const bytes = Uint8Array.from(letters, (letter) => letter.charCodeAt(0))
+    const stream = new Blob([bytes]).stream().pipeThrough(new DecompressionStream("deflate-raw"))
+    const reader = stream.getReader()
+    const parts = []
+    let size = 0
+    for (;;) {
+      const { done, value } = await reader.read()
+      if (done) break
+      size += value.length
+      if (size > MOST_UNPACKED) return undefined
+      parts.push(value)
+    }
+    return await new Blob(parts).text()
+  } catch {
+    return undefined
+  }
+}
+
 // Lets a person choose a file, and calls back with its name and its text.
 export function chooseFile(chosen) {
   const input = document.createElement("input")

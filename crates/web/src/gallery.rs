@@ -1,5 +1,6 @@
 //! The gallery: every document as a card with its picture, its title and its first sentence.
 
+use crate::first::Invitation;
 use crate::lab::Lab;
 use crate::picture::thumbnail::Thumbnail;
 use crate::server::Listed;
@@ -33,6 +34,7 @@ pub fn Gallery(
                 <h1>{words::LAB}</h1>
                 <p class="lead">{words::GALLERY_LEAD}</p>
             </header>
+            <Invitation lab=lab />
             {move || match listed.get() {
                 None => view! { <p class="quiet" role="status">{words::LOADING}</p> }.into_any(),
                 Some(Err(message)) => view! { <p class="notice" role="alert">{message}</p> }.into_any(),

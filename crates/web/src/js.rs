@@ -105,6 +105,23 @@ extern "C" {
     /// Hands the user a file.
     pub fn download(name: &str, text: &str);
 
+    /// Hands the user an SVG as a PNG of twice its size.
+    #[wasm_bindgen(js_name = downloadPng)]
+    pub fn download_png(name: &str, svg: &str);
+
+    /// Prints the page, of which the picture alone is on paper.
+    #[wasm_bindgen(js_name = printPage)]
+    pub fn print();
+
+    /// Copies a text; gives whether the browser let it.
+    pub async fn copy(text: &str) -> JsValue;
+
+    /// Compresses a text into letters that an address may have.
+    pub async fn pack(text: &str) -> JsValue;
+
+    /// Brings such a text back; undefined where it is none.
+    pub async fn unpack(packed: &str) -> JsValue;
+
     /// Lets a person choose a file; calls back with its name and its text.
     #[wasm_bindgen(js_name = chooseFile)]
     pub fn choose_file(chosen: &Function);

@@ -6,7 +6,9 @@
 use crate::actions::Context;
 use crate::dialog::Wish;
 use crate::drafting::Drafting;
+use crate::dock::{self, Sheet, Tab};
 use crate::files::{FileSet, Files};
+use crate::first;
 use crate::menu::{self, Menu};
 use crate::picture::covers;
 use crate::server::{Listed, Stored};
@@ -25,6 +27,7 @@ use std::fmt;
 
 mod documents;
 mod edits;
+mod export;
 
 /// An open document.
 #[derive(Clone, PartialEq, Debug)]
@@ -88,6 +91,14 @@ pub struct Lab {
     pub values: RwSignal<Vec<ValueRow>>,
     /// Which rows of the values view are in the page, in order: those that a drag keeps up to date.
     pub shown_values: StoredValue<Vec<usize>>,
+    /// The same for the rows in the inspector.
+    pub inspected_values: StoredValue<Vec<usize>>,
+    /// Where the first minute is.
+    pub first: RwSignal<first::Step>,
+    /// What the dock shows, where it is open.
+    pub dock: RwSignal<Option<Tab>>,
+    /// What a narrow page has pulled up.
+    pub sheet: RwSignal<Sheet>,
     /// Its text view.
     pub text: RwSignal<TextView>,
     /// Its status line.
@@ -233,6 +244,10 @@ impl Lab {
             shown_things: StoredValue::new(Vec::new()),
             dragged_values: RwSignal::new(BTreeMap::new()),
             shown_values: StoredValue::new(Vec::new()),
+            inspected_values: StoredValue::new(Vec::new()),
+            first: RwSignal::new(first::start()),
+            dock: RwSignal::new(dock::kept()),
+            sheet: RwSignal::new(Sheet::Shut),
             text: RwSignal::new(no_text()),
             status: RwSignal::new(Status::default()),
             picture: RwSignal::new(PictureView::default()),
@@ -277,6 +292,12 @@ impl Lab {
     /// Asks the session something.
     pub fn ask<T>(self, question: impl FnOnce(&Session) -> T) -> T {
         self.session.with_value(question)
+    }
+
+    /// Asks the session something about the shown document.
+    pub fn ask_of_shown<T>(self, question: impl FnOnce(&Session, DocumentId) -> T) -> Option<T> {
+        let id = self.id()?;
+        Some(self.ask(|session| question(session, id)))
     }
 
     /// Tells the session something about a document that is not shown.
@@ -336,7 +357,10 @@ impl Lab {
             })
         });
         self.dragged_values.set(dragged);
-        let shown = self.shown_values.get_value();
+        let mut shown = self.shown_values.get_value();
+        shown.extend(self.inspected_values.get_value());
+        shown.sort_unstable();
+        shown.dedup();
         self.values.update(|rows| {
             let mut shown = shown.iter().peekable();
             let rows = rows.iter_mut().enumerate();
@@ -392,6 +416,13 @@ impl Lab {
         if self.selected.with_untracked(|old| *old != path) {
             self.selected.set(path);
         }
+    }
+
+    /// Selects some things together, in this order.
+    pub fn select_all(self, paths: &[String]) {
+        let mut paths = paths.iter().cloned();
+        self.selected.set(paths.next());
+        self.also.set(paths.collect());
     }
 
     /// Selects a thing besides what is selected, or lets it go again.

@@ -4,8 +4,11 @@ use crate::actions::{self, Action};
 use crate::bin_panel::Bin;
 use crate::dialog::Dialog;
 use crate::drafting::{Drawing, PromptLine};
+use crate::dock::{Dock, Handles};
+use crate::first::Coach;
 use crate::gallery::Gallery;
 use crate::history::History;
+use crate::inspector::Inspector;
 use crate::lab::{Drawer, Lab};
 use crate::menu::{self, MenuView};
 use crate::palette::Palette;
@@ -15,8 +18,6 @@ use crate::splitter::{Splitter, Way};
 use crate::status::{Asked, Recognition, Refused, StatusLine};
 use crate::strip::Strip;
 use crate::structure::Structure;
-use crate::text::Text;
-use crate::values::Values;
 use crate::why::Why;
 use crate::{bench, icons, probe, route, words};
 use leptos::ev;
@@ -84,6 +85,10 @@ pub fn Page() -> impl IntoView {
 
 /// Shows what the page's address names.
 fn follow(lab: Lab) {
+    if let Some(packed) = route::shared() {
+        lab.open_shared(&packed);
+        return;
+    }
     let Some(path) = route::present() else {
         lab.leave();
         return;
@@ -174,7 +179,7 @@ fn Tool(
 #[component]
 fn Document(lab: Lab) -> impl IntoView {
     view! {
-        <main class="document">
+        <main class="document" data-sheet=move || lab.sheet.get().name()>
             <div class="notices">
                 <Refused lab=lab />
                 <Asked lab=lab />
@@ -189,17 +194,16 @@ fn Document(lab: Lab) -> impl IntoView {
                 <Picture lab=lab />
                 <Strip lab=lab />
                 <PromptLine lab=lab />
+                <Coach lab=lab />
                 <Show when=move || lab.why.get()>
                     <Splitter name="why" way=Way::Up least=96.0 most=640.0 />
                     <Why lab=lab />
                 </Show>
+                <Dock lab=lab />
             </div>
             <Splitter name="right" way=Way::Left least=220.0 most=900.0 />
-            <div class="side">
-                <Values lab=lab />
-                <Splitter name="values" way=Way::Down least=96.0 most=900.0 />
-                <Text lab=lab />
-            </div>
+            <div class="side"><Inspector lab=lab /></div>
+            <Handles lab=lab />
             <Show when=bench::is_asked><bench::Bench lab=lab /></Show>
         </main>
         <StatusLine lab=lab />

@@ -22,6 +22,26 @@ pub fn present() -> Option<String> {
     (!path.is_empty()).then_some(path)
 }
 
+const SHARED: &str = "#share=";
+
+/// The address of this page that carries a packed document.
+pub fn to_shared(packed: &str) -> String {
+    format!("{SHARED}{packed}")
+}
+
+/// The same in full, to hand on.
+pub fn share(packed: &str) -> String {
+    let location = window().location();
+    let (origin, path) = (location.origin(), location.pathname());
+    format!("{}{}{}", origin.unwrap_or_default(), path.unwrap_or_default(), to_shared(packed))
+}
+
+/// The packed document that the page's address carries.
+pub fn shared() -> Option<String> {
+    let hash = window().location().hash().unwrap_or_default();
+    hash.strip_prefix(SHARED).map(String::from)
+}
+
 /// One parameter of the page's query.
 pub fn asked(name: &str) -> Option<String> {
     let search = window().location().search().ok()?;
@@ -30,7 +50,7 @@ pub fn asked(name: &str) -> Option<String> {
 
 /// Turns the address that the server printed into the one that is kept; a bench stays one.
 pub fn settle() {
-    if present().is_some() {
+    if present().is_some() || shared().is_some() {
         return;
     }
     let Some(path) = asked("document") else { return };

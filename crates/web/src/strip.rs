@@ -4,6 +4,7 @@ use crate::dialog::Wish;
 use crate::lab::{Lab, Notice};
 use crate::words;
 use leptos::prelude::*;
+use session::Command;
 use session::view::{Offer, RowKind};
 
 /// Documents of more things than this show no preview while the pointer is over an offer.
@@ -70,10 +71,16 @@ impl Lab {
 
     /// Shows what an offer would do, or nothing any more.
     pub fn foresee(self, offer: Option<&Offer>) {
+        self.foresee_command(offer.map(|offer| offer.command(None)).as_ref());
+    }
+
+    /// Shows what a command would do, or nothing any more.
+    pub fn foresee_command(self, command: Option<&Command>) {
         let small = self.structure.with_untracked(|rows| rows.len() <= MOST_FORESEEN);
-        let drawn = offer.filter(|_| small).zip(self.id()).and_then(|(offer, id)| {
-            self.ask(|session| session.foreseen(id, &offer.command(None))).ok()
-        });
+        let drawn = command
+            .filter(|_| small)
+            .zip(self.id())
+            .and_then(|(command, id)| self.ask(|session| session.foreseen(id, command)).ok());
         self.ghosts.set(drawn.into_iter().collect());
     }
 

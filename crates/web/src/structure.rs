@@ -18,6 +18,17 @@ const FIRST_ROWS: usize = 30;
 /// So many rows above and below those in sight are in the page as well.
 const SPARE_ROWS: usize = 10;
 
+/// Whether a rule has a path in it, as words of its own.
+pub fn speaks_of(rule: &str, path: &str) -> bool {
+    let is_word = |c: char| c.is_alphanumeric() || c == '_';
+    !path.is_empty()
+        && rule.match_indices(path).any(|(at, _)| {
+            let before = rule[..at].chars().next_back();
+            let after = rule[at + path.len()..].chars().next();
+            !before.is_some_and(|c| is_word(c) || c == '.') && !after.is_some_and(is_word)
+        })
+}
+
 /// Which rows are open or shut against the rule, and which one has the keyboard.
 #[derive(Clone, Copy, Debug)]
 struct Tree {

@@ -137,6 +137,21 @@ fn options(lab: Lab) -> Object {
         });
         set(name, back.into_js_value());
     }
+    let complete = Closure::<dyn FnMut(u32) -> Array>::new(move |offset| {
+        let text = lab.written();
+        lab.ask_of_shown(|session, id| session.completions(id, &text, offset))
+            .unwrap_or_default()
+            .into_iter()
+            .map(|word| {
+                let object = Object::new();
+                set_option(&object, "label", &word.label.into());
+                set_option(&object, "kind", &word.kind.into());
+                set_option(&object, "detail", &word.detail.into());
+                JsValue::from(object)
+            })
+            .collect()
+    });
+    set("complete", complete.into_js_value());
     let leave = Closure::<dyn FnMut()>::new(move || lab.flush_text());
     set("onLeave", leave.into_js_value());
     options

@@ -41,7 +41,7 @@ pub fn Values(
     view! {
         <section class="panel values" aria-label=words::VALUES>
             <header class="head">
-                <h2>{words::VALUES}</h2>
+                <h2>{words::TABLE}</h2>
                 <input type="search" placeholder=words::FILTER aria-label=words::FILTER
                     prop:value=filter
                     on:input=move |e| filter.set(event_target_value(&e)) />
@@ -63,7 +63,7 @@ pub fn Values(
                             key=|at| *at
                             let(at)
                         >
-                            <Row lab=lab at=at />
+                            <Row lab=lab at=at place=Place::Table />
                         </For>
                     </tbody>
                 </table>
@@ -78,8 +78,25 @@ pub fn Values(
     }
 }
 
+/// Where rows are shown; a value may be in both.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub enum Place {
+    /// The table of all values.
+    Table,
+    /// The inspector.
+    Inspector,
+}
+
+/// One value: its name, which can be scrubbed, its field, its unit and its lock.
 #[component]
-fn Row(lab: Lab, at: usize) -> impl IntoView {
+pub fn Row(
+    /// The lab.
+    lab: Lab,
+    /// Which of the values.
+    at: usize,
+    /// Where it is shown.
+    place: Place,
+) -> impl IntoView {
     let row = Memo::new(move |_| lab.values.with(|rows| rows.get(at).cloned()));
     let of = move |read: fn(&ValueRow) -> String| {
         Memo::new(move |_| row.with(|row| row.as_ref().map(read).unwrap_or_default()))
@@ -110,13 +127,13 @@ fn Row(lab: Lab, at: usize) -> impl IntoView {
         })
     });
     Effect::new(move |_| {
-        if selected.get() {
+        if place == Place::Table && selected.get() {
             request_animation_frame(move || field::scroll_to(&format!("value-{at}")));
         }
     });
     view! {
         <tr
-            id=format!("value-{at}")
+            id=(place == Place::Table).then(|| format!("value-{at}"))
             class:given=given
             class:selected=selected
             class:hovered=hovered
@@ -225,6 +242,62 @@ fn Scrub(
             <span class="owner">{owner}</span>
             <span class="name">{name}</span>
         </span>
+    }
+}
+
+/// A slider for a number; while it is moved the rest follows, and it is one step of the undo list.
+#[component]
+pub fn Slider(
+    /// The lab.
+    lab: Lab,
+    /// Which of the values.
+    at: usize,
+) -> impl IntoView {
+    let row = Memo::new(move |_| lab.values.with(|rows| rows.get(at).cloned()));
+    let number = Memo::new(move |_| row.with(|row| row.as_ref().and_then(|row| row.number)));
+    let path = Memo::new(move |_| {
+        row.with(|row| row.as_ref().map(|r| r.path.clone()).unwrap_or_default())
+    });
+    let range =
+        Memo::new(move |old: Option<&(f64, f64)>| slider_range(number.get().unwrap_or(0.0), old));
+    let pressed = StoredValue::new(false);
+    let moved = move |e: leptos::ev::Event| {
+        let Ok(to) = event_target_value(&e).parse::<f64>() else { return };
+        if !pressed.get_value() {
+            pressed.set_value(path.with_untracked(|path| lab.press(path)).is_some());
+        }
+        if pressed.get_value() {
+            lab.drag((to, 0.0));
+        }
+    };
+    let done = move |_| {
+        if pressed.try_update_value(std::mem::take) == Some(true) {
+            lab.release();
+        }
+    };
+    let step = move || {
+        let (least, most) = range.get();
+        (most - least) / 200.0
+    };
+    move || {
+        number.with(Option::is_some).then(|| {
+            view! {
+                <input type="range" class="slider" aria-label=move || words::slider_of(&path.get())
+                    min=move || range.get().0.to_string() max=move || range.get().1.to_string()
+                    step=move || step().to_string()
+                    prop:value=move || number.get().unwrap_or_default().to_string()
+                    on:input=moved on:change=done />
+            }
+        })
+    }
+}
+
+/// The ends of a slider: the old ones while the number lies between them, else around the number and zero.
+fn slider_range(number: f64, old: Option<&(f64, f64)>) -> (f64, f64) {
+    match old {
+        Some(&(least, most)) if least <= number && number <= most => (least, most),
+        _ if number == 0.0 => (-100.0, 100.0),
+        _ => ((2.0 * number).min(0.0), (2.0 * number).max(0.0)),
     }
 }
 
@@ -343,7 +416,7 @@ fn focus_beside(e: &KeyboardEvent, which: Beside) -> bool {
 
 #[cfg(test)]
 mod tests {
-    use super::{split, step, with_unit};
+    use super::{slider_range, split, step, with_unit};
 
     #[test]
     fn a_bare_number_takes_the_unit_beside_it() {
@@ -351,6 +424,13 @@ mod tests {
         assert_eq!(with_unit("0.3 kohm", "ohm"), "0.3 kohm");
         assert_eq!(with_unit("300", ""), "300");
         assert_eq!(with_unit("hello", "ohm"), "hello");
+    }
+
+    #[test]
+    fn a_slider_keeps_its_ends_while_its_number_lies_between_them() {
+        assert_eq!(slider_range(120.0, None), (0.0, 240.0));
+        assert_eq!(slider_range(180.0, Some(&(0.0, 240.0))), (0.0, 240.0));
+        assert_eq!(slider_range(-5.0, Some(&(0.0, 240.0))), (-10.0, 0.0));
     }
 
     #[test]

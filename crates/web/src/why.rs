@@ -6,8 +6,8 @@ use crate::picture::covers;
 use crate::{icons, words};
 use leptos::prelude::*;
 use session::view::{
-    Advice, Analysis, ContradictionView, ExplainedStep, Ghost, HeldView, MotionView, RedundantView,
-    Unmet, Velocity,
+    Advice, Analysis, Choice, ContradictionView, ExplainedStep, Ghost, HeldView, MotionView,
+    RedundantView, Unmet, Velocity,
 };
 use session::{Command, Path};
 
@@ -128,12 +128,13 @@ fn Elsewhere(lab: Lab, ghost: Ghost) -> impl IntoView {
 /// Of the motions those of one thing, if one is meant.
 #[component]
 fn Analysed(lab: Lab, analysis: Analysis, about: Option<String>) -> impl IntoView {
-    let Analysis { freedom, free: _, mut motions, redundant, contradictions, advice } = analysis;
+    let Analysis { freedom, mut free, mut motions, redundant, contradictions, advice } = analysis;
     let title = match &about {
         None => format!("{}, {}", words::FREE, words::ways(freedom)),
         Some(about) => {
             let is_its = |v: &Velocity| covers(about, &v.path) || covers(&v.path, about);
             motions.retain(|motion| motion.moves.iter().any(is_its));
+            free.retain(|path| covers(about, path) || covers(path, about));
             String::from(words::FREE)
         }
     };
@@ -155,23 +156,64 @@ fn Analysed(lab: Lab, analysis: Analysis, about: Option<String>) -> impl IntoVie
             <ul class="motions" on:pointerleave=move |_| lab.motion.set(Vec::new())>
                 {motions.into_iter().map(|m| view! { <Motion lab=lab motion=m /> }).collect_view()}
             </ul>
+            {(!free.is_empty()).then(|| view! { <FreeParts lab=lab free=free /> })}
         })}
     }
 }
 
 #[component]
 fn Contradiction(lab: Lab, contradiction: ContradictionView) -> impl IntoView {
-    let ContradictionView { constraints, anchors, decided: _, message, repairs } = contradiction;
+    let ContradictionView { constraints, anchors, decided: _, message, mut repairs, choices } =
+        contradiction;
+    repairs.retain(|repair| !choices.iter().any(|choice| choice.label == *repair));
     let paths = constraints.into_iter().chain(anchors).collect();
     view! {
         <li>
             <p>{message}</p>
             {listed(lab, words::IN_THE_WAY, paths)}
+            {(!choices.is_empty()).then(|| view! {
+                <p>{words::REPAIRS}</p>
+                <ul class="repairs" on:pointerleave=move |_| lab.foresee_command(None)>
+                    {choices.into_iter().map(|c| view! { <RepairButton lab=lab choice=c /> }).collect_view()}
+                </ul>
+            })}
             {(!repairs.is_empty()).then(|| view! {
                 <p>{words::REPAIRS}</p>
                 <ul>{repairs.into_iter().map(|r| view! { <li>{r}</li> }).collect_view()}</ul>
             })}
         </li>
+    }
+}
+
+/// What would mend a contradiction: the picture shows it while the pointer or the keyboard is on it.
+#[component]
+fn RepairButton(lab: Lab, choice: Choice) -> impl IntoView {
+    let command = StoredValue::new(choice.command);
+    let look = move || command.with_value(|command| lab.foresee_command(Some(command)));
+    let mend = move |_| {
+        lab.foresee_command(None);
+        lab.apply(&command.get_value());
+    };
+    view! {
+        <li>
+            <button class="repair" on:pointerenter=move |_| look() on:focus=move |_| look()
+                on:blur=move |_| lab.foresee_command(None) on:click=mend>{choice.label}</button>
+        </li>
+    }
+}
+
+/// At most so many free places are listed; the button selects them all.
+const MOST_FREE: usize = 24;
+
+/// What can still move, each lit in the picture while the pointer is on it.
+#[component]
+fn FreeParts(lab: Lab, free: Vec<String>) -> impl IntoView {
+    let shown: Vec<String> = free.iter().take(MOST_FREE).cloned().collect();
+    let more = free.len().saturating_sub(MOST_FREE);
+    view! {
+        {listed(lab, words::FREE_PARTS, shown)}
+        {(more > 0).then(|| view! { <p class="quiet">{words::and_more(more)}</p> })}
+        <p><button on:click=move |_| lab.select_all(&free)>{words::SELECT_FREE}</button></p>
     }
 }
 

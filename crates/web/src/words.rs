@@ -16,6 +16,32 @@ pub const READ_ONLY: &str = "built in; saving makes a copy in your folder";
 
 pub const PICTURE: &str = "Picture";
 pub const STRUCTURE: &str = "Structure";
+pub const FIRST_LEAD: &str = "New here? One minute with a figure that keeps its promises.";
+pub const FIRST_BEGIN: &str = "Drag a corner";
+pub const FIRST_SKIP: &str = "Skip";
+pub const FIRST_DRAG: &str = "Drag me: take the pulsing corner and move it.";
+pub const FIRST_WHY: &str = "The inner figure stays a parallelogram. Why?";
+pub const FIRST_BUILT: &str = "Below stands what is free, and which constraint decides each value.";
+pub const FIRST_BUILD: &str = "Now build one";
+pub const FIRST_TRACE: &str = "Draw four lines, end to end; corners join by themselves. Later choose a point and a line: the strip offers midpoint.";
+pub const INSPECTOR: &str = "Inspector";
+pub const PARAMETERS: &str = "what is given in this document";
+pub const IS_RULE: &str = "a constraint";
+pub const CONSTRAINTS: &str = "Constraints";
+pub const TABLE: &str = "Table";
+pub const PARTS: &str = "Parts";
+pub const DOCK: &str = "Text and table";
+pub const SHEET: &str = "Panels";
+pub const EXPORT_SVG: &str = "Export the picture as SVG";
+pub const EXPORT_PNG: &str = "Export the picture as PNG";
+pub const EXPORT_CSV: &str = "Export the values as CSV";
+pub const PRINT: &str = "Print the picture";
+pub const SHARE: &str = "Copy a link that carries the document";
+pub const LINK_COPIED: &str = "the link is copied; it carries the whole document";
+pub const LINK_IN_BAR: &str = "the link stands in the address bar; it carries the whole document";
+pub const LINK_BROKEN: &str = "this link carries no document, or only a piece of one";
+pub const FREE_PARTS: &str = "Free:";
+pub const SELECT_FREE: &str = "Select them all";
 pub const VALUES: &str = "Values";
 pub const TEXT: &str = "Text";
 pub const WHY: &str = "Why";
@@ -284,6 +310,28 @@ pub fn delete_all(members: usize) -> String {
 /// That a thing has no value of its own to type.
 pub fn no_value_to_type(path: &str) -> String {
     format!("{path} has no value but its place")
+}
+
+/// What a screen reader hears of a constraint's switch.
+pub fn switch_of(path: &str) -> String {
+    format!("{path} holds")
+}
+
+/// What a screen reader hears of a value's slider.
+pub fn slider_of(path: &str) -> String {
+    format!("{path}, slider")
+}
+
+/// Why a document is not shared by a link.
+pub fn link_too_long(letters: usize, most: usize) -> String {
+    format!(
+        "the link would have {letters} letters, more than {most}: save or download the document instead"
+    )
+}
+
+/// How many are not listed.
+pub fn and_more(more: usize) -> String {
+    format!("and {more} more")
 }
 
 /// What was saved.

@@ -147,6 +147,7 @@ async fn the_text_is_edited_and_a_wrong_line_keeps_what_was() {
     visit.until("document.querySelector('main')").await;
     let before = show(&visit, "temperature.thing").await;
     assert_eq!(value(&before, "fahrenheit.node.number"), "162.5");
+    visit.script("document.getElementById('tab-text').click()").await;
     visit.until("document.querySelector('.cm-content')").await;
     let content = fantoccini::Locator::Css(".cm-content");
     visit.client.find(content).await.expect("the editor").click().await.expect("a click");

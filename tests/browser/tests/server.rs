@@ -17,6 +17,8 @@ async fn the_page_starts_and_keeps_its_token_to_itself() {
 #[tokio::test]
 async fn the_page_runs_under_its_security_policy() {
     let visit = Visit::open(Some("quadrilateral.thing")).await;
+    visit.until("document.getElementById('tab-text')").await;
+    visit.script("document.getElementById('tab-text').click()").await;
     visit.until("document.querySelector('.cm-content')").await;
     // Inline scripts are refused, the page's own module and WebAssembly run.
     let ran = visit

@@ -1,10 +1,11 @@
 //! The analysis in words: what is free, what says nothing new, what cannot hold together.
 
 use crate::document::Open;
+use crate::session::parse_path;
 use crate::texts::Texts;
-use crate::view::{Analysis, ContradictionView, MotionView, RedundantView, Velocity};
+use crate::view::{Analysis, Choice, ContradictionView, MotionView, RedundantView, Velocity};
 use crate::words;
-use kernel::{Primitive, SlotId, ThingId, Values};
+use kernel::{Command, Literal, Primitive, SlotId, ThingId, Values};
 use plan::{
     Certainty, Combination, Contradiction, Motion, MotionKind, Redundant, RedundantKind, Repair,
     Said,
@@ -225,8 +226,33 @@ pub(crate) fn contradiction(open: &Open, c: &Contradiction) -> ContradictionView
         }
         Repair::Move { .. } => None,
     };
-    let repairs = c.repairs.iter().filter_map(repair).collect();
-    ContradictionView { constraints, anchors, decided, message, repairs }
+    let (mut repairs, mut choices) = (Vec::new(), Vec::new());
+    for r in &c.repairs {
+        let Some(label) = repair(r) else { continue };
+        choices.extend(mending(open, r).map(|command| Choice { label: label.clone(), command }));
+        repairs.push(label);
+    }
+    ContradictionView { constraints, anchors, decided, message, repairs, choices }
+}
+
+/// Returns the command that mends a contradiction as a repair says; nothing where none can say it.
+fn mending(open: &Open, repair: &Repair) -> Option<Command> {
+    let state = &open.state;
+    let set = |slot: SlotId, to: f64| (state.slot_path(slot), Literal::Number(to));
+    match *repair {
+        Repair::LeaveOut { source: source @ plan::Source::Constraint(_), .. } => {
+            let path = parse_path(&words::source_name(state, source)?)?;
+            Some(Command::Enable { path, on: false })
+        }
+        Repair::LeaveOut { .. } => None,
+        Repair::LetGo { slot } => {
+            Some(Command::Anchor { path: parse_path(&place(open, slot))?, held: false })
+        }
+        Repair::Change { slot, to } => Some(Command::Set(vec![set(slot, to)])),
+        Repair::Move { ref to } => {
+            Some(Command::Set(to.iter().map(|&(slot, to)| set(slot, to)).collect()))
+        }
+    }
 }
 
 /// Returns the values of the document as a repair would leave them.

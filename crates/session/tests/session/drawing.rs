@@ -289,3 +289,30 @@ fn four_lines_that_are_equally_long_become_a_class_of_which_others_are_made() {
         desk.session.class_of(desk.id, &[at("rhombus")], "Rhombus").expect_err("it is there");
     assert_eq!(again.message, "there is a class Rhombus already");
 }
+
+#[test]
+fn a_typed_length_is_meant_in_the_unit_of_the_document() {
+    for unit in ["mm", "cm", "m"] {
+        let mut desk = Desk::of(&format!("use geometry\nunit {unit}\n"));
+        desk.session.take_tool(desk.id, "Line").expect("a tool");
+        click(&mut desk, &pointer(0.0, 0.0));
+        click(&mut desk, &Pointer { length: Some(50.0), ..pointer(6.0, 8.0) });
+        holds(&desk);
+        assert_eq!(desk.place("line.p2"), (30.0, 40.0), "{unit}");
+        let text = desk.session.text(desk.id).source;
+        assert!(text.contains("line.length = 50"), "{text}");
+    }
+}
+
+#[test]
+fn a_box_is_drawn_from_any_of_its_corners() {
+    for (from, to) in [((180.0, 130.0), (100.0, 100.0)), ((180.0, 100.0), (100.0, 130.0))] {
+        let mut desk = Desk::of("use geometry\n");
+        desk.session.take_tool(desk.id, "Rectangle").expect("a tool");
+        click(&mut desk, &pointer(from.0, from.1));
+        click(&mut desk, &pointer(to.0, to.1));
+        holds(&desk);
+        assert_eq!(desk.place("rectangle.corner"), (100.0, 100.0));
+        assert_eq!((desk.number("rectangle.width"), desk.number("rectangle.height")), (80.0, 30.0));
+    }
+}

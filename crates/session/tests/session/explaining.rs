@@ -296,3 +296,16 @@ medium constraint my: y = 25
     let reasons: Vec<&str> = steps.iter().map(|s| s.reason.as_str()).collect();
     assert_eq!(reasons, ["lim must hold; my would go beyond"]);
 }
+
+#[test]
+fn a_repair_is_a_command_that_mends_the_contradiction() {
+    let mut desk = Desk::of("a: Real = 3\nconstraint one: a = 3\nconstraint two: a = 4\n");
+    let found = desk.session.analysis(desk.id).contradictions;
+    let choices = found[0].choices.clone();
+    assert!(!choices.is_empty(), "{found:?}");
+    for choice in choices {
+        let mut desk = Desk::of("a: Real = 3\nconstraint one: a = 3\nconstraint two: a = 4\n");
+        desk.apply(&choice.command).expect("it can be done");
+        assert!(desk.session.status(desk.id).satisfied, "{}", choice.label);
+    }
+}

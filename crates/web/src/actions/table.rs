@@ -2,8 +2,9 @@
 
 use super::{Action, Context, Group};
 use crate::dialog::Wish;
+use crate::dock::Tab;
 use crate::lab::{Drawer, Lab, Zoom};
-use crate::{route, structure, words};
+use crate::{js, route, structure, words};
 use leptos::prelude::*;
 use session::view::{RowKind, StructureRow};
 use session::{Command, Path};
@@ -395,7 +396,10 @@ pub const ACTIONS: &[Action] = &[
         label: words::GO_VALUES,
         keys: &["Alt+3"],
         enabled: |lab| document(lab).map(drop),
-        run: |_| focus(".values .field"),
+        run: |lab| {
+            lab.open_dock(Tab::Table);
+            request_animation_frame(|| focus(".dock .field"));
+        },
     },
     Action {
         id: "go-text",
@@ -404,7 +408,10 @@ pub const ACTIONS: &[Action] = &[
         label: words::GO_TEXT,
         keys: &["Alt+4"],
         enabled: |lab| document(lab).map(drop),
-        run: |_| focus(".cm-content"),
+        run: |lab| {
+            lab.open_dock(Tab::Text);
+            request_animation_frame(|| focus(".cm-content"));
+        },
     },
     Action {
         id: "download",
@@ -414,6 +421,51 @@ pub const ACTIONS: &[Action] = &[
         keys: &[],
         enabled: |lab| document(lab).map(drop),
         run: Lab::download,
+    },
+    Action {
+        id: "share",
+        group: Group::File,
+        contexts: &[],
+        label: words::SHARE,
+        keys: &[],
+        enabled: |lab| document(lab).map(drop),
+        run: Lab::share,
+    },
+    Action {
+        id: "export-svg",
+        group: Group::File,
+        contexts: &[],
+        label: words::EXPORT_SVG,
+        keys: &[],
+        enabled: |lab| document(lab).map(drop),
+        run: Lab::export_svg,
+    },
+    Action {
+        id: "export-png",
+        group: Group::File,
+        contexts: &[],
+        label: words::EXPORT_PNG,
+        keys: &[],
+        enabled: |lab| document(lab).map(drop),
+        run: Lab::export_png,
+    },
+    Action {
+        id: "export-csv",
+        group: Group::File,
+        contexts: &[],
+        label: words::EXPORT_CSV,
+        keys: &[],
+        enabled: |lab| document(lab).map(drop),
+        run: Lab::export_csv,
+    },
+    Action {
+        id: "print",
+        group: Group::File,
+        contexts: &[],
+        label: words::PRINT,
+        keys: &["Ctrl+P"],
+        enabled: |lab| document(lab).map(drop),
+        run: |_| js::print(),
     },
     Action {
         id: "gallery",

@@ -216,6 +216,12 @@ impl Lab {
         );
     }
 
+    /// The text as the editor has it, which may be newer than what the session knows.
+    pub fn written(self) -> String {
+        let pending = self.pending_text.get_value();
+        pending.unwrap_or_else(|| self.text.with_untracked(|text| text.source.clone()))
+    }
+
     /// Whether the editor holds words that the session has not been given yet.
     pub fn is_typing(self) -> bool {
         self.pending_text.with_value(Option::is_some)

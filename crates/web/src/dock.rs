@@ -1,0 +1,140 @@
+//! The bottom dock: text and table, shut at first; and what a narrow page pulls up instead.
+
+use crate::lab::Lab;
+use crate::splitter::{Splitter, Way};
+use crate::text::Text;
+use crate::values::Values;
+use crate::{theme, words};
+use leptos::prelude::*;
+
+const DOCK_KEY: &str = "thinglab/dock";
+
+/// What the dock shows.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub enum Tab {
+    /// The text of the document.
+    Text,
+    /// The table of its values.
+    Table,
+}
+
+impl Tab {
+    fn label(self) -> &'static str {
+        match self {
+            Self::Text => words::TEXT,
+            Self::Table => words::TABLE,
+        }
+    }
+}
+
+/// What a narrow page has pulled up over the picture.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub enum Sheet {
+    /// Nothing: the picture has the screen.
+    Shut,
+    /// The drawer with structure, bin and history.
+    Drawer,
+    /// The inspector.
+    Inspector,
+    /// The dock.
+    Dock,
+}
+
+impl Sheet {
+    /// Its name in the page's style.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Shut => "shut",
+            Self::Drawer => "drawer",
+            Self::Inspector => "inspector",
+            Self::Dock => "dock",
+        }
+    }
+}
+
+/// What the dock showed in the last visit.
+pub fn kept() -> Option<Tab> {
+    let kept = theme::keep(DOCK_KEY)?;
+    [Tab::Text, Tab::Table].into_iter().find(|tab| tab.label() == kept)
+}
+
+/// The dock below the picture.
+#[component]
+pub fn Dock(
+    /// The lab.
+    lab: Lab,
+) -> impl IntoView {
+    let wrong = Memo::new(move |_| lab.text.with(|text| text.diagnostics.len()));
+    let tab = move |shown: Tab| {
+        view! {
+            <button role="tab" id=format!("tab-{}", shown.label().to_lowercase()) aria-controls="dock"
+                aria-selected=move || (lab.dock.get() == Some(shown)).to_string()
+                on:click=move |_| lab.toggle_dock(shown)>
+                {shown.label()}
+                {move || (shown == Tab::Text && wrong.get() > 0)
+                    .then(|| view! { <span class="count">{wrong}</span> })}
+            </button>
+        }
+    };
+    view! {
+        <Show when=move || lab.dock.get().is_some()>
+            <Splitter name="dock" way=Way::Up least=120.0 most=800.0 />
+        </Show>
+        <div class="dock" class:open=move || lab.dock.get().is_some()>
+            <div class="tabs" role="tablist" aria-label=words::DOCK>{tab(Tab::Text)}{tab(Tab::Table)}</div>
+            <div class="shelf" id="dock" role="tabpanel" aria-label=words::DOCK>
+                {move || match lab.dock.get() {
+                    Some(Tab::Text) => view! { <Text lab=lab /> }.into_any(),
+                    Some(Tab::Table) => view! { <Values lab=lab /> }.into_any(),
+                    None => ().into_any(),
+                }}
+            </div>
+        </div>
+    }
+}
+
+/// The handles of the sheet that a narrow page pulls up.
+#[component]
+pub fn Handles(
+    /// The lab.
+    lab: Lab,
+) -> impl IntoView {
+    let handle = move |label: &'static str, sheet: Sheet| {
+        let pull = move |_| {
+            if sheet == Sheet::Dock && lab.dock.get_untracked().is_none() {
+                lab.open_dock(Tab::Text);
+            }
+            lab.sheet.update(|open| *open = if *open == sheet { Sheet::Shut } else { sheet });
+        };
+        view! {
+            <button aria-pressed=move || (lab.sheet.get() == sheet).to_string() on:click=pull>{label}</button>
+        }
+    };
+    view! {
+        <nav class="handles" aria-label=words::SHEET>
+            {handle(words::PARTS, Sheet::Drawer)}
+            {handle(words::INSPECTOR, Sheet::Inspector)}
+            {handle(words::DOCK, Sheet::Dock)}
+        </nav>
+    }
+}
+
+impl Lab {
+    /// Opens the dock with a tab, and remembers it.
+    pub fn open_dock(self, tab: Tab) {
+        self.dock.set(Some(tab));
+        self.sheet.set(Sheet::Dock);
+        theme::put(DOCK_KEY, Some(tab.label()));
+    }
+
+    /// Opens the dock with a tab, or shuts it where that is open.
+    pub fn toggle_dock(self, tab: Tab) {
+        if self.dock.get_untracked() == Some(tab) {
+            self.dock.set(None);
+            self.sheet.set(Sheet::Shut);
+            theme::put(DOCK_KEY, None);
+        } else {
+            self.open_dock(tab);
+        }
+    }
+}

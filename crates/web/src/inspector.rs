@@ -1,0 +1,178 @@
+//! The inspector: what is selected, with its values, sliders and constraints; else what the document is given.
+
+use crate::actions;
+use crate::lab::Lab;
+use crate::picture::covers;
+use crate::values::{self, Place};
+use crate::{structure, words};
+use leptos::prelude::*;
+use session::Command;
+use session::view::{RowKind, StructureRow, ValueRow};
+
+/// At most so many values, and so many constraints, are shown at once; table and tree have the others.
+const MOST: usize = 40;
+
+/// The panel at the right.
+#[component]
+pub fn Inspector(
+    /// The lab.
+    lab: Lab,
+) -> impl IntoView {
+    let row = Memo::new(move |_| {
+        let path = lab.selected.get()?;
+        lab.structure.with(|rows| rows.iter().find(|row| row.path == path).cloned())
+    });
+    let title = move || {
+        let name = row.with(|row| row.as_ref().map(|row| row.path.clone()));
+        name.unwrap_or_else(|| {
+            lab.document.with(|d| d.as_ref().map_or_else(String::new, |d| d.title.clone()))
+        })
+    };
+    let class = move || {
+        let class =
+            row.with(|row| row.as_ref().filter(|r| r.kind.is_thing()).map(|r| r.detail.clone()));
+        class.unwrap_or_else(|| {
+            let is_thing = row.with(Option::is_none);
+            String::from(if is_thing { words::PARAMETERS } else { words::IS_RULE })
+        })
+    };
+    let law = Memo::new(move |_| {
+        row.with(|row| row.as_ref().map(|row| row.doc.clone()).unwrap_or_default())
+    });
+    let formula = Memo::new(move |_| {
+        row.with(|row| row.as_ref().filter(|r| !r.kind.is_thing()).map(|r| r.detail.clone()))
+    });
+    view! {
+        <section class="panel inspector" aria-label=words::INSPECTOR>
+            <header class="head">
+                <h2 class="subject">{title}</h2>
+                <button class="bare why-button" on:click=move |_| actions::run(actions::named("explain"), lab)>
+                    {words::WHY}</button>
+            </header>
+            <div class="scroll" on:pointerleave=move |_| lab.hover(None)>
+                <p class="class quiet">{class}</p>
+                {move || law.with(|law| (!law.is_empty()).then(|| view! { <p class="law">{law.clone()}</p> }))}
+                {move || formula.get().map(|formula| view! { <p class="law"><code>{formula}</code></p> })}
+                <Numbers lab=lab />
+                <Rules lab=lab />
+            </div>
+        </section>
+    }
+}
+
+/// The values of the selection, or the given ones of the document, each with a slider where it is a number.
+#[component]
+fn Numbers(lab: Lab) -> impl IntoView {
+    let found = Memo::new(move |_| {
+        let selected = lab.selected.get();
+        lab.values.with(|rows| shown_values(rows, selected.as_deref()))
+    });
+    let shown = move || {
+        let shown = found.get();
+        lab.inspected_values.set_value(shown.clone());
+        shown
+    };
+    on_cleanup(move || {
+        // The lab may have gone with the page.
+        let _ = lab.inspected_values.try_set_value(Vec::new());
+    });
+    view! {
+        <Show when=move || !found.with(Vec::is_empty)>
+            <h3>{words::VALUES}</h3>
+        </Show>
+        <div class="values">
+            <table>
+                <caption class="unseen">{words::VALUES}</caption>
+                <tbody>
+                    <For each=shown key=|at| *at let(at)>
+                        <values::Row lab=lab at=at place=Place::Inspector />
+                        <tr><td colspan="4"><values::Slider lab=lab at=at /></td></tr>
+                    </For>
+                </tbody>
+            </table>
+        </div>
+    }
+}
+
+/// The constraints of the selection, each with its switch.
+#[component]
+fn Rules(lab: Lab) -> impl IntoView {
+    let found = Memo::new(move |_| {
+        let selected = lab.selected.get();
+        lab.structure.with(|rows| shown_rules(rows, selected.as_deref()))
+    });
+    view! {
+        <Show when=move || !found.with(Vec::is_empty)>
+            <h3>{words::CONSTRAINTS}</h3>
+        </Show>
+        <ul class="rules">
+            <For each=move || found.get() key=|row| (row.path.clone(), row.enabled, row.freedom.map(words::freedom)) let(row)>
+                <Rule lab=lab row=row />
+            </For>
+        </ul>
+    }
+}
+
+#[component]
+fn Rule(lab: Lab, row: StructureRow) -> impl IntoView {
+    let (path, on) = (row.path, row.enabled);
+    let (select, hover, switched) = (path.clone(), path.clone(), path.clone());
+    let state = row.freedom.map(words::freedom).unwrap_or_default();
+    let toggle = move |_| {
+        if let Some(path) = session::parse_path(&switched) {
+            lab.apply(&Command::Enable { path, on: !on });
+        }
+    };
+    view! {
+        <li class:off=!on>
+            <button class="switch" role="switch" aria-checked=on.to_string()
+                aria-label=words::switch_of(&path) on:click=toggle></button>
+            <button class="path" title=row.doc
+                on:click=move |_| lab.select(Some(select.clone()))
+                on:pointerenter=move |_| lab.hover(Some(hover.clone()))>{path}</button>
+            <code>{row.detail}</code>
+            <span class=format!("state {state}")><span class="unseen">{state}</span></span>
+        </li>
+    }
+}
+
+/// Which rows of the values the inspector shows: those of a thing, outermost first; of the document what is given.
+fn shown_values(rows: &[ValueRow], selected: Option<&str>) -> Vec<usize> {
+    let depth = |row: &ValueRow| row.shortest.matches('.').count();
+    let fits = |row: &ValueRow| match selected {
+        Some(path) => covers(path, &row.path) || covers(path, &row.shortest),
+        None => row.given && !row.is_layout && row.number.is_some() && depth(row) <= 1,
+    };
+    let mut found: Vec<usize> = (0..rows.len()).filter(|&at| fits(&rows[at])).collect();
+    let is_own = |at: &usize| selected.is_some_and(|path| rows[*at].path == path);
+    if found.iter().any(|at| !rows[*at].is_layout) {
+        found.retain(|at| is_own(at) || !rows[*at].is_layout);
+    }
+    found.sort_by_key(|&at| depth(&rows[at]));
+    found.truncate(MOST);
+    found.sort_unstable();
+    found
+}
+
+/// The constraints of a thing and those that speak of it; of the document its own.
+fn shown_rules(rows: &[StructureRow], selected: Option<&str>) -> Vec<StructureRow> {
+    let rules = rows.iter().filter(|row| row.kind == RowKind::Constraint);
+    let fits = |row: &&StructureRow| match selected {
+        Some(path) => covers(path, &row.path) || structure::speaks_of(&row.detail, path),
+        None => row.depth == 1,
+    };
+    rules.filter(fits).take(MOST).cloned().collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use crate::structure::speaks_of;
+
+    #[test]
+    fn a_rule_speaks_of_the_paths_that_stand_in_it_as_words() {
+        assert!(speaks_of("line.p1.y = line.p2.y", "line.p1"));
+        assert!(speaks_of("a.length = 2 * b.length", "b"));
+        assert!(!speaks_of("line2.length = 3", "line"));
+        assert!(!speaks_of("outer.line.length = 3", "line"));
+    }
+}

@@ -1,0 +1,123 @@
+//! What leaves the lab: the picture as SVG or PNG, the values as CSV, print, and a link that carries the document.
+
+use super::{ABSENT, Lab, Notice};
+use crate::server::Stored;
+use crate::{js, route, words};
+use leptos::prelude::*;
+use session::view::ValueRow;
+
+/// Longer links than this are not opened by every program, in letters.
+const LONGEST_LINK: usize = 30_000;
+
+impl Lab {
+    /// The file's name without its ending, and the picture as SVG.
+    fn drawn(self) -> Option<(String, String)> {
+        self.flush_text();
+        let path = self.current.get_untracked()?;
+        let name = path.rsplit('/').next().unwrap_or(&path);
+        let name = String::from(name.trim_end_matches(".thing"));
+        Some((name, self.ask_of_shown(|session, id| session.svg(id))?))
+    }
+
+    /// Hands the user the picture as SVG.
+    pub fn export_svg(self) {
+        if let Some((name, svg)) = self.drawn() {
+            js::download(&format!("{name}.svg"), &svg);
+        }
+    }
+
+    /// Hands the user the picture as PNG, at twice its size.
+    pub fn export_png(self) {
+        if let Some((name, svg)) = self.drawn() {
+            js::download_png(&format!("{name}.png"), &svg);
+        }
+    }
+
+    /// Hands the user the values as CSV.
+    pub fn export_csv(self) {
+        if let Some((name, _)) = self.drawn() {
+            js::download(&format!("{name}.csv"), &self.values.with_untracked(|rows| csv(rows)));
+        }
+    }
+
+    /// Copies an address that carries the whole document.
+    pub fn share(self) {
+        self.flush_text();
+        let Some(name) = self.current.get_untracked() else { return };
+        let name = String::from(name.rsplit('/').next().unwrap_or(&name));
+        let text = self.text.with_untracked(|text| text.source.clone());
+        leptos::task::spawn_local(async move {
+            let packed = js::pack(&format!("{name}\n{text}")).await.as_string().unwrap_or_default();
+            let link = route::share(&packed);
+            if link.len() > LONGEST_LINK {
+                self.say_refused(words::link_too_long(link.len(), LONGEST_LINK));
+                return;
+            }
+            let copied = js::copy(&link).await.is_truthy();
+            if !copied {
+                route::replace(&route::to_shared(&packed));
+            }
+            let said = if copied { words::LINK_COPIED } else { words::LINK_IN_BAR };
+            self.notice.set(Some(Notice::Said(String::from(said))));
+        });
+    }
+
+    /// Makes a new document of what a link carries.
+    pub fn open_shared(self, packed: &str) {
+        let packed = String::from(packed);
+        leptos::task::spawn_local(async move {
+            let unpacked = js::unpack(&packed).await.as_string();
+            let Some((name, text)) = unpacked.as_deref().and_then(|all| all.split_once('\n'))
+            else {
+                self.say_refused(String::from(words::LINK_BROKEN));
+                return;
+            };
+            let path = self.free_path(name.trim_end_matches(".thing")).await;
+            let (text, version) = (String::from(text), String::from(ABSENT));
+            match self.take_up(&path, Stored { text, version, writable: true }).await {
+                Ok(_) => route::go(&route::to(&path)),
+                Err(message) => self.say_refused(message),
+            }
+        });
+    }
+}
+
+/// The values as a table: name, value, unit.
+fn csv(rows: &[ValueRow]) -> String {
+    let cell = |text: &str| match text.contains([',', '"', '\n']) {
+        true => format!("\"{}\"", text.replace('"', "\"\"")),
+        false => String::from(text),
+    };
+    let line = |row: &ValueRow| [&row.path, &row.exact, &row.unit].map(|text| cell(text)).join(",");
+    let lines = rows.iter().filter(|row| !row.is_layout).map(line);
+    std::iter::once(String::from("name,value,unit"))
+        .chain(lines)
+        .map(|line| line + "\r\n")
+        .collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::csv;
+    use session::view::ValueRow;
+
+    #[test]
+    fn values_with_commas_and_quotes_are_quoted() {
+        let row = ValueRow {
+            path: String::from("note"),
+            shortest: String::from("note"),
+            class: String::from("Text"),
+            text: String::new(),
+            unit: String::new(),
+            exact: String::from("a \"b\", c"),
+            number: None,
+            given: true,
+            is_virtual: false,
+            anchored: false,
+            is_layout: false,
+            freedom: None,
+            doc: String::new(),
+        };
+        assert_eq!(csv(&[row]), "name,value,unit\r\nnote,\"a \"\"b\"\", c\",\r\n");
+    }
+}

@@ -1,0 +1,84 @@
+//! Ordinary jobs with the page: a meter typed, a conflict made, explained and repaired, a link handed on, and the
+//! first minute.
+
+use browser::Visit;
+use serde_json::Value;
+
+/// The page's state, as it tells it.
+async fn state(visit: &Visit) -> Value {
+    let text = visit.script("return JSON.stringify(window.__thinglab.state())").await;
+    serde_json::from_str(text.as_str().expect("the state is a text")).expect("the state is JSON")
+}
+
+/// Opens a document that was put into the gallery.
+async fn show(visit: &Visit, name: &str) {
+    visit.until("document.querySelector('main') && window.__thinglab").await;
+    visit.script(&format!("location.hash = '#/gallery/{name}'")).await;
+    let path = format!("gallery/{name}");
+    visit.until(&format!("window.__thinglab.state().path === '{path}'")).await;
+    visit.until("window.__thinglab.state().values.length > 0").await;
+}
+
+#[tokio::test]
+async fn a_conflict_is_explained_and_repaired_by_a_button() {
+    let visit = Visit::open(None).await;
+    visit.put("clash.thing", "a: Real = 3\nconstraint one: a = 3\nconstraint two: a = 4\n");
+    show(&visit, "clash.thing").await;
+    assert_eq!(state(&visit).await["status"]["satisfied"], false);
+    visit.script("document.querySelector('.verdict').click()").await;
+    visit.until("document.querySelectorAll('.why .repair').length >= 2").await;
+    visit.script("document.querySelector('.why .repair').click()").await;
+    visit.until("window.__thinglab.state().status.satisfied").await;
+    visit.script("document.querySelector('[data-action=undo]').click()").await;
+    visit.until("!window.__thinglab.state().status.satisfied").await;
+}
+
+#[tokio::test]
+async fn the_inspector_shows_switches_and_sliders_of_the_document() {
+    let visit = Visit::open(None).await;
+    visit.put("sum.thing", "a: Real = 3\nb: Real = 4\nc: Real\nconstraint sum: c = a + b\n");
+    show(&visit, "sum.thing").await;
+    visit.until("document.querySelectorAll('.inspector .slider').length === 2").await;
+    visit.script("document.querySelector('.inspector .switch').click()").await;
+    visit.until("window.__thinglab.state().text.includes('off')").await;
+    visit.script("document.querySelector('.inspector .switch').click()").await;
+    visit.until("!window.__thinglab.state().text.includes('off')").await;
+    let slide = "const s = document.querySelector('.inspector .slider'); s.value = '5';
+        s.dispatchEvent(new Event('input')); s.dispatchEvent(new Event('change'))";
+    visit.script(slide).await;
+    visit.until("window.__thinglab.state().values.some(v => v.path === 'c' && v.number > 8)").await;
+}
+
+#[tokio::test]
+async fn a_link_carries_a_whole_document() {
+    let visit = Visit::open(None).await;
+    visit.put("sum.thing", "a: Real = 3\nb: Real = 4\n");
+    show(&visit, "sum.thing").await;
+    let packed = visit
+        .client
+        .execute_async(
+            "const done = arguments[0];
+             import('./page.js').then(p => p.pack('sent.thing\\na: Real = 7\\n')).then(done)",
+            Vec::new(),
+        )
+        .await
+        .expect("it is packed");
+    let packed = packed.as_str().expect("letters").to_string();
+    visit.script(&format!("location.hash = '#share={packed}'")).await;
+    visit.until("window.__thinglab.state().path === 'sent.thing'").await;
+    assert_eq!(state(&visit).await["text"], "a: Real = 7\n");
+}
+
+#[tokio::test]
+async fn the_first_minute_is_offered_once() {
+    let visit = Visit::open(None).await;
+    visit.until("document.querySelector('.first .primary')").await;
+    visit.script("document.querySelector('.first .primary').click()").await;
+    visit.until("document.querySelector('.pulse') && document.querySelector('.coach')").await;
+    visit.script("document.querySelector('.coach .bare').click()").await;
+    visit.until("!document.querySelector('.coach')").await;
+    visit.script("location.hash = '#/'").await;
+    visit.until("document.querySelector('.card')").await;
+    let offered = visit.script("return document.querySelectorAll('.first').length").await;
+    assert_eq!(offered, 0);
+}
