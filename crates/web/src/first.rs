@@ -64,7 +64,10 @@ impl Lab {
         match step {
             Step::Over => drop(theme::put(KEY, Some("over"))),
             Step::Drag => route::go(&route::to(FIGURE)),
-            Step::Trace => self.begin_new(),
+            Step::Trace => {
+                self.why.set(false);
+                self.begin_new();
+            }
             Step::Offered | Step::Why | Step::Build => {}
         }
     }

@@ -80,6 +80,9 @@ fn Numbers(lab: Lab) -> impl IntoView {
         <Show when=move || !found.with(Vec::is_empty)>
             <h3>{words::VALUES}</h3>
         </Show>
+        <Show when=move || found.with(Vec::is_empty) && lab.selected.with(Option::is_none)>
+            <p class="law quiet">{words::NOTHING_GIVEN}</p>
+        </Show>
         <div class="values">
             <table>
                 <caption class="unseen">{words::VALUES}</caption>

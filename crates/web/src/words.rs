@@ -26,6 +26,8 @@ pub const FIRST_BUILD: &str = "Now build one";
 pub const FIRST_TRACE: &str = "Draw four lines, end to end; corners join by themselves. Later choose a point and a line: the strip offers midpoint.";
 pub const INSPECTOR: &str = "Inspector";
 pub const PARAMETERS: &str = "what is given in this document";
+pub const NOTHING_GIVEN: &str =
+    "Only places are given. Select something to see its values and constraints.";
 pub const IS_RULE: &str = "a constraint";
 pub const CONSTRAINTS: &str = "Constraints";
 pub const TABLE: &str = "Table";
