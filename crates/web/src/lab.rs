@@ -5,8 +5,8 @@
 
 use crate::actions::Context;
 use crate::dialog::Wish;
-use crate::drafting::Drafting;
 use crate::dock::{self, Sheet, Tab};
+use crate::drafting::Drafting;
 use crate::files::{FileSet, Files};
 use crate::first;
 use crate::menu::{self, Menu};

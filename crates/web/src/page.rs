@@ -3,8 +3,8 @@
 use crate::actions::{self, Action};
 use crate::bin_panel::Bin;
 use crate::dialog::Dialog;
-use crate::drafting::{Drawing, PromptLine};
 use crate::dock::{Dock, Handles};
+use crate::drafting::{Drawing, PromptLine};
 use crate::first::Coach;
 use crate::gallery::Gallery;
 use crate::history::History;
