@@ -72,6 +72,8 @@ pub fn close(a: f64, b: f64) -> bool {
 /// assert!(Tolerance::Relative.is_met(1e6, 1e6 + 1e-4));
 /// assert!(!Tolerance::within(1e-6).is_met(1e6, 1e6 + 1e-4));
 /// assert!(Tolerance::within(0.5).is_met(2.0, 2.25));
+/// assert!(Tolerance::part(0.01).is_met(99.0, 100.0));
+/// assert!(!Tolerance::part(0.01).is_met(98.9, 100.0));
 /// // 1e9 + 1e-6 - 1e9 = 0, of three numbers that are stored to 1e-7
 /// assert!(!Tolerance::Relative.is_met(1e-6, 0.0));
 /// assert!(Tolerance::Relative.is_met_with(1e-6, 0.0, || 2e9));
@@ -86,6 +88,8 @@ pub enum Tolerance {
     Relative,
     /// As was written: so much, in base units, by the bits of the number.
     Within(u64),
+    /// As was written: so large a part of the larger side, by the bits of the number.
+    Part(u64),
 }
 
 impl Tolerance {
@@ -93,11 +97,18 @@ impl Tolerance {
     pub fn within(e: f64) -> Self {
         Self::Within(e.abs().to_bits())
     }
+    /// Returns what `within 1%` asks for.
+    pub fn part(e: f64) -> Self {
+        Self::Part(e.abs().to_bits())
+    }
     /// Returns the difference that two sides may have. The written measure itself is met up to rounding.
     pub fn allowed(self, left: f64, right: f64) -> f64 {
         match self {
             Self::Relative => RULE_TOLERANCE * size(left, right),
             Self::Within(bits) => f64::from_bits(bits) * (1.0 + RULE_TOLERANCE),
+            Self::Part(bits) => {
+                f64::from_bits(bits) * (1.0 + RULE_TOLERANCE) * left.abs().max(right.abs())
+            }
         }
     }
     /// Returns the difference that two sides of a rule with this sway may have.
@@ -107,7 +118,7 @@ impl Tolerance {
             Self::Relative if sway.is_finite() => {
                 allowed.max((ROUNDING * sway).min(MOST_ROUNDING * size(left, right)))
             }
-            Self::Relative | Self::Within(_) => allowed,
+            Self::Relative | Self::Within(_) | Self::Part(_) => allowed,
         }
     }
     /// Returns true if two sides agree, or differ by no more than rounding; the sway is asked for only

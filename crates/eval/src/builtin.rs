@@ -161,9 +161,11 @@ impl<'a> Evaluator<'a> {
         match message {
             NumberMessage::Text => {
                 let digits = arguments.first().map(|d| self.digits(d)).transpose()?;
+                let x = x / self.document.scale.factor(dimension);
                 Ok(Answer::text(&number_text(x, digits)))
             }
             NumberMessage::Shown => {
+                let x = x / self.document.scale.factor(dimension);
                 let scale = pow(self.document.units_per_metre, f64::from(dimension.0[0]));
                 // what the sheet's own unit measures has none
                 if dimension.0[1..].iter().all(|&exponent| exponent == 0) {

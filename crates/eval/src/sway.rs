@@ -35,19 +35,19 @@ pub(crate) enum Order {
 
 impl<'a> Evaluator<'a> {
     /// Returns true if two sides agree, to `within` where that is written.
-    pub(crate) fn agree(&self, x: f64, y: f64, within: Option<f64>, order: Order) -> bool {
+    pub(crate) fn agree(&self, x: f64, y: f64, within: Option<Tolerance>, order: Order) -> bool {
         let mut compared = self.compared.borrow_mut();
         let sway = compared.sways.get(compared.differences.len()).copied().unwrap_or(0.0);
         compared.differences.push(x - y);
         compared.squares.push(x * x - y * y);
         compared.orders.push(order);
-        within.map_or(Tolerance::Relative, Tolerance::within).is_met_with(x, y, || sway)
+        within.unwrap_or_default().is_met_with(x, y, || sway)
     }
 
     /// Judges a rule by its sides, and where it does not hold by its sway too.
     pub(crate) fn with_sway(
         &self,
-        within: Option<f64>,
+        within: Option<Tolerance>,
         judge: impl Fn() -> Result<Verdict>,
     ) -> Result<Verdict> {
         let outer = self.compared.take();
@@ -58,7 +58,7 @@ impl<'a> Evaluator<'a> {
 
     fn judge_with_sway(
         &self,
-        within: Option<f64>,
+        within: Option<Tolerance>,
         judge: impl Fn() -> Result<Verdict>,
     ) -> Result<Verdict> {
         let verdict = judge()?;

@@ -11,7 +11,7 @@ use crate::fault::Fault;
 use crate::measure;
 use crate::sway::Order;
 use base::Name;
-use base::number::{close, shortest};
+use base::number::{Tolerance, close, pow, shortest};
 use expr::dimension::Dimension;
 use kernel::{Aspect, BinaryOperator, ConstraintInstance, Setting, Term, ThingId, UnaryOperator};
 
@@ -92,7 +92,10 @@ impl<'a> Evaluator<'a> {
         frame: &Frame<'a>,
     ) -> Result<Verdict> {
         let within = match within {
-            Some(term) => Some(self.number(&self.term(term, frame)?)?.0.abs()),
+            Some(term) => {
+                let (x, _) = self.number(&self.term(term, frame)?)?;
+                Some(if term.is_part() { Tolerance::part(x) } else { Tolerance::within(x) })
+            }
             None => None,
         };
         self.with_sway(within, || self.judge(rule, frame, within))
@@ -139,7 +142,7 @@ impl<'a> Evaluator<'a> {
         &self,
         rule: &'a Term,
         frame: &Frame<'a>,
-        within: Option<f64>,
+        within: Option<Tolerance>,
     ) -> Result<Verdict> {
         self.burn()?;
         use BinaryOperator as B;
@@ -291,7 +294,7 @@ impl<'a> Evaluator<'a> {
         left: &'a Term,
         right: &'a Term,
         frame: &Frame<'a>,
-        within: Option<f64>,
+        within: Option<Tolerance>,
     ) -> Result<Verdict> {
         let (a, b) = (self.term(left, frame)?, self.term(right, frame)?);
         let mut verdict = Verdict {
@@ -343,7 +346,7 @@ impl<'a> Evaluator<'a> {
         &self,
         less: &Answer<'a>,
         more: &Answer<'a>,
-        within: Option<f64>,
+        within: Option<Tolerance>,
         strict: bool,
     ) -> Result<Verdict> {
         let order = self.order(less, more)?;
@@ -361,7 +364,7 @@ impl<'a> Evaluator<'a> {
     /// Writes a value for people: numbers short, things by their paths.
     pub fn text_of(&self, answer: &Answer<'a>) -> String {
         match answer {
-            Answer::Number(x, _) => shortest(*x),
+            Answer::Number(x, dimension) => self.number_text_of(*x, *dimension),
             Answer::Bool(b) => b.to_string(),
             Answer::Text(text) => format!("\"{text}\""),
             Answer::Thing(thing) => match self.by_position(answer) {
@@ -376,6 +379,19 @@ impl<'a> Evaluator<'a> {
             Answer::List(items) => self.listed(items, '[', ']'),
             Answer::Picture(_) | Answer::Function(_) => answer.kind().to_string(),
         }
+    }
+
+    /// Writes a number with all its digits in the units in which the document counts.
+    fn number_text_of(&self, x: f64, dimension: Dimension) -> String {
+        let x = x / self.document.scale.factor(dimension);
+        let is_of_the_sheet = dimension.0[1..].iter().all(|&exponent| exponent == 0);
+        if is_of_the_sheet {
+            return shortest(x);
+        }
+        let si = x / pow(self.document.units_per_metre, f64::from(dimension.0[0]));
+        let preferred = expr::units::preferred(dimension);
+        let shown = preferred.and_then(|p| Some((expr::units::unit(p)?.show(si)?, p)));
+        shown.map_or_else(|| shortest(si), |(shown, unit)| format!("{} {unit}", shortest(shown)))
     }
 
     fn is_flat(&self, parts: &[Answer<'a>]) -> bool {

@@ -30,6 +30,8 @@ pub struct Document {
     pub vertical: Vertical,
     /// How many base units of length are in a metre: 1000 for `unit mm`, 1 without a unit line.
     pub units_per_metre: f64,
+    /// By which powers of two its base units are others than those of SI, or of the sheet.
+    pub scale: crate::Scale,
     /// How the unit of the sheet is spelled: `mm` for `unit mm`; nothing without a unit line.
     pub unit: Option<Name>,
 }

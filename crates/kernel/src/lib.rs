@@ -19,6 +19,7 @@ pub mod document;
 mod instantiate;
 pub mod path;
 pub mod program;
+mod scale;
 pub mod structure;
 pub mod term;
 pub mod values;
@@ -32,6 +33,7 @@ pub use document::{Document, PartRef, PartRole, Side, SideWay, Vertical, Voices}
 pub use instantiate::{Fault, FaultKind, MOST_THINGS, faults_of, instantiate, instantiate_again};
 pub use path::{Path, Step};
 pub use program::Program;
+pub use scale::Scale;
 pub use structure::{
     Astray, Condition, ConstraintInstance, DOCUMENT, Form, GivenId, GivenIn, GivenTerm, Givens,
     Layout, Slot, SlotId, StayInstance, Structure, Thing, ThingId,

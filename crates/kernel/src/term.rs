@@ -160,6 +160,10 @@ impl Aspect {
 }
 
 impl Term {
+    /// Returns true for a plain number with a unit: a percentage, which is a part of something.
+    pub fn is_part(&self) -> bool {
+        matches!(self, Self::Number { dimension, bare: false, .. } if *dimension == Dimension::NONE)
+    }
     /// Returns the term with `super` searching above one class instead of another.
     #[must_use]
     pub fn with_above(&self, from: ClassId, to: ClassId) -> Self {

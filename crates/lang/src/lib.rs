@@ -52,6 +52,7 @@ mod references;
 mod refine;
 mod restore;
 mod rules;
+mod scale;
 mod scope;
 mod settle;
 mod shown;
@@ -67,7 +68,7 @@ pub use checks::{Check, Expectation, PlanKind, Statement, StatementKind, without
 pub use edits::{Restructuring, edits_for, for_every, is_count, of_constraint, write_sides};
 pub use families::Family;
 pub use files::File;
-pub use lower::{Lowered, lower};
+pub use lower::{Lowered, lower, lower_written};
 pub use numbers::{Wanted, read_literal, show_limit};
 pub use origins::Origins;
 pub use shown::{Quantity, Shown, show_quantity};

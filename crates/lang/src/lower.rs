@@ -25,7 +25,7 @@ use crate::switches::PendingSwitch;
 use crate::visible::Visible;
 use base::{Diagnostic, FileId, IdVec, Mixer, Name, Place, Severity, Span};
 use indexmap::IndexMap;
-use kernel::{ClassId, Document, Fault, OriginId, PartRef, Path, Search, Vertical};
+use kernel::{ClassId, Document, Fault, OriginId, PartRef, Path, Scale, Search, Vertical};
 use std::collections::{BTreeMap, BTreeSet};
 use std::hash::BuildHasherDefault;
 use std::rc::Rc;
@@ -80,13 +80,31 @@ pub fn lower(
     load: &dyn Fn(&str) -> Option<String>,
     before: Option<&Lowered>,
 ) -> Lowered {
-    let first = lower_text(text, load, before);
+    lower_in(text, load, (before, None))
+}
+
+/// The same for a text that an edit of values wrote: its scale is that of the text before.
+pub fn lower_written(
+    text: &str,
+    load: &dyn Fn(&str) -> Option<String>,
+    before: &Lowered,
+) -> Lowered {
+    lower_in(text, load, (Some(before), Some(before.document.scale)))
+}
+
+fn lower_in(
+    text: &str,
+    load: &dyn Fn(&str) -> Option<String>,
+    (before, scale): (Option<&Lowered>, Option<Scale>),
+) -> Lowered {
+    let first = lower_text(text, load, (before, scale));
+    let scale = Some(first.document.scale);
     let Some(before) = before.filter(|_| errors(&first) > 0) else { return first };
     // Members with an error are read as they were when they last had none.
     let mut best: Option<Lowered> = None;
     for grain in [Grain::Inner, Grain::Outer] {
         let (patched, patches) = crate::restore::restore(&first, &before.effective_parse, grain);
-        let mut mended = lower_text(&patched, load, Some(before));
+        let mut mended = lower_text(&patched, load, (Some(before), scale));
         mended.patches = patches;
         if errors(&mended) < best.as_ref().map_or(errors(&first), errors) {
             best = Some(mended);
@@ -116,9 +134,10 @@ pub(crate) fn references(text: &str, load: &dyn Fn(&str) -> Option<String>) -> R
 pub(crate) fn lower_text(
     text: &str,
     load: &dyn Fn(&str) -> Option<String>,
-    before: Option<&Lowered>,
+    (before, scale): (Option<&Lowered>, Option<Scale>),
 ) -> Lowered {
     let mut l = Lowerer::new(load, before);
+    l.scale = scale;
     let (checks, families) = l.run(text);
     let doc = l.first_doc();
     let own = &l.files[OWN];
@@ -228,6 +247,8 @@ pub(crate) struct Lowerer<'l> {
     pub(crate) declared_for_counts: Vec<(ClassId, FileId, ast::Class)>,
     /// What words speak of, where that is asked for.
     pub(crate) references: Option<References>,
+    /// The scale, where the text does not decide on it.
+    scale: Option<Scale>,
 }
 
 impl<'l> Lowerer<'l> {
@@ -247,6 +268,7 @@ impl<'l> Lowerer<'l> {
                 root: ClassId(0),
                 vertical: Vertical::Up,
                 units_per_metre: 1.0,
+                scale: Scale::default(),
                 unit: None,
             },
             visible: Visible::default(),
@@ -287,6 +309,7 @@ impl<'l> Lowerer<'l> {
             counts: Counts::default(),
             declared_for_counts: Vec::new(),
             references: None,
+            scale: None,
         };
         l.own_classes();
         l
@@ -295,6 +318,11 @@ impl<'l> Lowerer<'l> {
     /// Lowers a text, and returns its checks and families.
     fn run(&mut self, text: &str) -> (Vec<Check>, Vec<Family>) {
         self.read("", text);
+        let before = self.before.map(|before| before.document.scale);
+        let scale = self.scale.unwrap_or_else(|| crate::scale::of(&self.files[OWN].parse, before));
+        self.document.scale = scale;
+        // what was read in other units is read anew
+        self.before = self.before.filter(|before| before.document.scale == scale);
         self.declare_classes();
         self.declare_counts();
         self.make_root();

@@ -12,24 +12,30 @@ use syntax::ast::{BinaryOp, Expr, UnaryOp};
 
 /// Returns a number of SI in the document's base units. Powers of ten are shifted, not multiplied.
 pub(crate) fn from_si(document: &Document, si: f64, dimension: Dimension) -> f64 {
-    shifted(document, si, i32::from(dimension.0[0]))
+    shifted(document, si, i32::from(dimension.0[0])) * document.scale.factor(dimension)
 }
 
 /// Returns a number of the document's base units in SI.
 pub(crate) fn to_si(document: &Document, x: f64, dimension: Dimension) -> f64 {
-    shifted(document, x, -i32::from(dimension.0[0]))
+    shifted(document, x / document.scale.factor(dimension), -i32::from(dimension.0[0]))
 }
 
 /// Returns a number that was written without a unit in base units.
 ///
 /// A bare length, area or volume counts in the units of the sheet; whatever else, in those of SI.
 pub(crate) fn from_bare(document: &Document, x: f64, dimension: Dimension) -> f64 {
-    if is_of_the_sheet(dimension) { x } else { from_si(document, x, dimension) }
+    match is_of_the_sheet(dimension) {
+        true => x * document.scale.factor(dimension),
+        false => from_si(document, x, dimension),
+    }
 }
 
 /// Returns what to write for a number without its unit: what [`from_bare`] reads.
 pub(crate) fn to_bare(document: &Document, x: f64, dimension: Dimension) -> f64 {
-    if is_of_the_sheet(dimension) { x } else { to_si(document, x, dimension) }
+    match is_of_the_sheet(dimension) {
+        true => x / document.scale.factor(dimension),
+        false => to_si(document, x, dimension),
+    }
 }
 
 /// Returns true for plain numbers, lengths, areas, volumes.

@@ -532,8 +532,11 @@ impl Lowerer<'_> {
         Some(terms?.into_iter().reduce(both).unwrap_or(Term::Bool(true)))
     }
 
-    /// Lowers what follows `within`: a number that measures what the sides of the rule do.
+    /// Lowers what follows `within`: a number that measures what the sides of the rule do, or a percentage of them.
     pub(crate) fn tolerance(&mut self, scope: &Scope, rule: &Expr, e: &Expr) -> Option<Term> {
+        if matches!(e, Expr::Number(n) if n.unit().is_some_and(|unit| unit.text() == "%")) {
+            return self.expr_of(scope, e, &Kind::Number(Some(expr::Dimension::NONE)));
+        }
         let side = match rule {
             Expr::Binary(b) => b.left(),
             _ => None,

@@ -286,7 +286,8 @@ pub(crate) fn draw(state: &State, name: &str, row: &FamilyRow) -> Result<RowOutc
         kernel::Vertical::Up => Vertical::Up,
         kernel::Vertical::Down => Vertical::Down,
     };
-    let millimetres_per_unit = 1000.0 / document.units_per_metre;
+    let stored = document.scale.factor(expr::Dimension::LENGTH);
+    let millimetres_per_unit = 1000.0 / document.units_per_metre / stored;
     let is_metric = document.units_per_metre != 1.0;
     let options = svg::SvgOptions {
         pixels_per_unit: if is_metric { PIXELS_PER_MILLIMETRE * millimetres_per_unit } else { 1.0 },

@@ -46,6 +46,28 @@ impl State {
     ) -> (Self, Planner) {
         let load = |name: &str| host.read(name);
         let lowered = lang::lower(&text, &load, before.map(|b| &b.lowered));
+        Self::meant(text, lowered, before, host, plans)
+    }
+
+    /// Makes the state of a text that an edit of values wrote: it counts in the units of the state before.
+    pub(crate) fn written(
+        text: String,
+        before: &Self,
+        host: &dyn Host,
+        plans: Plans,
+    ) -> (Self, Planner) {
+        let load = |name: &str| host.read(name);
+        let lowered = lang::lower_written(&text, &load, &before.lowered);
+        Self::meant(text, lowered, Some(before), host, plans)
+    }
+
+    fn meant(
+        text: String,
+        lowered: Lowered,
+        before: Option<&Self>,
+        host: &dyn Host,
+        plans: Plans,
+    ) -> (Self, Planner) {
         let known = before.map(|b| (&b.lowered.document, &b.structure));
         let (structure, mut faults) = match known {
             Some(before) => kernel::instantiate_again(&lowered.document, before),

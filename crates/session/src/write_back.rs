@@ -46,7 +46,7 @@ pub(crate) fn write_back(
             .collect();
         let edits = lang::write_values(&state.lowered, &writes);
         let text = syntax::edit::apply(&state.text, &edits);
-        let (next, planner) = State::of(text, Some(state), host, plans);
+        let (next, planner) = State::written(text, state, host, plans);
         if next.structure.slots.len() != state.structure.slots.len() {
             // what was written decides how many things there are: these are others
             return (next, planner);
@@ -127,7 +127,7 @@ pub(crate) fn write_sides(
         return (state, planner);
     }
     let text = syntax::edit::apply(&state.text, &edits);
-    State::of(text, Some(&state), host, planner.into_plans())
+    State::written(text, &state, host, planner.into_plans())
 }
 
 /// Returns the slots whose values differ by more than rounding.

@@ -165,7 +165,7 @@ impl Plan {
         let within = self.relation(relation).within;
         let sway = match within {
             Tolerance::Relative => self.sway(row, values, w),
-            Tolerance::Within(_) => 0.0,
+            Tolerance::Within(_) | Tolerance::Part(_) => 0.0,
         };
         let tolerance = within.allowed_with(left, right, sway);
         (error > tolerance).then_some(Failing { relation, error, tolerance })

@@ -42,8 +42,14 @@ impl Build {
         let length = primitive("Length", Primitive::Real(Dimension::LENGTH));
         let current = primitive("Current", Primitive::Real(Dimension::CURRENT));
         let root = classes.push(blank("", ClassKind::Composite, up()));
-        let document =
-            Document { classes, root, vertical: Vertical::Up, units_per_metre: 1.0, unit: None };
+        let document = Document {
+            classes,
+            root,
+            vertical: Vertical::Up,
+            units_per_metre: 1.0,
+            scale: Default::default(),
+            unit: None,
+        };
         let mut b = Self {
             document,
             real,

@@ -237,4 +237,5 @@ pub(super) fn is_form_kept(
         && names_same
         && document.vertical == was.vertical
         && document.units_per_metre.to_bits() == was.units_per_metre.to_bits()
+        && document.scale == was.scale
 }

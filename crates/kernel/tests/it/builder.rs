@@ -79,6 +79,13 @@ impl Builder {
         });
     }
     pub(crate) fn document(self, root: ClassId) -> Document {
-        Document { classes: self.0, root, vertical: Vertical::Up, units_per_metre: 1.0, unit: None }
+        Document {
+            classes: self.0,
+            root,
+            vertical: Vertical::Up,
+            units_per_metre: 1.0,
+            scale: Default::default(),
+            unit: None,
+        }
     }
 }

@@ -44,6 +44,7 @@ impl Builder {
             root: OBJECT,
             vertical: Vertical::Up,
             units_per_metre: 1.0,
+            scale: Default::default(),
             unit: None,
         };
         let mut builder = Self { document };

@@ -127,6 +127,7 @@ impl Layouts {
                 match row.within {
                     Tolerance::Relative => key.push(0),
                     Tolerance::Within(bits) => key.extend([1].into_iter().chain(halves(bits))),
+                    Tolerance::Part(bits) => key.extend([2].into_iter().chain(halves(bits))),
                 }
             }
         }

@@ -1,0 +1,135 @@
+//! The scale of a text: its base units are such that the quantities which it writes are of everyday size.
+//!
+//! In: the numbers with units that a text states, checks and tolerances apart. Out: powers of two for the base
+//! quantities. A text whose numbers are of everyday size in SI stays in SI.
+
+use expr::dimension::Dimension;
+use kernel::Scale;
+use syntax::ast::{AstNode, NumberExpr};
+use syntax::{Parse, SyntaxKind, WalkEvent};
+
+/// Numbers between these, in units of SI, are of everyday size.
+const EVERYDAY: std::ops::Range<f64> = 1e-3..1e6;
+/// How much it counts against a scale that it is not one, beside a number that is not of its size.
+const PLAINNESS: f64 = 1e-3;
+/// Up to so many powers of two from what would be best, the scale of the text before is kept: what was typed is
+/// followed from there.
+const NEAR: u16 = 8;
+/// How many base quantities there are.
+const BASES: usize = 7;
+
+/// Returns the scale of a text; that of the text `before` where it is near.
+///
+/// It is the one in which the logarithms of its numbers are nearest to zero, in the sense of least squares. Lengths
+/// are scaled only where the text writes some with a unit and names no unit of its sheet.
+pub(crate) fn of(parse: &Parse, before: Option<Scale>) -> Scale {
+    let best = best(parse);
+    let is_near = |scale: &Scale| scale.0.iter().zip(best.0).all(|(a, b)| a.abs_diff(b) <= NEAR);
+    before.filter(|scale| *scale != Scale::default()).filter(is_near).unwrap_or(best)
+}
+
+fn best(parse: &Parse) -> Scale {
+    let quantities = quantities(parse);
+    if quantities.iter().all(|(x, _)| EVERYDAY.contains(x)) {
+        return Scale::default();
+    }
+    let has_unit = parse.outline().any(|(kind, _)| kind == SyntaxKind::UnitLine);
+    let keeps_length = has_unit || !quantities.iter().any(|q| q.1 == Dimension::LENGTH);
+    let mut normal = [[0.0; BASES + 1]; BASES];
+    for (i, row) in normal.iter_mut().enumerate() {
+        row[i] = if i == 0 && keeps_length { 1.0 / PLAINNESS } else { PLAINNESS };
+    }
+    for (x, dimension) in quantities {
+        let size = f64::from(exponent(x));
+        let d = dimension.0.map(f64::from);
+        for i in (0..BASES).filter(|&i| i > 0 || !keeps_length) {
+            for j in (0..BASES).filter(|&j| j > 0 || !keeps_length) {
+                normal[i][j] += d[i] * d[j];
+            }
+            normal[i][BASES] -= d[i] * size;
+        }
+    }
+    Scale(solved(normal).map(|x| x.round() as i16))
+}
+
+/// Returns the sizes of the numbers with units that a text states, and what they measure.
+fn quantities(parse: &Parse) -> Vec<(f64, Dimension)> {
+    let mut found = Vec::new();
+    let root = parse.syntax();
+    let mut walk = root.preorder();
+    while let Some(event) = walk.next() {
+        let WalkEvent::Enter(node) = event else { continue };
+        match node.kind() {
+            SyntaxKind::Check | SyntaxKind::Within | SyntaxKind::UnitLine => walk.skip_subtree(),
+            SyntaxKind::NumberExpr => found.extend(NumberExpr::cast(node).and_then(quantity)),
+            _ => {}
+        }
+    }
+    found
+}
+
+fn quantity(number: NumberExpr) -> Option<(f64, Dimension)> {
+    let (digits, unit) = (number.digits()?, number.unit()?);
+    let (si, dimension) = expr::units::read_quantity(digits.text(), unit.text())?;
+    let measures = dimension.0.iter().any(|&d| d != 0);
+    (measures && si != 0.0 && si.is_finite()).then_some((si.abs(), dimension))
+}
+
+/// Returns the power of two next below a positive number.
+fn exponent(x: f64) -> i32 {
+    const BIAS: i32 = 1023;
+    const MANTISSA: u32 = 52;
+    (x.to_bits() >> MANTISSA) as i32 - BIAS
+}
+
+/// Solves the normal equations, which are positive definite, by elimination.
+fn solved(mut rows: [[f64; BASES + 1]; BASES]) -> [f64; BASES] {
+    for k in 0..BASES {
+        let pivot = rows[k];
+        for row in rows.iter_mut().skip(k + 1) {
+            let factor = row[k] / pivot[k];
+            row.iter_mut().zip(pivot).for_each(|(x, p)| *x -= factor * p);
+        }
+    }
+    let mut solution = [0.0; BASES];
+    for k in (0..BASES).rev() {
+        let known: f64 = (k + 1..BASES).map(|j| rows[k][j] * solution[j]).sum();
+        solution[k] = (rows[k][BASES] - known) / rows[k][k];
+    }
+    solution
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use base::number::shortest;
+
+    fn scale(text: &str) -> Scale {
+        of(&syntax::parse(base::FileId(0), text), None)
+    }
+
+    #[test]
+    fn everyday_numbers_stay_in_si() {
+        assert_eq!(scale("x: Length = 3 m\ny: Resistance = 4.7 kohm\n"), Scale::default());
+        assert_eq!(scale("x: Real = 1e-30\n"), Scale::default());
+    }
+    #[test]
+    fn checks_and_tolerances_say_nothing_of_the_scale() {
+        let text = "x: Length = 3 m\ncheck \"c\" { expect x = 3e12 pm within 1 pm }\n";
+        assert_eq!(scale(text), Scale::default());
+    }
+    #[test]
+    fn small_numbers_are_near_one_in_their_scale() {
+        // a photon: h, c and 500 nm
+        let scale = scale("h: Real = 6.6e-34 J*s\nc: Velocity = 3e8 m/s\nx: Length = 500 nm\n");
+        for (x, d) in [(5e-7, Dimension::LENGTH), (3e8, Dimension::VELOCITY)] {
+            let stored = x * scale.factor(d);
+            assert!((0.25..4.0).contains(&stored), "{} {}", shortest(stored), d);
+        }
+    }
+    #[test]
+    fn lengths_of_a_sheet_are_not_scaled() {
+        assert_eq!(scale("unit mm\nx: Length = 3 um\nq: Charge = 2 fC\n").0[0], 0);
+        assert_eq!(scale("q: Charge = 2 fC\n").0[0], 0);
+    }
+}
