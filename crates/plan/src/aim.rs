@@ -1,5 +1,6 @@
 //! Aims: which slots and expressions an edit speaks of, and what they shall be.
 
+use crate::course::Guard;
 use crate::edit::{EditKind, RefusalReason, Target};
 use crate::evaluate::Opening;
 use crate::fault::Trouble;
@@ -26,6 +27,8 @@ pub(crate) struct Aim {
     pub(crate) alone: BTreeSet<SlotId>,
     /// Whether it sets several things at once.
     pub(crate) sets_several: bool,
+    /// The course on which programs draw what is wished.
+    pub(crate) guards: Vec<Guard>,
 }
 
 impl Planner {
@@ -41,19 +44,21 @@ impl Planner {
             && aim.fixed.iter().all(|(&s, v)| values.get(s).same_bits(v))
     }
 
-    /// Finds which slots and expressions an edit speaks of.
+    /// Finds which slots and expressions an edit speaks of. What programs draw is meant on the course that they take
+    /// at `on`.
     pub(crate) fn aim(
         &mut self,
         model: Model<'_>,
-        values: &Values,
+        (values, on): (&Values, &Values),
         kind: EditKind,
         targets: &[(Target<'_>, Vec<Value>)],
     ) -> Result<Aim, RefusalReason> {
         let sets_several = kind == EditKind::Set && targets.len() > 1;
         let mut aim = Aim { sets_several, ..Aim::default() };
         for (target, wanted) in targets {
-            let leaves =
-                self.leaves(model, *target).map_err(|t| RefusalReason::Target(t.message))?;
+            let found = self.leaves(model, *target, on);
+            let (leaves, guards) = found.map_err(|t| RefusalReason::Target(t.message))?;
+            aim.guards.extend(guards);
             if leaves.len() != wanted.len() {
                 let message = format!("{} values for {} numbers", wanted.len(), leaves.len());
                 return Err(RefusalReason::Target(message));
@@ -136,22 +141,30 @@ impl Planner {
             wanted: vec![vec![0.0]],
             alone: BTreeSet::from([slot]),
             sets_several: false,
+            guards: Vec::new(),
         }
     }
 
     /// Returns the slots and expressions of a target, in order.
-    fn leaves(&mut self, model: Model<'_>, target: Target<'_>) -> Result<Vec<Leaf>, Trouble> {
+    fn leaves(
+        &mut self,
+        model: Model<'_>,
+        target: Target<'_>,
+        on: &Values,
+    ) -> Result<(Vec<Leaf>, Vec<Guard>), Trouble> {
         match target {
             Target::Thing(thing) => {
-                Ok(model.structure.slots_under(thing).into_iter().map(Leaf::Slot).collect())
+                let slots = model.structure.slots_under(thing).into_iter();
+                Ok((slots.map(Leaf::Slot).collect(), Vec::new()))
             }
             Target::Term { me, term } => {
                 let mut opening = Opening::new(model.document, model.structure);
+                opening.at = Some(on);
                 opening.begin(me);
                 let meaning = opening.meaning(term, &Frame::of(me))?;
                 let mut leaves = Vec::new();
                 flatten(&mut opening, self.plans.patterns_mut(), &meaning, &mut leaves)?;
-                Ok(leaves)
+                Ok((leaves, opening.guards(self.plans.patterns_mut())))
             }
         }
     }
@@ -183,7 +196,7 @@ pub(crate) fn with_present_values<'t>(
     targets: &[Target<'t>],
 ) -> Result<Vec<(Target<'t>, Vec<Value>)>, RefusalReason> {
     let present = |target: &Target<'t>| {
-        let leaves = planner.leaves(model, *target)?;
+        let (leaves, _) = planner.leaves(model, *target, values)?;
         let value = |leaf: Leaf| match leaf {
             Leaf::Slot(slot) => values.get(slot),
             Leaf::Formula(f) => Value::Number(f.value(planner.plans.patterns(), &values.numbers)),
@@ -228,9 +241,17 @@ fn flatten<'a>(
             }
         }
         Meaning::Opaque(_) => {
-            return Err(Trouble::not_yet("a computed text cannot be edited yet"));
+            return Err(Trouble::not_yet(match opening.meets_programs {
+                true => "what is drawn here follows from its program one way only",
+                false => "a computed text cannot be edited yet",
+            }));
         }
         Meaning::Lambda(_) => return Err(Trouble::wrong("a function cannot be edited")),
+        Meaning::Drawn(drawn) => {
+            for entry in drawn.made.iter().filter(|e| e.is_result) {
+                flatten(opening, patterns, &entry.meaning, leaves)?;
+            }
+        }
     }
     Ok(())
 }

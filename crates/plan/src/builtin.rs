@@ -80,6 +80,7 @@ impl<'a> Opening<'a> {
                 Err(Trouble::new(FaultKind::UnknownName, message))
             }
             Meaning::Lambda(_) => Err(Trouble::wrong(format!("a function has no `{name}`"))),
+            Meaning::Drawn(drawn) => Err(self.missing_step(drawn, name)),
         }
     }
 
@@ -97,7 +98,11 @@ impl<'a> Opening<'a> {
         let class = match to {
             Meaning::Thing(t) => self.structure.things[*t].class,
             Meaning::Made(made) => made.class,
-            Meaning::Number(_) | Meaning::List(_) | Meaning::Opaque(_) | Meaning::Lambda(_) => {
+            Meaning::Number(_)
+            | Meaning::List(_)
+            | Meaning::Opaque(_)
+            | Meaning::Lambda(_)
+            | Meaning::Drawn(_) => {
                 return unknown();
             }
         };
@@ -190,10 +195,10 @@ impl<'a> Opening<'a> {
         name: &Name,
         arguments: &[Meaning<'a>],
     ) -> Answer<'a> {
-        if let ("count" | "first" | "last", []) = (name.as_str(), arguments) {
+        if let ("count" | "turns" | "first" | "last", []) = (name.as_str(), arguments) {
             let count = self.count(to)?;
             return match (name.as_str(), count) {
-                ("count", _) => Ok(self.number(count as f64)),
+                ("count" | "turns", _) => Ok(self.number(count as f64)),
                 (_, 0) => Err(empty(name)),
                 ("first", _) => self.item(to, 0),
                 _ => self.item(to, count - 1),

@@ -118,7 +118,9 @@ impl<'a> Opening<'a> {
                 own.or_else(|| classes.find_map(|class| self.document.figure(class)))
             }
             Meaning::Made(made) => self.document.figure(made.class),
-            Meaning::Number(_) | Meaning::Opaque(_) | Meaning::Lambda(_) => None,
+            Meaning::Number(_) | Meaning::Opaque(_) | Meaning::Lambda(_) | Meaning::Drawn(_) => {
+                None
+            }
         };
         match made {
             Some(Made::Point) => self.xy(of).map(Figure::Point),

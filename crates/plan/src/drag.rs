@@ -1,6 +1,7 @@
 //! Drags: planned once at the press, then followed wish by wish.
 
 mod back;
+mod course;
 
 use crate::aim::{Aim, with_present_values};
 use crate::component::{Component, rules_of};
@@ -25,6 +26,8 @@ use std::rc::Rc;
 pub struct Press {
     aim: Aim,
     pulls: Vec<Pull>,
+    /// The same on other courses of programs, where what is dragged is drawn by one.
+    courses: Option<Box<course::Courses>>,
 }
 
 /// One component of a drag.
@@ -120,17 +123,21 @@ impl Planner {
         values: &Values,
         targets: &[Target<'_>],
     ) -> Result<Press, RefusalReason> {
-        let targets = with_present_values(self, model, values, targets)?;
-        let aim = self.aim(model, values, EditKind::Move, &targets)?;
-        Ok(self.press_aim(model, values, aim))
+        self.take_course(model, values);
+        let wanted = with_present_values(self, model, values, targets)?;
+        let aim = self.aim(model, (values, values), EditKind::Move, &wanted)?;
+        let mut press = self.press_aim(model, values, aim);
+        press.courses = self.courses(&press.aim, targets, values);
+        Ok(press)
     }
 
     pub(crate) fn press_aim(&mut self, model: Model<'_>, values: &Values, aim: Aim) -> Press {
         let tasks = self.plan_edit(model, &aim);
-        self.latest = Latest { tasks: tasks.clone(), edited: Some(aim.slots()) };
+        self.latest =
+            Latest { tasks: tasks.clone(), edited: Some(aim.slots()), ..Latest::default() };
         let pull = |task| self.pull(model, task, &aim, values);
         let pulls = tasks.into_iter().map(pull).collect();
-        Press { aim, pulls }
+        Press { aim, pulls, courses: None }
     }
 
     /// Follows the pointer: `wanted` are the targets' numbers, one after the other.
@@ -152,6 +159,25 @@ impl Planner {
         let goals = press.aim.wanted.iter_mut().flatten();
         let count = goals.zip(wanted).map(|(goal, &x)| *goal = x + 0.0).count();
         assert_eq!(count, wanted.len(), "a wish names every number that was pressed");
+        let report = self.pull_all(model, press, values, host);
+        match press.courses.take() {
+            None => report,
+            Some(mut courses) => {
+                let report = self.on_courses(model, (press, &mut courses), values, report, host);
+                press.courses = Some(courses);
+                report
+            }
+        }
+    }
+
+    /// Makes every component follow what is wished.
+    fn pull_all(
+        &mut self,
+        model: Model<'_>,
+        press: &mut Press,
+        values: &mut Values,
+        host: &mut dyn Host,
+    ) -> EditReport {
         let mut report = EditReport::default();
         for pull in &mut press.pulls {
             pull.follow(self, model, &press.aim, values, host, &mut report);
@@ -166,10 +192,11 @@ impl Planner {
     pub fn release(
         &mut self,
         model: Model<'_>,
-        mut press: Press,
+        press: Press,
         values: &mut Values,
         host: &mut dyn Host,
     ) -> EditReport {
+        let mut press = press.on_its_course();
         let reached = self.reached(&press.aim, values);
         let mut report = EditReport { reached, ..EditReport::default() };
         let start = press.start(values);

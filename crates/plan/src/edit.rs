@@ -2,6 +2,7 @@
 
 use crate::aim::{Aim, nearest, storable};
 use crate::component::{Component, rules_of};
+use crate::course::CourseChange;
 use crate::diagnose::trial::Setup;
 use crate::drag::move_at_once;
 use crate::host::{Failure, Host};
@@ -20,6 +21,9 @@ use std::collections::BTreeSet;
 /// An edit that took so many multiplications is not tried again in parts to say why it is refused: a refusal
 /// is wanted at once.
 const DEAR: u64 = 500_000_000;
+
+/// So many courses of programs are tried.
+const COURSES: usize = 8;
 
 /// What an edit is about.
 #[derive(Clone, Copy, Debug)]
@@ -65,6 +69,8 @@ pub struct EditReport {
     pub double_roots: Vec<SlotId>,
     /// Where a solution was looked for in vain and not to the end.
     pub not_decided: Option<NotDecided>,
+    /// The courses that programs take otherwise than before; where a drag stops, that they would have to take.
+    pub courses: Vec<CourseChange>,
 }
 
 /// A search that was given up: there may be a solution, and there may be none.
@@ -97,6 +103,8 @@ pub enum RefusalReason {
     Anchored(SlotId),
     /// A written method failed.
     Method(Failure),
+    /// Of the courses that programs could take none holds: what they would do otherwise.
+    Course(Vec<CourseChange>),
     /// The values do not fit the target, or it cannot be edited.
     Target(String),
 }
@@ -115,6 +123,27 @@ impl Planner {
     ///
     /// `values` are overwritten. Rules that cannot hold are reported; nothing is refused.
     pub fn open(
+        &mut self,
+        model: Model<'_>,
+        values: &mut Values,
+        host: &mut dyn Host,
+    ) -> EditReport {
+        let mut report = self.open_once(model, values, host);
+        for _ in 0..COURSES {
+            if !self.take_course(model, values) {
+                return report;
+            }
+            report = self.open_once(model, values, host);
+        }
+        if self.take_course(model, values) {
+            // which course holds is not found: what programs draw is tested, and nothing follows from it
+            self.lower_on(model, None);
+            report = self.open_once(model, values, host);
+        }
+        report
+    }
+
+    fn open_once(
         &mut self,
         model: Model<'_>,
         values: &mut Values,
@@ -177,7 +206,7 @@ impl Planner {
         let others = (0..self.rules.len() as u32).filter(|&r| !is_known[r as usize]);
         report.unmet = self.unmet(model, others, values, host);
         report.changed = values.changed(&before).collect();
-        self.latest = Latest { tasks, edited: None };
+        self.latest = Latest { tasks, ..Latest::default() };
         self.came = if are_anchors_given { came } else { Vec::new() };
         report
     }
@@ -273,13 +302,40 @@ impl Planner {
         targets: &[(Target<'_>, Vec<Value>)],
         host: &mut dyn Host,
     ) -> EditReport {
-        let aim = match self.aim(model, values, kind, targets) {
-            Ok(aim) => aim,
-            Err(refusal) => return EditReport { refusal: Some(refusal), ..EditReport::default() },
-        };
-        match kind {
-            EditKind::Move => move_at_once(self, model, values, aim, host),
-            EditKind::Set => self.set(model, values, &aim, host),
+        self.take_course(model, values);
+        let start = values.clone();
+        let (mut on, mut first) = (None, Vec::new());
+        let mut courses: Vec<Vec<CourseChange>> = Vec::new();
+        loop {
+            let aim = match self.aim(model, (&start, on.as_ref().unwrap_or(&start)), kind, targets)
+            {
+                Ok(aim) => aim,
+                Err(refusal) => {
+                    return EditReport { refusal: Some(refusal), ..EditReport::default() };
+                }
+            };
+            let guards = [&aim.guards[..], &self.from.guards].concat();
+            let report = match kind {
+                EditKind::Move => move_at_once(self, model, values, aim, host),
+                EditKind::Set => self.set(model, values, &aim, host),
+            };
+            if report.refusal.is_some() || self.is_on_course(&guards, values) {
+                let courses = self.course_changes(model, &first, (&start, values));
+                return EditReport { courses, ..report };
+            }
+            if on.is_none() {
+                first.clone_from(&guards);
+            }
+            let changes = self.course_changes(model, &guards, (&start, values));
+            if courses.len() == COURSES || courses.contains(&changes) {
+                *values = start;
+                let refusal = Some(RefusalReason::Course(changes));
+                return EditReport { refusal, ..EditReport::default() };
+            }
+            courses.push(changes);
+            let there = std::mem::replace(values, start.clone());
+            self.take_course(model, &there);
+            on = Some(there);
         }
     }
 
@@ -304,7 +360,7 @@ impl Planner {
         }
         let is_dear = self.spent() - began > DEAR;
         let rules = rules_of(tasks.iter().map(|task| &task.component));
-        self.latest = Latest { tasks, edited: Some(aim.slots()) };
+        self.latest = Latest { tasks, edited: Some(aim.slots()), ..Latest::default() };
         report.unmet = self.unmet(model, rules.iter().copied(), &scratch, host);
         report.reached = self.reached(aim, &scratch);
         // what did not hold before is asked only where something now does not

@@ -32,6 +32,9 @@ impl<'a> Opening<'a> {
             (Meaning::Lambda(_), _) | (_, Meaning::Lambda(_)) => {
                 Err(Trouble::wrong("functions are not compared"))
             }
+            (Meaning::Drawn(_), _) | (_, Meaning::Drawn(_)) => {
+                Err(Trouble::wrong("drawings are compared by what is in them"))
+            }
             (Meaning::Opaque(_), _) | (_, Meaning::Opaque(_)) => {
                 leaves.push((a.clone(), b.clone()));
                 Ok(())
@@ -84,9 +87,11 @@ impl<'a> Opening<'a> {
         match meaning {
             Meaning::Thing(t) => self.reach.parts(*t).into_iter().map(|t| self.part(t)).collect(),
             Meaning::Made(made) => Ok(made.fields.iter().map(|f| f.1.clone()).collect()),
-            Meaning::Number(_) | Meaning::List(_) | Meaning::Opaque(_) | Meaning::Lambda(_) => {
-                Err(Trouble::wrong(format!("{} has no parts", kind(meaning))))
-            }
+            Meaning::Number(_)
+            | Meaning::List(_)
+            | Meaning::Opaque(_)
+            | Meaning::Lambda(_)
+            | Meaning::Drawn(_) => Err(Trouble::wrong(format!("{} has no parts", kind(meaning)))),
         }
     }
 
@@ -109,9 +114,11 @@ impl<'a> Opening<'a> {
         match meaning {
             Meaning::Thing(t) => Ok(self.structure.things[*t].class),
             Meaning::Made(made) => Ok(made.class),
-            Meaning::Number(_) | Meaning::List(_) | Meaning::Opaque(_) | Meaning::Lambda(_) => {
-                Err(Trouble::wrong(format!("{} has no parts", kind(meaning))))
-            }
+            Meaning::Number(_)
+            | Meaning::List(_)
+            | Meaning::Opaque(_)
+            | Meaning::Lambda(_)
+            | Meaning::Drawn(_) => Err(Trouble::wrong(format!("{} has no parts", kind(meaning)))),
         }
     }
 
@@ -141,9 +148,11 @@ impl<'a> Opening<'a> {
             Meaning::Thing(_) | Meaning::Made(_) => {
                 matches!(self.kind_of(target), ClassKind::Composite)
             }
-            Meaning::Number(_) | Meaning::List(_) | Meaning::Opaque(_) | Meaning::Lambda(_) => {
-                false
-            }
+            Meaning::Number(_)
+            | Meaning::List(_)
+            | Meaning::Opaque(_)
+            | Meaning::Lambda(_)
+            | Meaning::Drawn(_) => false,
         };
         let mut shared = Vec::new();
         if by_name {

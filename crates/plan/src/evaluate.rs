@@ -3,16 +3,18 @@
 //! Messages and virtual parts are opened into their definitions, lists are expanded, conditions
 //! become selections. Nothing here looks at a value: the result serves every state.
 
+use crate::course::Decision;
 use crate::fault::{FaultKind, Trouble};
-use crate::meaning::{Closure, Frame, Meaning, Opaque, collect_slots};
+use crate::meaning::{Closure, Drawn, Frame, Meaning, Opaque, collect_slots};
 use crate::reach::Reach;
 use base::Name;
 use expr::{Arena, ExprId, Node, Unary, Var};
+use kernel::builtin::is_of_each;
 use kernel::{
     Argument, Aspect, BinaryOperator, ClassId, ClassKind, Document, Message, Search, Setting,
-    SlotId, Structure, Term, ThingId, UnaryOperator,
+    SlotId, Structure, Term, ThingId, UnaryOperator, Values,
 };
-use std::collections::BTreeSet;
+use std::collections::{BTreeMap, BTreeSet};
 use std::rc::Rc;
 
 /// How deep messages may call each other.
@@ -39,6 +41,14 @@ pub(crate) struct Opening<'a> {
     pub(crate) reach: Reach<'a>,
     /// The expressions of the rule at hand.
     pub(crate) arena: Arena,
+    /// The state whose courses programs take; nothing where only the host shall know what they draw.
+    pub(crate) at: Option<&'a Values>,
+    /// What programs of things draw, as far as the rule at hand asked; nothing while that is being found.
+    pub(crate) drawn: BTreeMap<ThingId, Option<Rc<Drawn<'a>>>>,
+    /// What was decided on the way.
+    pub(crate) decisions: Vec<Decision>,
+    /// True once a rule spoke of what a program draws.
+    pub(crate) meets_programs: bool,
     depth: u32,
     nested: u32,
     terms: u32,
@@ -60,7 +70,19 @@ impl<'a> Opening<'a> {
 
     pub(crate) fn new(document: &'a Document, structure: &'a Structure) -> Self {
         let reach = Reach::new(structure);
-        Self { document, structure, reach, arena: Arena::new(), depth: 0, nested: 0, terms: 0 }
+        Self {
+            document,
+            structure,
+            reach,
+            arena: Arena::new(),
+            at: None,
+            drawn: BTreeMap::new(),
+            decisions: Vec::new(),
+            meets_programs: false,
+            depth: 0,
+            nested: 0,
+            terms: 0,
+        }
     }
 
     /// Finds what a term stands for.
@@ -110,7 +132,8 @@ impl<'a> Opening<'a> {
             }
             Term::Make { class, arguments } => {
                 let arguments = self.arguments(arguments, frame)?;
-                self.make(*class, &arguments)
+                let made = self.make(*class, &arguments)?;
+                self.called(made)
             }
             Term::Tuple(items) | Term::List(items) => {
                 let items: Result<Vec<_>, _> =
@@ -171,8 +194,8 @@ impl<'a> Opening<'a> {
             }
             Term::All(class) => self.all(*class),
             Term::Copy(term) => self.meaning(term, frame),
-            // what a program draws only the host computes, from its parameters
-            Term::Step(_) | Term::Result => Ok(self.opaque([&frame.me])),
+            Term::Step(name) => self.step(&frame.me, name),
+            Term::Result => self.result(&frame.me),
             Term::OfConstraint { of, name, aspect } => {
                 let of = self.meaning(of, frame)?;
                 self.of_constraint(&of, name, *aspect)
@@ -239,6 +262,8 @@ impl<'a> Opening<'a> {
     pub(crate) fn begin(&mut self, owner: ThingId) {
         self.reach.begin(owner);
         self.arena = Arena::for_nodes(NODES);
+        self.drawn.clear();
+        self.decisions.clear();
         self.terms = 0;
         self.depth = 0;
         self.nested = 0;
@@ -288,7 +313,8 @@ impl<'a> Opening<'a> {
             | Meaning::Made(_)
             | Meaning::List(_)
             | Meaning::Opaque(_)
-            | Meaning::Lambda(_) => None,
+            | Meaning::Lambda(_)
+            | Meaning::Drawn(_) => None,
         }
     }
 
@@ -331,6 +357,12 @@ impl<'a> Opening<'a> {
     ) -> Answer<'a> {
         if let Some(part) = self.stored_part(to, name, arguments, search)? {
             return Ok(part);
+        }
+        if !arguments.is_empty()
+            && matches!(to, Meaning::List(_) | Meaning::Drawn(_))
+            && is_of_each(name)
+        {
+            return self.each_in_set(to, name, arguments);
         }
         if let Some(combined) = self.combined(to, name, arguments, search)? {
             return Ok(combined);
@@ -414,6 +446,11 @@ impl<'a> Opening<'a> {
             Meaning::Made(made) => {
                 Ok(made.fields.iter().find(|f| f.0 == *name).map(|f| f.1.clone()))
             }
+            Meaning::Drawn(drawn) => match (drawn.step(name), &drawn.of) {
+                (Some(meaning), _) => Ok(Some(meaning.clone())),
+                (None, Some(of)) => self.stored_part(&of.clone(), name, arguments, search),
+                (None, None) => Ok(None),
+            },
             Meaning::Number(_) | Meaning::List(_) | Meaning::Opaque(_) | Meaning::Lambda(_) => {
                 Ok(None)
             }
@@ -435,6 +472,7 @@ impl<'a> Opening<'a> {
                 alike.iter().find_map(|&t| find(self.structure.things[t].class))
             }),
             Meaning::Made(made) => find(made.class),
+            Meaning::Drawn(drawn) => find(drawn.class),
             Meaning::Number(_) | Meaning::List(_) | Meaning::Opaque(_) | Meaning::Lambda(_) => None,
         }
     }
@@ -507,6 +545,10 @@ impl<'a> Opening<'a> {
                 let items: Result<Vec<_>, _> = things.into_iter().map(|t| self.part(t)).collect();
                 Ok(items?.into())
             }
+            Meaning::Drawn(drawn) => {
+                let result = drawn.made.iter().filter(|e| e.is_result);
+                Ok(result.map(|e| e.meaning.clone()).collect())
+            }
             Meaning::Number(_) | Meaning::Made(_) | Meaning::Opaque(_) | Meaning::Lambda(_) => {
                 Err(Trouble::wrong(format!("{} is neither a list nor a set", kind(list))))
             }
@@ -550,6 +592,7 @@ impl<'a> Opening<'a> {
                 self.structure.merged_with(*t).into_iter().any(is)
             }
             Meaning::Made(made) => self.document.is_a(made.class, class),
+            Meaning::Drawn(drawn) => self.document.is_a(drawn.class, class),
             Meaning::Number(_) | Meaning::List(_) | Meaning::Opaque(_) | Meaning::Lambda(_) => {
                 false
             }
@@ -616,6 +659,7 @@ pub(crate) fn kind(meaning: &Meaning<'_>) -> &'static str {
         Meaning::List(_) => "a list",
         Meaning::Opaque(_) => "a text",
         Meaning::Lambda(_) => "a function",
+        Meaning::Drawn(_) => "a drawing",
     }
 }
 

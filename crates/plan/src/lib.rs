@@ -36,12 +36,14 @@
 pub mod rule;
 
 mod builtin;
+mod course;
 mod equality;
 mod evaluate;
 mod lower;
 mod making;
 mod meaning;
 mod operator;
+mod program;
 mod reach;
 mod say;
 mod template;
@@ -74,6 +76,7 @@ pub mod explain;
 mod ghost;
 pub mod status;
 
+pub use course::{CourseChange, Decided};
 pub use diagnose::Analysis;
 pub use diagnose::combination::{Combination, Said};
 pub use diagnose::conflict::{Certainty, Contradiction};

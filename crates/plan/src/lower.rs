@@ -120,7 +120,8 @@ fn lower_condition(
             | Meaning::Made(_)
             | Meaning::List(_)
             | Meaning::Opaque(_)
-            | Meaning::Lambda(_),
+            | Meaning::Lambda(_)
+            | Meaning::Drawn(_),
         ) => {
             let message = "a switch that depends on texts or things is not planned yet";
             Err(Trouble::not_yet(message).at(switch.origin))
@@ -283,7 +284,10 @@ fn lower_parts<'a>(
             let within = opening.constant(&meaning).ok_or_else(|| {
                 Trouble::not_yet("a tolerance that depends on values is not planned yet")
             })?;
-            Tolerance::within(within)
+            match term.is_part() {
+                true => Tolerance::part(within),
+                false => Tolerance::within(within),
+            }
         }
     };
     Ok(Parts { said, reads: reads.into_iter().collect(), within })
@@ -319,7 +323,8 @@ fn meaning_of_path<'a>(
                 | Meaning::Made(_)
                 | Meaning::List(_)
                 | Meaning::Opaque(_)
-                | Meaning::Lambda(_) => return Err(Trouble::wrong("only a thing has an owner")),
+                | Meaning::Lambda(_)
+                | Meaning::Drawn(_) => return Err(Trouble::wrong("only a thing has an owner")),
             },
         };
     }
@@ -366,7 +371,8 @@ fn lower_method<'a>(
                 | Meaning::Thing(_)
                 | Meaning::Made(_)
                 | Meaning::List(_)
-                | Meaning::Lambda(_) => opaque = true,
+                | Meaning::Lambda(_)
+                | Meaning::Drawn(_) => opaque = true,
             }
         }
     }

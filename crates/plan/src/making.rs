@@ -18,12 +18,23 @@ impl<'a> Opening<'a> {
             let labelled = arguments.iter().find(|a| a.0.as_ref().is_some_and(|l| *l == name));
             let positional = || arguments.get(i).filter(|a| a.0.is_none());
             let meaning = match labelled.or_else(positional) {
-                Some(argument) => argument.1.clone(),
+                Some(argument) => self.as_class(&argument.1, document.field_class(field))?,
                 None => self.default_field(class, &name, field, &fields)?,
             };
             fields.push((name, meaning));
         }
         Ok(Meaning::Made(Rc::new(Made { class, fields })))
+    }
+
+    /// Makes a thing of a class of values by position, `(x, y)`; anything else is as it is.
+    fn as_class(&mut self, meaning: &Meaning<'a>, class: ClassId) -> Answer<'a> {
+        match (meaning, &self.document.classes[class].kind) {
+            (Meaning::List(items), ClassKind::Composite) => {
+                let items: Vec<Argument<'a>> = items.iter().map(|m| (None, m.clone())).collect();
+                self.deeper(|opening| opening.make(class, &items))
+            }
+            _ => Ok(meaning.clone()),
+        }
     }
 
     /// Evaluates what a class gives to a field of its things and to the field's parts, its superclasses first;
@@ -116,6 +127,7 @@ fn put<'a>(made: &mut Meaning<'a>, path: &[Step], value: Meaning<'a>) {
             | Meaning::Opaque(_)
             | Meaning::Thing(_)
             | Meaning::Lambda(_)
+            | Meaning::Drawn(_)
             | Meaning::Made(_)
             | Meaning::List(_),
             _,

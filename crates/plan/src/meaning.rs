@@ -7,7 +7,7 @@
 use base::Name;
 use expr::{Arena, ExprId};
 use kernel::{ClassId, SlotId, Term, ThingId};
-use std::collections::BTreeSet;
+use std::collections::{BTreeMap, BTreeSet};
 use std::rc::Rc;
 
 /// What a term stands for.
@@ -25,6 +25,8 @@ pub(crate) enum Meaning<'a> {
     Opaque(Opaque),
     /// A function of the language: `x => x.width`.
     Lambda(Rc<Closure<'a>>),
+    /// What a program draws, or a turn of a block of it, on the course that it takes.
+    Drawn(Rc<Drawn<'a>>),
 }
 
 /// A thing made by a constructor: it has no slots of its own.
@@ -33,6 +35,53 @@ pub(crate) struct Made<'a> {
     pub(crate) class: ClassId,
     /// Every field with its name, in the order of the class's layout.
     pub(crate) fields: Vec<(Name, Meaning<'a>)>,
+}
+
+/// What a program, or a turn of a block of it, draws.
+#[derive(Debug)]
+pub(crate) struct Drawn<'a> {
+    /// The program, or the class of the block's turns.
+    pub(crate) class: ClassId,
+    /// Its parameters; none for a turn.
+    pub(crate) of: Option<Meaning<'a>>,
+    /// What was made, in order, with what a turn began with.
+    pub(crate) made: Vec<Entry<'a>>,
+    /// True where it ended before its last step.
+    pub(crate) is_cut: bool,
+}
+
+/// What a step made.
+#[derive(Clone, Debug)]
+pub(crate) struct Entry<'a> {
+    pub(crate) name: Name,
+    pub(crate) meaning: Meaning<'a>,
+    /// True where it is part of the result.
+    pub(crate) is_result: bool,
+}
+
+impl<'a> Drawn<'a> {
+    /// Returns what the step of a name made.
+    pub(crate) fn step(&self, name: &str) -> Option<&Meaning<'a>> {
+        self.made.iter().rev().find(|e| *e.name == *name).map(|e| &e.meaning)
+    }
+    /// Counts the turns of every loop, by the way to it.
+    pub(crate) fn count_turns(&self, way: &str, found: &mut BTreeMap<String, u32>) {
+        for entry in &self.made {
+            let path = format!("{way}{}", entry.name);
+            match &entry.meaning {
+                Meaning::List(turns) if turns.iter().all(|t| matches!(t, Meaning::Drawn(_))) => {
+                    found.insert(path.clone(), turns.len() as u32);
+                    for (i, turn) in turns.iter().enumerate() {
+                        if let Meaning::Drawn(turn) = turn {
+                            turn.count_turns(&format!("{path}[{i}]."), found);
+                        }
+                    }
+                }
+                Meaning::Drawn(drawn) => drawn.count_turns(&format!("{path}."), found),
+                _ => {}
+            }
+        }
+    }
 }
 
 /// Something that only the host can compute.
@@ -112,6 +161,9 @@ pub(crate) fn collect_slots(arena: &Arena, meaning: &Meaning<'_>, into: &mut BTr
             made.fields.iter().for_each(|(_, m)| collect_slots(arena, m, into));
         }
         Meaning::List(items) => items.iter().for_each(|m| collect_slots(arena, m, into)),
+        Meaning::Drawn(drawn) => {
+            drawn.made.iter().for_each(|e| collect_slots(arena, &e.meaning, into));
+        }
         Meaning::Thing(_) | Meaning::Lambda(_) => {}
     }
 }

@@ -10,6 +10,7 @@ use crate::plans::{PlanCounts, Plans};
 use crate::recent::Recent;
 use crate::rule::{Rules, Source};
 use crate::task::{Alike, Holding, Locals, Setting, Task, Wish, at_rest, task};
+use crate::template::LoweredFrom;
 use kernel::{Document, Form, SlotId, Structure, Values};
 use solve::{Giver, Lean, Level, Mode, Modes, Plan, Runner, Scratch, System};
 use std::cell::RefCell;
@@ -33,7 +34,8 @@ pub struct Model<'a> {
 #[derive(Debug)]
 pub struct Planner {
     form: Rc<Form>,
-    faults: Rc<[Fault]>,
+    /// What was noted while the rules were lowered.
+    pub(crate) from: Rc<LoweredFrom>,
     pub(crate) rules: Rc<Rules>,
     pub(crate) net: Rc<Net>,
     pub(crate) plans: Plans,
@@ -57,7 +59,7 @@ pub struct Planner {
 #[derive(Debug)]
 pub(crate) struct Kept {
     form: Rc<Form>,
-    faults: Rc<[Fault]>,
+    from: Rc<LoweredFrom>,
     rules: Rc<Rules>,
     net: Rc<Net>,
     alike: Alike,
@@ -72,6 +74,8 @@ pub struct Latest {
     pub(crate) tasks: Vec<Task>,
     /// The slots that the edit set or moved; nothing on opening, when everything is computed.
     pub(crate) edited: Option<BTreeSet<SlotId>>,
+    /// The rules that they are of, once taken out.
+    pub(crate) of: Option<Rc<Rules>>,
 }
 
 impl Planner {
@@ -83,11 +87,11 @@ impl Planner {
         let form = &model.structure.form;
         let kept = plans.kept.take().map(|kept| *kept).filter(|kept| Rc::ptr_eq(&kept.form, form));
         let kept = kept.unwrap_or_else(|| {
-            let (rules, faults) = plans.lower(model);
+            let (rules, from) = plans.lower(model, None);
             let net = Net::new(model.structure, &rules);
             Kept {
                 form: form.clone(),
-                faults: faults.into(),
+                from: Rc::new(from),
                 rules: Rc::new(rules),
                 net: Rc::new(net),
                 alike: Alike::default(),
@@ -96,11 +100,11 @@ impl Planner {
                 resting: None,
             }
         });
-        let faults = kept.faults.to_vec();
-        let Kept { form, faults: told, rules, net, alike, whole, recent, resting } = kept;
+        let faults = kept.from.faults.clone();
+        let Kept { form, from, rules, net, alike, whole, recent, resting } = kept;
         let planner = Self {
             form,
-            faults: told,
+            from,
             rules,
             net,
             plans,
@@ -114,6 +118,29 @@ impl Planner {
             runner: RefCell::default(),
         };
         (planner, faults)
+    }
+
+    /// Lowers the rules anew where they speak of what programs draw and those take another course at these values.
+    /// Returns true if it did.
+    pub(crate) fn take_course(&mut self, model: Model<'_>, values: &Values) -> bool {
+        let from = &self.from;
+        if !from.meets_programs || from.is_on_course && self.is_on_course(&from.guards, values) {
+            return false;
+        }
+        self.lower_on(model, Some(values));
+        true
+    }
+    /// Lowers the rules on the course that programs take at these values.
+    pub(crate) fn lower_on(&mut self, model: Model<'_>, values: Option<&Values>) {
+        let faults = self.from.faults.clone();
+        let (rules, from) = self.plans.lower(model, values);
+        self.net = Rc::new(Net::new(model.structure, &rules));
+        self.rules = Rc::new(rules);
+        self.from = Rc::new(LoweredFrom { faults, ..from });
+        (self.alike, self.recent) = (Alike::default(), Recent::default());
+        (self.whole, self.resting) = (None, None);
+        self.latest = Latest::default();
+        (self.came, self.given_up) = (Vec::new(), Vec::new());
     }
 
     /// Takes what runs plans, and says how the states lean that it starts from; what a host's method runs
@@ -179,7 +206,7 @@ impl Planner {
         let mut plans = std::mem::take(&mut self.plans);
         plans.kept = Some(Box::new(Kept {
             form: self.form.clone(),
-            faults: self.faults.clone(),
+            from: self.from.clone(),
             rules: self.rules.clone(),
             net: self.net.clone(),
             alike: std::mem::take(&mut self.alike),
@@ -199,11 +226,15 @@ impl Planner {
     }
     /// Takes out what the latest edit planned.
     pub fn take_latest(&mut self) -> Latest {
-        std::mem::take(&mut self.latest)
+        Latest { of: Some(self.rules.clone()), ..std::mem::take(&mut self.latest) }
     }
     /// Makes explanations speak of this edit again; its structure must be that of this planner.
     pub fn restore_latest(&mut self, latest: Latest) {
-        self.latest = latest;
+        // rules that were opened anew on another course are others
+        let is_other = latest.of.as_ref().is_some_and(|of| !Rc::ptr_eq(of, &self.rules));
+        if !(is_other && self.from.meets_programs) {
+            self.latest = latest;
+        }
     }
 
     /// Returns how many systems were planned, and how many found their plan made.

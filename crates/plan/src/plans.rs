@@ -1,14 +1,14 @@
 //! Plans by shape: what is planned once serves every component of the same shape.
 
-use crate::fault::Fault;
 use crate::past::Past;
 use crate::planner::{Kept, Model};
 use crate::rule::Rules;
-use crate::template::{Known, Templates, lower_all};
+use crate::template::{Known, LoweredFrom, Templates, lower_all};
 use crate::whole::Whole;
 use base::Mixer;
 use indexmap::IndexMap;
 use indexmap::map::Entry;
+use kernel::Values;
 use solve::{Conditional, Mode, Modes, Patterns, Plan, Puzzle, SlotIndex, Stay, System};
 use std::cell::RefCell;
 use std::hash::BuildHasherDefault;
@@ -69,9 +69,9 @@ impl Plans {
     pub(crate) fn patterns_mut(&mut self) -> &mut Patterns {
         &mut self.patterns
     }
-    /// Lowers everything, by what is known of the classes.
-    pub(crate) fn lower(&mut self, model: Model<'_>) -> (Rules, Vec<Fault>) {
-        lower_all(model, &mut self.patterns, &mut std::mem::take(&mut self.known))
+    /// Lowers everything, by what is known of the classes; what programs draw, on the course that they take at `on`.
+    pub(crate) fn lower(&mut self, model: Model<'_>, on: Option<&Values>) -> (Rules, LoweredFrom) {
+        lower_all((model, on), &mut self.patterns, &mut std::mem::take(&mut self.known))
     }
     /// Notes that a plan served once more.
     pub(crate) fn reuse(&mut self) {

@@ -246,6 +246,7 @@ fn is_message(opening: &mut Opening<'_>, to: &Meaning<'_>, name: &str) -> bool {
     match to {
         Meaning::Thing(t) => opening.reach.part_named(*t, name).is_none(),
         Meaning::Made(made) => made.fields.iter().all(|f| f.0 != *name),
+        Meaning::Drawn(drawn) => drawn.step(name).is_none(),
         Meaning::Number(_) | Meaning::List(_) | Meaning::Opaque(_) | Meaning::Lambda(_) => true,
     }
 }
@@ -329,7 +330,14 @@ fn branch<'a>(
             cases.iter().for_each(|case| case.collect_slots(opening, &mut slots));
             said.opaque.push(OpaqueRow { slots, methods: Vec::new() });
         }
-        (Meaning::Thing(_) | Meaning::Made(_) | Meaning::List(_) | Meaning::Lambda(_), _) => {
+        (
+            Meaning::Thing(_)
+            | Meaning::Made(_)
+            | Meaning::List(_)
+            | Meaning::Lambda(_)
+            | Meaning::Drawn(_),
+            _,
+        ) => {
             let message = "a condition is true or false; this is neither";
             return Err(Trouble::new(FaultKind::WrongKind, message));
         }
@@ -349,7 +357,8 @@ fn say_different<'a>(
         | Meaning::Made(_)
         | Meaning::List(_)
         | Meaning::Opaque(_)
-        | Meaning::Lambda(_) => None,
+        | Meaning::Lambda(_)
+        | Meaning::Drawn(_) => None,
     };
     if let Some(numbers) = items.iter().map(number).collect::<Option<Vec<ExprId>>>() {
         said.different.push(numbers);
@@ -417,7 +426,11 @@ fn want<'a>(
             said.things.push(*thing);
             Ok(())
         }
-        Meaning::Thing(_) | Meaning::Made(_) | Meaning::List(_) | Meaning::Lambda(_) => {
+        Meaning::Thing(_)
+        | Meaning::Made(_)
+        | Meaning::List(_)
+        | Meaning::Lambda(_)
+        | Meaning::Drawn(_) => {
             Err(Trouble::new(FaultKind::WrongKind, "a rule is true or false; this is neither"))
         }
     }
@@ -471,6 +484,10 @@ pub(crate) fn lone_slot(opening: &Opening<'_>, meaning: &Meaning<'_>) -> Option<
             Node::Constant(_) | Node::Unary(..) | Node::Binary(..) | Node::Select { .. } => None,
         },
         Meaning::Opaque(Opaque { slot, .. }) => *slot,
-        Meaning::Thing(_) | Meaning::Made(_) | Meaning::List(_) | Meaning::Lambda(_) => None,
+        Meaning::Thing(_)
+        | Meaning::Made(_)
+        | Meaning::List(_)
+        | Meaning::Lambda(_)
+        | Meaning::Drawn(_) => None,
     }
 }

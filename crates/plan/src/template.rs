@@ -7,6 +7,7 @@
 //! what is left to a planner is which slots they are of.
 
 use crate::component::Groups;
+use crate::course::Guard;
 use crate::evaluate::Opening;
 use crate::fault::Fault;
 use crate::lower::{guard, held, hold, lower_constraint};
@@ -14,7 +15,7 @@ use crate::planner::Model;
 use crate::reach::{Route, Routes, Trail};
 use crate::rule::{Formula, Position, Rules, Shape, ShapeId, Source, When};
 use base::IdVec;
-use kernel::{ClassId, ConstraintInstance, Document, SlotId, Strength, Structure};
+use kernel::{ClassId, ConstraintInstance, Document, SlotId, Strength, Structure, Values};
 use solve::{Level, Patterns, Span};
 
 /// How many ways of being built one constraint is remembered for.
@@ -66,7 +67,7 @@ impl Templates {
     /// speaks of equal in another way.
     pub fn of(model: Model<'_>) -> Self {
         let Self { mut patterns, mut known } = Self::default();
-        let (rules, _) = lower_all(model, &mut patterns, &mut known);
+        let (rules, _) = lower_all((model, None), &mut patterns, &mut known);
         for Formula { pattern, .. } in rules.shapes().flat_map(Shape::equations) {
             patterns.get(*pattern).compile();
         }
@@ -187,21 +188,35 @@ impl Known {
     }
 }
 
+/// What was noted while rules were lowered.
+#[derive(Clone, Debug, Default)]
+pub(crate) struct LoweredFrom {
+    pub(crate) faults: Vec<Fault>,
+    /// The courses that programs take in what the rules say.
+    pub(crate) guards: Vec<Guard>,
+    /// Whether some speak of what a program draws.
+    pub(crate) meets_programs: bool,
+    /// Whether these are opened on the course that is taken at some state.
+    pub(crate) is_on_course: bool,
+}
+
 /// Lowers every constraint that is not switched off and every declared stay. What cannot be planned is left
 /// out and reported.
 ///
 /// What is known of the classes is not opened again; what is not is added.
 pub(crate) fn lower_all(
-    model: Model<'_>,
+    (model, on): (Model<'_>, Option<&Values>),
     patterns: &mut Patterns,
     known: &mut Known,
-) -> (Rules, Vec<Fault>) {
+) -> (Rules, LoweredFrom) {
     let structure = model.structure;
     let shapes = std::mem::take(&mut known.shapes);
     let mut rules = Rules::over(shapes, structure.constraints.len());
     let mut faults = Vec::new();
     let mut guarded = Vec::new();
     let mut opening = Opening::new(model.document, structure);
+    opening.at = on;
+    let mut guards = Vec::new();
     if known.first.len() != model.document.classes.len() {
         *known = Known::of(model.document);
     }
@@ -217,15 +232,16 @@ pub(crate) fn lower_all(
         if !is_set && known.follow(structure, instance, source, &mut trail, &mut rules) {
             continue;
         }
-        let (lowered, guards) = match lower_constraint(&mut opening, patterns, instance) {
+        let (lowered, is_guard) = match lower_constraint(&mut opening, patterns, instance) {
             Ok(lowered) => {
-                let guards = !lowered.things.is_empty();
+                let is_guard = !lowered.things.is_empty();
                 let said_here = |when: Vec<When<SlotId>>| {
                     when.into_iter().map(|when| when.said_by(index)).collect()
                 };
                 let things = lowered.things.into_iter();
                 guarded.extend(things.map(|(thing, when)| (thing, said_here(when))));
-                (lowered.shapes, guards)
+                guards.extend(opening.guards(patterns));
+                (lowered.shapes, is_guard)
             }
             Err(fault) => {
                 faults.push(fault);
@@ -240,7 +256,7 @@ pub(crate) fn lower_all(
             made.push((shape, slots));
         }
         // what guards the rules of things is opened for each, and of the document there is one
-        let is_alone = guards || is_set || instance.class == model.document.root;
+        let is_alone = is_guard || is_set || instance.class == model.document.root;
         if !is_alone && known.has_room(instance) {
             let mut slots = Vec::new();
             if let Some(route) = opening.reach.route(&mut known.routes, &mut slots) {
@@ -250,7 +266,8 @@ pub(crate) fn lower_all(
     }
     guard(structure, &mut rules, &guarded);
     lower_stays(model, &mut rules);
-    (rules, faults)
+    let meets_programs = opening.meets_programs;
+    (rules, LoweredFrom { faults, guards, meets_programs, is_on_course: on.is_some() })
 }
 
 fn lower_stays(model: Model<'_>, rules: &mut Rules) {

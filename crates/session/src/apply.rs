@@ -119,7 +119,9 @@ fn edit(
         });
     }
     let edited = aims.iter().flat_map(|(aim, _)| slots_of(&state, aim)).collect();
-    keep(open, host, label, edited, &values, &report.undecided)
+    let mut change = keep(open, host, label, edited, &values, &report.undecided)?;
+    change.modes.extend(limits::courses(&state, &report.courses));
+    Ok(change)
 }
 
 /// Says of what was too hard how many values hang together with what was to change.

@@ -275,8 +275,9 @@ impl Drag {
         self.wish = [to[0], to.get(1).copied().unwrap_or(0.0)];
         self.wanted = to;
         let changes = self.press.mode_changes(planner, state.model(), &self.values, &mut texts);
-        let modes = limits::modes(state, &changes);
+        let mut modes = limits::modes(state, &changes);
         if report.reached {
+            modes.extend(limits::courses(state, &report.courses));
             return DragState { reached: true, modes, ..DragState::default() };
         }
         let (limit, words) = limits::of_drag(state, self);
@@ -286,10 +287,13 @@ impl Drag {
             let message = format!("{came} is as far as it has come: the way is long, and goes on");
             return DragState { reached: false, message: Some(message), limit: None, modes };
         }
-        let message = match words::what_holds(state, &report, &self.press.acting(planner)) {
+        let mut message = match words::what_holds(state, &report, &self.press.acting(planner)) {
             Some(holds) => format!("{words}; {holds}"),
             None => words,
         };
+        for change in &report.courses {
+            message += &format!("; beyond it {}", words::course(state, change));
+        }
         DragState { reached: false, message: Some(message), limit: Some(limit), modes }
     }
     /// Lets go: soft constraints act again, and the change is written.

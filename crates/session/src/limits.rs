@@ -8,7 +8,7 @@ use base::number::Toward;
 use expr::Dimension;
 use kernel::{DOCUMENT, Primitive, SlotId, Term, ThingId, Value};
 use lang::Quantity;
-use plan::{ActingKind, ModeChange, Source};
+use plan::{ActingKind, CourseChange, ModeChange, Source};
 
 /// How straight a place, the pointer and an anchored place lie for a reach: as a sine.
 const STRAIGHT: f64 = 1e-4;
@@ -199,6 +199,16 @@ pub(crate) fn sides(before: &State, after: &State) -> Vec<ModeView> {
         decided.then(|| ModeView { constraint: path.to_string(), message, span: None })
     });
     new.chain(old).collect()
+}
+
+/// Says which courses programs take otherwise than before.
+pub(crate) fn courses(state: &State, changes: &[CourseChange]) -> Vec<ModeView> {
+    let view = |change: &CourseChange| ModeView {
+        constraint: state.structure.path(&state.lowered.document, change.of).to_string(),
+        message: words::course(state, change),
+        span: None,
+    };
+    changes.iter().map(view).collect()
 }
 
 /// Says what acts otherwise than before.

@@ -12,7 +12,7 @@ use kernel::{
     Step, Structure, Term, ThingId, Value, Values,
 };
 use lang::{Quantity, Shown};
-use plan::{Acting, ActingKind, EditReport, NotDecided, RefusalReason, Source};
+use plan::{Acting, ActingKind, Decided, EditReport, NotDecided, RefusalReason, Source};
 use std::collections::BTreeSet;
 
 /// Makes a refusal of one sentence.
@@ -62,9 +62,30 @@ pub(crate) fn refusal_for(state: &State, reason: &RefusalReason, report: &EditRe
             constraints.insert(0, name.clone());
             format!("refused by {name}: {}", failure.message)
         }
+        RefusalReason::Course(changes) => {
+            let changes = changes.iter().map(|c| course(state, c)).collect::<Vec<_>>().join(", ");
+            format!("refused: what is drawn does not settle: {changes}")
+        }
         RefusalReason::Target(message) => message.clone(),
     };
     Refusal { message, constraints, ..Refusal::default() }
+}
+
+/// Says what a program does otherwise than before: `rings.column` takes 7 turns, not 6.
+pub(crate) fn course(state: &State, change: &plan::CourseChange) -> String {
+    let thing = state.structure.path(&state.lowered.document, change.of);
+    let path = match change.path.as_str() {
+        "" => thing.to_string(),
+        path => format!("{thing}.{path}"),
+    };
+    match (change.what, change.from, change.to) {
+        (Decided::Turns, Some(from), Some(1)) => format!("{path} takes 1 turn, not {from}"),
+        (Decided::Turns, Some(from), Some(to)) => format!("{path} takes {to} turns, not {from}"),
+        (Decided::Turns, ..) => format!("{path} takes another number of turns"),
+        (Decided::Branch, ..) => format!("{path} draws another branch"),
+        (Decided::Demand, ..) => format!("{path} is not met"),
+        (Decided::Parameter, ..) => format!("{path} is another"),
+    }
 }
 
 /// Returns the constraints for which an edit was refused: those of a conflict, since what is only downstream of it

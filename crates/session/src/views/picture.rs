@@ -2,6 +2,7 @@
 
 use crate::state::State;
 use crate::view::{Grip, MovedView, PictureView};
+use crate::views::drawn;
 use crate::words;
 use kernel::{ClassKind, DOCUMENT, SlotId, ThingId, Values};
 use std::collections::BTreeSet;
@@ -14,6 +15,8 @@ pub(crate) struct Shown {
     scene: eval::Scene,
     /// For each grip that is shown, its place among those of the scene.
     grips: Vec<u32>,
+    /// The grips of what programs draw; they stand after those.
+    drawn: Vec<Grip>,
     moved: Moved,
 }
 
@@ -34,7 +37,9 @@ impl Shown {
         };
         let grips = (0..).zip(&scene.picture.grips).filter(|(_, grip)| is_seen(grip));
         let grips = grips.map(|(at, _)| at).collect();
-        Self { state: state.clone(), values: values.clone(), scene, grips, moved: Moved::default() }
+        let drawn = drawn::grips(state, values);
+        let (state, values) = (state.clone(), values.clone());
+        Self { state, values, scene, grips, drawn, moved: Moved::default() }
     }
 
     /// Brings it up to date. Cost: that of drawing what reads a changed slot, where the state is the same.
@@ -52,6 +57,11 @@ impl Shown {
                 self.moved.elements.extend(moved.elements);
                 self.moved.grips.extend(moved.grips);
                 self.values.clone_from(values);
+                let drawn = drawn::grips(state, values);
+                if drawn.iter().map(|g| &g.path).ne(self.drawn.iter().map(|g| &g.path)) {
+                    self.moved.made += 1;
+                }
+                self.drawn = drawn;
             }
             None => {
                 let made = self.moved.made + 1;
@@ -85,14 +95,14 @@ impl Shown {
             drawing: made.drawing.clone(),
             paths: made.things.iter().map(|&t| path(t)).collect(),
             freedom: made.things.iter().map(|&t| words::freedom_of(structure, status, t)).collect(),
-            grips: self.grips.iter().map(grip).collect(),
+            grips: self.grips.iter().map(grip).chain(self.drawn.iter().cloned()).collect(),
             made: self.moved.made,
         }
     }
 
     /// Brings a view up to date that was made of the same state; returns what has moved since the press.
     pub(crate) fn follow(&self, view: &mut PictureView, status: &plan::Status) -> MovedView {
-        if view.made != self.moved.made || view.grips.len() != self.grips.len() {
+        if view.made != self.moved.made || view.grips.len() != self.grips.len() + self.drawn.len() {
             *view = self.view(status);
             return MovedView::Everything;
         }
@@ -107,6 +117,12 @@ impl Shown {
                 let now = made.grips[at as usize].at;
                 (view.grips[shown].x, view.grips[shown].y) = (now.x, now.y);
                 grips.push(shown as u32);
+            }
+        }
+        for (at, grip) in (self.grips.len()..).zip(&self.drawn) {
+            if view.grips[at] != *grip {
+                view.grips[at].clone_from(grip);
+                grips.push(at as u32);
             }
         }
         MovedView::These { elements: self.moved.elements.iter().copied().collect(), grips }

@@ -5,6 +5,7 @@ mod drafting;
 mod dragging;
 
 mod drawing;
+mod drawn;
 mod explaining;
 mod fixing;
 mod following;

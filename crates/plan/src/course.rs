@@ -1,0 +1,125 @@
+//! Courses: which turns and branches programs take, where rules and wishes speak of what they draw.
+//!
+//! A rule says what it says on the course that was taken at some state. Each decision on the way is kept: while all
+//! come out as they did, the rule is right. Where one comes out otherwise the rules are opened anew.
+
+use crate::evaluate::Opening;
+use crate::planner::{Model, Planner};
+use crate::rule::Formula;
+use expr::ExprId;
+use kernel::{SlotId, ThingId, Values};
+use solve::Patterns;
+use std::collections::BTreeMap;
+
+/// What is decided.
+#[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Debug)]
+pub enum Decided {
+    /// How many turns a loop takes.
+    Turns,
+    /// Which branch of an `if` is drawn.
+    Branch,
+    /// Whether a demand on the parameters is met.
+    Demand,
+    /// A parameter that is a whole number or a truth value.
+    Parameter,
+}
+
+/// Where in a program something is decided.
+#[derive(Clone, PartialEq, Eq, PartialOrd, Ord, Debug)]
+pub(crate) struct Block {
+    /// The thing whose program it is; none in a program that is called.
+    pub(crate) of: Option<ThingId>,
+    /// The step, the demand or the parameter, as it is reached from there; an `if` without a name by its block.
+    pub(crate) path: String,
+    pub(crate) what: Decided,
+}
+
+/// What was decided, as an expression of the rule at hand.
+#[derive(Clone, Debug)]
+pub(crate) struct Decision {
+    pub(crate) of: ExprId,
+    pub(crate) is: f64,
+    pub(crate) place: Block,
+}
+
+/// What has to come out as it did.
+#[derive(Clone, Debug)]
+pub(crate) struct Guard {
+    of: Formula<SlotId>,
+    is: f64,
+    place: Block,
+}
+
+impl Guard {
+    fn holds(&self, patterns: &Patterns, values: &Values) -> bool {
+        self.of.value(patterns, &values.numbers) == self.is
+    }
+}
+
+/// Another course than before.
+#[derive(Clone, PartialEq, Eq, Debug)]
+pub struct CourseChange {
+    /// The thing whose program takes it.
+    pub of: ThingId,
+    /// The step, the demand or the parameter, as it is reached from there.
+    pub path: String,
+    /// What is decided there.
+    pub what: Decided,
+    /// How many turns a loop took; nothing for anything else.
+    pub from: Option<u32>,
+    /// How many it would take now.
+    pub to: Option<u32>,
+}
+
+impl Opening<'_> {
+    /// Takes what was decided since the rule at hand began.
+    pub(crate) fn guards(&mut self, patterns: &mut Patterns) -> Vec<Guard> {
+        let decisions = std::mem::take(&mut self.decisions);
+        let guard = |Decision { of, is, place }| Guard {
+            of: Formula::of(patterns, &self.arena, &[of]),
+            is,
+            place,
+        };
+        decisions.into_iter().map(guard).collect()
+    }
+}
+
+impl Planner {
+    /// Returns true if everything was decided as it is decided at these values.
+    pub(crate) fn is_on_course(&self, guards: &[Guard], values: &Values) -> bool {
+        guards.iter().all(|guard| guard.holds(self.plans.patterns(), values))
+    }
+
+    /// Says what programs that guards are about do otherwise at other values.
+    pub(crate) fn course_changes(
+        &self,
+        model: Model<'_>,
+        guards: &[Guard],
+        (before, after): (&Values, &Values),
+    ) -> Vec<CourseChange> {
+        let mut changes = Vec::new();
+        let broken = guards.iter().filter(|g| !g.holds(self.plans.patterns(), after));
+        let mut places: Vec<&Block> = broken.map(|g| &g.place).collect();
+        places.sort_unstable();
+        places.dedup();
+        for place in places {
+            let Some(of) = place.of else { continue };
+            let turns = |values| turns(model, of, values).get(&place.path).copied();
+            let (from, to) = (turns(before), turns(after));
+            changes.push(CourseChange { of, path: place.path.clone(), what: place.what, from, to });
+        }
+        changes
+    }
+}
+
+/// Returns how many turns the loops of a thing's program take.
+fn turns(model: Model<'_>, of: ThingId, values: &Values) -> BTreeMap<String, u32> {
+    let mut opening = Opening::new(model.document, model.structure);
+    opening.at = Some(values);
+    opening.begin(of);
+    let mut found = BTreeMap::new();
+    if let Ok(Some(drawn)) = opening.drawn_by(of) {
+        drawn.count_turns("", &mut found);
+    }
+    found
+}

@@ -1,0 +1,191 @@
+//! Drags of what programs draw: followed on the course of the press; where that is left, on the one that is come to;
+//! where neither holds what is wished, up to where it ends.
+
+use super::Press;
+use crate::aim::{Aim, with_present_values};
+use crate::course::Guard;
+use crate::edit::{EditKind, EditReport, Target};
+use crate::host::Host;
+use crate::planner::{Model, Planner};
+use kernel::{Term, ThingId, Values};
+
+/// How many other courses are kept for when the drag comes back to them.
+const KEPT: usize = 4;
+/// How often the way to the end of a course is halved.
+const HALVINGS: usize = 40;
+
+/// The courses of a drag.
+#[derive(Debug)]
+pub(super) struct Courses {
+    /// What is dragged.
+    targets: Vec<Owned>,
+    /// The values at the press.
+    start: Values,
+    /// Where the targets were then.
+    from: Vec<f64>,
+    /// What the rules were decided by at the press.
+    rules: Vec<Guard>,
+    /// The same drag on other courses.
+    others: Vec<Press>,
+    /// The one that is followed; nothing while that of the press is.
+    present: Option<usize>,
+}
+
+#[derive(Clone, Debug)]
+enum Owned {
+    Thing(ThingId),
+    Term { me: ThingId, term: Term },
+}
+
+impl Owned {
+    fn target(&self) -> Target<'_> {
+        match self {
+            Self::Thing(thing) => Target::Thing(*thing),
+            Self::Term { me, term } => Target::Term { me: *me, term },
+        }
+    }
+}
+
+impl Press {
+    /// Returns the drag on the course that it is on.
+    pub(super) fn on_its_course(mut self) -> Self {
+        match self.courses.take() {
+            Some(mut courses) => match courses.present {
+                Some(at) => courses.others.swap_remove(at),
+                None => self,
+            },
+            None => self,
+        }
+    }
+    fn wish(&mut self, wanted: &[f64]) {
+        let goals = self.aim.wanted.iter_mut().flatten();
+        goals.zip(wanted).for_each(|(goal, &x)| *goal = x);
+    }
+}
+
+impl Planner {
+    /// Returns what a drag needs to leave its course; nothing where no program has a part in it.
+    pub(super) fn courses(
+        &self,
+        aim: &Aim,
+        targets: &[Target<'_>],
+        values: &Values,
+    ) -> Option<Box<Courses>> {
+        if aim.guards.is_empty() && self.from.guards.is_empty() {
+            return None;
+        }
+        let owned = |target: &Target<'_>| match *target {
+            Target::Thing(thing) => Owned::Thing(thing),
+            Target::Term { me, term } => Owned::Term { me, term: term.clone() },
+        };
+        Some(Box::new(Courses {
+            targets: targets.iter().map(owned).collect(),
+            start: values.clone(),
+            from: aim.wanted.iter().flatten().copied().collect(),
+            rules: self.from.guards.clone(),
+            others: Vec::new(),
+            present: None,
+        }))
+    }
+
+    /// Looks whether what a drag came to is on its course, and follows another where it is not.
+    pub(super) fn on_courses(
+        &mut self,
+        model: Model<'_>,
+        (press, courses): (&mut Press, &mut Courses),
+        values: &mut Values,
+        report: EditReport,
+        host: &mut dyn Host,
+    ) -> EditReport {
+        courses.present = None;
+        let guards = [&press.aim.guards[..], &courses.rules].concat();
+        if self.is_on_course(&guards, values) {
+            return report;
+        }
+        let there = values.clone();
+        let wanted: Vec<f64> = press.aim.wanted.iter().flatten().copied().collect();
+        // what rules say of another course is not planned in the midst of a drag
+        if self.is_on_course(&courses.rules, &there) {
+            if let Some(found) = self.on_another(model, courses, &wanted, values, &there, host) {
+                let courses = self.course_changes(model, &guards, (&courses.start, values));
+                return EditReport { courses, ..found };
+            }
+        }
+        let mut report = self.up_to_the_end(model, (press, courses), &wanted, values, host);
+        report.courses = self.course_changes(model, &guards, (&courses.start, &there));
+        report.reached = false;
+        report
+    }
+
+    /// Follows a drag on a course that was come to, or that `there` is on. Nothing where that is not kept.
+    fn on_another(
+        &mut self,
+        model: Model<'_>,
+        courses: &mut Courses,
+        wanted: &[f64],
+        values: &mut Values,
+        there: &Values,
+        host: &mut dyn Host,
+    ) -> Option<EditReport> {
+        for at in 0..=courses.others.len() {
+            if at == courses.others.len() {
+                let targets: Vec<Target<'_>> = courses.targets.iter().map(Owned::target).collect();
+                let present = with_present_values(self, model, &courses.start, &targets).ok()?;
+                let on = (&courses.start, there);
+                let aim = self.aim(model, on, EditKind::Move, &present).ok()?;
+                let is_known = |p: &Press| p.aim.wishes == aim.wishes;
+                if courses.others.iter().any(is_known) {
+                    return None;
+                }
+                let other = self.press_aim(model, &courses.start, aim);
+                if courses.others.len() == KEPT {
+                    courses.others.remove(0);
+                }
+                courses.others.push(other);
+            }
+            let at = at.min(courses.others.len() - 1);
+            let other = &mut courses.others[at];
+            *values = courses.start.clone();
+            other.wish(wanted);
+            let mut report = self.pull_all(model, other, values, host);
+            let other = &courses.others[at];
+            if self.is_on_course(&other.aim.guards, values) {
+                report.reached = report.refusal.is_none() && self.reached(&other.aim, values);
+                courses.present = Some(at);
+                return Some(report);
+            }
+        }
+        None
+    }
+
+    /// Follows a drag as far as it stays on its course on the straight way from the press to what is wished.
+    fn up_to_the_end(
+        &mut self,
+        model: Model<'_>,
+        (press, courses): (&mut Press, &Courses),
+        wanted: &[f64],
+        values: &mut Values,
+        host: &mut dyn Host,
+    ) -> EditReport {
+        let guards = [&press.aim.guards[..], &courses.rules].concat();
+        let (mut low, mut high) = (0.0, 1.0);
+        let mut follow = |planner: &mut Self, part: f64, values: &mut Values| {
+            let mid: Vec<f64> =
+                courses.from.iter().zip(wanted).map(|(a, b)| a + part * (b - a)).collect();
+            press.wish(&mid);
+            *values = courses.start.clone();
+            planner.pull_all(model, press, values, host)
+        };
+        for _ in 0..HALVINGS {
+            let mid = 0.5 * (low + high);
+            follow(self, mid, values);
+            match self.is_on_course(&guards, values) {
+                true => low = mid,
+                false => high = mid,
+            }
+        }
+        let report = follow(self, low, values);
+        press.wish(wanted);
+        report
+    }
+}
