@@ -172,7 +172,7 @@ fn collect(evaluator: &Evaluator<'_>, at: &Path, names: &[&str], into: &mut Vec<
         if let Ok(answer) = evaluator.at(at) {
             match &answer {
                 Answer::List(items) => {
-                    into.extend(items.iter().flat_map(|i| evaluator.elements(i)))
+                    into.extend(items.iter().flat_map(|i| evaluator.elements(i)));
                 }
                 _ => into.extend(evaluator.elements(&answer)),
             }
