@@ -61,14 +61,16 @@ fn quantities(parse: &Parse) -> Vec<(f64, Dimension)> {
         let WalkEvent::Enter(node) = event else { continue };
         match node.kind() {
             SyntaxKind::Check | SyntaxKind::Within | SyntaxKind::UnitLine => walk.skip_subtree(),
-            SyntaxKind::NumberExpr => found.extend(NumberExpr::cast(node).and_then(quantity)),
+            SyntaxKind::NumberExpr => {
+                found.extend(NumberExpr::cast(node).as_ref().and_then(quantity));
+            }
             _ => {}
         }
     }
     found
 }
 
-fn quantity(number: NumberExpr) -> Option<(f64, Dimension)> {
+fn quantity(number: &NumberExpr) -> Option<(f64, Dimension)> {
     let (digits, unit) = (number.digits()?, number.unit()?);
     let (si, dimension) = expr::units::read_quantity(digits.text(), unit.text())?;
     let measures = dimension.0.iter().any(|&d| d != 0);

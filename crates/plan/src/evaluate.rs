@@ -109,10 +109,7 @@ impl<'a> Opening<'a> {
             Term::Local(name) => frame.local(name).ok_or_else(|| {
                 Trouble::new(FaultKind::UnknownName, format!("nothing is named `{name}` here"))
             }),
-            Term::Class(class) => {
-                let name = &self.document.classes[*class].name;
-                Err(Trouble::wrong(format!("the class {name} itself is no value")))
-            }
+            Term::Class(class) => Err(self.no_value(*class)),
             Term::Construct { what, class, of } => {
                 let of: Result<Vec<_>, _> = of.iter().map(|t| self.meaning(t, frame)).collect();
                 self.construct(*what, *class, &of?)
@@ -132,8 +129,7 @@ impl<'a> Opening<'a> {
             }
             Term::Make { class, arguments } => {
                 let arguments = self.arguments(arguments, frame)?;
-                let made = self.make(*class, &arguments)?;
-                self.called(made)
+                self.drawn_with(*class, &arguments)
             }
             Term::Tuple(items) | Term::List(items) => {
                 let items: Result<Vec<_>, _> =
@@ -201,6 +197,11 @@ impl<'a> Opening<'a> {
                 self.of_constraint(&of, name, *aspect)
             }
         }
+    }
+
+    fn no_value(&self, class: ClassId) -> Trouble {
+        let name = &self.document.classes[class].name;
+        Trouble::wrong(format!("the class {name} itself is no value"))
     }
 
     /// Answers what is asked of a constraint of a thing.

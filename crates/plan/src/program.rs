@@ -51,8 +51,9 @@ impl<'a> Opening<'a> {
         }
     }
 
-    /// Returns what a program draws that is called: a thing of any other class is itself.
-    pub(crate) fn called(&mut self, made: Meaning<'a>) -> Answer<'a> {
+    /// Makes a thing of a class; of a program, what it draws with these values.
+    pub(crate) fn drawn_with(&mut self, class: ClassId, given: &[Given<'a>]) -> Answer<'a> {
+        let made = self.make(class, given)?;
         let Meaning::Made(thing) = &made else { return Ok(made) };
         if self.document.program(thing.class).is_none() {
             return Ok(made);

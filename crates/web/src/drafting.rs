@@ -28,9 +28,9 @@ pub struct Drafting {
     pub turned: RwSignal<u32>,
 }
 
-impl Drafting {
+impl Default for Drafting {
     /// Nothing is begun.
-    pub fn new() -> Self {
+    fn default() -> Self {
         Self {
             prompt: RwSignal::new(None),
             typed: RwSignal::new(String::new()),
@@ -342,7 +342,7 @@ fn Repeat(lab: Lab, steps: Memo<Option<StepsView>>) -> impl IntoView {
         run(&typed.get_untracked());
         typed.set(String::new());
     };
-    let shown = move || {
+    move || {
         match open.get() {
         None => view! {
             <form class="line" aria-label=words::REPEAT
@@ -380,8 +380,7 @@ fn Repeat(lab: Lab, steps: Memo<Option<StepsView>>) -> impl IntoView {
         }
         .into_any(),
     }
-    };
-    shown
+    }
 }
 
 /// Defines a parameter by its example.

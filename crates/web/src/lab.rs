@@ -271,7 +271,7 @@ impl Lab {
             cursor: RwSignal::new(None),
             carried: StoredValue::new(false),
             dropping: RwSignal::new(None),
-            drafting: Drafting::new(),
+            drafting: Drafting::default(),
             drawer: RwSignal::new(Drawer::Structure),
             editing: RwSignal::new(None),
             menu: RwSignal::new(None),

@@ -179,7 +179,16 @@ fn figures(entity: &Entity<'_>, scale: f64, read: &mut Read) {
         "CIRCLE" => circle(entity, scale),
         "ARC" => arc(entity, scale),
         "ELLIPSE" => ellipse(entity, scale),
-        "TEXT" => words(entity, scale),
+        "TEXT" => {
+            let is_set = |code| entity.number(code).is_some_and(|x| x != 0.0);
+            if is_set(50) {
+                read.notes.push("that a TEXT is turned: it stands level".into());
+            }
+            if is_set(72) || is_set(73) {
+                read.notes.push("how a TEXT is aligned: it begins at its place".into());
+            }
+            words(entity, scale)
+        }
         "LWPOLYLINE" => {
             let corners = light_corners(entity, scale);
             let is_closed = entity.number(70).is_some_and(|flags| flags as i64 & 1 == 1);

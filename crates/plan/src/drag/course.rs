@@ -105,11 +105,11 @@ impl Planner {
         let there = values.clone();
         let wanted: Vec<f64> = press.aim.wanted.iter().flatten().copied().collect();
         // what rules say of another course is not planned in the midst of a drag
-        if self.is_on_course(&courses.rules, &there) {
-            if let Some(found) = self.on_another(model, courses, &wanted, values, &there, host) {
-                let courses = self.course_changes(model, &guards, (&courses.start, values));
-                return EditReport { courses, ..found };
-            }
+        if self.is_on_course(&courses.rules, &there)
+            && let Some(found) = self.on_another(model, courses, &wanted, values, &there, host)
+        {
+            let courses = self.course_changes(model, &guards, (&courses.start, values));
+            return EditReport { courses, ..found };
         }
         let mut report = self.up_to_the_end(model, (press, courses), &wanted, values, host);
         report.courses = self.course_changes(model, &guards, (&courses.start, &there));

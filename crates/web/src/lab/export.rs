@@ -16,7 +16,7 @@ impl Lab {
         let path = self.current.get_untracked()?;
         let name = path.rsplit('/').next().unwrap_or(&path);
         let name = String::from(name.trim_end_matches(".thing"));
-        Some((name, self.ask_of_shown(|session, id| session.svg(id))?))
+        Some((name, self.ask_of_shown(session::Session::svg)?))
     }
 
     /// Hands the user the picture as SVG.
