@@ -241,7 +241,7 @@ pub struct GhostMove {
 }
 
 /// Something that a pointer can grip and drag.
-#[derive(Clone, PartialEq, Debug, Serialize)]
+#[derive(Clone, PartialEq, Debug, Default, Serialize)]
 pub struct Grip {
     /// The thing's path.
     pub path: String,
@@ -251,6 +251,8 @@ pub struct Grip {
     pub y: f64,
     /// Whether an anchor holds it.
     pub anchored: bool,
+    /// Whether a program draws it: then it shows only under the pointer.
+    pub drawn: bool,
 }
 
 /// Where a pointer is, for a tool.

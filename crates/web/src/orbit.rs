@@ -11,7 +11,7 @@ pub fn grip(picture: &PictureView) -> Option<Grip> {
         let tag = picture.paths.iter().position(|path| *path == grip.path);
         tag.is_some_and(|tag| picture.freedom.get(tag) == Some(&Some(Freedom::Fixed)))
     };
-    let loose = || picture.grips.iter().filter(|grip| !grip.anchored);
+    let loose = || picture.grips.iter().filter(|grip| !grip.anchored && !grip.drawn);
     loose().find(|grip| !is_fixed(grip)).or_else(|| loose().next()).cloned()
 }
 
@@ -36,7 +36,8 @@ mod tests {
 
     #[test]
     fn what_is_led_can_move() {
-        let at = |path: &str, anchored| Grip { path: String::from(path), x: 0.0, y: 0.0, anchored };
+        let at =
+            |path: &str, anchored| Grip { path: String::from(path), anchored, ..Grip::default() };
         let picture = PictureView {
             paths: ["a", "b", "c"].map(String::from).to_vec(),
             freedom: vec![Some(Freedom::Free), Some(Freedom::Fixed), Some(Freedom::Free)],
@@ -49,7 +50,7 @@ mod tests {
 
     #[test]
     fn a_turn_begins_and_ends_at_home() {
-        let grip = Grip { path: String::from("p"), x: 3.0, y: 4.0, anchored: false };
+        let grip = Grip { path: String::from("p"), x: 3.0, y: 4.0, ..Grip::default() };
         assert_eq!(place(&grip, 10.0, 0.0), (3.0, 4.0));
         let (x, y) = place(&grip, 10.0, 0.5);
         assert!((x + 17.0).abs() < 1e-9 && (y - 4.0).abs() < 1e-9);

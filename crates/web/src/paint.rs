@@ -161,6 +161,9 @@ pub fn display_list(
     paint_elements(&mut list, picture, &anchored, below);
     for at in bare {
         let grip = &picture.grips[at];
+        if grip.drawn && marks.get(picture.paths.len() + at).is_none_or(|m| *m == Mark::None) {
+            continue;
+        }
         let freedom = freedom.get(at).copied().flatten();
         dot(&mut list, Point { x: grip.x, y: grip.y }, freedom, grip.anchored);
     }
@@ -630,7 +633,7 @@ mod tests {
 
     #[test]
     fn a_grip_without_a_point_of_its_own_is_painted_as_one() {
-        let grip = Grip { path: String::from("p"), x: 3.0, y: 4.0, anchored: false };
+        let grip = Grip { path: String::from("p"), x: 3.0, y: 4.0, ..Grip::default() };
         let lines = vec![element(segment(1.0), Layer::Lines, Style::default())];
         let bare = PictureView { grips: vec![grip.clone()], ..picture(lines, None) };
         let list = display_list(&bare, Part::Whole, &[Some(Freedom::Free)], &[]).numbers;

@@ -87,10 +87,10 @@ async fn a_washer_is_recorded_by_drawing_one() {
         visit.until(&format!("document.querySelector(\"[data-parameter='{name}']\")")).await;
     }
     press(&visit, "[data-construction='Circle']").await;
-    point(&visit, 0.0, -200.0).await;
+    point(&visit, 290.0, -70.0).await;
     press(&visit, "[data-parameter='inner']").await;
     enter(&visit, " / 2").await;
-    point(&visit, 0.0, -200.0).await;
+    point(&visit, 290.0, -70.0).await;
     press(&visit, "[data-parameter='outer']").await;
     enter(&visit, " / 2").await;
     visit.until("document.querySelectorAll('.steps li').length === 2").await;

@@ -40,9 +40,9 @@ async fn the_inspector_shows_switches_and_sliders_of_the_document() {
     show(&visit, "sum.thing").await;
     visit.until("document.querySelectorAll('.inspector .slider').length === 2").await;
     visit.script("document.querySelector('.inspector .switch').click()").await;
-    visit.until("window.__thinglab.state().text.includes('off')").await;
+    visit.until("window.__thinglab.state().text.includes('enabled')").await;
     visit.script("document.querySelector('.inspector .switch').click()").await;
-    visit.until("!window.__thinglab.state().text.includes('off')").await;
+    visit.until("!window.__thinglab.state().text.includes('enabled')").await;
     let slide = "const s = document.querySelector('.inspector .slider'); s.value = '5';
         s.dispatchEvent(new Event('input')); s.dispatchEvent(new Event('change'))";
     visit.script(slide).await;

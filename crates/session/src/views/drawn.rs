@@ -59,7 +59,13 @@ impl Finder<'_, '_> {
                     (document.is_place(made.class), &numbers.collect::<Vec<_>>()[..])
                 {
                     let path = path.clone();
-                    return self.found.push(Grip { path, x: *x, y: *y, anchored: false });
+                    return self.found.push(Grip {
+                        path,
+                        x: *x,
+                        y: *y,
+                        anchored: false,
+                        drawn: true,
+                    });
                 }
                 for (field, answer) in document.layout(made.class).into_iter().zip(&made.fields) {
                     *path += &format!(".{}", document.field_name(field));

@@ -89,6 +89,7 @@ impl Shown {
                 x: grip.at.x,
                 y: grip.at.y,
                 anchored: slots.iter().all(|&s| structure.slots[s].anchored),
+                drawn: false,
             }
         };
         PictureView {

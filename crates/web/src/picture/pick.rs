@@ -139,7 +139,7 @@ mod tests {
             drawing: Drawing { elements: vec![line], ..Drawing::default() },
             paths: vec![String::from("line")],
             freedom: vec![None],
-            grips: vec![Grip { path: String::from("line.p1"), x: 0.0, y: 0.0, anchored: false }],
+            grips: vec![Grip { path: String::from("line.p1"), ..Grip::default() }],
             ..PictureView::default()
         };
         let view = View { scale: 2.0, ..View::default() };
