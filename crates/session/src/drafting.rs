@@ -4,7 +4,7 @@
 //! a ghost of what would be made, and at last one edit of the text. The home of what is made is the document,
 //! or the program that is recorded; that is seen by its example, a thing of the document.
 //!
-//! Nothing is known of any construction: [`catalogue`] finds them in the classes in scope, [`outcome`] tries
+//! Nothing is known of any construction: `catalogue` finds them in the classes in scope, `outcome` tries
 //! them in a copy of the text. So a construction that a library gains is a tool at once.
 //!
 //! Reading order: `catalogue`, `scene`, `typed`, `outcome`, `hands`, `recording`, `repeat`, `steps`, `text`.
