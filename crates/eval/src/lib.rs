@@ -51,7 +51,7 @@ pub use evaluator::{DEEPEST_MESSAGES, Evaluator};
 pub use fault::{Fault, FaultKind};
 pub use given::{Given, given_values};
 pub use picture::{Grip, Picture};
-pub use programs::{Context, Ended, Why};
+pub use programs::{Context, Ended, Standing, Why};
 pub use scene::{Moved, Scene};
 pub use verdict::Verdict;
 pub use write::Side;

@@ -15,6 +15,10 @@ const PLAINNESS: f64 = 1e-3;
 /// Up to so many powers of two from what would be best, the scale of the text before is kept: what was typed is
 /// followed from there.
 const NEAR: u16 = 8;
+/// The largest power of two for one base quantity, and for all of them: the units of dimensions whose exponents are
+/// no larger than 4 stay within what a number can be, 2^±1022.
+const MOST: f64 = 120.0;
+const TOGETHER: f64 = 300.0;
 /// How many base quantities there are.
 const BASES: usize = 7;
 
@@ -49,7 +53,10 @@ fn best(parse: &Parse) -> Scale {
             normal[i][BASES] -= d[i] * size;
         }
     }
-    Scale(solved(normal).map(|x| x.round() as i16))
+    let powers = solved(normal).map(|x| x.clamp(-MOST, MOST));
+    let together: f64 = powers.iter().map(|x| x.abs()).sum();
+    let shrink = (TOGETHER / together).min(1.0);
+    Scale(powers.map(|x| (shrink * x).round() as i16))
 }
 
 /// Returns the sizes of the numbers with units that a text states, and what they measure.
@@ -127,6 +134,13 @@ mod tests {
         for (x, d) in [(5e-7, Dimension::LENGTH), (3e8, Dimension::VELOCITY)] {
             let stored = x * scale.factor(d);
             assert!((0.25..4.0).contains(&stored), "{} {}", shortest(stored), d);
+        }
+    }
+    #[test]
+    fn however_small_a_number_is_its_units_have_a_size() {
+        for text in ["m: Mass = 1e-300 kg\n", "m: Mass = 1e300 kg\nl: Length = 1e-300 m\n"] {
+            let factor = scale(text).factor(Dimension::FORCE);
+            assert!(factor.is_normal(), "{factor} for {text}");
         }
     }
     #[test]

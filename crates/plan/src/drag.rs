@@ -617,13 +617,25 @@ pub(crate) fn move_at_once(
     host: &mut dyn Host,
 ) -> EditReport {
     let wanted = aim.wanted.concat();
-    let mut press = planner.press_aim(model, values, aim);
-    let step = planner.drag(model, &mut press, values, &wanted, host);
+    let press = planner.press_aim(model, values, aim);
+    move_pressed(planner, model, (press, &wanted), values, host)
+}
+
+/// Moves what was pressed on to where it is wanted, and lets go.
+pub(crate) fn move_pressed(
+    planner: &mut Planner,
+    model: Model<'_>,
+    (mut press, wanted): (Press, &[f64]),
+    values: &mut Values,
+    host: &mut dyn Host,
+) -> EditReport {
+    let step = planner.drag(model, &mut press, values, wanted, host);
     if step.refusal.is_some() {
         *values = press.start(values);
         return EditReport { refusal: step.refusal, ..EditReport::default() };
     }
     let mut report = planner.release(model, press, values, host);
     report.conflicts = step.conflicts;
+    report.courses = step.courses;
     report
 }

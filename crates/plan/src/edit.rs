@@ -2,9 +2,9 @@
 
 use crate::aim::{Aim, nearest, storable};
 use crate::component::{Component, rules_of};
-use crate::course::CourseChange;
+use crate::course::{CourseChange, Guard};
 use crate::diagnose::trial::Setup;
-use crate::drag::move_at_once;
+use crate::drag::{move_at_once, move_pressed};
 use crate::host::{Failure, Host};
 use crate::limit::Limit;
 use crate::past::CameId;
@@ -293,7 +293,8 @@ impl Planner {
     /// Sets or moves targets, each to its values in order, as one edit.
     ///
     /// A refused edit leaves every bit as it was. A move that cannot reach its target comes as near
-    /// as it can and says so; when it has ended, soft constraints act again.
+    /// as it can and says so; when it has ended, soft constraints act again. Where a program would take another course,
+    /// the edit is solved on that one; a move for which none holds goes as far as the present one does.
     pub fn edit(
         &mut self,
         model: Model<'_>,
@@ -304,38 +305,64 @@ impl Planner {
     ) -> EditReport {
         self.take_course(model, values);
         let start = values.clone();
-        let (mut on, mut first) = (None, Vec::new());
-        let mut courses: Vec<Vec<CourseChange>> = Vec::new();
+        let (mut on, mut first) = (start.clone(), None);
+        let mut tried: Vec<Vec<CourseChange>> = Vec::new();
         loop {
-            let aim = match self.aim(model, (&start, on.as_ref().unwrap_or(&start)), kind, targets)
-            {
+            let aim = match self.aim(model, (&start, &on), kind, targets) {
                 Ok(aim) => aim,
-                Err(refusal) => {
-                    return EditReport { refusal: Some(refusal), ..EditReport::default() };
-                }
+                Err(refusal) => return self.refused(model, &start, refusal),
             };
-            let guards = [&aim.guards[..], &self.from.guards].concat();
+            let guards = [&aim.guards[..], &self.lowering.guards].concat();
             let report = match kind {
                 EditKind::Move => move_at_once(self, model, values, aim, host),
                 EditKind::Set => self.set(model, values, &aim, host),
             };
-            if report.refusal.is_some() || self.is_on_course(&guards, values) {
-                let courses = self.course_changes(model, &first, (&start, values));
+            if report.refusal.is_some() {
+                self.take_course(model, &start);
+                return report;
+            }
+            let first: &[Guard] = first.get_or_insert_with(|| guards.clone());
+            if self.is_on_course(&guards, values) {
+                let courses = self.course_changes(model, first, (&start, values));
                 return EditReport { courses, ..report };
             }
-            if on.is_none() {
-                first.clone_from(&guards);
-            }
             let changes = self.course_changes(model, &guards, (&start, values));
-            if courses.len() == COURSES || courses.contains(&changes) {
-                *values = start;
-                let refusal = Some(RefusalReason::Course(changes));
-                return EditReport { refusal, ..EditReport::default() };
+            on.clone_from(values);
+            values.clone_from(&start);
+            if tried.len() == COURSES || tried.contains(&changes) {
+                return match kind {
+                    EditKind::Move => self.move_on_course(model, values, targets, host),
+                    EditKind::Set => self.refused(model, &start, RefusalReason::Course(changes)),
+                };
             }
-            courses.push(changes);
-            let there = std::mem::replace(values, start.clone());
-            self.take_course(model, &there);
-            on = Some(there);
+            tried.push(changes);
+            self.take_course(model, &on);
+        }
+    }
+
+    /// Reports that nothing was changed; the rules are on the course of what stays.
+    fn refused(&mut self, model: Model<'_>, values: &Values, refusal: RefusalReason) -> EditReport {
+        self.take_course(model, values);
+        EditReport { refusal: Some(refusal), ..EditReport::default() }
+    }
+
+    /// Moves targets as a hand does, which stops where the course of a program ends.
+    fn move_on_course(
+        &mut self,
+        model: Model<'_>,
+        values: &mut Values,
+        targets: &[(Target<'_>, Vec<Value>)],
+        host: &mut dyn Host,
+    ) -> EditReport {
+        let handles: Vec<Target<'_>> = targets.iter().map(|(target, _)| *target).collect();
+        let pressed = self.press(model, values, &handles);
+        let aim = self.aim(model, (values, values), EditKind::Move, targets);
+        match (pressed, aim) {
+            (Ok(press), Ok(aim)) => {
+                let wanted = aim.wanted.concat();
+                move_pressed(self, model, (press, &wanted), values, host)
+            }
+            (Err(refusal), _) | (_, Err(refusal)) => self.refused(model, values, refusal),
         }
     }
 

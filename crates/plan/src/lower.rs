@@ -5,7 +5,7 @@
 
 use crate::evaluate::Opening;
 use crate::fault::{Fault, Trouble};
-use crate::meaning::{Frame, Meaning, collect_slots};
+use crate::meaning::{Frame, Meaning, collect_slots, slots_of_expression};
 use crate::rule::{
     Beside, Body, ByHost, Condition, Formula, How, RuleMethod, Rules, Shape, Source, Turns, Way,
     When,
@@ -275,6 +275,15 @@ fn lower_parts<'a>(
         match meaning {
             Meaning::Thing(t) => reads.extend(opening.reach.slots_under(t)),
             other => collect_slots(&opening.arena, &other, &mut reads),
+        }
+    }
+    // what decides on the course of a program alone: another value of it may ask for another rule
+    if !opening.decisions.is_empty() {
+        let mut own = BTreeSet::new();
+        said.collect_slots(opening, &mut own);
+        for decision in &opening.decisions {
+            let decides = slots_of_expression(&opening.arena, decision.of);
+            reads.extend(decides.difference(&own));
         }
     }
     let within = match &constraint.within {

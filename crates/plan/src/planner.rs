@@ -10,7 +10,7 @@ use crate::plans::{PlanCounts, Plans};
 use crate::recent::Recent;
 use crate::rule::{Rules, Source};
 use crate::task::{Alike, Holding, Locals, Setting, Task, Wish, at_rest, task};
-use crate::template::LoweredFrom;
+use crate::template::LoweringReport;
 use kernel::{Document, Form, SlotId, Structure, Values};
 use solve::{Giver, Lean, Level, Mode, Modes, Plan, Runner, Scratch, System};
 use std::cell::RefCell;
@@ -35,7 +35,7 @@ pub struct Model<'a> {
 pub struct Planner {
     form: Rc<Form>,
     /// What was noted while the rules were lowered.
-    pub(crate) from: Rc<LoweredFrom>,
+    pub(crate) lowering: Rc<LoweringReport>,
     pub(crate) rules: Rc<Rules>,
     pub(crate) net: Rc<Net>,
     pub(crate) plans: Plans,
@@ -59,7 +59,7 @@ pub struct Planner {
 #[derive(Debug)]
 pub(crate) struct Kept {
     form: Rc<Form>,
-    from: Rc<LoweredFrom>,
+    lowering: Rc<LoweringReport>,
     rules: Rc<Rules>,
     net: Rc<Net>,
     alike: Alike,
@@ -87,11 +87,11 @@ impl Planner {
         let form = &model.structure.form;
         let kept = plans.kept.take().map(|kept| *kept).filter(|kept| Rc::ptr_eq(&kept.form, form));
         let kept = kept.unwrap_or_else(|| {
-            let (rules, from) = plans.lower(model, None);
+            let (rules, lowering) = plans.lower(model, None);
             let net = Net::new(model.structure, &rules);
             Kept {
                 form: form.clone(),
-                from: Rc::new(from),
+                lowering: Rc::new(lowering),
                 rules: Rc::new(rules),
                 net: Rc::new(net),
                 alike: Alike::default(),
@@ -100,11 +100,11 @@ impl Planner {
                 resting: None,
             }
         });
-        let faults = kept.from.faults.clone();
-        let Kept { form, from, rules, net, alike, whole, recent, resting } = kept;
+        let faults = kept.lowering.faults.clone();
+        let Kept { form, lowering, rules, net, alike, whole, recent, resting } = kept;
         let planner = Self {
             form,
-            from,
+            lowering,
             rules,
             net,
             plans,
@@ -121,10 +121,10 @@ impl Planner {
     }
 
     /// Lowers the rules anew where they speak of what programs draw and those take another course at these values.
-    /// Returns true if it did.
-    pub(crate) fn take_course(&mut self, model: Model<'_>, values: &Values) -> bool {
-        let from = &self.from;
-        if !from.meets_programs || from.is_on_course && self.is_on_course(&from.guards, values) {
+    /// Returns true if it did. Whoever asks about a state that was not opened or edited by this planner calls it first.
+    pub fn take_course(&mut self, model: Model<'_>, values: &Values) -> bool {
+        let LoweringReport { guards, meets_programs, is_on_course, .. } = &*self.lowering;
+        if !meets_programs || *is_on_course && self.is_on_course(guards, values) {
             return false;
         }
         self.lower_on(model, Some(values));
@@ -132,11 +132,11 @@ impl Planner {
     }
     /// Lowers the rules on the course that programs take at these values.
     pub(crate) fn lower_on(&mut self, model: Model<'_>, values: Option<&Values>) {
-        let faults = self.from.faults.clone();
-        let (rules, from) = self.plans.lower(model, values);
+        let faults = self.lowering.faults.clone();
+        let (rules, lowering) = self.plans.lower(model, values);
         self.net = Rc::new(Net::new(model.structure, &rules));
         self.rules = Rc::new(rules);
-        self.from = Rc::new(LoweredFrom { faults, ..from });
+        self.lowering = Rc::new(LoweringReport { faults, ..lowering });
         (self.alike, self.recent) = (Alike::default(), Recent::default());
         (self.whole, self.resting) = (None, None);
         self.latest = Latest::default();
@@ -206,7 +206,7 @@ impl Planner {
         let mut plans = std::mem::take(&mut self.plans);
         plans.kept = Some(Box::new(Kept {
             form: self.form.clone(),
-            from: self.from.clone(),
+            lowering: self.lowering.clone(),
             rules: self.rules.clone(),
             net: self.net.clone(),
             alike: std::mem::take(&mut self.alike),
@@ -232,7 +232,7 @@ impl Planner {
     pub fn restore_latest(&mut self, latest: Latest) {
         // rules that were opened anew on another course are others
         let is_other = latest.of.as_ref().is_some_and(|of| !Rc::ptr_eq(of, &self.rules));
-        if !(is_other && self.from.meets_programs) {
+        if !(is_other && self.lowering.meets_programs) {
             self.latest = latest;
         }
     }

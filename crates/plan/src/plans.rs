@@ -3,7 +3,7 @@
 use crate::past::Past;
 use crate::planner::{Kept, Model};
 use crate::rule::Rules;
-use crate::template::{Known, LoweredFrom, Templates, lower_all};
+use crate::template::{Known, LoweringReport, Templates, lower_all};
 use crate::whole::Whole;
 use base::Mixer;
 use indexmap::IndexMap;
@@ -70,7 +70,11 @@ impl Plans {
         &mut self.patterns
     }
     /// Lowers everything, by what is known of the classes; what programs draw, on the course that they take at `on`.
-    pub(crate) fn lower(&mut self, model: Model<'_>, on: Option<&Values>) -> (Rules, LoweredFrom) {
+    pub(crate) fn lower(
+        &mut self,
+        model: Model<'_>,
+        on: Option<&Values>,
+    ) -> (Rules, LoweringReport) {
         lower_all((model, on), &mut self.patterns, &mut std::mem::take(&mut self.known))
     }
     /// Notes that a plan served once more.

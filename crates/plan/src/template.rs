@@ -190,7 +190,7 @@ impl Known {
 
 /// What was noted while rules were lowered.
 #[derive(Clone, Debug, Default)]
-pub(crate) struct LoweredFrom {
+pub(crate) struct LoweringReport {
     pub(crate) faults: Vec<Fault>,
     /// The courses that programs take in what the rules say.
     pub(crate) guards: Vec<Guard>,
@@ -208,7 +208,7 @@ pub(crate) fn lower_all(
     (model, on): (Model<'_>, Option<&Values>),
     patterns: &mut Patterns,
     known: &mut Known,
-) -> (Rules, LoweredFrom) {
+) -> (Rules, LoweringReport) {
     let structure = model.structure;
     let shapes = std::mem::take(&mut known.shapes);
     let mut rules = Rules::over(shapes, structure.constraints.len());
@@ -267,7 +267,7 @@ pub(crate) fn lower_all(
     guard(structure, &mut rules, &guarded);
     lower_stays(model, &mut rules);
     let meets_programs = opening.meets_programs;
-    (rules, LoweredFrom { faults, guards, meets_programs, is_on_course: on.is_some() })
+    (rules, LoweringReport { faults, guards, meets_programs, is_on_course: on.is_some() })
 }
 
 fn lower_stays(model: Model<'_>, rules: &mut Rules) {

@@ -120,7 +120,9 @@ fn edit(
     }
     let edited = aims.iter().flat_map(|(aim, _)| slots_of(&state, aim)).collect();
     let mut change = keep(open, host, label, edited, &values, &report.undecided)?;
-    change.modes.extend(limits::courses(&state, &report.courses));
+    if report.reached {
+        change.modes.extend(limits::courses(&state, &report.courses));
+    }
     Ok(change)
 }
 

@@ -126,6 +126,7 @@ impl Open {
         to.push(Step { state, status, ..step });
         let plans = self.planner.take_plans();
         (self.planner, _) = Planner::new(self.state.model(), plans);
+        self.planner.take_course(self.state.model(), &self.state.values);
         Some(label)
     }
     /// Makes one step of all that were done since there were so many.

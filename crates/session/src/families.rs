@@ -6,10 +6,11 @@
 
 use crate::state::State;
 use crate::view::{FamilyRow, FamilyView, Refusal, RowOutcome, TableView};
+use crate::views::drawn::walk;
 use crate::words;
 use drawing::{Drawing, Vertical, dxf, svg};
-use eval::{Answer, Evaluator, Why};
-use kernel::{ClassId, ClassKind, DOCUMENT, Literal, Primitive};
+use eval::{Answer, Standing, Why};
+use kernel::{ClassId, ClassKind, DOCUMENT, Document, Literal, Primitive};
 use lang::{Family, Wanted};
 use std::collections::BTreeMap;
 
@@ -181,12 +182,7 @@ fn name_and_unit(header: &str) -> (String, String) {
 }
 
 /// Reads a cell as a value of a class.
-fn literal(
-    document: &kernel::Document,
-    class: ClassId,
-    cell: &str,
-    unit: &str,
-) -> Result<Literal, String> {
+fn literal(document: &Document, class: ClassId, cell: &str, unit: &str) -> Result<Literal, String> {
     let is_real = matches!(document.classes[class].kind, ClassKind::Primitive(Primitive::Real(_)));
     let typed = match is_real && !unit.is_empty() && cell.parse::<f64>().is_ok() {
         true => format!("{cell} {unit}"),
@@ -281,7 +277,7 @@ pub(crate) fn draw(state: &State, name: &str, row: &FamilyRow) -> Result<RowOutc
             return Ok(outcome);
         }
     }
-    measures(&evaluator, &Answer::Context(run), &mut String::new(), &mut outcome.measures);
+    outcome.measures = measures(document, &Answer::Context(run));
     let vertical = match document.vertical {
         kernel::Vertical::Up => Vertical::Up,
         kernel::Vertical::Down => Vertical::Down,
@@ -304,7 +300,7 @@ pub(crate) fn draw(state: &State, name: &str, row: &FamilyRow) -> Result<RowOutc
 }
 
 /// Returns a literal as what an expression would be worth.
-fn answer<'d>(document: &kernel::Document, class: ClassId, literal: &Literal) -> Answer<'d> {
+fn answer<'d>(document: &Document, class: ClassId, literal: &Literal) -> Answer<'d> {
     let kind = &document.classes[class].kind;
     match literal {
         Literal::Number(x) => match kind {
@@ -329,46 +325,14 @@ fn answer<'d>(document: &kernel::Document, class: ClassId, literal: &Literal) ->
 }
 
 /// Collects the numbers of what was drawn, by their paths.
-fn measures(
-    evaluator: &Evaluator<'_>,
-    answer: &Answer<'_>,
-    path: &mut String,
-    found: &mut Vec<(String, f64)>,
-) {
-    if found.len() >= MOST_MEASURES {
-        return;
-    }
-    let end = path.len();
-    let mut add = |name: &str, answer: &Answer<'_>, path: &mut String| {
-        if !path.is_empty() && !name.starts_with('[') {
-            path.push('.');
+fn measures(document: &Document, run: &Answer<'_>) -> Vec<(String, f64)> {
+    let mut found = Vec::new();
+    walk(document, (run, Standing::Result), &mut String::new(), &mut |answer, _, path| {
+        let is_room = found.len() < MOST_MEASURES;
+        if let (Answer::Number(x, _), true) = (answer, is_room) {
+            found.push((path.to_string(), *x));
         }
-        path.push_str(name);
-        measures(evaluator, answer, path, found);
-        path.truncate(end);
-    };
-    match answer {
-        Answer::Number(x, _) => found.push((path.clone(), *x)),
-        Answer::Made(made) => {
-            let layout = evaluator.document.layout(made.class);
-            for (field, answer) in layout.into_iter().zip(&made.fields) {
-                add(evaluator.document.field_name(field), answer, path);
-            }
-        }
-        Answer::Context(context) => {
-            for entry in context.made.iter().filter(|e| !e.name.is_empty()) {
-                add(&entry.name, &entry.answer, path);
-            }
-        }
-        Answer::List(items) => {
-            for (i, item) in items.iter().enumerate() {
-                add(&format!("[{i}]"), item, path);
-            }
-        }
-        Answer::Bool(_)
-        | Answer::Text(_)
-        | Answer::Thing(_)
-        | Answer::Picture(_)
-        | Answer::Function(_) => {}
-    }
+        is_room
+    });
+    found
 }

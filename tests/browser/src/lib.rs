@@ -4,6 +4,8 @@
 //! `cargo verify` builds the command with its page and names it and the browser in the environment:
 //! `THINGLAB` and `CHROMIUM`. Without these a test fails and says so.
 
+pub mod hands;
+
 use std::io::{BufRead, BufReader, Read, Write};
 use std::net::TcpStream;
 use std::path::{Path, PathBuf};

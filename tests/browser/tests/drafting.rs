@@ -1,9 +1,9 @@
 //! Drawing by constructions, and a program recorded by drawing one example: with the mouse, and without a line of text.
 
 use browser::Visit;
+use browser::hands::{self, state, text_of};
 use fantoccini::Locator;
-use fantoccini::actions::{InputSource, MOUSE_BUTTON_LEFT, MouseActions, PointerAction};
-use serde_json::Value;
+use fantoccini::actions::MOUSE_BUTTON_LEFT;
 use std::time::Duration;
 
 async fn press(visit: &Visit, selector: &str) {
@@ -18,12 +18,6 @@ async fn fill(visit: &Visit, selector: &str, text: &str) {
     found.send_keys(text).await.unwrap_or_else(|e| panic!("{selector}: {e}"));
 }
 
-async fn text(visit: &Visit) -> String {
-    let script = "return window.__thinglab.state()";
-    let state: Value = visit.script(script).await;
-    state["text"].as_str().expect("a text").to_string()
-}
-
 /// Clicks where a place of the sheet is seen.
 async fn point(visit: &Visit, x: f64, y: f64) {
     let script = format!(
@@ -34,16 +28,8 @@ async fn point(visit: &Visit, x: f64, y: f64) {
              a.py + (c.py - a.py) / (c.y - a.y) * ({y} - a.y)]"
     );
     let at = visit.script(&script).await;
-    let at = |n: usize| at[n].as_f64().expect("a number").round();
-    let to =
-        PointerAction::MoveTo { duration: Some(Duration::from_millis(40)), x: at(0), y: at(1) };
-    let actions = MouseActions::new("mouse".into())
-        .then(to)
-        .then(PointerAction::Pause { duration: Duration::from_millis(60) })
-        .then(PointerAction::Down { button: MOUSE_BUTTON_LEFT })
-        .then(PointerAction::Up { button: MOUSE_BUTTON_LEFT });
-    visit.client.perform_actions(actions).await.expect("the mouse clicks");
-    tokio::time::sleep(Duration::from_millis(80)).await;
+    let at = |n: usize| at[n].as_f64().expect("a number");
+    hands::point(visit, (at(0), at(1)), MOUSE_BUTTON_LEFT).await;
 }
 
 const OPERAND: &str = "input[name='operand']";
@@ -64,7 +50,7 @@ async fn the_circle_that_is_nearest_to_the_picks_is_drawn() {
     point(&visit, 60.0, -100.0).await;
     point(&visit, 58.0, -15.0).await;
     enter(&visit, "20").await;
-    let text = text(&visit).await;
+    let text = text_of(&state(&visit).await);
     assert!(text.contains("circle => Circle.tangent("), "{text}");
     assert!(text.contains("ground") && text.contains("radius: 20"), "{text}");
 }
@@ -94,7 +80,7 @@ async fn a_washer_is_recorded_by_drawing_one() {
     press(&visit, "[data-parameter='outer']").await;
     enter(&visit, " / 2").await;
     visit.until("document.querySelectorAll('.steps li').length === 2").await;
-    let text = text(&visit).await;
+    let text = text_of(&state(&visit).await);
     assert!(text.contains("circle2 = Circle(center: circle.center, radius: outer / 2)"), "{text}");
     press(&visit, "[data-draft='stop']").await;
     press(&visit, "#tab-bin").await;

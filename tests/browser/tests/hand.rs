@@ -2,11 +2,11 @@
 //! by keyboard alone; and what strangers stumbled over.
 
 use browser::Visit;
+use browser::hands::{chord, drag, grip, point, state, text_of};
 use fantoccini::actions::{
-    InputSource, KeyAction, KeyActions, MOUSE_BUTTON_LEFT, MOUSE_BUTTON_RIGHT, MouseActions,
-    PointerAction,
+    InputSource, MOUSE_BUTTON_LEFT, MOUSE_BUTTON_RIGHT, MouseActions, PointerAction,
 };
-use serde_json::{Value, json};
+use serde_json::json;
 use std::time::Duration;
 
 const CONTROL: char = '\u{e009}';
@@ -19,23 +19,6 @@ const F2: char = '\u{e032}';
 const F10: char = '\u{e03a}';
 const BACKSPACE: char = '\u{e003}';
 
-/// The page's state, as it tells it.
-async fn state(visit: &Visit) -> Value {
-    let text = visit.script("return JSON.stringify(window.__thinglab.state())").await;
-    serde_json::from_str(text.as_str().expect("the state is a text")).expect("the state is JSON")
-}
-
-fn text_of(state: &Value) -> String {
-    state["text"].as_str().expect("a text").to_string()
-}
-
-/// Where a grip lies in the window.
-fn grip(state: &Value, path: &str) -> (f64, f64) {
-    let grips = state["grips"].as_array().expect("grips are a list");
-    let grip = grips.iter().find(|g| g["path"] == path).unwrap_or_else(|| panic!("no grip {path}"));
-    (grip["px"].as_f64().expect("a number"), grip["py"].as_f64().expect("a number"))
-}
-
 /// Where the picture's corner lies in the window, and its size.
 async fn canvas(visit: &Visit) -> (f64, f64, f64, f64) {
     let script = "const r = document.getElementById('picture').getBoundingClientRect();
@@ -45,55 +28,8 @@ async fn canvas(visit: &Visit) -> (f64, f64, f64, f64) {
     (number(0), number(1), number(2), number(3))
 }
 
-async fn point(visit: &Visit, (x, y): (f64, f64), button: u64) {
-    let to = PointerAction::MoveTo {
-        duration: Some(Duration::from_millis(40)),
-        x: x.round(),
-        y: y.round(),
-    };
-    let actions = MouseActions::new("mouse".into())
-        .then(to)
-        .then(PointerAction::Pause { duration: Duration::from_millis(40) })
-        .then(PointerAction::Down { button })
-        .then(PointerAction::Up { button });
-    visit.client.perform_actions(actions).await.expect("the mouse clicks");
-    tokio::time::sleep(Duration::from_millis(60)).await;
-}
-
 async fn click(visit: &Visit, at: (f64, f64)) {
     point(visit, at, MOUSE_BUTTON_LEFT).await;
-}
-
-async fn drag(visit: &Visit, from: (f64, f64), to: (f64, f64)) {
-    let at = |k: f64| PointerAction::MoveTo {
-        duration: Some(Duration::from_millis(30)),
-        x: (from.0 + k * (to.0 - from.0)).round(),
-        y: (from.1 + k * (to.1 - from.1)).round(),
-    };
-    let mut actions = MouseActions::new("mouse".into())
-        .then(at(0.0))
-        .then(PointerAction::Down { button: MOUSE_BUTTON_LEFT });
-    for k in 1..=5 {
-        actions = actions.then(at(f64::from(k) / 5.0));
-    }
-    actions = actions
-        .then(PointerAction::Pause { duration: Duration::from_millis(80) })
-        .then(PointerAction::Up { button: MOUSE_BUTTON_LEFT });
-    visit.client.perform_actions(actions).await.expect("the mouse drags");
-    tokio::time::sleep(Duration::from_millis(100)).await;
-}
-
-/// Presses a key while others are held.
-async fn chord(visit: &Visit, held: &[char], key: char) {
-    let mut actions = KeyActions::new("keys".into());
-    for &value in held {
-        actions = actions.then(KeyAction::Down { value });
-    }
-    actions = actions.then(KeyAction::Down { value: key }).then(KeyAction::Up { value: key });
-    for &value in held.iter().rev() {
-        actions = actions.then(KeyAction::Up { value });
-    }
-    visit.client.perform_actions(actions).await.expect("the keys are pressed");
 }
 
 async fn keys(visit: &Visit, all: &str) {

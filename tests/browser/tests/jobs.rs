@@ -2,22 +2,7 @@
 //! first minute.
 
 use browser::Visit;
-use serde_json::Value;
-
-/// The page's state, as it tells it.
-async fn state(visit: &Visit) -> Value {
-    let text = visit.script("return JSON.stringify(window.__thinglab.state())").await;
-    serde_json::from_str(text.as_str().expect("the state is a text")).expect("the state is JSON")
-}
-
-/// Opens a document that was put into the gallery.
-async fn show(visit: &Visit, name: &str) {
-    visit.until("document.querySelector('main') && window.__thinglab").await;
-    visit.script(&format!("location.hash = '#/gallery/{name}'")).await;
-    let path = format!("gallery/{name}");
-    visit.until(&format!("window.__thinglab.state().path === '{path}'")).await;
-    visit.until("window.__thinglab.state().values.length > 0").await;
-}
+use browser::hands::{show, state};
 
 #[tokio::test]
 async fn a_conflict_is_explained_and_repaired_by_a_button() {

@@ -2,75 +2,16 @@
 //! computes the bits that the same session computes natively.
 
 use browser::Visit;
-use fantoccini::actions::{
-    InputSource, KeyAction, KeyActions, MOUSE_BUTTON_LEFT, MouseActions, PointerAction,
-};
+use browser::hands::{chord, drag, grip, show, state};
 use serde_json::Value;
 use session::{Command, Host, Literal, Session, parse_path};
 use std::path::{Path, PathBuf};
 use std::time::Duration;
 
-/// The page's state, as it tells it.
-async fn state(visit: &Visit) -> Value {
-    let text = visit.script("return JSON.stringify(window.__thinglab.state())").await;
-    serde_json::from_str(text.as_str().expect("the state is a text")).expect("the state is JSON")
-}
-
-/// Shows a document of the gallery and waits until it stands.
-async fn show(visit: &Visit, name: &str) -> Value {
-    visit.script(&format!("location.hash = '#/gallery/{name}'")).await;
-    let path = format!("gallery/{name}");
-    visit
-        .until(&format!(
-            "window.__thinglab && window.__thinglab.state().path === '{path}' \
-             && window.__thinglab.state().values.length > 0"
-        ))
-        .await;
-    state(visit).await
-}
-
 fn value<'s>(state: &'s Value, path: &str) -> &'s str {
     let rows = state["values"].as_array().expect("values are a list");
     let row = rows.iter().find(|r| r["path"] == path);
     row.and_then(|r| r["text"].as_str()).unwrap_or_else(|| panic!("no value {path}"))
-}
-
-fn grip(state: &Value, path: &str) -> (f64, f64) {
-    let grips = state["grips"].as_array().expect("grips are a list");
-    let grip = grips.iter().find(|g| g["path"] == path).unwrap_or_else(|| panic!("no grip {path}"));
-    (grip["px"].as_f64().expect("a number"), grip["py"].as_f64().expect("a number"))
-}
-
-/// Takes a point with the mouse and puts it elsewhere, in a few steps.
-async fn drag(visit: &Visit, from: (f64, f64), by: (f64, f64)) {
-    let to = |k: f64| PointerAction::MoveTo {
-        duration: Some(Duration::from_millis(30)),
-        x: (from.0 + k * by.0).round(),
-        y: (from.1 + k * by.1).round(),
-    };
-    let mut actions = MouseActions::new("mouse".into())
-        .then(to(0.0))
-        .then(PointerAction::Down { button: MOUSE_BUTTON_LEFT });
-    for k in 1..=5 {
-        actions = actions.then(to(f64::from(k) / 5.0));
-    }
-    actions = actions
-        .then(PointerAction::Pause { duration: Duration::from_millis(60) })
-        .then(PointerAction::Up { button: MOUSE_BUTTON_LEFT });
-    visit.client.perform_actions(actions).await.expect("the mouse moves");
-}
-
-/// Presses keys while others are held.
-async fn chord(visit: &Visit, held: &[char], key: char) {
-    let mut actions = KeyActions::new("keys".into());
-    for &value in held {
-        actions = actions.then(KeyAction::Down { value });
-    }
-    actions = actions.then(KeyAction::Down { value: key }).then(KeyAction::Up { value: key });
-    for &value in held.iter().rev() {
-        actions = actions.then(KeyAction::Up { value });
-    }
-    visit.client.perform_actions(actions).await.expect("the keys are pressed");
 }
 
 const CONTROL: char = '\u{e009}';
@@ -90,7 +31,8 @@ async fn a_corner_is_dragged_and_taken_back() {
     assert_eq!(before["status"]["satisfied"], true);
     assert_eq!(before["status"]["freedom"], 8);
 
-    drag(&visit, grip(&before, "q.outer.side2.p2"), (40.0, -30.0)).await;
+    let (x, y) = grip(&before, "q.outer.side2.p2");
+    drag(&visit, (x, y), (x + 40.0, y - 30.0)).await;
     visit
         .until(
             "window.__thinglab.state().status.undo != null && !window.__thinglab.state().dragging",
@@ -172,7 +114,8 @@ async fn a_save_changes_only_what_was_changed() {
     visit.until("document.querySelector('main')").await;
     let before = visit.saved("square-root.thing");
     let opened = show(&visit, "square-root.thing").await;
-    drag(&visit, grip(&opened, "times.result.at"), (-30.0, 10.0)).await;
+    let (x, y) = grip(&opened, "times.result.at");
+    drag(&visit, (x, y), (x - 30.0, y + 10.0)).await;
     visit.until("window.__thinglab.state().dirty").await;
     chord(&visit, &[CONTROL], 's').await;
     visit.until("!window.__thinglab.state().dirty").await;
@@ -329,7 +272,7 @@ async fn the_page_and_the_native_session_give_the_same_bits() {
             continue;
         }
         let (x, y) = self::grip(&opened, &grip.path);
-        drag(&visit, (x, y), (0.0, 0.0)).await;
+        drag(&visit, (x, y), (x, y)).await;
         visit.script("document.getElementById('picture').focus()").await;
         for _ in 0..3 {
             chord(&visit, &[], RIGHT).await;

@@ -71,7 +71,7 @@ impl Planner {
         targets: &[Target<'_>],
         values: &Values,
     ) -> Option<Box<Courses>> {
-        if aim.guards.is_empty() && self.from.guards.is_empty() {
+        if aim.guards.is_empty() && self.lowering.guards.is_empty() {
             return None;
         }
         let owned = |target: &Target<'_>| match *target {
@@ -82,7 +82,7 @@ impl Planner {
             targets: targets.iter().map(owned).collect(),
             start: values.clone(),
             from: aim.wanted.iter().flatten().copied().collect(),
-            rules: self.from.guards.clone(),
+            rules: self.lowering.guards.clone(),
             others: Vec::new(),
             present: None,
         }))
@@ -117,7 +117,7 @@ impl Planner {
         report
     }
 
-    /// Follows a drag on a course that was come to, or that `there` is on. Nothing where that is not kept.
+    /// Follows a drag on a course that was come to before, or that `there` is on. Nothing where that is not kept.
     fn on_another(
         &mut self,
         model: Model<'_>,
@@ -127,35 +127,45 @@ impl Planner {
         there: &Values,
         host: &mut dyn Host,
     ) -> Option<EditReport> {
-        for at in 0..=courses.others.len() {
-            if at == courses.others.len() {
-                let targets: Vec<Target<'_>> = courses.targets.iter().map(Owned::target).collect();
-                let present = with_present_values(self, model, &courses.start, &targets).ok()?;
-                let on = (&courses.start, there);
-                let aim = self.aim(model, on, EditKind::Move, &present).ok()?;
-                let is_known = |p: &Press| p.aim.wishes == aim.wishes;
-                if courses.others.iter().any(is_known) {
-                    return None;
-                }
-                let other = self.press_aim(model, &courses.start, aim);
-                if courses.others.len() == KEPT {
-                    courses.others.remove(0);
-                }
-                courses.others.push(other);
-            }
-            let at = at.min(courses.others.len() - 1);
-            let other = &mut courses.others[at];
-            *values = courses.start.clone();
-            other.wish(wanted);
-            let mut report = self.pull_all(model, other, values, host);
-            let other = &courses.others[at];
-            if self.is_on_course(&other.aim.guards, values) {
-                report.reached = report.refusal.is_none() && self.reached(&other.aim, values);
-                courses.present = Some(at);
-                return Some(report);
+        for at in 0..courses.others.len() {
+            let found = self.on_kept(model, (courses, at), wanted, values, host);
+            if found.is_some() {
+                return found;
             }
         }
-        None
+        let targets: Vec<Target<'_>> = courses.targets.iter().map(Owned::target).collect();
+        let present = with_present_values(self, model, &courses.start, &targets).ok()?;
+        let aim = self.aim(model, (&courses.start, there), EditKind::Move, &present).ok()?;
+        if courses.others.iter().any(|other| other.aim.wishes == aim.wishes) {
+            return None;
+        }
+        let other = self.press_aim(model, &courses.start, aim);
+        if courses.others.len() == KEPT {
+            courses.others.remove(0);
+        }
+        courses.others.push(other);
+        let at = courses.others.len() - 1;
+        self.on_kept(model, (courses, at), wanted, values, host)
+    }
+
+    /// Follows a drag on one of the courses that are kept. Nothing where it leaves that.
+    fn on_kept(
+        &mut self,
+        model: Model<'_>,
+        (courses, at): (&mut Courses, usize),
+        wanted: &[f64],
+        values: &mut Values,
+        host: &mut dyn Host,
+    ) -> Option<EditReport> {
+        let other = &mut courses.others[at];
+        values.clone_from(&courses.start);
+        other.wish(wanted);
+        let report = self.pull_all(model, other, values, host);
+        if !self.is_on_course(&other.aim.guards, values) {
+            return None;
+        }
+        courses.present = Some(at);
+        Some(report)
     }
 
     /// Follows a drag as far as it stays on its course on the straight way from the press to what is wished.
@@ -173,7 +183,7 @@ impl Planner {
             let mid: Vec<f64> =
                 courses.from.iter().zip(wanted).map(|(a, b)| a + part * (b - a)).collect();
             press.wish(&mid);
-            *values = courses.start.clone();
+            values.clone_from(&courses.start);
             planner.pull_all(model, press, values, host)
         };
         for _ in 0..HALVINGS {

@@ -1,14 +1,58 @@
-//! Grips of what programs draw: its places are dragged, and the program's parameters follow.
+//! What programs draw: the way through it, and the grips of its places, which pull on the program's parameters.
 
 use crate::state::State;
 use crate::view::Grip;
-use eval::{Answer, Evaluator};
-use kernel::{ThingId, Values};
+use eval::{Answer, Standing};
+use kernel::{Document, ThingId, Values};
+use std::fmt::Write;
 
 /// So many places of what one program draws can be gripped.
 const MOST: usize = 200;
-/// Deeper than this what is drawn is not looked into.
-const DEEPEST: u32 = 16;
+/// What lies at the end of a longer path is not looked into.
+const LONGEST_PATH: usize = 1000;
+
+/// Goes through what was drawn, from `path` on: what a step made, turn by turn, and the parts of that. `visit` is told
+/// what is there, what for, and the path to it, and answers whether to go into it.
+pub(crate) fn walk<'a>(
+    document: &Document,
+    (answer, standing): (&Answer<'a>, Standing),
+    path: &mut String,
+    visit: &mut dyn FnMut(&Answer<'a>, Standing, &str) -> bool,
+) {
+    if path.len() > LONGEST_PATH || !visit(answer, standing, path) {
+        return;
+    }
+    let end = path.len();
+    let mut into = |step: std::fmt::Arguments<'_>, next: (&Answer<'a>, Standing)| {
+        let _ = path.write_fmt(step);
+        walk(document, next, path, visit);
+        path.truncate(end);
+    };
+    let dot = if end == 0 { "" } else { "." };
+    match answer {
+        Answer::Made(made) => {
+            for (field, answer) in document.layout(made.class).into_iter().zip(&made.fields) {
+                into(format_args!("{dot}{}", document.field_name(field)), (answer, standing));
+            }
+        }
+        Answer::Context(context) => {
+            for entry in context.made.iter().filter(|e| !e.name.is_empty()) {
+                into(format_args!("{dot}{}", entry.name), (&entry.answer, entry.standing));
+            }
+        }
+        Answer::List(items) => {
+            for (i, item) in items.iter().enumerate() {
+                into(format_args!("[{i}]"), (item, standing));
+            }
+        }
+        Answer::Number(..)
+        | Answer::Bool(_)
+        | Answer::Text(_)
+        | Answer::Thing(_)
+        | Answer::Picture(_)
+        | Answer::Function(_) => {}
+    }
+}
 
 /// Returns the grips of what the programs of a document's things draw, in order.
 pub(crate) fn grips(state: &State, values: &Values) -> Vec<Grip> {
@@ -23,10 +67,19 @@ pub(crate) fn grips(state: &State, values: &Values) -> Vec<Grip> {
             continue;
         }
         let Ok(Some(run)) = evaluator.run(thing) else { continue };
-        let mut finder = Finder { evaluator: &evaluator, found: Vec::new() };
+        let most = grips.len() + MOST;
         let mut path = structure.path(document, thing).to_string();
-        finder.find(&Answer::Context(run), &mut path, DEEPEST);
-        grips.append(&mut finder.found);
+        let drawn = (&Answer::Context(run), Standing::Result);
+        walk(document, drawn, &mut path, &mut |answer, standing, path| {
+            let is_seen = standing == Standing::Result && grips.len() < most;
+            match place(document, answer).filter(|_| is_seen) {
+                Some((x, y)) => {
+                    grips.push(Grip { path: path.into(), x, y, anchored: false, drawn: true });
+                    false
+                }
+                None => is_seen,
+            }
+        });
     }
     grips
 }
@@ -37,62 +90,13 @@ fn is_held(state: &State, thing: ThingId) -> bool {
     structure.slots_under(thing).into_iter().all(|slot| structure.slots[slot].anchored)
 }
 
-struct Finder<'e, 'a> {
-    evaluator: &'e Evaluator<'a>,
-    found: Vec<Grip>,
-}
-
-impl Finder<'_, '_> {
-    fn find(&mut self, answer: &Answer<'_>, path: &mut String, deep: u32) {
-        if self.found.len() >= MOST || deep == 0 {
-            return;
-        }
-        let end = path.len();
-        match answer {
-            Answer::Made(made) => {
-                let document = self.evaluator.document;
-                let numbers = made.fields.iter().map(|f| match f {
-                    Answer::Number(x, _) => Some(*x),
-                    _ => None,
-                });
-                if let (true, [Some(x), Some(y)]) =
-                    (document.is_place(made.class), &numbers.collect::<Vec<_>>()[..])
-                {
-                    let path = path.clone();
-                    return self.found.push(Grip {
-                        path,
-                        x: *x,
-                        y: *y,
-                        anchored: false,
-                        drawn: true,
-                    });
-                }
-                for (field, answer) in document.layout(made.class).into_iter().zip(&made.fields) {
-                    *path += &format!(".{}", document.field_name(field));
-                    self.find(answer, path, deep - 1);
-                    path.truncate(end);
-                }
-            }
-            Answer::Context(context) => {
-                for entry in context.result().filter(|e| !e.name.is_empty()) {
-                    *path += &format!(".{}", entry.name);
-                    self.find(&entry.answer, path, deep - 1);
-                    path.truncate(end);
-                }
-            }
-            Answer::List(items) => {
-                for (i, item) in items.iter().enumerate() {
-                    *path += &format!("[{i}]");
-                    self.find(item, path, deep - 1);
-                    path.truncate(end);
-                }
-            }
-            Answer::Number(..)
-            | Answer::Bool(_)
-            | Answer::Text(_)
-            | Answer::Thing(_)
-            | Answer::Picture(_)
-            | Answer::Function(_) => {}
-        }
+/// Returns where a place is that was made.
+fn place(document: &Document, answer: &Answer<'_>) -> Option<(f64, f64)> {
+    match answer {
+        Answer::Made(made) if document.is_place(made.class) => match made.fields[..] {
+            [Answer::Number(x, _), Answer::Number(y, _)] => Some((x, y)),
+            _ => None,
+        },
+        _ => None,
     }
 }

@@ -2,9 +2,10 @@
 
 use crate::state::State;
 use crate::view::ValueRow;
+use crate::views::drawn::walk;
 use crate::words;
 use base::Name;
-use eval::{Answer, Evaluator};
+use eval::{Answer, Evaluator, Standing};
 use indexmap::IndexMap;
 use kernel::builtin::{FUNCTIONS, Kind, PICTURE_MESSAGES, find};
 use kernel::{ClassId, ClassKind, Document, Message, Path, SlotId, Step, Term, ThingId, Values};
@@ -15,8 +16,6 @@ use std::rc::Rc;
 
 /// Of what a program drew at most this many values are shown; what is beyond is reached by its path.
 const MOST_DRAWN: usize = 1000;
-/// Deeper than this what is drawn is not looked into.
-const LONGEST_PATH: usize = 1000;
 
 /// Returns the rows, in order of declaration, merged values once.
 pub(crate) fn rows(state: &State, values: &Values, status: &plan::Status) -> Vec<ValueRow> {
@@ -276,43 +275,16 @@ impl Maker<'_> {
 
     /// Adds the rows of what a program drew: the numbers of its figures, turn by turn.
     fn add_drawn(&mut self, answer: &Answer<'_>, path: &mut String, most: usize) {
-        let document = &self.state.lowered.document;
-        if self.rows.len() >= most || path.len() > LONGEST_PATH {
-            return;
-        }
-        if let Some(row) = answered(document, path, answer, ["", ""], false) {
-            return self.rows.push(row);
-        }
-        let end = path.len();
-        match answer {
-            Answer::Made(made) => {
-                for (field, answer) in document.layout(made.class).into_iter().zip(&made.fields) {
-                    append(path, document.field_name(field));
-                    self.add_drawn(answer, path, most);
-                    path.truncate(end);
-                }
+        let (document, rows) = (&self.state.lowered.document, &mut self.rows);
+        walk(document, (answer, Standing::Result), path, &mut |answer, _, path| {
+            if rows.len() >= most {
+                return false;
             }
-            Answer::Context(context) => {
-                for entry in context.made.iter().filter(|e| !e.name.is_empty()) {
-                    append(path, &entry.name);
-                    self.add_drawn(&entry.answer, path, most);
-                    path.truncate(end);
-                }
-            }
-            Answer::List(items) => {
-                for (i, item) in items.iter().enumerate() {
-                    let _ = write!(path, "[{i}]");
-                    self.add_drawn(item, path, most);
-                    path.truncate(end);
-                }
-            }
-            Answer::Number(..)
-            | Answer::Bool(_)
-            | Answer::Text(_)
-            | Answer::Thing(_)
-            | Answer::Picture(_)
-            | Answer::Function(_) => {}
-        }
+            let row = answered(document, path, answer, ["", ""], false);
+            let is_value = row.is_some();
+            rows.extend(row);
+            !is_value
+        });
     }
 }
 

@@ -55,3 +55,16 @@ fn a_drag_stops_where_neither_branch_holds_what_is_wished() {
     desk.session.release(desk.id).expect("it can be kept");
     assert_eq!(value(&desk, "b.pitch"), "20");
 }
+
+#[test]
+fn a_value_that_follows_what_is_drawn_is_not_written() {
+    let text = "use geometry\nunit mm\nprogram Posts(length: Length = 35 mm, pitch: Length = 10 mm) {\n    row = while at <= length with at = 0 mm {\n        post = Point(at, 0 mm)\n        next at = at + pitch\n    }\n}\nb: Posts\nfar: Length\nconstraint reach: far = b.row.last.post.x\n";
+    let mut desk = Desk::of(text);
+    let path = session::parse_path("b.length").expect("a path");
+    let to = kernel::Literal::Number(45.0);
+    let change = desk.session.apply(desk.id, &kernel::Command::Set(vec![(path, to)]));
+    let change = change.expect("the course with one post more holds");
+    assert!(change.modes.iter().any(|m| m.message == "b.row takes 5 turns, not 4"), "{change:?}");
+    let text = desk.session.text(desk.id).source;
+    assert!(text.contains("b: Posts { length = 45 }\nfar: Length\n"), "{text}");
+}
