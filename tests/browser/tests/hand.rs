@@ -4,7 +4,7 @@
 use browser::Visit;
 use browser::hands::{chord, drag, grip, point, state, text_of};
 use fantoccini::actions::{
-    InputSource, MOUSE_BUTTON_LEFT, MOUSE_BUTTON_RIGHT, MouseActions, PointerAction,
+    InputSource, KeyAction, KeyActions, MOUSE_BUTTON_LEFT, MOUSE_BUTTON_RIGHT,
 };
 use serde_json::json;
 use std::time::Duration;
