@@ -12,12 +12,31 @@ use std::{env, fs};
 use crate::tools::{self, WasmCompiler};
 use crate::{say, top};
 
+/// How much a compiler does for speed and size.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(crate) enum Effort {
+    /// What people get: the rooms compiled as one.
+    Full,
+    /// For trying a change: compiled room by room, a large page that runs slower.
+    Quick,
+}
+
+impl Effort {
+    /// The page's profile in Cargo.toml.
+    fn page_profile(self) -> &'static str {
+        match self {
+            Effort::Full => "wasm-release",
+            Effort::Quick => "wasm-quick",
+        }
+    }
+}
+
 /// Builds `dist/`.
 ///
 /// # Errors
 /// A sentence that says which step failed; the step's own messages are on the terminal.
-pub(crate) fn build(compiler: &WasmCompiler) -> Result<(), String> {
-    let module = module("web", compiler)?;
+pub(crate) fn build(compiler: &WasmCompiler, effort: Effort) -> Result<(), String> {
+    let module = module("web", compiler, effort)?;
     let files = page_files(&module).and_then(|files| synchronise(&top().join("dist"), &files));
     let size = files.map_err(|error| format!("dist/ could not be written: {error}"))?;
     say!("page: {} kB in dist/", size / 1000);
@@ -29,33 +48,48 @@ pub(crate) fn build(compiler: &WasmCompiler) -> Result<(), String> {
 ///
 /// # Errors
 /// As [`build`].
-pub(crate) fn module(package: &str, compiler: &WasmCompiler) -> Result<PathBuf, String> {
+pub(crate) fn module(
+    package: &str,
+    compiler: &WasmCompiler,
+    effort: Effort,
+) -> Result<PathBuf, String> {
     say!("page: compiling {package} (minutes the first time)");
-    let made =
-        target().join("wasm32-unknown-unknown/wasm-release").join(package).with_extension("wasm");
-    run("the page did not compile", &mut compile_command(package, compiler))?;
-    let module = target().join("bindgen").join(package);
+    let profile = effort.page_profile();
+    let made = target().join("wasm32-unknown-unknown").join(profile);
+    let made = made.join(package).with_extension("wasm");
+    run("the page did not compile", &mut compile_command(package, compiler, profile))?;
+    let module = target().join("bindgen").join(profile).join(package);
     if is_older(&module.join(format!("{package}_bg.wasm")), &made) {
         say!("page: making its module");
         let mut bindgen = tools::cargo(&["run", "--package", "bindgen", "--"]);
+        if effort == Effort::Quick {
+            bindgen.arg("--quick");
+        }
         bindgen.arg(&made).arg(&module).arg(top().join("crates/web/assets/codemirror.js"));
         run("the page's module was not made", quiet(&mut bindgen))?;
     }
     Ok(module)
 }
 
-/// Builds the command for release, with the page in it; gives its path.
+/// Builds the command, with what `dist/` holds of the page in it; gives its path.
 ///
 /// # Errors
 /// As [`build`].
-pub(crate) fn build_command() -> Result<PathBuf, String> {
+pub(crate) fn build_command(effort: Effort) -> Result<PathBuf, String> {
     say!("thinglab: compiling");
-    let mut command = tools::cargo(&["build", "--release", "--package", "cli"]);
+    let mut command = tools::cargo(&["build", "--bin", "thinglab"]);
+    let folder = match effort {
+        Effort::Full => {
+            command.arg("--release");
+            "release"
+        }
+        Effort::Quick => "debug",
+    };
     command.env("THINGLAB_DIST", top().join("dist"));
     run("thinglab did not compile", quiet(&mut command))?;
     let target =
         env::var_os("CARGO_TARGET_DIR").map_or_else(|| top().join("target"), PathBuf::from);
-    Ok(top().join(target).join("release").join(format!("thinglab{}", env::consts::EXE_SUFFIX)))
+    Ok(top().join(target).join(folder).join(format!("thinglab{}", env::consts::EXE_SUFFIX)))
 }
 
 /// The page has a target folder of its own: two compilers in one would undo each other's work.
@@ -63,12 +97,12 @@ fn target() -> PathBuf {
     top().join("target-web")
 }
 
-fn compile_command(package: &str, compiler: &WasmCompiler) -> Command {
+fn compile_command(package: &str, compiler: &WasmCompiler, profile: &str) -> Command {
     let mut command = match compiler {
         WasmCompiler::Toolchain => tools::cargo(&["build"]),
         WasmCompiler::Debian { linker } => debian_cargo(linker),
     };
-    command.args(["--package", package, "--bin", package, "--profile", "wasm-release"]);
+    command.args(["--package", package, "--bin", package, "--profile", profile]);
     command.args(["--target", "wasm32-unknown-unknown", "--target-dir"]).arg(target());
     quiet(&mut command);
     command

@@ -4,8 +4,9 @@ use std::path::{Path, PathBuf};
 use std::process::{Command, ExitCode, Stdio};
 use std::{fs, io};
 
+use crate::bundle::{self, Effort};
+use crate::say;
 use crate::tools::{self, Missing, Tool};
-use crate::{bundle, say};
 
 /// Reads the command line.
 ///
@@ -25,7 +26,7 @@ pub(crate) fn run(missing: Missing) -> ExitCode {
     let (Some(compiler), Some(browser)) = (tools::wasm_compiler(), tools::browser()) else {
         return ExitCode::from(2);
     };
-    let table = bundle::module("figures", &compiler).and_then(|module| {
+    let table = bundle::module("figures", &compiler, Effort::Full).and_then(|module| {
         let page = written(&module).map_err(|error| format!("no page of figures: {error}"))?;
         shown(&browser, &page)
     });

@@ -2,14 +2,16 @@
 
 use std::process::{Command, ExitCode};
 
+use crate::bundle::{self, Effort};
+use crate::say;
 use crate::tools::{self, Missing, Tool};
-use crate::{bundle, say};
 
 /// What the command line asks for.
 #[derive(Debug, PartialEq, Eq)]
 pub(crate) struct Wish {
     then: Then,
     missing: Missing,
+    effort: Effort,
     /// Handed on to `thinglab serve`.
     serve: Vec<String>,
 }
@@ -25,11 +27,13 @@ enum Then {
 /// # Errors
 /// A sentence about the first argument that is not one.
 pub(crate) fn parse(arguments: &[String]) -> Result<Wish, String> {
-    let mut wish = Wish { then: Then::Serve, missing: Missing::Name, serve: Vec::new() };
+    let mut wish =
+        Wish { then: Then::Serve, missing: Missing::Name, effort: Effort::Full, serve: Vec::new() };
     let mut rest = arguments.iter();
     while let Some(argument) = rest.next() {
         match argument.as_str() {
             "--check" => wish.then = Then::Exit,
+            "--quick" => wish.effort = Effort::Quick,
             "--install" => wish.missing = Missing::Install,
             "--no-open" => wish.serve.push(argument.clone()),
             "--port" => {
@@ -47,7 +51,8 @@ pub(crate) fn parse(arguments: &[String]) -> Result<Wish, String> {
 pub(crate) fn run(wish: &Wish) -> ExitCode {
     tools::require(&[Tool::WasmCompiler], wish.missing);
     let Some(compiler) = tools::wasm_compiler() else { return ExitCode::from(2) };
-    let thinglab = match bundle::build(&compiler).and_then(|()| bundle::build_command()) {
+    let built = bundle::build(&compiler, wish.effort);
+    let thinglab = match built.and_then(|()| bundle::build_command(wish.effort)) {
         Ok(path) => path,
         Err(why) => {
             say!("{why}");
@@ -77,9 +82,10 @@ mod tests {
 
     #[test]
     fn a_file_and_a_port_go_to_the_server() {
-        let wish = parsed("--port 8000 gallery/quadrilateral.thing --install").unwrap();
+        let wish = parsed("--port 8000 gallery/quadrilateral.thing --install --quick").unwrap();
         assert_eq!(wish.serve, ["--port", "8000", "gallery/quadrilateral.thing"]);
         assert_eq!((wish.then, wish.missing), (Then::Serve, Missing::Install));
+        assert_eq!(wish.effort, Effort::Quick);
     }
 
     #[test]

@@ -15,9 +15,10 @@ mod tools;
 mod verify;
 
 const USAGE: &str = "\
-cargo lab [FILE] [--check] [--install] [--port N] [--no-open]
+cargo lab [FILE] [--check] [--quick] [--install] [--port N] [--no-open]
     builds the lab, starts its server on this machine, opens a browser where there is one
     --check    build and exit
+    --quick    for trying a change: a fast build of a large, slower page
     --install  get what is missing (rustup, or apt-get as root)
 cargo verify [--install] [--no-browser] [--long]
     tests everything; the last line is `N passed, N failed`

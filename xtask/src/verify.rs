@@ -5,10 +5,12 @@
 
 use std::ffi::OsString;
 use std::io::{BufRead as _, BufReader};
+use std::path::Path;
 use std::process::{Command, ExitCode, Stdio};
 
+use crate::bundle::{self, Effort};
+use crate::say;
 use crate::tools::{self, Missing, Tool};
-use crate::{bundle, say};
 
 /// What the command line asks for.
 #[derive(Debug, PartialEq, Eq)]
@@ -77,13 +79,14 @@ pub(crate) fn run(wish: &Wish) -> ExitCode {
         return ExitCode::from(2);
     }
     let mut count = native(wish.length);
-    // no part of the project needs it: without it the audit is left out, which is said
-    match tools::require(&[Tool::Ezdxf], wish.missing) {
-        0 => count.add(audit()),
-        _ => say!("left out: the audit of DXF files"),
-    }
     if wish.browser == Browser::Test {
-        count.add(in_browser(wish.length));
+        count.add(page());
+    }
+    let thinglab = bundle::build_command(Effort::Quick);
+    count.add(Count::one(thinglab.is_ok()));
+    match thinglab {
+        Ok(thinglab) => count.add(with_command(&thinglab, wish)),
+        Err(why) => say!("{why}; the audit of DXF files and the browser tests cannot run"),
     }
     say!("{}", last_line(count, wish.browser));
     if count.failed == 0 { ExitCode::SUCCESS } else { ExitCode::FAILURE }
@@ -110,8 +113,35 @@ fn native(length: Length) -> Count {
     count
 }
 
+/// The page's bundle, as people get it.
+fn page() -> Count {
+    say!("== bundle");
+    let built = bundle::build(&tools::wasm_compiler().expect("required above"), Effort::Full);
+    if let Err(why) = &built {
+        say!("{why}");
+    }
+    Count::one(built.is_ok())
+}
+
+/// What wants the built command: compiled like the tests, it shares what they compiled.
+fn with_command(thinglab: &Path, wish: &Wish) -> Count {
+    let mut count = Count::default();
+    // no part of the project needs it: without it the audit is left out, which is said
+    match tools::require(&[Tool::Ezdxf], wish.missing) {
+        0 => count.add(audit(thinglab)),
+        _ => say!("left out: the audit of DXF files"),
+    }
+    if wish.browser == Browser::Test {
+        let chromium = tools::browser().expect("required above");
+        let places: [(&str, OsString); 2] =
+            [("THINGLAB", thinglab.into()), ("CHROMIUM", chromium.into())];
+        count.add(tests("browser tests", &["--package", "browser"], &places, wish.length));
+    }
+    count
+}
+
 /// Writes the gallery as DXF, and has every file audited by another program.
-fn audit() -> Count {
+fn audit(thinglab: &Path) -> Count {
     let (gallery, to) = (crate::top().join("gallery"), crate::top().join("target/dxf"));
     let entries = std::fs::create_dir_all(&to).and_then(|()| std::fs::read_dir(gallery));
     let mut documents: Vec<_> =
@@ -121,34 +151,14 @@ fn audit() -> Count {
     let (mut count, mut written) = (Count::default(), Vec::new());
     for document in documents {
         let file = to.join(document.file_stem().unwrap_or_default()).with_extension("dxf");
-        let mut draw = tools::cargo(&["run", "--quiet", "--bin", "thinglab", "--", "draw"]);
-        draw.arg(&document).arg("--output").arg(&file);
+        let mut draw = Command::new(thinglab);
+        draw.arg("draw").arg(&document).arg("--output").arg(&file);
         count.add(step(&format!("drawing {}", document.display()), &mut draw));
         written.push(file);
     }
     let mut audit = Command::new(tools::ezdxf());
     audit.arg(crate::top().join("xtask/dxf_audit.py")).args(written);
     count.add(step("audit of DXF files", &mut audit));
-    count
-}
-
-fn in_browser(length: Length) -> Count {
-    say!("== bundle");
-    let compiler = tools::wasm_compiler().expect("required above");
-    let built = bundle::build(&compiler).and_then(|()| bundle::build_command());
-    let mut count = Count::one(built.is_ok());
-    match built {
-        Ok(thinglab) => {
-            let chromium = tools::browser().expect("required above");
-            let places: [(&str, OsString); 2] =
-                [("THINGLAB", thinglab.into()), ("CHROMIUM", chromium.into())];
-            count.add(tests("browser tests", &["--package", "browser"], &places, length));
-        }
-        Err(why) => {
-            say!("{why}; the browser tests cannot run");
-            count.add(Count::one(false));
-        }
-    }
     count
 }
 

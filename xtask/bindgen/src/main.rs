@@ -1,5 +1,6 @@
-//! `bindgen PAGE.wasm FOLDER [FILE…]`: writes the module `PAGE.js` and its `PAGE_bg.wasm` into the folder, and
-//! beside them, compressed by brotli as `NAME.br`, these two and further files.
+//! `bindgen [--quick] PAGE.wasm FOLDER [FILE…]`: writes the module `PAGE.js` and its `PAGE_bg.wasm` into the
+//! folder, and beside them, compressed by brotli as `NAME.br`, these two and further files. `--quick` compresses
+//! them little.
 
 use std::io::Write as _;
 use std::path::{Path, PathBuf};
@@ -9,9 +10,13 @@ use std::{fs, io};
 use wasm_bindgen_cli_support::Bindgen;
 
 fn main() -> ExitCode {
-    let mut arguments = std::env::args().skip(1);
+    let mut arguments = std::env::args().skip(1).peekable();
+    let quality = match arguments.next_if(|first| first == "--quick") {
+        Some(_) => QUICK,
+        None => QUALITY,
+    };
     let (Some(page), Some(folder)) = (arguments.next(), arguments.next()) else {
-        let _ = writeln!(io::stderr(), "bindgen PAGE.wasm FOLDER");
+        let _ = writeln!(io::stderr(), "bindgen [--quick] PAGE.wasm FOLDER [FILE…]");
         return ExitCode::from(2);
     };
     let name = Path::new(&page).file_stem().map(|stem| stem.to_string_lossy().into_owned());
@@ -33,7 +38,7 @@ fn main() -> ExitCode {
     let further: Vec<PathBuf> = arguments.map(PathBuf::from).collect();
     let written = result.map_err(|error| format!("{error:#}")).and_then(|()| {
         let mut all = made.iter().chain(&further);
-        all.try_for_each(|file| compress(file, Path::new(&folder)))
+        all.try_for_each(|file| compress(file, Path::new(&folder), quality))
             .map_err(|error| error.to_string())
     });
     match written {
@@ -48,13 +53,14 @@ fn main() -> ExitCode {
 /// How hard the compressor tries, and how far back it looks, as a power of two: hard enough that more gains
 /// less than a hundredth.
 const QUALITY: u32 = 10;
+const QUICK: u32 = 1;
 const WINDOW: u32 = 24;
 
 /// Writes a file compressed into a folder, under its name with `.br`.
-fn compress(file: &Path, folder: &Path) -> io::Result<()> {
+fn compress(file: &Path, folder: &Path, quality: u32) -> io::Result<()> {
     let name = file.file_name().map(|name| name.to_string_lossy().into_owned());
     let mut out = Vec::new();
-    let mut writer = brotli::CompressorWriter::new(&mut out, 1 << 16, QUALITY, WINDOW);
+    let mut writer = brotli::CompressorWriter::new(&mut out, 1 << 16, quality, WINDOW);
     writer.write_all(&fs::read(file)?)?;
     drop(writer);
     fs::write(folder.join(format!("{}.br", name.unwrap_or_default())), out)
