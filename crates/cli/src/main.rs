@@ -14,6 +14,7 @@ mod documents;
 mod embedded;
 mod family;
 mod import;
+mod plot;
 mod serve;
 
 /// A constraint laboratory: documents whose constraints stay true.
@@ -87,6 +88,8 @@ enum Command {
     },
     /// Draws every row of a table with a program, each at scale, with an index of all.
     Family(family::Arguments),
+    /// Plots numbers over a value that is swept through a range, as CSV or as a chart.
+    Plot(plot::Arguments),
     /// Makes a document of a DXF drawing; points that coincide are merged, what is not understood is listed.
     Import {
         /// The drawing.
@@ -130,6 +133,7 @@ fn main() -> ExitCode {
         Command::Analyse { file } => commands::analyse(file, form),
         Command::Draw { file, output } => commands::draw(file, output.as_deref(), form),
         Command::Family(arguments) => family::run(arguments, form),
+        Command::Plot(arguments) => plot::run(arguments, form),
         Command::Import { file, output } => import::run(file, output.as_deref(), form),
         Command::Fmt { files, check } => {
             let mode = if *check { FormatMode::Check } else { FormatMode::Write };

@@ -146,3 +146,38 @@ fn the_book_shows_what_is_printed() {
     }
     assert!(blocks >= 4, "{blocks}");
 }
+
+#[test]
+fn a_sweep_is_printed_as_a_table_and_drawn_as_a_chart() {
+    let range = ["r2.drop", "r1.current", "--sweep", "r2.resistance", "--from", "1 kohm"];
+    let range: Vec<&str> = range.into_iter().chain(["--to", "4kohm", "--steps", "3"]).collect();
+    let table = printed("plot-divider", DIVIDER, "plot", &range);
+    let mut rows = table.lines();
+    assert_eq!(rows.next(), Some("r2.resistance [ohm],r2.drop [V],r1.current [mA]"));
+    for (row, r) in rows.zip(1..) {
+        let cells: Vec<f64> = row.split(',').map(|cell| cell.parse().expect("a number")).collect();
+        let r = f64::from(r);
+        let wanted = [1000.0 * r, 10.0 * r / (1.0 + r), 10.0 / (1.0 + r)];
+        assert!(
+            cells.iter().zip(wanted).all(|(a, b)| (a - b).abs() < 1e-6),
+            "{row}, not {wanted:?}"
+        );
+    }
+    assert_eq!(table.lines().count(), 5);
+    let chart = std::env::temp_dir().join("thinglab-plot-divider.svg");
+    let written: Vec<&str> =
+        range.into_iter().chain(["-o", chart.to_str().expect("a path")]).collect();
+    assert!(asked("plot-divider", DIVIDER, "plot", &written).status.success());
+    let drawn = std::fs::read_to_string(&chart).expect("it was written");
+    assert_eq!(drawn.matches("<polyline").count(), 2);
+    let wrong = asked(
+        "plot-divider",
+        DIVIDER,
+        "plot",
+        &["r9.drop", "--sweep", "r2.resistance", "--from", "0", "--to", "1"],
+    );
+    assert!(
+        !wrong.status.success() && String::from_utf8_lossy(&wrong.stderr).contains("r9"),
+        "{wrong:?}"
+    );
+}

@@ -71,5 +71,5 @@ pub use files::File;
 pub use lower::{Lowered, lower, lower_written};
 pub use numbers::{Wanted, read_literal, show_limit};
 pub use origins::Origins;
-pub use shown::{Quantity, Shown, show_quantity};
+pub use shown::{Quantity, Shown, in_unit, show_quantity};
 pub use write::write_values;

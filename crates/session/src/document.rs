@@ -44,6 +44,8 @@ pub(crate) struct Open {
     pub(crate) recording: Option<crate::drafting::Recording>,
     /// A drag between press and release.
     pub(crate) drag: Option<crate::drag::Drag>,
+    /// What of drags is plotted.
+    pub(crate) trace: Option<crate::plotting::Trace>,
     /// The picture as it was asked for last.
     pub(crate) shown: RefCell<Option<Shown>>,
 }
@@ -73,6 +75,7 @@ impl Open {
             dialogue: None,
             recording: None,
             drag: None,
+            trace: None,
             shown: RefCell::new(None),
         }
     }

@@ -1,6 +1,6 @@
 //! A drag: from press to release nothing is written, and nothing but numbers is computed.
 
-use crate::apply;
+use crate::apply::{self, Aim};
 use crate::document::Open;
 use crate::general;
 use crate::host::Host;
@@ -34,6 +34,30 @@ pub(crate) struct Drag {
     pub(crate) values: Values,
     /// Where the pointer was then, on the sheet.
     pub(crate) wish: [f64; 2],
+}
+
+/// Begins a drag in a document, and returns where its handle is on the sheet.
+///
+/// # Errors
+/// Why the thing cannot be dragged.
+pub(crate) fn begin(open: &mut Open, path: &Path) -> Result<(f64, f64), Refusal> {
+    let state = open.state.clone();
+    let aim = apply::aim(&state, path);
+    let drag = match aim.map_err(|r| words::find(&state, path).err().unwrap_or(r))? {
+        // what has no place of its own is held by one that is computed
+        Aim::Thing(thing) if computed_place(&state, thing).is_some() => {
+            let place = computed_place(&state, thing).unwrap_or_default();
+            let term = Term::at(Term::Me, &path.join(&place));
+            press_computed(&state, &mut open.planner, term, path.clone())
+        }
+        Aim::Thing(thing) => press(&state, &mut open.planner, thing, path.clone()),
+        Aim::Term(term) => press_computed(&state, &mut open.planner, term, path.clone()),
+    };
+    let drag =
+        drag.map_err(|reason| words::refusal_for(&state, &reason, &plan::EditReport::default()))?;
+    let handle = drag.handle();
+    open.drag = Some(drag);
+    Ok(handle)
 }
 
 /// Begins a drag: of a number, of a place, or of a thing with all the places that it is made of.

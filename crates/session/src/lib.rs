@@ -33,6 +33,7 @@ mod limits;
 mod offers;
 mod parting;
 mod placing;
+pub mod plotting;
 mod prototype;
 mod recognise;
 mod session;

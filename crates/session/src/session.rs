@@ -1,7 +1,7 @@
 //! The session: open documents, and what is done to them.
 
 use crate::advice;
-use crate::apply::{self, Aim};
+use crate::apply;
 use crate::check;
 use crate::classing;
 use crate::complaints;
@@ -11,6 +11,7 @@ use crate::ghosts;
 use crate::host::{Beside, Host};
 use crate::joining;
 use crate::offers;
+use crate::plotting::{self, Plot, Request};
 use crate::recognise;
 use crate::state::State;
 use crate::texts::Texts;
@@ -167,24 +168,17 @@ impl Session {
     /// # Errors
     /// Why the thing cannot be dragged: there is none, it has no place, or an anchor holds it.
     pub fn press(&mut self, id: DocumentId, path: &Path) -> Result<(f64, f64), Refusal> {
-        let open = self.document_mut(id);
-        let state = open.state.clone();
-        let aim = apply::aim(&state, path);
-        let drag = match aim.map_err(|r| words::find(&state, path).err().unwrap_or(r))? {
-            // what has no place of its own is held by one that is computed
-            Aim::Thing(thing) if drag::computed_place(&state, thing).is_some() => {
-                let place = drag::computed_place(&state, thing).unwrap_or_default();
-                let term = kernel::Term::at(kernel::Term::Me, &path.join(&place));
-                drag::press_computed(&state, &mut open.planner, term, path.clone())
-            }
-            Aim::Thing(thing) => drag::press(&state, &mut open.planner, thing, path.clone()),
-            Aim::Term(term) => drag::press_computed(&state, &mut open.planner, term, path.clone()),
-        };
-        let drag = drag
-            .map_err(|reason| words::refusal_for(&state, &reason, &plan::EditReport::default()))?;
-        let handle = drag.handle();
-        open.drag = Some(drag);
+        let beside = Beside::of(&*self.host, &self.documents, id);
+        let open = self
+            .documents
+            .get_mut(id.0 as usize)
+            .expect("a document id comes from this session's open");
+        let handle = drag::begin(open, path)?;
         open.rest_picture();
+        if let Some(mut trace) = open.trace.take() {
+            // what was watched may be gone from the document: then nothing is watched
+            open.trace = trace.restart(open, &beside).is_ok().then_some(trace);
+        }
         Ok(handle)
     }
     /// Follows the pointer to a place on the sheet. Without a press it does nothing.
@@ -192,7 +186,13 @@ impl Session {
         let open = self.document_mut(id);
         let state = open.state.clone();
         match &mut open.drag {
-            Some(drag) => drag.to(&state, &mut open.planner, to),
+            Some(drag) => {
+                let came = drag.to(&state, &mut open.planner, to);
+                if let Some(trace) = &mut open.trace {
+                    trace.follow(&drag.values);
+                }
+                came
+            }
             None => DragState::default(),
         }
     }
@@ -375,6 +375,30 @@ impl Session {
     pub fn insertion(&self, id: DocumentId, class: &str) -> Result<Command, Refusal> {
         let beside = Beside::of(&*self.host, &self.documents, id);
         tools::room::insertion(self.document(id), &beside, class)
+    }
+    /// Makes the plot of a sweep, in a copy of the document.
+    ///
+    /// # Errors
+    /// What is shown or swept means nothing, the range is none, or the value cannot be moved.
+    pub fn plot(&self, id: DocumentId, request: &Request) -> Result<Plot, Refusal> {
+        let beside = Beside::of(&*self.host, &self.documents, id);
+        let open = self.document(id);
+        match &request.sweep {
+            Some(sweep) => plotting::sweep(open, &beside, request, sweep),
+            None => Ok(open.trace.as_ref().map(plotting::Trace::plot).unwrap_or_default()),
+        }
+    }
+    /// From the next press on, every event of a drag is a sample of what a request shows; without one none is.
+    ///
+    /// # Errors
+    /// What is shown means nothing; then what was watched before goes on.
+    pub fn watch(&mut self, id: DocumentId, request: Option<&Request>) -> Result<(), Refusal> {
+        let beside = Beside::of(&*self.host, &self.documents, id);
+        let open = self.document(id);
+        let trace =
+            request.map(|request| plotting::Trace::of(open, &beside, request)).transpose()?;
+        self.document_mut(id).trace = trace;
+        Ok(())
     }
     /// Gives a drag up: all is as it was before the press.
     pub fn cancel(&mut self, id: DocumentId) {

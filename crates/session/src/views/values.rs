@@ -96,7 +96,7 @@ fn show_virtual(
 }
 
 /// Returns the name of the class that is written for what a message answers; empty where none is.
-fn answer_class<'d>(document: &'d Document, class: ClassId, name: &Name) -> &'d str {
+pub(crate) fn answer_class<'d>(document: &'d Document, class: ClassId, name: &Name) -> &'d str {
     let mut line = document.primary_line(class).into_iter();
     let message = line.find_map(|c| document.classes[c].messages.iter().find(|m| m.name == *name));
     message.and_then(|m| m.class).map_or("", |c| &document.classes[c].name)

@@ -12,6 +12,7 @@ mod following;
 mod ghosts;
 mod limits;
 mod offering;
+mod plotting;
 mod proving;
 mod recognising;
 mod refusing;
