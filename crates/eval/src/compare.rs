@@ -2,7 +2,7 @@
 
 use crate::answer::Answer;
 use crate::evaluator::{Evaluator, Result};
-use crate::fault::Fault;
+use crate::fault::{Fault, FaultKind};
 use kernel::ClassId;
 
 /// What is done with every pair of values without parts.
@@ -62,7 +62,7 @@ impl<'a> Evaluator<'a> {
         let (a, b) = (self.by_position(a)?, self.by_position(b)?);
         if a.len() != b.len() {
             let message = format!("{} elements and {} are never equal", a.len(), b.len());
-            return Err(Fault::wrong(message));
+            return Err(Fault::new(FaultKind::Unequal, message));
         }
         self.deeper(|| a.iter().zip(&b).try_for_each(|(a, b)| self.leaves(a, b, each)))
     }

@@ -1,23 +1,25 @@
-//! Constructions of oriented geometry: figures are read from things, and a thing is made of what is built.
+//! Constructions of oriented geometry: figures and regions are read from things, and a thing is made of what is built.
 
 use crate::answer::Answer;
 use crate::evaluator::{Evaluator, Given, Result};
 use crate::fault::Fault;
 use base::Name;
 use expr::dimension::Dimension;
-use geometry::{Construction, Figure, Made, construct};
-use kernel::{ClassId, ThingId};
+use geometry::{Bend, Figure, Made, Surface, combine, construct, offset};
+use kernel::builtin::Making;
+use kernel::{ClassId, ClassKind, ThingId};
 use std::rc::Rc;
 
 impl<'a> Evaluator<'a> {
     /// Makes a thing of a class by a construction from figures and numbers.
     pub(crate) fn construct(
         &self,
-        what: Construction,
+        what: Making,
         class: ClassId,
         of: &[Answer<'a>],
         nearest: ThingId,
     ) -> Result<Answer<'a>> {
+        let Making::Figure(what) = what else { return self.region(what, class, of, nearest) };
         let (mut figures, mut numbers) = (Vec::new(), Vec::new());
         for operand in of {
             match operand {
@@ -51,6 +53,89 @@ impl<'a> Evaluator<'a> {
         });
         let given: Vec<Given<'a>> = given.collect();
         self.make(class, &given, nearest)
+    }
+
+    /// Makes a region of one or two.
+    fn region(
+        &self,
+        what: Making,
+        class: ClassId,
+        of: &[Answer<'a>],
+        nearest: ThingId,
+    ) -> Result<Answer<'a>> {
+        let [first, second] = of else { return Err(Fault::wrong("a region is made of two")) };
+        let first = self.surfaces(first, nearest)?;
+        let made = match what {
+            Making::Combined(how) => combine(how, &first, &self.surfaces(second, nearest)?),
+            Making::Offset | Making::Figure(_) => offset(&first, self.number(second)?.0),
+        };
+        let made = made.map_err(|why| {
+            let name = &self.document.classes[class].name;
+            Fault::no_answer(format!("there is no such {name}: {}", why.words()))
+        })?;
+        let number = |x| Answer::Number(x, Dimension::LENGTH);
+        let corner = |b: &Bend| {
+            let [x, y] = b.at.map(number);
+            Answer::List(Rc::from([x, y, Answer::plain(b.bulge)]))
+        };
+        // the fields of a class that a list holds are made of tuples one by one
+        let listed = |class: ClassId, name: &str| {
+            let layout = self.layout(class);
+            let field = layout.fields.iter().find(|&&f| *self.document.field_name(f) == *name);
+            match field.map(|&f| &self.document.classes[self.document.field_class(f)].kind) {
+                Some(ClassKind::List(element)) => Ok(*element),
+                _ => Err(Fault::wrong(format!("a region has a list `{name}`"))),
+            }
+        };
+        let surface = listed(class, "surfaces")?;
+        let contour = listed(surface, "holes")?;
+        let bend = listed(contour, "corners")?;
+        let ring = |ring: &geometry::Ring| {
+            let corners = ring.iter().map(|b| self.as_class(corner(b), bend, nearest));
+            let corners = Answer::List(corners.collect::<Result<_>>()?);
+            self.make(contour, &[(None, corners)], nearest)
+        };
+        let whole = |s: &Surface| {
+            let holes = s.holes.iter().map(ring).collect::<Result<_>>()?;
+            let parts = [(None, ring(&s.outer)?), (None, Answer::List(holes))];
+            self.make(surface, &parts, nearest)
+        };
+        let surfaces = made.iter().map(whole).collect::<Result<_>>()?;
+        self.make(class, &[(None, Answer::List(surfaces))], nearest)
+    }
+
+    /// Reads what covers a part of the plane: a contour, a surface, a region, or a list of these.
+    fn surfaces(&self, of: &Answer<'a>, nearest: ThingId) -> Result<Vec<Surface>> {
+        if let Answer::List(items) = of {
+            let each = items.iter().map(|i| self.deeper(|| self.surfaces(i, nearest)));
+            return each.collect::<Result<Vec<_>>>().map(|all| all.concat());
+        }
+        let class = self.class_of(of);
+        let has = |name: &str| class.is_some_and(|c| self.layout(c).index.contains_key(name));
+        let part = |name| self.part_of(of, name, nearest);
+        if has("corners") {
+            return Ok(vec![Surface { outer: self.ring(&part("corners")?)?, holes: Vec::new() }]);
+        }
+        if has("outer") && has("holes") {
+            let outer = self.ring(&self.part_of(&part("outer")?, "corners", nearest)?)?;
+            let hole = |hole: &Answer<'a>| self.ring(&self.part_of(hole, "corners", nearest)?);
+            let holes = self.items(&part("holes")?)?.iter().map(hole).collect::<Result<_>>()?;
+            return Ok(vec![Surface { outer, holes }]);
+        }
+        if has("surfaces") {
+            let all = part("surfaces")?;
+            return self.surfaces(&Answer::List(self.items(&all)?), nearest);
+        }
+        let kind = self.kind(of);
+        Err(Fault::wrong(format!("{kind} where a contour, a surface or a region is wanted")))
+    }
+
+    fn ring(&self, corners: &Answer<'a>) -> Result<geometry::Ring> {
+        let bend = |corner: &Answer<'a>| {
+            let corner = self.bent(corner)?;
+            Ok(Bend { at: [corner.at.x, corner.at.y], bulge: corner.bulge })
+        };
+        self.items(corners)?.iter().map(bend).collect()
     }
 
     /// Returns a part of something, or what it answers: `p1` of a line.

@@ -23,6 +23,8 @@ pub enum FaultKind {
     Unnamed,
     /// A value of one kind where another was wanted.
     WrongKind,
+    /// Values that have not as many parts as each other.
+    Unequal,
     /// Numbers of two dimensions where one was wanted.
     WrongDimension,
     /// An operation that has no answer for these values: a division by zero, `"hot".number`.
@@ -40,7 +42,7 @@ impl FaultKind {
     pub fn code(self) -> &'static str {
         match self {
             Self::UnknownName | Self::Unnamed => "unknown-name",
-            Self::WrongKind => "wrong-kind",
+            Self::WrongKind | Self::Unequal => "wrong-kind",
             Self::WrongDimension => "wrong-dimension",
             Self::NoAnswer => "no-answer",
             Self::Reference => "unknown-reference",

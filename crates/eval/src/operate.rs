@@ -2,7 +2,7 @@
 
 use crate::answer::Answer;
 use crate::evaluator::{Evaluator, Result};
-use crate::fault::Fault;
+use crate::fault::{Fault, FaultKind};
 use crate::measure;
 use base::number::{close, pow};
 use expr::dimension::Dimension;
@@ -156,7 +156,10 @@ impl<'a> Evaluator<'a> {
                     self.structure.merged[*a] == self.structure.merged[*b]
                 }
                 (Answer::Thing(_), _) | (_, Answer::Thing(_)) => false,
-                _ => self.equal(item, wanted)?,
+                _ => match self.equal(item, wanted) {
+                    Err(fault) if fault.kind == FaultKind::Unequal => false,
+                    outcome => outcome?,
+                },
             };
             if found {
                 return Ok(true);

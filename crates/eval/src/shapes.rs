@@ -125,7 +125,7 @@ impl<'a> Evaluator<'a> {
     }
 
     /// Reads a corner of a ring: a place, which may have a part `bulge`, or `(place, bulge)`.
-    fn bent(&self, corner: &Answer<'a>) -> Result<Corner> {
+    pub(crate) fn bent(&self, corner: &Answer<'a>) -> Result<Corner> {
         if let Ok(at) = self.place(corner) {
             let name = Name::new("bulge");
             let class = self.class_of(corner);

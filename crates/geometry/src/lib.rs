@@ -25,6 +25,9 @@
 //! have centres |r₁ - r₂| apart. Where two mirror answers are left the order of the operands decides: along the new
 //! circle, from the first contact to the second is less than half a turn.
 //!
+//! A region is what contours of segments and arcs surround. Regions are combined and offset as numbers alone
+//! ([`combine`], [`offset`]): how many edges an outcome has depends on values, so that there is no formula for it.
+//!
 //! Invariants:
 //! - a construction has one answer, or says why it has none;
 //! - no answer depends on where a pointer was, nor on which of the figures is drawn first;
@@ -36,6 +39,7 @@ mod construction;
 mod figure;
 mod lines;
 mod points;
+mod region;
 mod three;
 mod work;
 
@@ -43,3 +47,4 @@ pub use algebra::{Algebra, Plain};
 pub use build::{Built, NoConstruction, build, construct};
 pub use construction::{Construction, Made};
 pub use figure::Figure;
+pub use region::{Bend, Combination, NoRegion, Ring, Surface, combine, offset};

@@ -3,7 +3,7 @@
 //! `lang` checks calls against it, `eval` computes them, the manual prints it. A class's message
 //! of the same name comes first: what is here is what every number, text, list or picture knows.
 
-use geometry::Construction;
+use geometry::{Combination, Construction};
 
 /// What an argument may be, or what an answer is.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
@@ -292,6 +292,25 @@ pub fn is_of_each(name: &str) -> bool {
     matches!(name, "moved" | "mirrored" | "turned" | "scaled")
 }
 
+/// What a `static builtin` message makes of what it is given.
+#[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, Debug)]
+pub enum Making {
+    /// An oriented figure of others: a closed form.
+    Figure(Construction),
+    /// A region of two: no formula, since values decide how many edges it has.
+    Combined(Combination),
+    /// What is within a distance of a region.
+    Offset,
+}
+
+/// What makes regions: the message of the class `Region` by its form.
+const REGIONS: [(&str, Making); 4] = [
+    ("union(first,second)", Making::Combined(Combination::Union)),
+    ("difference(first,second)", Making::Combined(Combination::Difference)),
+    ("intersection(first,second)", Making::Combined(Combination::Intersection)),
+    ("offset(of,by)", Making::Offset),
+];
+
 /// The constructions of oriented geometry that classes of the library declare as `static builtin`: the class, its
 /// message by its [`form`](crate::form), and what computes it. Arguments that are numbers come after the figures,
 /// each in order.
@@ -326,12 +345,15 @@ const CONSTRUCTIONS: &[(&[&str], &str, Construction)] = &[
 ];
 const STRAIGHTS: &[&str] = &["Line", "Axis"];
 
-/// Returns the construction that a class of this name declares by this form.
-pub fn construction(class: &str, form: &str) -> Option<Construction> {
+/// Returns what a class of this name declares by this form.
+pub fn making(class: &str, form: &str) -> Option<Making> {
+    if class == "Region" {
+        return REGIONS.iter().find(|(name, _)| *name == form).map(|(_, what)| *what);
+    }
     let is = |(classes, name, _): &&(&[&str], &str, Construction)| {
         *name == form && classes.contains(&class)
     };
-    CONSTRUCTIONS.iter().find(is).map(|(_, _, what)| *what)
+    CONSTRUCTIONS.iter().find(is).map(|(_, _, what)| Making::Figure(*what))
 }
 
 /// Returns the entry of a table with this name.

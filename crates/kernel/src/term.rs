@@ -3,11 +3,11 @@
 //! A term is read in a class, for a thing of it: `Me` is that thing. `plan` lowers terms to
 //! equations over slots; `eval` computes their values. Neither sees text.
 
+use crate::builtin::Making;
 use crate::class::ClassId;
 use crate::path::{Path, Step};
 use base::Name;
 use expr::dimension::Dimension;
-use geometry::Construction;
 
 base::define_id!(OriginId, "o", "Where a member was written: `lang` keeps the table of places.");
 
@@ -52,10 +52,10 @@ pub enum Term {
     },
     /// A class, as the receiver of a message to the class itself: `Circle.tangent(a, b, radius: r)`.
     Class(ClassId),
-    /// A construction of oriented geometry: what a `static builtin` message answers.
+    /// A construction of oriented geometry, or of regions: what a `static builtin` message answers.
     Construct {
         /// Which one.
-        what: Construction,
+        what: Making,
         /// The class of what it makes.
         class: ClassId,
         /// What it is made of, in the order of the message's parameters.

@@ -148,7 +148,7 @@ impl Lowerer<'_> {
             (false, Some(answer)) => self.add_message(&inner, &[], &word, &answer, declared),
             (true, None) => {
                 let owner = self.document.classes[class].name.clone();
-                let known = builtin::construction(&owner, &name).zip(answers);
+                let known = builtin::making(&owner, &name).zip(answers);
                 let Some((what, answers)) = known else {
                     let message = format!("nothing by the name {owner}.{name} is built in");
                     let d = Diagnostic::error("unknown-builtin", place, message);

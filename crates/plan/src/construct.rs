@@ -7,8 +7,9 @@ use crate::fault::Trouble;
 use crate::meaning::Meaning;
 use base::Name;
 use expr::{Arena, Binary, ExprId, Unary};
-use geometry::{Algebra, Construction, Figure, Made, build};
+use geometry::{Algebra, Figure, Made, build};
 use kernel::ClassId;
+use kernel::builtin::Making;
 
 /// Closed forms over expressions.
 struct Symbolic<'x>(&'x mut Arena);
@@ -56,10 +57,12 @@ impl<'a> Opening<'a> {
     /// Makes a thing of a class by a construction from figures and numbers.
     pub(crate) fn construct(
         &mut self,
-        what: Construction,
+        what: Making,
         class: ClassId,
         of: &[Meaning<'a>],
     ) -> Answer<'a> {
+        // values decide how many edges a region has: what speaks of it is one way
+        let Making::Figure(what) = what else { return Ok(self.opaque(of)) };
         let (mut figures, mut numbers) = (Vec::new(), Vec::new());
         for operand in of {
             match operand {

@@ -164,7 +164,10 @@ fn constructor(document: &Document, id: ClassId, is_program: bool) -> Option<Too
 /// Returns the tool that a message is, if it makes a figure of what it is given.
 fn of_message(document: &Document, id: ClassId, message: &Message) -> Option<Tool> {
     let class = &document.classes[id];
-    document.figure(id)?;
+    let is_planar = document.lineage(id).iter().any(|&c| *document.classes[c].name == *"Planar");
+    if document.figure(id).is_none() && !is_planar {
+        return None;
+    }
     let word = message.word().to_string();
     let mut slots: Vec<Slot> = Vec::new();
     let call = match message.is_of_class() {
