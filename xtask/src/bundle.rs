@@ -55,9 +55,9 @@ pub(crate) fn module(
 ) -> Result<PathBuf, String> {
     say!("page: compiling {package} (minutes the first time)");
     let profile = effort.page_profile();
-    let made = target().join("wasm32-unknown-unknown").join(profile);
-    let made = made.join(package).with_extension("wasm");
-    run("the page did not compile", &mut compile_command(package, compiler, profile))?;
+    let made = target().join("wasm32-unknown-unknown").join(profile).join(package);
+    let made = made.with_extension("wasm");
+    run("the page did not compile", &mut compile_command(package, compiler, effort))?;
     let module = target().join("bindgen").join(profile).join(package);
     if is_older(&module.join(format!("{package}_bg.wasm")), &made) {
         say!("page: making its module");
@@ -97,14 +97,18 @@ fn target() -> PathBuf {
     top().join("target-web")
 }
 
-fn compile_command(package: &str, compiler: &WasmCompiler, profile: &str) -> Command {
+fn compile_command(package: &str, compiler: &WasmCompiler, effort: Effort) -> Command {
     let mut command = match compiler {
         WasmCompiler::Toolchain => tools::cargo(&["build"]),
         WasmCompiler::Debian { linker } => debian_cargo(linker),
     };
-    command.args(["--package", package, "--bin", package, "--profile", profile]);
+    command.args(["--package", package, "--bin", package, "--profile", effort.page_profile()]);
     command.args(["--target", "wasm32-unknown-unknown", "--target-dir"]).arg(target());
     quiet(&mut command);
+    if effort == Effort::Full {
+        // leptos gives each view a type of its own; erased, they share their code
+        command.env("RUSTFLAGS", "--cfg erase_components");
+    }
     command
 }
 
