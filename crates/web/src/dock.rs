@@ -1,6 +1,7 @@
-//! The bottom dock: text and table, shut at first; and what a narrow page pulls up instead.
+//! The bottom dock: text, table and plot, shut at first; and what a narrow page pulls up instead.
 
 use crate::lab::Lab;
+use crate::plot::PlotPane;
 use crate::splitter::{Splitter, Way};
 use crate::text::Text;
 use crate::values::Values;
@@ -16,6 +17,8 @@ pub enum Tab {
     Text,
     /// The table of its values.
     Table,
+    /// Values over others, and loci.
+    Plot,
 }
 
 impl Tab {
@@ -23,6 +26,7 @@ impl Tab {
         match self {
             Self::Text => words::TEXT,
             Self::Table => words::TABLE,
+            Self::Plot => words::PLOT,
         }
     }
 }
@@ -55,7 +59,7 @@ impl Sheet {
 /// What the dock showed in the last visit.
 pub fn kept() -> Option<Tab> {
     let kept = theme::keep(DOCK_KEY)?;
-    [Tab::Text, Tab::Table].into_iter().find(|tab| tab.label() == kept)
+    [Tab::Text, Tab::Table, Tab::Plot].into_iter().find(|tab| tab.label() == kept)
 }
 
 /// The dock below the picture.
@@ -81,11 +85,12 @@ pub fn Dock(
             <Splitter name="dock" way=Way::Up least=120.0 most=800.0 />
         </Show>
         <div class="dock" class:open=move || lab.dock.get().is_some()>
-            <div class="tabs" role="tablist" aria-label=words::DOCK>{tab(Tab::Text)}{tab(Tab::Table)}</div>
+            <div class="tabs" role="tablist" aria-label=words::DOCK>{tab(Tab::Text)}{tab(Tab::Table)}{tab(Tab::Plot)}</div>
             <div class="shelf" id="dock" role="tabpanel" aria-label=words::DOCK>
                 {move || match lab.dock.get() {
                     Some(Tab::Text) => view! { <Text lab=lab /> }.into_any(),
                     Some(Tab::Table) => view! { <Values lab=lab /> }.into_any(),
+                    Some(Tab::Plot) => view! { <PlotPane lab=lab /> }.into_any(),
                     None => ().into_any(),
                 }}
             </div>

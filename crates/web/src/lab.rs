@@ -11,6 +11,7 @@ use crate::files::{FileSet, Files};
 use crate::first;
 use crate::menu::{self, Menu};
 use crate::picture::covers;
+use crate::plot::Plotting;
 use crate::server::{Listed, Stored};
 use crate::sheet::View;
 use crate::theme;
@@ -145,6 +146,8 @@ pub struct Lab {
     pub carried: StoredValue<bool>,
     /// What the thing that is dragged would be joined with.
     pub dropping: RwSignal<Option<(Path, Caught)>>,
+    /// What is plotted.
+    pub plotting: Plotting,
     /// What of drafting there is.
     pub drafting: Drafting,
     /// What the left drawer shows.
@@ -271,6 +274,7 @@ impl Lab {
             cursor: RwSignal::new(None),
             carried: StoredValue::new(false),
             dropping: RwSignal::new(None),
+            plotting: Plotting::default(),
             drafting: Drafting::default(),
             drawer: RwSignal::new(Drawer::Structure),
             editing: RwSignal::new(None),

@@ -32,6 +32,7 @@ pub mod page;
 pub mod paint;
 pub mod palette;
 pub mod picture;
+pub mod plot;
 pub mod probe;
 pub mod rail;
 pub mod route;

@@ -207,6 +207,14 @@ pub fn ghosts(list: &mut DisplayList, drawn: &[Drawing]) {
     }
 }
 
+/// Adds where places went.
+pub fn loci(list: &mut DisplayList, drawn: &Drawing) {
+    for element in &drawn.elements {
+        begin(list, Hue::Accent as i32, -1, Line::Solid, 1.25, Space::Sheet);
+        shape(list, &element.shape);
+    }
+}
+
 /// Adds what a tool would make.
 pub fn preview(list: &mut DisplayList, drawn: &Drawing) {
     let accent = Hue::Accent as i32;

@@ -6,7 +6,9 @@
 use crate::field::Edit;
 use crate::js::{self, Painter};
 use crate::lab::{Lab, Marked, Zoom, first_path};
-use crate::paint::{DisplayList, Mark, Part, arrows, caught, display_list, ghosts, grid, preview};
+use crate::paint::{
+    DisplayList, Mark, Part, arrows, caught, display_list, ghosts, grid, loci, preview,
+};
 use crate::sheet::{View, fit};
 use crate::words;
 use drawing::{Point, Vertical};
@@ -151,6 +153,7 @@ fn lists(lab: Lab) -> Lists {
     let list = Memo::new(move |_| {
         lab.picture.with(|picture| {
             let mut list = lab.moved.with(|moved| listed(picture, Part::Moving(moved)));
+            lab.plotting.plot.with(|plot| loci(&mut list, &plot.drawn_loci()));
             lab.ghosts.with(|drawn| ghosts(&mut list, drawn));
             lab.motion.with(|motion| arrows(&mut list, picture, motion));
             lab.tool_view.with(|tool| {

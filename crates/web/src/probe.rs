@@ -92,7 +92,20 @@ fn state(lab: Lab) -> String {
         ("notice", text(&notice)),
         ("selected", lab.selected.get_untracked().into()),
         ("also", lab.also.get_untracked().into_iter().map(JsValue::from).collect::<Array>().into()),
+        ("plotted", plotted(lab)),
         ("dragging", lab.dragging.with_untracked(Option::is_some).into()),
     ]);
     JSON::stringify(&state).map(String::from).unwrap_or_default()
+}
+
+/// What the plot shows, and how many samples it has.
+fn plotted(lab: Lab) -> JsValue {
+    lab.plotting.plot.with_untracked(|plot| {
+        let curves = plot.curves.iter().map(|c| JsValue::from(&c.axis.label)).collect::<Array>();
+        let loci = plot.loci.iter().map(|l| JsValue::from(&l.label)).collect::<Array>();
+        let points =
+            plot.curves.iter().map(|c| &c.points).chain(plot.loci.iter().map(|l| &l.points));
+        let samples = points.map(Vec::len).max().unwrap_or(0) as u32;
+        object(&[("curves", curves.into()), ("loci", loci.into()), ("samples", samples.into())])
+    })
 }

@@ -293,7 +293,7 @@ pub fn Slider(
 }
 
 /// The ends of a slider: the old ones while the number lies between them, else around the number and zero.
-fn slider_range(number: f64, old: Option<&(f64, f64)>) -> (f64, f64) {
+pub(crate) fn slider_range(number: f64, old: Option<&(f64, f64)>) -> (f64, f64) {
     match old {
         Some(&(least, most)) if least <= number && number <= most => (least, most),
         _ if number == 0.0 => (-100.0, 100.0),

@@ -31,8 +31,26 @@ pub const NOTHING_GIVEN: &str =
 pub const IS_RULE: &str = "a constraint";
 pub const CONSTRAINTS: &str = "Constraints";
 pub const TABLE: &str = "Table";
+pub const PLOT: &str = "Plot";
+pub const PLOT_SHOW: &str = "Show";
+pub const PLOT_SHOWN: &str = "What is plotted";
+pub const PLOT_ANY: &str = "a path or an expression";
+pub const PLOT_SELECTION: &str = "Plot the selection";
+pub const PLOT_SWEEP: &str = "Sweep";
+pub const PLOT_THE_DRAG: &str = "nothing: follow drags";
+pub const PLOT_FROM: &str = "From";
+pub const PLOT_TO: &str = "To";
+pub const PLOT_OVER: &str = "Over";
+pub const PLOT_OVER_SWEPT: &str = "what is swept";
+pub const PLOT_OVER_EVENT: &str = "the course of the drag";
+pub const PLOT_NOTHING: &str = "Name what is to be plotted: a number makes a curve, a point its locus in the picture. Or select it, and press the button.";
+pub const PLOT_DRAG: &str =
+    "Drag something in the picture: every move is a point of the plot. Or name a value to sweep.";
+pub const NOTHING_PLOTTED: &str = "select a value or a point to plot";
+pub const CHART_HELP: &str =
+    "wheel: zoom; drag: shift; double click or F: all of it; arrow keys: read along the curve";
 pub const PARTS: &str = "Parts";
-pub const DOCK: &str = "Text and table";
+pub const DOCK: &str = "Text, table and plot";
 pub const SHEET: &str = "Panels";
 pub const EXPORT_SVG: &str = "Export the picture as SVG";
 pub const EXPORT_PNG: &str = "Export the picture as PNG";
@@ -178,6 +196,24 @@ pub const DONE: &str = "Done";
 pub const CANCEL: &str = "Cancel";
 
 /// What a change did besides what it was meant to do; nothing if that is all.
+/// Says what a chart shows, to those who do not see it.
+pub fn chart_of(plot: &session::plotting::Plot) -> String {
+    let curves = plot.curves.iter().map(|curve| curve.axis.in_words());
+    let loci = plot.loci.iter().map(|locus| format!("the locus of {}", locus.label));
+    let shown = curves.chain(loci).collect::<Vec<_>>().join(", ");
+    if plot.curves.is_empty() { shown } else { format!("{shown} over {}", plot.over.in_words()) }
+}
+pub fn plot_ends(notes: &str) -> String {
+    format!("The sweep ends early: {notes}.")
+}
+pub fn plot_without(path: &str) -> String {
+    format!("Plot without {path}")
+}
+/// A number as a person types it, with its unit where it has one.
+pub fn with_unit(number: &str, unit: &str) -> String {
+    if unit.is_empty() { String::from(number) } else { format!("{number} {unit}") }
+}
+
 pub fn done(change: &session::view::Change) -> Option<String> {
     const SHOWN: usize = 3;
     let listed = |items: &[String]| {

@@ -15,7 +15,7 @@ const APART: (f64, f64) = (84.0, 36.0);
 /// Free space beside the axes: left, top, right, bottom, in pixels.
 const SPACE: [f64; 4] = [64.0, 26.0, 18.0, 38.0];
 /// The colours of curves; beyond the first they come with lines of their own as well.
-const COLORS: [&str; 4] = ["", "#3b78c2", "#3d9247", "#9a5bb8"];
+const COLORS: [&str; 4] = ["", "#3d9247", "#9a5bb8", "#b8860b"];
 const LINES: [Line; 4] = [Line::Solid, Line::Dashed, Line::Chained, Line::Dotted];
 
 /// The part of the plane that a chart shows, and how large.
@@ -45,7 +45,11 @@ fn around(numbers: impl Iterator<Item = f64>) -> (f64, f64) {
     let wide = most - least;
     let size = least.abs().max(most.abs());
     // what is the same all along is drawn as such, whatever its last digit does
-    let more = if wide > 1e-9 * size { 0.04 * wide } else { (0.1 * size).max(1e-12) };
+    let more = match size {
+        0.0 => 1.0,
+        size if wide > 1e-9 * size => 0.04 * wide,
+        size => 0.1 * size,
+    };
     (least - more, most + more)
 }
 

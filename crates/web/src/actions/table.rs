@@ -459,6 +459,18 @@ pub const ACTIONS: &[Action] = &[
         run: Lab::export_csv,
     },
     Action {
+        id: "plot",
+        group: Group::View,
+        contexts: &[Context::Thing],
+        label: words::PLOT_SELECTION,
+        keys: &["Shift+P"],
+        enabled: |lab| {
+            document(lab)?;
+            if lab.selected.with(Option::is_some) { Ok(()) } else { Err(words::NOTHING_PLOTTED) }
+        },
+        run: Lab::plot_selection,
+    },
+    Action {
         id: "print",
         group: Group::File,
         contexts: &[],

@@ -106,6 +106,7 @@ impl Lab {
         self.hovered.set(None);
         self.motion.set(Vec::new());
         self.ghosts.set(Vec::new());
+        self.plotting.clear();
         self.notice.set(None);
         self.conflict.set(None);
         let draft = theme::keep(&draft_key(path)).filter(|draft| *draft != opened.saved);

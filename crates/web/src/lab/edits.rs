@@ -76,6 +76,7 @@ impl Lab {
     pub fn drag(self, to: (f64, f64)) {
         let state = self.tell(|session, id| session.drag(id, to));
         self.repaint();
+        self.follow_plot();
         if state != self.dragging.get_untracked() {
             self.dragging.set(state);
         }

@@ -1,0 +1,37 @@
+//! Views beside picture, structure and text: plots, lessons.
+
+use browser::Visit;
+use browser::hands::{drag, grip, show, state};
+
+/// Types into a field of the page and leaves it.
+async fn fill(visit: &Visit, selector: &str, text: &str) {
+    let script = format!(
+        "const field = document.querySelector('{selector}'); field.focus(); field.value = '{text}'; \
+         field.dispatchEvent(new Event('input', {{ bubbles: true }})); \
+         field.dispatchEvent(new Event('change', {{ bubbles: true }}));"
+    );
+    visit.script(&script).await;
+}
+
+#[tokio::test]
+async fn a_value_is_plotted_over_a_sweep_and_a_point_leaves_its_locus_while_it_is_dragged() {
+    let visit = Visit::open(None).await;
+    show(&visit, "voltage-divider.thing").await;
+    visit.script("document.getElementById('tab-plot').click()").await;
+    visit.until("document.querySelector('.plot-form')").await;
+    fill(&visit, ".plot-form .add", "voltmeter.voltage").await;
+    fill(&visit, ".plot-form .sweep", "r2.resistance").await;
+    visit.until("document.querySelector('.chart canvas')").await;
+    let named = "return document.querySelector('.chart canvas').getAttribute('aria-label')";
+    assert_eq!(visit.script(named).await, "voltmeter.voltage [V] over r2.resistance [ohm]");
+    fill(&visit, ".plot-form .add", "r9.voltage").await;
+    visit.until("document.querySelector('.plot p').textContent.includes('r9')").await;
+
+    let before = show(&visit, "four-bar.thing").await;
+    let from = grip(&before, "crank.p2");
+    fill(&visit, ".plot-form .add", "coupler.p2").await;
+    drag(&visit, from, (from.0 - 12.0, from.1 - 30.0)).await;
+    visit.until("window.__thinglab.state().plotted.samples > 2").await;
+    let plotted = &state(&visit).await["plotted"];
+    assert_eq!(plotted["loci"][0], "coupler.p2");
+}
