@@ -15,6 +15,8 @@ pub enum Answer<'a> {
     Number(f64, Dimension),
     /// A truth value.
     Bool(bool),
+    /// An option of a choice, by its place among them.
+    Option(ClassId, u32),
     /// A text or a colour.
     Text(Arc<str>),
     /// A thing of the document that is not primitive.
@@ -63,6 +65,7 @@ impl Answer<'_> {
             Self::Thing(thing) => Some(*thing),
             Self::Number(..)
             | Self::Bool(_)
+            | Self::Option(..)
             | Self::Text(_)
             | Self::Made(_)
             | Self::Context(_)
@@ -76,6 +79,7 @@ impl Answer<'_> {
         match self {
             Self::Number(..) => "a number",
             Self::Bool(_) => "a truth value",
+            Self::Option(..) => "an option of a choice",
             Self::Text(_) => "a text",
             Self::Thing(_) | Self::Made(_) | Self::Context(_) => "a thing",
             Self::List(_) => "a list",

@@ -134,7 +134,12 @@ impl<'a> Evaluator<'a> {
             Answer::Bool(b) if name == "text" && arguments.is_empty() => {
                 Ok(Answer::text(if *b { "true" } else { "false" }))
             }
-            Answer::Bool(_) | Answer::Function(_) => Err(self.unknown(to, name)),
+            Answer::Option(..) if name == "text" && arguments.is_empty() => {
+                Ok(Answer::text(&self.option_name(to)))
+            }
+            Answer::Bool(_) | Answer::Option(..) | Answer::Function(_) => {
+                Err(self.unknown(to, name))
+            }
         }
     }
 

@@ -92,7 +92,7 @@ fn check_values(
         }
         match slot.primitive {
             Primitive::Real(_) => {}
-            Primitive::Integer => {
+            Primitive::Integer | Primitive::Choice(_) => {
                 if x.fract() != 0.0 {
                     wrong.push(format!("{} is {}, no whole number", path(), shortest(x)));
                 }

@@ -28,8 +28,10 @@ impl<'a> Evaluator<'a> {
             | (_, Answer::Function(_) | Answer::Picture(_)) => {
                 Err(Fault::wrong(format!("{} is not compared", self.kind(a))))
             }
-            (Answer::Number(..) | Answer::Bool(_) | Answer::Text(_), _)
-            | (_, Answer::Number(..) | Answer::Bool(_) | Answer::Text(_)) => each(a, b),
+            (Answer::Number(..) | Answer::Bool(_) | Answer::Option(..) | Answer::Text(_), _)
+            | (_, Answer::Number(..) | Answer::Bool(_) | Answer::Option(..) | Answer::Text(_)) => {
+                each(a, b)
+            }
             (Answer::Thing(s), Answer::Thing(t))
                 if self.structure.merged[*s] == self.structure.merged[*t] =>
             {
@@ -77,6 +79,7 @@ impl<'a> Evaluator<'a> {
             Answer::Made(made) => Ok(made.fields.clone()),
             Answer::Number(..)
             | Answer::Bool(_)
+            | Answer::Option(..)
             | Answer::Text(_)
             | Answer::Context(_)
             | Answer::List(_)
@@ -112,6 +115,7 @@ impl<'a> Evaluator<'a> {
             Answer::Context(context) => Some(context.class),
             Answer::Number(..)
             | Answer::Bool(_)
+            | Answer::Option(..)
             | Answer::Text(_)
             | Answer::List(_)
             | Answer::Picture(_)

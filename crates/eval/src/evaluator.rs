@@ -195,6 +195,7 @@ impl<'a> Evaluator<'a> {
             Term::Number { value, dimension, .. } => Ok(Answer::Number(*value, *dimension)),
             Term::Text(text) => Ok(Answer::text(text)),
             Term::Bool(b) => Ok(Answer::Bool(*b)),
+            Term::Option(class, at) => Ok(Answer::Option(*class, *at)),
             Term::Me => Ok(frame.me.clone()),
             Term::Owner => self.owner(&frame.me),
             Term::Document => Ok(Answer::Thing(DOCUMENT)),
@@ -410,6 +411,7 @@ impl<'a> Evaluator<'a> {
             Primitive::Real(dimension) => Answer::Number(number, dimension),
             Primitive::Integer => Answer::plain(number),
             Primitive::Bool => Answer::Bool(number != 0.0),
+            Primitive::Choice(of) => Answer::Option(of, number as u32),
             Primitive::Text | Primitive::Color => match self.values.texts.get(&slot) {
                 Some(text) => Answer::Text(text.clone()),
                 None => Answer::text(""),
@@ -424,7 +426,9 @@ impl<'a> Evaluator<'a> {
             Answer::Made(made) => is(made.class),
             Answer::Context(context) => is(context.class),
             Answer::Number(..) => match self.document.classes[class].kind {
-                ClassKind::Primitive(p) => p.is_number() && p != Primitive::Bool,
+                ClassKind::Primitive(p) => {
+                    p.is_number() && !matches!(p, Primitive::Bool | Primitive::Choice(_))
+                }
                 ClassKind::Composite
                 | ClassKind::List(_)
                 | ClassKind::Set(_)
@@ -433,6 +437,7 @@ impl<'a> Evaluator<'a> {
             Answer::Bool(_) => {
                 self.document.classes[class].kind == ClassKind::Primitive(Primitive::Bool)
             }
+            Answer::Option(of, _) => *of == class,
             Answer::Text(_) => {
                 self.document.classes[class].kind == ClassKind::Primitive(Primitive::Text)
             }
@@ -450,6 +455,7 @@ impl<'a> Evaluator<'a> {
             Answer::Thing(t) => class(self.structure.things[*t].class),
             Answer::Made(made) => class(made.class),
             Answer::Context(context) => class(context.class),
+            Answer::Option(of, _) => class(*of),
             other => other.kind().to_string(),
         }
     }

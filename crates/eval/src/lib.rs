@@ -32,6 +32,7 @@ mod compare;
 mod construct;
 mod evaluator;
 mod fault;
+mod fixed;
 mod given;
 mod lookup;
 mod make;

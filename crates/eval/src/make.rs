@@ -181,6 +181,7 @@ impl<'a> Evaluator<'a> {
             ClassKind::Primitive(Primitive::Real(dimension)) => Ok(Answer::Number(0.0, dimension)),
             ClassKind::Primitive(Primitive::Integer) => Ok(Answer::Number(0.0, Dimension::NONE)),
             ClassKind::Primitive(Primitive::Bool) => Ok(Answer::Bool(false)),
+            ClassKind::Primitive(Primitive::Choice(of)) => Ok(Answer::Option(of, 0)),
             ClassKind::Primitive(Primitive::Text | Primitive::Color) => Ok(Answer::text("")),
             ClassKind::Composite => self.deeper(|| self.make(class, &[], nearest)),
             ClassKind::List(element) => {

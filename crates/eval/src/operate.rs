@@ -128,6 +128,7 @@ impl<'a> Evaluator<'a> {
                 Ok(close(*x, *y))
             }
             (Answer::Bool(x), Answer::Bool(y)) => Ok(x == y),
+            (Answer::Option(of, x), Answer::Option(other, y)) if of == other => Ok(x == y),
             (Answer::Text(x), Answer::Text(y)) => Ok(x == y),
             _ => {
                 let message = format!("{} and {} are never equal", self.kind(a), self.kind(b));

@@ -288,6 +288,7 @@ impl<'a> Evaluator<'a> {
             },
             Answer::Number(..)
             | Answer::Bool(_)
+            | Answer::Option(..)
             | Answer::Text(_)
             | Answer::List(_)
             | Answer::Picture(_)
@@ -325,6 +326,7 @@ impl<'a> Evaluator<'a> {
             }
             Answer::Number(..)
             | Answer::Bool(_)
+            | Answer::Option(..)
             | Answer::Text(_)
             | Answer::Picture(_)
             | Answer::Function(_) => Ok(set.clone()),

@@ -76,6 +76,7 @@ impl<'a> Evaluator<'a> {
             },
             Answer::Number(..)
             | Answer::Bool(_)
+            | Answer::Option(..)
             | Answer::Text(_)
             | Answer::List(_)
             | Answer::Picture(_)
@@ -104,6 +105,7 @@ impl<'a> Evaluator<'a> {
             Answer::Context(context) => find(context.class),
             Answer::Number(..)
             | Answer::Bool(_)
+            | Answer::Option(..)
             | Answer::Text(_)
             | Answer::List(_)
             | Answer::Picture(_)

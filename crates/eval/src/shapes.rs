@@ -166,6 +166,7 @@ impl<'a> Evaluator<'a> {
             }
             Answer::Number(..)
             | Answer::Bool(_)
+            | Answer::Option(..)
             | Answer::Text(_)
             | Answer::Context(_)
             | Answer::List(_)
@@ -233,7 +234,11 @@ impl<'a> Evaluator<'a> {
         match answer {
             Answer::Picture(_) | Answer::List(_) | Answer::Made(_) | Answer::Context(_) => true,
             Answer::Thing(t) => !matches!(self.class_kind(*t), ClassKind::Set(_)),
-            Answer::Number(..) | Answer::Bool(_) | Answer::Text(_) | Answer::Function(_) => false,
+            Answer::Number(..)
+            | Answer::Bool(_)
+            | Answer::Option(..)
+            | Answer::Text(_)
+            | Answer::Function(_) => false,
         }
     }
 

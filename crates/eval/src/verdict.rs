@@ -222,6 +222,7 @@ impl<'a> Evaluator<'a> {
             | Term::Number { .. }
             | Term::Text(_)
             | Term::Bool(_)
+            | Term::Option(..)
             | Term::Me
             | Term::Owner
             | Term::Document
@@ -366,6 +367,7 @@ impl<'a> Evaluator<'a> {
         match answer {
             Answer::Number(x, dimension) => self.number_text_of(*x, *dimension),
             Answer::Bool(b) => b.to_string(),
+            Answer::Option(..) => self.option_name(answer),
             Answer::Text(text) => format!("\"{text}\""),
             Answer::Thing(thing) => match self.by_position(answer) {
                 Ok(parts) if self.is_flat(&parts) => self.listed(&parts, '(', ')'),

@@ -107,6 +107,7 @@ impl<'a> Evaluator<'a> {
             };
             number = match self.term(term, frame)? {
                 Answer::Bool(truth) => f64::from(truth),
+                Answer::Option(_, at) => f64::from(at),
                 other => self.number(&other)?.0,
             };
             Ok(())
@@ -241,11 +242,17 @@ impl<'a> Evaluator<'a> {
                 Err(Fault::wrong(format!("{x} where a whole number is wanted")))
             }
             (Primitive::Bool, Answer::Bool(b)) => Ok(Value::Number(f64::from(u8::from(*b)))),
+            (Primitive::Choice(wanted), Answer::Option(of, at)) if wanted == *of => {
+                Ok(Value::Number(f64::from(*at)))
+            }
             (Primitive::Text | Primitive::Color, Answer::Text(text)) => {
                 Ok(Value::Text(text.clone()))
             }
             (Primitive::Real(_) | Primitive::Integer, _) => wrong("a number"),
             (Primitive::Bool, _) => wrong("a truth value"),
+            (Primitive::Choice(of), _) => {
+                wrong(&format!("an option of {}", self.document.classes[of].name))
+            }
             (Primitive::Text, _) => wrong("a text"),
             (Primitive::Color, _) => wrong("a colour"),
         }

@@ -19,6 +19,8 @@ pub enum Primitive {
     Integer,
     /// A truth value, stored as 0 or 1.
     Bool,
+    /// One of the options of a class, stored as its place among them, from 0.
+    Choice(ClassId),
     /// A text.
     Text,
     /// A colour, stored as its text: a name or `#rrggbb`.
@@ -26,17 +28,17 @@ pub enum Primitive {
 }
 
 impl Primitive {
-    /// Returns true if the slot holds a number (truth values included).
+    /// Returns true if the slot holds a number (truth values and choices included).
     pub fn is_number(self) -> bool {
         match self {
-            Self::Real(_) | Self::Integer | Self::Bool => true,
+            Self::Real(_) | Self::Integer | Self::Bool | Self::Choice(_) => true,
             Self::Text | Self::Color => false,
         }
     }
-    /// Returns true if the slot holds whole numbers alone (truth values included).
+    /// Returns true if the slot holds whole numbers alone (truth values and choices included).
     pub fn is_whole(self) -> bool {
         match self {
-            Self::Integer | Self::Bool => true,
+            Self::Integer | Self::Bool | Self::Choice(_) => true,
             Self::Real(_) | Self::Text | Self::Color => false,
         }
     }
@@ -44,7 +46,9 @@ impl Primitive {
     pub fn dimension(self) -> Dimension {
         match self {
             Self::Real(dimension) => dimension,
-            Self::Integer | Self::Bool | Self::Text | Self::Color => Dimension::default(),
+            Self::Integer | Self::Bool | Self::Choice(_) | Self::Text | Self::Color => {
+                Dimension::default()
+            }
         }
     }
 }
@@ -103,6 +107,8 @@ pub struct Class {
     /// How many elements every list of the class has, where the class itself says so: one that is an
     /// element of another list.
     pub count: Option<u32>,
+    /// What there is to choose, in order: `choice Fit { loose, normal, close }`. Empty for any other class.
+    pub options: Vec<Name>,
     /// For lists whose elements are of different classes, the class of each.
     pub elements: Vec<ClassId>,
     /// The superclasses, the primary one first. Empty only for `Object`.
@@ -159,6 +165,7 @@ impl Class {
             doc: String::new(),
             kind,
             count: None,
+            options: Vec::new(),
             elements: Vec::new(),
             supers,
             is_of_one: false,

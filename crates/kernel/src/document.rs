@@ -225,6 +225,16 @@ impl Document {
         let named = |(_, c): &(ClassId, &Class)| c.name == name && !c.is_of_one;
         self.classes.iter().rev().find(named).map(|(id, _)| id)
     }
+    /// Returns the place of an option of this name among those of a choice.
+    pub fn option_named(&self, choice: ClassId, name: &str) -> Option<u32> {
+        let at = self.classes[choice].options.iter().position(|option| *option == *name)?;
+        u32::try_from(at).ok()
+    }
+    /// Returns the name of the option of a choice that stands in this place; nothing where there is none.
+    pub fn option_at(&self, choice: ClassId, at: f64) -> Option<&Name> {
+        let is_place = at.fract() == 0.0 && at >= 0.0;
+        is_place.then(|| self.classes[choice].options.get(at as usize)).flatten()
+    }
     /// Returns the class that is named in the text: of a class of one, the one that it comes from.
     pub fn named_class(&self, class: ClassId) -> ClassId {
         let line = self.primary_line(class);

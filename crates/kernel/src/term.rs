@@ -29,6 +29,8 @@ pub enum Term {
     Text(String),
     /// A truth value.
     Bool(bool),
+    /// An option of a choice, by its place among them.
+    Option(ClassId, u32),
     /// The thing that the expression belongs to.
     Me,
     /// The thing that `Me` is a part of.
@@ -178,6 +180,7 @@ impl Term {
             Self::Number { .. }
             | Self::Text(_)
             | Self::Bool(_)
+            | Self::Option(..)
             | Self::Me
             | Self::Owner
             | Self::Document
@@ -279,6 +282,7 @@ impl Term {
             Self::Number { .. }
             | Self::Text(_)
             | Self::Bool(_)
+            | Self::Option(..)
             | Self::Me
             | Self::Owner
             | Self::Document

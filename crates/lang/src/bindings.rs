@@ -92,7 +92,9 @@ fn can_be_bound(document: &Document, class: ClassId) -> bool {
 /// Returns true for the classes of real and whole numbers, and of things that are made of such alone.
 fn is_of_numbers(document: &Document, class: ClassId) -> bool {
     match document.classes[class].kind {
-        ClassKind::Primitive(p) => p.is_number() && p != kernel::Primitive::Bool,
+        ClassKind::Primitive(p) => {
+            p.is_number() && !matches!(p, kernel::Primitive::Bool | kernel::Primitive::Choice(_))
+        }
         ClassKind::Composite => {
             let mut fields = document.layout(class).into_iter();
             fields.all(|field| is_of_numbers(document, document.field_class(field)))

@@ -9,7 +9,7 @@ use base::diagnostic::nearest;
 use base::{Diagnostic, Name, Place, Span};
 use expr::dimension::Dimension;
 use kernel::builtin::{self, Kind as Builtin};
-use kernel::{Argument, ClassId, Search, Term};
+use kernel::{Argument, ClassId, ClassKind, Primitive, Search, Term};
 use syntax::ast::{self, AstNode, Expr};
 
 /// An argument, lowered, before it is known what is wanted of it.
@@ -45,6 +45,9 @@ impl Lowerer<'_> {
             }
         }
         if let Some(class) = self.class_as_receiver(scope, &receiver) {
+            if let ClassKind::Primitive(Primitive::Choice(of)) = self.document.classes[class].kind {
+                return self.option_of(scope, of, &word);
+            }
             let args = self.arguments(scope, field.args(), &Kind::Unknown)?;
             return self.message_to_class(scope, class, &word, args);
         }
@@ -166,7 +169,10 @@ impl Lowerer<'_> {
                     None => self.own_message(scope, builtin::THING_MESSAGES, receiver, word, args),
                 }
             }
-            Kind::Bool | Kind::Function => {
+            Kind::Bool | Kind::Option(_) if name == "text" && args.is_empty() => {
+                Some((Vec::new(), Kind::Text))
+            }
+            Kind::Bool | Kind::Option(_) | Kind::Function => {
                 self.unknown_part(scope, receiver, word);
                 None
             }
@@ -544,7 +550,9 @@ fn asked_of_first(lowerer: &Lowerer<'_>, word: &ast::Word, args: &[Arg]) -> Opti
         Kind::Text => labels_of(builtin::TEXT_MESSAGES, word)?,
         Kind::Number(_) => labels_of(builtin::NUMBER_MESSAGES, word)?,
         Kind::Picture => labels_of(builtin::PICTURE_MESSAGES, word)?,
-        Kind::Bool | Kind::Function | Kind::Tuple(_) | Kind::Unknown => return None,
+        Kind::Bool | Kind::Option(_) | Kind::Function | Kind::Tuple(_) | Kind::Unknown => {
+            return None;
+        }
     };
     let text = |arg: &Arg| arg.expr.syntax().to_string().trim().to_string();
     let stands_alone = matches!(

@@ -3,6 +3,7 @@
 //! A check's own members are kept as text: whoever runs the check adds them to a copy of the
 //! document. Its statements are lowered as if they stood at the end of that copy.
 
+use crate::kinds::Kind;
 use crate::loops::{members_of, turn_of};
 use crate::lower::{Lowerer, OWN};
 use crate::paths::loose_path;
@@ -33,6 +34,8 @@ pub struct Statement {
     pub kind: StatementKind,
     /// Where it stands.
     pub span: Span,
+    /// Whether it gives a value a name.
+    pub is_note: bool,
     /// Where the loop or condition stands that it is part of, the outermost; else where it stands.
     pub whole: Span,
 }
@@ -44,6 +47,8 @@ pub enum StatementKind {
     Set(Vec<(Path, Term)>),
     /// `move path to value, …`
     Move(Vec<(Path, Term)>),
+    /// `let name = e`: the value that an expression has now.
+    Note(Name, Term),
     /// Any other edit.
     Command(Command),
     /// `try …`
@@ -114,14 +119,14 @@ fn lower_check(l: &mut Lowerer<'_>, check: &ast::Check) -> Check {
     let (own, statements): (Vec<Member>, Vec<Member>) =
         members.into_iter().partition(|m| !is_statement(m));
     let class = class_of_check(l, &own);
-    let scope = Scope::of(OWN, class);
+    let mut scope = Scope::of(OWN, class);
     let mut lowered = Vec::new();
     let mut restructured = false;
     for member in &statements {
         let whole = ast::span_without_doc(member.syntax());
         let before = lowered.len();
         let one = std::slice::from_ref(member);
-        lower_statements(l, &scope, one, (&mut lowered, &mut restructured));
+        lower_statements(l, &mut scope, one, (&mut lowered, &mut restructured));
         lowered.iter_mut().skip(before).for_each(|s: &mut Statement| s.whole = whole);
     }
     Check {
@@ -136,7 +141,7 @@ fn lower_check(l: &mut Lowerer<'_>, check: &ast::Check) -> Check {
 /// holds.
 fn lower_statements(
     l: &mut Lowerer<'_>,
-    scope: &Scope,
+    scope: &mut Scope,
     statements: &[Member],
     (lowered, restructured): (&mut Vec<Statement>, &mut bool),
 ) {
@@ -152,26 +157,45 @@ fn lower_statements(
                     return;
                 }
                 for turn in 0..turns.count {
-                    let inner = turn_of(scope, &turns, turn);
-                    lower_statements(l, &inner, &members, (&mut *lowered, &mut *restructured));
+                    let mut inner = turn_of(scope, &turns, turn);
+                    lower_statements(l, &mut inner, &members, (&mut *lowered, &mut *restructured));
                 }
             }
             Member::If(choice) => {
                 let chosen = l.chosen(scope, choice).unwrap_or_default();
-                lower_statements(l, scope, &chosen, (&mut *lowered, &mut *restructured));
+                lower_statements(
+                    l,
+                    &mut scope.clone(),
+                    &chosen,
+                    (&mut *lowered, &mut *restructured),
+                );
             }
             _ => {
                 let span = ast::span_without_doc(member.syntax());
                 // what stands after an edit of the structure can be told only once that edit is made
                 let silent = u32::from(*restructured);
                 l.silent += silent;
-                let kind = statement(l, scope, member).unwrap_or(StatementKind::Unclear);
+                let kind = match member {
+                    Member::Note(note) => noted(l, scope, note),
+                    member => statement(l, scope, member),
+                };
+                let kind = kind.unwrap_or(StatementKind::Unclear);
                 l.silent -= silent;
                 *restructured |= restructures(l, scope.class(), &kind);
-                lowered.push(Statement { kind, span, whole: span });
+                let is_note = matches!(member, Member::Note(_));
+                lowered.push(Statement { kind, span, is_note, whole: span });
             }
         }
     }
+}
+
+/// Lowers a value that is given a name, which the statements behind it know.
+fn noted(l: &mut Lowerer<'_>, scope: &mut Scope, note: &ast::Note) -> Option<StatementKind> {
+    let name = note.name()?.name();
+    let found = l.expr(scope, &note.value()?);
+    let kind = found.as_ref().map_or(Kind::Unknown, |(_, kind)| kind.clone());
+    *scope = scope.with_local(name.clone(), kind);
+    Some(StatementKind::Note(name, found?.0))
 }
 
 /// Makes a class for the names that the check's statements see: the document's and its own.
@@ -198,7 +222,10 @@ fn restructures(l: &Lowerer<'_>, class: ClassId, statement: &StatementKind) -> b
         StatementKind::Command(_) => true,
         StatementKind::Try(inner) => restructures(l, class, inner),
         StatementKind::Set(targets) => targets.iter().any(|(path, _)| is_count(path)),
-        StatementKind::Move(_) | StatementKind::Expect(_) | StatementKind::Unclear => false,
+        StatementKind::Move(_)
+        | StatementKind::Note(..)
+        | StatementKind::Expect(_)
+        | StatementKind::Unclear => false,
     }
 }
 
@@ -224,6 +251,7 @@ fn is_statement(member: &Member) -> bool {
             | Member::Simulate(_)
             | Member::Try(_)
             | Member::Expect(_)
+            | Member::Note(_)
             | Member::Say(_)
             | Member::Task(_)
             | Member::Hint(_)
@@ -394,7 +422,7 @@ fn expectation(l: &mut Lowerer<'_>, scope: &Scope, e: &ast::Expect) -> Option<Ex
             if l.splits_its_rule(scope, &condition, tolerance.as_ref()) {
                 return None;
             }
-            let rule = l.expr_of(scope, &condition, &crate::kinds::Kind::Bool)?;
+            let rule = l.expr_of(scope, &condition, &Kind::Bool)?;
             let within = match tolerance {
                 Some(t) => Some(l.tolerance(scope, &condition, &t)?),
                 None => None,

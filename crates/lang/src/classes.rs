@@ -60,8 +60,13 @@ impl Lowerer<'_> {
     /// Names every class of every file, then finds superclasses.
     pub(crate) fn declare_classes(&mut self) {
         for file in self.order.clone() {
-            for member in self.files[file].members_of(&[SyntaxKind::Class, SyntaxKind::Program]) {
+            let kinds = [SyntaxKind::Class, SyntaxKind::Program, SyntaxKind::Choice];
+            for member in self.files[file].members_of(&kinds) {
                 let (name, doc) = match &member {
+                    Member::Choice(choice) => {
+                        self.declare_choice_class(file, choice);
+                        continue;
+                    }
                     Member::Class(class) => (class.name(), class.doc()),
                     Member::Program(program) => (program.name(), program.doc()),
                     _ => continue,

@@ -117,6 +117,7 @@ impl Lowerer<'_> {
             }
             Kind::Number(_) => Some(Shape::Number(kind.clone())),
             Kind::Bool
+            | Kind::Option(_)
             | Kind::Text
             | Kind::List(_)
             | Kind::Picture

@@ -6,11 +6,13 @@
 //! numbers its text is read again, as a class of one that is *general*ly that class. A count is held:
 //! only a new number in the text, or a `set` of it, changes it, and the things with it.
 
+mod deciding;
 mod outside;
 
 use crate::lower::{Lowerer, OWN};
 use crate::scope::Scope;
 use base::{Diagnostic, FileId, Name, Place, Span};
+use deciding::{Deciding, Known, deciding};
 use kernel::{ClassId, ClassKind, OriginId, Path, Stay, Step, Superclass, Term};
 use std::collections::{BTreeMap, BTreeSet};
 use syntax::ast::{self, AstNode, Expr, Member, TypeShape};
@@ -32,6 +34,8 @@ pub(crate) struct Counts {
     given: BTreeMap<ClassId, Numbers>,
     /// The names that the lists and loops of a class itself speak of.
     spoken: BTreeMap<ClassId, BTreeSet<Name>>,
+    /// What parts that a class declares may be, where they are no numbers.
+    kinds: BTreeMap<(ClassId, Name), Deciding>,
     /// The superclasses as they are written.
     supers: BTreeMap<ClassId, Vec<Superclass>>,
     /// The classes made for other numbers.
@@ -82,21 +86,34 @@ impl Lowerer<'_> {
         let mut given = Numbers::new();
         for member in members {
             let (names, value) = match member {
-                Member::Part(part) if is_whole(part) => {
-                    (part.names().map(|w| w.name()).collect(), part.value())
+                Member::Part(part) => {
+                    let Some(kind) = deciding(&self.document, &self.choices, part) else {
+                        continue;
+                    };
+                    let names: Vec<Name> = part.names().map(|w| w.name()).collect();
+                    if kind != Deciding::Whole {
+                        let each = names.iter().map(|name| ((class, name.clone()), kind));
+                        self.counts.kinds.extend(each);
+                    }
+                    (names, part.value())
                 }
                 Member::Assign(assign) => (own_name(assign).into_iter().collect(), assign.value()),
                 _ => (Vec::new(), None),
             };
-            let value = value.and_then(ast::Value::expr).and_then(|e| {
-                let known = |e: &Expr| match e {
-                    Expr::Name(name) => given.get(&name.name()?.name()).map(|&n| n as f64),
-                    _ => None,
-                };
-                whole(crate::numbers::constant(&known, &e)?)
-            });
+            let value = value.and_then(ast::Value::expr);
             for name in names {
-                let value = others.get(&name).copied().or(value);
+                let value = || {
+                    let known = Known {
+                        document: &self.document,
+                        number: &|e: &Expr| match e {
+                            Expr::Name(name) => given.get(&name.name()?.name()).map(|&n| n as f64),
+                            _ => None,
+                        },
+                        kind: &|name| self.deciding_of(class, name),
+                    };
+                    whole(known.value(value.as_ref()?, self.deciding_of(class, &name))?)
+                };
+                let value = others.get(&name).copied().or_else(value);
                 given.extend(value.map(|v| (name, v)));
             }
         }
@@ -107,7 +124,8 @@ impl Lowerer<'_> {
         for member in members.iter().rev() {
             let Member::Part(part) = member else { continue };
             let value = part.value().and_then(ast::Value::expr);
-            if is_whole(part) && part.names().any(|w| spoken.contains(&w.name())) {
+            let is_deciding = deciding(&self.document, &self.choices, part).is_some();
+            if is_deciding && part.names().any(|w| spoken.contains(&w.name())) {
                 spoken.extend(value.iter().flat_map(names_in));
             }
         }
@@ -295,16 +313,13 @@ impl Lowerer<'_> {
                 continue;
             };
             let Some(value) = assign.value().and_then(ast::Value::expr) else { continue };
-            match self.constant_in_body(scope, class, &value) {
+            match self.constant_in_body(scope, (class, &name), &value) {
                 Some(n) => {
                     numbers.extend([(name, n)]);
                     asked = asked.or(Some(Place { file: scope.file, span: assign.span() }));
                 }
                 None => {
-                    let message = format!(
-                        "{name} says how many parts there are: a whole number, known as the text stands"
-                    );
-                    self.error("not-a-count", scope.file, value.span(), message);
+                    self.not_a_count(scope, (class, &name), &value);
                 }
             }
         }
@@ -358,7 +373,8 @@ impl Lowerer<'_> {
                     }
                 }
                 _ if usual.contains_key(&label) => {
-                    numbers.extend(self.constant(scope, &value).map(|n| (label, n)));
+                    let n = self.constant_in_body(scope, (class, &label), &value);
+                    numbers.extend(n.map(|n| (label, n)));
                 }
                 _ => {}
             }
@@ -405,11 +421,8 @@ impl Lowerer<'_> {
             if !is_count(self, name) {
                 continue;
             }
-            let Some(n) = self.constant(scope, value) else {
-                let message = format!(
-                    "{name} says how many parts there are: a whole number, known as the text stands"
-                );
-                self.error("not-a-count", scope.file, value.span(), message);
+            let Some(n) = self.constant_in_body(scope, (class, name), value) else {
+                self.not_a_count(scope, (class, name), value);
                 return None;
             };
             numbers.extend([(name.clone(), n)]);
@@ -439,17 +452,48 @@ impl Lowerer<'_> {
 
     /// Returns the whole number that a value in the body of a part is, known as the text stands: it may speak
     /// of counts of what the part stands in, as `owner.n` or by a name that the part itself does not have.
-    fn constant_in_body(&mut self, scope: &Scope, class: ClassId, value: &Expr) -> Option<i64> {
-        let mut known: BTreeMap<Span, f64> = BTreeMap::new();
+    fn constant_in_body(
+        &mut self,
+        scope: &Scope,
+        (class, name): (ClassId, &Name),
+        value: &Expr,
+    ) -> Option<i64> {
+        let mut numbers: BTreeMap<Span, f64> = BTreeMap::new();
         for e in value.syntax().descendants().filter_map(Expr::cast) {
             let number = match named(&e) {
                 Some((Of::Any, name)) if self.count_of_class(class, &name).is_some() => None,
                 Some((_, name)) => self.constant_named(scope, &name),
                 None => self.constant_count(scope, &e),
             };
-            known.extend(number.map(|n| (e.span(), n as f64)));
+            numbers.extend(number.map(|n| (e.span(), n as f64)));
         }
-        whole(crate::numbers::constant(&|e| known.get(&e.span()).copied(), value)?)
+        let known = Known {
+            document: &self.document,
+            number: &|e| numbers.get(&e.span()).copied(),
+            kind: &|name| self.deciding_in(scope, name),
+        };
+        whole(known.value(value, self.deciding_of(class, name))?)
+    }
+
+    /// Reports a value of a count that is not known as the text stands.
+    fn not_a_count(&mut self, scope: &Scope, (class, name): (ClassId, &Name), value: &Expr) {
+        let message = match self.deciding_of(class, name) {
+            Deciding::Whole => format!(
+                "{name} says how many parts there are: a whole number, known as the text stands"
+            ),
+            Deciding::Truth => format!(
+                "{name} says which parts there are: true or false, known as the text stands"
+            ),
+            Deciding::Choice(choice) => {
+                let options = &self.document.classes[choice].options;
+                let options: Vec<&str> = options.iter().map(Name::as_str).collect();
+                let options = options.join(", ");
+                format!(
+                    "{name} says which parts there are: one of {options}, known as the text stands"
+                )
+            }
+        };
+        self.error("not-a-count", scope.file, value.span(), message);
     }
 
     /// Returns a count that things of two classes have different numbers for, if there is one.
@@ -496,6 +540,8 @@ impl Lowerer<'_> {
         let Some(is) = self.document.count(class, name) else { return false };
         let given = match term {
             Term::Number { value, .. } => whole(*value),
+            Term::Bool(b) => Some(i64::from(*b)),
+            Term::Option(_, at) => Some(i64::from(*at)),
             _ => self.constant(scope, value),
         };
         if Some(is) == given {
@@ -542,12 +588,6 @@ pub(crate) fn has_named_count(part: &ast::Part) -> bool {
 /// Returns a whole number that is no larger than can be told apart from its neighbours.
 pub(crate) fn whole(x: f64) -> Option<i64> {
     (x.fract() == 0.0 && x.abs() < 9e15).then_some(x as i64)
-}
-
-fn is_whole(part: &ast::Part) -> bool {
-    let named = part.class().map(|ty| ty.shape());
-    let Some(TypeShape::Named(words)) = named else { return false };
-    part.definition().is_none() && words.last().is_some_and(|w| w.text() == "Integer")
 }
 
 /// Returns the name of a part that an assignment speaks of, where it speaks of one of the thing itself.

@@ -87,6 +87,12 @@ impl Lowerer<'_> {
                 }
                 _ => d,
             },
+            (Kind::Text, Kind::Option(choice), Expr::Text(text)) => match text.plain() {
+                Some(plain) if self.document.option_named(*choice, &plain).is_some() => d
+                    .hint(format!("an option has no quotes: `{plain}`"))
+                    .fix(format!("write {plain}"), [(place, plain)]),
+                _ => d,
+            },
             (Kind::List(_), Kind::Thing(_), Expr::List(list)) => {
                 let items: Vec<String> =
                     list.elements().map(|e| e.syntax().text().to_string()).collect();

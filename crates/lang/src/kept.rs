@@ -64,6 +64,7 @@ impl<'l> Lowerer<'l> {
         }
         let kinds = [
             SyntaxKind::Class,
+            SyntaxKind::Choice,
             SyntaxKind::Program,
             SyntaxKind::Use,
             SyntaxKind::UnitLine,

@@ -13,6 +13,8 @@ pub(crate) enum Kind {
     Number(Option<Dimension>),
     /// A truth value.
     Bool,
+    /// An option of a choice.
+    Option(ClassId),
     /// A text or a colour.
     Text,
     /// A thing of a class with parts.
@@ -39,6 +41,7 @@ impl Kind {
             ClassKind::Primitive(Primitive::Real(d)) => Self::Number(Some(d)),
             ClassKind::Primitive(Primitive::Integer) => Self::PLAIN,
             ClassKind::Primitive(Primitive::Bool) => Self::Bool,
+            ClassKind::Primitive(Primitive::Choice(of)) => Self::Option(of),
             ClassKind::Primitive(Primitive::Text | Primitive::Color) => Self::Text,
             ClassKind::Composite => Self::Thing(class),
             ClassKind::List(element) | ClassKind::Set(element) => {
@@ -61,7 +64,9 @@ impl Kind {
             Self::Number(Some(d)) => dimension_in_words(*d),
             Self::Bool => "a truth value".into(),
             Self::Text => "a text".into(),
-            Self::Thing(class) => with_article(&document.classes[*class].name),
+            Self::Thing(class) | Self::Option(class) => {
+                with_article(&document.classes[*class].name)
+            }
             Self::List(element) if **element == Self::Unknown => "a list".into(),
             Self::List(element) => format!("a list, each element {}", element.words(document)),
             Self::Tuple(items) => {

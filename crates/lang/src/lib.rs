@@ -26,6 +26,7 @@
 mod bindings;
 mod calls;
 mod checks;
+mod choices;
 mod classes;
 mod components;
 mod connections;

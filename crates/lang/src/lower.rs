@@ -241,6 +241,8 @@ pub(crate) struct Lowerer<'l> {
     /// While positive, nothing is reported.
     pub(crate) silent: u32,
     pub(crate) declared: Vec<(ClassId, FileId, ast::Class)>,
+    /// The choices of all files, in order of declaration.
+    pub(crate) choices: Vec<ClassId>,
     pub(crate) programs: Programs,
     pub(crate) counts: Counts,
     /// Classes made for other counts, whose members are still to be declared.
@@ -305,6 +307,7 @@ impl<'l> Lowerer<'l> {
             unrolled: 0,
             silent: 0,
             declared: Vec::new(),
+            choices: Vec::new(),
             programs: Programs::default(),
             counts: Counts::default(),
             declared_for_counts: Vec::new(),

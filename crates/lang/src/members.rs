@@ -10,8 +10,7 @@ use kernel::{
     ClassId, ClassKind, Count, Message, OriginId, Parameter, Part, Path, Primitive, Stay, Step,
     Term,
 };
-use std::collections::BTreeMap;
-use syntax::ast::{self, AstNode, BinaryOp, Expr, Member, TypeShape, span_without_doc};
+use syntax::ast::{self, AstNode, Expr, Member, TypeShape, span_without_doc};
 
 /// A member whose expressions are still to be lowered.
 #[derive(Clone, Debug)]
@@ -106,9 +105,14 @@ impl Lowerer<'_> {
                     self.pending.push(Pending::Member(scope.clone(), member.clone()));
                 }
                 Member::Unit(_) | Member::Y(_) | Member::Use(_) | Member::Error(_) => {}
-                Member::Class(_) | Member::Program(_) | Member::Family(_) | Member::Check(_)
+                Member::Class(_)
+                | Member::Choice(_)
+                | Member::Program(_)
+                | Member::Family(_)
+                | Member::Check(_)
                     if self.is_top_level(scope) => {}
-                Member::Class(_) | Member::Program(_) | Member::Family(_) if scope.file != OWN => {}
+                Member::Class(_) | Member::Choice(_) | Member::Program(_) | Member::Family(_)
+                    if scope.file != OWN => {}
                 Member::Check(_) if scope.file != OWN => {}
                 other => self.refuse(scope.file, other, span),
             }
@@ -143,6 +147,7 @@ impl Lowerer<'_> {
             Member::Program(_) => "programs inside of others are",
             Member::Family(_) => "families inside of others are",
             Member::Class(_) => "classes inside of others are",
+            Member::Choice(_) => "choices inside of classes are",
             Member::Check(_) => "checks inside of classes are",
             Member::Repeat(_) | Member::While(_) | Member::Next(_) | Member::Erase(_) => {
                 let line = self.first_line(file, span);
@@ -238,52 +243,6 @@ impl Lowerer<'_> {
         }
     }
 
-    /// Returns the truth value that an expression of constants is.
-    fn constant_truth(&mut self, scope: &Scope, e: &Expr) -> Option<bool> {
-        match e {
-            Expr::Bool(b) => Some(b.value()),
-            Expr::Paren(inner) => self.constant_truth(scope, &inner.inner()?),
-            Expr::Unary(u) if u.op()? == ast::UnaryOp::Not => {
-                Some(!self.constant_truth(scope, &u.operand()?)?)
-            }
-            Expr::Binary(b) => {
-                let (op, left, right) = (b.op()?, b.left()?, b.right()?);
-                match op {
-                    BinaryOp::And => Some(
-                        self.constant_truth(scope, &left)? && self.constant_truth(scope, &right)?,
-                    ),
-                    BinaryOp::Or => Some(
-                        self.constant_truth(scope, &left)? || self.constant_truth(scope, &right)?,
-                    ),
-                    _ => self.compared(scope, op, &left, &right),
-                }
-            }
-            Expr::Chain(chain) => {
-                let operands: Vec<Expr> = chain.operands().collect();
-                let mut holds = true;
-                for ((op, _), pair) in chain.ops().zip(operands.windows(2)) {
-                    holds &= self.compared(scope, op, &pair[0], &pair[1])?;
-                }
-                Some(holds)
-            }
-            _ => None,
-        }
-    }
-
-    /// Compares two numbers that are constants.
-    fn compared(&mut self, scope: &Scope, op: BinaryOp, a: &Expr, b: &Expr) -> Option<bool> {
-        let (a, b) = (self.constant_number(scope, a)?, self.constant_number(scope, b)?);
-        Some(match op {
-            BinaryOp::Equal => a == b,
-            BinaryOp::NotEqual => a != b,
-            BinaryOp::Less => a < b,
-            BinaryOp::LessEqual => a <= b,
-            BinaryOp::Greater => a > b,
-            BinaryOp::GreaterEqual => a >= b,
-            _ => return None,
-        })
-    }
-
     /// Returns the whole number that an expression of constants is.
     pub(crate) fn constant(&mut self, scope: &Scope, expr: &Expr) -> Option<i64> {
         whole(self.constant_number(scope, expr)?)
@@ -295,14 +254,7 @@ impl Lowerer<'_> {
         if turn.is_some() {
             return turn;
         }
-        let mut known: BTreeMap<Span, f64> = BTreeMap::new();
-        for e in expr.syntax().descendants().filter_map(Expr::cast) {
-            let number = match &e {
-                Expr::Name(name) => name.name().and_then(|w| self.constant_named(scope, &w.name())),
-                e => self.constant_count(scope, e),
-            };
-            known.extend(number.map(|n| (e.span(), n as f64)));
-        }
+        let known = self.constants_in(scope, expr);
         crate::numbers::constant(&|e| known.get(&e.span()).copied(), expr)
     }
 

@@ -58,6 +58,9 @@ impl Lowerer<'_> {
         if let Some(b) = builtin::find(builtin::FUNCTIONS, &name) {
             return self.bare_function(scope, word, b);
         }
+        if let Some(found) = self.option_named(scope, word) {
+            return found;
+        }
         self.unknown_name(scope, word);
         None
     }
@@ -174,7 +177,8 @@ impl Lowerer<'_> {
             Kind::Text => builtin::TEXT_MESSAGES.iter().map(|b| b.name.into()).collect(),
             Kind::List(_) => builtin::LIST_MESSAGES.iter().map(|b| b.name.into()).collect(),
             Kind::Picture => builtin::PICTURE_MESSAGES.iter().map(|b| b.name.into()).collect(),
-            Kind::Bool | Kind::Tuple(_) | Kind::Function | Kind::Unknown => Vec::new(),
+            Kind::Bool | Kind::Option(_) => vec!["text".into()],
+            Kind::Tuple(_) | Kind::Function | Kind::Unknown => Vec::new(),
         };
         let of_each = match receiver {
             Kind::List(element) => self.is_part_of_each(element, word),

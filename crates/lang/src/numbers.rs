@@ -187,6 +187,11 @@ pub fn read_literal(
         };
         match primitive {
             Some(Primitive::Bool) => d.hint("write `true` or `false`"),
+            Some(Primitive::Choice(of)) => {
+                let options: Vec<&str> =
+                    document.classes[of].options.iter().map(base::Name::as_str).collect();
+                d.hint(format!("it has {}", options.join(", ")))
+            }
             Some(Primitive::Integer) => d.hint("a whole number is wanted"),
             Some(Primitive::Real(_)) if d.code == "not-a-value" => d.hint("a number is wanted"),
             _ => d,
@@ -228,6 +233,11 @@ fn literal(expr: &Expr, class: Option<ClassId>, document: &Document) -> Result<L
             None | Some(ClassKind::Primitive(Primitive::Bool)) => Ok(Literal::Bool(b.value())),
             _ => Err(Wrong::Value),
         },
+        Expr::Name(name) if let Some(ClassKind::Primitive(Primitive::Choice(of))) = kind => {
+            let word = name.name().ok_or(Wrong::Value)?;
+            let at = document.option_named(*of, word.text()).ok_or(Wrong::Value)?;
+            Ok(Literal::Number(f64::from(at)))
+        }
         other => {
             let (x, found) = quantity(other, document).ok_or(Wrong::Value)?;
             let wanted = match kind {

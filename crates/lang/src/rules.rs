@@ -157,7 +157,7 @@ impl Lowerer<'_> {
         }
         let wanted = class.map_or(Kind::Unknown, |c| Kind::of_class(&self.document, c));
         let before = self.diagnostics.len();
-        let found = self.expr(scope, value);
+        let found = self.expr_wanting(scope, value, &wanted);
         if self.is_reference(scope.class(), &path) {
             self.leads_nowhere(before);
         }
@@ -678,6 +678,7 @@ pub(crate) fn mentions(term: &Term, found: &mut Vec<Path>) {
         Term::Number { .. }
         | Term::Text(_)
         | Term::Bool(_)
+        | Term::Option(..)
         | Term::Me
         | Term::Owner
         | Term::Document

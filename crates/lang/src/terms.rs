@@ -14,19 +14,27 @@ type Lowered = Option<(Term, Kind)>;
 impl Lowerer<'_> {
     /// Lowers an expression.
     pub(crate) fn expr(&mut self, scope: &Scope, e: &Expr) -> Lowered {
+        self.expr_wanting(scope, e, &Kind::Unknown)
+    }
+
+    /// Lowers an expression where a kind is wanted: of a choice, its options are known by their names alone.
+    pub(crate) fn expr_wanting(&mut self, scope: &Scope, e: &Expr, wanted: &Kind) -> Lowered {
         self.depth += 1;
-        let lowered = self.expr_inside(scope, e);
+        let lowered = self.expr_inside(scope, e, wanted);
         self.depth -= 1;
         lowered
     }
 
-    fn expr_inside(&mut self, scope: &Scope, e: &Expr) -> Lowered {
+    fn expr_inside(&mut self, scope: &Scope, e: &Expr, wanted: &Kind) -> Lowered {
         match e {
             Expr::Number(n) => self.number(scope, n),
             Expr::Text(t) => self.text(scope, t),
             Expr::Bool(b) => Some((Term::Bool(b.value()), Kind::Bool)),
-            Expr::Paren(inner) => self.expr(scope, &inner.inner()?),
-            Expr::Name(n) => self.name(scope, &n.name()?),
+            Expr::Paren(inner) => self.expr_wanting(scope, &inner.inner()?, wanted),
+            Expr::Name(n) => match self.option_wanted(scope, &n.name()?, wanted) {
+                Some(option) => Some(option),
+                None => self.name_wanting(scope, &n.name()?, wanted),
+            },
             Expr::Owner(_) => {
                 let kind = scope.classes.get(1).map_or(Kind::Unknown, |&c| Kind::Thing(c));
                 Some((Term::Owner, kind))
@@ -44,7 +52,7 @@ impl Lowerer<'_> {
             Expr::Binary(binary) => {
                 let op = binary.op()?;
                 let (left, right) = (binary.left()?, binary.right()?);
-                let (a, b) = (self.expr(scope, &left), self.expr(scope, &right));
+                let (a, b) = self.both(scope, op, (&left, &right));
                 let (a, b) = (a?, b?);
                 self.refer_by_position(scope.file, &left, &b.1);
                 self.refer_by_position(scope.file, &right, &a.1);
@@ -66,12 +74,18 @@ impl Lowerer<'_> {
                 let kind = Kind::List(Box::new(Kind::PLAIN));
                 Some((Term::Range(Box::new(a), Box::new(b)), kind))
             }
-            Expr::If(choice) => self.choice(scope, choice),
+            Expr::If(choice) => self.choice(scope, choice, wanted),
             Expr::Let(bindings) => self.bindings(scope, bindings),
-            Expr::List(list) => self.list(scope, list),
+            Expr::List(list) => self.list(scope, list, wanted),
             Expr::Tuple(tuple) => {
+                let fields = match wanted {
+                    Kind::Thing(class) => crate::kinds::fields(&self.document, *class),
+                    _ => Vec::new(),
+                };
+                let field = |i: usize| fields.get(i).unwrap_or(&Kind::Unknown);
+                let elements = tuple.elements().enumerate();
                 let items: Option<Vec<(Term, Kind)>> =
-                    tuple.elements().map(|item| self.expr(scope, &item)).collect();
+                    elements.map(|(i, item)| self.expr_wanting(scope, &item, field(i))).collect();
                 let (terms, kinds) = items?.into_iter().unzip();
                 Some((Term::Tuple(terms), Kind::Tuple(kinds)))
             }
@@ -94,7 +108,7 @@ impl Lowerer<'_> {
 
     /// Lowers an expression that has to be of a kind; its bare numbers measure what that kind does.
     pub(crate) fn expr_of(&mut self, scope: &Scope, e: &Expr, wanted: &Kind) -> Option<Term> {
-        let (term, kind) = self.expr(scope, e)?;
+        let (term, kind) = self.expr_wanting(scope, e, wanted)?;
         if kind.fits(wanted, &self.document) {
             self.refer_by_position(scope.file, e, wanted);
             return Some(measured(&self.document, term, &kind, wanted));
@@ -128,7 +142,7 @@ impl Lowerer<'_> {
         match kind {
             Kind::Text => Some(term),
             Kind::Number(_) => Some(Term::send(term, "shown")),
-            Kind::Bool | Kind::Unknown => Some(Term::send(term, "text")),
+            Kind::Bool | Kind::Option(_) | Kind::Unknown => Some(Term::send(term, "text")),
             Kind::Thing(_) | Kind::List(_) | Kind::Tuple(_) | Kind::Picture | Kind::Function => {
                 let what = kind.words(&self.document);
                 let message =
@@ -326,10 +340,11 @@ impl Lowerer<'_> {
         self.report(d);
     }
 
-    fn choice(&mut self, scope: &Scope, choice: &ast::IfExpr) -> Lowered {
+    fn choice(&mut self, scope: &Scope, choice: &ast::IfExpr, wanted: &Kind) -> Lowered {
         let c = self.expr_of(scope, &choice.condition()?, &Kind::Bool)?;
-        let (a, kind) = self.expr(scope, &choice.then_value()?)?;
-        let (b, other) = self.expr(scope, &choice.else_value()?)?;
+        let (a, kind) = self.expr_wanting(scope, &choice.then_value()?, wanted)?;
+        let wanted = if let Kind::Option(_) = kind { &kind } else { wanted };
+        let (b, other) = self.expr_wanting(scope, &choice.else_value()?, wanted)?;
         if !other.fits(&kind, &self.document) {
             self.mismatch(scope, choice.span(), &kind, &other);
             return None;
@@ -355,11 +370,12 @@ impl Lowerer<'_> {
         Some((bound.into_iter().rev().fold(body, wrap), kind))
     }
 
-    fn list(&mut self, scope: &Scope, list: &ast::ListExpr) -> Lowered {
+    fn list(&mut self, scope: &Scope, list: &ast::ListExpr, wanted: &Kind) -> Lowered {
         let mut items = Vec::new();
         let mut element = Kind::Unknown;
+        let wanted = if let Kind::List(each) = wanted { each } else { &Kind::Unknown };
         for item in list.elements() {
-            let (term, kind) = self.expr(scope, &item)?;
+            let (term, kind) = self.expr_wanting(scope, &item, wanted)?;
             if !kind.fits(&element, &self.document) {
                 self.wrong_kind(scope, item.span(), &kind, &element);
                 return None;
@@ -410,8 +426,11 @@ impl Lowerer<'_> {
 
     fn chain(&mut self, scope: &Scope, chain: &ast::ChainExpr) -> Lowered {
         let mut terms = Vec::new();
+        let mut before = Kind::Unknown;
         for operand in chain.operands() {
-            terms.push((self.expr(scope, &operand)?, operand.span()));
+            let found = self.expr_wanting(scope, &operand, &before)?;
+            before = found.1.clone();
+            terms.push((found, operand.span()));
         }
         let mut links = Vec::new();
         for ((op, _), pair) in chain.ops().zip(terms.windows(2)) {

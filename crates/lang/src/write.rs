@@ -427,9 +427,18 @@ impl Writer<'_> {
         }
     }
 
+    /// Writes an option of a choice, as its class tells it apart.
+    fn option(&self, class: Option<ClassId>, at: f64) -> Option<String> {
+        let ClassKind::Primitive(Primitive::Choice(of)) = self.document.classes[class?].kind else {
+            return None;
+        };
+        Some(self.document.option_at(of, at)?.to_string())
+    }
+
     /// Writes a value in the language.
     fn text(&self, value: Value<'_>) -> String {
         match value.literal {
+            Literal::Number(x) if let Some(option) = self.option(value.class, *x) => option,
             Literal::Number(x) => {
                 write_number(*x, self.dimension(value.class), self.document, None)
             }

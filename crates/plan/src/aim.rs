@@ -79,6 +79,7 @@ impl Planner {
                             Primitive::Real(_) => "a number",
                             Primitive::Integer => "a whole number",
                             Primitive::Bool => "true or false",
+                            Primitive::Choice(_) => "one of its options",
                             Primitive::Text => "a text",
                             Primitive::Color => "a colour",
                         };
@@ -277,7 +278,7 @@ pub(crate) fn storable(model: Model<'_>, slot: SlotId, value: &Value) -> bool {
         Value::Text(_) => !s.primitive.is_number(),
         Value::Number(x) => match s.primitive {
             Primitive::Real(_) => x.is_finite(),
-            Primitive::Integer => {
+            Primitive::Integer | Primitive::Choice(_) => {
                 let range = model.structure.ranges.get(&slot);
                 let is_in = |&(low, high): &(i64, i64)| (low as f64..=high as f64).contains(x);
                 x.is_finite() && *x == x.trunc() && range.is_none_or(is_in)
@@ -293,7 +294,7 @@ pub(crate) fn storable(model: Model<'_>, slot: SlotId, value: &Value) -> bool {
 pub(crate) fn nearest(model: Model<'_>, slot: SlotId, value: &Value) -> Option<Value> {
     let Value::Number(x) = *value else { return None };
     let (low, high) = match model.structure.slots[slot].primitive {
-        Primitive::Integer => match model.structure.ranges.get(&slot) {
+        Primitive::Integer | Primitive::Choice(_) => match model.structure.ranges.get(&slot) {
             Some(&(low, high)) => (low as f64, high as f64),
             None => (f64::NEG_INFINITY, f64::INFINITY),
         },

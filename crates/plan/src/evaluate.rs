@@ -103,6 +103,7 @@ impl<'a> Opening<'a> {
             Term::Number { value, .. } => Ok(self.number(*value)),
             Term::Text(_) => Ok(Meaning::Opaque(Opaque::default())),
             Term::Bool(b) => Ok(self.number(f64::from(u8::from(*b)))),
+            Term::Option(_, at) => Ok(self.number(f64::from(*at))),
             Term::Me => Ok(frame.me.clone()),
             Term::Owner => self.owner(&frame.me),
             Term::Document => Ok(Meaning::Thing(self.reach.document())),

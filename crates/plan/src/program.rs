@@ -125,7 +125,10 @@ impl<'a> Opening<'a> {
             let part = part.ok_or_else(|| Trouble::wrong(format!("no part `{name}`")))?;
             let mut meaning = self.part(part)?;
             let kind = &document.classes[document.field_class(field)].kind;
-            if let ClassKind::Primitive(Primitive::Integer | Primitive::Bool) = kind {
+            if let ClassKind::Primitive(
+                Primitive::Integer | Primitive::Bool | Primitive::Choice(_),
+            ) = kind
+            {
                 let what = Decided::Parameter;
                 let place = Place { of: Some(thing), path: name.to_string(), what };
                 let value = self.decide(&meaning, place)?;

@@ -126,6 +126,7 @@ pub(crate) fn say<'a>(
         | Term::Number { .. }
         | Term::Text(_)
         | Term::Bool(_)
+        | Term::Option(..)
         | Term::Me
         | Term::Owner
         | Term::Document

@@ -16,7 +16,9 @@ use crate::view::{Change, Choice, DragState, Limit, Question, Refusal};
 use crate::words;
 use crate::write_back::{differing, sides_after, write_back, write_sides};
 use base::number::Toward;
-use kernel::{Command, DOCUMENT, Literal, Path, SlotId, Step, Term, ThingId, Value, Values};
+use kernel::{
+    ClassId, Command, DOCUMENT, Literal, Path, SlotId, Step, Term, ThingId, Value, Values,
+};
 use plan::{EditKind, LimitKind, NotDecided, Planner, RefusalReason, Target};
 use std::collections::BTreeSet;
 use std::sync::Arc;
@@ -684,11 +686,25 @@ fn before_deletion(command: &Command, after: &State, mut path: Path) -> Path {
     path
 }
 
+/// Returns what says how many and which parts things have, by their classes' counts.
+fn counts(state: &State) -> Vec<(ThingId, &(base::Name, i64))> {
+    let document = &state.lowered.document;
+    if document.classes.iter().all(|(_, class)| class.counts.is_empty()) {
+        return Vec::new();
+    }
+    let things = state.structure.things.iter();
+    let of = |(id, class): (ThingId, ClassId)| {
+        document.classes[class].counts.iter().map(move |count| (id, count))
+    };
+    things.map(|(id, thing)| (id, thing.class)).flat_map(of).collect()
+}
+
 /// Says what is different between two states.
 fn change(label: String, before: &State, after: &State) -> Change {
     let structure = before.structure.slots.len() != after.structure.slots.len()
         || before.structure.constraints != after.structure.constraints
-        || before.structure.merged != after.structure.merged;
+        || before.structure.merged != after.structure.merged
+        || counts(before) != counts(after);
     let moved = if structure {
         Vec::new()
     } else {

@@ -11,7 +11,7 @@ use crate::host::Host;
 use crate::state::State;
 use crate::view::{Change, CheckReport, Refusal, Shortfall};
 use crate::words;
-use base::LineIndex;
+use base::{LineIndex, Name};
 use eval::Answer;
 use kernel::{Command, DOCUMENT, Literal, Path, Term};
 use lang::{Check, Expectation, PlanKind, Statement, StatementKind};
@@ -51,6 +51,8 @@ struct Run<'h> {
     statements: Vec<Statement>,
     /// Which of the check's these are.
     known: Range<usize>,
+    /// What has been given a name, as terms that speak of nothing.
+    noted: Vec<(Name, Term)>,
     /// What the latest `try` was refused with.
     refusal: Option<Refusal>,
     /// The state before the latest edit.
@@ -69,6 +71,7 @@ fn run(of: Checked<'_>, check: &Check, host: &dyn Host) -> CheckReport {
         check,
         statements: Vec::new(),
         known: 0..0,
+        noted: Vec::new(),
         refusal: None,
         before: None,
         shortfalls: Vec::new(),
@@ -111,7 +114,9 @@ impl Run<'_> {
 
     /// Finds out what statements mean in the present structure, and what is wrong with them.
     fn lowered(&self, statements: &[Statement]) -> (Vec<Statement>, Option<String>) {
-        let mut wholes: Vec<base::Span> = statements.iter().map(|s| s.whole).collect();
+        let mut wholes: Vec<base::Span> = self.notes_before(statements);
+        let noted = wholes.len();
+        wholes.extend(statements.iter().map(|s| s.whole));
         wholes.dedup();
         let source = |span: &base::Span| self.of.state.text.get(span.range()).unwrap_or_default();
         let sources: Vec<&str> = wholes.iter().map(source).collect();
@@ -124,6 +129,7 @@ impl Run<'_> {
         let message = own.map(|d| d.message.clone());
         let check = lowered.checks.into_iter().next();
         let mut all = check.map(|c| c.statements).unwrap_or_default();
+        all.drain(..noted.min(all.len()));
         // a loop is read as a whole: what stands before these in it is left out
         if let Some(first) = statements.first() {
             let known = &self.check.statements;
@@ -133,6 +139,14 @@ impl Run<'_> {
             all.drain(..before);
         }
         (all, message)
+    }
+
+    /// Returns where those are that give names which some statements know.
+    fn notes_before(&self, statements: &[Statement]) -> Vec<base::Span> {
+        let Some(first) = statements.first() else { return Vec::new() };
+        let before = self.check.statements.iter().take_while(|s| s.span.end <= first.whole.start);
+        let notes = before.filter(|s| s.is_note && s.span == s.whole);
+        notes.map(|s| s.whole).collect()
     }
 
     fn is_told(&self, statement: &Statement) -> bool {
@@ -199,6 +213,10 @@ impl Run<'_> {
             Some(kind) => kind,
         };
         match &kind {
+            StatementKind::Note(name, term) => {
+                let value = self.now(&state, term)?;
+                self.noted.push((name.clone(), value));
+            }
             StatementKind::Expect(expectation) => {
                 if let Err(message) = self.expect(&state, expectation) {
                     self.fall_short(statement, message);
@@ -220,19 +238,44 @@ impl Run<'_> {
         Ok(())
     }
 
+    /// Returns the value that an expression has now, as a term that speaks of nothing.
+    fn now(&self, state: &State, term: &Term) -> Result<Term, String> {
+        let term = self.with_noted(term);
+        let evaluator = state.evaluator(&state.values);
+        let answer = evaluator.evaluate(&term, DOCUMENT).map_err(|f| f.message)?;
+        evaluator.fixed(&answer).map_err(|f| f.message)
+    }
+
+    /// Returns a term in which what has been given a name is known.
+    fn with_noted(&self, term: &Term) -> Term {
+        let bind = |body, (name, value): &(Name, Term)| {
+            Term::Let(name.clone(), Box::new(value.clone()), Box::new(body))
+        };
+        self.noted.iter().rev().fold(term.clone(), bind)
+    }
+
+    fn with_noted_targets(&self, targets: &[(Path, Term)]) -> Vec<(Path, Term)> {
+        targets.iter().map(|(path, term)| (path.clone(), self.with_noted(term))).collect()
+    }
+
     fn edit(&mut self, state: &State, kind: &StatementKind) -> Result<Change, Refusal> {
         let command = match kind {
             StatementKind::Set(targets) => {
+                let targets = &self.with_noted_targets(targets);
                 let literal = |(path, term): &(Path, Term), answer: &Answer<'_>| {
                     to_set(state, path, term, answer)
                 };
                 Command::Set(literals(state, targets, literal)?)
             }
             StatementKind::Move(targets) => {
+                let targets = &self.with_noted_targets(targets);
                 Command::Move(literals(state, targets, |_, answer| literal_of(answer))?)
             }
             StatementKind::Command(command) => command.clone(),
-            StatementKind::Expect(_) | StatementKind::Try(_) | StatementKind::Unclear => {
+            StatementKind::Expect(_)
+            | StatementKind::Note(..)
+            | StatementKind::Try(_)
+            | StatementKind::Unclear => {
                 return Err(words::refuse("only an edit can be tried".into()));
             }
         };
@@ -246,7 +289,10 @@ impl Run<'_> {
 
     fn expect(&mut self, state: &State, expectation: &Expectation) -> Result<(), String> {
         match expectation {
-            Expectation::Rule { rule, within } => expect_rule(state, rule, within.as_ref()),
+            Expectation::Rule { rule, within } => {
+                let within = within.as_ref().map(|within| self.with_noted(within));
+                expect_rule(state, &self.with_noted(rule), within.as_ref())
+            }
             Expectation::Satisfied => {
                 let status = crate::views::status::view(&self.open);
                 if status.satisfied { Ok(()) } else { Err(status.message) }
@@ -375,6 +421,7 @@ pub(crate) fn literal_of(answer: &Answer<'_>) -> Result<Literal, Refusal> {
     Ok(match answer {
         Answer::Number(x, _) => Literal::Number(*x),
         Answer::Bool(b) => Literal::Bool(*b),
+        Answer::Option(_, at) => Literal::Number(f64::from(*at)),
         Answer::Text(t) => Literal::Text(t.to_string()),
         Answer::Made(made) => {
             Literal::Tuple(made.fields.iter().map(literal_of).collect::<Result<_, _>>()?)

@@ -4,6 +4,7 @@ use crate::session::{parse_path, thing_at};
 use crate::state::State;
 use crate::view::CompletionView;
 use crate::vocabulary;
+use base::Name;
 use kernel::{DOCUMENT, ThingId};
 
 /// Returns the words that can go on at an offset of a text, which may be newer than the state.
@@ -20,13 +21,21 @@ pub(crate) fn completions(state: &State, text: &str, offset: u32) -> Vec<Complet
             return Vec::new();
         }
         let thing = parse_path(owner).and_then(|path| thing_at(state, &path));
-        return thing.map(|thing| parts(state, thing)).unwrap_or_default();
+        let of_choice = || options(state).filter(|(choice, _)| **choice == *owner);
+        return match thing {
+            Some(thing) => parts(state, thing),
+            None => of_choice().map(|(choice, option)| one(option, "enum", choice)).collect(),
+        };
     }
     if after_number(left) {
         return units();
     }
     let mut words = parts(state, DOCUMENT);
     words.extend(classes(state));
+    let mut choices: Vec<&Name> = options(state).map(|(choice, _)| choice).collect();
+    choices.dedup();
+    words.extend(choices.into_iter().map(|choice| one(choice, "class", "")));
+    words.extend(options(state).map(|(choice, option)| one(option, "enum", choice)));
     words.extend(vocabulary::functions().into_iter().map(|f| one(f.name, "function", &f.call)));
     words
         .extend(vocabulary::quantities().into_iter().map(|(name, unit)| one(name, "class", &unit)));
@@ -61,6 +70,12 @@ fn classes(state: &State) -> Vec<CompletionView> {
         |c: kernel::ClassId| crate::recognise::is_candidate(state, c, &document.classes[c]);
     let named = document.classes.iter().filter(|(c, _)| is_candidate(*c));
     named.map(|(_, class)| one(class.name.as_str(), "class", "")).collect()
+}
+
+/// Returns every option that a document can name, with its choice before it.
+fn options(state: &State) -> impl Iterator<Item = (&Name, &Name)> {
+    let classes = state.lowered.document.classes.iter();
+    classes.flat_map(|(_, class)| class.options.iter().map(move |option| (&class.name, option)))
 }
 
 fn units() -> Vec<CompletionView> {

@@ -184,6 +184,7 @@ fn numbers_of(answer: &Answer<'_>) -> Option<Vec<(f64, Dimension)>> {
     let number = |answer: &Answer<'_>| match answer {
         Answer::Number(x, dimension) => Some((*x, *dimension)),
         Answer::Bool(_)
+        | Answer::Option(..)
         | Answer::Text(_)
         | Answer::Thing(_)
         | Answer::Made(_)

@@ -304,6 +304,7 @@ fn answer<'d>(document: &Document, class: ClassId, literal: &Literal) -> Answer<
     let kind = &document.classes[class].kind;
     match literal {
         Literal::Number(x) => match kind {
+            ClassKind::Primitive(Primitive::Choice(of)) => Answer::Option(*of, *x as u32),
             ClassKind::Primitive(primitive) => Answer::Number(*x, primitive.dimension()),
             ClassKind::Composite
             | ClassKind::List(_)

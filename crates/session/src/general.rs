@@ -138,6 +138,10 @@ fn held(state: &State, thing: ThingId, answer: &Answer<'_>) -> Vec<(SlotId, Valu
             let x = Value::Number(f64::from(u8::from(*b)));
             return structure.slot_of(thing).map(|s| (s, x)).into_iter().collect();
         }
+        Answer::Option(_, at) => {
+            let x = Value::Number(f64::from(*at));
+            return structure.slot_of(thing).map(|s| (s, x)).into_iter().collect();
+        }
         Answer::Text(text) => {
             let text = Value::Text(Arc::from(&**text));
             return structure.slot_of(thing).map(|s| (s, text)).into_iter().collect();

@@ -477,6 +477,7 @@ fn reading(state: &State, values: &Values, answer: &Answer<'_>) -> Option<Readin
         },
         Answer::Made(_)
         | Answer::Bool(_)
+        | Answer::Option(..)
         | Answer::Text(_)
         | Answer::Context(_)
         | Answer::List(_)

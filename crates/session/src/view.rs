@@ -409,6 +409,8 @@ pub struct ValueRow {
     pub exact: String,
     /// The value in base units, for numbers.
     pub number: Option<f64>,
+    /// What there is to choose, for choices and truth values.
+    pub options: Vec<String>,
     /// Whether the text gives it (others are what the constraints make them).
     pub given: bool,
     /// Whether it is a virtual part.
@@ -450,9 +452,9 @@ pub struct TokenView {
 pub struct CompletionView {
     /// The word.
     pub label: String,
-    /// `property`, `class`, `function` or `unit`.
+    /// `property`, `class`, `function`, `unit`, or `enum` for an option of a choice.
     pub kind: String,
-    /// A part's class, how a function is called, what a unit measures.
+    /// A part's class, how a function is called, what a unit measures, which choice has an option.
     pub detail: String,
 }
 

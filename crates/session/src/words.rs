@@ -447,9 +447,11 @@ pub(crate) fn quantity_of<'s>(state: &'s State, slot: SlotId, written: &'s str) 
     let s = &state.structure.slots[slot];
     let dimension = match s.primitive {
         Primitive::Real(dimension) => dimension,
-        Primitive::Integer | Primitive::Bool | Primitive::Text | Primitive::Color => {
-            Dimension::NONE
-        }
+        Primitive::Integer
+        | Primitive::Bool
+        | Primitive::Choice(_)
+        | Primitive::Text
+        | Primitive::Color => Dimension::NONE,
     };
     let document = &state.lowered.document;
     let class = document.named_class(state.structure.things[s.thing].class);
@@ -471,6 +473,10 @@ pub(crate) fn show_slot(state: &State, slot: SlotId, values: &Values) -> Shown {
             lang::show_quantity(x, quantity, &state.lowered.document)
         }
         (Primitive::Bool, Value::Number(x)) => plain((x != 0.0).to_string()),
+        (Primitive::Choice(of), Value::Number(x)) => {
+            let name = state.lowered.document.option_at(of, x);
+            plain(name.map_or_else(|| base::number::shortest(x), ToString::to_string))
+        }
         (_, Value::Number(x)) => plain(base::number::shortest(x)),
         (_, Value::Text(t)) => plain(t.to_string()),
     }

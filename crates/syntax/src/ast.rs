@@ -16,8 +16,8 @@ pub use expressions::{
     UnaryExpr, UnaryOp,
 };
 pub use members::{
-    Assign, Attachers, Class, Domain, DottedName, Message, Modify, Param, ParamList, Part, Ref,
-    Superclass, Toolbox, Type, TypeShape, UnitLine, Use, View, YLine,
+    Assign, Attachers, Choice, Class, Domain, DottedName, Message, Modify, Param, ParamList, Part,
+    Ref, Superclass, Toolbox, Type, TypeShape, UnitLine, Use, View, YLine,
 };
 pub use programs::{
     Check, Else, Erase, Family, For, If, Lesson, Next, Program, Repeat, Rows, Table, Value, While,
@@ -28,7 +28,7 @@ pub use rules::{
     Replace, Rule, RuleBlock, Side, Stay, Strength, When, Within, Without,
 };
 pub use statements::{
-    Delete, Edit, Expect, Expectation, Hint, Move, Promote, Redo, Rename, Say, Set, Simulate,
+    Delete, Edit, Expect, Expectation, Hint, Move, Note, Promote, Redo, Rename, Say, Set, Simulate,
     Target, Task, Try, Undo, Unmerge,
 };
 
@@ -276,6 +276,8 @@ ast_enum! {
         Side(Side),
         /// `toolbox "Mechanics" { … }`
         Toolbox(Toolbox),
+        /// `choice Fit { loose, normal, close }`
+        Choice(Choice),
         /// `lesson "Midpoints" { … }`
         Lesson(Lesson),
         /// `program Rings(…) { … }`
@@ -312,6 +314,8 @@ ast_enum! {
         Try(Try),
         /// `expect …`
         Expect(Expect),
+        /// `let before = e`
+        Note(Note),
         /// `say "…"`
         Say(Say),
         /// `task …`

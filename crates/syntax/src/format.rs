@@ -120,6 +120,7 @@ fn holds_elements(kind: SyntaxKind) -> bool {
             | SyntaxKind::MethodList
             | SyntaxKind::RuleBlock
             | SyntaxKind::Toolbox
+            | SyntaxKind::Choice
     )
 }
 

@@ -209,6 +209,10 @@ kinds! {
     Side,
     /// `toolbox "name" { A, B }`
     Toolbox,
+    /// `let before = e`, in a check
+    Note,
+    /// `choice Name { a, b }`
+    Choice,
     /// `lesson "name" { … }`
     Lesson,
     /// `program Name(params) { … }`

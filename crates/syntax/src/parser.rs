@@ -401,6 +401,24 @@ impl<'t> Parser<'t> {
     /// Makes an Error node of all up to the line's end, the body's end or a `;`: at least one token.
     ///
     /// Brackets that are closed are skipped whole.
+    /// Skips what is left inside of the braces here; nothing where these are not closed.
+    pub(crate) fn skip_in_braces(&mut self) {
+        let mut open = 0usize;
+        let mut ahead = 0;
+        loop {
+            match self.nth(ahead) {
+                Eof => return,
+                SyntaxKind::LBrace => open += 1,
+                SyntaxKind::RBrace if open == 0 => break,
+                SyntaxKind::RBrace => open -= 1,
+                _ => {}
+            }
+            ahead += 1;
+        }
+        self.start(Error);
+        (0..ahead).for_each(|_| self.bump());
+        self.finish();
+    }
     pub(crate) fn skip_line(&mut self) {
         if self.at(Eof) {
             return;

@@ -6,6 +6,7 @@ use leptos::ev::{KeyboardEvent, PointerEvent};
 use leptos::html::Span;
 use leptos::prelude::*;
 use session::view::ValueRow;
+use wasm_bindgen::JsCast;
 
 /// At most so many rows are in the page at once; the filter finds the others.
 const MOST_ROWS: usize = 300;
@@ -340,6 +341,9 @@ fn Field(lab: Lab, row: Memo<Option<ValueRow>>) -> impl IntoView {
             Err(refusal) => error.set(Some(field::reason(&refusal))),
         }
     };
+    let options = Memo::new(move |_| {
+        row.with(|row| row.as_ref().map(|r| r.options.clone()).unwrap_or_default())
+    });
     let key = move |e: KeyboardEvent| match e.key().as_str() {
         "Enter" => commit(),
         "Escape" => {
@@ -350,30 +354,60 @@ fn Field(lab: Lab, row: Memo<Option<ValueRow>>) -> impl IntoView {
         "ArrowUp" if focus_beside(&e, Beside::Above) => e.prevent_default(),
         _ => {}
     };
-    view! {
-        <input
-            class="field"
-            autocomplete="off"
-            spellcheck="false"
-            aria-label=path
-            aria-invalid=move || error.with(Option::is_some).to_string()
-            prop:value=move || typed.get().unwrap_or_else(|| if active.get() { exact.get() } else { text.get() })
-            on:focus=move |_| {
-                active.set(true);
-                lab.select(Some(path.get_untracked()));
-            }
-            on:input=move |e| {
-                typed.set(Some(event_target_value(&e)));
-                error.set(None);
-            }
-            on:keydown=key
-            on:blur=move |_| {
-                active.set(false);
-                if error.with_untracked(Option::is_none) {
+    let select = move || {
+        let one = move |option: String| {
+            let is_chosen = {
+                let option = option.clone();
+                move || text.with(|text| *text == option)
+            };
+            view! { <option selected=is_chosen value=option.clone()>{option.clone()}</option> }
+        };
+        view! {
+            <select
+                class="field"
+                aria-label=path
+                aria-invalid=move || error.with(Option::is_some).to_string()
+                prop:value=move || { error.track(); text.get() }
+                on:focus=move |_| lab.select(Some(path.get_untracked()))
+                on:change=move |e| {
+                    typed.set(Some(event_target_value(&e)));
                     commit();
+                    typed.set(None);
                 }
-            }
-        />
+            >
+                {options.get().into_iter().map(one).collect_view()}
+            </select>
+        }
+    };
+    let input = move || {
+        view! {
+            <input
+                class="field"
+                autocomplete="off"
+                spellcheck="false"
+                aria-label=path
+                aria-invalid=move || error.with(Option::is_some).to_string()
+                prop:value=move || typed.get().unwrap_or_else(|| if active.get() { exact.get() } else { text.get() })
+                on:focus=move |_| {
+                    active.set(true);
+                    lab.select(Some(path.get_untracked()));
+                }
+                on:input=move |e| {
+                    typed.set(Some(event_target_value(&e)));
+                    error.set(None);
+                }
+                on:keydown=key
+                on:blur=move |_| {
+                    active.set(false);
+                    if error.with_untracked(Option::is_none) {
+                        commit();
+                    }
+                }
+            />
+        }
+    };
+    view! {
+        {move || if options.with(Vec::is_empty) { input().into_any() } else { select().into_any() }}
         {move || error.get().map(|error| view! { <span class="error" role="alert">{error}</span> })}
     }
 }
@@ -403,15 +437,14 @@ fn focus_beside(e: &KeyboardEvent, which: Beside) -> bool {
         Beside::Below => row.next_element_sibling(),
         Beside::Above => row.previous_element_sibling(),
     });
-    let field = beside.and_then(|row| row.query_selector("input").ok().flatten());
-    match field {
-        Some(field) => {
-            let field: web_sys::HtmlInputElement = wasm_bindgen::JsCast::unchecked_into(field);
-            field.select();
-            field.focus().is_ok()
-        }
-        None => false,
+    let field = beside.and_then(|row| row.query_selector(".field").ok().flatten());
+    let Some(field) = field.and_then(|field| field.dyn_into::<web_sys::HtmlElement>().ok()) else {
+        return false;
+    };
+    if let Some(field) = field.dyn_ref::<web_sys::HtmlInputElement>() {
+        field.select();
     }
+    field.focus().is_ok()
 }
 
 #[cfg(test)]

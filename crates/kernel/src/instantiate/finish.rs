@@ -4,7 +4,7 @@ use super::bind::bind;
 use super::body::Body;
 use super::refer::refer;
 use super::{FaultKind, Maker};
-use crate::class::{Class, ClassId, ClassKind};
+use crate::class::{Class, ClassId, ClassKind, Primitive};
 use crate::document::{Document, Side};
 use crate::structure::{Form, GivenIn, Givens, NO_SLOT, Slot, ThingId, Unlike};
 use crate::term::OriginId;
@@ -155,6 +155,10 @@ fn give_slots(
                 place,
             })
         });
+        if let Primitive::Choice(of) = primitive {
+            let last = document.classes[of].options.len().saturating_sub(1);
+            structure.ranges.insert(slot, (0, last as i64));
+        }
         structure.slots[slot].is_layout &= layout.contains(&thing);
         structure.own_slots[first] = slot;
         structure.own_slots[thing] = slot;

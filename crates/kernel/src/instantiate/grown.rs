@@ -156,8 +156,10 @@ fn given_more<'d>(
     }
     let mut leaves: Vec<(GivenId, ThingId)> = Vec::new();
     for (id, given) in new {
-        let is_constant =
-            matches!(given.value, Term::Number { .. } | Term::Text(_) | Term::Bool(_));
+        let is_constant = matches!(
+            given.value,
+            Term::Number { .. } | Term::Text(_) | Term::Bool(_) | Term::Option(..)
+        );
         let leaf = leaf(document, grown, &given.path).filter(|_| is_constant)?;
         let is_given = body.givens[leaf].is_some_and(|given| given.me == ROOT);
         if is_given || leaves.iter().any(|(_, other)| *other == leaf) {
@@ -207,6 +209,7 @@ fn is_like(a: &Term, b: &Term) -> bool {
             Term::Number { dimension: b, bare: b_bare, .. },
         ) => a == b && a_bare == b_bare,
         (Term::Text(_), Term::Text(_)) | (Term::Bool(_), Term::Bool(_)) => true,
+        (Term::Option(a, _), Term::Option(b, _)) => a == b,
         (Term::Tuple(a), Term::Tuple(b)) | (Term::List(a), Term::List(b)) => {
             a.len() == b.len() && a.iter().zip(b).all(|(a, b)| is_like(a, b))
         }

@@ -57,7 +57,7 @@ impl Lowerer<'_> {
     fn give_count(&mut self, Given { scope, path, name, value }: Given) {
         let class = scope.class();
         let Some(of) = self.class_at(class, &Path(path.clone())) else { return };
-        let Some(number) = self.constant_in_body(&scope, of, &value) else { return };
+        let Some(number) = self.constant_in_body(&scope, (of, &name), &value) else { return };
         let Some((Step::Part(first), rest)) = path.split_first() else { return };
         let Some((field, was)) = self.field_at(class, first) else { return };
         let count = self.count_of_part(class, first);

@@ -31,6 +31,7 @@ impl Text<'_> {
     ) -> Result<Restructuring, Diagnostic> {
         let number = match value {
             Literal::Number(x) if x.fract() == 0.0 && (0.0..4e9).contains(x) => *x,
+            Literal::Bool(b) => f64::from(*b),
             _ => {
                 let message =
                     format!("{path} says how many parts there are: a whole number, not negative");
@@ -46,7 +47,7 @@ impl Text<'_> {
             }
         }
         self.forget_uses(&mut deletion);
-        Ok(self.with_count(path, number, deletion))
+        Ok(self.with_count(path, value, deletion))
     }
 
     /// Returns the count that decides how many elements a list has, where it is that alone.
@@ -59,9 +60,14 @@ impl Text<'_> {
     }
 
     /// Writes a count, and deletes what goes along.
-    pub(super) fn with_count(&self, path: &Path, number: f64, deletion: Deletion) -> Restructuring {
+    pub(super) fn with_count(
+        &self,
+        path: &Path,
+        value: &Literal,
+        deletion: Deletion,
+    ) -> Restructuring {
         let mut edits = deletion.edits;
-        for new in value_edits(self.lowered, &[(path.clone(), Literal::Number(number))]) {
+        for new in value_edits(self.lowered, &[(path.clone(), value.clone())]) {
             let around =
                 |e: &&mut TextEdit| e.span.start <= new.span.start && new.span.end <= e.span.end;
             match edits.iter_mut().find(around) {

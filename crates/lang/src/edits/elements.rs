@@ -5,7 +5,7 @@ use super::delete::{Deletion, is_gone, is_reference};
 use crate::numbers::constant;
 use crate::uses::{Text, refused};
 use base::{Diagnostic, Name, Span};
-use kernel::{ClassId, Path, Step};
+use kernel::{ClassId, Literal, Path, Step};
 use syntax::ast::{self, AstNode, Expr, Member, TypeShape};
 use syntax::edit::{self, TextEdit};
 
@@ -20,7 +20,7 @@ impl Text<'_> {
             let mut deletion = Deletion::new(self);
             let moved = self.move_up(&|of| *of == list, i, &mut deletion);
             deletion.edits.extend(moved);
-            return Ok(self.with_count(&count, n - 1.0, deletion));
+            return Ok(self.with_count(&count, &Literal::Number(n - 1.0), deletion));
         }
         let (home, member, _) = self.declaration(&list)?;
         let Member::Part(part) = &member else { return Err(self.of_a_class(path)) };

@@ -87,7 +87,8 @@ impl<'s> Making<'s> {
                 Some((primitive, like)) if *primitive == s.primitive => like.clone(),
                 Some(_) | None => {
                     let own = s.primitive.dimension();
-                    let dimension = Some(own).filter(|_| s.primitive != Primitive::Bool);
+                    let dimension = Some(own)
+                        .filter(|_| !matches!(s.primitive, Primitive::Bool | Primitive::Choice(_)));
                     let known = dimensions.iter().position(|&d| d == dimension);
                     let scale = known.unwrap_or_else(|| {
                         dimensions.push(dimension);

@@ -95,7 +95,11 @@ pub(crate) fn fits(
         };
         outcome = match answer {
             Err(fault) => Err(words::refuse(format!("{operand}: {}", fault.message))),
-            Ok(Answer::Number(..) | Answer::Bool(_)) if kind == SlotKind::Value => Ok(()),
+            Ok(Answer::Number(..) | Answer::Bool(_) | Answer::Option(..))
+                if kind == SlotKind::Value =>
+            {
+                Ok(())
+            }
             Ok(answer) => match evaluator.class_of(&answer) {
                 Some(found) if is_wanted(found) => Ok(()),
                 Some(found) => {

@@ -204,19 +204,22 @@ fn class_of_example(state: &State, host: &dyn Host, example: &str) -> Result<Str
     let mut class = Err(words::refuse(format!("`{example}` is no value of a parameter")));
     let texts = [example.to_string()];
     let is_bare = example.parse::<f64>().is_ok();
-    let wrong = outcome::try_all(state, host, &Home::Document, &texts, &mut |_, _, _, answer| {
-        class = match answer {
-            Ok(Answer::Bool(_)) => Ok("Bool".into()),
-            // what a draughtsman says without a unit is a length
-            Ok(Answer::Number(..)) if is_bare => Ok("Length".into()),
-            Ok(Answer::Number(_, d)) if d == Dimension::LENGTH => Ok("Length".into()),
-            Ok(Answer::Number(_, d)) if d == Dimension::ANGLE => Ok("Angle".into()),
-            Ok(Answer::Number(_, d)) if d == Dimension::NONE => Ok("Real".into()),
-            Ok(Answer::Text(_)) => Ok("Text".into()),
-            Ok(other) => Err(words::refuse(format!("{example} is {}, no value", other.kind()))),
-            Err(fault) => Err(words::refuse(format!("{example}: {}", fault.message))),
-        };
-    });
+    let wrong =
+        outcome::try_all(state, host, &Home::Document, &texts, &mut |tried, _, _, answer| {
+            let document = &tried.lowered.document;
+            class = match answer {
+                Ok(Answer::Bool(_)) => Ok("Bool".into()),
+                // what a draughtsman says without a unit is a length
+                Ok(Answer::Number(..)) if is_bare => Ok("Length".into()),
+                Ok(Answer::Number(_, d)) if d == Dimension::LENGTH => Ok("Length".into()),
+                Ok(Answer::Number(_, d)) if d == Dimension::ANGLE => Ok("Angle".into()),
+                Ok(Answer::Number(_, d)) if d == Dimension::NONE => Ok("Real".into()),
+                Ok(Answer::Text(_)) => Ok("Text".into()),
+                Ok(Answer::Option(of, _)) => Ok(document.classes[of].name.to_string()),
+                Ok(other) => Err(words::refuse(format!("{example} is {}, no value", other.kind()))),
+                Err(fault) => Err(words::refuse(format!("{example}: {}", fault.message))),
+            };
+        });
     match wrong {
         Some(message) => Err(words::refuse(format!("{example}: {message}"))),
         None => class,

@@ -47,6 +47,7 @@ pub(crate) fn walk<'a>(
         }
         Answer::Number(..)
         | Answer::Bool(_)
+        | Answer::Option(..)
         | Answer::Text(_)
         | Answer::Thing(_)
         | Answer::Picture(_)

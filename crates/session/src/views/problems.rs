@@ -137,7 +137,11 @@ fn mechanism(open: &mut Open, state: &State) -> Option<(Diagnostic, Vec<Source>)
     let is_load = |dimension| matches!(dimension, Dimension::FORCE | Dimension::MOMENT);
     let measures = |slot: SlotId| match state.structure.slots[slot].primitive {
         Primitive::Real(dimension) => Some(dimension),
-        Primitive::Integer | Primitive::Bool | Primitive::Text | Primitive::Color => None,
+        Primitive::Integer
+        | Primitive::Bool
+        | Primitive::Choice(_)
+        | Primitive::Text
+        | Primitive::Color => None,
     };
     let required = open.status.unmet.iter().filter(|u| u.level == Level::Required);
     let unmet = required.map(|u| u.source);

@@ -8,7 +8,9 @@ use base::Name;
 use eval::{Answer, Evaluator, Standing};
 use indexmap::IndexMap;
 use kernel::builtin::{FUNCTIONS, Kind, PICTURE_MESSAGES, find};
-use kernel::{ClassId, ClassKind, Document, Message, Path, SlotId, Step, Term, ThingId, Values};
+use kernel::{
+    ClassId, ClassKind, Document, Message, Path, Primitive, SlotId, Step, Term, ThingId, Values,
+};
 use lang::{Quantity, Shown};
 use std::collections::{BTreeMap, BTreeSet};
 use std::fmt::Write;
@@ -73,7 +75,10 @@ struct Cell {
 }
 
 fn show(state: &State, values: &Values, slot: SlotId) -> Cell {
-    let is_number = state.structure.slots[slot].primitive.is_number();
+    let is_number = match state.structure.slots[slot].primitive {
+        Primitive::Real(_) | Primitive::Integer => true,
+        Primitive::Bool | Primitive::Choice(_) | Primitive::Text | Primitive::Color => false,
+    };
     let number = is_number.then(|| values.numbers[slot]);
     Cell { words: words::show_slot(state, slot, values), number }
 }
@@ -127,6 +132,10 @@ fn show_answer<'d>(
         }
         Answer::Text(t) => Some((plain(t.to_string()), "Text")),
         Answer::Bool(b) => Some((plain(b.to_string()), "Bool")),
+        Answer::Option(of, at) => {
+            let name = document.option_at(*of, f64::from(*at))?;
+            Some((plain(name.to_string()), &document.classes[*of].name))
+        }
         Answer::Thing(_)
         | Answer::Made(_)
         | Answer::Context(_)
@@ -174,6 +183,7 @@ impl Maker<'_> {
                 unit,
                 exact,
                 number,
+                options: options(document, s.primitive),
                 given: s.given.is_some(),
                 is_virtual: false,
                 anchored: s.anchored,
@@ -305,6 +315,7 @@ fn answered(
         unit: words.unit,
         exact: words.exact,
         number,
+        options: Vec::new(),
         given: false,
         is_virtual: true,
         anchored: false,
@@ -312,6 +323,17 @@ fn answered(
         freedom: None,
         doc: doc.into(),
     })
+}
+
+/// Returns what there is to choose for a value.
+fn options(document: &Document, primitive: Primitive) -> Vec<String> {
+    match primitive {
+        Primitive::Choice(of) => {
+            document.classes[of].options.iter().map(ToString::to_string).collect()
+        }
+        Primitive::Bool => vec!["true".into(), "false".into()],
+        Primitive::Real(_) | Primitive::Integer | Primitive::Text | Primitive::Color => Vec::new(),
+    }
 }
 
 /// Returns the shortest path to a thing, the first declared of several.

@@ -39,6 +39,8 @@ ast_nodes! {
     View,
     /// `toolbox "Mechanics" { Spring, Beam }`
     Toolbox,
+    /// `choice Fit { loose, normal, close }`
+    Choice,
     /// `List of 12 C`, `geometry.Line`
     Type,
     /// `geometry.parts`
@@ -298,6 +300,21 @@ impl Toolbox {
     /// Returns the classes in it.
     pub fn classes(&self) -> impl Iterator<Item = DottedName> + use<> {
         children(&self.syntax)
+    }
+}
+
+impl Choice {
+    /// Returns the name.
+    pub fn name(&self) -> Option<Word> {
+        word(&self.syntax, SyntaxKind::Ident)
+    }
+    /// Returns what there is to choose, in order.
+    pub fn options(&self) -> impl Iterator<Item = Word> + use<> {
+        words(&self.syntax, SyntaxKind::Ident).skip(1)
+    }
+    /// Returns the doc comment.
+    pub fn doc(&self) -> Option<String> {
+        doc_comment(&self.syntax)
     }
 }
 

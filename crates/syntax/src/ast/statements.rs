@@ -37,6 +37,19 @@ ast_nodes! {
     Task,
     /// `hint "…"`
     Hint,
+    /// `let before = e`
+    Note,
+}
+
+impl Note {
+    /// Returns the name that the value gets.
+    pub fn name(&self) -> Option<Word> {
+        word(&self.syntax, SyntaxKind::Ident)
+    }
+    /// Returns the value.
+    pub fn value(&self) -> Option<Expr> {
+        child(&self.syntax)
+    }
 }
 
 impl Set {

@@ -5,10 +5,10 @@ use super::rules::{constraint, methods_if_any, rule, tolerance, when};
 use super::types::{class_name, domain, dotted_name, parameters, paths};
 use super::{Scope, body, mistakes, programs, statements};
 use crate::kind::SyntaxKind::{
-    self, Anchor, Arrow, Assign, Attachers, Class, Colon, ColonEq, Comma, Dot, Eq, Erase, FatArrow,
-    Greater, GreaterEq, Ident, IfKw, Insert, LBrace, LBracket, LParen, Less, LessEq, Merge,
-    Message, Minus, Modify, NotEq, Part, Plus, Ref, Replace, Side, Slash, Star, Stay, Superclass,
-    Text, Toolbox, UnitLine, Use, View, Without, YLine,
+    self, Anchor, Arrow, Assign, Attachers, Choice, Class, Colon, ColonEq, Comma, Dot, Eq, Erase,
+    FatArrow, Greater, GreaterEq, Ident, IfKw, Insert, LBrace, LBracket, LParen, Less, LessEq,
+    Merge, Message, Minus, Modify, NotEq, Part, Plus, Ref, Replace, Side, Slash, Star, Stay,
+    Superclass, Text, Toolbox, UnitLine, Use, View, Without, YLine,
 };
 use crate::parser::Parser;
 
@@ -18,6 +18,7 @@ pub(crate) const KEYWORDS: &[&str] = &[
     "y",
     "use",
     "class",
+    "choice",
     "abstract",
     "modify",
     "constraint",
@@ -95,6 +96,7 @@ pub(super) fn member(p: &mut Parser<'_>) -> bool {
         }
         "use" => one(p, Use, |p| dotted_name(p, "the name of a library or file")),
         "class" | "abstract" => class(p),
+        "choice" if p.nth(1) == Ident => one(p, Choice, choice),
         "modify" => one(p, Modify, |p| {
             class_name(p);
             body(p, Scope::Thing);
@@ -421,6 +423,26 @@ fn reference(p: &mut Parser<'_>) {
         }
         path(p);
     }
+}
+
+/// `Fit { loose, normal, close }`, after `choice`
+fn choice(p: &mut Parser<'_>) {
+    p.expect(Ident, "expected-name", "the choice's name");
+    if !p.expect(LBrace, "expected-body", "what there is to choose in `{ }`") {
+        return;
+    }
+    while p.at(Ident) {
+        p.bump();
+        if !p.eat(Comma) && !p.begins_line(0) && !p.at(SyntaxKind::RBrace) {
+            break;
+        }
+    }
+    if !p.at(SyntaxKind::RBrace) {
+        let hint = "options are names with commas between them: `choice Fit { loose, close }`";
+        p.expected_hint("expected-option", "a name, `,` or `}`", Some(hint.into()));
+        p.skip_in_braces();
+    }
+    p.eat(SyntaxKind::RBrace);
 }
 
 /// `"Mechanics" { Spring, Beam }`, after `toolbox`

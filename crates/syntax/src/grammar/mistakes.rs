@@ -2,8 +2,8 @@
 
 use super::members::is_keyword;
 use crate::kind::SyntaxKind::{
-    Arrow, Colon, Comma, Eof, Eq, EqEq, FatArrow, Greater, GreaterEq, Ident, LBracket, LParen,
-    Less, LessEq, LetKw, Minus, NotEq, Number, RBrace, RBracket, RParen, Text, Unit,
+    Arrow, Colon, Comma, Eof, Eq, EqEq, FatArrow, Greater, GreaterEq, Ident, LBrace, LBracket,
+    LParen, Less, LessEq, LetKw, Minus, NotEq, Number, RBrace, RBracket, RParen, Text, Unit,
 };
 use crate::parser::Parser;
 use crate::units::unit_length;
@@ -24,6 +24,7 @@ pub(super) fn of_member(p: &mut Parser<'_>) -> bool {
     decimal_comma(p)
         || comment(p)
         || declared_elsewhere(p)
+        || enumeration(p)
         || bare_equation(p)
         || name_and_class(p)
         || anchored_value(p)
@@ -99,11 +100,37 @@ fn declared_elsewhere(p: &mut Parser<'_>) -> bool {
     if is_one {
         let (at, name) = (p.pos(), p.word(1));
         let has_value = p.nth(2) == Eq && !p.begins_line(2);
-        let value = if has_value { format!(" = {}", p.word(3)) } else { String::new() };
+        let value = if has_value { p.text_between(at + 3, p.line_end()) } else { "" };
+        let is_plain = !value.contains(|c: char| c.is_alphabetic() || c == '(');
+        let hint = match value {
+            "" => format!("a part is declared with its class: `{name}: Real`"),
+            value if is_plain => {
+                format!("a part is declared with its class: `{name}: Real = {value}`")
+            }
+            value => format!("what is computed is a message: `{name} => {value}`"),
+        };
         let said = (
             "expected-member",
             format!("found `{}`, wanted a part, constraint, message or value", p.word(0)),
-            format!("a part is declared with its class: `{name}: Real{value}`"),
+            hint,
+        );
+        p.report_mistake((at, at), said, None);
+    }
+    is_one
+}
+
+/// `enum Colour { red, green }`
+fn enumeration(p: &mut Parser<'_>) -> bool {
+    let is_one = p.at(Ident)
+        && matches!(p.word(0), "enum" | "enumeration" | "option")
+        && p.nth(1) == Ident
+        && p.nth(2) == LBrace;
+    if is_one {
+        let (at, name) = (p.pos(), p.word(1));
+        let said = (
+            "expected-member",
+            format!("found `{}`, wanted a part, constraint, message or value", p.word(0)),
+            format!("options with names are a choice: `choice {name} {{ one, other }}`"),
         );
         p.report_mistake((at, at), said, None);
     }

@@ -7,8 +7,8 @@ use super::types::paths;
 use super::{Scope, body, mistakes};
 use crate::kind::SyntaxKind::{
     Comma, Delete, Dot, Edit, ElseKw, Eq, Expect, Hint, Ident, If, IfExpr, IfKw, LBrace, LBracket,
-    Move, Number, OwnerKw, Promote, Redo, Rename, Say, Set, Simulate, Target, Task, Text, Try,
-    Undo, Unmerge,
+    LetKw, Move, Note, Number, OwnerKw, Promote, Redo, Rename, Say, Set, Simulate, Target, Task,
+    Text, Try, Undo, Unmerge,
 };
 use crate::parser::Parser;
 
@@ -23,6 +23,15 @@ pub(super) fn text_body(p: &mut Parser<'_>, scope: Scope) {
 
 /// A statement, if one begins here; where none may stand it is read and reported.
 pub(super) fn statement(p: &mut Parser<'_>, scope: Scope) -> bool {
+    if scope == Scope::Check && p.at(LetKw) && p.nth(1) == Ident && !p.begins_line(1) {
+        one(p, Note, |p| {
+            p.bump();
+            if p.expect(Eq, "expected-value", "`=` and a value") {
+                expression(p);
+            }
+        });
+        return true;
+    }
     if !p.at(Ident) || p.names_itself(1) {
         return false;
     }

@@ -111,6 +111,7 @@ mod tests {
             unit: String::new(),
             exact: String::from("a \"b\", c"),
             number: None,
+            options: Vec::new(),
             given: true,
             is_virtual: false,
             anchored: false,
