@@ -421,8 +421,10 @@ pub struct ValueRow {
     pub is_layout: bool,
     /// Its state.
     pub freedom: Option<Freedom>,
-    /// What `///` says of it.
+    /// What `///` says of it, or what a program asks for it in words.
     pub doc: String,
+    /// The least and the largest value that a program allows for it, in the units of `number`.
+    pub range: Option<(f64, f64)>,
 }
 
 /// The source and what is known of it.

@@ -89,11 +89,22 @@ fn Numbers(lab: Lab) -> impl IntoView {
                 <tbody>
                     <For each=shown key=|at| *at let(at)>
                         <values::Row lab=lab at=at place=Place::Inspector />
-                        <tr><td colspan="4"><values::Slider lab=lab at=at /></td></tr>
+                        <tr><td colspan="4">
+                            {asked(lab, at)}
+                            <values::Slider lab=lab at=at />
+                        </td></tr>
                     </For>
                 </tbody>
             </table>
         </div>
+    }
+}
+
+/// What is said of a value, where something is: a program's question, a comment.
+fn asked(lab: Lab, at: usize) -> impl Fn() -> Option<AnyView> {
+    move || {
+        let doc = lab.values.with(|rows| rows.get(at).map(|row| row.doc.clone()))?;
+        (!doc.is_empty()).then(|| view! { <p class="asked quiet">{doc}</p> }.into_any())
     }
 }
 

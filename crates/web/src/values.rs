@@ -259,8 +259,12 @@ pub fn Slider(
     let path = Memo::new(move |_| {
         row.with(|row| row.as_ref().map(|r| r.path.clone()).unwrap_or_default())
     });
-    let range =
-        Memo::new(move |old: Option<&(f64, f64)>| slider_range(number.get().unwrap_or(0.0), old));
+    let asked = Memo::new(move |_| row.with(|row| row.as_ref().and_then(|row| row.range)));
+    let whole =
+        Memo::new(move |_| row.with(|row| row.as_ref().is_some_and(|r| r.class == "Integer")));
+    let range = Memo::new(move |old: Option<&(f64, f64)>| {
+        asked.get().unwrap_or_else(|| slider_range(number.get().unwrap_or(0.0), old))
+    });
     let pressed = StoredValue::new(false);
     let moved = move |e: leptos::ev::Event| {
         let Ok(to) = event_target_value(&e).parse::<f64>() else { return };
@@ -278,7 +282,7 @@ pub fn Slider(
     };
     let step = move || {
         let (least, most) = range.get();
-        (most - least) / 200.0
+        if whole.get() { 1.0 } else { (most - least) / 200.0 }
     };
     move || {
         number.with(Option::is_some).then(|| {

@@ -190,6 +190,7 @@ impl Maker<'_> {
                 is_layout: s.is_layout,
                 freedom: words::freedom_of(structure, self.status, thing),
                 doc: words::doc_of(state, thing),
+                range: self.asked_range(thing),
             });
             return;
         }
@@ -203,6 +204,21 @@ impl Maker<'_> {
             self.add_parts(thing, path);
         }
         self.open.pop();
+    }
+
+    /// Returns the range that a program gives the parameter that a thing is.
+    fn asked_range(&self, thing: ThingId) -> Option<(f64, f64)> {
+        let (document, structure) = (&self.state.lowered.document, &self.state.structure);
+        let owner = structure.things[thing].owner?;
+        let program = document.program(structure.things[owner].class)?;
+        let name = structure.field_name(document, thing)?;
+        let (least, most) =
+            program.parameters.iter().find(|asked| asked.name == *name)?.range.as_ref()?;
+        let end = |term| match self.evaluator.evaluate(term, owner) {
+            Ok(Answer::Number(x, _)) => Some(x),
+            _ => None,
+        };
+        Some((end(least)?, end(most)?))
     }
 
     /// Adds the rows of a thing's parts and of what it answers.
@@ -322,6 +338,7 @@ fn answered(
         is_layout,
         freedom: None,
         doc: doc.into(),
+        range: None,
     })
 }
 

@@ -286,3 +286,14 @@ fn a_picture_that_is_followed_is_the_one_that_is_made_anew() {
         }
     }
 }
+
+#[test]
+fn a_parameter_of_a_program_says_what_it_asks_and_in_which_range() {
+    let desk = Desk::of(
+        "unit mm\nprogram Disc(d: Length in 2 mm..50 mm = 10 mm \"How wide?\", n: Integer = 3) {\n}\ndisc: Disc\n",
+    );
+    let wide = desk.row("disc.d");
+    assert_eq!((wide.number, wide.range), (Some(10.0), Some((2.0, 50.0))));
+    assert_eq!(wide.doc, "How wide?");
+    assert_eq!(desk.row("disc.n").range, None);
+}

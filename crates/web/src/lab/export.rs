@@ -118,6 +118,7 @@ mod tests {
             is_layout: false,
             freedom: None,
             doc: String::new(),
+            range: None,
         };
         assert_eq!(csv(&[row]), "name,value,unit\r\nnote,\"a \"\"b\"\", c\",\r\n");
     }
