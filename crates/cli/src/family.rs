@@ -2,13 +2,15 @@
 //!
 //! Rows are drawn by several threads, each with the document open for itself; what is written depends on the
 //! rows alone. `manifest.jsonl` says of each row what came of it; a row whose line there has the hash of the
-//! same program, values and formats, and whose files stand, is not drawn again. `index.html` shows all of them.
+//! same program, values and formats, and whose files stand, is not drawn again. While rows are drawn their lines go to
+//! `manifest.jsonl.part`, so that what was drawn before an end by force is not drawn again either. `index.html` shows
+//! all of them.
 
 use crate::commands::{Form, Report};
 use crate::documents::{OpenError, open};
 use clap::ValueEnum;
 use serde_json::{Value, json};
-use session::view::{FamilyRow, RowOutcome};
+use session::view::{FamilyRow, RowFormats, RowOutcome};
 use std::collections::BTreeMap;
 use std::fmt::Write as _;
 use std::fs;
@@ -21,6 +23,8 @@ use std::sync::mpsc;
 const CHUNK: usize = 64;
 /// What is said of every row.
 const MANIFEST: &str = "manifest.jsonl";
+/// The same while rows are drawn.
+const PART: &str = "manifest.jsonl.part";
 
 /// What a drawing is written as.
 #[derive(Clone, Copy, PartialEq, Eq, Debug, ValueEnum)]
@@ -41,9 +45,12 @@ pub(crate) struct Arguments {
     /// The table: CSV with a header of parameters, `inner [mm]`; of a family, its own without it.
     #[arg(long)]
     table: Option<PathBuf>,
-    /// The folder to write to.
+    /// A second table: where it has other values is told.
     #[arg(long)]
-    out: PathBuf,
+    compare: Option<PathBuf>,
+    /// The folder to write to; without it every row is run and the table looked at, and nothing is written.
+    #[arg(long)]
+    out: Option<PathBuf>,
     /// What to write each drawing as.
     #[arg(long, value_enum, value_delimiter = ',', default_value = "svg")]
     format: Vec<Format>,
@@ -75,87 +82,165 @@ pub(crate) fn run(arguments: &Arguments, form: Form) -> Result<Report, OpenError
         None => None,
     };
     let rows = opened.session.family_rows(opened.id, &arguments.program, table.as_deref());
-    let rows = rows.map_err(refused)?;
-    fs::create_dir_all(&arguments.out).map_err(|source| unreadable(&arguments.out, source))?;
-    let source = format!("{}\n{}\n{:?}", opened.meaning(), arguments.program, arguments.format);
-    let hashes: Vec<String> =
-        rows.rows.iter().map(|row| hash(&format!("{source}\n{row:?}"))).collect();
-    let before = manifest(&arguments.out);
+    let mut rows = rows.map_err(refused)?;
+    if let Some(path) = &arguments.compare {
+        let second = read(path)?;
+        let told = opened.session.family_differences(opened.id, &arguments.program, &rows, &second);
+        rows.notes.extend(told.map_err(refused)?);
+    }
+    if let Some(out) = &arguments.out {
+        fs::create_dir_all(out).map_err(|source| unreadable(out, source))?;
+    }
+    let has = |format| arguments.out.is_some() && arguments.format.contains(&format);
+    let formats = RowFormats { svg: has(Format::Svg), dxf: has(Format::Dxf) };
+    let source = format!("{}\n{}\n{:?}\n", opened.meaning(), arguments.program, arguments.format);
+    let source = mixed(FNV, &source);
+    let hashes: Vec<String> = rows
+        .rows
+        .iter()
+        .map(|row| format!("{:016x}", mixed(source, &format!("{row:?}"))))
+        .collect();
+    let before = arguments.out.as_deref().map(manifest).unwrap_or_default();
     let files = names(&rows.rows);
     let is_done = |at: usize| {
         let line = before.get(&hashes[at])?;
-        let written = line["files"].as_array()?;
-        let stands = |file: &Value| {
-            let file = file.as_str().map(|file| arguments.out.join(file));
-            file.is_some_and(|file| file.is_file())
-        };
+        let (out, written) = (arguments.out.as_ref()?, line["files"].as_array()?);
+        let stands = |file: &Value| file.as_str().is_some_and(|file| out.join(file).is_file());
         (line["row"] == json!(at) && written.iter().all(stands)).then(|| line.clone())
     };
     let todo: Vec<usize> = (0..rows.rows.len()).filter(|&at| is_done(at).is_none()).collect();
     let mut lines: BTreeMap<usize, Value> =
         (0..rows.rows.len()).filter_map(|at| Some((at, is_done(at)?))).collect();
     let skipped = lines.len();
-    let cores = std::thread::available_parallelism().map_or(1, std::num::NonZero::get);
-    let jobs = arguments.jobs.unwrap_or(cores).clamp(1, 64).min(todo.len().div_ceil(CHUNK).max(1));
-    let next = AtomicUsize::new(0);
-    let mut failure = None;
-    std::thread::scope(|scope| {
-        let (send, receive) = mpsc::channel::<Result<Done, OpenError>>();
-        for _ in 0..jobs {
-            let send = send.clone();
-            let (todo, rows, next, hashes, files) = (&todo, &rows.rows, &next, &hashes, &files);
-            scope.spawn(move || {
-                let work = || -> Result<(), OpenError> {
-                    let opened = open(&arguments.file)?;
-                    loop {
-                        let from = next.fetch_add(CHUNK, Ordering::Relaxed);
-                        if from >= todo.len() {
-                            return Ok(());
-                        }
-                        for &at in &todo[from..(from + CHUNK).min(todo.len())] {
-                            let row = &rows[at];
-                            let outcome =
-                                opened.session.draw_row(opened.id, &arguments.program, row);
-                            let outcome = outcome.map_err(|r| OpenError::Refused(r.message))?;
-                            let done =
-                                finish(arguments, at, (row, outcome), &files[at], &hashes[at])?;
-                            // nobody listens where another thread failed
-                            if send.send(Ok(done)).is_err() {
-                                return Ok(());
-                            }
-                        }
-                    }
-                };
-                if let Err(error) = work() {
-                    let _ = send.send(Err(error));
-                }
-            });
-        }
-        drop(send);
-        let mut progress = Progress::of(todo.len());
-        for done in receive {
-            match done {
-                Ok(done) => {
-                    progress.step(&done.outcome);
-                    lines.insert(done.at, done.line);
-                }
-                Err(error) => {
-                    failure = Some(error);
-                    break;
-                }
-            }
-        }
-        progress.end();
-    });
+    let work = Work { arguments, rows: &rows.rows, hashes: &hashes, files: &files, formats };
+    let failure = work.draw(&todo, &mut lines);
     // what was drawn before something failed is kept
     let manifest: String = lines.values().map(|line| format!("{line}\n")).collect();
-    write(&arguments.out.join(MANIFEST), &manifest)?;
+    if let Some(out) = &arguments.out {
+        write(&out.join(MANIFEST), &manifest)?;
+        let _ = fs::remove_file(out.join(PART));
+    }
     if let Some(failure) = failure {
         return Err(failure);
     }
-    let index = index_page(&arguments.program, &lines, &rows.notes);
-    write(&arguments.out.join("index.html"), &index)?;
+    if let Some(out) = &arguments.out {
+        let index = index_page(&arguments.program, &lines, &rows.notes);
+        write(&out.join("index.html"), &index)?;
+    }
     Ok(report(arguments, &lines, (&rows.notes, skipped), form))
+}
+
+/// Rows to be drawn, and how.
+#[derive(Clone, Copy)]
+struct Work<'w> {
+    arguments: &'w Arguments,
+    rows: &'w [FamilyRow],
+    /// Of each row the hash of what it depends on.
+    hashes: &'w [String],
+    /// Of each row the name of its files.
+    files: &'w [String],
+    formats: RowFormats,
+}
+
+impl Work<'_> {
+    /// Draws rows by several threads; says why it could not go on, where that is so.
+    fn draw(&self, todo: &[usize], lines: &mut BTreeMap<usize, Value>) -> Option<OpenError> {
+        let cores = std::thread::available_parallelism().map_or(1, std::num::NonZero::get);
+        let jobs = self
+            .arguments
+            .jobs
+            .unwrap_or(cores)
+            .clamp(1, 64)
+            .min(todo.len().div_ceil(CHUNK).max(1));
+        let next = AtomicUsize::new(0);
+        let mut failure = None;
+        std::thread::scope(|scope| {
+            let (send, receive) = mpsc::channel::<Result<Done, OpenError>>();
+            for _ in 0..jobs {
+                let send = send.clone();
+                let next = &next;
+                scope.spawn(move || {
+                    let work = || -> Result<(), OpenError> {
+                        let opened = open(&self.arguments.file)?;
+                        loop {
+                            let from = next.fetch_add(CHUNK, Ordering::Relaxed);
+                            if from >= todo.len() {
+                                return Ok(());
+                            }
+                            for &at in &todo[from..(from + CHUNK).min(todo.len())] {
+                                let row = &self.rows[at];
+                                let (session, program) = (&opened.session, &self.arguments.program);
+                                let outcome =
+                                    session.draw_row(opened.id, program, row, self.formats);
+                                let outcome = outcome.map_err(|r| OpenError::Refused(r.message))?;
+                                let done = self.finish(at, outcome)?;
+                                // nobody listens where another thread failed
+                                if send.send(Ok(done)).is_err() {
+                                    return Ok(());
+                                }
+                            }
+                        }
+                    };
+                    if let Err(error) = work() {
+                        let _ = send.send(Err(error));
+                    }
+                });
+            }
+            drop(send);
+            let mut progress = Progress::of(todo.len());
+            let mut so_far = self.arguments.out.as_deref().and_then(|out| part(out, lines));
+            for done in receive {
+                match done {
+                    Ok(done) => {
+                        progress.step(&done.outcome);
+                        // what cannot be noted is drawn again next time
+                        let noted = so_far.as_mut().map(|file| writeln!(file, "{}", done.line));
+                        if matches!(noted, Some(Err(_))) {
+                            so_far = None;
+                        }
+                        lines.insert(done.at, done.line);
+                    }
+                    Err(error) => {
+                        failure = Some(error);
+                        break;
+                    }
+                }
+            }
+            progress.end();
+        });
+        failure
+    }
+
+    /// Writes a row's files, and says what came of it.
+    fn finish(&self, at: usize, outcome: RowOutcome) -> Result<Done, OpenError> {
+        let (row, file) = (&self.rows[at], &self.files[at]);
+        let mut files = Vec::new();
+        for format in &self.arguments.format {
+            let (extension, bytes) = match format {
+                Format::Svg => ("svg", &outcome.svg),
+                Format::Dxf => ("dxf", &outcome.dxf),
+            };
+            if let (Some(out), false) = (&self.arguments.out, bytes.is_empty()) {
+                let name = format!("{file}.{extension}");
+                write(&out.join(&name), bytes)?;
+                files.push(name);
+            }
+        }
+        let measures: serde_json::Map<String, Value> =
+            outcome.measures.iter().map(|(path, x)| (path.clone(), json!(x))).collect();
+        let line = json!({
+            "row": at,
+            "name": row.name,
+            "line": row.line,
+            "hash": self.hashes[at],
+            "outcome": outcome.outcome,
+            "step": outcome.step,
+            "message": outcome.message,
+            "files": files,
+            "measures": measures,
+        });
+        Ok(Done { at, line, outcome: outcome.outcome })
+    }
 }
 
 /// Says what came of the rows.
@@ -177,12 +262,19 @@ fn report(
     }
     let _ = writeln!(
         words,
-        "{} rows: {drawn} drawn, {} outside, {} failed, {} too long; {skipped} were there already; {}",
+        "{} rows: {drawn} {}, {} outside, {} failed, {} too long{}",
         lines.len(),
+        if arguments.out.is_some() { "drawn" } else { "could be drawn" },
         count("outside"),
         count("failed"),
         count("too-long"),
-        arguments.out.join("index.html").display()
+        match &arguments.out {
+            Some(out) => {
+                let index = out.join("index.html");
+                format!("; {skipped} were there already; {}", index.display())
+            }
+            None => String::new(),
+        }
     );
     let json = json!({
         "program": arguments.program,
@@ -197,49 +289,15 @@ fn report(
     Report { text, aside: String::new(), good: drawn == lines.len() }
 }
 
-/// Writes a row's files, and says what came of it.
-fn finish(
-    arguments: &Arguments,
-    at: usize,
-    (row, outcome): (&FamilyRow, RowOutcome),
-    file: &str,
-    hash: &str,
-) -> Result<Done, OpenError> {
-    let mut files = Vec::new();
-    for format in &arguments.format {
-        let (extension, bytes) = match format {
-            Format::Svg => ("svg", &outcome.svg),
-            Format::Dxf => ("dxf", &outcome.dxf),
-        };
-        if !bytes.is_empty() {
-            let name = format!("{file}.{extension}");
-            write(&arguments.out.join(&name), bytes)?;
-            files.push(name);
-        }
-    }
-    let measures: serde_json::Map<String, Value> =
-        outcome.measures.iter().map(|(path, x)| (path.clone(), json!(x))).collect();
-    let line = json!({
-        "row": at,
-        "name": row.name,
-        "line": row.line,
-        "hash": hash,
-        "outcome": outcome.outcome,
-        "step": outcome.step,
-        "message": outcome.message,
-        "files": files,
-        "measures": measures,
-    });
-    Ok(Done { at, line, outcome: outcome.outcome })
-}
-
 /// Returns a name of a file for each row, none twice.
 fn names(rows: &[FamilyRow]) -> Vec<String> {
     let mut taken: BTreeMap<String, u32> = BTreeMap::new();
     let plain = |c: char| if c.is_alphanumeric() || ".-_".contains(c) { c } else { '-' };
     let name = |row: &FamilyRow| {
         let name: String = row.name.chars().map(plain).collect();
-        let name = match name.trim_matches(['.', '-']) {
+        let words: Vec<&str> = name.split('-').filter(|word| !word.is_empty()).collect();
+        let name = words.join("-");
+        let name = match name.trim_matches('.') {
             "" => "row".to_string(),
             // what a file system takes for one name is one
             name => name.to_lowercase(),
@@ -253,15 +311,26 @@ fn names(rows: &[FamilyRow]) -> Vec<String> {
 
 /// Reads what an earlier run said of its rows, by their hashes.
 fn manifest(out: &Path) -> BTreeMap<String, Value> {
-    let text = fs::read_to_string(out.join(MANIFEST)).unwrap_or_default();
+    let read = |name| fs::read_to_string(out.join(name)).unwrap_or_default();
+    let text = read(MANIFEST) + &read(PART);
     let lines = text.lines().filter_map(|line| serde_json::from_str::<Value>(line).ok());
     lines.filter_map(|line| Some((line["hash"].as_str()?.to_string(), line))).collect()
 }
 
-/// Mixes a text into sixteen digits. **Source:** FNV-1a, 64 bits.
-fn hash(text: &str) -> String {
+/// Begins to note what is done, with what was done before.
+fn part(out: &Path, lines: &BTreeMap<usize, Value>) -> Option<fs::File> {
+    let mut file = fs::File::create(out.join(PART)).ok()?;
+    lines.values().try_for_each(|line| writeln!(file, "{line}")).ok()?;
+    Some(file)
+}
+
+/// What a text is mixed into first. **Source:** FNV-1a, 64 bits.
+const FNV: u64 = 0xcbf2_9ce4_8422_2325;
+
+/// Mixes a text into what the texts before came to.
+fn mixed(before: u64, text: &str) -> u64 {
     let mix = |h: u64, byte: u8| (h ^ u64::from(byte)).wrapping_mul(0x0100_0000_01b3);
-    format!("{:016x}", text.bytes().fold(0xcbf2_9ce4_8422_2325, mix))
+    text.bytes().fold(before, mix)
 }
 
 fn index_page(program: &str, lines: &BTreeMap<usize, Value>, notes: &[String]) -> String {

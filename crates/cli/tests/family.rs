@@ -113,3 +113,66 @@ fn a_name_that_is_wrong_is_answered_with_those_that_there_are() {
     fs::remove_file(folder.join("discs.csv")).expect("it is there");
     assert!(!drawn(&folder, "Discs", &["--out", "out"]).0);
 }
+
+#[test]
+fn a_second_table_is_compared() {
+    let folder = folder("compare", TABLE);
+    let other = "disc,r [cm],hole [mm]\nsmall,0.2,1\nmiddle,0.5,\nhuge,4,2\n";
+    fs::write(folder.join("other.csv"), other).expect("it can be written");
+    let (good, words) = drawn(&folder, "Discs", &["--compare", "other.csv"]);
+    assert!(good && words.contains("3 rows: 3 could be drawn, 0 outside"), "{words}");
+    for note in [
+        "note: middle: r is 4, in the second table 5",
+        "note: large is not in the second table",
+        "note: huge is in the second table alone",
+    ] {
+        assert!(words.contains(note), "{note}: {words}");
+    }
+    assert!(!words.contains("small"), "0.2 cm are 2 mm: {words}");
+    assert!(!folder.join("out").exists());
+    // rows without names in common are told apart by the first column
+    fs::write(folder.join("other.csv"), "r [mm],hole [mm]\n8,2.5\n").expect("it can be written");
+    let (_, words) = drawn(&folder, "Discs", &["--compare", "other.csv"]);
+    assert!(words.contains("large: hole is 2, in the second table 2.5"), "{words}");
+}
+
+#[test]
+fn what_was_drawn_before_an_end_by_force_is_not_drawn_again() {
+    let folder = folder("force", TABLE);
+    assert!(drawn(&folder, "Discs", &["--out", "out"]).0);
+    let out = folder.join("out");
+    // as it stands where nothing came after the second row
+    let manifest = fs::read_to_string(out.join("manifest.jsonl")).expect("it is there");
+    let lines: Vec<&str> = manifest.lines().collect();
+    fs::write(out.join("manifest.jsonl.part"), lines[..2].join("\n")).expect("it can be written");
+    fs::remove_file(out.join("manifest.jsonl")).expect("it is there");
+    let (_, words) = drawn(&folder, "Discs", &["--out", "out"]);
+    assert!(words.contains("3 rows: 3 drawn") && words.contains("2 were there already"), "{words}");
+    assert_eq!(fs::read_to_string(out.join("manifest.jsonl")).expect("it is there"), manifest);
+    assert!(!out.join("manifest.jsonl.part").exists());
+}
+
+#[test]
+fn every_row_of_every_family_of_the_gallery_is_drawn() {
+    let gallery = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../gallery");
+    for (file, family, rows) in [
+        ("washer", "Plain", 15),
+        ("nut", "Regular", 19),
+        ("bolt", "Hexagon", 38),
+        ("bolt", "Threaded", 19),
+        ("bearing", "Series62", 11),
+        ("screw", "SocketHead", 20),
+        ("plate", "Square", 3),
+        ("rings", "StandardRings", 4),
+        ("koch", "Refinements", 5),
+        ("retaining-ring", "Din471", 76),
+    ] {
+        let file = format!("{file}.thing");
+        let mut thinglab = Command::new(env!("CARGO_BIN_EXE_thinglab"));
+        let said = thinglab.current_dir(&gallery).args(["family", &file, family]).output();
+        let said = said.expect("the command starts");
+        let words = String::from_utf8(said.stdout).expect("words are printed");
+        let all = format!("{rows} rows: {rows} could be drawn, 0 outside, 0 failed, 0 too long\n");
+        assert_eq!(words, all, "{file}: {family}");
+    }
+}

@@ -5,7 +5,7 @@
 
 use crate::answer::{Answer, Closure, Frame};
 use crate::fault::{Fault, FaultKind};
-use crate::lookup::Tables;
+use crate::lookup::{Known, Tables};
 use crate::operate::unary;
 use crate::programs::Context;
 use crate::sway::Compared;
@@ -75,6 +75,17 @@ impl<'a> Evaluator<'a> {
     /// Makes an evaluator for one state.
     pub fn new(document: &'a Document, structure: &'a Structure, values: &'a Values) -> Self {
         Self::with_tables(document, structure, values, Rc::new(Tables::new(document)))
+    }
+
+    /// Makes an evaluator for a state of things of which something was looked up before. `known` belongs to this document
+    /// and this structure.
+    pub fn knowing(
+        document: &'a Document,
+        structure: &'a Structure,
+        values: &'a Values,
+        known: &Known,
+    ) -> Self {
+        Self::with_tables(document, structure, values, known.tables(document))
     }
 
     /// Makes an evaluator for another state of the same things; what was looked up stays known.

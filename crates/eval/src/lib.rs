@@ -51,6 +51,7 @@ pub use answer::{Answer, Closure, Made};
 pub use evaluator::{DEEPEST_MESSAGES, Evaluator};
 pub use fault::{Fault, FaultKind};
 pub use given::{Given, given_values};
+pub use lookup::Known;
 pub use picture::{Grip, Picture};
 pub use programs::{Context, Ended, Standing, Why};
 pub use scene::{Moved, Scene};

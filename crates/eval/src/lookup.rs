@@ -4,8 +4,9 @@ use crate::answer::Answer;
 use crate::evaluator::{Evaluator, Result};
 use crate::fault::{Fault, FaultKind};
 use base::{IdVec, Name};
+use geometry::Made;
 use kernel::{ClassId, ClassKind, ConstraintInstance, Document, Layout, Message, ThingId};
-use std::cell::RefCell;
+use std::cell::{OnceCell, RefCell};
 use std::collections::BTreeMap;
 use std::rc::Rc;
 
@@ -17,12 +18,28 @@ type Found = Option<(ClassId, usize)>;
 pub(crate) struct Tables {
     layouts: RefCell<IdVec<ClassId, Option<Rc<Layout>>>>,
     messages: RefCell<IdVec<ClassId, BTreeMap<Name, Found>>>,
+    figures: RefCell<IdVec<ClassId, Option<Option<Made>>>>,
     constraints: RefCell<BTreeMap<(ThingId, Name), Option<ConstraintInstance>>>,
     all: RefCell<BTreeMap<ClassId, Rc<[ThingId]>>>,
     /// Names that the evaluator itself asks for.
     pub(crate) x: Name,
     pub(crate) y: Name,
     pub(crate) picture: Name,
+    pub(crate) p1: Name,
+    pub(crate) p2: Name,
+    pub(crate) center: Name,
+    pub(crate) radius: Name,
+    pub(crate) bulge: Name,
+}
+
+/// What was looked up of a document and its things: evaluators of their states share it.
+#[derive(Clone, Debug, Default)]
+pub struct Known(OnceCell<Rc<Tables>>);
+
+impl Known {
+    pub(crate) fn tables(&self, document: &Document) -> Rc<Tables> {
+        self.0.get_or_init(|| Rc::new(Tables::new(document))).clone()
+    }
 }
 
 impl Tables {
@@ -31,11 +48,17 @@ impl Tables {
         Self {
             layouts: RefCell::new(IdVec::filled(None, n)),
             messages: RefCell::new(IdVec::filled(BTreeMap::new(), n)),
+            figures: RefCell::new(IdVec::filled(None, n)),
             constraints: RefCell::new(BTreeMap::new()),
             all: RefCell::new(BTreeMap::new()),
             x: Name::new("x"),
             y: Name::new("y"),
             picture: Name::new("picture"),
+            p1: Name::new("p1"),
+            p2: Name::new("p2"),
+            center: Name::new("center"),
+            radius: Name::new("radius"),
+            bulge: Name::new("bulge"),
         }
     }
 }
@@ -54,6 +77,16 @@ impl<'a> Evaluator<'a> {
         let layout = known.unwrap_or_else(|| Rc::new(Layout::new(self.document, class)));
         self.tables.layouts.borrow_mut()[class] = Some(layout.clone());
         layout
+    }
+
+    /// Returns what things of a class are to a construction, found once.
+    pub(crate) fn figure_of_class(&self, class: ClassId) -> Option<Made> {
+        if let Some(known) = self.tables.figures.borrow()[class] {
+            return known;
+        }
+        let found = self.document.figure(class);
+        self.tables.figures.borrow_mut()[class] = Some(found);
+        found
     }
 
     /// Returns the part of a thing that a bare name means.

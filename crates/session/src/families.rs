@@ -5,7 +5,7 @@
 //! long. Every row is on its own.
 
 use crate::state::State;
-use crate::view::{FamilyRow, FamilyView, Refusal, RowOutcome, TableView};
+use crate::view::{FamilyRow, FamilyView, Refusal, RowFormats, RowOutcome, TableView};
 use crate::views::drawn::walk;
 use crate::words;
 use drawing::{Drawing, Vertical, dxf, svg};
@@ -80,6 +80,72 @@ pub(crate) fn rows(state: &State, name: &str, table: Option<&str>) -> Result<Tab
     }
     note_duplicates(&mut read);
     Ok(read)
+}
+
+/// Says where a second table has other values for the rows of a first, and which rows one of them lacks.
+///
+/// # Errors
+/// A table that cannot be read, no row that both have.
+pub(crate) fn differences(
+    state: &State,
+    name: &str,
+    rows: &TableView,
+    other: &str,
+) -> Result<Vec<String>, Refusal> {
+    let (program, _) = find(state, name)?;
+    let document = &state.lowered.document;
+    let evaluator = state.evaluator(&state.values);
+    let fields = document.layout(program);
+    let shown = |parameter: &str, literal: &Literal| {
+        let field = fields.iter().find(|&&f| *document.field_name(f) == *parameter);
+        let class = field.map_or(document.root, |&f| document.field_class(f));
+        evaluator.text_of(&answer(document, class, literal))
+    };
+    let other = {
+        let mut read = TableView::default();
+        read_table(state, program, other, &mut read)?;
+        read.rows
+    };
+    let value = |row: &'_ FamilyRow, parameter: &str| {
+        row.values.iter().find(|(name, _)| name == parameter).map(|(_, v)| v.clone())
+    };
+    let by_name = rows.rows.iter().any(|row| other.iter().any(|o| o.name == row.name));
+    let first = fields.iter().map(|&f| document.field_name(f).to_string());
+    let first = first.into_iter().find(|parameter| {
+        let has = |rows: &[FamilyRow]| rows.iter().any(|row| value(row, parameter).is_some());
+        has(&rows.rows) && has(&other)
+    });
+    let is_same = |a: &FamilyRow, b: &FamilyRow| match &first {
+        _ if by_name => a.name == b.name,
+        Some(parameter) => {
+            let (a, b) = (value(a, parameter), value(b, parameter));
+            a.is_some() && a == b
+        }
+        None => false,
+    };
+    let mut said = Vec::new();
+    let mut found = 0;
+    for row in &rows.rows {
+        let Some(second) = other.iter().find(|o| is_same(row, o)) else {
+            said.push(format!("{} is not in the second table", row.name));
+            continue;
+        };
+        found += 1;
+        for (parameter, here) in &row.values {
+            if let Some(there) = value(second, parameter).filter(|there| there != here) {
+                let (here, there) = (shown(parameter, here), shown(parameter, &there));
+                let name = &row.name;
+                said.push(format!("{name}: {parameter} is {here}, in the second table {there}"));
+            }
+        }
+    }
+    for row in other.iter().filter(|o| !rows.rows.iter().any(|row| is_same(row, o))) {
+        said.push(format!("{} is in the second table alone", row.name));
+    }
+    match found {
+        0 => Err(words::refuse("the second table has no row in common with the first".into())),
+        _ => Ok(said),
+    }
 }
 
 /// Says that a program has no rows of its own, and where there are some.
@@ -238,7 +304,12 @@ fn note_disorder(column: &str, numbers: &[(f64, String)], read: &mut TableView) 
 ///
 /// # Errors
 /// No such program.
-pub(crate) fn draw(state: &State, name: &str, row: &FamilyRow) -> Result<RowOutcome, Refusal> {
+pub(crate) fn draw(
+    state: &State,
+    name: &str,
+    row: &FamilyRow,
+    formats: RowFormats,
+) -> Result<RowOutcome, Refusal> {
     let (program, family) = find(state, name)?;
     let document = &state.lowered.document;
     let evaluator = state.evaluator(&state.values);
@@ -292,10 +363,14 @@ pub(crate) fn draw(state: &State, name: &str, row: &FamilyRow) -> Result<RowOutc
         path: &|_| None,
     };
     let drawing = Drawing { elements, vertical };
-    outcome.svg = svg::write(&drawing, &options);
+    if formats.svg {
+        outcome.svg = svg::write(&drawing, &options);
+    }
     let millimetres_per_unit = state.lowered.millimetres_per_unit();
     let options = dxf::DxfOptions { millimetres_per_unit, ..dxf::DxfOptions::default() };
-    outcome.dxf = dxf::write(&drawing, &options);
+    if formats.dxf {
+        outcome.dxf = dxf::write(&drawing, &options);
+    }
     Ok(outcome)
 }
 

@@ -19,8 +19,8 @@ use crate::tools::{self, Tool};
 use crate::view::{
     Advice, Affected, Analysis, BinEntry, Change, CheckReport, CompletionView, DiagnosticView,
     DocumentId, DragState, Explanation, FamilyRow, FamilyView, FixView, Ghost, HeldView, MovedView,
-    Offer, PictureView, Pointer, Question, Recognised, Refusal, RowOutcome, Status, StructureRow,
-    TableView, TextView, ToolView, ValueRow,
+    Offer, PictureView, Pointer, Question, Recognised, Refusal, RowFormats, RowOutcome, Status,
+    StructureRow, TableView, TextView, ToolView, ValueRow,
 };
 use crate::views;
 use crate::words;
@@ -461,6 +461,20 @@ impl Session {
     ) -> Result<TableView, Refusal> {
         crate::families::rows(&self.document(id).state, name, table)
     }
+    /// Compares the rows of a family, or of a program, with those of a second table: by their names where both have one,
+    /// else by the first column that both have.
+    ///
+    /// # Errors
+    /// No such program, a table that cannot be read, no row that both have.
+    pub fn family_differences(
+        &self,
+        id: DocumentId,
+        name: &str,
+        rows: &TableView,
+        other: &str,
+    ) -> Result<Vec<String>, Refusal> {
+        crate::families::differences(&self.document(id).state, name, rows, other)
+    }
     /// Draws a row of a family, or of a program.
     ///
     /// # Errors
@@ -470,8 +484,9 @@ impl Session {
         id: DocumentId,
         name: &str,
         row: &FamilyRow,
+        formats: RowFormats,
     ) -> Result<RowOutcome, Refusal> {
-        crate::families::draw(&self.document(id).state, name, row)
+        crate::families::draw(&self.document(id).state, name, row, formats)
     }
     /// Says of which things there is nothing in the picture, as their classes have none; nothing if all are there.
     pub fn unpictured(&self, id: DocumentId) -> Option<String> {

@@ -6,7 +6,7 @@
 use crate::host::Host;
 use crate::texts::Texts;
 use base::Diagnostic;
-use eval::Evaluator;
+use eval::{Evaluator, Known};
 use kernel::{OriginId, SlotId, Strength, Structure, ThingId, Value, Values};
 use lang::Lowered;
 use plan::{Model, Planner, Plans, Source, Status, Unmet};
@@ -34,6 +34,8 @@ pub(crate) struct State {
     pub(crate) double_roots: Vec<SlotId>,
     /// What is given, by the text itself or by a class, and could not stay, with what it is given.
     pub(crate) gave_way: Vec<(SlotId, Value)>,
+    /// What evaluators looked up of its things.
+    known: Known,
 }
 
 impl State {
@@ -115,6 +117,7 @@ impl State {
             unplanned,
             double_roots,
             gave_way,
+            known: Known::default(),
         };
         let mut warnings = crate::yielding::warnings(&state, &planner);
         warnings.extend(crate::unlike::warnings(&state));
@@ -174,7 +177,7 @@ impl State {
     }
     /// Returns an evaluator of this state, or of other values of it.
     pub(crate) fn evaluator<'a>(&'a self, values: &'a Values) -> Evaluator<'a> {
-        Evaluator::new(&self.lowered.document, &self.structure, values)
+        Evaluator::knowing(&self.lowered.document, &self.structure, values, &self.known)
     }
     /// Returns the path of the first thing of a slot, as the language writes it.
     pub(crate) fn slot_path(&self, slot: SlotId) -> kernel::Path {

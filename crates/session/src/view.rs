@@ -680,6 +680,15 @@ pub struct FamilyRow {
     pub fault: Option<String>,
 }
 
+/// What a row is written as.
+#[derive(Clone, Copy, PartialEq, Eq, Debug, Default)]
+pub struct RowFormats {
+    /// SVG at scale.
+    pub svg: bool,
+    /// DXF in millimetres.
+    pub dxf: bool,
+}
+
 /// What came of a row.
 #[derive(Clone, PartialEq, Debug, Default, Serialize)]
 pub struct RowOutcome {
@@ -693,8 +702,8 @@ pub struct RowOutcome {
     pub message: String,
     /// The numbers of what was drawn, by their paths.
     pub measures: Vec<(String, f64)>,
-    /// The drawing at scale, as SVG.
+    /// The drawing at scale, as SVG, where that was asked for.
     pub svg: String,
-    /// The drawing in millimetres, as DXF.
+    /// The drawing in millimetres, as DXF, where that was asked for.
     pub dxf: String,
 }
