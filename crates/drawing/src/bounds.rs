@@ -2,7 +2,7 @@
 
 use crate::curve;
 use crate::element::{Anchoring, Drawing, Element, Placement, Point, Shape, Vertical};
-use crate::metrics;
+use crate::{metrics, spline};
 use base::number::{cos, sin};
 use std::f64::consts::{FRAC_PI_2, TAU};
 
@@ -78,12 +78,19 @@ fn corners(element: &Element, vertical: Vertical, say: &mut dyn FnMut(Point)) {
             let extremes = curve::extremes(*major, *ratio, *start, *sweep).into_iter();
             extremes.map(|at| curve::on_ellipse(*center, *major, *ratio, at)).for_each(say);
         }
+        Shape::Spline(poles) => {
+            for piece in spline::pieces(poles) {
+                say(piece[0]);
+                say(piece[3]);
+                spline::extremes(piece).map(|t| spline::at(piece, t)).for_each(&mut *say);
+            }
+        }
         Shape::Region(rings) => {
             for shape in rings.iter().flat_map(|ring| curve::edges(ring)) {
                 corners(&Element::new(shape), vertical, say);
             }
         }
-        Shape::Text { at, text, anchoring, placement } => match placement {
+        Shape::Text { at, text, anchoring, placement, turn } => match placement {
             Placement::OnScreen(_) => say(*at),
             Placement::OnSheet(size) => {
                 let width = metrics::text_width(text, *size);
@@ -96,11 +103,14 @@ fn corners(element: &Element, vertical: Vertical, say: &mut dyn FnMut(Point)) {
                 let above = metrics::ASCENT * size;
                 let below = (metrics::DESCENT + lines_below * metrics::LINE_HEIGHT) * size;
                 let (top, bottom) = match vertical {
-                    Vertical::Up => (at.y + above, at.y - below),
-                    Vertical::Down => (at.y - above, at.y + below),
+                    Vertical::Up => (above, -below),
+                    Vertical::Down => (-above, below),
                 };
-                say(Point { x: at.x + left, y: top });
-                say(Point { x: at.x + left + width, y: bottom });
+                let (c, s) = (cos(*turn), sin(*turn));
+                for (x, y) in [left, left + width].into_iter().flat_map(|x| [(x, top), (x, bottom)])
+                {
+                    say(Point { x: at.x + x * c - y * s, y: at.y + x * s + y * c });
+                }
             }
         },
     }
@@ -167,8 +177,14 @@ mod tests {
             text: "MM".into(),
             anchoring: Anchoring::Middle,
             placement,
+            turn: 0.0,
         };
         near(of(text(Placement::OnScreen(12.0))).unwrap(), [0.0; 4]);
         near(of(text(Placement::OnSheet(10.0))).unwrap(), [-8.33, -2.07, 8.33, 7.18]);
+        let mut upright = text(Placement::OnSheet(10.0));
+        if let Shape::Text { turn, .. } = &mut upright {
+            *turn = FRAC_PI_2;
+        }
+        near(of(upright).unwrap(), [-7.18, -8.33, 2.07, 8.33]);
     }
 }

@@ -6,10 +6,15 @@
 //!
 //! **Source:** Autodesk, *DXF Reference*, release 2000.
 
+mod dimension;
+
 use crate::bounds::bounds;
 use crate::element::{
     Anchoring, Color, Corner, Drawing, Element, Line, Placement, Point, Shape, Vertical,
 };
+use crate::spline;
+use base::number::{cos, sin};
+use dimension::Gathered;
 use std::collections::BTreeSet;
 use std::f64::consts::TAU;
 use std::fmt::Write as _;
@@ -53,7 +58,13 @@ const LAYERS: [(&str, u8); 3] = [("0", 7), ("CONSTRUCTION", 8), ("ACCENT", 1)];
 /// assert!(text.contains("AcDbCircle\n10\n3.0\n20\n4.0\n30\n0.0\n40\n2.0\n"));
 /// ```
 pub fn write(drawing: &Drawing, options: &DxfOptions) -> String {
-    let mut dxf = Writer { out: String::new(), handle: FIRST_HANDLE, options: *options, sign: 1.0 };
+    let mut dxf = Writer {
+        out: String::new(),
+        handle: FIRST_HANDLE,
+        options: *options,
+        sign: 1.0,
+        owner: BLOCK_RECORDS[0].0,
+    };
     if drawing.vertical == Vertical::Down {
         dxf.sign = -1.0;
     }
@@ -67,12 +78,14 @@ pub fn write(drawing: &Drawing, options: &DxfOptions) -> String {
     dxf.header(drawing);
     dxf.section("CLASSES");
     dxf.end();
-    dxf.tables(&named);
-    dxf.blocks();
-    dxf.section("ENTITIES");
     let mut elements: Vec<&Element> = drawing.elements.iter().collect();
     elements.sort_by_key(|e| e.layer);
-    elements.into_iter().for_each(|e| dxf.element(e));
+    let mut dimensions = dimension::gathered(&elements);
+    dxf.tables(&named, &mut dimensions);
+    dxf.blocks(&dimensions);
+    dxf.section("ENTITIES");
+    elements.into_iter().filter(|e| e.style.dimension.is_none()).for_each(|e| dxf.element(e));
+    dimensions.iter().for_each(|d| dxf.dimension(d));
     dxf.end();
     dxf.objects();
     dxf.pair(0, "EOF");
@@ -93,6 +106,8 @@ struct Writer {
     options: DxfOptions,
     /// -1 where `y` runs down.
     sign: f64,
+    /// The block that entities are written to.
+    owner: u32,
 }
 
 impl Writer {
@@ -175,7 +190,7 @@ impl Writer {
         self.pair(2, name);
         self.pair(70, 0);
     }
-    fn tables(&mut self, named: &BTreeSet<String>) {
+    fn tables(&mut self, named: &BTreeSet<String>, dimensions: &mut [Gathered<'_>]) {
         self.section("TABLES");
         let table = self.table("VPORT", 0);
         let _ = table;
@@ -225,9 +240,19 @@ impl Writer {
         self.pair(100, "AcDbDimStyleTable");
         self.pair(71, 1);
         self.entry(table, "DIMSTYLE", "AcDbDimStyleTableRecord", "Standard");
+        // how large arrow heads and words are
+        let height = self.options.text_height;
+        for code in [41, 140] {
+            self.real(code, height);
+        }
         self.pair(0, "ENDTAB");
-        let table = self.table("BLOCK_RECORD", BLOCK_RECORDS.len());
-        for (handle, name) in BLOCK_RECORDS {
+        let table = self.table("BLOCK_RECORD", BLOCK_RECORDS.len() + dimensions.len());
+        for dimension in &mut *dimensions {
+            dimension.record = self.next();
+        }
+        let records = BLOCK_RECORDS.map(|(handle, name)| (handle, name.to_string()));
+        let own = dimensions.iter().map(|d| (d.record, d.name.clone()));
+        for (handle, name) in records.into_iter().chain(own) {
             self.pair(0, "BLOCK_RECORD");
             self.hex(5, handle);
             self.hex(330, table);
@@ -238,9 +263,11 @@ impl Writer {
         self.pair(0, "ENDTAB");
         self.end();
     }
-    fn blocks(&mut self) {
+    fn blocks(&mut self, dimensions: &[Gathered<'_>]) {
         self.section("BLOCKS");
-        for (record, name) in BLOCK_RECORDS {
+        let records = BLOCK_RECORDS.map(|(record, name)| (record, name, None));
+        let own = dimensions.iter().map(|d| (d.record, d.name.as_str(), Some(d)));
+        for (record, name, dimension) in records.into_iter().chain(own) {
             let handle = self.next();
             self.pair(0, "BLOCK");
             self.hex(5, handle);
@@ -249,10 +276,16 @@ impl Writer {
             self.pair(8, "0");
             self.pair(100, "AcDbBlockBegin");
             self.pair(2, name);
-            self.pair(70, 0);
+            // a block without a name of its own
+            self.pair(70, u8::from(dimension.is_some()));
             self.at(10, Point::default());
             self.pair(3, name);
             self.pair(1, "");
+            if let Some(dimension) = dimension {
+                self.owner = record;
+                dimension.elements.iter().for_each(|e| self.element(e));
+                self.owner = BLOCK_RECORDS[0].0;
+            }
             let handle = self.next();
             self.pair(0, "ENDBLK");
             self.hex(5, handle);
@@ -283,7 +316,7 @@ impl Writer {
         let handle = self.next();
         self.pair(0, kind);
         self.hex(5, handle);
-        self.hex(330, BLOCK_RECORDS[0].0);
+        self.hex(330, self.owner);
         self.pair(100, "AcDbEntity");
         self.pair(8, layer_of(element));
         match element.style.line {
@@ -333,19 +366,20 @@ impl Writer {
             Shape::Ellipse { center, major, ratio, start, sweep } => {
                 self.ellipse(element, (*center, *major, *ratio), (*start, *sweep));
             }
+            Shape::Spline(poles) => self.spline(element, poles),
             Shape::Region(rings) => {
                 if element.style.fill.is_some() {
                     self.hatch(element, rings);
                 }
                 rings.iter().for_each(|ring| self.ring(element, ring));
             }
-            Shape::Text { at, text, anchoring, placement } => {
+            Shape::Text { at, text, anchoring, placement, turn } => {
                 let height = match placement {
                     Placement::OnSheet(height) => self.length(*height),
                     Placement::OnScreen(_) => self.options.text_height,
                 };
                 for (i, line) in text.lines().enumerate().filter(|(_, line)| !line.is_empty()) {
-                    self.words(element, *at, (line, *anchoring), (height, i));
+                    self.words(element, *at, (line, *anchoring, *turn), (height, i));
                 }
             }
         }
@@ -367,6 +401,26 @@ impl Writer {
         let is_whole = sweep.abs() > TAU - CLOSED;
         self.real(41, if is_whole { 0.0 } else { from });
         self.real(42, if is_whole { TAU } else { to });
+    }
+    /// Writes Bézier curves as a B-spline: each of its knots between two of them stands three times.
+    fn spline(&mut self, element: &Element, poles: &[Point]) {
+        let pieces = spline::pieces(poles).count();
+        if pieces == 0 {
+            return;
+        }
+        self.begin("SPLINE", "AcDbSpline", element);
+        self.pair(210, "0.0\n220\n0.0\n230\n1.0");
+        // in a plane
+        self.pair(70, 8);
+        self.pair(71, 3);
+        self.pair(72, 3 * pieces + 5);
+        self.pair(73, 3 * pieces + 1);
+        self.pair(74, 0);
+        for knot in 0..=pieces {
+            let times = if knot == 0 || knot == pieces { 4 } else { 3 };
+            (0..times).for_each(|_| self.real(40, knot as f64));
+        }
+        poles[..=3 * pieces].iter().for_each(|p| self.at(10, *p));
     }
     /// Writes a closed ring, its arcs as arcs.
     fn ring(&mut self, element: &Element, ring: &[Corner]) {
@@ -414,13 +468,14 @@ impl Writer {
         &mut self,
         element: &Element,
         at: Point,
-        (line, anchoring): (&str, Anchoring),
+        (line, anchoring, turn): (&str, Anchoring, f64),
         (height, row): (f64, usize),
     ) {
         /// How far lines of words are apart, as a part of their height.
         const LEADING: f64 = 5.0 / 3.0;
         let (x, y) = (self.length(at.x), self.sign * self.length(at.y));
-        let y = y - LEADING * height * row as f64;
+        let (down, turn) = (LEADING * height * row as f64, self.sign * turn);
+        let (x, y) = (x + down * sin(turn), y - down * cos(turn));
         let place = |w: &mut Self, code: u16| {
             w.real(code, x);
             w.real(code + 10, y);
@@ -430,6 +485,9 @@ impl Writer {
         place(self, 10);
         self.real(40, height);
         self.pair(1, escaped(line));
+        if turn != 0.0 {
+            self.real(50, degrees(turn));
+        }
         let justified = match anchoring {
             Anchoring::Start => 0,
             Anchoring::Middle => 1,
@@ -536,6 +594,28 @@ mod tests {
         let filled = Drawing { elements: vec![element], vertical: Vertical::Up };
         let text = write(&filled, &DxfOptions::default());
         assert!(text.contains("\nHATCH\n") && text.contains("8\nSECTION_A\n"), "{text}");
+    }
+    #[test]
+    fn bezier_curves_are_a_spline_of_degree_three() {
+        let p = |x, y| Point { x, y };
+        let poles = vec![
+            p(0.0, 0.0),
+            p(1.0, 2.0),
+            p(2.0, 2.0),
+            p(3.0, 0.0),
+            p(4.0, -2.0),
+            p(5.0, 0.0),
+            p(6.0, 1.0),
+        ];
+        let text = drawn(Shape::Spline(poles), Vertical::Up);
+        let knots = "0.0 0.0 0.0 0.0 1.0 1.0 1.0 2.0 2.0 2.0 2.0 "
+            .replace(' ', "\n")
+            .replace("0.0\n", "40\n0.0\n");
+        let knots = knots.replace("1.0\n", "40\n1.0\n").replace("2.0\n", "40\n2.0\n");
+        assert!(
+            text.contains(&format!("70\n8\n71\n3\n72\n11\n73\n7\n74\n0\n{knots}10\n0.0\n")),
+            "{text}"
+        );
     }
     #[test]
     fn an_ellipse_runs_to_the_left() {

@@ -82,6 +82,43 @@ pub struct Style {
     pub width: f64,
     /// The layer of the sheet that it is on, where the document names one.
     pub sheet_layer: Option<Arc<str>>,
+    /// The dimension that it is drawn for: what has the same one is one dimension.
+    pub dimension: Option<Arc<Dimension>>,
+}
+
+/// A kind of dimension, as drawings that are exported know them.
+#[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Debug)]
+pub enum DimensionKind {
+    /// How far two points are apart: these, and the end and the start of the line beside them.
+    Aligned,
+    /// How far apart they are along the line: the same points.
+    Linear,
+    /// A radius: the centre and a point of the circle.
+    Radius,
+    /// A diameter: two points of the circle, opposite each other.
+    Diameter,
+    /// An angle: the ends of two lines, and a point of the arc between them.
+    Angle,
+}
+
+impl DimensionKind {
+    /// Returns how many points a dimension of the kind has.
+    pub fn points(self) -> usize {
+        match self {
+            Self::Aligned | Self::Linear => 4,
+            Self::Radius | Self::Diameter => 2,
+            Self::Angle => 5,
+        }
+    }
+}
+
+/// What a dimension measures.
+#[derive(Clone, PartialEq, Debug)]
+pub struct Dimension {
+    /// Its kind.
+    pub kind: DimensionKind,
+    /// Its points, as the kind says.
+    pub points: Vec<Point>,
 }
 
 /// Which point of a text lies at its position.
@@ -160,6 +197,8 @@ pub enum Shape {
         /// The signed parameter that it runs through, in radians.
         sweep: f64,
     },
+    /// Cubic Bézier curves, each from where the one before ends: poles in threes after the first.
+    Spline(Vec<Point>),
     /// Closed rings of segments and arcs; what an odd number of them surrounds is inside.
     Region(Vec<Vec<Corner>>),
     /// A text in one or more lines.
@@ -172,6 +211,8 @@ pub enum Shape {
         anchoring: Anchoring,
         /// How high it is.
         placement: Placement,
+        /// How far its base line is turned from the x axis towards the y axis, in radians, around its position.
+        turn: f64,
     },
 }
 
@@ -199,6 +240,7 @@ impl Element {
             | Shape::Circle { .. }
             | Shape::Arc { .. }
             | Shape::Ellipse { .. }
+            | Shape::Spline(_)
             | Shape::Region(_) => Layer::Lines,
         };
         Self { shape, style: Style::default(), layer, tag: Tag::default() }

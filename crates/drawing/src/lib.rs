@@ -3,16 +3,17 @@
 //! Coordinates are in the document's units of length on the sheet; `y` runs as the drawing says.
 //! Every element has a [`Tag`], which the session maps to the path of a thing.
 //!
-//! Reading order: [`element`], [`metrics`], [`curve`], [`mod@bounds`], [`svg`], [`dxf`].
+//! Reading order: [`element`], [`metrics`], [`curve`], [`spline`], [`mod@bounds`], [`svg`], [`dxf`].
 pub mod bounds;
 pub mod curve;
 pub mod dxf;
 pub mod element;
 pub mod metrics;
+pub mod spline;
 pub mod svg;
 
 pub use bounds::{Bounds, bounds};
 pub use element::{
-    Anchoring, Color, Corner, Drawing, Element, Layer, Line, Placement, Point, Shape, Style, Tag,
-    Vertical,
+    Anchoring, Color, Corner, Dimension, DimensionKind, Drawing, Element, Layer, Line, Placement,
+    Point, Shape, Style, Tag, Vertical,
 };

@@ -7,7 +7,7 @@ use crate::bounds::{Bounds, bounds, point_on_circle};
 use crate::element::{
     Anchoring, Color, Corner, Drawing, Element, Line, Placement, Point, Shape, Style, Tag, Vertical,
 };
-use crate::{curve, metrics};
+use crate::{curve, metrics, spline};
 use base::number::{atan2, rounded, shortest};
 use std::f64::consts::TAU;
 use std::fmt::Write as _;
@@ -188,11 +188,20 @@ fn write_element(
             let data = ellipse_data((*center, *major, *ratio), (*start, *sweep), vertical);
             line(out, format_args!(r#"<path d="{data}"{look}/>"#));
         }
+        Shape::Spline(poles) => {
+            let Some(first) = poles.first() else { return };
+            let mut data = format!("M{}", placed(*first, vertical));
+            for [_, p, q, r] in spline::pieces(poles) {
+                let [p, q, r] = [p, q, r].map(|p| placed(p, vertical));
+                data += &format!("C{p} {q} {r}");
+            }
+            line(out, format_args!(r#"<path d="{data}"{look}/>"#));
+        }
         Shape::Region(rings) => {
             let data: String = rings.iter().map(|ring| ring_data(ring, vertical)).collect();
             line(out, format_args!(r#"<path d="{data}" fill-rule="evenodd"{look}/>"#));
         }
-        Shape::Text { at, text, anchoring, placement } => {
+        Shape::Text { at, text, anchoring, placement, turn } => {
             let (x, y) = p(*at);
             let size = match placement {
                 Placement::OnSheet(size) => *size,
@@ -206,7 +215,14 @@ fn write_element(
                 }
                 Placement::OnSheet(_) | Placement::OnScreen(_) => String::new(),
             };
-            write_text(out, (&x, &y), text, *anchoring, size, &format!("{width}{look}"));
+            let turned = if *turn == 0.0 {
+                String::new()
+            } else {
+                let turn = if vertical == Vertical::Up { -turn } else { *turn };
+                let turn = shortest(turn.to_degrees());
+                format!(r#" transform="rotate({turn} {x} {y})""#)
+            };
+            write_text(out, (&x, &y), text, *anchoring, size, &format!("{width}{turned}{look}"));
         }
     }
 }
@@ -267,7 +283,7 @@ fn ellipse_data(
 /// Widens a box by words of a constant size on the screen, as large as they are in this file.
 fn with_labels(around: Bounds, drawing: &Drawing, options: &SvgOptions<'_>) -> Bounds {
     drawing.elements.iter().fold(around, |around, element| match &element.shape {
-        Shape::Text { at, text, anchoring, placement: Placement::OnScreen(pixels) } => {
+        Shape::Text { at, text, anchoring, placement: Placement::OnScreen(pixels), .. } => {
             let size = pixels / options.pixels_per_unit;
             let width = metrics::text_width(text, size);
             let left = match anchoring {
@@ -285,6 +301,7 @@ fn with_labels(around: Bounds, drawing: &Drawing, options: &SvgOptions<'_>) -> B
         | Shape::Circle { .. }
         | Shape::Arc { .. }
         | Shape::Ellipse { .. }
+        | Shape::Spline(_)
         | Shape::Region(_) => around,
     })
 }
@@ -318,7 +335,7 @@ fn write_text(
 
 /// Writes the attributes that say how an element looks and what it pictures.
 fn looks(element: &Element, path: Option<String>) -> String {
-    let Style { color, fill, line, width, sheet_layer } = &element.style;
+    let Style { color, fill, line, width, sheet_layer, dimension: _ } = &element.style;
     let mut classes = Vec::new();
     let mut attributes = String::new();
     let mut add = |name: &str, value: &str| {
@@ -436,8 +453,10 @@ mod tests {
             text: "a<b & \"c\"\u{7}\nd".into(),
             anchoring: Anchoring::Middle,
             placement: Placement::OnSheet(10.0),
+            turn: std::f64::consts::FRAC_PI_2,
         };
         let out = drawn(Element::new(text), Vertical::Up);
+        assert!(out.contains(r#"transform="rotate(-90 0 -5)""#), "{out}");
         assert!(out.contains(r#"y="-5" font-size="10" text-anchor="middle""#), "{out}");
         assert!(
             out.contains(r#">a&lt;b &amp; &quot;c&quot;<tspan x="0" dy="12">d</tspan><"#),

@@ -86,6 +86,8 @@ impl<'a> Evaluator<'a> {
             | Function::Arc
             | Function::Rectangle
             | Function::Ellipse
+            | Function::Spline
+            | Function::Bezier
             | Function::Region
             | Function::Label
             | Function::Text

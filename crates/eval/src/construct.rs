@@ -158,21 +158,20 @@ impl<'a> Evaluator<'a> {
 
     /// Reads a figure: a point, a straight, or a circle, that of an arc too.
     fn figure(&self, of: &Answer<'a>, nearest: ThingId) -> Result<Figure<f64>> {
-        let kind = self.class_of(of).and_then(|class| self.document.figure(class));
+        let kind = self.class_of(of).and_then(|class| self.figure_of_class(class));
         let kind = kind.or_else(|| {
             let alike = self.structure.unlike(of.thing()?);
-            alike.iter().find_map(|&t| self.document.figure(self.structure.things[t].class))
+            alike.iter().find_map(|&t| self.figure_of_class(self.structure.things[t].class))
         });
         match kind {
             Some(Made::Point) => self.xy(of, nearest).map(Figure::Point),
             Some(Made::Straight) => {
-                let (from, to) =
-                    (self.part_of(of, "p1", nearest)?, self.part_of(of, "p2", nearest)?);
-                Ok(Figure::Straight { from: self.xy(&from, nearest)?, to: self.xy(&to, nearest)? })
+                let end = |name| self.xy(&self.ask_of(of, name, nearest)?, nearest);
+                Ok(Figure::Straight { from: end(&self.tables.p1)?, to: end(&self.tables.p2)? })
             }
             Some(Made::Circle) => {
-                let center = self.part_of(of, "center", nearest)?;
-                let radius = self.part_of(of, "radius", nearest)?;
+                let center = self.ask_of(of, &self.tables.center, nearest)?;
+                let radius = self.ask_of(of, &self.tables.radius, nearest)?;
                 let (radius, _) = self.number(&radius)?;
                 Ok(Figure::Circle { center: self.xy(&center, nearest)?, radius })
             }
@@ -184,13 +183,17 @@ impl<'a> Evaluator<'a> {
     }
 
     fn part_of(&self, of: &Answer<'a>, name: &str, nearest: ThingId) -> Result<Answer<'a>> {
-        self.send(of, &Name::new(name), Vec::new(), None, nearest)
+        self.ask_of(of, &Name::new(name), nearest)
+    }
+
+    fn ask_of(&self, of: &Answer<'a>, name: &Name, nearest: ThingId) -> Result<Answer<'a>> {
+        self.send(of, name, Vec::new(), None, nearest)
     }
 
     fn xy(&self, of: &Answer<'a>, nearest: ThingId) -> Result<[f64; 2]> {
         let mut at = [0.0; 2];
-        for (name, x) in ["x", "y"].into_iter().zip(&mut at) {
-            (*x, _) = self.number(&self.part_of(of, name, nearest)?)?;
+        for (name, x) in [&self.tables.x, &self.tables.y].into_iter().zip(&mut at) {
+            (*x, _) = self.number(&self.ask_of(of, name, nearest)?)?;
         }
         Ok(at)
     }

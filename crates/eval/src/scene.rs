@@ -303,12 +303,18 @@ fn fingerprint(element: &Element) -> u64 {
         mix(p.y);
     };
     match &element.shape {
-        Shape::Dot(p) | Shape::Circle { center: p, .. } | Shape::Text { at: p, .. } => point(*p),
+        Shape::Dot(p) | Shape::Circle { center: p, .. } => point(*p),
+        Shape::Text { at, turn, .. } => {
+            point(*at);
+            point(Point { x: *turn, y: 0.0 });
+        }
         Shape::Segment(p, q) => {
             point(*p);
             point(*q);
         }
-        Shape::Polyline { points, .. } => points.iter().for_each(|p| point(*p)),
+        Shape::Polyline { points, .. } | Shape::Spline(points) => {
+            points.iter().for_each(|p| point(*p));
+        }
         Shape::Ellipse { center, major, ratio, start, sweep } => {
             point(*center);
             point(*major);

@@ -5,7 +5,8 @@ use crate::evaluator::{Evaluator, Result};
 use crate::fault::Fault;
 use base::Name;
 use drawing::{
-    Anchoring, Color, Corner, Element, Layer, Line, Placement, Point, Shape, Tag, curve,
+    Anchoring, Color, Corner, Dimension, DimensionKind, Element, Layer, Line, Placement, Point,
+    Shape, Tag, curve, spline,
 };
 use kernel::builtin::{Function, PictureMessage};
 use kernel::{ClassKind, ThingId};
@@ -49,6 +50,17 @@ impl<'a> Evaluator<'a> {
                 let from = if arguments.len() > 3 { number(3)? } else { 0.0 };
                 let sweep = if arguments.len() > 4 { number(4)? } else { TAU };
                 curve::ellipse(center, major, number(2)?, from, sweep)
+            }
+            Function::Spline => Shape::Spline(spline::through(&self.places(arguments)?)),
+            Function::Bezier => {
+                let poles = self.places(arguments)?;
+                if poles.len() % 3 != 1 {
+                    let n = poles.len();
+                    let message =
+                        format!("{n} poles, where a place and three for each curve are wanted");
+                    return Err(Fault::wrong(message));
+                }
+                Shape::Spline(poles)
             }
             Function::Region => {
                 let ring = |ring: &Answer<'a>| {
@@ -103,13 +115,17 @@ impl<'a> Evaluator<'a> {
     }
 
     fn corners(&self, arguments: &[Answer<'a>], closed: bool) -> Result<Shape> {
+        Ok(Shape::Polyline { points: self.places(arguments)?, closed })
+    }
+
+    /// Reads places: each an argument, or all in one list.
+    fn places(&self, arguments: &[Answer<'a>]) -> Result<Vec<Point>> {
         let places = match arguments {
             [one @ Answer::List(_)] if self.place(one).is_err() => self.several(arguments)?,
             [Answer::Thing(_)] => self.several(arguments)?,
             _ => arguments.to_vec(),
         };
-        let points = places.iter().map(|p| self.place(p)).collect::<Result<_>>()?;
-        Ok(Shape::Polyline { points, closed })
+        places.iter().map(|p| self.place(p)).collect()
     }
 
     /// Returns rings: each an argument, or all in one list.
@@ -127,13 +143,13 @@ impl<'a> Evaluator<'a> {
     /// Reads a corner of a ring: a place, which may have a part `bulge`, or `(place, bulge)`.
     pub(crate) fn bent(&self, corner: &Answer<'a>) -> Result<Corner> {
         if let Ok(at) = self.place(corner) {
-            let name = Name::new("bulge");
+            let name = &self.tables.bulge;
             let class = self.class_of(corner);
-            let bends = class.is_some_and(|class| self.layout(class).index.contains_key(&name));
+            let bends = class.is_some_and(|class| self.layout(class).index.contains_key(name));
             let bulge = match bends {
                 true => {
                     let nearest = corner.thing().unwrap_or(kernel::DOCUMENT);
-                    self.number(&self.send(corner, &name, Vec::new(), None, nearest)?)?.0
+                    self.number(&self.send(corner, name, Vec::new(), None, nearest)?)?.0
                 }
                 false => 0.0,
             };
@@ -152,7 +168,7 @@ impl<'a> Evaluator<'a> {
             return Err(Fault::wrong(format!("{kind} where a text is wanted")));
         };
         let (text, anchoring) = (text.to_string(), Anchoring::Start);
-        Ok(Shape::Text { at, text, anchoring, placement })
+        Ok(Shape::Text { at, text, anchoring, placement, turn: 0.0 })
     }
 
     /// Reads a place: a thing with `x` and `y`, or `(x, y)`.
@@ -253,6 +269,16 @@ impl<'a> Evaluator<'a> {
             (PictureMessage::OnLayer, Some(Answer::Text(name))) => Some(Arc::from(&**name)),
             _ => None,
         };
+        let measured = match (message, arguments) {
+            (PictureMessage::Measured, [Answer::Text(kind), points]) => {
+                Some(Arc::new(self.dimension(kind, points)?))
+            }
+            _ => None,
+        };
+        let turned = match message {
+            PictureMessage::Turned => self.number(&arguments[0])?.0,
+            _ => 0.0,
+        };
         let color = match message {
             PictureMessage::Colored | PictureMessage::Filled => arguments.first(),
             _ => None,
@@ -276,6 +302,12 @@ impl<'a> Evaluator<'a> {
                         element.layer = Layer::Back;
                     }
                 }
+                PictureMessage::Measured => style.dimension.clone_from(&measured),
+                PictureMessage::Turned => {
+                    if let Shape::Text { turn, .. } = &mut element.shape {
+                        *turn += turned;
+                    }
+                }
                 PictureMessage::Centered => {
                     if let Shape::Text { anchoring, .. } = &mut element.shape {
                         *anchoring = Anchoring::Middle;
@@ -284,6 +316,25 @@ impl<'a> Evaluator<'a> {
             }
         }
         Ok(Answer::Picture(Rc::new(elements)))
+    }
+
+    /// Reads what a dimension of a drawing measures.
+    fn dimension(&self, kind: &str, points: &Answer<'a>) -> Result<Dimension> {
+        let kind = match kind {
+            "aligned" => DimensionKind::Aligned,
+            "linear" => DimensionKind::Linear,
+            "radius" => DimensionKind::Radius,
+            "diameter" => DimensionKind::Diameter,
+            "angle" => DimensionKind::Angle,
+            other => return Err(Fault::wrong(format!("there is no kind of dimension `{other}`"))),
+        };
+        let points: Vec<Point> = self.places(std::slice::from_ref(points))?;
+        let (wanted, found) = (kind.points(), points.len());
+        if wanted != found {
+            let message = format!("{found} points, where such a dimension has {wanted}");
+            return Err(Fault::wrong(message));
+        }
+        Ok(Dimension { kind, points })
     }
 
     fn color(&self, answer: &Answer<'a>) -> Result<Color> {

@@ -210,6 +210,8 @@ table! {
     Circle "circle" Any [one("center", Kind::Place), one("radius", Kind::Length)] Picture "A circle.";
     Arc "arc" Any [one("center", Kind::Place), one("radius", Kind::Length), one("from", Kind::Plain), one("sweep", Kind::Plain)] Picture "An arc from an angle through a signed angle, in radians.";
     Ellipse "ellipse" Any [one("center", Kind::Place), one("end", Kind::Place), one("across", Kind::Length), perhaps("from", Kind::Plain), perhaps("sweep", Kind::Plain)] Picture "An ellipse by the end of a half axis and the length of the other, or its arc from a parameter through a signed one, in radians.";
+    Spline "spline" Any [many("place", Kind::Any)] Picture "The smooth curve through places, or through a list of them: the natural cubic spline.";
+    Bezier "bezier" Any [many("pole", Kind::Any)] Picture "Cubic Bézier curves, each from where the one before ends: a place, then three poles for each.";
     Region "region" Any [many("ring", Kind::Any)] Picture "What closed rings surround, a hole in each other one: a ring is a list of corners, each a place or a place and how the arc to the next bends.";
     Rectangle "rectangle" Any [one("corner", Kind::Place), one("opposite", Kind::Place)] Picture "An upright box between two opposite corners.";
     Label "label" Any [one("at", Kind::Place), one("text", Kind::Text)] Picture "Words of one height on the screen, whatever the zoom.";
@@ -274,6 +276,8 @@ table! {
     Thick "thick" Picture [] Picture "The picture in lines of double width.";
     Filled "filled" Picture [perhaps("color", Kind::Color)] Picture "The picture with its closed shapes filled: with a colour, or faintly.";
     Colored "colored" Picture [one("color", Kind::Color)] Picture "The picture in a colour.";
+    Measured "measured" Picture [one("kind", Kind::Text), one("points", Kind::List)] Picture "The picture as a dimension of what is exported as DXF: `aligned`, `linear`, `radius`, `diameter` or `angle`, with the points that such a one has.";
+    Turned "turned" Picture [one("by", Kind::Plain)] Picture "The picture with its words turned to the left by an angle, each around its place.";
     Centered "centered" Picture [] Picture "The picture with its words centred at their places.";
 }
 

@@ -186,6 +186,12 @@ export function createPainter(canvas, onSize) {
             const widest = label ? undefined : list[i + 5] * Math.abs(ky)
             const left = x + kx * list[i + 1] + (label ? [7, 0, -7][list[i + 3]] : 0)
             const top = y + ky * list[i + 2] - (label && list[i + 3] !== 1 ? 7 : 0)
+            const turn = list[i + 6]
+            if (turn) {
+              c.translate(left, top)
+              c.rotate(ky < 0 ? -turn : turn)
+              c.translate(-left, -top)
+            }
             const lines = (words[list[i]] ?? "").split("\n")
             lines.forEach((text, n) => {
               if (label) {
@@ -197,7 +203,7 @@ export function createPainter(canvas, onSize) {
               c.fillText(text, left, top + 1.25 * size * n, widest)
             })
             onSheet()
-            i += 6
+            i += 7
             break
           }
           case 7: {
@@ -232,6 +238,10 @@ export function createPainter(canvas, onSize) {
             i += 5
             break
           }
+          case 14:
+            c.bezierCurveTo(...list.subarray(i, i + 6))
+            i += 6
+            break
           case 13:
             // a hole of a region is one by its number alone, whichever way it runs
             draw()

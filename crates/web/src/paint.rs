@@ -199,6 +199,7 @@ pub fn ghosts(list: &mut DisplayList, drawn: &[Drawing]) {
             | Shape::Circle { .. }
             | Shape::Arc { .. }
             | Shape::Ellipse { .. }
+            | Shape::Spline(_)
             | Shape::Region(_) => {
                 begin(list, Hue::Faint as i32, -1, Line::Dashed, USUAL_WIDTH, Space::Sheet);
                 shape(list, &element.shape);
@@ -229,6 +230,7 @@ pub fn preview(list: &mut DisplayList, drawn: &Drawing) {
             | Shape::Circle { .. }
             | Shape::Arc { .. }
             | Shape::Ellipse { .. }
+            | Shape::Spline(_)
             | Shape::Region(_)
             | Shape::Text { .. } => {
                 begin(list, accent, -1, element.style.line, USUAL_WIDTH, Space::Sheet);
@@ -248,6 +250,7 @@ pub fn caught(list: &mut DisplayList, found: &Caught) {
         text: found.word.clone(),
         anchoring: Anchoring::Start,
         placement: Placement::OnScreen(13.0),
+        turn: 0.0,
     };
     begin(list, Hue::Accent as i32, -1, Line::None, 1.0, Space::Screen);
     shape(list, &text);
@@ -318,6 +321,7 @@ fn halos(list: &mut DisplayList, elements: &[&Element], marks: &[Mark], mark: Ma
             | Shape::Circle { .. }
             | Shape::Arc { .. }
             | Shape::Ellipse { .. }
+            | Shape::Spline(_)
             | Shape::Region(_) => {
                 begin(list, color, -1, Line::Solid, 9.0, Space::Sheet);
                 shape(list, &element.shape);
@@ -456,6 +460,12 @@ fn shape(list: &mut DisplayList, shape: &Shape) {
                 (drawing::curve::half_axis(*major), base::number::atan2(major.y, major.x));
             out.extend([8.0, center.x, center.y, length, ratio * length, turned, *start, *sweep]);
         }
+        Shape::Spline(poles) => {
+            out.extend(poles.first().into_iter().flat_map(|p| [9.0, p.x, p.y]));
+            for [_, p, q, r] in drawing::spline::pieces(poles) {
+                out.extend([14.0, p.x, p.y, q.x, q.y, r.x, r.y]);
+            }
+        }
         Shape::Region(rings) => {
             out.extend([13.0, 1.0]);
             for ring in rings {
@@ -467,7 +477,7 @@ fn shape(list: &mut DisplayList, shape: &Shape) {
             }
             out.extend([13.0, 0.0]);
         }
-        Shape::Text { at, text, anchoring, placement } => {
+        Shape::Text { at, text, anchoring, placement, turn } => {
             let word = list.words.len() as f64;
             list.words.push(text.clone());
             let anchoring = match anchoring {
@@ -482,7 +492,7 @@ fn shape(list: &mut DisplayList, shape: &Shape) {
                 }
                 Placement::OnScreen(height) => (*height, 0.0),
             };
-            out.extend([6.0, word, at.x, at.y, anchoring, height, width]);
+            out.extend([6.0, word, at.x, at.y, anchoring, height, width, *turn]);
         }
     }
 }

@@ -130,14 +130,13 @@ pub fn bounds(drawing: &Drawing) -> Bounds {
                 add(center.x - radius, center.y - radius);
                 add(center.x + radius, center.y + radius);
             }
-            Shape::Ellipse { .. } | Shape::Region(_) => {
-                let one = Drawing { elements: vec![element.clone()], vertical: drawing.vertical };
-                if let Some(b) = drawing::bounds(&one) {
-                    add(b.least.x, b.least.y);
-                    add(b.most.x, b.most.y);
-                }
+            Shape::Ellipse { .. } | Shape::Spline(_) | Shape::Region(_) => {
+                add_whole(element, drawing.vertical, &mut add)
             }
-            Shape::Text { at, text, anchoring, placement } => {
+            Shape::Text { turn, .. } if *turn != 0.0 => {
+                add_whole(element, drawing.vertical, &mut add)
+            }
+            Shape::Text { at, text, anchoring, placement, .. } => {
                 let height = match placement {
                     drawing::Placement::OnSheet(height) => *height,
                     drawing::Placement::OnScreen(_) => 0.0,
@@ -155,6 +154,15 @@ pub fn bounds(drawing: &Drawing) -> Bounds {
         }
     }
     all.unwrap_or(Bounds { least: Point::default(), most: Point::default() })
+}
+
+/// Adds the corners of the box around one element.
+fn add_whole(element: &drawing::Element, vertical: Vertical, add: &mut dyn FnMut(f64, f64)) {
+    let one = Drawing { elements: vec![element.clone()], vertical };
+    if let Some(b) = drawing::bounds(&one) {
+        add(b.least.x, b.least.y);
+        add(b.most.x, b.most.y);
+    }
 }
 
 #[cfg(test)]

@@ -293,7 +293,7 @@ fn axes(elements: &mut Vec<Element>, frame: &Frame) {
 
 fn words_at(at: Point, text: String, anchoring: Anchoring) -> Element {
     let placement = Placement::OnSheet(LETTERS);
-    let words = Element::new(Shape::Text { at, text, anchoring, placement });
+    let words = Element::new(Shape::Text { at, text, anchoring, placement, turn: 0.0 });
     let style = Style { color: Color::Faint, ..Style::default() };
     Element { layer: Layer::Words, style, ..words }
 }

@@ -114,6 +114,7 @@ fn at_shape(sight: &Sight<'_>, pointer: &Pointer) -> Option<Catch> {
             | Shape::Polyline { .. }
             | Shape::Arc { .. }
             | Shape::Ellipse { .. }
+            | Shape::Spline(_)
             | Shape::Region(_)
             | Shape::Text { .. } => None,
         };

@@ -35,8 +35,17 @@ pub(super) fn pick_word(
     (x, y): (f64, f64),
 ) -> Option<(String, String)> {
     let at = |element: &drawing::Element| {
-        let Shape::Text { at, text, anchoring, placement } = &element.shape else { return false };
+        let Shape::Text { at, text, anchoring, placement, turn } = &element.shape else {
+            return false;
+        };
         let (left, top) = view.screen_from_sheet(*at);
+        // seen along the words
+        let (c, s) = (base::number::cos(*turn), base::number::sin(*turn));
+        let ahead = view.screen_from_sheet(Point { x: at.x + c, y: at.y + s });
+        let long = base::number::hypot(ahead.0 - left, ahead.1 - top).max(f64::MIN_POSITIVE);
+        let (c, s) = ((ahead.0 - left) / long, (ahead.1 - top) / long);
+        let (along, below) = (x - left, y - top);
+        let (x, y) = (left + along * c + below * s, top - along * s + below * c);
         let height = match placement {
             Placement::OnSheet(height) => height * view.scale,
             Placement::OnScreen(height) => *height,
@@ -87,6 +96,15 @@ fn from_shape(p: Point, shape: &Shape) -> f64 {
             let part = |i: u32| start + sweep * f64::from(i) / f64::from(PARTS);
             let at = |i| drawing::curve::on_ellipse(*center, *major, *ratio, part(i));
             (0..PARTS).map(|i| from_segment(p, at(i), at(i + 1))).fold(f64::INFINITY, f64::min)
+        }
+        Shape::Spline(poles) => {
+            /// Each of its curves is picked as so many segments.
+            const PARTS: u32 = 24;
+            let pieces = drawing::spline::pieces(poles).flat_map(|piece| {
+                let at = move |i| drawing::spline::at(piece, f64::from(i) / f64::from(PARTS));
+                (0..PARTS).map(move |i| from_segment(p, at(i), at(i + 1)))
+            });
+            pieces.fold(f64::INFINITY, f64::min)
         }
         Shape::Region(rings) => {
             let edges = rings.iter().flat_map(|ring| drawing::curve::edges(ring));
