@@ -11,6 +11,7 @@ mod mechanisms;
 mod model;
 mod orders;
 mod planted;
+mod programs;
 mod shapes;
 mod sketches;
 mod straight;

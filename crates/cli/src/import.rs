@@ -9,8 +9,8 @@ mod merging;
 use crate::commands::{Form, Report};
 use crate::documents::OpenError;
 use base::number::shortest;
-use drawing::Point;
-use dxf::{Figure, Read};
+use drawing::{Corner, Point};
+use dxf::{Figure, Measured, Read, What};
 use merging::Merging;
 use serde_json::json;
 use std::collections::BTreeMap;
@@ -62,7 +62,11 @@ fn document(name: &str, read: &Read) -> String {
     for note in listed(read) {
         let _ = writeln!(text, "// Not taken over: {}.", on_one_line(&note));
     }
-    text += "use drafting\n\nunit mm\n\n";
+    text += "use drafting\n";
+    if read.found.iter().any(|found| matches!(found.figure, Figure::Surface(_))) {
+        text += "use contours\n";
+    }
+    text += "\nunit mm\n\n";
     let mut counts: BTreeMap<&str, u32> = BTreeMap::new();
     let mut merging = Merging::of(read.found.iter().flat_map(|f| points(&f.figure)));
     let mut layer = None;
@@ -75,8 +79,12 @@ fn document(name: &str, read: &Read) -> String {
         let n = counts.entry(base).or_default();
         *n += 1;
         let thing = format!("{base}{n}");
-        let _ =
-            writeln!(text, "{thing}: {class} {{ {} }}", body(&found.figure, &thing, &mut merging));
+        let _ = match &found.figure {
+            Figure::Surface(rings) => writeln!(text, "{thing} => {}", surface(rings)),
+            figure => {
+                writeln!(text, "{thing}: {class} {{ {} }}", body(figure, &thing, &mut merging))
+            }
+        };
     }
     text.push('\n');
     for names in merging.groups() {
@@ -105,6 +113,16 @@ fn class(found: &dxf::Found) -> (&'static str, &'static str) {
         Figure::Ellipse { sweep: None, .. } => ("Ellipse", "ellipse"),
         Figure::Ellipse { sweep: Some(_), .. } => ("EllipticArc", "ellipse"),
         Figure::Words { .. } => ("Note", "note"),
+        Figure::Curves(_) => ("Bezier", "curve"),
+        Figure::Surface(_) => ("Surface", "surface"),
+        Figure::Dimension(Measured { what, .. }) => match what {
+            What::Aligned { .. } => ("LinearDimension", "size"),
+            What::Horizontal { .. } => ("HorizontalDimension", "size"),
+            What::Vertical { .. } => ("VerticalDimension", "size"),
+            What::Radius { is_across: false, .. } => ("RadialDimension", "size"),
+            What::Radius { is_across: true, .. } => ("DiameterDimension", "size"),
+            What::Angle { .. } => ("AngularDimension", "size"),
+        },
     }
 }
 
@@ -114,7 +132,16 @@ fn points(figure: &Figure) -> Vec<Point> {
         Figure::Point(p) | Figure::Circle { center: p, .. } => vec![*p],
         Figure::Line(p, q) => vec![*p, *q],
         Figure::Arc { center, start, end, .. } => vec![*center, *start, *end],
-        Figure::Ellipse { .. } | Figure::Words { .. } => Vec::new(),
+        Figure::Dimension(Measured { what, .. }) => match what {
+            What::Aligned { from, to, .. }
+            | What::Horizontal { from, to, .. }
+            | What::Vertical { from, to, .. } => vec![*from, *to],
+            What::Radius { center, .. } => vec![*center],
+            What::Angle { from, to, .. } => vec![from.0, from.1, to.0, to.1],
+        },
+        Figure::Ellipse { .. } | Figure::Words { .. } | Figure::Curves(_) | Figure::Surface(_) => {
+            Vec::new()
+        }
     }
 }
 
@@ -143,11 +170,58 @@ fn body(figure: &Figure, thing: &str, merging: &mut Merging) -> String {
             let (center, end) = (place(*center), place(*end));
             format!("center = {center}  end = {end}  across = {}{arc}", shortest(*across))
         }
+        Figure::Curves(poles) => {
+            let poles: Vec<String> = poles.iter().map(|p| place(*p)).collect();
+            format!("poles = [{}]", poles.join(", "))
+        }
+        // it is no thing of its own
+        Figure::Surface(_) => String::new(),
+        Figure::Dimension(Measured { what, size }) => {
+            let size = shortest(*size);
+            match what {
+                What::Aligned { from, to, aside }
+                | What::Horizontal { from, to, aside }
+                | What::Vertical { from, to, aside } => {
+                    let (from, to, aside) = (at("from", *from), at("to", *to), shortest(*aside));
+                    format!("{from}  {to}  aside = {aside}  size = {size}")
+                }
+                What::Radius { center, radius, angle, beyond, .. } => {
+                    let [radius, angle, beyond] = [radius, angle, beyond].map(|x| shortest(*x));
+                    let center = at("circle.center", *center);
+                    format!(
+                        "{center}  circle.radius = {radius}  angle = {angle}  beyond = {beyond}  size = {size}"
+                    )
+                }
+                What::Angle { from, to, away } => {
+                    let ends = [
+                        at("from.p1", from.0),
+                        at("from.p2", from.1),
+                        at("to.p1", to.0),
+                        at("to.p2", to.1),
+                    ];
+                    format!("{}  away = {}  size = {size}", ends.join("  "), shortest(*away))
+                }
+            }
+        }
         Figure::Words { at, words, size } => {
             let words = on_one_line(words).replace('\\', "\\\\").replace('"', "\\\"");
             format!("at = {}  words = \"{words}\"  size = {}", place(*at), shortest(*size))
         }
     }
+}
+
+/// Writes what rings surround.
+fn surface(rings: &[Vec<Corner>]) -> String {
+    let corner = |c: &Corner| {
+        format!("Bend({}, {}, {})", shortest(c.at.x), shortest(c.at.y), shortest(c.bulge))
+    };
+    let contour = |ring: &Vec<Corner>| {
+        let corners: Vec<String> = ring.iter().map(corner).collect();
+        format!("Contour([{}])", corners.join(", "))
+    };
+    let mut rings = rings.iter().map(contour);
+    let outer = rings.next().unwrap_or_default();
+    format!("Surface({outer}, [{}])", rings.collect::<Vec<_>>().join(", "))
 }
 
 fn place(p: Point) -> String {

@@ -69,7 +69,7 @@ fn drawing(units: &str, entities: &[&str]) -> String {
 #[test]
 fn what_is_not_understood_is_listed() {
     let folder = folder("listed");
-    let spline = "0\nSPLINE\n8\n0\n70\n8\n";
+    let spline = "0\n3DFACE\n8\n0\n70\n8\n";
     let line = "0\nLINE\n8\nWALLS\n10\n0.0\n20\n0.0\n11\n2.0\n21\n0.0\n";
     let lost = "0\nLINE\n8\n0\n10\n0.0\n20\n0.0\n";
     let raised = "0\nLINE\n8\n0\n10\n0\n20\n0\n30\n5\n11\n1\n21\n1\n31\n5\n";
@@ -77,12 +77,12 @@ fn what_is_not_understood_is_listed() {
         .expect("it can be written");
     let said = thinglab(&folder, &["import", "a.dxf"]);
     let words = String::from_utf8_lossy(&said.stderr).into_owned();
-    assert!(words.contains("note: SPLINE, which is not understood, 2 times"), "{words}");
+    assert!(words.contains("note: 3DFACE, which is not understood, 2 times"), "{words}");
     assert!(words.contains("note: LINE without all of its numbers"), "{words}");
     assert!(words.contains("note: LINE that does not lie flat on the sheet"), "{words}");
     let text = String::from_utf8_lossy(&said.stdout).into_owned();
     assert!(
-        text.contains("// Not taken over: SPLINE, which is not understood, 2 times."),
+        text.contains("// Not taken over: 3DFACE, which is not understood, 2 times."),
         "{text}"
     );
     assert!(text.contains("// layer WALLS"), "{text}");
@@ -102,4 +102,146 @@ fn what_is_no_drawing_is_refused_at_its_line() {
     assert!(refused("0\nEOF\n").contains("found no section ENTITIES"));
     assert!(refused("0\n").contains("line 1: a code without a value"));
     assert!(refused("AutoCAD Binary DXF\r\n\u{1a}").contains("a binary DXF"));
+}
+
+/// A sheet of what is more than lines and arcs.
+const RICH: &str = "use drafting
+use contours
+unit mm
+wave: Spline { places = [(0, 0), (10, 5), (20, 0), (30, 5)] }
+wide: HorizontalDimension { from = (0, 20) to = (30, 25) aside = 8 }
+low: HorizontalDimension { from = (0, 20) to = (30, 25) aside = -6 }
+high: VerticalDimension { from = (0, 20) to = (30, 45) aside = -9 }
+slanted: LinearDimension { from = (40, 0) to = (46, 8) aside = 5 }
+ring: Circle { center = (70, 10) radius = 6 }
+round: RadialDimension { circle = ring angle = 30 deg }
+across: DiameterDimension { circle = ring angle = 200 deg }
+one: Line { p1 = (50, 30) p2 = (70, 30) }
+other: Line { p1 = (50, 30) p2 = (60, 50) }
+turn: AngularDimension { from = one to = other away = 12 }
+plate => Surface(Contour.box(Rectangle((100, 0), 20, 10)), [Contour.circle(Circle((110, 5), 2))])
+";
+
+#[test]
+fn splines_dimensions_and_surfaces_come_back() {
+    let folder = folder("rich");
+    fs::write(folder.join("sheet.thing"), RICH).expect("it can be written");
+    let drawn = thinglab(&folder, &["draw", "sheet.thing", "-o", "sheet.dxf"]);
+    assert!(drawn.status.success(), "{drawn:?}");
+    let said = thinglab(&folder, &["import", "sheet.dxf", "-o", "back.thing"]);
+    assert!(said.status.success() && said.stderr.is_empty(), "{said:?}");
+    let text = fs::read_to_string(folder.join("back.thing")).expect("it is there");
+    for wanted in [
+        "curve1: Bezier { poles = [(0, 0),",
+        "HorizontalDimension { from = (0, 20)  to = (30, 25)  aside = 8  size = 3.5 }",
+        "HorizontalDimension { from = (0, 20)  to = (30, 25)  aside = -6  size = 3.5 }",
+        "VerticalDimension { from = (0, 20)  to = (30, 45)  aside = -9  size = 3.5 }",
+        "LinearDimension { from = (40, 0)  to = (46, 8)  aside = 5",
+        "RadialDimension { circle.center = (70, 10)  circle.radius = 6",
+        "DiameterDimension { circle.center = (70, 10)  circle.radius = 5.99999999999999",
+        "AngularDimension { from.p1 = (50, 30)  from.p2 = (70, 30)  to.p1 = (50, 30)  to.p2 = (60, 50)  away = 11.99999999999999",
+        "surface1 => Surface(Contour([Bend(100, 0, 0), Bend(120, 0, 0),",
+    ] {
+        assert!(text.contains(wanted), "no {wanted} in\n{text}");
+    }
+    assert!(!text.contains("line3"), "the edges of a surface are its own: {text}");
+    let checked = thinglab(&folder, &["check", "--strict", "back.thing"]);
+    assert!(checked.status.success(), "{checked:?}\n{text}");
+    // drawn again, it is the same drawing
+    thinglab(&folder, &["draw", "back.thing", "-o", "again.dxf"]);
+    thinglab(&folder, &["import", "again.dxf", "-o", "twice.thing"]);
+    let twice = fs::read_to_string(folder.join("twice.thing")).expect("it is there");
+    let things = |text: &str| {
+        let mut kinds: Vec<String> = text
+            .lines()
+            .filter_map(|l| l.split_once(": ").or(l.split_once(" => ")))
+            .map(|(_, thing)| thing.split(['{', '(']).next().unwrap_or_default().trim().to_string())
+            .collect();
+        kinds.sort();
+        kinds
+    };
+    assert_eq!(things(&text), things(&twice), "{text}\n{twice}");
+}
+
+#[test]
+fn blocks_are_taken_apart_where_they_are_inserted() {
+    let folder = folder("blocks");
+    let block = "0\nSECTION\n2\nBLOCKS\n0\nBLOCK\n2\nBOLT\n10\n1.0\n20\n0.0\n\
+        0\nLINE\n8\n0\n10\n1.0\n20\n0.0\n11\n3.0\n21\n0.0\n\
+        0\nARC\n8\nROUND\n10\n1.0\n20\n0.0\n40\n1.0\n50\n0.0\n51\n90.0\n0\nENDBLK\n0\nENDSEC\n";
+    let insert = |more: &str| format!("0\nINSERT\n8\nPARTS\n2\nBOLT\n10\n10.0\n20\n5.0\n{more}");
+    let turned = insert("41\n2.0\n42\n2.0\n50\n90.0\n");
+    let mirrored = insert("41\n-1.0\n42\n1.0\n");
+    let rows = insert("70\n2\n71\n2\n44\n50.0\n45\n20.0\n");
+    let stretched = insert("41\n2.0\n");
+    let lost = "0\nINSERT\n8\n0\n2\nNUT\n10\n0\n20\n0\n";
+    let entities = [turned.as_str(), &mirrored, &rows, &stretched, lost];
+    let drawing = drawing("4", &entities).replacen(
+        "0\nSECTION\n2\nENTITIES",
+        &format!("{block}0\nSECTION\n2\nENTITIES"),
+        1,
+    );
+    fs::write(folder.join("a.dxf"), drawing).expect("it can be written");
+    let said = thinglab(&folder, &["import", "a.dxf"]);
+    let text = String::from_utf8_lossy(&said.stdout).into_owned();
+    for wanted in [
+        "// layer PARTS",
+        "// layer ROUND",
+        // twice as large, turned by a quarter
+        "line1: Line { p1 = (10, 5)  p2 = (10, 9) }",
+        "arc1: Arc { center = (10, 5)  start = (10, 7)  end = (8, 5",
+        // mirrored, it runs to the right
+        "line2: Line { p1 = (10, 5)  p2 = (8, 5",
+        "arc2: ClockwiseArc {",
+        "line6: Line { p1 = (60, 25)  p2 = (62, 25) }",
+    ] {
+        assert!(text.contains(wanted), "no {wanted} in\n{text}");
+    }
+    let words = String::from_utf8_lossy(&said.stderr).into_owned();
+    assert!(words.contains("note: INSERT of a block that is not there"), "{words}");
+    assert!(words.contains("note: INSERT that stretches its block"), "{words}");
+}
+
+#[test]
+fn blocks_in_themselves_and_many_of_them_end() {
+    let folder = folder("bomb");
+    let own = "0\nINSERT\n2\nA\n10\n1.0\n20\n0.0\n";
+    let line = "0\nLINE\n8\n0\n10\n1.0\n20\n0.0\n11\n3.0\n21\n0.0\n";
+    let many = "0\nINSERT\n2\nA\n10\n1.0\n20\n0.0\n70\n1000\n71\n1000\n44\n1.0\n45\n1.0\n";
+    let block = format!(
+        "0\nSECTION\n2\nBLOCKS\n0\nBLOCK\n2\nA\n10\n0.0\n20\n0.0\n{line}{own}{own}{own}0\nENDBLK\n0\nENDSEC\n"
+    );
+    let drawing = drawing("4", &[many]).replacen(
+        "0\nSECTION\n2\nENTITIES",
+        &format!("{block}0\nSECTION\n2\nENTITIES"),
+        1,
+    );
+    fs::write(folder.join("a.dxf"), drawing).expect("it can be written");
+    let said = thinglab(&folder, &["import", "a.dxf", "-o", "a.thing"]);
+    let words = String::from_utf8_lossy(&said.stderr).into_owned();
+    assert!(words.contains("note: INSERT of blocks in one another"), "{words}");
+}
+
+#[test]
+fn paragraphs_are_notes_and_hatches_surfaces() {
+    let folder = folder("words");
+    let words = "0\nMTEXT\n8\n0\n10\n5.0\n20\n40.0\n40\n2.5\n71\n1\n1\n{\\\\fArial|b0;First} line\\\\PØ 8\n";
+    let edges = "0\nHATCH\n8\n0\n10\n0.0\n20\n0.0\n30\n0.0\n2\nANSI31\n70\n0\n71\n0\n91\n1\n92\n1\n93\n2\n\
+        72\n1\n10\n-2.0\n20\n0.0\n11\n2.0\n21\n0.0\n\
+        72\n2\n10\n0.0\n20\n0.0\n40\n2.0\n50\n0.0\n51\n180.0\n73\n1\n97\n0\n75\n0\n76\n1\n";
+    let words = words.replace("\\\\", "\\");
+    fs::write(folder.join("a.dxf"), drawing("4", &[&words, edges])).expect("it can be written");
+    let said = thinglab(&folder, &["import", "a.dxf"]);
+    let text = String::from_utf8_lossy(&said.stdout).into_owned();
+    assert!(
+        text.contains("note1: Note { at = (5, 37.5)  words = \"First line\"  size = 2.5 }"),
+        "{text}"
+    );
+    assert!(text.contains("words = \"Ø 8\""), "{text}");
+    assert!(
+        text.contains("surface1 => Surface(Contour([Bend(-2, 0, 0), Bend(2, 0, 0.9999999999999999)]), [])"),
+        "{text}"
+    );
+    let words = String::from_utf8_lossy(&said.stderr).into_owned();
+    assert!(words.contains("note: the pattern of a HATCH: it is filled"), "{words}");
 }

@@ -453,7 +453,7 @@ mod tests {
             text: "a<b & \"c\"\u{7}\nd".into(),
             anchoring: Anchoring::Middle,
             placement: Placement::OnSheet(10.0),
-            turn: std::f64::consts::FRAC_PI_2,
+            turn: FRAC_PI_2,
         };
         let out = drawn(Element::new(text), Vertical::Up);
         assert!(out.contains(r#"transform="rotate(-90 0 -5)""#), "{out}");

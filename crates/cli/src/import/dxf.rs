@@ -1,9 +1,17 @@
-//! The DXF reader: text in, figures in millimetres out.
+//! The DXF reader: text in, figures in millimetres out. Blocks that are inserted are taken apart.
 //!
 //! **Source:** Autodesk, *DXF Reference*, release 2000.
 
+mod blocks;
+mod dimension;
+mod hatch;
+mod spline;
+mod words;
+
 use base::number::{cos, sin};
 use drawing::{Corner, Point, Shape, curve};
+use std::cell::Cell;
+use std::collections::BTreeMap;
 use std::f64::consts::TAU;
 
 /// What a drawing holds.
@@ -15,15 +23,17 @@ pub(crate) struct Read {
 }
 
 /// A figure with where it was found.
-#[derive(Debug)]
+#[derive(Clone, Debug)]
 pub(crate) struct Found {
     pub(crate) figure: Figure,
     pub(crate) layer: String,
     pub(crate) line_type: String,
+    /// Whether it is an edge of a closed polyline.
+    is_of_ring: bool,
 }
 
 /// What an entity is, in millimetres.
-#[derive(Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq)]
 pub(crate) enum Figure {
     Point(Point),
     Line(Point, Point),
@@ -44,6 +54,11 @@ pub(crate) enum Figure {
         across: f64,
         sweep: Option<(f64, f64)>,
     },
+    /// Bézier curves, by their poles.
+    Curves(Vec<Point>),
+    /// What the first ring surrounds, without what the others do.
+    Surface(Vec<Vec<Corner>>),
+    Dimension(Measured),
     Words {
         at: Point,
         words: String,
@@ -51,7 +66,31 @@ pub(crate) enum Figure {
     },
 }
 
+/// What a dimension measures, and where it stands.
+#[derive(Clone, Debug, PartialEq)]
+pub(crate) struct Measured {
+    pub(crate) what: What,
+    /// How high its words are.
+    pub(crate) size: f64,
+}
+
+/// The kinds of dimensions, with their points.
+#[derive(Clone, Debug, PartialEq)]
+pub(crate) enum What {
+    /// From one point to another, so far to the left of the way.
+    Aligned { from: Point, to: Point, aside: f64 },
+    /// How far they are apart to the right, so far above the upper one; below the lower one where negative.
+    Horizontal { from: Point, to: Point, aside: f64 },
+    /// How far they are apart upwards, so far to the right of both, or to the left.
+    Vertical { from: Point, to: Point, aside: f64 },
+    /// A radius, in a direction, its words so far beyond the circle; or a diameter.
+    Radius { center: Point, radius: f64, angle: f64, beyond: f64, is_across: bool },
+    /// From one line to the other, turning left, so far from where they meet.
+    Angle { from: (Point, Point), to: (Point, Point), away: f64 },
+}
+
 /// An entity: its kind, and its values by their codes.
+#[derive(Debug)]
 struct Entity<'t> {
     kind: &'t str,
     values: Vec<(i32, &'t str)>,
@@ -60,6 +99,9 @@ struct Entity<'t> {
 impl Entity<'_> {
     fn text(&self, code: i32) -> Option<&str> {
         self.values.iter().find(|(c, _)| *c == code).map(|(_, value)| *value)
+    }
+    fn is_set(&self, code: i32) -> bool {
+        self.number(code).is_some_and(|x| x != 0.0)
     }
     fn number(&self, code: i32) -> Option<f64> {
         self.text(code)?.trim().parse().ok().filter(|x: &f64| x.is_finite())
@@ -85,31 +127,65 @@ pub(crate) fn read(text: &str) -> Result<Read, String> {
     }
     let pairs = pairs(text)?;
     let mut read = Read::default();
-    let scale = scale(&pairs, &mut read.notes);
+    let drawing = Drawing {
+        scale: scale(&pairs, &mut read.notes),
+        blocks: blocks::blocks(&pairs),
+        styles: dimension::styles(&pairs),
+        placed: Cell::new(0),
+    };
     let entities = entities(&pairs)?;
-    let mut all = entities.iter().peekable();
-    while let Some(entity) = all.next() {
-        let before = read.found.len();
-        if entity.kind == "POLYLINE" {
-            let mut corners = Vec::new();
-            while let Some(vertex) = all.next_if(|e| e.kind == "VERTEX") {
-                corners.extend(corner(vertex, scale));
+    drawing.figures_of(&entities, 0, &mut read);
+    hatch::without_edges(&mut read.found);
+    Ok(read)
+}
+
+/// What entities refer to.
+struct Drawing<'t> {
+    /// How many millimetres a unit has.
+    scale: f64,
+    blocks: BTreeMap<&'t str, blocks::Block<'t>>,
+    /// How high the words of dimensions are, in units, by the names of their styles.
+    styles: BTreeMap<&'t str, f64>,
+    /// How often blocks were inserted and figures placed.
+    placed: Cell<u32>,
+}
+
+impl<'t> Drawing<'t> {
+    /// Reads entities, those of blocks inside so many others.
+    fn figures_of(&self, entities: &[Entity<'t>], depth: u32, read: &mut Read) {
+        let scale = self.scale;
+        let mut all = entities.iter().peekable();
+        while let Some(entity) = all.next() {
+            let before = read.found.len();
+            if entity.kind == "POLYLINE" {
+                let mut corners = Vec::new();
+                while let Some(vertex) = all.next_if(|e| e.kind == "VERTEX") {
+                    corners.extend(corner(vertex, scale));
+                }
+                all.next_if(|e| e.kind == "SEQEND");
+                let is_closed = entity.number(70).is_some_and(|flags| flags as i64 & 1 == 1);
+                along(&corners, is_closed, entity, read);
+            } else if !entity.is_flat() {
+                read.notes.push(format!("{} that does not lie flat on the sheet", entity.kind));
+            } else if entity.kind == "INSERT" {
+                self.insert(entity, depth, read);
+                while all.next_if(|e| e.kind == "ATTRIB").is_some() {
+                    read.notes.push("ATTRIB, the words that an INSERT gives".into());
+                }
+                all.next_if(|e| e.kind == "SEQEND");
+                continue;
+            } else if entity.kind == "DIMENSION" {
+                self.dimension(entity, read);
+            } else {
+                figures(entity, scale, read);
             }
-            all.next_if(|e| e.kind == "SEQEND");
-            let is_closed = entity.number(70).is_some_and(|flags| flags as i64 & 1 == 1);
-            along(&corners, is_closed, entity, &mut read);
-        } else if !entity.is_flat() {
-            read.notes.push(format!("{} that does not lie flat on the sheet", entity.kind));
-        } else {
-            figures(entity, scale, &mut read);
-        }
-        let line_type = entity.text(6).unwrap_or("ByLayer");
-        for found in &mut read.found[before..] {
-            found.layer = entity.text(8).unwrap_or("0").to_string();
-            found.line_type = line_type.to_string();
+            let line_type = entity.text(6).unwrap_or("ByLayer");
+            for found in &mut read.found[before..] {
+                found.layer = entity.text(8).unwrap_or("0").to_string();
+                found.line_type = line_type.to_string();
+            }
         }
     }
-    Ok(read)
 }
 
 /// Reads codes and values, two lines each.
@@ -154,9 +230,14 @@ fn scale(pairs: &[(i32, &str)], notes: &mut Vec<String>) -> f64 {
 
 /// Finds the entities.
 fn entities<'t>(pairs: &[(i32, &'t str)]) -> Result<Vec<Entity<'t>>, String> {
-    let is_start = |w: &[(i32, &str)]| w[0] == (0, "SECTION") && w[1] == (2, "ENTITIES");
-    let start = pairs.windows(2).position(is_start);
-    let start = start.ok_or("found no section ENTITIES, wanted a drawing in DXF")?;
+    let section = section(pairs, "ENTITIES");
+    section.ok_or_else(|| "found no section ENTITIES, wanted a drawing in DXF".into())
+}
+
+/// Returns what a section holds; nothing where there is none.
+fn section<'t>(pairs: &[(i32, &'t str)], name: &str) -> Option<Vec<Entity<'t>>> {
+    let is_start = |w: &[(i32, &str)]| w[0] == (0, "SECTION") && w[1] == (2, name);
+    let start = pairs.windows(2).position(is_start)?;
     let mut entities: Vec<Entity<'t>> = Vec::new();
     for &(code, value) in &pairs[start + 2..] {
         match (code, entities.last_mut()) {
@@ -166,7 +247,7 @@ fn entities<'t>(pairs: &[(i32, &'t str)]) -> Result<Vec<Entity<'t>>, String> {
             (_, None) => {}
         }
     }
-    Ok(entities)
+    Some(entities)
 }
 
 /// Reads one entity.
@@ -180,15 +261,17 @@ fn figures(entity: &Entity<'_>, scale: f64, read: &mut Read) {
         "ARC" => arc(entity, scale),
         "ELLIPSE" => ellipse(entity, scale),
         "TEXT" => {
-            let is_set = |code| entity.number(code).is_some_and(|x| x != 0.0);
-            if is_set(50) {
+            if entity.is_set(50) {
                 read.notes.push("that a TEXT is turned: it stands level".into());
             }
-            if is_set(72) || is_set(73) {
+            if entity.is_set(72) || entity.is_set(73) {
                 read.notes.push("how a TEXT is aligned: it begins at its place".into());
             }
-            words(entity, scale)
+            words::line(entity, scale)
         }
+        "MTEXT" => return words::lines(entity, scale, read),
+        "SPLINE" => return spline::curves(entity, scale, read),
+        "HATCH" => return hatch::surfaces(entity, scale, read),
         "LWPOLYLINE" => {
             let corners = light_corners(entity, scale);
             let is_closed = entity.number(70).is_some_and(|flags| flags as i64 & 1 == 1);
@@ -207,7 +290,7 @@ fn figures(entity: &Entity<'_>, scale: f64, read: &mut Read) {
 }
 
 fn found(figure: Figure) -> Found {
-    Found { figure, layer: String::new(), line_type: String::new() }
+    Found { figure, layer: String::new(), line_type: String::new(), is_of_ring: false }
 }
 
 fn circle(entity: &Entity<'_>, scale: f64) -> Option<Figure> {
@@ -233,29 +316,6 @@ fn ellipse(entity: &Entity<'_>, scale: f64) -> Option<Figure> {
     let sweep = if sweep < 0.0 { sweep + TAU } else { sweep };
     let is_whole = sweep > TAU - 1e-9;
     Some(Figure::Ellipse { center, end, across, sweep: (!is_whole).then_some((from, sweep)) })
-}
-
-fn words(entity: &Entity<'_>, scale: f64) -> Option<Figure> {
-    let (at, size) = (entity.point(10, scale)?, scale * entity.number(40)?);
-    Some(Figure::Words { at, words: unescaped(entity.text(1)?), size })
-}
-
-/// Returns a text whose characters may be written by their numbers: `\U+00D8`, `%%c`.
-fn unescaped(text: &str) -> String {
-    let text = text.replace("%%c", "Ø").replace("%%d", "°").replace("%%p", "±");
-    let mut parts = text.split("\\U+");
-    let mut units: Vec<u16> = parts.next().unwrap_or_default().encode_utf16().collect();
-    for part in parts {
-        let number = part.get(..4).and_then(|hex| u16::from_str_radix(hex, 16).ok());
-        match number {
-            Some(unit) => {
-                units.push(unit);
-                units.extend(part[4..].encode_utf16());
-            }
-            None => units.extend("\\U+".encode_utf16().chain(part.encode_utf16())),
-        }
-    }
-    String::from_utf16_lossy(&units)
 }
 
 fn corner(vertex: &Entity<'_>, scale: f64) -> Option<Corner> {
@@ -289,11 +349,16 @@ fn along(corners: &[Corner], is_closed: bool, entity: &Entity<'_>, read: &mut Re
             read.notes.push(format!("an edge of no length of a {}", entity.kind));
             continue;
         }
-        read.found.push(found(match curve::edge(from, to) {
-            Shape::Arc { center, sweep, .. } => {
-                Figure::Arc { center, start: from.at, end: to.at, is_clockwise: sweep < 0.0 }
-            }
-            _ => Figure::Line(from.at, to.at),
-        }));
+        read.found.push(Found { is_of_ring: is_closed, ..found(edge(from, to)) });
+    }
+}
+
+/// Returns what joins two corners.
+fn edge(from: Corner, to: Corner) -> Figure {
+    match curve::edge(from, to) {
+        Shape::Arc { center, sweep, .. } => {
+            Figure::Arc { center, start: from.at, end: to.at, is_clockwise: sweep < 0.0 }
+        }
+        _ => Figure::Line(from.at, to.at),
     }
 }

@@ -1,0 +1,191 @@
+//! Blocks: what is drawn once and inserted elsewhere, turned and scaled.
+
+use super::words::turned;
+use super::{Drawing, Entity, Figure, Read, What};
+use base::number::hypot;
+use drawing::{Corner, Point};
+use std::collections::BTreeMap;
+
+/// So deep blocks may be inserted in one another.
+const DEEPEST: u32 = 16;
+/// So many figures a drawing may have.
+const MOST: usize = 100_000;
+/// So often blocks are inserted and figures placed, those that are placed again included.
+const MOST_PLACED: u32 = 1_000_000;
+
+/// A block: its base point, in units, and what is drawn in it.
+pub(super) struct Block<'t> {
+    base: Point,
+    entities: Vec<Entity<'t>>,
+}
+
+/// Finds the blocks.
+pub(super) fn blocks<'t>(pairs: &[(i32, &'t str)]) -> BTreeMap<&'t str, Block<'t>> {
+    let mut all = BTreeMap::new();
+    let mut open: Option<(&'t str, Block<'t>)> = None;
+    for entity in super::section(pairs, "BLOCKS").unwrap_or_default() {
+        match (entity.kind, &mut open) {
+            ("BLOCK", _) => {
+                let name = entity.values.iter().find(|(code, _)| *code == 2).map(|(_, v)| v.trim());
+                let base = entity.point(10, 1.0).unwrap_or_default();
+                open = name.map(|name| (name, Block { base, entities: Vec::new() }));
+            }
+            ("ENDBLK", _) => all.extend(open.take()),
+            (_, Some((_, block))) => block.entities.push(entity),
+            (_, None) => {}
+        }
+    }
+    all
+}
+
+/// How a block lies where it is inserted: about its base it is scaled, perhaps mirrored, turned and moved.
+#[derive(Clone, Copy)]
+struct Placing {
+    base: Point,
+    scale: f64,
+    is_mirrored: bool,
+    angle: f64,
+    to: Point,
+}
+
+impl Placing {
+    fn way(&self, p: Point) -> Point {
+        let y = if self.is_mirrored { -p.y } else { p.y };
+        turned(Point { x: self.scale * p.x, y: self.scale * y }, self.angle)
+    }
+    fn place(&self, p: Point) -> Point {
+        let way = self.way(Point { x: p.x - self.base.x, y: p.y - self.base.y });
+        Point { x: self.to.x + way.x, y: self.to.y + way.y }
+    }
+    /// Places a figure; nothing where that makes it something else.
+    fn figure(&self, figure: &Figure) -> Option<Figure> {
+        let k = self.scale.abs();
+        let sign = if self.is_mirrored { -1.0 } else { 1.0 };
+        Some(match figure {
+            Figure::Point(p) => Figure::Point(self.place(*p)),
+            Figure::Line(p, q) => Figure::Line(self.place(*p), self.place(*q)),
+            Figure::Circle { center, radius } => {
+                Figure::Circle { center: self.place(*center), radius: k * radius }
+            }
+            Figure::Arc { center, start, end, is_clockwise } => {
+                let [center, start, end] = [center, start, end].map(|p| self.place(*p));
+                let is_clockwise = *is_clockwise != self.is_mirrored;
+                Figure::Arc { center, start, end, is_clockwise }
+            }
+            Figure::Ellipse { center, end, across, sweep } => Figure::Ellipse {
+                center: self.place(*center),
+                end: self.place(*end),
+                across: k * across,
+                sweep: sweep.map(|(from, sweep)| match self.is_mirrored {
+                    true => (-from - sweep, sweep),
+                    false => (from, sweep),
+                }),
+            },
+            Figure::Curves(poles) => Figure::Curves(poles.iter().map(|p| self.place(*p)).collect()),
+            Figure::Surface(rings) => {
+                let corner = |c: &Corner| Corner { at: self.place(c.at), bulge: sign * c.bulge };
+                Figure::Surface(rings.iter().map(|r| r.iter().map(corner).collect()).collect())
+            }
+            Figure::Words { at, words, size } => {
+                Figure::Words { at: self.place(*at), words: words.clone(), size: k * size }
+            }
+            Figure::Dimension(measured) => {
+                let mut measured = measured.clone();
+                measured.size *= k;
+                let is_plain = self.angle == 0.0 && !self.is_mirrored && self.scale > 0.0;
+                match &mut measured.what {
+                    What::Aligned { from, to, aside } => {
+                        (*from, *to) = (self.place(*from), self.place(*to));
+                        *aside *= sign * k;
+                    }
+                    What::Horizontal { from, to, aside } | What::Vertical { from, to, aside }
+                        if is_plain =>
+                    {
+                        (*from, *to) = (self.place(*from), self.place(*to));
+                        *aside *= k;
+                    }
+                    What::Radius { .. }
+                    | What::Angle { .. }
+                    | What::Horizontal { .. }
+                    | What::Vertical { .. } => return None,
+                }
+                Figure::Dimension(measured)
+            }
+        })
+    }
+}
+
+impl<'t> Drawing<'t> {
+    /// Reads an INSERT: the figures of its block where it lies.
+    pub(super) fn insert(&self, entity: &Entity<'t>, depth: u32, read: &mut Read) {
+        let name = entity.text(2).map(str::trim);
+        let Some((block, to)) =
+            name.and_then(|name| self.blocks.get(name)).zip(entity.point(10, self.scale))
+        else {
+            read.notes.push("INSERT of a block that is not there".into());
+            return;
+        };
+        if !self.is_room() {
+            read.notes.push("INSERT of blocks in one another without an end".into());
+            return;
+        }
+        if depth >= DEEPEST {
+            read.notes.push(format!("INSERT of blocks in one another more than {DEEPEST} deep"));
+            return;
+        }
+        let (x, y) = (entity.number(41).unwrap_or(1.0), entity.number(42).unwrap_or(1.0));
+        if x == 0.0 || (x.abs() - y.abs()).abs() > 1e-9 * x.abs() {
+            read.notes.push("INSERT that stretches its block, which is not understood".into());
+            return;
+        }
+        let mut inner = Read::default();
+        self.figures_of(&block.entities, depth + 1, &mut inner);
+        read.notes.append(&mut inner.notes);
+        let angle = entity.number(50).unwrap_or(0.0).to_radians();
+        let times = |code: i32| entity.number(code).map_or(1, |n| (n as i64).clamp(1, 1000));
+        let apart = |code: i32| self.scale * entity.number(code).unwrap_or(0.0);
+        let base = Point { x: self.scale * block.base.x, y: self.scale * block.base.y };
+        for row in 0..times(71) {
+            for column in 0..times(70) {
+                let step = Point { x: column as f64 * apart(44), y: row as f64 * apart(45) };
+                let step = turned(step, angle);
+                let to = Point { x: to.x + step.x, y: to.y + step.y };
+                let is_mirrored = (x < 0.0) != (y < 0.0);
+                let placing = Placing { base, scale: x, is_mirrored, angle, to };
+                for figure in &inner.found {
+                    if read.found.len() >= MOST || !self.is_room() {
+                        read.notes.push(format!("what is beyond {MOST} figures"));
+                        return;
+                    }
+                    let Some(placed) = placing.figure(&figure.figure) else {
+                        read.notes.push("DIMENSION in a block that is turned".into());
+                        continue;
+                    };
+                    let mut figure = figure.clone();
+                    figure.figure = placed;
+                    // what is on layer 0 of a block is on that of its insert
+                    if figure.layer == "0" {
+                        figure.layer = entity.text(8).unwrap_or("0").to_string();
+                    }
+                    if angle != 0.0 && matches!(figure.figure, Figure::Words { .. }) {
+                        read.notes.push("that a TEXT is turned: it stands level".into());
+                    }
+                    read.found.push(figure);
+                }
+            }
+        }
+    }
+}
+
+impl Drawing<'_> {
+    /// Counts one more insert or figure; returns false where there are too many.
+    fn is_room(&self) -> bool {
+        self.placed.set(self.placed.get() + 1);
+        self.placed.get() <= MOST_PLACED
+    }
+}
+
+/// Returns how far two points are apart.
+pub(super) fn apart(p: Point, q: Point) -> f64 {
+    hypot(p.x - q.x, p.y - q.y)
+}

@@ -1,0 +1,285 @@
+//! Programs drawn and programs solved: what the interpreter draws, step by step, and what the planner opens into
+//! expressions on the course that was taken have the same bits, for random programs of every control structure.
+
+use base::Dice;
+use bench::opened::Opened;
+use eval::Evaluator;
+use kernel::{Path, Step, Value, Values};
+use plan::{EditKind, Model, Target};
+use std::fmt::Write as _;
+
+/// How many programs are made.
+const PROGRAMS: u64 = 40;
+/// How many of its numbers are looked at for each.
+const LOOKED_AT: usize = 6;
+
+/// What makes a number of turns a length.
+const COUNTED: &str = " * 1 mm";
+
+/// What every document here has: a program that is called, and one that calls itself.
+const HEAD: &str = "use geometry
+unit mm
+program Sub(u: Length = 4 mm, v: Length = 7 mm) {
+    guide far = Point(u, v).turned(about: Point(0, 0), by: 25 deg)
+    row = repeat 3 times with k = u { z = 0.7 * k + far.y next k = k + v }
+    out = row.last.z - far.x
+}
+program Rec(u: Length = 9 mm, depth: Integer in 0..5 = 2) {
+    if depth = 0 {
+        out = 0.3 * u
+    } else {
+        inner = Rec(u: 0.6 * u + 1 mm, depth: depth - 1)
+        out = inner.out + u
+    }
+}
+";
+
+/// A program in the making.
+struct Made {
+    dice: Dice,
+    text: String,
+    steps: u32,
+}
+
+impl Made {
+    /// Writes a length over names that are known.
+    fn length(&mut self, names: &[String], depth: u32) -> String {
+        if depth == 0 || self.dice.below(3) == 0 {
+            return match self.dice.below(4) {
+                0 => format!("{} mm", self.dice.between(-9.0, 20.0)),
+                _ => names[self.dice.below(names.len())].clone(),
+            };
+        }
+        let (a, b) = (self.length(names, depth - 1), self.length(names, depth - 1));
+        let k = self.dice.between(0.2, 1.9);
+        match self.dice.below(7) {
+            0 => format!("({a} + {b})"),
+            1 => format!("({a} - {b})"),
+            2 => format!("{k} * {a}"),
+            3 => format!("sqrt({a}^2 + {b}^2)"),
+            4 => format!("abs({a})"),
+            5 => format!("max({a}, {b})"),
+            _ => format!("(if {a} > {b} then {a} else {k} * {b})"),
+        }
+    }
+    fn condition(&mut self, names: &[String]) -> String {
+        let (a, b) = (self.length(names, 1), self.length(names, 1));
+        match self.dice.below(3) {
+            0 => format!("{a} > {b}"),
+            1 => format!("{a} <= {b} or {a} > 12 mm"),
+            _ => format!("not ({a} < {b}) and {b} < 30 mm"),
+        }
+    }
+    fn name(&mut self) -> String {
+        self.steps += 1;
+        format!("s{}", self.steps)
+    }
+    /// Writes some steps; what they make is known from then on.
+    fn block(&mut self, names: &mut Vec<String>, depth: u32, steps: u32) {
+        for _ in 0..steps {
+            self.step(names, depth);
+        }
+    }
+    fn step(&mut self, names: &mut Vec<String>, depth: u32) {
+        let (s, e) = (self.name(), self.length(names, 2));
+        let mut known = Vec::new();
+        match self.dice.below(if depth == 0 { 5 } else { 10 }) {
+            0 => {
+                let _ = writeln!(self.text, "{s} = {e}");
+                known.push(s);
+            }
+            1 => {
+                let f = self.length(names, 2);
+                let _ = writeln!(
+                    self.text,
+                    "guide {s} = Point({e}, {f}).turned(about: Point({f}, 2 mm), by: 40 deg)"
+                );
+                known.extend([format!("{s}.x"), format!("{s}.y")]);
+            }
+            2 => {
+                let axes = "Axis.horizontal(y: 3 mm), Axis(Point(0, 0), Point(1, 2))";
+                let _ =
+                    writeln!(self.text, "{s} = Circle.tangent({axes}, radius: abs({e}) + 1 mm)");
+                known.extend([format!("{s}.center.x"), format!("{s}.radius")]);
+            }
+            3 => {
+                let f = self.length(names, 1);
+                let _ = writeln!(
+                    self.text,
+                    "{s} = Point.projection(Point({e}, {f}), onto: Axis(Point(1, 0), Point(3, 5)))"
+                );
+                known.push(format!("{s}.y"));
+            }
+            4 => {
+                let f = self.length(names, 1);
+                let _ = writeln!(self.text, "{s} = Sub(u: {e}, v: {f})");
+                known.extend([
+                    format!("{s}.out"),
+                    format!("{s}.row[1].z"),
+                    format!("{s}.row.last.z"),
+                ]);
+            }
+            5 => {
+                let depth = self.dice.below(4);
+                let _ = writeln!(self.text, "{s} = Rec(u: {e}, depth: {depth})");
+                known.push(format!("{s}.out"));
+            }
+            6 => {
+                let c = self.condition(names);
+                let _ = writeln!(self.text, "if {c} {{");
+                self.branch(names, depth, &s);
+                let _ = writeln!(self.text, "}} else {{");
+                self.branch(names, depth, &s);
+                let _ = writeln!(self.text, "}}");
+                known.push(s);
+            }
+            7 => {
+                let times = if self.dice.below(2) == 0 { "n".to_string() } else { "3".to_string() };
+                self.turns(
+                    names,
+                    depth,
+                    &format!("{s} = repeat {times} times with k{s} = {e}"),
+                    &s,
+                );
+                let _ = writeln!(self.text, "next k{s} = 0.8 * k{s} + 1 mm }}");
+                known.extend([format!("{s}.last.v{s}"), format!("{s}[0].v{s}")]);
+            }
+            8 => {
+                self.turns(names, depth, &format!("{s} = repeat with k{s} = abs({e}) + 2 mm"), &s);
+                let _ = writeln!(self.text, "next k{s} = 1.6 * k{s} }} until k{s} > 30 mm");
+                let each = self.length(names, 1);
+                let _ = writeln!(self.text, "f{s} = for q{s} in {s} {{ m = q{s}.v{s} + {each} }}");
+                known.extend([
+                    format!("{s}.last.v{s}"),
+                    format!("f{s}.last.m"),
+                    format!("f{s}[0].m"),
+                ]);
+            }
+            _ => {
+                self.turns(
+                    names,
+                    depth,
+                    &format!("{s} = while k{s} < 25 mm with k{s} = abs({e}) + 2 mm"),
+                    &s,
+                );
+                let _ = writeln!(self.text, "next k{s} = 1.7 * k{s} }}");
+                known.push(format!("{s}.turns{COUNTED}"));
+            }
+        }
+        names.extend(known);
+    }
+    fn branch(&mut self, names: &[String], depth: u32, result: &str) {
+        let mut inner = names.to_vec();
+        let n = self.dice.below(3) as u32;
+        self.block(&mut inner, depth - 1, n);
+        let e = self.length(&inner, 2);
+        let _ = writeln!(self.text, "{result} = {e}");
+    }
+    fn turns(&mut self, names: &[String], depth: u32, head: &str, s: &str) {
+        let _ = writeln!(self.text, "{head} {{");
+        let mut inner = names.to_vec();
+        inner.push(format!("k{s}"));
+        let n = self.dice.below(3) as u32;
+        self.block(&mut inner, depth - 1, n);
+        let e = self.length(&inner, 2);
+        let _ = writeln!(self.text, "v{s} = {e}");
+    }
+}
+
+/// Returns a document with a program and numbers that follow some of what it draws, and the paths of these.
+fn document(seed: u64) -> (String, Vec<String>) {
+    let mut made = Made { dice: Dice::new(seed), text: HEAD.to_string(), steps: 0 };
+    let _ = writeln!(
+        made.text,
+        "program Any(a: Length = 13 mm, b: Length = 5 mm, n: Integer in 1..6 = 3) {{"
+    );
+    let mut names = vec!["a".to_string(), "b".to_string()];
+    let steps = 3 + made.dice.below(4) as u32;
+    made.block(&mut names, 2, steps);
+    let (a, b) = (made.dice.between(1.0, 25.0), made.dice.between(1.0, 25.0));
+    let n = 1 + made.dice.below(4);
+    let _ = writeln!(made.text, "}}\np: Any {{ a = {a} mm  b = {b} mm  n = {n} }}");
+    // what it drew last is made of what it drew before
+    let drawn: Vec<String> = names.split_off(2).into_iter().rev().take(LOOKED_AT).collect();
+    for (i, name) in drawn.iter().enumerate() {
+        let _ = writeln!(made.text, "q{i}: Length = p.{name}");
+    }
+    (made.text, drawn)
+}
+
+/// Returns the path of a step: `s3[0].v`, `s3.last.v`.
+fn path(name: &str) -> Path {
+    let name = name.trim_end_matches(COUNTED);
+    let mut steps = vec![Step::Part("p".into())];
+    for part in name.split('.') {
+        match part.split_once('[') {
+            Some((part, index)) => {
+                steps.push(Step::Part(part.into()));
+                let index = index.trim_end_matches(']').parse().expect("a number");
+                steps.push(Step::Index(index));
+            }
+            None => steps.push(Step::Part(part.into())),
+        }
+    }
+    Path(steps)
+}
+
+/// Returns how long a millimetre is in what a document stores.
+fn millimetre(model: Model<'_>) -> f64 {
+    let document = model.document;
+    0.001 * document.units_per_metre * document.scale.factor(expr::Dimension::LENGTH)
+}
+
+/// Compares what was solved with what is drawn; returns how many numbers were.
+fn compare(
+    opened: &Opened,
+    model: Model<'_>,
+    values: &Values,
+    names: &[String],
+    text: &str,
+) -> usize {
+    let evaluator = Evaluator::new(model.document, model.structure, values);
+    let mut compared = 0;
+    for (i, name) in names.iter().enumerate() {
+        let drawn = match evaluator.at(&path(name)) {
+            Ok(eval::Answer::Number(x, _)) => x,
+            other => panic!("{name}: {other:?}\n{text}"),
+        };
+        let slot = opened.slots(&format!("q{i}"))[0];
+        let solved = values.numbers[slot];
+        let drawn = if name.ends_with(COUNTED) { drawn * millimetre(model) } else { drawn };
+        assert_eq!(solved.to_bits(), (drawn + 0.0).to_bits(), "{name}: {solved} {drawn}\n{text}");
+        compared += 1;
+    }
+    compared
+}
+
+#[test]
+fn what_is_drawn_and_what_is_solved_have_the_same_bits() {
+    let (mut compared, mut moved) = (0, 0);
+    for seed in 1..=PROGRAMS {
+        let (text, names) = document(seed);
+        let opened = Opened::new(&text).unwrap_or_else(|why| panic!("{why}\n{text}"));
+        let (mut planner, mut values, report) = opened.solve();
+        assert!(report.unmet.is_empty() && report.not_decided.is_none(), "{report:?}\n{text}");
+        compared += compare(&opened, opened.model(), &values, &names, &text);
+        // other parameters take other branches, and as many turns as these ask for
+        let mut dice = Dice::new(1000 + seed);
+        for _ in 0..3 {
+            let parameter = ["p.a", "p.b"][dice.below(2)];
+            let thing = opened.thing(parameter).expect("it has one");
+            let to = dice.between(1.0, 30.0) * millimetre(opened.model());
+            let targets = [(Target::Thing(thing), vec![Value::Number(to)])];
+            let host = &mut opened.host();
+            let report = planner.edit(opened.model(), &mut values, EditKind::Set, &targets, host);
+            if report.refusal.is_none() {
+                moved += 1;
+                compared += compare(&opened, opened.model(), &values, &names, &text);
+            }
+        }
+    }
+    assert!(
+        compared > 3 * PROGRAMS as usize * LOOKED_AT && moved > 2 * PROGRAMS,
+        "{compared} {moved}"
+    );
+}
