@@ -4,8 +4,8 @@ use crate::document::Open;
 use crate::state::State;
 use crate::view::{ExplainedStep, Explanation, Refusal};
 use crate::words;
-use indexmap::IndexSet;
-use kernel::{ConstraintInstance, Path, SlotId, Step};
+use indexmap::{IndexMap, IndexSet};
+use kernel::{ConstraintInstance, Path, SlotId, Step, ThingId};
 use plan::{Acting, ExplainedKind, Root, RootKind, Source};
 
 /// So many things are named of what is approached.
@@ -249,10 +249,17 @@ fn step(open: &Open, s: &plan::ExplainedStep) -> ExplainedStep {
     let state = &open.state;
     let formulas: IndexSet<String> =
         s.sources.iter().filter_map(|&source| formula(open, source, s.kind)).collect();
-    let names = s.sources.iter().filter_map(|&source| words::source_name(state, source));
-    let names = first_ones(names);
-    let read = |&r: &SlotId| format!("{} = {}", state.slot_path(r), value(open, r));
-    let reads = first_ones(s.reads.iter().map(read));
+    let names = s.sources.iter().filter_map(|&source| {
+        let name = words::source_name(state, source)?;
+        Some(Told { class: of_class(state, source), name, value: None })
+    });
+    let names = first_ones(by_class(names).into_iter());
+    let read = |&r: &SlotId| Told {
+        class: part_of_class(state, r),
+        name: state.slot_path(r).to_string(),
+        value: Some(value(open, r)),
+    };
+    let reads = first_ones(by_class(s.reads.iter().map(read)).into_iter());
     let mut reason = match names.is_empty() {
         true => "the edit wants it".to_string(),
         false => format!("{} must hold", enumerated(&names)),
@@ -275,10 +282,80 @@ fn step(open: &Open, s: &plan::ExplainedStep) -> ExplainedStep {
     }
 }
 
+/// So many things are named one by one; more are told by what their classes call them.
+const MOST_NAMED: usize = 12;
+
+/// A constraint or a value that is told.
+struct Told {
+    /// What its class calls it.
+    class: Option<String>,
+    name: String,
+    value: Option<String>,
+}
+
+/// Tells things; of many, those that classes call alike once: `Bar.stiffness = 200 MN (3999 times)`.
+fn by_class(all: impl Iterator<Item = Told>) -> Vec<String> {
+    let valued = |name: &str, value: &Option<String>| match value {
+        Some(value) => format!("{name} = {value}"),
+        None => name.to_string(),
+    };
+    let all: Vec<Told> = all.collect();
+    if all.len() <= MOST_NAMED {
+        return all.iter().map(|t| valued(&t.name, &t.value)).collect();
+    }
+    let mut groups: IndexMap<String, Vec<Told>> = IndexMap::new();
+    for told in all {
+        let key = told.class.clone().unwrap_or_else(|| told.name.clone());
+        groups.entry(key).or_default().push(told);
+    }
+    let told = |(class, group): (String, Vec<Told>)| {
+        let first = &group[0];
+        let alike = group.iter().all(|t| t.value == first.value);
+        match group.len() {
+            1 => valued(&first.name, &first.value),
+            n if alike => format!("{} ({n} times)", valued(&class, &first.value)),
+            n => format!("{class} ({n} times)"),
+        }
+    };
+    groups.into_iter().map(told).collect()
+}
+
+/// Returns what its class calls a constraint: `Bar.hooke`.
+fn of_class(state: &State, source: Source) -> Option<String> {
+    let Source::Constraint(index) = source else { return None };
+    let document = &state.lowered.document;
+    let instance = state.structure.constraints[index as usize];
+    let of = named_class(state, instance.owner)?;
+    Some(format!("{of}.{}", words::constraint_name(document, instance)))
+}
+
+/// Returns what the class of the thing around it calls a value: `Bar.stiffness`, `Joint.at.x`.
+fn part_of_class(state: &State, slot: SlotId) -> Option<String> {
+    let (structure, document) = (&state.structure, &state.lowered.document);
+    let mut thing = structure.slots[slot].thing;
+    let mut names: Vec<&str> = Vec::new();
+    loop {
+        names.push(structure.field_name(document, thing)?);
+        thing = structure.owner(thing)?;
+        if !document.is_place(structure.things[thing].class) {
+            break;
+        }
+    }
+    names.push(named_class(state, thing)?);
+    names.reverse();
+    Some(names.join("."))
+}
+
+/// Returns the name of the class that the text has for a thing.
+fn named_class(state: &State, thing: ThingId) -> Option<&str> {
+    let document = &state.lowered.document;
+    let name = &document.classes[document.named_class(state.structure.things[thing].class)].name;
+    (!name.is_empty()).then_some(name)
+}
+
 /// Returns the first dozen, and how many more there are.
 fn first_ones(mut items: impl Iterator<Item = String>) -> Vec<String> {
-    const MOST: usize = 12;
-    let mut first: Vec<String> = items.by_ref().take(MOST).collect();
+    let mut first: Vec<String> = items.by_ref().take(MOST_NAMED).collect();
     match items.count() {
         0 => {}
         more => first.push(format!("{more} more")),
