@@ -52,6 +52,7 @@ mod programs;
 mod references;
 mod refine;
 mod restore;
+mod rings;
 mod rules;
 mod scale;
 mod scope;

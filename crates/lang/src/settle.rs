@@ -18,6 +18,7 @@ impl Lowerer<'_> {
         self.report_general();
         self.report_switches();
         self.report_conflicts();
+        self.report_rings();
         self.note_correspondences();
     }
 

@@ -52,6 +52,22 @@ pub(crate) fn warnings(state: &State) -> Vec<Diagnostic> {
     lines.into_values().map(|(place, line)| warning(state, place, &line)).collect()
 }
 
+/// Returns where the document's own text says that a part is one with another, or what has the part is.
+///
+/// Cost: a look at every merge of the document itself.
+fn merged_at(state: &State, thing: ThingId, other: ThingId) -> Option<Place> {
+    let (structure, document) = (&state.structure, &state.lowered.document);
+    let around = |thing: ThingId| std::iter::successors(Some(thing), |&t| structure.owner(t));
+    let all: Vec<ThingId> = around(thing).chain(around(other)).collect();
+    let merges = document.classes[document.root].merges.iter();
+    let mut found = merges.filter(|merge| {
+        let things = merge.paths.iter().filter_map(|p| structure.follow(kernel::DOCUMENT, p).ok());
+        let named = things.filter(|t| all.contains(t) || all.contains(&structure.merged[*t]));
+        named.count() > 1
+    });
+    found.next().map(|merge| state.lowered.place(merge.origin))
+}
+
 /// Returns the place that a coordinate belongs to, or the thing itself.
 fn whole(state: &State, thing: ThingId) -> ThingId {
     let structure = &state.structure;
@@ -77,7 +93,11 @@ fn warning(state: &State, place: Place, line: &Line) -> Diagnostic {
     let [part, other] = line.parts.map(path);
     let (was, is) = (shown(0), shown(1));
     let message = format!("{part} is given here as {was}, and is one with {other}: {is} counts");
-    Diagnostic::warning(CODE, place, message)
-        .label(line.counts, "here")
-        .hint("give the value once, where it counts")
+    let d = Diagnostic::warning(CODE, place, message).label(line.counts, "here");
+    let merged = merged_at(state, line.parts[0], line.parts[1]);
+    let d = match merged {
+        Some(merge) => d.label(merge, "they are made one here"),
+        None => d,
+    };
+    d.hint("give the value once, where it counts")
 }
