@@ -66,8 +66,15 @@ impl<'a> Evaluator<'a> {
         let [first, second] = of else { return Err(Fault::wrong("a region is made of two")) };
         let first = self.surfaces(first, nearest)?;
         let made = match what {
-            Making::Combined(how) => combine(how, &first, &self.surfaces(second, nearest)?),
-            Making::Offset | Making::Figure(_) => offset(&first, self.number(second)?.0),
+            Making::Combined(how) => {
+                let second = self.surfaces(second, nearest)?;
+                self.burn_for(first.iter().chain(&second))?;
+                combine(how, &first, &second)
+            }
+            Making::Offset | Making::Figure(_) => {
+                self.burn_for(&first)?;
+                offset(&first, self.number(second)?.0)
+            }
         };
         let made = made.map_err(|why| {
             let name = &self.document.classes[class].name;
@@ -102,6 +109,15 @@ impl<'a> Evaluator<'a> {
         };
         let surfaces = made.iter().map(whole).collect::<Result<_>>()?;
         self.make(class, &[(None, Answer::List(surfaces))], nearest)
+    }
+
+    /// Counts the work of looking at every pair of edges.
+    fn burn_for<'s>(&self, surfaces: impl IntoIterator<Item = &'s Surface>) -> Result<()> {
+        /// So many pairs are looked at in the time of a step.
+        const PAIRS: u64 = 16;
+        let rings = surfaces.into_iter().flat_map(|s| [&s.outer].into_iter().chain(&s.holes));
+        let edges = rings.map(|ring| ring.len() as u64).sum::<u64>();
+        self.burn_several(1 + edges.saturating_mul(edges) / PAIRS)
     }
 
     /// Reads what covers a part of the plane: a contour, a surface, a region, or a list of these.

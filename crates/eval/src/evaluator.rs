@@ -291,7 +291,12 @@ impl<'a> Evaluator<'a> {
 
     /// Counts one more step of the question at hand.
     pub(crate) fn burn(&self) -> Result<()> {
-        match self.fuel.get().checked_sub(1) {
+        self.burn_several(1)
+    }
+
+    /// Counts so many steps more.
+    pub(crate) fn burn_several(&self, steps: u64) -> Result<()> {
+        match self.fuel.get().checked_sub(steps) {
             Some(left) => {
                 self.fuel.set(left);
                 Ok(())
