@@ -1,6 +1,6 @@
 //! The subcommands that work on documents: each returns what to print and whether all is well.
 //!
-//! With `--json` each prints one JSON object: `check` {files: [{path, diagnostics, problems, status}], errors,
+//! With `--json` each prints one JSON object: `check` {files: [{path, diagnostics, problems, lessons, status}], errors,
 //! warnings}, `test` {files: [{path, checks, diagnostics}], passed, failed}, `run` {path, values,
 //! arbitrary, status, diagnostics}, `explain` the explanation, with what holds the thing in `held`, where else it could be in
 //! `ghosts` and what would make less to be solved together in `advice`, `analyse` the analysis, `recognise`
@@ -71,6 +71,11 @@ pub(crate) fn check(
                 _ => warnings += 1,
             }
         }
+        let lessons = opened.session.run_lessons(opened.id);
+        for lesson in lessons.iter().filter(|lesson| !lesson.passed) {
+            words.push_str(&show_report(&path, lesson, "lesson"));
+            errors += 1;
+        }
         let status = opened.session.status(opened.id);
         for note in &status.notes {
             let _ = writeln!(words, "{}: {note}", path.display());
@@ -79,6 +84,7 @@ pub(crate) fn check(
             "path": path,
             "diagnostics": diagnostics,
             "problems": problems,
+            "lessons": lessons,
             "status": status,
         });
         files.push(found);
@@ -194,10 +200,15 @@ fn show_check(path: &Path, check: &CheckReport, which: Checks) -> String {
             }
         };
     }
+    show_report(path, check, "check")
+}
+
+/// Says what fell short of a check or a lesson.
+fn show_report(path: &Path, report: &CheckReport, kind: &str) -> String {
     let mut words = String::new();
-    let _ =
-        writeln!(words, "{}:{}: check \"{}\" fell short", path.display(), check.line, check.title);
-    for shortfall in &check.shortfalls {
+    let (path, line, title) = (path.display(), report.line, &report.title);
+    let _ = writeln!(words, "{path}:{line}: {kind} \"{title}\" fell short");
+    for shortfall in &report.shortfalls {
         let _ = writeln!(words, "  line {}: {}", shortfall.line, shortfall.statement);
         for line in shortfall.message.lines() {
             let _ = writeln!(words, "    {line}");

@@ -96,10 +96,10 @@ pub enum PlanKind {
     Search,
 }
 
-/// Returns a text without its `check` blocks.
+/// Returns a text without its `check` and `lesson` blocks.
 pub fn without_checks(text: &str) -> String {
     let file = syntax::parse(OWN, text).file();
-    let checks = file.members().filter(|m| matches!(m, Member::Check(_)));
+    let checks = file.members().filter(|m| matches!(m, Member::Check(_) | Member::Lesson(_)));
     let edits: Vec<_> = checks.map(|m| syntax::edit::delete_member(m.syntax())).collect();
     syntax::edit::apply(text, &edits)
 }
@@ -258,7 +258,11 @@ fn is_statement(member: &Member) -> bool {
     )
 }
 
-fn statement(l: &mut Lowerer<'_>, scope: &Scope, member: &Member) -> Option<StatementKind> {
+pub(crate) fn statement(
+    l: &mut Lowerer<'_>,
+    scope: &Scope,
+    member: &Member,
+) -> Option<StatementKind> {
     let one = |command| Some(StatementKind::Command(command));
     match member {
         Member::Set(set) => match set.targets().map(|t| named_in_class(l, scope, &t)).collect() {

@@ -182,27 +182,7 @@ impl Lowerer<'_> {
     /// Returns the class that a type names; reports what it does not find.
     pub(crate) fn class_of_type(&mut self, file: FileId, ty: &ast::Type) -> Option<ClassId> {
         match ty.shape() {
-            TypeShape::Named(words) => {
-                let (word, from) = words.split_last()?;
-                if !from.is_empty() {
-                    return self.class_of_text(file, from, word);
-                }
-                let found = self.class_meant(file, word)?;
-                if found.is_none() {
-                    let message = format!("there is no class {}", word.text());
-                    let place = Place { file, span: word.span() };
-                    let mut d = Diagnostic::error("unknown-class", place, message);
-                    let names = self.visible.names(file).map(Name::as_str);
-                    let near = self.nearest(word.text(), names);
-                    if let Some(near) = near.or_else(|| called_otherwise(word.text())) {
-                        d = d.meant(near);
-                    } else {
-                        d = d.hint("declare it, or `use` the library that has it");
-                    }
-                    self.report(d);
-                }
-                found
-            }
+            TypeShape::Named(words) => self.class_of_words(file, &words),
             TypeShape::List { element, .. } => {
                 let element = self.class_of_element(file, &element?)?;
                 Some(self.class_made_of("List of", ClassKind::List(element), element))
@@ -220,6 +200,29 @@ impl Lowerer<'_> {
                 self.placed_class(file, ty.span(), master)
             }
         }
+    }
+
+    /// Returns the class that names between dots lead to; reports where there is none.
+    pub(crate) fn class_of_words(&mut self, file: FileId, words: &[ast::Word]) -> Option<ClassId> {
+        let (word, from) = words.split_last()?;
+        if !from.is_empty() {
+            return self.class_of_text(file, from, word);
+        }
+        let found = self.class_meant(file, word)?;
+        if found.is_none() {
+            let message = format!("there is no class {}", word.text());
+            let place = Place { file, span: word.span() };
+            let mut d = Diagnostic::error("unknown-class", place, message);
+            let names = self.visible.names(file).map(Name::as_str);
+            let near = self.nearest(word.text(), names);
+            if let Some(near) = near.or_else(|| called_otherwise(word.text())) {
+                d = d.meant(near);
+            } else {
+                d = d.hint("declare it, or `use` the library that has it");
+            }
+            self.report(d);
+        }
+        found
     }
 
     /// Returns the class that a bare name means in a text, if it is one; nothing where several texts that are used

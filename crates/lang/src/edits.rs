@@ -206,7 +206,7 @@ impl Text<'_> {
         let members = within.filter(|n| n.kind() == kind);
         let names = |n: &SyntaxNode| {
             let mut paths = n.children().filter_map(Expr::cast);
-            let in_check = n.ancestors().any(|a| a.kind() == SyntaxKind::Check);
+            let in_check = n.ancestors().any(|a| is_apart(a.kind()));
             !in_check && paths.any(|e| self.leads_to(&e, path))
         };
         members.filter(names).collect()
@@ -274,4 +274,9 @@ fn must_be_name(name: &str) -> Result<(), Diagnostic> {
         true => Ok(()),
         false => Err(refused("not-a-name", format!("`{name}` is no name"))),
     }
+}
+
+/// Returns true for blocks whose statements say nothing of the document itself.
+fn is_apart(kind: SyntaxKind) -> bool {
+    matches!(kind, SyntaxKind::Check | SyntaxKind::Lesson)
 }

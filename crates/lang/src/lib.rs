@@ -20,7 +20,7 @@
 //! Reading order: `origins`, `lower`, `files`, `visible`, `classes`, `scope`, `members`, `programs`, `families`, `loops`,
 //! `rules`, `switches`, `kept`, `names`, `hints`, `paths`, `refine`, `terms`, `components`, `calls`, `kin`, `kinds`,
 //! `settle`, `restore`,
-//! `checks`,
+//! `checks`, `lessons`, `views`,
 //! `numbers`, `shown`, `write`, `uses`,
 //! `edits`.
 mod bindings;
@@ -40,6 +40,7 @@ mod kept;
 mod kin;
 mod kinds;
 mod lengths;
+mod lessons;
 mod loops;
 mod lower;
 mod members;
@@ -63,6 +64,7 @@ mod switches;
 mod terms;
 mod trails;
 mod uses;
+mod views;
 mod visible;
 mod write;
 
@@ -70,8 +72,10 @@ pub use checks::{Check, Expectation, PlanKind, Statement, StatementKind, without
 pub use edits::{Restructuring, edits_for, for_every, is_count, of_constraint, write_sides};
 pub use families::Family;
 pub use files::File;
+pub use lessons::{Goal, Lesson, LessonStep, Task};
 pub use lower::{Lowered, lower, lower_written};
 pub use numbers::{Wanted, read_literal, show_limit};
 pub use origins::Origins;
 pub use shown::{Quantity, Shown, in_unit, show_quantity};
+pub use views::{PlotOf, Toolbox};
 pub use write::write_values;

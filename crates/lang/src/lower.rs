@@ -11,6 +11,7 @@ use crate::files::File;
 use crate::kept::Added;
 use crate::kin::Kin;
 use crate::kinds::Kind;
+use crate::lessons::{self, Lesson};
 use crate::loops::Repeated;
 use crate::members::{Definition, Pending};
 use crate::origins::Origins;
@@ -22,6 +23,7 @@ use crate::restore::{Grain, Patch};
 use crate::rules::Mask;
 use crate::scope::Scope;
 use crate::switches::PendingSwitch;
+use crate::views::{self, PlotOf, Toolbox};
 use crate::visible::Visible;
 use base::{Diagnostic, FileId, IdVec, Mixer, Name, Place, Severity, Span};
 use indexmap::IndexMap;
@@ -41,6 +43,12 @@ pub struct Lowered {
     pub document: Document,
     /// The `check` blocks of the document's own text.
     pub checks: Vec<Check>,
+    /// The `lesson` blocks of the document's own text.
+    pub lessons: Vec<Lesson>,
+    /// The views that classes define.
+    pub views: Vec<PlotOf>,
+    /// The toolboxes of the document's own text and of those that it uses.
+    pub toolboxes: Vec<Toolbox>,
     /// The families of the document's own text and of those that it uses.
     pub families: Vec<Family>,
     /// Where every member was written.
@@ -138,7 +146,7 @@ pub(crate) fn lower_text(
 ) -> Lowered {
     let mut l = Lowerer::new(load, before);
     l.scale = scale;
-    let (checks, families) = l.run(text);
+    let Blocks { checks, lessons, views, toolboxes, families } = l.run(text);
     let doc = l.first_doc();
     let own = &l.files[OWN];
     let classes = own.members_of(&[SyntaxKind::Class, SyntaxKind::Program]);
@@ -147,6 +155,9 @@ pub(crate) fn lower_text(
         masters: l.placed.masters.map(|(name, _)| name),
         document: l.document,
         checks,
+        lessons,
+        views,
+        toolboxes,
         families,
         origins: l.origins,
         diagnostics: l.diagnostics,
@@ -159,6 +170,15 @@ pub(crate) fn lower_text(
         parts: l.parts,
         added: l.added,
     }
+}
+
+/// What a text says beside classes and members.
+struct Blocks {
+    checks: Vec<Check>,
+    lessons: Vec<Lesson>,
+    views: Vec<PlotOf>,
+    toolboxes: Vec<Toolbox>,
+    families: Vec<Family>,
 }
 
 pub(crate) struct Lowerer<'l> {
@@ -318,8 +338,8 @@ impl<'l> Lowerer<'l> {
         l
     }
 
-    /// Lowers a text, and returns its checks and families.
-    fn run(&mut self, text: &str) -> (Vec<Check>, Vec<Family>) {
+    /// Lowers a text, and returns what it says beside classes and members.
+    fn run(&mut self, text: &str) -> Blocks {
         self.read("", text);
         let before = self.before.map(|before| before.document.scale);
         let scale = self.scale.unwrap_or_else(|| crate::scale::of(&self.files[OWN].parse, before));
@@ -332,10 +352,12 @@ impl<'l> Lowerer<'l> {
         self.declare_members();
         self.define_members();
         let checks = checks::lower(self);
+        let lessons = lessons::lower(self);
+        let (views, toolboxes) = (views::lower(self), views::toolboxes(self));
         let families = crate::families::lower(self);
         self.refine_parts();
         self.settle();
-        (checks, families)
+        Blocks { checks, lessons, views, toolboxes, families }
     }
 
     /// Returns what the comment for readers above the first `use` or line of units says; one above anything

@@ -110,10 +110,16 @@ impl Lowerer<'_> {
                 | Member::Program(_)
                 | Member::Family(_)
                 | Member::Check(_)
+                | Member::Lesson(_)
+                | Member::View(_)
+                | Member::Toolbox(_)
                     if self.is_top_level(scope) => {}
+                // those of classes are read once all classes are known
+                Member::View(_) if self.is_declared(scope) => {}
+                Member::Toolbox(_) | Member::View(_) if scope.file != OWN => {}
                 Member::Class(_) | Member::Choice(_) | Member::Program(_) | Member::Family(_)
                     if scope.file != OWN => {}
-                Member::Check(_) if scope.file != OWN => {}
+                Member::Check(_) | Member::Lesson(_) if scope.file != OWN => {}
                 other => self.refuse(scope.file, other, span),
             }
         }
@@ -122,6 +128,11 @@ impl Lowerer<'_> {
     /// Returns true at the top level of the document's own text, outside of any `for`.
     fn is_top_level(&self, scope: &Scope) -> bool {
         scope.class() == self.document.root && scope.turns.is_empty()
+    }
+
+    /// Returns true in the body of a class that a text declares by its name.
+    fn is_declared(&self, scope: &Scope) -> bool {
+        scope.turns.is_empty() && self.declared.iter().any(|(class, _, _)| *class == scope.class())
     }
 
     /// Reports a value that is a block of steps, as only programs have.
@@ -141,9 +152,9 @@ impl Lowerer<'_> {
     fn refuse(&mut self, file: FileId, member: &Member, span: Span) {
         let what = match member {
             Member::When(_) => "events are",
-            Member::View(_) => "views of one's own are",
-            Member::Toolbox(_) => "toolboxes are",
-            Member::Lesson(_) => "lessons are",
+            Member::View(_) => "views of a single part are",
+            Member::Toolbox(_) => "toolboxes inside of classes are",
+            Member::Lesson(_) => "lessons inside of classes are",
             Member::Program(_) => "programs inside of others are",
             Member::Family(_) => "families inside of others are",
             Member::Class(_) => "classes inside of others are",

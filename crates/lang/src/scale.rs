@@ -67,7 +67,9 @@ fn quantities(parse: &Parse) -> Vec<(f64, Dimension)> {
     while let Some(event) = walk.next() {
         let WalkEvent::Enter(node) = event else { continue };
         match node.kind() {
-            SyntaxKind::Check | SyntaxKind::Within | SyntaxKind::UnitLine => walk.skip_subtree(),
+            SyntaxKind::Check | SyntaxKind::Lesson | SyntaxKind::Within | SyntaxKind::UnitLine => {
+                walk.skip_subtree();
+            }
             SyntaxKind::NumberExpr => {
                 found.extend(NumberExpr::cast(node).as_ref().and_then(quantity));
             }

@@ -120,15 +120,7 @@ impl Run<'_> {
         wholes.dedup();
         let source = |span: &base::Span| self.of.state.text.get(span.range()).unwrap_or_default();
         let sources: Vec<&str> = wholes.iter().map(source).collect();
-        let document = &self.open.state.text;
-        let text = format!("{document}\ncheck \"\" {{\n{}\n}}\n", sources.join("\n"));
-        let lowered = lang::lower(&text, &|name| self.host.read(name), None);
-        let own = lowered.diagnostics.iter().find(|d| {
-            d.place.file == base::FileId(0) && d.place.span.start as usize > document.len()
-        });
-        let message = own.map(|d| d.message.clone());
-        let check = lowered.checks.into_iter().next();
-        let mut all = check.map(|c| c.statements).unwrap_or_default();
+        let (mut all, message) = meant(&self.open.state.text, self.host, &sources);
         all.drain(..noted.min(all.len()));
         // a loop is read as a whole: what stands before these in it is left out
         if let Some(first) = statements.first() {
@@ -261,23 +253,12 @@ impl Run<'_> {
     fn edit(&mut self, state: &State, kind: &StatementKind) -> Result<Change, Refusal> {
         let command = match kind {
             StatementKind::Set(targets) => {
-                let targets = &self.with_noted_targets(targets);
-                let literal = |(path, term): &(Path, Term), answer: &Answer<'_>| {
-                    to_set(state, path, term, answer)
-                };
-                Command::Set(literals(state, targets, literal)?)
+                command_of(state, &StatementKind::Set(self.with_noted_targets(targets)))?
             }
             StatementKind::Move(targets) => {
-                let targets = &self.with_noted_targets(targets);
-                Command::Move(literals(state, targets, |_, answer| literal_of(answer))?)
+                command_of(state, &StatementKind::Move(self.with_noted_targets(targets)))?
             }
-            StatementKind::Command(command) => command.clone(),
-            StatementKind::Expect(_)
-            | StatementKind::Note(..)
-            | StatementKind::Try(_)
-            | StatementKind::Unclear => {
-                return Err(words::refuse("only an edit can be tried".into()));
-            }
+            other => command_of(state, other)?,
         };
         self.before = Some(self.open.state.clone());
         let change = apply::apply(&mut self.open, self.host, &command)?;
@@ -368,7 +349,10 @@ impl Run<'_> {
 }
 
 /// Tests a rule, and shows both sides where it is not true.
-fn expect_rule(state: &State, rule: &Term, within: Option<&Term>) -> Result<(), String> {
+///
+/// # Errors
+/// What both sides are.
+pub(crate) fn expect_rule(state: &State, rule: &Term, within: Option<&Term>) -> Result<(), String> {
     let evaluator = state.evaluator(&state.values);
     let verdict = evaluator.test_rule(rule, within, DOCUMENT).map_err(|f| f.message)?;
     if verdict.holds {
@@ -444,4 +428,46 @@ fn mentions(refusal: &Refusal, word: &str) -> bool {
         text.split(|c: char| !c.is_alphanumeric() && c != '_' && c != '-').any(|w| w == word)
     };
     texts.into_iter().any(has)
+}
+
+/// Finds out what statements mean in a document, and what is wrong with the first that means nothing.
+pub(crate) fn meant(
+    document: &str,
+    host: &dyn Host,
+    sources: &[&str],
+) -> (Vec<Statement>, Option<String>) {
+    let text = format!("{document}\ncheck \"\" {{\n{}\n}}\n", sources.join("\n"));
+    let lowered = lang::lower(&text, &|name| host.read(name), None);
+    let own = lowered
+        .diagnostics
+        .iter()
+        .find(|d| d.place.file == base::FileId(0) && d.place.span.start as usize > document.len());
+    let message = own.map(|d| d.message.clone());
+    let check = lowered.checks.into_iter().next_back();
+    (check.map(|c| c.statements).unwrap_or_default(), message)
+}
+
+/// Returns the command that a statement is.
+///
+/// # Errors
+/// It is none, or a value of it is none.
+pub(crate) fn command_of(state: &State, kind: &StatementKind) -> Result<Command, Refusal> {
+    Ok(match kind {
+        StatementKind::Set(targets) => {
+            let literal = |(path, term): &(Path, Term), answer: &Answer<'_>| {
+                to_set(state, path, term, answer)
+            };
+            Command::Set(literals(state, targets, literal)?)
+        }
+        StatementKind::Move(targets) => {
+            Command::Move(literals(state, targets, |_, answer| literal_of(answer))?)
+        }
+        StatementKind::Command(command) => command.clone(),
+        StatementKind::Expect(_)
+        | StatementKind::Note(..)
+        | StatementKind::Try(_)
+        | StatementKind::Unclear => {
+            return Err(words::refuse("only an edit can be tried".into()));
+        }
+    })
 }

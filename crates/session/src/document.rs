@@ -44,6 +44,10 @@ pub(crate) struct Open {
     pub(crate) recording: Option<crate::drafting::Recording>,
     /// A drag between press and release.
     pub(crate) drag: Option<crate::drag::Drag>,
+    /// What the calculator shows.
+    pub(crate) sums: Option<crate::calculator::Sums>,
+    /// The lesson that someone is in.
+    pub(crate) study: Option<crate::lessons::Study>,
     /// What of drags is plotted.
     pub(crate) trace: Option<crate::plotting::Trace>,
     /// The picture as it was asked for last.
@@ -75,6 +79,8 @@ impl Open {
             dialogue: None,
             recording: None,
             drag: None,
+            sums: None,
+            study: None,
             trace: None,
             shown: RefCell::new(None),
         }

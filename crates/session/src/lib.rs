@@ -15,6 +15,7 @@ pub mod view;
 
 mod advice;
 mod apply;
+mod calculator;
 mod check;
 mod classing;
 mod complaints;
@@ -29,6 +30,7 @@ mod following;
 mod general;
 mod ghosts;
 mod joining;
+mod lessons;
 mod limits;
 mod offers;
 mod parting;

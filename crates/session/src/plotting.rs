@@ -10,7 +10,7 @@ use crate::drag;
 use crate::host::Host;
 use crate::session::parse_path;
 use crate::state::State;
-use crate::view::Refusal;
+use crate::view::{PlotEntry, Refusal};
 use crate::words;
 use eval::Answer;
 use expr::Dimension;
@@ -222,6 +222,33 @@ pub(crate) fn sweep(
     Ok(sampler.plot("", notes))
 }
 
+/// So many steps a view of a class has.
+const VIEW_STEPS: u32 = 200;
+
+/// Returns the views that the class of a thing defines, as plots of that thing.
+pub(crate) fn views_of(state: &State, path: &Path) -> Vec<PlotEntry> {
+    let Some(thing) = crate::session::thing_at(state, path) else { return Vec::new() };
+    let document = &state.lowered.document;
+    let lineage = document.lineage(state.structure.things[thing].class);
+    let views = lineage
+        .iter()
+        .flat_map(|class| state.lowered.views.iter().filter(move |view| view.class == *class));
+    let mut found: Vec<PlotEntry> = Vec::new();
+    for view in views {
+        // a subclass's view takes the place of one of the same name
+        if found.iter().any(|entry| entry.title == view.title) {
+            continue;
+        }
+        let of = |part: &Path| path.join(part).to_string();
+        let [from, to] = view.range.clone();
+        let sweep = Some(Sweep { of: of(&view.over), from, to, steps: VIEW_STEPS });
+        let show = view.show.iter().map(of).collect();
+        let request = Request { show, over: None, sweep };
+        found.push(PlotEntry { title: view.title.clone(), doc: view.doc.clone(), request });
+    }
+    found
+}
+
 /// How the swept value is brought from one number to the next.
 enum Walk {
     /// By a drag, which follows the branch.
@@ -425,7 +452,10 @@ impl Sampler {
 }
 
 /// Reads expressions as the document's own members would.
-fn read(state: &State, host: &dyn Host, named: &[&str]) -> Result<Vec<Term>, Refusal> {
+///
+/// # Errors
+/// What the first that means nothing is, and why.
+pub(crate) fn read(state: &State, host: &dyn Host, named: &[&str]) -> Result<Vec<Term>, Refusal> {
     let mut stem = String::from("plotted");
     while state.text.contains(&stem) {
         stem.push('_');

@@ -2,6 +2,7 @@
 
 use crate::advice;
 use crate::apply;
+use crate::calculator;
 use crate::check;
 use crate::classing;
 use crate::complaints;
@@ -10,6 +11,7 @@ use crate::drag;
 use crate::ghosts;
 use crate::host::{Beside, Host};
 use crate::joining;
+use crate::lessons;
 use crate::offers;
 use crate::plotting::{self, Plot, Request};
 use crate::recognise;
@@ -18,9 +20,10 @@ use crate::texts::Texts;
 use crate::tools::{self, Tool};
 use crate::view::{
     Advice, Affected, Analysis, BinEntry, Change, CheckReport, CompletionView, DiagnosticView,
-    DocumentId, DragState, Explanation, FamilyRow, FamilyView, FixView, Ghost, HeldView, MovedView,
-    Offer, PictureView, Pointer, Question, Recognised, Refusal, RowFormats, RowOutcome, Status,
-    StructureRow, TableView, TextView, ToolView, ValueRow,
+    DocumentId, DragState, Explanation, FamilyRow, FamilyView, FixView, Ghost, HeldView,
+    LessonEntry, LessonView, MovedView, Offer, PictureView, PlotEntry, Pointer, Question,
+    Recognised, Refusal, RowFormats, RowOutcome, Status, StructureRow, TableView, TextView,
+    ToolView, ValueRow,
 };
 use crate::views;
 use crate::words;
@@ -388,6 +391,16 @@ impl Session {
             None => Ok(open.trace.as_ref().map(plotting::Trace::plot).unwrap_or_default()),
         }
     }
+    /// Returns the values of some expressions in words, as of the drag where one goes on, or why they have none.
+    pub fn calculate(&mut self, id: DocumentId, written: &[String]) -> Vec<Result<String, String>> {
+        let beside = Beside::of(&*self.host, &self.documents, id);
+        let open = self.documents.get_mut(id.0 as usize);
+        open.map(|open| calculator::values(open, &beside, written)).unwrap_or_default()
+    }
+    /// Returns the views that the class of a thing defines, the nearest class's first.
+    pub fn views_of(&self, id: DocumentId, path: &Path) -> Vec<PlotEntry> {
+        plotting::views_of(&self.document(id).state, path)
+    }
     /// From the next press on, every event of a drag is a sample of what a request shows; without one none is.
     ///
     /// # Errors
@@ -583,6 +596,47 @@ impl Session {
     /// it changed nothing it should not have. It shares no code with what computed the values.
     pub fn complaints(&self, id: DocumentId) -> Vec<String> {
         complaints::of(self.document(id))
+    }
+    /// Lists the lessons of a document.
+    pub fn lessons(&self, id: DocumentId) -> Vec<LessonEntry> {
+        lessons::list(&self.document(id).state)
+    }
+    /// Begins one of a document's lessons by its number, or leaves the one that goes on.
+    pub fn begin_lesson(&mut self, id: DocumentId, which: Option<usize>) {
+        let open = self.document_mut(id);
+        match which {
+            Some(which) => lessons::begin(open, which),
+            None => open.study = None,
+        }
+    }
+    /// Returns what the lesson shows that goes on, at the first step that is not done; `explained` says that the
+    /// reasons are asked for. Nothing where no lesson goes on.
+    pub fn lesson(&mut self, id: DocumentId, explained: bool) -> Option<LessonView> {
+        let beside = Beside::of(&*self.host, &self.documents, id);
+        let open = self.documents.get_mut(id.0 as usize)?;
+        lessons::follow(open, &beside, explained)
+    }
+    /// Goes to the next step of the lesson, whether or not this one is done.
+    pub fn next_step(&mut self, id: DocumentId) {
+        lessons::go_on(self.document_mut(id));
+    }
+    /// Does the task of the present step as the lesson does it.
+    ///
+    /// # Errors
+    /// The lesson does not show it, or it can no longer be done.
+    pub fn show_solution(&mut self, id: DocumentId) -> Result<Change, Refusal> {
+        let beside = Beside::of(&*self.host, &self.documents, id);
+        let open = self
+            .documents
+            .get_mut(id.0 as usize)
+            .expect("a document id comes from this session's open");
+        open.drag = None;
+        lessons::show(open, &beside)
+    }
+    /// Goes through the lessons, each on a fresh copy of the document: every task must be done by its solution.
+    pub fn run_lessons(&self, id: DocumentId) -> Vec<CheckReport> {
+        let beside = Beside::of(&*self.host, &self.documents, id);
+        lessons::run_all(&self.document(id).state, &beside)
     }
     /// Runs the `check` blocks, each on a fresh copy of the document as it is.
     pub fn run_checks(&self, id: DocumentId) -> Vec<CheckReport> {

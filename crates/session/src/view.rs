@@ -323,6 +323,8 @@ pub struct BinEntry {
     pub doc: String,
     /// The library or file that it comes from; empty for the document's own.
     pub library: String,
+    /// The toolbox that it lies in, where there is one.
+    pub toolbox: Option<String>,
     /// What a new one looks like.
     pub picture: drawing::Drawing,
 }
@@ -621,7 +623,53 @@ pub struct ContradictionView {
     pub choices: Vec<Choice>,
 }
 
-/// How a `check` block came out.
+/// A view that a thing's class defines: a plot of some of its numbers.
+#[derive(Clone, PartialEq, Eq, Debug, Serialize)]
+pub struct PlotEntry {
+    /// What it is called.
+    pub title: String,
+    /// What `///` says of it.
+    pub doc: String,
+    /// What makes the plot.
+    #[serde(skip)]
+    pub request: crate::plotting::Request,
+}
+
+/// A lesson that a document has.
+#[derive(Clone, PartialEq, Eq, Debug, Serialize)]
+pub struct LessonEntry {
+    /// What it is called.
+    pub title: String,
+    /// What `///` says of it.
+    pub doc: String,
+    /// How many steps it has.
+    pub steps: u32,
+}
+
+/// Where someone is in a lesson.
+#[derive(Clone, PartialEq, Eq, Debug, Default, Serialize)]
+pub struct LessonView {
+    /// What it is called.
+    pub title: String,
+    /// How many steps it has.
+    pub steps: u32,
+    /// Which step this is, from 0; as many as there are at its end.
+    pub at: u32,
+    /// What the step says.
+    pub say: Vec<String>,
+    /// What is to be done, each in words; nothing where there is only something to read.
+    pub task: Vec<String>,
+    /// What of it is missing, each in words.
+    pub missing: Vec<String>,
+    /// What helps.
+    pub hints: Vec<String>,
+    /// The paths of what is to be moved.
+    pub points_at: Vec<String>,
+    /// Whether the lesson can show how it is done.
+    pub can_show: bool,
+}
+
+/// How a `check` block, or a lesson, came out.
 #[derive(Clone, PartialEq, Debug, Serialize)]
 pub struct CheckReport {
     /// Its title.

@@ -33,9 +33,10 @@ pub fn Bin(
         found.with(|found| {
             let mut shelves: Vec<(String, Vec<BinEntry>)> = Vec::new();
             for entry in found {
-                match shelves.iter_mut().find(|(library, _)| *library == entry.library) {
+                let name = entry.toolbox.as_ref().unwrap_or(&entry.library);
+                match shelves.iter_mut().find(|(shelf, _)| shelf == name) {
                     Some((_, shelf)) => shelf.push(entry.clone()),
-                    None => shelves.push((entry.library.clone(), vec![entry.clone()])),
+                    None => shelves.push((name.clone(), vec![entry.clone()])),
                 }
             }
             shelves

@@ -1,5 +1,6 @@
-//! The bottom dock: text, table and plot, shut at first; and what a narrow page pulls up instead.
+//! The bottom dock: text, table, plot and calculator, shut at first; and what a narrow page pulls up instead.
 
+use crate::calculator::Calculator;
 use crate::lab::Lab;
 use crate::plot::PlotPane;
 use crate::splitter::{Splitter, Way};
@@ -19,6 +20,8 @@ pub enum Tab {
     Table,
     /// Values over others, and loci.
     Plot,
+    /// Expressions and their values.
+    Calculator,
 }
 
 impl Tab {
@@ -27,6 +30,7 @@ impl Tab {
             Self::Text => words::TEXT,
             Self::Table => words::TABLE,
             Self::Plot => words::PLOT,
+            Self::Calculator => words::CALCULATOR,
         }
     }
 }
@@ -59,7 +63,7 @@ impl Sheet {
 /// What the dock showed in the last visit.
 pub fn kept() -> Option<Tab> {
     let kept = theme::keep(DOCK_KEY)?;
-    [Tab::Text, Tab::Table, Tab::Plot].into_iter().find(|tab| tab.label() == kept)
+    [Tab::Text, Tab::Table, Tab::Plot, Tab::Calculator].into_iter().find(|tab| tab.label() == kept)
 }
 
 /// The dock below the picture.
@@ -85,12 +89,13 @@ pub fn Dock(
             <Splitter name="dock" way=Way::Up least=120.0 most=800.0 />
         </Show>
         <div class="dock" class:open=move || lab.dock.get().is_some()>
-            <div class="tabs" role="tablist" aria-label=words::DOCK>{tab(Tab::Text)}{tab(Tab::Table)}{tab(Tab::Plot)}</div>
+            <div class="tabs" role="tablist" aria-label=words::DOCK>{tab(Tab::Text)}{tab(Tab::Table)}{tab(Tab::Plot)}{tab(Tab::Calculator)}</div>
             <div class="shelf" id="dock" role="tabpanel" aria-label=words::DOCK>
                 {move || match lab.dock.get() {
                     Some(Tab::Text) => view! { <Text lab=lab /> }.into_any(),
                     Some(Tab::Table) => view! { <Values lab=lab /> }.into_any(),
                     Some(Tab::Plot) => view! { <PlotPane lab=lab /> }.into_any(),
+                    Some(Tab::Calculator) => view! { <Calculator lab=lab /> }.into_any(),
                     None => ().into_any(),
                 }}
             </div>

@@ -4,7 +4,7 @@ use crate::first::Invitation;
 use crate::lab::Lab;
 use crate::picture::thumbnail::Thumbnail;
 use crate::server::Listed;
-use crate::{route, words};
+use crate::{lesson, route, words};
 use leptos::prelude::*;
 use session::view::{DocumentId, TextView};
 
@@ -41,8 +41,11 @@ pub fn Gallery(
                 Some(Ok(all)) if all.is_empty() => view! { <p class="quiet">{words::NO_DOCUMENTS}</p> }.into_any(),
                 Some(Ok(all)) => {
                     let (gallery, own): (Vec<_>, Vec<_>) = all.into_iter().partition(|one| one.in_gallery);
+                    let (lessons, gallery): (Vec<_>, Vec<_>) =
+                        gallery.into_iter().partition(|one| lesson::is_lesson(&one.path));
                     view! {
                         <Shelf lab=lab heading=words::YOUR_DOCUMENTS documents=own />
+                        <Shelf lab=lab heading=words::LESSONS documents=lessons />
                         <Shelf lab=lab heading=words::GALLERY documents=gallery />
                     }.into_any()
                 }

@@ -3,6 +3,7 @@
 use crate::actions;
 use crate::lab::Lab;
 use crate::picture::covers;
+use crate::plot::ViewsOf;
 use crate::values::{self, Place};
 use crate::{structure, words};
 use leptos::prelude::*;
@@ -54,6 +55,7 @@ pub fn Inspector(
                 {move || law.with(|law| (!law.is_empty()).then(|| view! { <p class="law">{law.clone()}</p> }))}
                 {move || formula.get().map(|formula| view! { <p class="law"><code>{formula}</code></p> })}
                 <Numbers lab=lab />
+                <ViewsOf lab=lab path=Memo::new(move |_| lab.selected.get().unwrap_or_default()) />
                 <Rules lab=lab />
             </div>
         </section>

@@ -18,9 +18,9 @@ use crate::theme;
 use drawing::Point;
 use leptos::prelude::*;
 use session::view::{
-    Analysis, Caught, DocumentId, DragState, Explanation, Ghost, HeldView, MovedView, PictureView,
-    Question, Recognised, Refusal, RowKind, Status, StructureRow, TextView, ToolView, ValueRow,
-    Velocity,
+    Analysis, Caught, DocumentId, DragState, Explanation, Ghost, HeldView, LessonView, MovedView,
+    PictureView, Question, Recognised, Refusal, RowKind, Status, StructureRow, TextView, ToolView,
+    ValueRow, Velocity,
 };
 use session::{Path, Session};
 use std::collections::BTreeMap;
@@ -94,8 +94,12 @@ pub struct Lab {
     pub shown_values: StoredValue<Vec<usize>>,
     /// The same for the rows in the inspector.
     pub inspected_values: StoredValue<Vec<usize>>,
-    /// Where the first minute is.
-    pub first: RwSignal<first::Step>,
+    /// Whether the first minute is offered.
+    pub first: RwSignal<bool>,
+    /// The lesson that goes on.
+    pub lesson: RwSignal<Option<LessonView>>,
+    /// The lesson that the shown document offers.
+    pub lesson_offered: RwSignal<Option<String>>,
     /// What the dock shows, where it is open.
     pub dock: RwSignal<Option<Tab>>,
     /// What a narrow page has pulled up.
@@ -146,6 +150,8 @@ pub struct Lab {
     pub carried: StoredValue<bool>,
     /// What the thing that is dragged would be joined with.
     pub dropping: RwSignal<Option<(Path, Caught)>>,
+    /// The expressions of the calculator.
+    pub sums: RwSignal<Vec<String>>,
     /// What is plotted.
     pub plotting: Plotting,
     /// What of drafting there is.
@@ -248,7 +254,9 @@ impl Lab {
             dragged_values: RwSignal::new(BTreeMap::new()),
             shown_values: StoredValue::new(Vec::new()),
             inspected_values: StoredValue::new(Vec::new()),
-            first: RwSignal::new(first::start()),
+            first: RwSignal::new(first::is_offered()),
+            lesson: RwSignal::new(None),
+            lesson_offered: RwSignal::new(None),
             dock: RwSignal::new(dock::kept()),
             sheet: RwSignal::new(Sheet::Shut),
             text: RwSignal::new(no_text()),
@@ -274,6 +282,7 @@ impl Lab {
             cursor: RwSignal::new(None),
             carried: StoredValue::new(false),
             dropping: RwSignal::new(None),
+            sums: RwSignal::new(Vec::new()),
             plotting: Plotting::default(),
             drafting: Drafting::default(),
             drawer: RwSignal::new(Drawer::Structure),
@@ -398,6 +407,7 @@ impl Lab {
         });
         self.keep_draft(&text.source);
         self.text.set(text);
+        self.follow_lesson();
     }
 
     /// Shows or hides the grid, and remembers it.

@@ -14,6 +14,7 @@
 pub mod actions;
 pub mod bench;
 pub mod bin_panel;
+pub mod calculator;
 pub mod dialog;
 pub mod dock;
 pub mod drafting;
@@ -26,6 +27,7 @@ pub mod icons;
 pub mod inspector;
 pub mod js;
 pub mod lab;
+pub mod lesson;
 pub mod menu;
 pub mod orbit;
 pub mod page;

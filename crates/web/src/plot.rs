@@ -12,7 +12,7 @@ use leptos::ev::KeyboardEvent;
 use leptos::prelude::*;
 use session::Session;
 use session::plotting::{Plot, Request, Sweep};
-use session::view::ValueRow;
+use session::view::{PlotEntry, ValueRow};
 
 pub mod chart;
 
@@ -95,6 +95,18 @@ impl Lab {
                 }
             }
         });
+        self.open_dock(Tab::Plot);
+    }
+
+    /// Shows a view that a class defines.
+    fn plot_view(self, request: &Request) {
+        let plotting = self.plotting;
+        let Some(sweep) = &request.sweep else { return };
+        plotting.show.set(request.show.clone());
+        plotting.of.set(sweep.of.clone());
+        plotting.from.set(sweep.from.clone());
+        plotting.to.set(sweep.to.clone());
+        plotting.over.set(request.over.clone().unwrap_or_default());
         self.open_dock(Tab::Plot);
     }
 
@@ -294,6 +306,31 @@ fn Export(lab: Lab) -> impl IntoView {
         <Show when=move || plot.with(|plot| !plot.is_empty())>
             <button on:click=move |_| js::download(&name("csv"), &plot.with_untracked(Plot::csv))>"CSV"</button>
             <button on:click=move |_| js::download(&name("svg"), &plot.with_untracked(|p| p.svg(EXPORTED)))>"SVG"</button>
+        </Show>
+    }
+}
+
+/// The views that the class of what is selected defines, as buttons that plot them.
+#[component]
+pub fn ViewsOf(
+    /// The lab.
+    lab: Lab,
+    /// Whose views.
+    path: Memo<String>,
+) -> impl IntoView {
+    let views = Memo::new(move |_| {
+        lab.structure.track();
+        let path = session::parse_path(&path.get()).unwrap_or_default();
+        lab.ask_of_shown(|session, id| session.views_of(id, &path)).unwrap_or_default()
+    });
+    let button = move |entry: PlotEntry| {
+        let PlotEntry { title, doc, request } = entry;
+        view! { <button title=doc on:click=move |_| lab.plot_view(&request)>{title}</button> }
+    };
+    view! {
+        <Show when=move || views.with(|views| !views.is_empty())>
+            <h3>{words::VIEWS_OF}</h3>
+            <div class="choices views-of">{move || views.get().into_iter().map(button).collect_view()}</div>
         </Show>
     }
 }

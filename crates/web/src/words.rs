@@ -18,12 +18,13 @@ pub const PICTURE: &str = "Picture";
 pub const STRUCTURE: &str = "Structure";
 pub const FIRST_LEAD: &str = "New here? One minute with a figure that keeps its promises.";
 pub const FIRST_BEGIN: &str = "Drag a corner";
+pub const LESSON: &str = "Lesson";
+pub const LESSONS: &str = "Lessons";
+pub const LESSON_BEGIN: &str = "Begin";
+pub const LESSON_NEXT: &str = "Go on";
+pub const LESSON_HINT: &str = "Hint";
+pub const LESSON_SHOW: &str = "Show me";
 pub const FIRST_SKIP: &str = "Skip";
-pub const FIRST_DRAG: &str = "Drag me: take the pulsing corner and move it.";
-pub const FIRST_WHY: &str = "The inner figure stays a parallelogram. Why?";
-pub const FIRST_BUILT: &str = "Below stands what is free, and which constraint decides each value.";
-pub const FIRST_BUILD: &str = "Now build one";
-pub const FIRST_TRACE: &str = "Draw four lines, end to end; corners join by themselves. Later choose a point and a line: the strip offers midpoint.";
 pub const INSPECTOR: &str = "Inspector";
 pub const PARAMETERS: &str = "what is given in this document";
 pub const NOTHING_GIVEN: &str =
@@ -31,6 +32,11 @@ pub const NOTHING_GIVEN: &str =
 pub const IS_RULE: &str = "a constraint";
 pub const CONSTRAINTS: &str = "Constraints";
 pub const TABLE: &str = "Table";
+pub const CALCULATOR: &str = "Calculator";
+pub const CALCULATOR_LEAD: &str = "Type an expression of the document's values, such as pi() * 3 or a path: its value follows every change.";
+pub const EXPRESSION: &str = "Expression";
+pub const KEEP_EXPRESSION: &str = "Add to the document";
+pub const VIEWS_OF: &str = "Views";
 pub const PLOT: &str = "Plot";
 pub const PLOT_SHOW: &str = "Show";
 pub const PLOT_SHOWN: &str = "What is plotted";
@@ -50,7 +56,7 @@ pub const NOTHING_PLOTTED: &str = "select a value or a point to plot";
 pub const CHART_HELP: &str =
     "wheel: zoom; drag: shift; double click or F: all of it; arrow keys: read along the curve";
 pub const PARTS: &str = "Parts";
-pub const DOCK: &str = "Text, table and plot";
+pub const DOCK: &str = "Text, table, plot and calculator";
 pub const SHEET: &str = "Panels";
 pub const EXPORT_SVG: &str = "Export the picture as SVG";
 pub const EXPORT_PNG: &str = "Export the picture as PNG";
@@ -197,6 +203,26 @@ pub const CANCEL: &str = "Cancel";
 
 /// What a change did besides what it was meant to do; nothing if that is all.
 /// Says what a chart shows, to those who do not see it.
+pub fn calculator_without(written: &str) -> String {
+    format!("Remove {written}")
+}
+pub fn expression_kept(name: &str) -> String {
+    format!("the document answers {name} now")
+}
+
+pub fn lesson_offered(title: &str) -> String {
+    format!("This document has a lesson: {title}.")
+}
+pub fn lesson_place(title: &str, at: u32, of: u32) -> String {
+    format!("{title}: {at} of {of}")
+}
+pub fn lesson_over(title: &str) -> String {
+    format!("{title}: done.")
+}
+pub fn lesson_next(title: &str) -> String {
+    format!("Next: {title}")
+}
+
 pub fn chart_of(plot: &session::plotting::Plot) -> String {
     let curves = plot.curves.iter().map(|curve| curve.axis.in_words());
     let loci = plot.loci.iter().map(|locus| format!("the locus of {}", locus.label));

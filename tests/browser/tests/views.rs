@@ -35,3 +35,20 @@ async fn a_value_is_plotted_over_a_sweep_and_a_point_leaves_its_locus_while_it_i
     let plotted = &state(&visit).await["plotted"];
     assert_eq!(plotted["loci"][0], "coupler.p2");
 }
+
+#[tokio::test]
+async fn a_lesson_goes_on_as_its_tasks_are_done() {
+    let visit = Visit::open(None).await;
+    let before = show(&visit, "lesson-1-first-minute.thing").await;
+    visit.until("document.querySelector('.lesson .place').textContent.includes('1 of 3')").await;
+    visit.until("document.querySelector('.pulse')").await;
+    let from = grip(&before, "q.outer.side2.p2");
+    drag(&visit, from, (from.0 - 30.0, from.1 + 20.0)).await;
+    visit.until("document.querySelector('.lesson .place').textContent.includes('2 of 3')").await;
+    visit.script("document.querySelector('.why-button').click()").await;
+    visit.until("document.querySelector('.lesson .place').textContent.includes('3 of 3')").await;
+    visit.script("document.querySelector('.lesson .primary').click()").await;
+    visit.until("document.querySelector('.lesson').textContent.includes('done')").await;
+    visit.script("document.querySelector('.lesson .primary').click()").await;
+    visit.until("window.__thinglab.state().path === 'gallery/lesson-2-figure.thing'").await;
+}

@@ -40,7 +40,7 @@ impl Text<'_> {
         let members = outline.filter_map(|(_, span)| self.file.member_at(span));
         let nodes = members.flat_map(|m| m.syntax().descendants().collect::<Vec<_>>());
         let is_plain = |n: &syntax::SyntaxNode| {
-            let apart = [SyntaxKind::For, SyntaxKind::Check];
+            let apart = [SyntaxKind::For, SyntaxKind::Check, SyntaxKind::Lesson];
             kinds.contains(&n.kind()) && !n.ancestors().any(|a| apart.contains(&a.kind()))
         };
         let connected = |node: syntax::SyntaxNode| match Member::cast(node)? {

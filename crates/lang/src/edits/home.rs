@@ -161,9 +161,11 @@ impl Text<'_> {
     }
 
     fn at_end(&self, home: &Home, member: &str) -> TextEdit {
-        let has_checks = self.members_of(SyntaxKind::Check).next().is_some();
+        let has_checks = [SyntaxKind::Check, SyntaxKind::Lesson]
+            .into_iter()
+            .any(|kind| self.members_of(kind).next().is_some());
         let declares_check = member.trim_start().starts_with("check");
-        let is_check = |m: &Member| matches!(m, Member::Check(_));
+        let is_check = |m: &Member| matches!(m, Member::Check(_) | Member::Lesson(_));
         let before = (has_checks && !declares_check)
             .then(|| home.members().into_iter().rfind(|m| !is_check(m)));
         match before.flatten() {

@@ -284,7 +284,7 @@ const WRONG: &[(&str, &str, &str)] = &[
         "ambiguous-name",
         "c",
     ),
-    ("lesson \"x\" { say \"y\" }", "not-yet", "lesson \"x\" { say \"y\" }"),
+    ("lesson \"x\" { hint \"y\" }", "no-task", "hint \"y\""),
     ("class A { when 1 = 1 { x := 3 } }", "not-yet", "when 1 = 1 { x := 3 }"),
     ("a: Real in 0..1", "not-a-domain", "0..1"),
     ("a: Integer in 0 .. 1.5", "not-a-domain", "0 .. 1.5"),

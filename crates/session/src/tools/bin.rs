@@ -9,14 +9,23 @@ use crate::view::BinEntry;
 use eval::Evaluator;
 use kernel::{ClassId, SlotId, Value};
 
-/// Returns the classes that a document can make things of, in order of declaration, its own last.
+/// Returns the classes that a document can make things of, those of toolboxes first, then in order of declaration, its own last.
 pub(crate) fn entries(state: &State) -> Vec<BinEntry> {
     let document = &state.lowered.document;
     let classes = document.classes.iter();
     let made = classes.filter(|&(id, class)| recognise::is_candidate(state, id, class));
     // of classes of one name the last counts
     let made = made.filter(|&(id, class)| document.class_named(&class.name) == Some(id));
-    made.map(|(id, class)| {
+    let mut made: Vec<_> = made.collect();
+    // first what lies in toolboxes, in their order
+    let boxes = &state.lowered.toolboxes;
+    let place = |id: ClassId| {
+        let all =
+            boxes.iter().enumerate().flat_map(|(b, t)| t.classes.iter().map(move |c| (b, *c)));
+        all.enumerate().find(|(_, (_, class))| *class == id).map(|(order, (b, _))| (order, b))
+    };
+    made.sort_by_key(|&(id, _)| place(id).map_or(usize::MAX, |(order, _)| order));
+    let entry = |(id, class): (ClassId, &kernel::Class)| {
         let file = state.lowered.place(class.origin).file;
         BinEntry {
             class: class.name.to_string(),
@@ -27,10 +36,11 @@ pub(crate) fn entries(state: &State) -> Vec<BinEntry> {
                 .get(file)
                 .map(|file| file.name.clone())
                 .unwrap_or_default(),
+            toolbox: place(id).map(|(_, b)| boxes[b].title.clone()),
             picture: picture(state, id),
         }
-    })
-    .collect()
+    };
+    made.into_iter().map(entry).collect()
 }
 
 /// The picture of a class's prototype, from what is given alone.

@@ -38,6 +38,11 @@ pub(super) fn statement(p: &mut Parser<'_>, scope: Scope) -> bool {
     let home = match p.word(0) {
         "say" | "task" | "hint" => Scope::Lesson,
         "set" | "move" | "unmerge" | "delete" | "edit" | "rename" | "promote" | "undo" | "redo"
+            if scope == Scope::Lesson =>
+        {
+            Scope::Lesson
+        }
+        "set" | "move" | "unmerge" | "delete" | "edit" | "rename" | "promote" | "undo" | "redo"
         | "simulate" | "try" => Scope::Check,
         "expect" if scope == Scope::Lesson => Scope::Lesson,
         "expect" => Scope::Check,

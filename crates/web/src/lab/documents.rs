@@ -107,6 +107,7 @@ impl Lab {
         self.motion.set(Vec::new());
         self.ghosts.set(Vec::new());
         self.plotting.clear();
+        self.sums.set(Vec::new());
         self.notice.set(None);
         self.conflict.set(None);
         let draft = theme::keep(&draft_key(path)).filter(|draft| *draft != opened.saved);
@@ -114,6 +115,7 @@ impl Lab {
         self.current.set(Some(String::from(path)));
         self.document.set(Some(opened));
         self.refresh();
+        self.meet_lesson(path);
         self.zoom.set(Some(Zoom::Fit));
     }
 

@@ -1,0 +1,178 @@
+//! A lesson beside the picture: what it says, its task, a tick when it is done, a hint, and how it is done.
+
+use crate::lab::Lab;
+use crate::{icons, route, theme, words};
+use drawing::Point;
+use leptos::prelude::*;
+use session::Session;
+use session::view::LessonView;
+
+/// Lessons of the gallery begin with this; what follows is their order.
+const PREFIX: &str = "gallery/lesson-";
+
+/// Whether a path is that of a lesson of the gallery.
+pub fn is_lesson(path: &str) -> bool {
+    path.starts_with(PREFIX)
+}
+
+/// Where it is kept that a lesson was finished or left.
+fn key(path: &str) -> String {
+    format!("thinglab/lesson/{path}")
+}
+
+impl Lab {
+    /// Begins the lesson of a document that has just been shown: at once where it is a lesson of the gallery that
+    /// was not left before, else it is offered.
+    pub fn meet_lesson(self, path: &str) {
+        let lessons = self.ask_of_shown(Session::lessons).unwrap_or_default();
+        self.lesson.set(None);
+        self.lesson_offered.set(lessons.first().map(|lesson| lesson.title.clone()));
+        if is_lesson(path) && theme::keep(&key(path)).is_none() {
+            self.begin_lesson();
+        }
+    }
+
+    /// Begins the lesson of the shown document.
+    pub fn begin_lesson(self) {
+        self.tell(|session, id| session.begin_lesson(id, Some(0)));
+        self.lesson_offered.set(None);
+        self.why.set(false);
+        self.lesson.set(self.tell(|session, id| session.lesson(id, false)).flatten());
+    }
+
+    /// Leaves the lesson; what was done stays.
+    pub fn leave_lesson(self) {
+        self.tell(|session, id| session.begin_lesson(id, None));
+        self.lesson.set(None);
+        self.lesson_offered.set(None);
+        if let Some(path) = self.current.get_untracked() {
+            theme::put(&key(&path), Some("over"));
+        }
+    }
+
+    /// Looks whether the task of the lesson is done.
+    pub fn follow_lesson(self) {
+        if self.lesson.with_untracked(Option::is_none) {
+            return;
+        }
+        let explained = self.why.get_untracked();
+        let now = self.tell(|session, id| session.lesson(id, explained)).flatten();
+        if self.lesson.with_untracked(|before| *before != now) {
+            self.lesson.set(now);
+        }
+    }
+
+    /// The lesson of the gallery that comes after the shown one, with its title.
+    fn next_lesson(self) -> Option<(String, String)> {
+        let here = self.current.get()?;
+        self.listed.with(|all| {
+            let mut lessons = all.iter().filter(|one| is_lesson(&one.path) && one.path > here);
+            lessons.next().map(|one| (one.path.clone(), one.title.clone()))
+        })
+    }
+}
+
+/// The lesson that goes on, or that the document offers.
+#[component]
+pub fn Coach(
+    /// The lab.
+    lab: Lab,
+) -> impl IntoView {
+    Effect::new(move |_| {
+        lab.why.track();
+        lab.follow_lesson();
+    });
+    let ring = move || {
+        let view = lab.view.get();
+        let points_at = lab.lesson.with(|lesson| lesson.as_ref().map(|l| l.points_at.clone()));
+        let points_at = points_at.filter(|_| lab.dragging.with(Option::is_none))?;
+        lab.picture.with(|picture| {
+            let grips = points_at.iter().filter_map(|path| picture.grips.iter().find(|g| g.path == *path));
+            let rings = grips.map(|grip| {
+                let (x, y) = view.screen_from_sheet(Point { x: grip.x, y: grip.y });
+                view! { <span class="pulse" style:left=format!("{x}px") style:top=format!("{y}px")></span> }
+            });
+            Some(rings.collect_view())
+        })
+    };
+    view! {
+        {ring}
+        {move || match (lab.lesson.get(), lab.lesson_offered.get()) {
+            (Some(lesson), _) if lesson.at >= lesson.steps => view! { <Over lab=lab title=lesson.title /> }.into_any(),
+            (Some(lesson), _) => view! { <Step lab=lab lesson=lesson /> }.into_any(),
+            (None, Some(title)) => view! {
+                <div class="coach" role="note">
+                    <p>{words::lesson_offered(&title)}</p>
+                    <button class="primary" on:click=move |_| lab.begin_lesson()>{words::LESSON_BEGIN}</button>
+                    <button class="bare" on:click=move |_| lab.lesson_offered.set(None)>{words::FIRST_SKIP}</button>
+                </div>
+            }.into_any(),
+            (None, None) => ().into_any(),
+        }}
+    }
+}
+
+/// One step: what it says, what is still missing, and help.
+#[component]
+fn Step(lab: Lab, lesson: LessonView) -> impl IntoView {
+    let hinted = RwSignal::new(false);
+    let LessonView { title, steps, at, say, task, missing, hints, can_show, .. } = lesson;
+    let place = words::lesson_place(&title, at + 1, steps);
+    let reads_only = task.is_empty();
+    // what is asked for is told in the lesson's own words, where it has some
+    let said = if say.is_empty() { task } else { say };
+    let next = move |_| {
+        lab.tell(Session::next_step);
+        lab.follow_lesson();
+    };
+    let show = move |_| {
+        let done = lab.tell(Session::show_solution);
+        lab.settle(done);
+    };
+    let hints = StoredValue::new(hints);
+    let missing = StoredValue::new(missing);
+    view! {
+        <div class="coach lesson" role="region" aria-label=words::LESSON>
+            <p class="place">{place}
+                <span class="ticks" aria-hidden="true">{"●".repeat(at as usize)}{"○".repeat((steps - at) as usize)}</span>
+            </p>
+            <div class="lines" role="status">{said.into_iter().map(|line| view! { <p>{line}</p> }).collect_view()}</div>
+            <Show when=move || hinted.get()>
+                <ul class="hints">
+                    {hints.get_value().into_iter().chain(missing.get_value()).map(|h| view! { <li>{h}</li> }).collect_view()}
+                </ul>
+            </Show>
+            {if reads_only {
+                view! { <button class="primary" on:click=next>{words::LESSON_NEXT}</button> }.into_any()
+            } else {
+                view! {
+                    <button aria-expanded=move || hinted.get().to_string()
+                        on:click=move |_| hinted.update(|h| *h = !*h)>{words::LESSON_HINT}</button>
+                    {can_show.then(|| view! { <button on:click=show>{words::LESSON_SHOW}</button> })}
+                }.into_any()
+            }}
+            <button class="bare" on:click=move |_| lab.leave_lesson()>{words::FIRST_SKIP}</button>
+        </div>
+    }
+}
+
+/// The end of a lesson, and where to go from there.
+#[component]
+fn Over(lab: Lab, title: String) -> impl IntoView {
+    let next = Memo::new(move |_| lab.next_lesson());
+    let go = move |path: String| {
+        lab.leave_lesson();
+        route::go(&route::to(&path));
+    };
+    view! {
+        <div class="coach lesson" role="region" aria-label=words::LESSON>
+            <p class="lines" role="status">{icons::holds()} {words::lesson_over(&title)}</p>
+            {move || next.get().map(|(path, title)| view! {
+                <button class="primary" on:click=move |_| go(path.clone())>{words::lesson_next(&title)}</button>
+            })}
+            <button on:click=move |_| { lab.leave_lesson(); route::go(route::GALLERY); }>{words::GALLERY}</button>
+            <button on:click=move |_| { lab.leave_lesson(); lab.begin_new(); }>{words::NEW}</button>
+            <button class="bare" on:click=move |_| lab.leave_lesson()>{words::CLOSE}</button>
+        </div>
+    }
+}
