@@ -131,10 +131,10 @@ pub fn bounds(drawing: &Drawing) -> Bounds {
                 add(center.x + radius, center.y + radius);
             }
             Shape::Ellipse { .. } | Shape::Spline(_) | Shape::Region(_) => {
-                add_whole(element, drawing.vertical, &mut add)
+                add_whole(element, drawing.vertical, &mut add);
             }
             Shape::Text { turn, .. } if *turn != 0.0 => {
-                add_whole(element, drawing.vertical, &mut add)
+                add_whole(element, drawing.vertical, &mut add);
             }
             Shape::Text { at, text, anchoring, placement, .. } => {
                 let height = match placement {
