@@ -9,6 +9,12 @@ use std::collections::BTreeMap;
 use syntax::SyntaxKind;
 use syntax::ast::{self, AstNode, Member, TypeShape};
 
+/// How many superclasses a class may name: what it inherits is looked up in all of them.
+const MOST_BESIDE: usize = 200;
+
+/// How many superclasses may stand one above the other: what a class inherits is looked up along them.
+const MOST_ABOVE: usize = 5000;
+
 impl Lowerer<'_> {
     /// Makes the language's own classes.
     pub(crate) fn own_classes(&mut self) {
@@ -104,6 +110,12 @@ impl Lowerer<'_> {
             let mut supers: Vec<Superclass> = Vec::new();
             let only = class.superclasses().count() == 1;
             for above in class.superclasses() {
+                if supers.len() >= MOST_BESIDE {
+                    let what = class.name().map_or_else(String::new, |w| w.text().to_string());
+                    let message = format!("{what} has more than {MOST_BESIDE} superclasses");
+                    self.error("too-many-superclasses", file, above.span(), message);
+                    break;
+                }
                 let Some(ty) = above.class() else { continue };
                 let Some(class) = self.class_of_type(file, &ty) else { continue };
                 if self.document.classes[class].kind != ClassKind::Composite {
@@ -146,6 +158,7 @@ impl Lowerer<'_> {
         let index: BTreeMap<ClassId, usize> =
             declared.iter().enumerate().map(|(i, (id, _, _))| (*id, i)).collect();
         let mut visits = vec![Visit::Not; declared.len()];
+        let mut heights = vec![0; declared.len()];
         for first in 0..declared.len() {
             // each class on the way up, with the superclasses that are still to be visited
             let mut way: Vec<(usize, Vec<usize>)> = Vec::new();
@@ -160,6 +173,7 @@ impl Lowerer<'_> {
                 match above.pop().map(|i| (i, visits[i])) {
                     None => {
                         visits[*at] = Visit::Done;
+                        heights[*at] = self.height(&declared[*at], &index, &heights);
                         way.pop();
                     }
                     Some((i, Visit::Not)) => next = Some(i),
@@ -168,6 +182,31 @@ impl Lowerer<'_> {
                 }
             }
         }
+    }
+
+    /// Returns how many classes stand one above the other over a class; one with too many is cut off from them.
+    fn height(
+        &mut self,
+        (id, file, class): &(ClassId, FileId, ast::Class),
+        index: &BTreeMap<ClassId, usize>,
+        heights: &[usize],
+    ) -> usize {
+        let above = self.document.classes[*id].supers.iter().filter_map(|s| index.get(&s.class));
+        let height = above.map(|&i| heights[i] + 1).max().unwrap_or(0);
+        if height <= MOST_ABOVE {
+            return height;
+        }
+        // those below it would say the same once more
+        if height == MOST_ABOVE + 1 {
+            let what = &self.document.classes[*id].name;
+            let message =
+                format!("{what} has more than {MOST_ABOVE} superclasses one above the other");
+            let span = class.name().map_or(class.span(), |n| n.span());
+            self.error("too-many-superclasses", *file, span, message);
+        }
+        let name = Name::new("");
+        self.document.classes[*id].supers = vec![Superclass { class: self.object, name }];
+        height
     }
 
     fn break_cycle(&mut self, (id, file, class): &(ClassId, FileId, ast::Class)) {

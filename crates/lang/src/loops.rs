@@ -70,7 +70,7 @@ impl Lowerer<'_> {
         let Some(turns) = self.turns(scope, each) else { return };
         let members = members_of(each);
         let most = turns.count.saturating_sub(from) as usize;
-        let whole = most.saturating_mul(fewest(&members));
+        let whole = most.saturating_mul(self.fewest(scope, &members));
         let own = most.saturating_mul(members.len().max(1));
         // where loops in it make too many, nothing is begun
         let counted = if self.unrolled.saturating_add(whole) > MOST_MEMBERS { whole } else { own };
@@ -81,6 +81,24 @@ impl Lowerer<'_> {
             let inner = turn_of(scope, &turns, turn);
             self.take_turn(&inner, each, &members);
         }
+    }
+
+    /// Returns how many members these come to at least: loops in them over what is written out or is a list whose
+    /// length is known here count with all their turns.
+    fn fewest(&mut self, scope: &Scope, members: &[Member]) -> usize {
+        let mut all: usize = 0;
+        for member in members {
+            let count = match member {
+                Member::For(each) => {
+                    let known = through(each).and_then(|list| self.length_of(scope, &list));
+                    let turns = known.map_or_else(|| written_turns(each), |n| n as usize);
+                    turns.saturating_mul(self.fewest(scope, &members_of(each)))
+                }
+                _ => 1,
+            };
+            all = all.saturating_add(count);
+        }
+        all.max(1)
     }
 
     /// Counts members that `for` makes, before they are made; reports once that there are too many.
@@ -335,16 +353,6 @@ fn own_list(scope: &Scope, list: &Expr) -> Option<Name> {
     let Expr::Name(name) = list else { return None };
     let name = name.name()?.name();
     scope.element(&name).is_none().then_some(name)
-}
-
-/// Returns how many members these come to at least, a turn without any counted as one: loops count by the numbers
-/// that are written out.
-fn fewest(members: &[Member]) -> usize {
-    let of = |member: &Member| {
-        let Member::For(each) = member else { return 1 };
-        written_turns(each).saturating_mul(fewest(&members_of(each)))
-    };
-    members.iter().map(of).fold(0, usize::saturating_add).max(1)
 }
 
 /// Returns how many turns a loop takes where its range is two numbers; else one.
