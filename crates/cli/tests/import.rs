@@ -239,7 +239,9 @@ fn paragraphs_are_notes_and_hatches_surfaces() {
     );
     assert!(text.contains("words = \"Ø 8\""), "{text}");
     assert!(
-        text.contains("surface1 => Surface(Contour([Bend(-2, 0, 0), Bend(2, 0, 0.9999999999999999)]), [])"),
+        text.contains(
+            "surface1 => Surface(Contour([Bend(-2, 0, 0), Bend(2, 0, 0.9999999999999999)]), [])"
+        ),
         "{text}"
     );
     let words = String::from_utf8_lossy(&said.stderr).into_owned();

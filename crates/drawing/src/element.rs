@@ -80,6 +80,8 @@ pub struct Style {
     pub line: Line,
     /// The line's width in screen pixels at a zoom of 1; 0 for the usual.
     pub width: f64,
+    /// Whether a segment is a piece of a line without ends, which a screen shows as far as it reaches.
+    pub is_unbounded: bool,
     /// The layer of the sheet that it is on, where the document names one.
     pub sheet_layer: Option<Arc<str>>,
     /// The dimension that it is drawn for: what has the same one is one dimension.

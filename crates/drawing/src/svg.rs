@@ -335,7 +335,8 @@ fn write_text(
 
 /// Writes the attributes that say how an element looks and what it pictures.
 fn looks(element: &Element, path: Option<String>) -> String {
-    let Style { color, fill, line, width, sheet_layer, dimension: _ } = &element.style;
+    let Style { color, fill, line, width, sheet_layer, dimension: _, is_unbounded: _ } =
+        &element.style;
     let mut classes = Vec::new();
     let mut attributes = String::new();
     let mut add = |name: &str, value: &str| {

@@ -292,6 +292,7 @@ impl<'a> Evaluator<'a> {
                 PictureMessage::Chained => style.line = Line::Chained,
                 PictureMessage::OnLayer => style.sheet_layer.clone_from(&layer),
                 PictureMessage::Dashed => style.line = Line::Dashed,
+                PictureMessage::Unbounded => style.is_unbounded = true,
                 PictureMessage::Faint => style.color = Color::Faint,
                 PictureMessage::Accent => style.color = Color::Accent,
                 PictureMessage::Thick => style.width = THICK_PIXELS,

@@ -271,6 +271,7 @@ table! {
     Chained "chained" Picture [] Picture "The picture in long and short dashes by turns, as middle lines are drawn.";
     OnLayer "onLayer" Picture [one("name", Kind::Text)] Picture "The picture on a layer of the sheet, by its name in what is exported.";
     Dashed "dashed" Picture [] Picture "The picture in dashed lines.";
+    Unbounded "unbounded" Picture [] Picture "The picture with its segments as lines without ends, as far as the screen shows them.";
     Faint "faint" Picture [] Picture "The picture in the quieter foreground.";
     Accent "accent" Picture [] Picture "The picture in the colour that catches the eye.";
     Thick "thick" Picture [] Picture "The picture in lines of double width.";

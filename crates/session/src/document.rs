@@ -40,6 +40,8 @@ pub(crate) struct Open {
     pub(crate) tool: Option<crate::tools::Tool>,
     /// A construction that waits for its operands.
     pub(crate) dialogue: Option<crate::drafting::Dialogue>,
+    /// How the hand picks for it.
+    pub(crate) picking: crate::drafting::Picking,
     /// The program that is recorded, if any.
     pub(crate) recording: Option<crate::drafting::Recording>,
     /// A drag between press and release.
@@ -77,6 +79,7 @@ impl Open {
             undone: Vec::new(),
             tool: None,
             dialogue: None,
+            picking: crate::drafting::Picking::default(),
             recording: None,
             drag: None,
             sums: None,
@@ -150,6 +153,12 @@ impl Open {
                 edited: Vec::new(),
                 wishes: Vec::new(),
             };
+        }
+    }
+    /// Calls the latest step otherwise.
+    pub(crate) fn label_last(&mut self, label: String) {
+        if let Some(step) = self.done.last_mut() {
+            step.label = label;
         }
     }
     /// Makes the state of the same text anew, from what it uses as that is now.

@@ -266,6 +266,8 @@ pub struct Pointer {
     pub alone: bool,
     /// A length that was typed: the place is so far from the last one, in the pointer's direction.
     pub length: Option<f64>,
+    /// The grid to which a free place of a construction goes, on the sheet: 1, 2 or 5 of a power of ten; 0 for none.
+    pub grid: f64,
 }
 
 /// What a tool shows.

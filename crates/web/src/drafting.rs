@@ -1,18 +1,21 @@
-//! Drawing by constructions: the prompt under the picture, the list of constructions, recording and its steps.
+//! Drawing by constructions: what is waited for, recording, and its steps.
 
 use crate::lab::{Lab, Notice};
 use crate::words;
-use leptos::html::Input;
 use leptos::prelude::*;
-use session::drafting::view::{
-    ConstructionRow, LoopView, NewParameter, Prompt, RecurrenceQuestion, StepRow, StepsView, Turn,
-};
-use session::view::Pointer;
+use session::drafting::view::{Ends, Go, MeasureKind, Prompt, StepRow, StepsView, Turn, Wants};
+use session::view::{Change, Pointer, Refusal};
+
+pub mod calculator;
+pub mod prompt;
+pub mod recorder;
+pub mod steps;
+pub mod tools;
 
 /// What of drafting the panels share.
 #[derive(Clone, Copy, Debug)]
 pub struct Drafting {
-    /// What the construction that was begun waits for.
+    /// What is waited for: an operand, an answer, a condition.
     pub prompt: RwSignal<Option<Prompt>>,
     /// What is typed of it.
     pub typed: RwSignal<String>,
@@ -20,11 +23,17 @@ pub struct Drafting {
     pub finds: RwSignal<Option<String>>,
     /// Whether what is drawn is for construction alone.
     pub guides: RwSignal<bool>,
-    /// What is asked of the second turn of a loop.
-    pub asks: RwSignal<Option<RecurrenceQuestion>>,
+    /// Whether the calculator is open.
+    pub calculator: RwSignal<bool>,
+    /// What the calculator keeps.
+    pub memory: RwSignal<Option<String>>,
+    /// Whether the next drag is a rubber band.
+    pub banding: RwSignal<bool>,
+    /// Whether the next click says until where a program is visited.
+    pub seeking: RwSignal<bool>,
     /// The step that is lit.
     pub lit: RwSignal<Option<String>>,
-    /// Counted up where recording begins or ends.
+    /// Counted up where recording begins or ends, or a block does.
     pub turned: RwSignal<u32>,
 }
 
@@ -36,7 +45,10 @@ impl Default for Drafting {
             typed: RwSignal::new(String::new()),
             finds: RwSignal::new(None),
             guides: RwSignal::new(false),
-            asks: RwSignal::new(None),
+            calculator: RwSignal::new(false),
+            memory: RwSignal::new(None),
+            banding: RwSignal::new(false),
+            seeking: RwSignal::new(false),
             lit: RwSignal::new(None),
             turned: RwSignal::new(0),
         }
@@ -44,10 +56,9 @@ impl Default for Drafting {
 }
 
 impl Lab {
-    /// Whether a construction waits for an operand, or a loop for an answer.
+    /// Whether something waits for a pick.
     pub fn drafts(self) -> bool {
         self.drafting.prompt.with_untracked(Option::is_some)
-            || self.drafting.asks.with_untracked(Option::is_some)
     }
 
     /// Begins a construction.
@@ -72,43 +83,62 @@ impl Lab {
             Some(measure) => self.drafting.typed.get_untracked() + &measure,
             None => String::new(),
         };
+        self.show_prompt_with(prompt, typed);
+    }
+
+    fn show_prompt_with(self, prompt: Option<Prompt>, typed: String) {
+        let is_asked = prompt
+            .as_ref()
+            .is_some_and(|p| p.tool.is_empty() && matches!(p.wants, Wants::Recurrence(_)));
+        let is_condition = prompt.as_ref().is_some_and(|p| {
+            matches!(p.wants, Wants::Condition | Wants::Ends(Ends::Until | Ends::While))
+        });
+        if is_condition {
+            // a condition is built by pointing
+            self.drafting.calculator.set(true);
+        }
         self.drafting.typed.set(typed);
         self.drafting.finds.set(None);
         self.show_made(drawing::Drawing::default());
         self.drafting.prompt.set(prompt);
+        if is_asked {
+            // what is asked about is lit at once
+            let nowhere = Pointer { reach: -1.0, ..Pointer::default() };
+            self.draft_hover(&nowhere);
+            self.drafting.finds.set(None);
+        }
+    }
+
+    /// Shows what the session waits for now.
+    fn show_waiting(self) {
+        let prompt = self.ask_of_shown(session::Session::prompt).flatten();
+        self.show_prompt(prompt);
+        self.drafting.turned.update(|n| *n += 1);
     }
 
     /// Shows something over the picture: what would be made, or what a step made.
-    fn show_made(self, preview: drawing::Drawing) {
+    fn show_made(self, mut preview: drawing::Drawing) {
+        if let Some(Some(visited)) = self.ask_of_shown(session::Session::drawn_so_far) {
+            preview.elements.extend(visited.elements);
+        }
         self.tool_view.update(|view| view.preview = preview);
     }
 
     /// The pointer of the construction is elsewhere.
     pub fn draft_hover(self, pointer: &Pointer) {
-        if self.drafting.asks.with_untracked(Option::is_some) {
-            let found = self.tell(|session, id| session.object_at(id, pointer)).flatten();
-            self.drafting.finds.set(found);
-            return;
-        }
         let typed = self.drafting.typed.get_untracked();
         let hover = self.tell(|session, id| session.hover(id, pointer, &typed));
         let Some(hover) = hover else { return };
         self.show_made(hover.ghost);
         let finds = match (hover.finds, hover.why) {
             (Some(finds), Some(why)) => Some(format!("{finds}: {why}")),
-            (finds, _) => finds,
+            (finds, why) => finds.or(why),
         };
         self.drafting.finds.set(finds);
     }
 
-    /// Gives the operand under the pointer.
+    /// Gives what is under the pointer.
     pub fn draft_point(self, pointer: &Pointer) {
-        if self.drafting.asks.with_untracked(Option::is_some) {
-            if let Some(found) = self.tell(|session, id| session.object_at(id, pointer)).flatten() {
-                self.answer(Some(&found), Some(pointer.at));
-            }
-            return;
-        }
         let turn = self.tell(|session, id| session.point(id, pointer));
         self.take_turn(turn);
     }
@@ -117,10 +147,54 @@ impl Lab {
     pub fn draft_enter(self) {
         let typed = self.drafting.typed.get_untracked();
         let turn = self.tell(|session, id| session.enter(id, &typed));
+        if matches!(turn, Some(Ok(_))) {
+            self.drafting.calculator.set(false);
+        }
         self.take_turn(turn);
     }
 
-    fn take_turn(self, turn: Option<Result<Turn, session::view::Refusal>>) {
+    /// Answers that it is the same.
+    fn draft_same(self) {
+        let turn = self.tell(session::Session::same);
+        self.take_turn(turn);
+    }
+
+    /// Picks of sets mean more.
+    fn draft_wider(self) {
+        self.tell(session::Session::pick_wider);
+        if let Some(at) = self.cursor.get_untracked() {
+            self.draft_hover(&self.pointer_at(at, 12.0, false));
+        }
+    }
+
+    /// A parameter's name is wanted where a value goes: at once where nothing is typed yet.
+    fn draft_parameter(self, name: &str) {
+        let is_value =
+            self.drafting.prompt.with_untracked(|p| p.as_ref().is_some_and(|p| p.is_value));
+        let is_bare = self.drafting.typed.with_untracked(String::is_empty);
+        let is_condition = self.drafting.prompt.with_untracked(|p| {
+            matches!(
+                p.as_ref().map(|p| &p.wants),
+                Some(Wants::Ends(Ends::Until | Ends::While) | Wants::Condition)
+            )
+        });
+        if !is_value {
+            return;
+        }
+        self.drafting.typed.update(|typed| typed.push_str(name));
+        if is_bare && !is_condition && !self.drafting.calculator.get_untracked() {
+            self.draft_enter();
+        }
+    }
+
+    /// Begins to take a measure by pointing.
+    fn draft_measure(self, kind: MeasureKind) {
+        let typed = self.drafting.typed.get_untracked();
+        let prompt = self.tell(|session, id| session.begin_measure(id, kind));
+        self.show_prompt_with(prompt.flatten(), typed);
+    }
+
+    fn take_turn(self, turn: Option<Result<Turn, Refusal>>) {
         match turn {
             Some(Ok(Turn::Wants(prompt))) => {
                 self.notice.set(None);
@@ -128,24 +202,29 @@ impl Lab {
             }
             Some(Ok(Turn::Made { change, name, text, next })) => {
                 self.settle(Some(Ok(*change)));
-                self.show_prompt(Some(next));
-                self.notice.set(Some(Notice::Said(format!("{name}: {text}"))));
+                self.drafting.calculator.set(false);
+                self.show_prompt(next);
+                self.drafting.turned.update(|n| *n += 1);
+                let said = if text.is_empty() { name } else { format!("{name}: {text}") };
+                self.notice.set((!said.is_empty()).then_some(Notice::Said(said)));
             }
             Some(Err(refusal)) => self.notice.set(Some(Notice::Refused(refusal))),
             None => {}
         }
     }
 
-    /// Takes the latest operand back.
+    /// Takes the latest operand or answer back.
     pub fn draft_back(self) {
-        let prompt = self.tell(session::Session::back);
-        self.show_prompt(prompt.flatten());
+        self.tell(session::Session::back);
+        self.show_waiting();
     }
 
     /// Gives the construction up.
     pub fn draft_end(self) {
         self.tell(session::Session::give_up);
-        self.show_prompt(None);
+        self.drafting.calculator.set(false);
+        self.drafting.banding.set(false);
+        self.show_waiting();
     }
 
     fn draw_guides(self, are_guides: bool) {
@@ -156,53 +235,120 @@ impl Lab {
     fn record(self, name: &str) {
         self.flush_text();
         self.draft_end();
+        self.fits.set_value(false);
         if self.settle(self.tell(|session, id| session.record(id, name))) {
-            self.drafting.turned.update(|n| *n += 1);
+            self.show_waiting();
         }
     }
 
     fn stop_recording(self) {
         self.draft_end();
-        self.tell(session::Session::stop_recording);
-        self.drafting.asks.set(None);
-        self.drafting.lit.set(None);
-        self.show_made(drawing::Drawing::default());
-        self.drafting.turned.update(|n| *n += 1);
-    }
-
-    fn begin_loop(self, name: &str) {
-        self.draft_end();
-        self.settle(self.tell(|session, id| session.begin_loop(id, name)));
-        self.drafting.turned.update(|n| *n += 1);
-    }
-
-    fn end_turn(self) {
-        self.draft_end();
-        let asked = self.tell(session::Session::end_turn);
-        self.ask_next(asked);
-    }
-
-    fn answer(self, answer: Option<&str>, at: Option<(f64, f64)>) {
-        let asked = self.tell(|session, id| session.answer_recurrence(id, answer, at));
-        self.ask_next(asked);
-    }
-
-    fn ask_next(self, asked: Option<Result<Option<RecurrenceQuestion>, session::view::Refusal>>) {
-        match asked {
-            Some(Ok(question)) => {
-                self.notice.set(None);
-                self.drafting.finds.set(None);
-                self.drafting.asks.set(question);
-            }
+        match self.tell(session::Session::stop_recording) {
             Some(Err(refusal)) => self.notice.set(Some(Notice::Refused(refusal))),
-            None => {}
+            Some(Ok(())) | None => {
+                self.drafting.lit.set(None);
+                self.show_made(drawing::Drawing::default());
+            }
         }
         self.drafting.turned.update(|n| *n += 1);
     }
 
-    fn close_loop(self, ends: &str) {
-        self.settle(self.tell(|session, id| session.close_loop(id, ends)));
+    /// Does something about a block that is demonstrated, and shows what is waited for then.
+    fn about_block(
+        self,
+        run: impl FnOnce(&mut session::Session, session::DocumentId) -> Result<Change, Refusal>,
+    ) {
+        self.tell(session::Session::give_up);
+        if self.settle(self.tell(run)) {
+            self.notice.set(None);
+        }
+        self.show_waiting();
+    }
+
+    fn end_turn(self, ends: Ends) {
+        self.tell(session::Session::give_up);
+        let turn = self.tell(|session, id| session.end_turn(id, ends));
+        self.take_turn(turn);
         self.drafting.turned.update(|n| *n += 1);
+    }
+
+    /// Asks for something that a session waits for then.
+    fn ask_prompt(
+        self,
+        run: impl FnOnce(&mut session::Session, session::DocumentId) -> Result<Option<Prompt>, Refusal>,
+    ) {
+        self.tell(session::Session::give_up);
+        if let Some(Err(refusal)) = self.tell(run) {
+            self.notice.set(Some(Notice::Refused(refusal)));
+        }
+        self.show_waiting();
+    }
+
+    /// The next drag is a rubber band.
+    fn begin_band(self) {
+        self.draft_end();
+        self.drop_tool();
+        self.drafting.banding.set(true);
+        self.notice.set(Some(Notice::Said(words::BAND.into())));
+    }
+
+    /// The rubber band is drawn: what is in it is a set.
+    pub fn take_band(self, from: (f64, f64), to: (f64, f64)) {
+        self.drafting.banding.set(false);
+        let (a, b) = (self.pointer_at(from, 0.0, true).at, self.pointer_at(to, 0.0, true).at);
+        self.about_block(|session, id| session.begin_each(id, (a, b)));
+    }
+
+    /// Shows the rubber band.
+    pub fn show_band(self, from: (f64, f64), to: (f64, f64)) {
+        let (a, b) = (self.pointer_at(from, 0.0, true).at, self.pointer_at(to, 0.0, true).at);
+        let corner = |x, y| drawing::Point { x, y };
+        let points = vec![corner(a.0, a.1), corner(b.0, a.1), corner(b.0, b.1), corner(a.0, b.1)];
+        let element = drawing::Element {
+            shape: drawing::Shape::Polyline { points, closed: true },
+            style: drawing::Style { line: drawing::Line::Dashed, ..drawing::Style::default() },
+            layer: drawing::Layer::Lines,
+            tag: drawing::Tag(0),
+        };
+        self.show_made(drawing::Drawing { elements: vec![element], ..drawing::Drawing::default() });
+    }
+
+    /// Goes somewhere in the program that is recorded.
+    fn visit(self, go: &Go) {
+        self.tell(session::Session::give_up);
+        match self.tell(|session, id| session.visit(id, go)) {
+            Some(Err(refusal)) => self.notice.set(Some(Notice::Refused(refusal))),
+            Some(Ok(())) | None => self.notice.set(None),
+        }
+        self.drafting.lit.set(None);
+        self.show_waiting();
+    }
+
+    /// The visit goes on until what is under the pointer is drawn.
+    pub fn visit_picked(self, pointer: &Pointer) {
+        self.drafting.seeking.set(false);
+        self.visit(&Go::UntilPicked(*pointer));
+    }
+
+    fn replace_step(self, step: &str) {
+        self.tell(session::Session::give_up);
+        match self.tell(|session, id| session.begin_replace(id, step)) {
+            Some(Err(refusal)) => self.notice.set(Some(Notice::Refused(refusal))),
+            Some(Ok(())) | None => self.notice.set(Some(Notice::Said(words::draw_anew(step)))),
+        }
+        self.show_waiting();
+    }
+
+    fn delete_step(self, step: &str) {
+        self.tell(session::Session::give_up);
+        let turn = self.tell(|session, id| session.begin_delete(id, step));
+        self.take_turn(turn);
+        self.drafting.turned.update(|n| *n += 1);
+    }
+
+    fn delete_along(self) {
+        let turn = self.tell(session::Session::delete_along);
+        self.take_turn(turn);
     }
 
     fn light_step(self, steps: &StepsView, row: &StepRow) {
@@ -210,60 +356,6 @@ impl Lab {
             self.id().map(|id| self.ask(|s| s.step_drawing(id, &steps.example, &row.path)));
         self.drafting.lit.set(Some(row.path.clone()));
         self.show_made(drawing.unwrap_or_default());
-    }
-}
-
-/// The prompt of the construction that waits, over the lower edge of the picture.
-#[component]
-pub fn PromptLine(
-    /// The lab.
-    lab: Lab,
-) -> impl IntoView {
-    let drafting = lab.drafting;
-    let field = NodeRef::<Input>::new();
-    Effect::new(move |_| {
-        drafting.prompt.track();
-        if let Some(field) = field.get() {
-            // The keyboard types the operand that is wanted.
-            let _ = field.focus();
-        }
-    });
-    let operands = move || {
-        let prompt = drafting.prompt.get().unwrap_or_default();
-        let is_next = prompt.operands.iter().position(|(_, given)| given.is_none());
-        let one = |(i, (name, given)): (usize, (String, Option<String>))| {
-            view! {
-                <span class="operand" class:next=is_next == Some(i)>
-                    {name}{given.map(|given| view! { " "<code>{given}</code> })}
-                </span>
-            }
-        };
-        prompt.operands.into_iter().enumerate().map(one).collect_view()
-    };
-    view! {
-        <Show when=move || drafting.prompt.with(Option::is_some)>
-            <form class="strip prompt" aria-label=words::CONSTRUCTION
-                on:submit=move |e| { e.prevent_default(); lab.draft_enter(); }>
-                <b>{move || drafting.prompt.with(|p| p.as_ref().map(|p| p.label.clone()))}</b>
-                {operands}
-                <input node_ref=field name="operand" autocomplete="off" aria-label=words::OPERAND
-                    placeholder=words::OPERAND
-                    prop:value=move || drafting.typed.get()
-                    on:input=move |e| drafting.typed.set(event_target_value(&e))
-                    on:keydown=move |e| {
-                        if e.key() == "Escape" {
-                            e.prevent_default();
-                            e.stop_propagation();
-                            lab.draft_end();
-                        }
-                    } />
-                <label><input type="checkbox" name="guide" prop:checked=move || drafting.guides.get()
-                    on:change=move |e| lab.draw_guides(event_target_checked(&e)) />{words::GUIDE}</label>
-                <button type="button" data-draft="back" on:click=move |_| lab.draft_back()>{words::BACK}</button>
-                <button type="button" data-draft="end" on:click=move |_| lab.draft_end()>{words::GIVE_UP}</button>
-                <span class="finds" aria-live="polite">{move || drafting.finds.get()}</span>
-            </form>
-        </Show>
     }
 }
 
@@ -282,262 +374,15 @@ pub fn Drawing(
     });
     view! {
         <section class="panel drawing" aria-label=words::DRAW>
-            <div class="scroll">
-                <Recorder lab=lab steps=steps />
+            <div class="scroll recorded">
+                <recorder::Recorder lab=lab steps=steps />
                 <Show when=move || steps.with(Option::is_some)>
-                    <Steps lab=lab steps=steps />
+                    <steps::Steps lab=lab steps=steps />
                 </Show>
-                <Constructions lab=lab />
+            </div>
+            <div class="scroll">
+                <tools::Constructions lab=lab />
             </div>
         </section>
-    }
-}
-
-/// Begins and ends recording, and defines parameters.
-#[component]
-fn Recorder(lab: Lab, steps: Memo<Option<StepsView>>) -> impl IntoView {
-    let name = RwSignal::new(String::new());
-    let recorded = Memo::new(move |_| {
-        steps.with(|s| s.as_ref().filter(|s| s.is_recorded).map(|s| s.program.clone()))
-    });
-    let begin = move |e: leptos::ev::SubmitEvent| {
-        e.prevent_default();
-        lab.record(&name.get_untracked());
-    };
-    view! {
-        {move || match recorded.get() {
-            Some(program) => view! {
-                <p class="recording" role="status">
-                    <span class="lamp" aria-hidden="true"></span>{words::recording(&program)}
-                    <button data-draft="stop" on:click=move |_| lab.stop_recording()>{words::STOP}</button>
-                </p>
-                <Define lab=lab />
-                <Repeat lab=lab steps=steps />
-            }.into_any(),
-            None => view! {
-                <form class="line" aria-label=words::RECORD on:submit=begin>
-                    <input name="program" autocomplete="off" placeholder=words::PROGRAM_NAME
-                        aria-label=words::PROGRAM_NAME
-                        on:input=move |e| name.set(event_target_value(&e)) />
-                    <button class="primary" data-draft="record">{words::RECORD}</button>
-                </form>
-            }.into_any(),
-        }}
-    }
-}
-
-/// A loop by demonstration: begun, its turn drawn, the second turn asked for, closed.
-#[component]
-fn Repeat(lab: Lab, steps: Memo<Option<StepsView>>) -> impl IntoView {
-    let typed = RwSignal::new(String::new());
-    let open = Memo::new(move |_| steps.with(|s| s.as_ref().and_then(|s| s.open_loop.clone())));
-    let field = move |label: &'static str| {
-        view! {
-            <input name="loop" autocomplete="off" placeholder=label aria-label=label
-                on:input=move |e| typed.set(event_target_value(&e)) />
-        }
-    };
-    let go = move |e: &leptos::ev::SubmitEvent, run: &dyn Fn(&str)| {
-        e.prevent_default();
-        run(&typed.get_untracked());
-        typed.set(String::new());
-    };
-    move || {
-        match open.get() {
-        None => view! {
-            <form class="line" aria-label=words::REPEAT
-                on:submit=move |e| go(&e, &|name| lab.begin_loop(name))>
-                {field(words::LOOP_NAME)}
-                <button data-draft="repeat">{words::REPEAT}</button>
-            </form>
-        }
-        .into_any(),
-        Some(LoopView { name, is_drawn: false, .. }) => view! {
-            <p class="line asked">
-                {words::first_turn(&name)}
-                <button class="primary" data-draft="turn" on:click=move |_| lab.end_turn()>{words::END_TURN}</button>
-            </p>
-        }
-        .into_any(),
-        Some(LoopView { question: Some(question), .. }) => view! {
-            <form class="line asked" aria-label=words::SECOND_TURN
-                on:submit=move |e| go(&e, &|answer| lab.answer(Some(answer), None))>
-                <p role="status">{words::recurrence(&question)}</p>
-                <button type="button" class="primary" data-draft="same" on:click=move |_| lab.answer(None, None)>{words::THE_SAME}</button>
-                {field(words::OTHER)}
-                <button data-draft="other">{words::ANSWER}</button>
-                <p class="quiet" aria-live="polite">{move || lab.drafting.finds.get()}</p>
-            </form>
-        }
-        .into_any(),
-        Some(LoopView { name, .. }) => view! {
-            <form class="line asked" aria-label=words::ENDS
-                on:submit=move |e| go(&e, &|ends| lab.close_loop(ends))>
-                <p role="status">{words::loop_ends(&name)}</p>
-                {field(words::ENDS)}
-                <button class="primary" data-draft="close">{words::CLOSE_LOOP}</button>
-            </form>
-        }
-        .into_any(),
-    }
-    }
-}
-
-/// Defines a parameter by its example.
-#[component]
-fn Define(lab: Lab) -> impl IntoView {
-    let new = RwSignal::new(NewParameter::default());
-    let define = move |e: leptos::ev::SubmitEvent| {
-        e.prevent_default();
-        let parameter = new.get_untracked();
-        if lab.settle(lab.tell(|session, id| session.define_parameter(id, &parameter))) {
-            new.set(NewParameter::default());
-        }
-    };
-    view! {
-        <form class="line" aria-label=words::DEFINE on:submit=define>
-            <input name="parameter" autocomplete="off" placeholder=words::PARAMETER_NAME
-                aria-label=words::PARAMETER_NAME prop:value=move || new.with(|n| n.name.clone())
-                on:input=move |e| new.update(|n| n.name = event_target_value(&e)) />
-            <input name="example" autocomplete="off" placeholder=words::EXAMPLE aria-label=words::EXAMPLE
-                prop:value=move || new.with(|n| n.example.clone())
-                on:input=move |e| new.update(|n| n.example = event_target_value(&e)) />
-            <input name="question" autocomplete="off" placeholder=words::QUESTION aria-label=words::QUESTION
-                prop:value=move || new.with(|n| n.prompt.clone())
-                on:input=move |e| new.update(|n| n.prompt = event_target_value(&e)) />
-            <button data-draft="define">{words::DEFINE}</button>
-        </form>
-    }
-}
-
-/// The parameters and steps of a program.
-#[component]
-fn Steps(lab: Lab, steps: Memo<Option<StepsView>>) -> impl IntoView {
-    let view = move || steps.get().unwrap_or_default();
-    let parameters = move || {
-        let one = |row: session::drafting::view::ParameterRow| {
-            let (name, label) = (row.name.clone(), row.name.clone());
-            let take = move |_| {
-                if lab.drafts() {
-                    lab.drafting.typed.update(|typed| typed.push_str(&name));
-                }
-            };
-            view! {
-                <button class="parameter" data-parameter=label title=row.prompt on:click=take>
-                    <code>{row.name}</code>" "<span class="quiet">{row.value}</span>
-                </button>
-            }
-        };
-        view().parameters.into_iter().map(one).collect_view()
-    };
-    let rows = move || {
-        let all = view();
-        let one = |row: StepRow| view! { <Row lab=lab steps=all.clone() row=row /> };
-        all.rows.clone().into_iter().map(one).collect_view()
-    };
-    view! {
-        <h3>{move || words::steps_of(&view().program)}</h3>
-        <p class="parameters">{parameters}</p>
-        <ol class="steps">{rows}</ol>
-    }
-}
-
-/// One step: what it does in words, and what it made.
-#[component]
-fn Row(lab: Lab, steps: StepsView, row: StepRow) -> impl IntoView {
-    let asks = RwSignal::new(None::<Vec<String>>);
-    let own = StoredValue::new((steps, row.clone()));
-    let path = row.path.clone();
-    let is_lit = Memo::new(move |_| lab.drafting.lit.with(|lit| lit.as_ref() == Some(&path)));
-    let light = move |_| own.with_value(|(steps, row)| lab.light_step(steps, row));
-    let ask = move |_| {
-        let found = own.with_value(|(steps, row)| {
-            lab.id().map(|id| lab.ask(|s| s.step_dependents(id, &steps.program, &row.path)))
-        });
-        asks.set(found);
-    };
-    let delete = move |_| {
-        asks.set(None);
-        own.with_value(|(steps, row)| {
-            lab.show_made(drawing::Drawing::default());
-            lab.settle(lab.tell(|s, id| s.delete_step(id, &steps.program, &row.path)));
-        });
-    };
-    let indent = format!("{}px", 14 * row.depth);
-    let is_inner = row.depth > 0;
-    let name = row.path.clone();
-    let last = row.path.rsplit('.').next().unwrap_or_default().to_string();
-    view! {
-        <li class:lit=is_lit class:guide=row.is_guide style:margin-left=indent data-step=name>
-            <button class="bare step" title=row.formula on:click=light>
-                <b>{last}</b>" "{row.words}
-                {row.value.map(|value| view! { <span class="quiet">{value}</span> })}
-            </button>
-            {(!is_inner).then(|| view! {
-                <button class="bare" title=words::DELETE_STEP aria-label=words::DELETE_STEP on:click=ask>"×"</button>
-            })}
-            {move || asks.get().map(|along| view! {
-                <p class="along" role="alertdialog">
-                    {words::deleted_along(&along)}
-                    <button data-draft="delete" on:click=delete>{words::DELETE_STEP}</button>
-                    <button class="bare" on:click=move |_| asks.set(None)>{words::CANCEL}</button>
-                </p>
-            })}
-        </li>
-    }
-}
-
-/// Every construction in scope, by the class of what it makes.
-#[component]
-fn Constructions(lab: Lab) -> impl IntoView {
-    let wanted = RwSignal::new(String::new());
-    let all = Memo::new(move |_| {
-        lab.text.track();
-        lab.drafting.turned.track();
-        lab.id().map(|id| lab.ask(|session| session.constructions(id))).unwrap_or_default()
-    });
-    let shelves = move || {
-        let wanted = wanted.get().to_lowercase();
-        let mut shelves: Vec<(String, Vec<ConstructionRow>)> = Vec::new();
-        for row in all.get() {
-            let text = format!("{} {} {}", row.label, row.operands, row.doc).to_lowercase();
-            if !wanted.split_whitespace().all(|word| text.contains(word)) {
-                continue;
-            }
-            match shelves.iter_mut().find(|(class, _)| *class == row.class) {
-                Some((_, shelf)) => shelf.push(row),
-                None => shelves.push((row.class.clone(), vec![row])),
-            }
-        }
-        let shelf = |(class, rows): (String, Vec<ConstructionRow>)| {
-            view! {
-                <h3>{class}</h3>
-                <ul class="constructions">
-                    {rows.into_iter().map(|row| view! { <Construction lab=lab row=row /> }).collect_view()}
-                </ul>
-            }
-        };
-        shelves.into_iter().map(shelf).collect_view()
-    };
-    view! {
-        <input type="search" placeholder=words::FILTER aria-label=words::FILTER_CONSTRUCTIONS
-            on:input=move |e| wanted.set(event_target_value(&e)) />
-        {shelves}
-    }
-}
-
-#[component]
-fn Construction(lab: Lab, row: ConstructionRow) -> impl IntoView {
-    let id = StoredValue::new(row.id.clone());
-    let held = Memo::new(move |_| {
-        lab.drafting.prompt.with(|p| p.as_ref().is_some_and(|p| p.tool == id.get_value()))
-    });
-    view! {
-        <li>
-            <button data-construction=row.id title=row.doc aria-pressed=move || held.get().to_string()
-                on:click=move |_| lab.begin_construction(&id.get_value())>
-                {row.label}" "<span class="quiet">{row.operands}</span>
-            </button>
-        </li>
     }
 }

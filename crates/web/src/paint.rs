@@ -171,6 +171,47 @@ pub fn display_list(
     list
 }
 
+/// How far lines without ends are shown: as far around the middle of a picture as one is likely to look.
+struct Reach {
+    middle: Point,
+    length: f64,
+}
+
+impl Reach {
+    fn of(picture: &Drawing) -> Self {
+        /// Where there is nothing else to go by, in units of the sheet.
+        const ALONE: f64 = 2000.0;
+        /// So many times as far as the picture is wide and high.
+        const TIMES: f64 = 4.0;
+        let ends = picture.elements.iter().filter(|e| !e.style.is_unbounded).cloned();
+        let ends = Drawing { elements: ends.collect(), vertical: picture.vertical };
+        match drawing::bounds(&ends) {
+            Some(b) if b.most != b.least => Self {
+                middle: Point {
+                    x: f64::midpoint(b.least.x, b.most.x),
+                    y: f64::midpoint(b.least.y, b.most.y),
+                },
+                length: TIMES * (b.most.x - b.least.x + b.most.y - b.least.y),
+            },
+            _ => Self { middle: Point::default(), length: ALONE },
+        }
+    }
+
+    /// What is shown of an element.
+    fn shown(&self, element: &Element) -> Shape {
+        let Shape::Segment(a, b) = element.shape else { return element.shape.clone() };
+        let (dx, dy) = (b.x - a.x, b.y - a.y);
+        let length = base::number::hypot(dx, dy);
+        if !element.style.is_unbounded || length <= 0.0 {
+            return element.shape.clone();
+        }
+        let (ux, uy) = (dx / length, dy / length);
+        let along = (self.middle.x - a.x) * ux + (self.middle.y - a.y) * uy;
+        let at = |t: f64| Point { x: a.x + t * ux, y: a.y + t * uy };
+        Shape::Segment(at(along - self.length), at(along + self.length))
+    }
+}
+
 /// Adds an arrow for every place that a motion moves.
 pub fn arrows(list: &mut DisplayList, picture: &PictureView, motion: &[Velocity]) {
     if motion.is_empty() {
@@ -217,8 +258,9 @@ pub fn loci(list: &mut DisplayList, drawn: &Drawing) {
 }
 
 /// Adds what a tool would make.
-pub fn preview(list: &mut DisplayList, drawn: &Drawing) {
+pub fn preview(list: &mut DisplayList, drawn: &Drawing, picture: &Drawing) {
     let accent = Hue::Accent as i32;
+    let reach = Reach::of(picture);
     for element in &drawn.elements {
         match element.shape {
             Shape::Dot(at) => {
@@ -234,7 +276,7 @@ pub fn preview(list: &mut DisplayList, drawn: &Drawing) {
             | Shape::Region(_)
             | Shape::Text { .. } => {
                 begin(list, accent, -1, element.style.line, USUAL_WIDTH, Space::Sheet);
-                shape(list, &element.shape);
+                shape(list, &reach.shown(element));
             }
         }
     }
@@ -271,6 +313,7 @@ fn paint_elements(
     anchored: &BTreeSet<&str>,
     elements: &[&Element],
 ) {
+    let reach = Reach::of(&picture.drawing);
     for element in elements {
         let tag = element.tag.0 as usize;
         let freedom = picture.freedom.get(tag).copied().flatten();
@@ -281,7 +324,7 @@ fn paint_elements(
         }
         let now = style_of(list, &element.style, freedom);
         take_up(list, now);
-        shape(list, &element.shape);
+        shape(list, &reach.shown(element));
     }
 }
 

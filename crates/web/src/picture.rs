@@ -157,7 +157,7 @@ fn lists(lab: Lab) -> Lists {
             lab.ghosts.with(|drawn| ghosts(&mut list, drawn));
             lab.motion.with(|motion| arrows(&mut list, picture, motion));
             lab.tool_view.with(|tool| {
-                preview(&mut list, &tool.preview);
+                preview(&mut list, &tool.preview, &picture.drawing);
                 tool.caught.iter().for_each(|found| caught(&mut list, found));
             });
             lab.dropping.with(|d| d.iter().for_each(|(_, found)| caught(&mut list, found)));

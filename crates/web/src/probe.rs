@@ -87,6 +87,14 @@ fn state(lab: Lab) -> String {
                 ("redo", status.redo.into()),
             ]),
         ),
+        (
+            "sheet",
+            object(&[
+                ("px", (left + view.screen_from_sheet(Point { x: 0.0, y: 0.0 }).0).into()),
+                ("py", (top + view.screen_from_sheet(Point { x: 0.0, y: 0.0 }).1).into()),
+                ("scale", view.scale.into()),
+            ]),
+        ),
         ("text", lab.text.with_untracked(|view| text(&view.source))),
         ("diagnostics", diagnostics.into()),
         ("notice", text(&notice)),

@@ -186,7 +186,7 @@ impl Lab {
             let decimals = view.decimals();
             let round = |x: f64| base::number::rounded(x, decimals).parse().unwrap_or(x);
             let at = (round(p.x), round(p.y));
-            Pointer { at, reach: reach / view.scale, alone, length: None }
+            Pointer { at, reach: reach / view.scale, alone, length: None, grid: view.tidy() }
         })
     }
 

@@ -66,6 +66,20 @@ impl View {
         let kept = scale / self.scale;
         Self { scale, x: x + (self.x - x) * kept, y: y + (self.y - y) * kept, ..self }
     }
+    /// Returns the grid of free places: the largest of 1, 2 and 5 times a power of ten that is 6 pixels or less.
+    pub fn tidy(&self) -> f64 {
+        const WIDEST: f64 = 6.0;
+        let most = WIDEST / self.scale;
+        let mut step = 1.0;
+        while step > most {
+            step /= 10.0;
+        }
+        while 10.0 * step <= most {
+            step *= 10.0;
+        }
+        [5.0, 2.0].into_iter().map(|k| k * step).find(|&k| k <= most).unwrap_or(step)
+    }
+
     /// Returns how many decimals a position has that a pointer can tell apart: half a pixel or less.
     pub fn decimals(&self) -> usize {
         let (mut step, mut decimals) = (1.0, 0);

@@ -463,37 +463,78 @@ pub fn deleted_along(along: &[String]) -> String {
 
 /// Begins a loop.
 pub const REPEAT: &str = "Repeat";
-/// The field for the name of a loop.
-pub const LOOP_NAME: &str = "loop, as column";
-/// Ends the first turn of a loop.
-pub const END_TURN: &str = "First turn drawn";
-/// What is asked of the second turn.
-pub const SECOND_TURN: &str = "Second turn";
+/// Begins an `if`.
+pub const IF: &str = "If";
+/// Begins a loop over a set.
+pub const FOR_EACH: &str = "For each";
+/// Ends the first turn of a loop that ends by a condition after a turn.
+pub const UNTIL: &str = "Until";
+/// Ends the first turn of a loop that goes on by a condition before a turn.
+pub const WHILE: &str = "While";
+/// Ends the first turn of a loop of so many turns.
+pub const TIMES: &str = "Times";
+/// Ends what is done for the first of a set.
+pub const DONE_FOR_EACH: &str = "Do so for each";
+/// Ends the first branch.
+pub const ELSE: &str = "Otherwise";
+/// Ends an `if`.
+pub const END_IF: &str = "End if";
 /// The answer that an operand stays.
 pub const THE_SAME: &str = "The same";
-/// The field for another answer.
-pub const OTHER: &str = "pick it, or type it";
-/// Gives an answer.
-pub const ANSWER: &str = "Answer";
-/// The field for what ends a loop.
-pub const ENDS: &str = "until …, while … or 6 times";
+/// The answer that an operand runs through a set.
+pub const EACH_IN_TURN: &str = "Each in turn";
+/// The other branch is drawn by the same values.
+pub const SAME_VALUES: &str = "With the same values";
+/// The other branch is drawn by the values that were set meanwhile.
+pub const OTHER_VALUES: &str = "With the values as they are set now";
 /// Closes a loop.
 pub const CLOSE_LOOP: &str = "Run the rest";
+/// Begins a branch.
+pub const DRAW_BRANCH: &str = "Draw it";
+/// Goes through a program.
+pub const VISIT: &str = "Visit";
+/// Goes to the start.
+pub const VISIT_START: &str = "Before the first step";
+/// Goes back.
+pub const VISIT_BACK: &str = "One step back";
+/// Goes on.
+pub const VISIT_STEP: &str = "One step on";
+/// Goes into a block.
+pub const VISIT_IN: &str = "Into the block that comes next";
+/// Goes out of a block.
+pub const VISIT_OUT: &str = "Out of this block";
+/// Goes to the end.
+pub const VISIT_END: &str = "To the end: recording goes on there";
+/// The button that goes on until something is drawn.
+pub const VISIT_UNTIL: &str = "until …";
+/// Goes on until something is drawn.
+pub const VISIT_PICKED: &str = "Until what you pick in the picture is drawn";
+/// Goes to a step.
+pub const VISIT_HERE: &str = "Go to this step: what is drawn then is inserted before it";
+/// Draws a step anew.
+pub const REPLACE_STEP: &str = "Replace this step by what you draw next";
+/// Goes on recording.
+pub const RECORD_MORE: &str = "Record more of it";
+/// What speaks of a step that is deleted goes too.
+pub const DELETE_TOO: &str = "Delete it too";
 
-/// What is drawn now.
-pub fn first_turn(name: &str) -> String {
-    format!("Draw the first turn of {name}.")
+/// What is to be done to replace a step.
+pub fn draw_anew(step: &str) -> String {
+    format!("choose a construction: what you draw next takes the place of {step}")
 }
 
-/// What is asked of the second turn.
-pub fn recurrence(q: &session::drafting::view::RecurrenceQuestion) -> String {
-    format!(
-        "Second turn, {} of {}: {} of {} was {}. The same, or which object of the turn before?",
-        q.number, q.of, q.operand, q.step, q.first
-    )
-}
+/// Keeps the expression.
+pub const KEEP: &str = "keep this expression";
+/// Takes the last letter back.
+pub const BACKSPACE: &str = "take the last letter back";
+/// Gives the expression.
+pub const GIVE: &str = "Enter";
+/// Lets a pick of a set mean more.
+pub const WIDER: &str = "Wider (Tab)";
+/// How a set is caught.
+pub const BAND: &str = "Draw a rectangle around the figures; each is taken by its name.";
 
-/// What is asked at last.
-pub fn loop_ends(name: &str) -> String {
-    format!("When does {name} end?")
+/// The field of a parameter's value.
+pub fn value_of_parameter(name: &str) -> String {
+    format!("value of {name}")
 }

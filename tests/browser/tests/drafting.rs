@@ -74,15 +74,150 @@ async fn a_washer_is_recorded_by_drawing_one() {
     }
     press(&visit, "[data-construction='Circle']").await;
     point(&visit, 290.0, -70.0).await;
-    press(&visit, "[data-parameter='inner']").await;
-    enter(&visit, " / 2").await;
+    enter(&visit, "inner / 2").await;
     point(&visit, 290.0, -70.0).await;
-    press(&visit, "[data-parameter='outer']").await;
-    enter(&visit, " / 2").await;
+    enter(&visit, "outer / 2").await;
     visit.until("document.querySelectorAll('.steps li').length === 2").await;
     let text = text_of(&state(&visit).await);
     assert!(text.contains("circle2 = Circle(center: circle.center, radius: outer / 2)"), "{text}");
     press(&visit, "[data-draft='stop']").await;
     press(&visit, "#tab-bin").await;
     visit.until("document.querySelector(\".tile[data-class='Washer']\")").await;
+}
+
+/// Clicks where a place of the sheet is seen, in a document without grips.
+async fn pick(visit: &Visit, x: f64, y: f64) {
+    let sheet = state(visit).await["sheet"].clone();
+    let of = |name: &str| sheet[name].as_f64().expect("a number");
+    let at = (of("px") + x * of("scale"), of("py") - y * of("scale"));
+    hands::point(visit, at, MOUSE_BUTTON_LEFT).await;
+}
+
+async fn keys(visit: &Visit, labels: &[&str]) {
+    for label in labels {
+        press(visit, &format!("[data-key='{label}']")).await;
+    }
+}
+
+/// Waits until the prompt says something.
+async fn asked(visit: &Visit, words: &str) {
+    let script = format!("document.querySelector('.prompt')?.innerText.includes('{words}')");
+    visit.until(&script).await;
+}
+
+/// Records figure 7.6 up to the end of its first turn.
+async fn first_ring(visit: &Visit) {
+    visit.until("document.querySelector('main') && window.__thinglab").await;
+    visit.script("location.hash = '#/figure.thing'").await;
+    visit.until("window.__thinglab.state().path === 'figure.thing'").await;
+    press(visit, "#tab-draw").await;
+    visit.client.wait().for_element(Locator::Css("input[name='program']")).await.expect("it");
+    fill(visit, "input[name='program']", "Rings").await;
+    press(visit, "[data-draft='record']").await;
+    for (name, example) in [("radius", "40"), ("minimum", "2")] {
+        visit.client.wait().for_element(Locator::Css("input[name='parameter']")).await.expect("it");
+        fill(visit, "input[name='parameter']", name).await;
+        fill(visit, "input[name='example']", example).await;
+        press(visit, "[data-draft='define']").await;
+        visit.until(&format!("document.querySelector(\"[data-parameter='{name}']\")")).await;
+    }
+    press(visit, "[data-construction='Axis.horizontal(y)']").await;
+    pick(visit, 200.0, 0.0).await;
+    enter(visit, "").await;
+    press(visit, "[data-construction='Axis.vertical(x)']").await;
+    pick(visit, 0.0, 200.0).await;
+    enter(visit, "").await;
+    press(visit, "[data-draft='repeat']").await;
+    press(visit, "[data-construction='Circle.tangent(first,second,radius)']").await;
+    pick(visit, -40.0, 0.0).await;
+    pick(visit, 0.0, 40.0).await;
+    press(visit, "[data-parameter='radius']").await;
+    visit.until("window.__thinglab.state().text.includes('circle = ')").await;
+    press(visit, "[data-construction='Circle.concentric(with,radius)']").await;
+    pick(visit, -80.0, 40.0).await;
+    press(visit, "[data-draft='calculator']").await;
+    press(visit, "[data-measure='radius']").await;
+    pick(visit, -80.0, 40.0).await;
+    visit.until("document.querySelector('[name=operand]').value === 'circle.radius'").await;
+    keys(visit, &["÷", "2"]).await;
+    visit.until("document.querySelector('.computed').innerText.includes('20')").await;
+    keys(visit, &["give"]).await;
+    visit.until("window.__thinglab.state().text.includes('circle2 = ')").await;
+}
+
+#[tokio::test]
+async fn figure_7_6_is_drawn_as_its_chapter_tells() {
+    let visit = Visit::open(None).await;
+    first_ring(&visit).await;
+    press(&visit, "[data-draft='until']").await;
+    // the horizontal becomes the first circle, the vertical stays, the radius becomes half of the circle's
+    asked(&visit, "was axis:").await;
+    pick(&visit, -20.0, 74.6).await;
+    asked(&visit, "was axis2").await;
+    press(&visit, "[data-draft='same']").await;
+    asked(&visit, "was radius").await;
+    press(&visit, "[data-draft='calculator']").await;
+    press(&visit, "[data-measure='radius']").await;
+    pick(&visit, -80.0, 40.0).await;
+    keys(&visit, &["÷", "2", "give"]).await;
+    asked(&visit, "after the last turn").await;
+    press(&visit, "[data-measure='radius']").await;
+    pick(&visit, -80.0, 40.0).await;
+    keys(&visit, &["<"]).await;
+    press(&visit, "[data-parameter='minimum']").await;
+    visit.until("document.querySelector('.computed').innerText.includes('false')").await;
+    keys(&visit, &["give"]).await;
+    visit.until("window.__thinglab.state().text.includes('until circle.radius < minimum')").await;
+    let of_turns = "document.querySelector(\"[data-step='turns']\").innerText";
+    visit.until(&format!("{of_turns}.includes('6 turns')")).await;
+    // the mirror is of every circle of the loop
+    press(&visit, "[data-construction='Point:mirrored']").await;
+    for _ in 0..2 {
+        press(&visit, "[data-draft='wider']").await;
+    }
+    pick(&visit, -80.0, 40.0).await;
+    pick(&visit, 0.0, 200.0).await;
+    visit.until("window.__thinglab.state().text.includes('turns.mirrored(about: axis2)')").await;
+    press(&visit, "[data-draft='stop']").await;
+    let text = text_of(&state(&visit).await);
+    let wanted = "turns = repeat with first = axis, radius2 = radius {
+        circle = Circle.tangent(first, axis2, radius: radius2)
+        circle2 = Circle.concentric(with: circle, radius: circle.radius / 2)
+        next first = -circle, radius2 = circle.radius / 2
+    } until circle.radius < minimum";
+    assert!(text.contains(wanted), "{text}");
+}
+
+#[tokio::test]
+async fn a_wrong_step_is_found_by_what_it_drew_and_replaced() {
+    let visit = Visit::open(None).await;
+    first_ring(&visit).await;
+    press(&visit, "[data-draft='times']").await;
+    asked(&visit, "was axis:").await;
+    pick(&visit, -20.0, 74.6).await;
+    asked(&visit, "was axis2").await;
+    press(&visit, "[data-draft='same']").await;
+    asked(&visit, "was radius").await;
+    enter(&visit, "circle.radius / 2").await;
+    asked(&visit, "how many turns").await;
+    enter(&visit, "3").await;
+    visit.until("window.__thinglab.state().text.includes('repeat 3 times')").await;
+    // the outer circle of the second turn is picked: its step comes next
+    press(&visit, "[data-visit='picked']").await;
+    pick(&visit, -40.0, 96.6).await;
+    visit.until("document.querySelector('.steps .next')?.dataset.step === 'turns.circle'").await;
+    // the inner circle shall have a quarter of the radius
+    press(&visit, "[data-step='turns.circle2'] [data-step-replace]").await;
+    press(&visit, "[data-construction='Circle.concentric(with,radius)']").await;
+    pick(&visit, -80.0, 40.0).await;
+    enter(&visit, "circle.radius / 4").await;
+    visit
+        .until("window.__thinglab.state().text.includes('with: circle, radius: circle.radius / 4')")
+        .await;
+    // a step that another one speaks of: that one is asked about
+    press(&visit, "[data-step='turns.circle'] [data-step-delete]").await;
+    asked(&visit, "speaks of circle").await;
+    press(&visit, "[data-draft='back']").await;
+    press(&visit, "[data-visit='end']").await;
+    press(&visit, "[data-draft='stop']").await;
 }

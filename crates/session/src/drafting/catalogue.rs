@@ -17,8 +17,10 @@ pub(crate) struct Tool {
     pub(crate) id: String,
     /// The class of what it makes.
     pub(crate) class: Name,
-    /// `circle tangent`
+    /// `Circle that touches two curves`
     pub(crate) label: String,
+    /// What what it makes is called, where nothing else is called so.
+    pub(crate) base: String,
     /// What the library says of it.
     pub(crate) doc: String,
     /// How it is written.
@@ -36,6 +38,8 @@ pub(crate) enum Call {
     Make,
     /// `line.mirrored(about: axis)`: the first slot is what it is sent to.
     Message(String),
+    /// The value itself, as it is given.
+    Value,
 }
 
 /// What a construction waits for.
@@ -47,6 +51,8 @@ pub(crate) struct Slot {
     pub(crate) label: Option<String>,
     /// The class of what is wanted.
     pub(crate) class: Name,
+    /// Other classes that are as good.
+    also: Vec<Name>,
     /// What can fill it.
     pub(crate) kind: SlotKind,
 }
@@ -60,6 +66,8 @@ pub(crate) enum SlotKind {
     Curve,
     /// A number or truth value, typed or measured.
     Value,
+    /// A figure of any class that understands the message, or a set of them.
+    Set,
 }
 
 /// Labels that need no writing: the place of the operand tells.
@@ -73,7 +81,12 @@ impl Slot {
             ClassKind::Composite => SlotKind::Curve,
             _ => SlotKind::Value,
         };
-        Self { name: name.into(), label, class: found.name.clone(), kind }
+        Self { name: name.into(), label, class: found.name.clone(), also: Vec::new(), kind }
+    }
+
+    /// The classes that fill it.
+    pub(crate) fn classes(&self) -> impl Iterator<Item = &Name> {
+        std::iter::once(&self.class).chain(&self.also)
     }
 }
 
@@ -81,6 +94,7 @@ impl Tool {
     /// Writes the construction with operands for its first slots.
     pub(crate) fn written(&self, operands: &[String]) -> String {
         let (to, rest) = match &self.call {
+            Call::Value => return operands.first().cloned().unwrap_or_default(),
             Call::Class(word) => (format!("{}.{word}", self.class), 0),
             Call::Make => (self.class.to_string(), 0),
             Call::Message(word) => {
@@ -98,12 +112,21 @@ impl Tool {
         format!("{to}({})", all.join(", "))
     }
 
+    /// Where the page lists it.
+    fn shelf(&self) -> String {
+        match &self.call {
+            Call::Message(_) if self.class.is_empty() => "Copy".into(),
+            Call::Value => "Value".into(),
+            _ => self.class.to_string(),
+        }
+    }
+
     /// What the page shows of it.
     pub(crate) fn row(&self) -> ConstructionRow {
         let slots: Vec<&str> = self.slots.iter().map(|slot| slot.name.as_str()).collect();
         ConstructionRow {
             id: self.id.clone(),
-            class: self.class.to_string(),
+            class: self.shelf(),
             label: self.label.clone(),
             operands: slots.join(", "),
             doc: self.doc.clone(),
@@ -115,19 +138,27 @@ impl Tool {
 pub(crate) fn tools(state: &State, home: &Home) -> Vec<Tool> {
     let document = &state.lowered.document;
     let is_last = |id: ClassId, class: &Class| document.class_named(&class.name) == Some(id);
-    let mut all = Vec::new();
+    let mut all: Vec<Tool> = Vec::new();
     for (id, class) in document.classes.iter() {
         if !recognise::is_candidate(state, id, class) || !is_last(id, class) {
-            continue;
-        }
-        if matches!(home, Home::Program { program, .. } if *program == class.name) {
             continue;
         }
         let is_program = document.program(id).is_some();
         if is_program || document.figure(id).is_some() && !matches!(home, Home::Document) {
             all.extend(constructor(document, id, is_program));
         }
-        all.extend(class.messages.iter().filter_map(|m| of_message(document, id, m)));
+        for tool in class.messages.iter().filter_map(|m| of_message(document, id, m)) {
+            match all.iter_mut().find(|known| is_alike(known, &tool)) {
+                Some(known) => join(known, tool),
+                None => all.push(tool),
+            }
+        }
+    }
+    if all.iter().any(|tool| *tool.class == *"Point") {
+        all.extend(moved(document));
+    }
+    if !matches!(home, Home::Document) {
+        all.extend(value(document));
     }
     all
 }
@@ -135,6 +166,65 @@ pub(crate) fn tools(state: &State, home: &Home) -> Vec<Tool> {
 /// Finds a construction.
 pub(crate) fn tool(state: &State, home: &Home, id: &str) -> Option<Tool> {
     tools(state, home).into_iter().find(|tool| tool.id == id)
+}
+
+/// Whether two messages are one construction for things of several classes: `mirrored(about)`.
+fn is_alike(a: &Tool, b: &Tool) -> bool {
+    let rest = |tool: &Tool| -> Vec<(String, Name)> {
+        tool.slots.iter().skip(1).map(|s| (s.name.clone(), s.class.clone())).collect()
+    };
+    matches!(&a.call, Call::Message(_)) && a.call == b.call && rest(a) == rest(b)
+}
+
+/// Lets a construction take what another takes.
+fn join(known: &mut Tool, other: Tool) {
+    if known.class != other.class {
+        let Call::Message(word) = &known.call else { return };
+        known.base = word.clone();
+        known.class = Name::new("");
+    }
+    let (Some(slot), Some(more)) = (known.slots.first_mut(), other.slots.into_iter().next()) else {
+        return;
+    };
+    if !slot.classes().any(|class| *class == more.class) {
+        slot.also.push(more.class);
+    }
+    slot.kind = SlotKind::Set;
+}
+
+/// Returns the tool that moves a set, or any figure of it.
+fn moved(document: &Document) -> Option<Tool> {
+    let point = document.class_named("Point")?;
+    let slots = [("what", None, point), ("by", Some("by".to_string()), point)];
+    let mut slots = slots.map(|(name, label, class)| Slot::of(document, name, label, class));
+    slots[0].kind = SlotKind::Set;
+    let figures = document.classes.iter().filter(|(id, _)| document.figure(*id).is_some());
+    slots[0].also = figures.map(|(_, class)| class.name.clone()).collect();
+    let doc = "Moved so far to the right and up as a point lies from the origin: all turns of a loop, or \
+               what a program drew.";
+    Some(Tool {
+        id: ":moved(by)".into(),
+        class: Name::new(""),
+        label: "Moved so far to the right and up".into(),
+        base: "moved".into(),
+        doc: doc.into(),
+        call: Call::Message("moved".into()),
+        slots: slots.into(),
+    })
+}
+
+/// Returns the tool that names a value.
+fn value(document: &Document) -> Option<Tool> {
+    let class = document.class_named("Real")?;
+    Some(Tool {
+        id: "value".into(),
+        class: Name::new("Real"),
+        label: "Value by calculator".into(),
+        base: "value".into(),
+        doc: "A number or a yes or no that later steps speak of.".into(),
+        call: Call::Value,
+        slots: vec![Slot::of(document, "value", None, class)],
+    })
 }
 
 /// Returns the tool that makes a thing of its parts; of a program, of its parameters.
@@ -154,7 +244,8 @@ fn constructor(document: &Document, id: ClassId, is_program: bool) -> Option<Too
     Some(Tool {
         id: name.clone(),
         class: class.name.clone(),
-        label: if is_program { name } else { name.to_lowercase() },
+        label: if is_program { name.clone() } else { titled(&class.doc, &name) },
+        base: small(&name),
         doc: class.doc.clone(),
         call: Call::Make,
         slots: document.layout(id).into_iter().map(slot).collect(),
@@ -185,14 +276,35 @@ fn of_message(document: &Document, id: ClassId, message: &Message) -> Option<Too
     }
     let separator = if message.is_of_class() { "." } else { ":" };
     let made = made_by(message).filter(|_| !message.is_of_class()).unwrap_or(id);
+    let made = document.classes[made].name.clone();
     Some(Tool {
         id: format!("{}{separator}{}", class.name, message.name),
-        class: document.classes[made].name.clone(),
-        label: format!("{} {word}", class.name.to_lowercase()),
+        label: titled(&message.doc, &format!("{} {word}", class.name)),
+        base: small(&made),
+        class: made,
         doc: message.doc.clone(),
         call,
         slots,
     })
+}
+
+/// The first clause of what a library says, as a title; a plain name where it says nothing.
+fn titled(doc: &str, plain: &str) -> String {
+    let doc = doc.strip_prefix("It, ").unwrap_or(doc);
+    let clause = doc.split([':', ';', '.', ',', '\n']).next().unwrap_or_default().trim();
+    let clause =
+        ["The ", "A ", "An ", "Its "].iter().find_map(|w| clause.strip_prefix(w)).unwrap_or(clause);
+    let mut letters = clause.chars();
+    match letters.next() {
+        Some(first) => first.to_uppercase().chain(letters).collect(),
+        None => plain.into(),
+    }
+}
+
+/// A class's name as that of one of its things: `circle`, `clockwiseArc`.
+fn small(class: &str) -> String {
+    let mut letters = class.chars();
+    letters.next().map_or(String::new(), |first| first.to_lowercase().chain(letters).collect())
 }
 
 /// Returns the class of the new thing that a message answers for what it is given, if it does.

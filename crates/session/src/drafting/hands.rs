@@ -1,19 +1,167 @@
 //! Drafting at the boundary: what the page asks of a session.
 
-use super::steps;
-use super::view::{
-    ConstructionRow, Hover, NewParameter, Prompt, RecurrenceQuestion, StepsView, Turn,
+use super::catalogue::{SlotKind, Tool};
+use super::dialogue::{Dialogue, Goal, Operand};
+use super::view::{Computed, ConstructionRow, Hover, MeasureKind, Prompt, Turn, Wants};
+use super::{
+    Home, blocks, catalogue, choice, measure, outcome, recording, remove, repeat, scene, steps,
+    typed,
 };
-use super::{Dialogue, Home, Operand, SlotKind, catalogue, outcome, recording, repeat, typed};
 use crate::document::Open;
-use crate::host::Beside;
+use crate::host::{Beside, Host};
 use crate::session::Session;
+use crate::state::State;
 use crate::view::{Change, DocumentId, Pointer, Refusal};
 use crate::words;
 
 /// Where an open document's drawing goes.
 pub(crate) fn home(open: &Open) -> Home {
-    Home::of(open.recording.as_ref())
+    match &open.recording {
+        None => Home::Document,
+        Some(recording) => {
+            let mut recording = recording.clone();
+            recording.prune(&open.state.text);
+            Home::of(Some(&recording))
+        }
+    }
+}
+
+/// What is waited for.
+pub(super) fn prompt(open: &Open) -> Option<Prompt> {
+    let removing = open.recording.as_ref().and_then(|recording| recording.removing.as_ref());
+    let prompt = match (removing, &open.dialogue) {
+        (Some(removing), _) => removing.prompt(),
+        (None, Some(dialogue)) => Some(dialogue.prompt()),
+        (None, None) => blocks::prompt(open),
+    };
+    match &open.picking.measure {
+        Some(measuring) => Some(Prompt {
+            words: measuring.words().into(),
+            is_value: true,
+            ..prompt.unwrap_or_default()
+        }),
+        None => prompt,
+    }
+}
+
+/// Whether what a construction makes can be an operand that waits.
+fn fits_slot(state: &State, tool: &Tool, waiting: &Dialogue) -> bool {
+    let document = &state.lowered.document;
+    let made = document.class_named(&tool.class);
+    waiting.slot().zip(made).is_some_and(|(slot, made)| {
+        let wanted = slot.classes().filter_map(|class| document.class_named(class));
+        slot.kind != SlotKind::Value && { wanted }.any(|wanted| document.is_a(made, wanted))
+    })
+}
+
+/// Gives the operand that is wanted; with the last one the figure is made.
+fn give(open: &mut Open, host: &dyn Host, operand: Operand) -> Result<Turn, Refusal> {
+    let home = home(open);
+    let Some(dialogue) = &mut open.dialogue else {
+        return Err(words::refuse("no construction waits".into()));
+    };
+    let is_point = dialogue.slot().is_some_and(|slot| slot.kind == SlotKind::Point);
+    let mut filled = dialogue.filled.clone();
+    if is_point {
+        dialogue.last_point = Some(operand.text.clone());
+    }
+    filled.push(operand);
+    open.picking = super::Picking::default();
+    if filled.len() < dialogue.tool.slots.len() {
+        dialogue.filled = filled;
+        return Ok(Turn::Wants(dialogue.prompt()));
+    }
+    let given = (&dialogue.tool, &filled[..], dialogue.pointer);
+    let chosen = outcome::choose(&open.state, host, &home, given)?;
+    let dialogue = dialogue.clone();
+    if let Some(goal) = dialogue.goal.clone() {
+        return reach(open, host, (&home, dialogue, goal), chosen.text);
+    }
+    if let Some(step) = dialogue.replaces.clone() {
+        let Home::Program { program, .. } = &home else {
+            return Err(words::refuse("nothing is recorded".into()));
+        };
+        let change = replaced(open, host, (program, &step), &chosen.text)?;
+        open.dialogue = None;
+        if let Some(recording) = &mut open.recording {
+            recording.replaces = None;
+        }
+        let next = prompt(open);
+        let change = Box::new(change);
+        return Ok(Turn::Made { change, name: step, text: chosen.text, next });
+    }
+    let line = recording::line(open, &home, &dialogue, &chosen.text);
+    let change = recording::write(open, host, &home, &line)?;
+    if let Some(dialogue) = &mut open.dialogue {
+        dialogue.filled.clear();
+        dialogue.pointer = None;
+        dialogue.is_begun = false;
+    }
+    let next = prompt(open);
+    Ok(Turn::Made { change: Box::new(change), name: line.name, text: chosen.text, next })
+}
+
+/// Says anew what a step does.
+pub(super) fn replaced(
+    open: &mut Open,
+    host: &dyn Host,
+    (program, step): (&str, &str),
+    formula: &str,
+) -> Result<Change, Refusal> {
+    let text = steps::with_formula(&open.state.text, (program, step), formula)?;
+    recording::retext(open, host, text, format!("replace {step}"))
+}
+
+/// Gives the outcome of a construction to what waits for it: as a figure of its own where it is kept as a guide.
+fn reach(
+    open: &mut Open,
+    host: &dyn Host,
+    (home, dialogue, goal): (&Home, Dialogue, Goal),
+    made: String,
+) -> Result<Turn, Refusal> {
+    let at = dialogue.pointer.or_else(|| dialogue.filled.iter().rev().find_map(|o| o.at));
+    let text = if dialogue.is_guide {
+        let line = recording::line(open, home, &dialogue, &made);
+        recording::write(open, host, home, &line)?;
+        line.name
+    } else {
+        made
+    };
+    match goal {
+        Goal::Operand(goal) => {
+            open.dialogue = Some(*goal);
+            give(open, host, Operand { text, at })
+        }
+        Goal::Answer => {
+            open.dialogue = None;
+            answered(open, host, (Some(&text), at))
+        }
+    }
+}
+
+/// Answers what is asked of the second turn.
+fn answered(
+    open: &mut Open,
+    host: &dyn Host,
+    answer: (Option<&str>, Option<(f64, f64)>),
+) -> Result<Turn, Refusal> {
+    let closed = repeat::answer(open, host, answer)?;
+    open.picking = super::Picking::default();
+    Ok(turn_of(open, closed, String::new()))
+}
+
+/// What comes of something that may have closed a block.
+pub(super) fn turn_of(open: &Open, closed: Option<Change>, text: String) -> Turn {
+    match closed {
+        Some(change) => {
+            let name = change.label.clone();
+            Turn::Made { change: Box::new(change), name, text, next: prompt(open) }
+        }
+        None => match prompt(open) {
+            Some(prompt) => Turn::Wants(prompt),
+            None => Turn::Made { change: Box::default(), name: String::new(), text, next: None },
+        },
+    }
 }
 
 impl Session {
@@ -21,280 +169,308 @@ impl Session {
     pub fn constructions(&self, id: DocumentId) -> Vec<ConstructionRow> {
         let open = self.document(id);
         let tools = catalogue::tools(&open.state, &home(open));
-        tools.iter().map(catalogue::Tool::row).collect()
+        tools.iter().map(Tool::row).collect()
     }
 
-    /// Begins a construction, which then waits for its operands one by one.
+    /// Returns what is waited for: an operand, an answer, a condition.
+    pub fn prompt(&self, id: DocumentId) -> Option<Prompt> {
+        prompt(self.document(id))
+    }
+
+    /// Begins a construction, which then waits for its operands one by one. Where another one waits for what this one
+    /// makes, or a question does, its outcome is given there.
     ///
     /// # Errors
     /// There is none of that name in scope.
     pub fn begin(&mut self, id: DocumentId, tool: &str) -> Result<Prompt, Refusal> {
         let open = self.document_mut(id);
+        blocks::settle(open);
         let home = home(open);
         let found = catalogue::tool(&open.state, &home, tool);
         let found =
             found.ok_or_else(|| words::refuse(format!("there is no construction {tool}")))?;
-        let is_guide = open.dialogue.as_ref().is_some_and(|d| d.is_guide);
-        let dialogue = Dialogue { is_guide, ..Dialogue::new(found) };
+        let is_guide = open.dialogue.as_ref().is_some_and(|d| d.is_guide && d.goal.is_none());
+        let goal = match open.dialogue.take() {
+            Some(waiting) if waiting.is_begun && fits_slot(&open.state, &found, &waiting) => {
+                Some(Goal::Operand(Box::new(waiting)))
+            }
+            Some(_) => None,
+            None => match blocks::prompt(open) {
+                Some(Prompt { wants: Wants::Recurrence(_), is_value: false, .. }) => {
+                    Some(Goal::Answer)
+                }
+                _ => None,
+            },
+        };
+        let is_guide = is_guide && goal.is_none();
+        let replaces = open.recording.as_ref().and_then(|r| r.replaces.clone());
+        let replaces = replaces.filter(|_| goal.is_none());
+        let dialogue = Dialogue { is_guide, goal, replaces, ..Dialogue::new(found) };
         let prompt = dialogue.prompt();
         open.tool = None;
+        open.picking = super::Picking::default();
         open.dialogue = Some(dialogue);
         Ok(prompt)
     }
 
-    /// Returns what a pointer, with what is typed so far, would do for the construction that waits.
+    /// Returns what a pointer, with what is typed so far, would do for what is waited for.
     pub fn hover(&mut self, id: DocumentId, pointer: &Pointer, typed: &str) -> Hover {
         let beside = Beside::of(&*self.host, &self.documents, id);
         let open = &mut self.documents[id.0 as usize];
         let (state, home) = (open.state.clone(), home(open));
+        if let Some(measuring) = &open.picking.measure {
+            return found_hover(&state, &home, measuring.find(&state, &home, pointer));
+        }
+        let level = open.picking.level;
         match &mut open.dialogue {
             Some(dialogue) => {
                 dialogue.pointer = Some(pointer.at);
-                dialogue.hover(&state, &beside, &home, (pointer, typed))
+                dialogue.hover(&state, &beside, &home, (pointer, level, typed))
             }
-            None => Hover::default(),
+            None => {
+                let found = object_at(&state, &home, (pointer, level));
+                let mut hover = found_hover(&state, &home, found);
+                let asked = repeat::asked_drawing(open, &beside);
+                hover.ghost.elements.extend(asked.elements);
+                hover
+            }
         }
     }
 
-    /// Gives the operand that is wanted by what lies under a pointer. Of a value it is a measure, which the
-    /// prompt then offers to be inserted.
+    /// Gives what is wanted by what lies under a pointer. Of a value it is a measure, which the prompt then offers to
+    /// be inserted.
     ///
     /// # Errors
-    /// Nothing that fits lies there, or there is no such figure; the construction waits as before.
+    /// Nothing that fits lies there, or there is no such figure; what waits goes on waiting.
     pub fn point(&mut self, id: DocumentId, pointer: &Pointer) -> Result<Turn, Refusal> {
-        let open = self.document_mut(id);
-        let (state, home) = (open.state.clone(), home(open));
-        let Some(dialogue) = &mut open.dialogue else {
-            return Err(words::refuse("no construction waits".into()));
-        };
-        let operand = dialogue.pick(&state, &home, pointer)?;
-        if dialogue.slot().is_some_and(|slot| slot.kind == SlotKind::Value) {
-            let insert = Some(operand.text);
-            return Ok(Turn::Wants(Prompt { insert, ..dialogue.prompt() }));
-        }
-        dialogue.pointer = None;
-        self.give(id, operand)
-    }
-
-    /// Gives the operand that is wanted by what is typed: `x,y`, `@dx,dy`, `length<angle`, any expression.
-    ///
-    /// # Errors
-    /// It is none, or there is no such figure; the construction waits as before.
-    pub fn enter(&mut self, id: DocumentId, typed: &str) -> Result<Turn, Refusal> {
-        let beside = Beside::of(&*self.host, &self.documents, id);
-        let open = self.document(id);
-        let Some((dialogue, slot)) = open.dialogue.as_ref().and_then(|d| Some((d, d.slot()?)))
-        else {
-            return Err(words::refuse("no construction waits".into()));
-        };
-        let text = typed::operand(slot, typed, dialogue.last_point.as_deref())?;
-        outcome::fits(&open.state, &beside, &home(open), (&text, &slot.class, slot.kind))?;
-        self.give(id, Operand { text, at: None })
-    }
-
-    fn give(&mut self, id: DocumentId, operand: Operand) -> Result<Turn, Refusal> {
         let beside = Beside::of(&*self.host, &self.documents, id);
         let open = &mut self.documents[id.0 as usize];
-        let home = home(open);
-        let Some(dialogue) = &mut open.dialogue else {
-            return Err(words::refuse("no construction waits".into()));
-        };
-        let is_point = dialogue.slot().is_some_and(|slot| slot.kind == SlotKind::Point);
-        let mut filled = dialogue.filled.clone();
-        if is_point {
-            dialogue.last_point = Some(operand.text.clone());
-        }
-        filled.push(operand);
-        if filled.len() < dialogue.tool.slots.len() {
-            dialogue.filled = filled;
-            return Ok(Turn::Wants(dialogue.prompt()));
-        }
-        let given = (&dialogue.tool, &filled[..], dialogue.pointer);
-        let chosen = outcome::choose(&open.state, &beside, &home, given)?;
-        let line = recording::line(&open.state, &home, dialogue, &chosen.text);
-        let change = recording::write(open, &beside, &home, &line)?;
-        let next = match &mut open.dialogue {
-            Some(dialogue) => {
-                dialogue.filled.clear();
-                dialogue.pointer = None;
-                dialogue.prompt()
-            }
-            None => Prompt::default(),
-        };
-        let change = self.with_reach(id, change);
-        Ok(Turn::Made { change, name: line.name, text: chosen.text, next })
+        let turn = pointed(open, &beside, pointer)?;
+        Ok(self.reached(id, turn))
     }
 
-    fn with_reach(&mut self, id: DocumentId, mut change: Change) -> Box<Change> {
+    /// Gives what is wanted by what is typed: `x,y`, `@dx,dy`, `length<angle`, any expression, a condition.
+    ///
+    /// # Errors
+    /// It is none, or there is no such figure; what waits goes on waiting.
+    pub fn enter(&mut self, id: DocumentId, typed: &str) -> Result<Turn, Refusal> {
+        let beside = Beside::of(&*self.host, &self.documents, id);
+        let open = &mut self.documents[id.0 as usize];
+        let turn = entered(open, &beside, typed)?;
+        Ok(self.reached(id, turn))
+    }
+
+    /// Answers that an operand is the same in every turn.
+    ///
+    /// # Errors
+    /// Nothing is asked, or the second turn would have no outcome.
+    pub fn same(&mut self, id: DocumentId) -> Result<Turn, Refusal> {
+        let beside = Beside::of(&*self.host, &self.documents, id);
+        let turn = answered(&mut self.documents[id.0 as usize], &beside, (None, None))?;
+        Ok(self.reached(id, turn))
+    }
+
+    pub(super) fn reached(&mut self, id: DocumentId, turn: Turn) -> Turn {
+        match turn {
+            Turn::Made { change, name, text, next } => {
+                Turn::Made { change: self.with_reach(id, *change), name, text, next }
+            }
+            Turn::Wants(prompt) => Turn::Wants(prompt),
+        }
+    }
+
+    pub(super) fn with_reach(&mut self, id: DocumentId, mut change: Change) -> Box<Change> {
         if !change.edits.is_empty() {
             change.documents = self.reach(id);
         }
         Box::new(change)
     }
 
-    /// Takes the latest operand back; without one the construction is given up. Returns what is wanted then.
+    /// Takes the latest operand or answer back; without one what waits is given up. Returns what is wanted then.
     pub fn back(&mut self, id: DocumentId) -> Option<Prompt> {
-        let dialogue = &mut self.document_mut(id).dialogue;
-        match dialogue.as_mut().map(|d| d.filled.pop()) {
-            Some(Some(_)) => dialogue.as_ref().map(Dialogue::prompt),
-            _ => {
-                *dialogue = None;
-                None
+        let open = self.document_mut(id);
+        open.picking = super::Picking::default();
+        match open.dialogue.take() {
+            Some(mut dialogue) => {
+                let had = dialogue.filled.pop();
+                open.dialogue = match (had, dialogue.goal.take()) {
+                    (Some(_), goal) => Some(Dialogue { goal, ..dialogue }),
+                    (None, Some(Goal::Operand(waiting))) => Some(*waiting),
+                    (None, Some(Goal::Answer) | None) => None,
+                };
+            }
+            None => back_of_block(open),
+        }
+        prompt(open)
+    }
+
+    /// Gives the construction up, or the question that can be; returns what is wanted then.
+    pub fn give_up(&mut self, id: DocumentId) -> Option<Prompt> {
+        let open = self.document_mut(id);
+        open.picking = super::Picking::default();
+        match open.dialogue.take().and_then(|dialogue| dialogue.goal) {
+            Some(Goal::Operand(waiting)) => open.dialogue = Some(*waiting),
+            Some(Goal::Answer) | None => {
+                if let Some(recording) = &mut open.recording {
+                    recording.asks_condition = false;
+                    recording.removing = None;
+                }
             }
         }
+        prompt(open)
     }
 
-    /// Gives the construction up.
-    pub fn give_up(&mut self, id: DocumentId) {
-        self.document_mut(id).dialogue = None;
+    /// Lets picks of sets mean more: an entity, its turn, the whole loop, and around.
+    pub fn pick_wider(&mut self, id: DocumentId) {
+        self.document_mut(id).picking.level += 1;
     }
 
-    /// Says whether what a construction makes is drawn for construction alone.
+    /// Says whether what a construction makes is drawn for construction alone; of one that another waits for, whether
+    /// it is kept as a guide.
     pub fn draw_guides(&mut self, id: DocumentId, are_guides: bool) {
         if let Some(dialogue) = &mut self.document_mut(id).dialogue {
             dialogue.is_guide = are_guides;
         }
     }
 
-    /// Begins to record a program: a new one, with an example of it in the document, or more of one that is there.
-    ///
-    /// # Errors
-    /// The name is none for a program, or something else is called so.
-    pub fn record(&mut self, id: DocumentId, name: &str) -> Result<Change, Refusal> {
-        let beside = Beside::of(&*self.host, &self.documents, id);
-        let change = recording::begin(&mut self.documents[id.0 as usize], &beside, name)?;
-        Ok(*self.with_reach(id, change))
-    }
-
-    /// Ends the recording: what is drawn then belongs to the document.
-    pub fn stop_recording(&mut self, id: DocumentId) {
+    /// Begins to take a measure for a calculator; picks are its own until it is complete.
+    pub fn begin_measure(&mut self, id: DocumentId, kind: MeasureKind) -> Option<Prompt> {
         let open = self.document_mut(id);
-        open.recording = None;
-        open.dialogue = None;
+        open.picking.measure = Some(measure::Measuring::new(kind));
+        prompt(open)
     }
 
-    /// Begins a loop in the program that is recorded; what is drawn next is its first turn.
-    ///
-    /// # Errors
-    /// Nothing is recorded, a loop is open already, the name is none or taken.
-    pub fn begin_loop(&mut self, id: DocumentId, name: &str) -> Result<Change, Refusal> {
-        let beside = Beside::of(&*self.host, &self.documents, id);
-        let change = repeat::begin(&mut self.documents[id.0 as usize], &beside, name)?;
-        Ok(*self.with_reach(id, change))
-    }
-
-    /// Ends the first turn of the loop; returns what is asked of the second.
-    ///
-    /// # Errors
-    /// No loop is open, or nothing is drawn in it.
-    pub fn end_turn(&mut self, id: DocumentId) -> Result<Option<RecurrenceQuestion>, Refusal> {
-        repeat::end_turn(self.document_mut(id))
-    }
-
-    /// Returns what lies under a pointer of what is drawn, by the name that it has where things are drawn now.
-    pub fn object_at(&self, id: DocumentId, pointer: &Pointer) -> Option<String> {
+    /// Returns what an expression comes to where things are drawn now.
+    pub fn compute(&self, id: DocumentId, text: &str) -> Computed {
         let open = self.document(id);
-        super::object_at(&open.state, &home(open), pointer)
-    }
-
-    /// Answers what is asked of the second turn: nothing for the same, else an object of the turn before, or an
-    /// expression over it. Where it was picked decides which way round a curve is taken.
-    ///
-    /// # Errors
-    /// Nothing is asked, or the second turn would have no outcome.
-    pub fn answer_recurrence(
-        &mut self,
-        id: DocumentId,
-        answer: Option<&str>,
-        at: Option<(f64, f64)>,
-    ) -> Result<Option<RecurrenceQuestion>, Refusal> {
         let beside = Beside::of(&*self.host, &self.documents, id);
-        repeat::answer(&mut self.documents[id.0 as usize], &beside, (answer, at))
+        match outcome::worth(&open.state, &beside, &home(open), text) {
+            Ok(outcome::Worth::Truth(truth)) => {
+                Computed { value: Some(if truth { "true" } else { "false" }.into()), why: None }
+            }
+            Ok(outcome::Worth::Number(number)) => Computed { value: Some(number), why: None },
+            Ok(outcome::Worth::Other(kind)) => Computed { value: None, why: Some(kind) },
+            Err(refusal) => Computed { value: None, why: Some(refusal.message) },
+        }
     }
+}
 
-    /// Closes the loop by what ends it: `until ring.radius < least`, `while r > least`, `6 times`.
-    ///
-    /// # Errors
-    /// No loop is open, something is asked still, or the condition is none.
-    pub fn close_loop(&mut self, id: DocumentId, ends: &str) -> Result<Change, Refusal> {
-        let beside = Beside::of(&*self.host, &self.documents, id);
-        let change = repeat::close(&mut self.documents[id.0 as usize], &beside, ends)?;
-        Ok(*self.with_reach(id, change))
+fn found_hover(state: &State, home: &Home, found: Result<scene::Found, Refusal>) -> Hover {
+    match found {
+        Ok(found) => Hover {
+            ghost: scene::drawing_of(state, home, &found.text),
+            finds: Some(found.text),
+            why: None,
+        },
+        Err(refusal) => Hover { why: Some(refusal.message), ..Hover::default() },
     }
+}
 
-    /// Defines a parameter of the program that is recorded.
-    ///
-    /// # Errors
-    /// Nothing is recorded, the name is taken, the example is no value.
-    pub fn define_parameter(
-        &mut self,
-        id: DocumentId,
-        parameter: &NewParameter,
-    ) -> Result<Change, Refusal> {
-        let beside = Beside::of(&*self.host, &self.documents, id);
-        let open = &mut self.documents[id.0 as usize];
-        let change = recording::define(open, &beside, &home(open), parameter)?;
-        Ok(*self.with_reach(id, change))
+/// What lies under a pointer of what is drawn, or what that is in.
+fn object_at(
+    state: &State,
+    home: &Home,
+    (pointer, level): (&Pointer, usize),
+) -> Result<scene::Found, Refusal> {
+    let all = scene::scene(state, home);
+    let found = scene::nearest(all.iter(), pointer);
+    let none = || words::refuse("nothing that can be picked lies here".into());
+    found
+        .map(|found| scene::Found { text: found.at_level(level), ..found.clone() })
+        .ok_or_else(none)
+}
+
+/// Leaves what a block asks for.
+fn back_of_block(open: &mut Open) {
+    if open.recording.as_ref().is_some_and(|recording| recording.removing.is_some()) {
+        remove::back(open);
+        return;
     }
-
-    /// Returns the steps of the program that is recorded, or of that of a thing.
-    pub fn steps(&self, id: DocumentId, thing: Option<&str>) -> Option<StepsView> {
-        let open = self.document(id);
-        let block = open.recording.as_ref().and_then(|recording| recording.block.as_ref());
-        let open_loop = block.map(repeat::Loop::view);
-        let view = steps::view(&open.state, open.values(), &home(open), thing)?;
-        Some(StepsView { open_loop, ..view })
+    if let Some(recording) = &mut open.recording
+        && recording.asks_condition
+    {
+        recording.asks_condition = false;
+        return;
     }
-
-    /// Returns what something comes to, in words: a number, a place, a circle's centre and radius. Of whatever a path
-    /// leads to, what is drawn and computed too; nothing where it leads nowhere.
-    pub fn comes_to(&self, id: DocumentId, path: &str) -> Option<String> {
-        let open = self.document(id);
-        steps::comes_to(&open.state, open.values(), path)
+    match open.recording.as_ref().and_then(|r| r.innermost()).map(|block| &block.kind) {
+        Some(blocks::Kind::Loop(_)) => repeat::back(open),
+        Some(blocks::Kind::Choice(_)) => choice::back(open),
+        Some(blocks::Kind::Visited) | None => {}
     }
+}
 
-    /// Returns what a step of a program drew in its example.
-    pub fn step_drawing(&self, id: DocumentId, example: &str, step: &str) -> drawing::Drawing {
-        let open = self.document(id);
-        steps::drawing(&open.state, open.values(), example, step)
+fn pointed(open: &mut Open, host: &dyn Host, pointer: &Pointer) -> Result<Turn, Refusal> {
+    let (state, home, level) = (open.state.clone(), home(open), open.picking.level);
+    if let Some(measuring) = &mut open.picking.measure {
+        let found = measuring.find(&state, &home, pointer)?;
+        let insert = measuring.take(&state, found);
+        if insert.is_some() {
+            open.picking.measure = None;
+        }
+        return Ok(Turn::Wants(Prompt { insert, ..prompt(open).unwrap_or_default() }));
     }
-
-    /// Returns the steps that speak of a step, or of one that does: what goes when it is deleted.
-    pub fn step_dependents(&self, id: DocumentId, program: &str, step: &str) -> Vec<String> {
-        steps::dependents(&self.document(id).state.text, program, step)
+    if open.recording.as_ref().is_some_and(|recording| recording.removing.is_some()) {
+        let done = remove::instead(open, host, ("", Some((pointer, level))))?;
+        return Ok(turn_of(open, done, String::new()));
     }
-
-    /// Deletes a step, with those that speak of it.
-    ///
-    /// # Errors
-    /// There is no such step; its text cannot go.
-    pub fn delete_step(
-        &mut self,
-        id: DocumentId,
-        program: &str,
-        step: &str,
-    ) -> Result<Change, Refusal> {
-        let beside = Beside::of(&*self.host, &self.documents, id);
-        let open = &mut self.documents[id.0 as usize];
-        let text = steps::without(&open.state.text, program, step)?;
-        let change = recording::retext(open, &beside, text, format!("delete {step}"))?;
-        Ok(*self.with_reach(id, change))
+    if let Some(dialogue) = &mut open.dialogue {
+        let operand = dialogue.pick(&state, &home, (pointer, level))?;
+        if dialogue.slot().is_some_and(|slot| slot.kind == SlotKind::Value) {
+            let insert = Some(operand.text);
+            return Ok(Turn::Wants(Prompt { insert, ..dialogue.prompt() }));
+        }
+        dialogue.pointer = None;
+        return give(open, host, operand);
     }
+    let Some(wanted) = blocks::prompt(open) else {
+        return Err(words::refuse("nothing is waited for".into()));
+    };
+    let found = object_at(&state, &home, (pointer, level))?;
+    match wanted.wants {
+        Wants::Recurrence(_) if !wanted.is_value => {
+            answered(open, host, (Some(&found.text), Some(pointer.at)))
+        }
+        Wants::Otherwise => Err(words::refuse("say how the other branch is drawn first".into())),
+        Wants::Substitute { .. }
+        | Wants::Recurrence(_)
+        | Wants::Ends(_)
+        | Wants::Condition
+        | Wants::Operand => {
+            let none = || {
+                words::refuse(format!("{} has no measure: take one by the calculator", found.text))
+            };
+            let insert = Some(measure::usual(&state, &found).ok_or_else(none)?);
+            Ok(Turn::Wants(Prompt { insert, ..wanted }))
+        }
+    }
+}
 
-    /// Says anew what a step does; it keeps its name, and what speaks of it.
-    ///
-    /// # Errors
-    /// There is no such step; the text is none that a step can have, or steps after it no longer fit.
-    pub fn replace_step(
-        &mut self,
-        id: DocumentId,
-        (program, step): (&str, &str),
-        formula: &str,
-    ) -> Result<Change, Refusal> {
-        let beside = Beside::of(&*self.host, &self.documents, id);
-        let open = &mut self.documents[id.0 as usize];
-        let text = steps::with_formula(&open.state.text, program, step, formula)?;
-        let change = recording::retext(open, &beside, text, format!("replace {step}"))?;
-        Ok(*self.with_reach(id, change))
+fn entered(open: &mut Open, host: &dyn Host, typed: &str) -> Result<Turn, Refusal> {
+    let home = home(open);
+    if open.recording.as_ref().is_some_and(|recording| recording.removing.is_some()) {
+        let done = remove::instead(open, host, (typed, None))?;
+        return Ok(turn_of(open, done, String::new()));
+    }
+    if let Some((dialogue, slot)) = open.dialogue.as_ref().and_then(|d| Some((d, d.slot()?))) {
+        let text = typed::operand(slot, typed, dialogue.last_point.as_deref())?;
+        outcome::fits(&open.state, host, &home, (&text, slot))?;
+        return give(open, host, Operand { text, at: None });
+    }
+    match blocks::prompt(open).map(|prompt| prompt.wants) {
+        Some(Wants::Recurrence(_)) if typed.trim().is_empty() => Err(words::refuse(
+            "pick an object of the turn before, type one, or press `The same`".into(),
+        )),
+        Some(Wants::Recurrence(_)) => answered(open, host, (Some(typed), None)),
+        Some(Wants::Ends(_)) => {
+            let change = repeat::close(open, host, typed)?;
+            Ok(turn_of(open, Some(change), typed.into()))
+        }
+        Some(Wants::Condition) => {
+            let change = choice::begin(open, host, typed)?;
+            Ok(turn_of(open, Some(change), typed.into()))
+        }
+        Some(Wants::Otherwise | Wants::Operand | Wants::Substitute { .. }) | None => {
+            Err(words::refuse("nothing that is typed is waited for".into()))
+        }
     }
 }

@@ -3,12 +3,14 @@
 //!
 //! What is shown as a ghost, what is written and what is drawn then are one answer.
 
-use super::catalogue::{Call, SlotKind, Tool};
+use super::catalogue::{Call, Slot, SlotKind, Tool};
+use super::dialogue::Operand;
 use super::scene::Curve;
-use super::{Home, Operand, text};
+use super::{Home, text};
 use crate::host::Host;
 use crate::state::State;
 use crate::view::Refusal;
+use crate::views::values;
 use crate::words;
 use base::Severity;
 use eval::{Answer, Evaluator};
@@ -84,15 +86,18 @@ pub(crate) fn fits(
     state: &State,
     host: &dyn Host,
     home: &Home,
-    (operand, class, kind): (&str, &str, SlotKind),
+    (operand, slot): (&str, &Slot),
 ) -> Result<(), Refusal> {
     let mut outcome = Err(words::refuse(format!("{operand} has no value")));
     let texts = [operand.to_string()];
     let unwritten = try_all(state, host, home, &texts, &mut |tried, _, evaluator, answer| {
         let document = &tried.lowered.document;
         let is_wanted = |found: ClassId| {
-            document.class_named(class).is_some_and(|wanted| document.is_a(found, wanted))
+            slot.classes().any(|class| {
+                document.class_named(class).is_some_and(|wanted| document.is_a(found, wanted))
+            })
         };
+        let (class, kind) = (&slot.class, slot.kind);
         outcome = match answer {
             Err(fault) => Err(words::refuse(format!("{operand}: {}", fault.message))),
             Ok(Answer::Number(..) | Answer::Bool(_) | Answer::Option(..))
@@ -100,6 +105,7 @@ pub(crate) fn fits(
             {
                 Ok(())
             }
+            Ok(Answer::List(_) | Answer::Context(_)) if kind == SlotKind::Set => Ok(()),
             Ok(answer) => match evaluator.class_of(&answer) {
                 Some(found) if is_wanted(found) => Ok(()),
                 Some(found) => {
@@ -117,6 +123,45 @@ pub(crate) fn fits(
         Some(message) => Err(words::refuse(format!("{operand}: {message}"))),
         None => outcome,
     }
+}
+
+/// Returns what an expression comes to in a home, in words.
+///
+/// # Errors
+/// Why it has no value.
+pub(crate) fn worth(
+    state: &State,
+    host: &dyn Host,
+    home: &Home,
+    text: &str,
+) -> Result<Worth, Refusal> {
+    let mut outcome = Err(words::refuse(format!("{text} has no value")));
+    let texts = [text.to_string()];
+    let unwritten = try_all(state, host, home, &texts, &mut |tried, _, _, answer| {
+        outcome = match answer {
+            Err(fault) => Err(words::refuse(fault.message)),
+            Ok(Answer::Bool(truth)) => Ok(Worth::Truth(truth)),
+            Ok(other) => Ok(match values::in_words(&tried.lowered.document, &other) {
+                Some(number) => Worth::Number(number),
+                None => Worth::Other(other.kind().to_string()),
+            }),
+        };
+    });
+    match unwritten {
+        Some(message) => Err(words::refuse(message)),
+        None => outcome,
+    }
+}
+
+/// What an expression comes to.
+#[derive(Clone, PartialEq, Debug)]
+pub(crate) enum Worth {
+    /// A yes or no.
+    Truth(bool),
+    /// A number, as it is read.
+    Number(String),
+    /// Something else: its kind.
+    Other(String),
 }
 
 /// Reads the value of expressions in a home; returns what is wrong with the text of them all.
@@ -150,18 +195,30 @@ pub(crate) fn try_all(
     wrong.filter(|_| !any)
 }
 
-/// Says from outside of a loop what is said in the turn that is drawn: its steps are `column[0].ring` there.
+/// Says from the program what is said in the blocks that are open: their steps are `column[0].ring` there.
 fn from_outside(state: &State, home: &Home, texts: &[String]) -> (Home, Vec<String>) {
-    let Home::Program { program, example, block: Some(block) } = home else {
+    let Home::Program { program, example, way, .. } = home else {
         return (home.clone(), texts.to_vec());
     };
-    let names = text::steps_of_block(&state.text, program, block);
+    let levels = text::visible(&state.text, home);
+    // from the innermost, whose names hide those of the blocks around it
+    let mut prefixes = vec![String::new()];
+    for around in way {
+        let Some(name) = &around.name else { continue };
+        let outer = prefixes.last().cloned().unwrap_or_default();
+        let turn = around.turn.map_or(String::new(), |turn| format!("[{turn}]"));
+        prefixes.push(format!("{outer}{name}{turn}."));
+    }
     let outside = |text: &String| {
-        names.iter().fold(text.clone(), |text, name| {
-            text::renamed(&text, name, &format!("{block}[0].{name}"))
+        let pairs = levels.iter().zip(&prefixes).skip(1).rev();
+        pairs.fold(text.clone(), |text, (names, prefix)| {
+            names
+                .iter()
+                .fold(text, |text, name| text::renamed(&text, name, &format!("{prefix}{name}")))
         })
     };
-    let outer = Home::Program { program: program.clone(), example: example.clone(), block: None };
+    let (program, example) = (program.clone(), example.clone());
+    let outer = Home::Program { program, example, way: Vec::new(), before: None };
     (outer, texts.iter().map(outside).collect())
 }
 

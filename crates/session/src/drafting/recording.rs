@@ -1,5 +1,6 @@
 //! Recording: each figure that is drawn is a line of the program's text, and one undo step.
 
+use super::blocks::Kind;
 use super::view::NewParameter;
 use super::{Dialogue, Home, Recording, outcome, text};
 use crate::apply;
@@ -13,6 +14,7 @@ use base::{Name, Severity};
 use eval::Answer;
 use expr::dimension::Dimension;
 use kernel::{ClassId, Command, DOCUMENT, Path};
+use std::collections::BTreeSet;
 
 /// A line of text that makes something.
 pub(crate) struct Line {
@@ -23,20 +25,21 @@ pub(crate) struct Line {
 }
 
 /// Returns the line that makes a figure in a home.
-pub(crate) fn line(state: &State, home: &Home, dialogue: &Dialogue, made: &str) -> Line {
-    let class = &dialogue.tool.class;
+pub(crate) fn line(open: &Open, home: &Home, dialogue: &Dialogue, made: &str) -> Line {
+    let state = &open.state;
+    let base = &dialogue.tool.base;
+    let document = &state.lowered.document;
     match home {
         Home::Document => {
-            let name = free_name(state, state.lowered.document.root, class);
+            let name = free_name((state, document.root), base, &BTreeSet::new());
             let text = format!("{name} => {made}");
             Line { name, text }
         }
         Home::Program { program, .. } => {
-            let document = &state.lowered.document;
-            let of = class_of_home(state, home)
-                .or_else(|| document.class_named(program))
-                .unwrap_or(document.root);
-            let name = free_name(state, of, class);
+            let of = document.class_named(program).unwrap_or(document.root);
+            let taken = text::words_in(&state.text, program);
+            let name = name_of_other_branch(open, home, base)
+                .unwrap_or_else(|| free_name((state, of), base, &taken));
             let guide = if dialogue.is_guide { "guide " } else { "" };
             let text = format!("{guide}{name} = {made}");
             Line { name, text }
@@ -44,11 +47,34 @@ pub(crate) fn line(state: &State, home: &Home, dialogue: &Dialogue, made: &str) 
     }
 }
 
-/// Returns the class whose messages the steps of a home are.
-fn class_of_home(state: &State, home: &Home) -> Option<ClassId> {
-    let evaluator = state.evaluator(&state.values);
-    let answer = evaluator.at(&home.path()).ok()?;
-    evaluator.class_of(&answer)
+/// Returns the name that the first branch of an `if` gave to a thing of the same kind, which the second has not made
+/// yet: so that steps after both find the one that was made.
+fn name_of_other_branch(open: &Open, home: &Home, base: &str) -> Option<String> {
+    let Home::Program { program, way, .. } = home else { return None };
+    let blocks = &open.recording.as_ref()?.blocks;
+    let names = |address: &str| {
+        let body = text::block(&open.state.text, program, address);
+        body.map(|body| text::names_made(&text::steps_of(&body))).unwrap_or_default()
+    };
+    let is_alike = |name: &String| {
+        let rest = name.strip_prefix(base);
+        rest.is_some_and(|rest| rest.chars().all(|c| c.is_ascii_digit()))
+    };
+    // what a branch makes is made where its `if` stands, so that the branches around count, too
+    for n in (1..=way.len().min(blocks.len())).rev() {
+        let Kind::Choice(choice) = &blocks[n - 1].kind else { return None };
+        let address = way[..n].iter().fold(String::new(), |at, w| text::joined(&at, &w.address));
+        let (around, own) = address.rsplit_once('.')?;
+        let other = text::joined(around, if own == "then" { "else" } else { "then" });
+        let made = names(&address);
+        let is_free = |name: &String| is_alike(name) && !made.contains(name);
+        if choice.is_second()
+            && let Some(name) = names(&other).into_iter().find(is_free)
+        {
+            return Some(name);
+        }
+    }
+    None
 }
 
 /// Returns the first error of a state that the one before it has not.
@@ -59,18 +85,17 @@ pub(crate) fn new_error(before: &State, after: &State) -> Option<String> {
     after.diagnostics.iter().find(is_new).map(|d| d.message.clone())
 }
 
-/// Returns a name that no part and nothing computed of a class has, for a thing of another.
-fn free_name(state: &State, of: ClassId, class: &Name) -> String {
-    let small = |(at, c): (usize, char)| if at == 0 { c.to_ascii_lowercase() } else { c };
-    let word: String = class.chars().enumerate().map(small).collect();
+/// Returns a name that no part and nothing computed of a class has, and that is not taken.
+fn free_name((state, of): (&State, ClassId), base: &str, taken: &BTreeSet<String>) -> String {
     let document = &state.lowered.document;
     let is_free = |name: &String| {
         let of = &document.classes[of];
         of.parts.iter().all(|part| *part.name != **name)
             && of.messages.iter().all(|message| *message.name != **name)
             && document.class_named(name).is_none()
+            && !taken.contains(name)
     };
-    let names = std::iter::once(word.clone()).chain((2..).map(|i| format!("{word}{i}")));
+    let names = std::iter::once(base.to_string()).chain((2..).map(|i| format!("{base}{i}")));
     { names }.find(is_free).unwrap_or_default()
 }
 
@@ -154,7 +179,15 @@ pub(crate) fn begin(open: &mut Open, host: &dyn Host, name: &str) -> Result<Chan
     };
     let none = || words::refuse(format!("there is no example of {name}"));
     let example = example_of(&open.state, &program).ok_or_else(none)?;
-    open.recording = Some(Recording { program, example, block: None });
+    open.recording = Some(Recording {
+        program,
+        example,
+        blocks: Vec::new(),
+        before: None,
+        asks_condition: false,
+        replaces: None,
+        removing: None,
+    });
     open.dialogue = None;
     Ok(change)
 }

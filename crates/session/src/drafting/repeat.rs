@@ -3,54 +3,61 @@
 //!
 //! The text of a loop whose questions are open is a block that takes one turn. What answers say is written when
 //! the loop is closed: answers that differ from the first turn become what is carried from turn to turn.
+//! A loop over a set asks only of what speaks of the set's first element: each in turn, or always this one?
 
-use super::view::{LoopView, RecurrenceQuestion};
-use super::{Home, outcome, recording, text};
+use super::blocks::{self, Block, Kind};
+use super::operands::{Occurrence, operands};
+use super::outcome::{self, Worth};
+use super::view::{Ends, Prompt, RecurrenceQuestion, Wants};
+use super::{Around, Home, recording, scene, text};
 use crate::document::Open;
 use crate::host::Host;
 use crate::state::State;
 use crate::view::{Change, Refusal};
 use crate::words;
-use base::Name;
+use base::{Name, Span};
 use kernel::Path;
 use std::collections::BTreeSet;
-use syntax::ast::{ArgList, AstNode, Member, Value};
+use syntax::ast::AstNode;
 
 /// A loop whose first turn is drawn.
-#[derive(Clone, PartialEq, Eq, Debug)]
+#[derive(Clone, PartialEq, Debug, Default)]
 pub(crate) struct Loop {
-    /// Its step in the program.
-    pub(crate) name: Name,
-    /// How many steps could be taken back when it was begun.
-    since: usize,
+    /// Once the turn is drawn: how the loop ends.
+    ends: Option<Ends>,
     /// Once the turn is drawn: what is asked of the second.
     asked: Vec<Asked>,
-    /// Whether the turn is drawn.
-    is_drawn: bool,
+    /// What runs through a set, and the set's first.
+    each: Option<(String, String)>,
 }
 
 /// A question of the second turn.
-#[derive(Clone, PartialEq, Eq, Debug)]
+#[derive(Clone, PartialEq, Debug)]
 struct Asked {
-    /// The step of the turn.
+    /// The step of the turn, by its address in the loop.
     step: String,
     /// Its operand: the label, or the place.
     slot: String,
     /// What it is in the first turn.
     first: String,
-    /// Where that stands in the text.
-    span: base::Span,
+    /// Whether that is a number or a yes or no.
+    is_value: bool,
     /// What it is in the next turn, as the turn before calls it; itself for the same.
     answer: Option<String>,
 }
 
 impl Loop {
-    /// What the page shows of it.
-    pub(crate) fn view(&self) -> LoopView {
-        LoopView { name: self.name.to_string(), is_drawn: self.is_drawn, question: self.question() }
+    /// Whether the first turn is drawn, so that the second is asked for.
+    pub(crate) fn is_drawn(&self) -> bool {
+        self.ends.is_some() || !self.asked.is_empty()
     }
 
-    /// The question that is open, with what is known of it.
+    /// What runs through the set, of a loop over one.
+    pub(crate) fn element(&self) -> Option<&str> {
+        self.each.as_ref().map(|(element, _)| element.as_str())
+    }
+
+    /// The question that is open.
     pub(crate) fn question(&self) -> Option<RecurrenceQuestion> {
         let at = self.asked.iter().position(|asked| asked.answer.is_none())?;
         let asked = &self.asked[at];
@@ -60,6 +67,50 @@ impl Loop {
             step: asked.step.clone(),
             operand: asked.slot.clone(),
             first: asked.first.clone(),
+            is_value: asked.is_value,
+            element: self.element().map(String::from),
+        })
+    }
+
+    /// What is waited for, once the turn is drawn.
+    pub(crate) fn prompt(&self) -> Option<Prompt> {
+        if let Some(question) = self.question() {
+            let RecurrenceQuestion { number, of, step, operand, first, .. } = &question;
+            let words = match &question.element {
+                Some(_) => format!(
+                    "{operand} of {step} is {first}: each of the set in turn, or always this one?"
+                ),
+                None => {
+                    format!(
+                        "{operand} of {step} was {first}: the same, or which object of the turn before?"
+                    )
+                }
+            };
+            return Some(Prompt {
+                label: format!("Second turn, {number} of {of}"),
+                words,
+                is_value: question.is_value,
+                takes_sets: !question.is_value,
+                wants: Wants::Recurrence(question),
+                ..Prompt::default()
+            });
+        }
+        let ends = self.ends?;
+        let (label, words) = match ends {
+            Ends::Until => {
+                ("Until", "what is true after the last turn? Compare measures by the calculator")
+            }
+            Ends::While => {
+                ("While", "what is true before every turn? Compare measures by the calculator")
+            }
+            Ends::Times => ("Times", "how many turns?"),
+        };
+        Some(Prompt {
+            label: label.into(),
+            words: words.into(),
+            is_value: true,
+            wants: Wants::Ends(ends),
+            ..Prompt::default()
         })
     }
 }
@@ -67,54 +118,123 @@ impl Loop {
 /// Begins a loop in what is recorded: its first turn is drawn next.
 ///
 /// # Errors
-/// Nothing is recorded, a loop is open already, the name is none or taken.
+/// Nothing is recorded, the name is none or taken.
 pub(crate) fn begin(open: &mut Open, host: &dyn Host, name: &str) -> Result<Change, Refusal> {
-    let Some(recording) = open.recording.clone() else {
-        return Err(words::refuse("a loop is one of a program: record one first".into()));
-    };
-    if recording.block.is_some() {
-        return Err(words::refuse("a loop is open already: end it first".into()));
-    }
-    let home = Home::of(Some(&recording));
-    let text = text::with_members(&open.state.text, &home, &format!("{name} = repeat {{\n}}"))?;
-    let since = open.done.len();
-    let change = recording::retext(open, host, text, format!("repeat {name}"))?;
-    let block = Loop { name: Name::new(name), since, asked: Vec::new(), is_drawn: false };
-    open.recording = Some(super::Recording { block: Some(block), ..recording });
-    open.dialogue = None;
-    Ok(change)
+    let program = blocks::recorded(open)?.program.clone();
+    let name = blocks::name_for(&open.state.text, &program, (name, "turns"))?;
+    let around = Around { address: name.to_string(), name: Some(name.clone()), turn: Some(0) };
+    let lines = format!("{name} = repeat {{\n}}");
+    blocks::begin(
+        open,
+        host,
+        (&lines, format!("repeat {name}")),
+        (around, Kind::Loop(Loop::default())),
+    )
 }
 
-/// Ends the first turn; returns the first question of the second, if there is any.
+/// Begins a loop over a set of figures, each by its name; what is done for the first is drawn next.
+///
+/// # Errors
+/// Nothing is recorded, the set is empty, the name is none or taken.
+pub(crate) fn begin_each(
+    open: &mut Open,
+    host: &dyn Host,
+    (name, set): (&str, &[String]),
+) -> Result<Change, Refusal> {
+    let program = blocks::recorded(open)?.program.clone();
+    let Some(first) = set.first() else {
+        return Err(words::refuse("there is nothing of the program in that rectangle".into()));
+    };
+    let name = blocks::name_for(&open.state.text, &program, (name, "turns"))?;
+    let element = blocks::name_for(&open.state.text, &program, ("", "element"))?;
+    let around = Around { address: name.to_string(), name: Some(name.clone()), turn: Some(0) };
+    let lines = format!("{name} = for {element} in [{}] {{\n}}", set.join(", "));
+    let it = Loop { each: Some((element.to_string(), first.clone())), ..Loop::default() };
+    blocks::begin(open, host, (&lines, format!("for each {name}")), (around, Kind::Loop(it)))
+}
+
+/// The loop that is open, its home, and its address.
+struct Opened {
+    it: Loop,
+    program: Name,
+    /// The home of the loop's first turn.
+    home: Home,
+    address: String,
+    name: Name,
+}
+
+fn opened(open: &mut Open) -> Result<Opened, Refusal> {
+    let recording = blocks::recorded(open)?;
+    let home = Home::of(Some(recording));
+    let program = recording.program.clone();
+    match recording.innermost() {
+        Some(Block { kind: Kind::Loop(it), around, .. }) => Ok(Opened {
+            it: it.clone(),
+            program,
+            address: text::address_of(&home),
+            home,
+            name: around.name.clone().unwrap_or_else(|| Name::new("")),
+        }),
+        _ => Err(words::refuse("no loop is open".into())),
+    }
+}
+
+fn keep(open: &mut Open, it: Loop) {
+    if let Some(block) = open.recording.as_mut().and_then(|r| r.blocks.last_mut()) {
+        block.kind = Kind::Loop(it);
+    }
+}
+
+/// Ends the first turn, and says how the loop will end. What is asked of the second turn is then waited for; a loop
+/// over a set of which nothing is asked is closed at once.
 ///
 /// # Errors
 /// No loop is open, or nothing is drawn in it.
-pub(crate) fn end_turn(open: &mut Open) -> Result<Option<RecurrenceQuestion>, Refusal> {
-    let text = open.state.text.clone();
-    let Some((recording, block)) = opened(open) else {
-        return Err(words::refuse("no loop is open".into()));
-    };
-    let body = text::block(&text, &recording.0, &block.name);
+pub(crate) fn end_turn(
+    open: &mut Open,
+    host: &dyn Host,
+    ends: Ends,
+) -> Result<Option<Change>, Refusal> {
+    let Opened { mut it, program, home, address, .. } = opened(open)?;
+    let body = text::block(&open.state.text, &program, &address);
     let body = body.ok_or_else(|| words::refuse("the loop is gone".into()))?;
-    block.asked = questions(&body);
-    if body.members().next().is_none() {
+    if text::steps_of(&body).is_empty() {
         return Err(words::refuse("draw the first turn of the loop first".into()));
     }
-    block.is_drawn = true;
-    let question = block.question();
+    it.ends = it.each.is_none().then_some(ends);
+    it.asked = questions(&body, it.each.as_ref());
+    for asked in &mut it.asked {
+        let worth = outcome::worth(&open.state, host, &home, &asked.first);
+        asked.is_value = matches!(worth, Ok(Worth::Truth(_) | Worth::Number(_)));
+    }
     open.dialogue = None;
-    Ok(question)
+    let is_settled = it.asked.is_empty() && it.each.is_some();
+    keep(open, it);
+    is_settled.then(|| close(open, host, "")).transpose()
 }
 
-/// Returns the loop that is open, with the program and example that are recorded.
-fn opened(open: &mut Open) -> Option<((Name, Name), &mut Loop)> {
-    let recording = open.recording.as_mut()?;
-    let names = (recording.program.clone(), recording.example.clone());
-    Some((names, recording.block.as_mut()?))
+/// Goes on drawing the first turn: what was answered is forgotten.
+pub(crate) fn back_to_turn(open: &mut Open) {
+    if let Ok(Opened { it, .. }) = opened(open) {
+        keep(open, Loop { each: it.each, ..Loop::default() });
+    }
+}
+
+/// Takes the latest answer back; the last one before that is what was said of the turn being drawn.
+pub(crate) fn back(open: &mut Open) {
+    let Ok(Opened { mut it, .. }) = opened(open) else { return };
+    match it.asked.iter_mut().rev().find(|asked| asked.answer.is_some()) {
+        Some(asked) => {
+            asked.answer = None;
+            keep(open, it);
+        }
+        None => back_to_turn(open),
+    }
 }
 
 /// Answers the open question: nothing for the same, else an object of the turn before, or an expression over it.
-/// Where it was picked decides which way round a curve is taken.
+/// Where it was picked decides which way round a curve is taken. A loop over a set of which nothing more is asked is
+/// closed.
 ///
 /// # Errors
 /// No question is open; the answer does not fit, or the second turn would have no outcome.
@@ -122,15 +242,13 @@ pub(crate) fn answer(
     open: &mut Open,
     host: &dyn Host,
     (answer, at): (Option<&str>, Option<(f64, f64)>),
-) -> Result<Option<RecurrenceQuestion>, Refusal> {
+) -> Result<Option<Change>, Refusal> {
     let state = open.state.clone();
-    let Some((names, block)) = opened(open) else {
-        return Err(words::refuse("no loop is open".into()));
-    };
-    let Some(i) = block.asked.iter().position(|asked| asked.answer.is_none()) else {
+    let loop_now = opened(open)?;
+    let Some(i) = loop_now.it.asked.iter().position(|asked| asked.answer.is_none()) else {
         return Err(words::refuse("nothing is asked".into()));
     };
-    let first = block.asked[i].first.clone();
+    let first = loop_now.it.asked[i].first.clone();
     let ways: Vec<String> = match answer.map(str::trim) {
         None | Some("") => vec![first],
         Some(text) if at.is_some() => vec![text.into(), outcome::turned_round(text)],
@@ -139,9 +257,9 @@ pub(crate) fn answer(
     let mut best: Option<(f64, String)> = None;
     let mut why = None;
     for way in ways {
-        let mut tried = block.clone();
+        let mut tried = loop_now.it.clone();
         tried.asked[i].answer = Some(way.clone());
-        match second_turn(&state, host, (&names, &tried, i), at) {
+        match second_turn(&state, host, (&loop_now, &tried, i), at) {
             Ok(away) if best.as_ref().is_none_or(|(least, _)| away < *least - 1e-9) => {
                 best = Some((away, way));
             }
@@ -151,104 +269,204 @@ pub(crate) fn answer(
             }
         }
     }
-    match best {
-        Some((_, way)) => {
-            block.asked[i].answer = Some(way);
-            Ok(block.question())
-        }
-        None => Err(words::refuse(why.unwrap_or_else(|| "there is no such turn".into()))),
+    let Some((_, way)) = best else {
+        return Err(words::refuse(why.unwrap_or_else(|| "there is no such turn".into())));
+    };
+    let mut it = loop_now.it;
+    it.asked[i].answer = Some(way);
+    let is_settled = it.each.is_some() && it.question().is_none();
+    keep(open, it);
+    is_settled.then(|| close(open, host, "")).transpose()
+}
+
+/// Returns the state in which the loop takes two turns, with the answers so far.
+fn with_two_turns(
+    state: &State,
+    host: &dyn Host,
+    (opened, it): (&Opened, &Loop),
+) -> Result<State, String> {
+    let head = if it.each.is_some() { None } else { Some("repeat 2 times") };
+    let written = closed(&state.text, (opened, it), (head, ""));
+    let written = written.map_err(|refusal| refusal.message)?;
+    let (tried, _) = State::of(written, Some(state), host, plan::Plans::default());
+    match recording::new_error(state, &tried) {
+        Some(wrong) => Err(wrong),
+        None => Ok(tried),
     }
+}
+
+/// The path to the second turn.
+fn second_path(opened: &Opened) -> Path {
+    let mut path = opened.home.path();
+    path.0.pop();
+    path.then(kernel::Step::Index(1))
 }
 
 /// Runs the second turn with the answers so far; says how far the step of a question lies from a place.
 fn second_turn(
     state: &State,
     host: &dyn Host,
-    (names, block, i): (&(Name, Name), &Loop, usize),
+    (opened, it, i): (&Opened, &Loop, usize),
     at: Option<(f64, f64)>,
 ) -> Result<f64, String> {
-    let written = closed(&state.text, (&names.0, block), "repeat 2 times", "")
-        .map_err(|refusal| refusal.message)?;
-    let (tried, _) = State::of(written, Some(state), host, plan::Plans::default());
-    if let Some(wrong) = recording::new_error(state, &tried) {
-        return Err(wrong);
-    }
+    let tried = with_two_turns(state, host, (opened, it))?;
     let evaluator = tried.evaluator(&tried.values);
-    let path = Path::of(&[&names.1, &block.name]);
-    let step = kernel::Step::Part(block.asked[i].step.as_str().into());
-    let answer = evaluator.at(&path.then(kernel::Step::Index(1)).then(step));
-    let answer = answer.map_err(|fault| fault.message)?;
-    let curve = super::scene::Curve::of(&evaluator, &tried, &answer);
+    let example = opened.home.path().0.first().cloned();
+    let thing =
+        example.and_then(|step| tried.structure.follow(kernel::DOCUMENT, &Path(vec![step])).ok());
+    // what failed in the second turn ended the run
+    if let Some(Ok(Some(run))) = thing.map(|thing| evaluator.run(thing))
+        && let Some(ended) = &run.ended
+        && ended.step.contains(&format!("{}[1]", opened.name))
+    {
+        return Err(ended.reason.clone());
+    }
+    let turn = second_path(opened);
+    let made = { it.asked[i].step.split('.') }
+        .filter(|s| !s.starts_with('#') && !matches!(*s, "then" | "else"));
+    let path = made.fold(turn, |path, name| path.then(kernel::Step::Part(name.into())));
+    // what the second turn does not come to has no place
+    let curve = evaluator.at(&path).ok().and_then(|a| scene::Curve::of(&evaluator, &tried, &a));
     Ok(curve.zip(at).map_or(0.0, |(curve, at)| curve.distance(at)))
 }
 
-/// Closes the loop by what ends it: `until ring.radius < least`, `6 times`, `while r > least`. It is one step.
+/// Returns what is asked about now, and the second turn as the answers so far make it.
+pub(crate) fn asked_drawing(open: &mut Open, host: &dyn Host) -> drawing::Drawing {
+    let state = open.state.clone();
+    let Ok(opened) = opened(open) else { return drawing::Drawing::default() };
+    let Some(question) = opened.it.question() else { return drawing::Drawing::default() };
+    let mut elements = Vec::new();
+    for name in names_in(&question.first) {
+        elements.extend(scene::drawing_of(&state, &opened.home, &name).elements);
+    }
+    if let Ok(tried) = with_two_turns(&state, host, (&opened, &opened.it)) {
+        let evaluator = tried.evaluator(&tried.values);
+        if let Ok(answer) = evaluator.at(&second_path(&opened)) {
+            elements.extend(scene::elements_of(&evaluator, &answer));
+        }
+    }
+    drawing::Drawing { elements, ..drawing::Drawing::default() }
+}
+
+/// The paths that an expression speaks of.
+fn names_in(text: &str) -> Vec<String> {
+    let is_part = |c: char| c.is_alphanumeric() || "_.[]".contains(c);
+    text.split(|c| !is_part(c))
+        .filter(|w| w.starts_with(char::is_alphabetic))
+        .map(String::from)
+        .collect()
+}
+
+/// Closes the loop by what ends it: a condition, or a number of turns. It is one step.
 ///
 /// # Errors
 /// No loop is open, a question is; the condition is none.
-pub(crate) fn close(open: &mut Open, host: &dyn Host, ends: &str) -> Result<Change, Refusal> {
-    let state = open.state.clone();
-    let Some((names, block)) = opened(open) else {
-        return Err(words::refuse("no loop is open".into()));
-    };
-    if let Some(question) = block.question() {
+pub(crate) fn close(open: &mut Open, host: &dyn Host, condition: &str) -> Result<Change, Refusal> {
+    let loop_now = opened(open)?;
+    if let Some(question) = loop_now.it.question() {
         let (step, operand) = (question.step, question.operand);
         return Err(words::refuse(format!("{operand} of {step} is asked first")));
     }
-    let block = block.clone();
-    let ends = ends.trim();
-    let (head, tail) = match ends.split_once(' ') {
-        Some(("until", condition)) => ("repeat".to_string(), format!(" until {condition}")),
-        Some(("while", condition)) => (format!("while {condition}"), String::new()),
-        _ if ends.ends_with(" times") => (format!("repeat {ends}"), String::new()),
-        _ => {
-            let wanted = "`until …`, `while …` or `… times` is wanted";
-            return Err(words::refuse(format!("{ends}: {wanted}")));
-        }
-    };
-    let text = closed(&state.text, (&names.0, &block), &head, &tail)?;
-    let change = recording::retext(open, host, text, format!("repeat {}", block.name))?;
-    open.one_step(block.since);
-    if let Some(recording) = &mut open.recording {
-        recording.block = None;
+    let condition = condition.trim();
+    if condition.is_empty() && loop_now.it.each.is_none() {
+        return Err(words::refuse("say when the loop ends".into()));
     }
+    let before_turn = |condition: &str| {
+        // before a turn its steps are not made: what is carried is meant
+        carried(&loop_now.it, &open.state.text, &loop_now.program)
+            .iter()
+            .fold(condition.to_string(), |text, (name, first, _)| text::renamed(&text, first, name))
+    };
+    let (head, tail) = match loop_now.it.ends {
+        None if loop_now.it.each.is_some() => (None, String::new()),
+        Some(Ends::Until) => (Some("repeat".to_string()), format!(" until {condition}")),
+        Some(Ends::While) => (Some(format!("while {}", before_turn(condition))), String::new()),
+        Some(Ends::Times) => (
+            Some(format!("repeat {} times", condition.trim_end_matches("times").trim())),
+            String::new(),
+        ),
+        None => return Err(words::refuse("end the first turn of the loop first".into())),
+    };
+    let source = open.state.text.clone();
+    let text = closed(&source, (&loop_now, &loop_now.it), (head.as_deref(), &tail))?;
+    let label = match loop_now.it.each {
+        Some(_) => format!("for each {}", loop_now.name),
+        None => format!("repeat {}", loop_now.name),
+    };
+    let change = recording::retext(open, host, text, label)?;
+    if let Some(why) = ended_in(open, &loop_now) {
+        // the loop as it was asked for stands: another answer or condition can be given
+        open.travel(crate::document::Direction::Back);
+        open.undone.pop();
+        return Err(words::refuse(why));
+    }
+    blocks::leave(open);
     Ok(change)
 }
 
-/// Returns a text in which the loop says what its answers say.
-fn closed(
-    text: &str,
-    (program, block): (&Name, &Loop),
-    head: &str,
-    tail: &str,
-) -> Result<String, Refusal> {
-    let none = || words::refuse("the loop is gone".into());
-    let body = text::block(text, program, &block.name).ok_or_else(none)?;
-    let mut taken: BTreeSet<String> = names_in(text, program);
-    let mut carried: Vec<(String, String, String)> = Vec::new();
-    let mut edits: Vec<(base::Span, String)> = Vec::new();
-    for asked in &block.asked {
+/// Why a run ended in the loop, if it did.
+fn ended_in(open: &Open, opened: &Opened) -> Option<String> {
+    let evaluator = open.state.evaluator(&open.state.values);
+    let Home::Program { example, .. } = &opened.home else { return None };
+    let thing = open.state.structure.follow(kernel::DOCUMENT, &Path::of(&[example])).ok()?;
+    let run = evaluator.run(thing).ok()??;
+    let ended = run.ended.as_ref()?;
+    let is_here = ended.step.split(['.', '[']).any(|part| *part == *opened.name.as_str());
+    is_here.then(|| ended.to_string())
+}
+
+/// What is carried from turn to turn by the answers that differ from the first turn: name, first, next.
+fn carried(it: &Loop, source: &str, program: &Name) -> Vec<(String, String, String)> {
+    let mut taken: BTreeSet<String> = text::words_in(source, program);
+    let mut all: Vec<(String, String, String)> = Vec::new();
+    for asked in &it.asked {
         let Some(answer) = asked.answer.as_ref().filter(|answer| **answer != asked.first) else {
             continue;
         };
-        let same = carried.iter().find(|(_, first, next)| *first == asked.first && next == answer);
-        let name = match same {
-            Some((name, ..)) => name.clone(),
-            None => {
-                let plain = asked.slot.clone();
-                let names =
-                    std::iter::once(plain.clone()).chain((2..).map(|i| format!("{plain}{i}")));
-                let name = { names }.find(|name| !taken.contains(name)).unwrap_or(plain);
-                taken.insert(name.clone());
-                carried.push((name.clone(), asked.first.clone(), answer.clone()));
-                name
-            }
+        if it.element() == Some(answer)
+            || all.iter().any(|(_, f, n)| *f == asked.first && n == answer)
+        {
+            continue;
+        }
+        let plain = asked.slot.clone();
+        let names = std::iter::once(plain.clone()).chain((2..).map(|i| format!("{plain}{i}")));
+        let name = { names }.find(|name| !taken.contains(name)).unwrap_or(plain);
+        taken.insert(name.clone());
+        all.push((name, asked.first.clone(), answer.clone()));
+    }
+    all
+}
+
+/// Returns a text in which the loop says what its answers say; without a head, that stays.
+fn closed(
+    source: &str,
+    (opened, it): (&Opened, &Loop),
+    (head, tail): (Option<&str>, &str),
+) -> Result<String, Refusal> {
+    let none = || words::refuse("the loop is gone".into());
+    let body = text::block(source, &opened.program, &opened.address).ok_or_else(none)?;
+    let (_, value) = text::step(source, &opened.program, &opened.address).ok_or_else(none)?;
+    let carried = carried(it, source, &opened.program);
+    let operands = operands(&body);
+    let mut edits: Vec<(Span, String)> = Vec::new();
+    let mut rest = operands.iter();
+    for asked in &it.asked {
+        let is_it = |o: &&Occurrence| {
+            o.step == asked.step && o.slot == asked.slot && o.first == asked.first
         };
-        edits.push((asked.span, name));
+        // the turn may have been changed since it was asked about
+        let changed = || words::refuse("the first turn is another now: end it again".into());
+        let found = rest.find(is_it).ok_or_else(changed)?;
+        let Some(answer) = asked.answer.as_ref().filter(|answer| **answer != asked.first) else {
+            continue;
+        };
+        let name = carried.iter().find(|(_, first, next)| *first == asked.first && next == answer);
+        let name = name.map_or_else(|| answer.clone(), |(name, ..)| name.clone());
+        edits.push((found.span, name));
     }
     let span = body.span();
     let (start, end) = (span.start as usize, span.end as usize);
-    let mut inside = text[start..end].to_string();
+    let mut inside = source[start..end].to_string();
     edits.sort_by_key(|(span, _)| std::cmp::Reverse(span.start));
     for (at, name) in edits {
         inside.replace_range(at.start as usize - start..at.end as usize - start, &name);
@@ -259,79 +477,29 @@ fn closed(
     if !carried.is_empty() {
         let close = inside.rfind('}').unwrap_or(inside.len());
         let before = inside[..close].trim_end().to_string();
-        inside = format!("{before}\n        next {next}\n    }}");
+        let Home::Program { way, .. } = &opened.home else { return Err(none()) };
+        let (indent, outer) = ("    ".repeat(way.len() + 1), "    ".repeat(way.len()));
+        inside = format!("{before}\n{indent}next {next}\n{outer}}}");
     }
-    let begun = text[..start].rfind("repeat").ok_or_else(none)?;
+    let begun = value.start as usize;
+    let head = head.map_or_else(|| source[begun..start].trim_end().to_string(), String::from);
     let with = if with.is_empty() { String::new() } else { format!(" with {with}") };
-    Ok(format!("{}{head}{with} {inside}{tail}{}", &text[..begun], &text[end..]))
+    Ok(format!("{}{head}{with} {inside}{tail}{}", &source[..begun], &source[end..]))
 }
 
-/// Returns the names that a program uses.
-fn names_in(text: &str, program: &Name) -> BTreeSet<String> {
-    let Some(program) = text::program(text, program) else { return BTreeSet::new() };
-    let is_word = |c: char| c.is_alphanumeric() || c == '_';
-    let all = program.syntax().text().to_string();
-    let named = |body: &str| body.split(|c| !is_word(c)).map(String::from).collect();
-    // a label is no name
-    named(&all.replace("first:", "").replace("second:", ""))
-}
-
-/// Returns what the second turn is asked: every operand, in order, that speaks of something from outside.
-fn questions(body: &syntax::ast::Body) -> Vec<Asked> {
-    let mut own: Vec<String> = Vec::new();
-    let mut all = Vec::new();
-    for member in body.members() {
-        let Member::Assign(assign) = member else { continue };
-        let name = assign.target().map(|t| t.syntax().text().to_string().trim().to_string());
-        let step = name.unwrap_or_default();
-        let list = match assign.value() {
-            Some(Value::Expr(value)) => value.syntax().children().find_map(ArgList::cast),
-            _ => None,
-        };
-        if let Some(list) = list {
-            for (i, argument) in list.args().enumerate() {
-                let Some(value) = argument.value() else { continue };
-                let first = value.syntax().text().to_string().trim().to_string();
-                let span = syntax::ast::span_without_doc(value.syntax());
-                if !speaks_of_outside(&first, &own) {
-                    continue;
-                }
-                let label = argument.label().map(|word| word.text().to_string());
-                let slot = label.unwrap_or_else(|| ordinal(i));
-                all.push(Asked { step: step.clone(), slot, first, span, answer: None });
-            }
-        }
-        own.push(step);
-    }
-    all
-}
-
-/// What an operand without a label is called.
-fn ordinal(i: usize) -> String {
-    ["first", "second", "third"].get(i).map_or_else(|| format!("operand{}", i + 1), |n| (*n).into())
-}
-
-/// Whether an operand speaks of something that its turn has not made: not a literal, not a class or function.
-fn speaks_of_outside(text: &str, own: &[String]) -> bool {
-    let is_word = |c: char| c.is_alphanumeric() || c == '_';
-    let mut rest = text;
-    let mut before = ' ';
-    while let Some(start) = rest.find(is_word) {
-        if let Some(c) = rest[..start].chars().next_back() {
-            before = c;
-        }
-        let word: String = rest[start..].chars().take_while(|&c| is_word(c)).collect();
-        rest = &rest[start + word.len()..];
-        let follows = rest.trim_start().chars().next();
-        let is_name = word.starts_with(char::is_lowercase) && before != '.';
-        let is_unit = before == ' '
-            && text[..text.len() - rest.len() - word.len()]
-                .trim_end()
-                .ends_with(|c: char| c.is_ascii_digit());
-        if is_name && !is_unit && !matches!(follows, Some('(' | ':')) && !own.contains(&word) {
-            return true;
-        }
-        before = ' ';
-    }
-    false
+/// Returns what the second turn is asked: every operand, in order, that speaks of something from outside; of a loop
+/// over a set, of the set's first.
+fn questions(body: &syntax::ast::Body, each: Option<&(String, String)>) -> Vec<Asked> {
+    let asked = |o: Occurrence| Asked {
+        step: o.step,
+        slot: o.slot,
+        first: o.first,
+        is_value: false,
+        answer: None,
+    };
+    let speaks = |o: &Occurrence| match each {
+        Some((_, first)) => !text::places_of(&o.first, first).is_empty(),
+        None => true,
+    };
+    operands(body).into_iter().filter(speaks).map(asked).collect()
 }

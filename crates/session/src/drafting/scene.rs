@@ -1,11 +1,12 @@
 //! What can be picked: the figures that the home of a drawing knows, each by what it is called there.
 
-use super::Home;
+use super::{Home, text};
 use crate::state::State;
+use crate::view::Pointer;
 use base::number::{atan2, hypot};
 use eval::{Answer, Context, Evaluator};
 use geometry::Figure;
-use kernel::{ClassId, DOCUMENT, Path};
+use kernel::{ClassId, DOCUMENT};
 
 /// A figure with its name.
 #[derive(Clone, Debug)]
@@ -16,6 +17,77 @@ pub(crate) struct Found {
     pub(crate) class: ClassId,
     /// Where it lies.
     pub(crate) curve: Curve,
+    /// What it is in, from the nearest: a turn of a loop, the loop.
+    pub(crate) wholes: Vec<String>,
+}
+
+impl Found {
+    /// How it, or what it is in, is written: at level 0 itself, then from the nearest whole on, and around.
+    pub(crate) fn at_level(&self, level: usize) -> String {
+        match level % (self.wholes.len() + 1) {
+            0 => self.text.clone(),
+            n => self.wholes[n - 1].clone(),
+        }
+    }
+}
+
+/// Returns the nearest of figures under a pointer, a point before what runs through it.
+pub(crate) fn nearest<'f>(
+    all: impl Iterator<Item = &'f Found>,
+    pointer: &Pointer,
+) -> Option<&'f Found> {
+    let near = all.map(|f| (f.curve.distance(pointer.at), f));
+    let near = near.filter(|(far, _)| *far <= pointer.reach);
+    near.min_by(|a, b| {
+        (!a.1.curve.is_point()).cmp(&!b.1.curve.is_point()).then(a.0.total_cmp(&b.0))
+    })
+    .map(|(_, f)| f)
+}
+
+/// Returns the names of the figures of a home that lie in a rectangle, whole ones rather than what is in them.
+pub(crate) fn within(state: &State, home: &Home, (a, b): ((f64, f64), (f64, f64))) -> Vec<String> {
+    let across = a.0.min(b.0)..=a.0.max(b.0);
+    let up = a.1.min(b.1)..=a.1.max(b.1);
+    let mut names: Vec<String> = Vec::new();
+    for found in scene(state, home) {
+        let is_part = names.iter().any(|name| found.text.starts_with(&format!("{name}.")));
+        let is_in = found.curve.box_of().is_some_and(|[low, high]| {
+            [low, high].iter().all(|p| across.contains(&p[0]) && up.contains(&p[1]))
+        });
+        if is_in && !is_part && !names.contains(&found.text) {
+            names.push(found.text);
+        }
+    }
+    names
+}
+
+/// Returns how something that a home knows is drawn; nothing where it is no figure.
+pub(crate) fn drawing_of(state: &State, home: &Home, text: &str) -> drawing::Drawing {
+    let plain = text.trim_start_matches('-').trim_matches(['(', ')']);
+    let evaluator = state.evaluator(&state.values);
+    let elements = crate::session::parse_path(plain)
+        .and_then(|inner| {
+            // a name is of the innermost block that has it
+            let own = home.path();
+            (0..=own.0.len()).rev().find_map(|n| {
+                let outer = kernel::Path(own.0[..n].to_vec());
+                evaluator.at(&inner.0.iter().fold(outer, |at, s| at.then(s.clone()))).ok()
+            })
+        })
+        .map(|answer| elements_of(&evaluator, &answer))
+        .unwrap_or_default();
+    drawing::Drawing { elements, ..drawing::Drawing::default() }
+}
+
+/// Returns what an answer draws, all of its turns where it is a list of them.
+pub(crate) fn elements_of<'a>(
+    evaluator: &Evaluator<'a>,
+    answer: &Answer<'a>,
+) -> Vec<drawing::Element> {
+    match answer {
+        Answer::List(items) => items.iter().flat_map(|i| elements_of(evaluator, i)).collect(),
+        _ => evaluator.elements(answer),
+    }
 }
 
 /// Where a figure lies.
@@ -50,9 +122,36 @@ impl Curve {
         Some(Self { figure, arc, is_endless: !is_of("Line") })
     }
 
+    /// Its radius, with its sign, where it is a circle or an arc of one.
+    pub(crate) fn radius(&self) -> Option<f64> {
+        match self.figure {
+            Figure::Circle { radius, .. } => Some(radius),
+            Figure::Point(_) | Figure::Straight { .. } | Figure::Arc { .. } => None,
+        }
+    }
+
     /// Whether it is a point.
     pub(crate) fn is_point(&self) -> bool {
         matches!(self.figure, Figure::Point(_))
+    }
+
+    /// The corners of a rectangle that it lies in; nothing for what has no end.
+    fn box_of(&self) -> Option<[[f64; 2]; 2]> {
+        let around = |points: &[[f64; 2]]| {
+            let low = |i: usize| points.iter().map(|p| p[i]).fold(f64::INFINITY, f64::min);
+            let high = |i: usize| points.iter().map(|p| p[i]).fold(f64::NEG_INFINITY, f64::max);
+            [[low(0), low(1)], [high(0), high(1)]]
+        };
+        match (self.figure, self.arc) {
+            (Figure::Point(p), _) => Some([p, p]),
+            (Figure::Straight { from, to }, _) => (!self.is_endless).then(|| around(&[from, to])),
+            (Figure::Circle { center, radius }, None) => {
+                let r = radius.abs();
+                Some([[center[0] - r, center[1] - r], [center[0] + r, center[1] + r]])
+            }
+            (Figure::Circle { .. }, Some(ends)) => Some(around(&ends)),
+            (Figure::Arc { start, end, .. }, _) => Some(around(&[start, end])),
+        }
     }
 
     /// How far a place is from it.
@@ -114,19 +213,17 @@ pub(crate) fn scene(state: &State, home: &Home) -> Vec<Found> {
     let mut all = Scene { state, evaluator: &evaluator, found: Vec::new() };
     match home {
         Home::Document => all.document(),
-        Home::Program { example, block, .. } => {
-            if let Ok(example) = state.structure.follow(DOCUMENT, &Path::of(&[example]))
-                && let Ok(Some(run)) = evaluator.run(example)
-            {
-                all.context("", &run);
-                // of the turn that is drawn its steps are called by their own names
-                if let Some(block) = block {
-                    let inside = format!("{block}[0]");
-                    all.found.retain(|found| !found.text.starts_with(&inside));
-                    if let Ok(Answer::Context(turn)) = evaluator.at(&home.path()) {
-                        all.context("", &turn);
-                    }
+        Home::Program { example, way, .. } => {
+            let mut path = kernel::Path::of(&[example]);
+            let mut levels = text::visible(&state.text, home).into_iter();
+            all.level(&path, &levels.next().unwrap_or_default());
+            for around in way {
+                let Some(name) = &around.name else { continue };
+                path = path.then(kernel::Step::Part(name.clone()));
+                if let Some(turn) = around.turn {
+                    path = path.then(kernel::Step::Index(turn));
                 }
+                all.level(&path, &levels.next().unwrap_or_default());
             }
         }
     }
@@ -148,11 +245,11 @@ impl<'a> Scene<'_, 'a> {
             }
             let path = structure.path(document, thing).to_string();
             if document.figure(t.class).is_some() {
-                self.add(&path, &Answer::Thing(thing), false);
+                self.add((&path, &[]), &Answer::Thing(thing), false);
             } else if document.program(t.class).is_some()
                 && let Ok(Some(run)) = self.evaluator.run(thing)
             {
-                self.context(&format!("{path}."), &run);
+                self.context((&format!("{path}."), std::slice::from_ref(&path)), &run);
             }
         }
         let root = &document.classes[structure.things[DOCUMENT].class];
@@ -161,26 +258,46 @@ impl<'a> Scene<'_, 'a> {
                 && !message.is_of_class()
                 && let Ok(answer) = self.evaluator.ask(DOCUMENT, &message.name)
             {
-                self.add(&message.name, &answer, true);
+                self.add((&message.name, &[]), &answer, true);
             }
         }
     }
 
-    fn context(&mut self, prefix: &str, context: &Context<'a>) {
+    /// Adds what a block, or a turn of it, made by the names that are seen of it.
+    fn level(&mut self, path: &kernel::Path, names: &[String]) {
+        let run = match self.evaluator.at(path) {
+            Ok(Answer::Context(turn)) => turn,
+            Ok(Answer::Thing(thing)) => match self.evaluator.run(thing) {
+                Ok(Some(run)) => run,
+                Ok(None) | Err(_) => return,
+            },
+            Ok(_) | Err(_) => return,
+        };
+        for entry in &run.made {
+            if names.iter().any(|name| **name == *entry.name) {
+                self.add((&entry.name, &[]), &entry.answer, true);
+            }
+        }
+    }
+
+    fn context(&mut self, (prefix, wholes): (&str, &[String]), context: &Context<'a>) {
         for entry in &context.made {
             if !entry.name.is_empty() {
-                self.add(&format!("{prefix}{}", entry.name), &entry.answer, true);
+                self.add((&format!("{prefix}{}", entry.name), wholes), &entry.answer, true);
             }
         }
     }
 
     /// Adds what an answer is, or what is in it, and its places where these are no things of their own.
-    fn add(&mut self, text: &str, answer: &Answer<'a>, with_places: bool) {
+    fn add(&mut self, (text, wholes): (&str, &[String]), answer: &Answer<'a>, with_places: bool) {
+        let within =
+            || std::iter::once(text.to_string()).chain(wholes.iter().cloned()).collect::<Vec<_>>();
         match answer {
-            Answer::Context(inner) => return self.context(&format!("{text}."), inner),
+            Answer::Context(inner) => return self.context((&format!("{text}."), &within()), inner),
             Answer::List(items) => {
+                let wholes = within();
                 for (i, item) in items.iter().enumerate() {
-                    self.add(&format!("{text}[{i}]"), item, true);
+                    self.add((&format!("{text}[{i}]"), &wholes), item, true);
                 }
                 return;
             }
@@ -188,7 +305,7 @@ impl<'a> Scene<'_, 'a> {
         }
         let Some(class) = self.evaluator.class_of(answer) else { return };
         let Some(curve) = Curve::of(self.evaluator, self.state, answer) else { return };
-        self.found.push(Found { text: text.into(), class, curve });
+        self.found.push(Found { text: text.into(), class, curve, wholes: wholes.to_vec() });
         if !with_places || matches!(curve.figure, Figure::Point(_)) {
             return;
         }
@@ -197,7 +314,8 @@ impl<'a> Scene<'_, 'a> {
                 && let (Some(class), Some(curve)) =
                     (self.evaluator.class_of(&part), Curve::of(self.evaluator, self.state, &part))
             {
-                self.found.push(Found { text: format!("{text}.{name}"), class, curve });
+                let wholes = Vec::new();
+                self.found.push(Found { text: format!("{text}.{name}"), class, curve, wholes });
             }
         }
     }

@@ -1,25 +1,21 @@
 //! The steps of a program in words, with what each made in its example; and steps deleted and said anew.
 
-use super::scene::Curve;
+use super::scene::{Curve, elements_of};
+use super::text::StepNode;
 use super::view::{ParameterRow, StepRow, StepsView};
-use super::{Home, text};
+use super::{Home, blocks, text, visit};
+use crate::document::Open;
 use crate::state::State;
 use crate::view::Refusal;
+use crate::views::values;
 use crate::words;
-use base::number::shortest;
 use eval::{Answer, Evaluator};
-use kernel::program::{Block, Says, Step};
 use kernel::{DOCUMENT, Path, Values};
-use std::collections::BTreeSet;
-use syntax::ast::{AstNode, Member};
+use syntax::ast::{AstNode, Member, Value};
 
 /// Returns the steps of what is recorded, or of the program of a thing.
-pub(crate) fn view(
-    state: &State,
-    values: &Values,
-    home: &Home,
-    thing: Option<&str>,
-) -> Option<StepsView> {
+pub(crate) fn view(open: &Open, home: &Home, thing: Option<&str>) -> Option<StepsView> {
+    let state = &open.state;
     let example = match (home, thing) {
         (Home::Program { example, .. }, _) => example.to_string(),
         (Home::Document, Some(thing)) => thing.to_string(),
@@ -30,9 +26,18 @@ pub(crate) fn view(
     let thing = state.structure.follow(DOCUMENT, &path).ok()?;
     let class = state.structure.things[thing].class;
     let program = document.program(class)?;
-    let evaluator = state.evaluator(values);
-    let mut rows = Rows { state, evaluator: &evaluator, example: &example, rows: Vec::new() };
-    rows.block(&program.body, "", "", 0);
+    let name = document.classes[class].name.to_string();
+    let evaluator = state.evaluator(open.values());
+    let mut rows = Rows { state, evaluator: &evaluator, source: "", rows: Vec::new() };
+    // a program of a library is shown as well
+    let sources = std::iter::once(state.text.as_str());
+    let sources = sources.chain(state.lowered.files.iter().map(|(_, file)| file.text.as_ref()));
+    if let Some((source, body)) =
+        { sources }.find_map(|s| Some((s, text::program(s, &name)?.body()?)))
+    {
+        rows.source = source;
+        rows.block(&text::steps_of(&body), "", &path, 0);
+    }
     let parameter = |asked: &kernel::program::Asked| ParameterRow {
         name: asked.name.to_string(),
         prompt: asked.prompt.clone(),
@@ -40,12 +45,18 @@ pub(crate) fn view(
             .at(&path.then(kernel::Step::Part(asked.name.clone())))
             .map_or_else(|fault| fault.message, |value| value_words(state, &evaluator, &value)),
     };
+    let recording = open.recording.as_ref().filter(|_| *home != Home::Document);
     Some(StepsView {
-        program: document.classes[class].name.to_string(),
-        is_recorded: *home != Home::Document,
+        program: name,
+        is_recorded: recording.is_some(),
         parameters: program.parameters.iter().map(parameter).collect(),
         rows: rows.rows,
-        open_loop: None,
+        open: recording.map(blocks::view).unwrap_or_default(),
+        at: recording.filter(|_| visit::is_inside(open)).map(|recording| {
+            let before = recording.before.clone().unwrap_or_default();
+            text::joined(&text::address_of(home), &before)
+        }),
+        replaces: recording.and_then(|recording| recording.replaces.clone()),
         example,
     })
 }
@@ -53,75 +64,78 @@ pub(crate) fn view(
 struct Rows<'e, 'a> {
     state: &'a State,
     evaluator: &'e Evaluator<'a>,
-    example: &'e str,
+    source: &'e str,
     rows: Vec<StepRow>,
 }
 
 impl<'a> Rows<'_, 'a> {
-    /// Lists a block. `way` are the names around it, `made` leads to what it made in the example.
-    fn block(&mut self, block: &'a Block, way: &str, made: &str, depth: usize) {
-        for step in &block.steps {
-            let own = if step.name.is_empty() { "block" } else { step.name.as_str() };
-            let (path, made) = (format!("{way}{own}"), format!("{made}{own}"));
-            let says = self.says(step);
-            let (words, inner): (String, Vec<&'a Block>) = match &step.says {
-                Says::Value(_) => (in_words(&says), Vec::new()),
-                Says::If { then, otherwise, .. } => {
-                    (says.clone(), std::iter::once(then).chain(otherwise).collect())
-                }
-                Says::Repeat { block, .. } | Says::Each { block, .. } => {
-                    (says.clone(), vec![block])
-                }
-                Says::Erase(names) => {
-                    let names: Vec<String> = names.iter().map(ToString::to_string).collect();
-                    (format!("no longer part of the result: {}", names.join(", ")), Vec::new())
-                }
-                Says::Unclear => ("its text is wrong".into(), Vec::new()),
+    /// Lists the steps of a block. `way` is its address, `made` leads to what it made in the example.
+    fn block(&mut self, steps: &[StepNode], way: &str, made: &Path, depth: usize) {
+        for step in steps {
+            let address = text::joined(way, &step.segment);
+            let made = match &step.name {
+                Some(name) => made.then(kernel::Step::Part(name.as_str().into())),
+                None => made.clone(),
             };
-            let value = crate::session::parse_path(&format!("{}.{made}", self.example))
-                .and_then(|path| self.evaluator.at(&path).ok())
-                .map(|answer| value_words(self.state, self.evaluator, &answer));
-            let is_guide = step.is_guide;
+            let answer = step.name.is_some().then(|| self.evaluator.at(&made).ok()).flatten();
+            let is_failed = step.name.is_some() && answer.is_none();
+            let formula = self.formula(step);
             self.rows.push(StepRow {
-                path: path.clone(),
+                path: address.clone(),
+                name: step.name.clone().unwrap_or_default(),
                 depth,
-                words,
-                formula: says,
-                value,
-                is_guide,
+                words: in_words(&formula),
+                formula,
+                value: answer.map(|answer| value_words(self.state, self.evaluator, &answer)),
+                is_guide: step.is_guide,
+                is_block: !matches!(step.value, Some(Value::Expr(_)) | None),
+                is_unmade: is_failed,
             });
-            let turn = match step.says {
-                Says::Repeat { .. } | Says::Each { .. } => "[0]",
-                _ => "",
-            };
-            for block in inner {
-                self.block(block, &format!("{path}."), &format!("{made}{turn}."), depth + 1);
+            let Some(value) = &step.value else { continue };
+            let is_loop = matches!(value, Value::Repeat(_) | Value::While(_) | Value::For(_));
+            let made = if is_loop { made.then(kernel::Step::Index(0)) } else { made };
+            for (segment, steps) in text::inner_steps(value) {
+                if segment == "else" {
+                    self.rows.push(StepRow {
+                        path: text::joined(&address, "else"),
+                        depth,
+                        words: "otherwise".into(),
+                        is_block: true,
+                        ..StepRow::default()
+                    });
+                }
+                self.block(&steps, &text::joined(&address, segment), &made, depth + 1);
             }
         }
     }
 
-    /// What the text says of a step, in one line, without its name.
-    fn says(&self, step: &Step) -> String {
-        let place = self.state.lowered.place(step.origin);
-        let file = self.state.lowered.files.get(place.file);
-        let text =
-            file.and_then(|f| f.text.get(place.span.start as usize..place.span.end as usize));
-        let line = text.unwrap_or_default().trim().lines().next().unwrap_or_default();
-        let line = line.strip_prefix("guide ").unwrap_or(line).trim();
-        let says = match line.strip_prefix(step.name.as_str()) {
-            Some(rest) if !step.name.is_empty() => rest.trim_start().trim_start_matches('=').trim(),
-            _ => line,
-        };
-        says.trim_end_matches('{').trim().into()
+    /// What the text says of a step, in one line: of a block what stands before and after its steps.
+    fn formula(&self, step: &StepNode) -> String {
+        let of = |span: base::Span| &self.source[span.start as usize..span.end as usize];
+        let Some(value) = &step.value else { return of(step.span).trim().into() };
+        let whole = of(value.span());
+        match value {
+            Value::Expr(_) => whole.split_whitespace().collect::<Vec<_>>().join(" "),
+            Value::If(choice) => {
+                choice.condition().map_or(String::new(), |c| format!("if {}", of(c.span()).trim()))
+            }
+            Value::Repeat(_) | Value::While(_) | Value::For(_) => {
+                let head = whole.split('{').next().unwrap_or_default().trim();
+                let tail = whole.rsplit('}').next().unwrap_or_default().trim();
+                format!("{head} {tail}").trim().to_string()
+            }
+        }
     }
 }
 
 /// Says a formula as a draughtsman does: `circle tangent: -under, axis, radius r`.
 fn in_words(formula: &str) -> String {
     let Some((head, arguments)) = formula.split_once('(') else { return formula.into() };
-    let arguments = arguments.strip_suffix(')').unwrap_or(arguments);
+    let Some(arguments) = arguments.strip_suffix(')') else { return formula.into() };
     let is_class = head.chars().next().is_some_and(char::is_uppercase);
+    let is_plain = head.chars().all(|c| c.is_alphanumeric() || "_.[]".contains(c));
     let head = match head.split_once('.') {
+        _ if !is_plain => return formula.into(),
         Some((class, word)) if is_class => format!("{} {word}", class.to_lowercase()),
         Some((of, word)) => format!("{word} of {of}"),
         None if is_class => head.to_lowercase(),
@@ -135,7 +149,7 @@ fn value_words<'a>(state: &'a State, evaluator: &Evaluator<'a>, answer: &Answer<
         return curve.words();
     }
     match answer {
-        Answer::Number(x, _) => shortest(*x),
+        Answer::Number(..) => values::in_words(&state.lowered.document, answer).unwrap_or_default(),
         Answer::List(items) => match items.len() {
             1 => "1 turn".into(),
             n => format!("{n} turns"),
@@ -161,7 +175,8 @@ pub(crate) fn drawing(
 ) -> drawing::Drawing {
     let evaluator = state.evaluator(values);
     let mut elements = Vec::new();
-    let names: Vec<&str> = step.split('.').collect();
+    let is_name = |s: &&str| !s.starts_with('#') && !matches!(*s, "then" | "else");
+    let names: Vec<&str> = step.split('.').filter(is_name).collect();
     let start = crate::session::parse_path(example).unwrap_or_default();
     collect(&evaluator, &start, &names, &mut elements);
     drawing::Drawing { elements, ..drawing::Drawing::default() }
@@ -170,12 +185,7 @@ pub(crate) fn drawing(
 fn collect(evaluator: &Evaluator<'_>, at: &Path, names: &[&str], into: &mut Vec<drawing::Element>) {
     let Some((name, rest)) = names.split_first() else {
         if let Ok(answer) = evaluator.at(at) {
-            match &answer {
-                Answer::List(items) => {
-                    into.extend(items.iter().flat_map(|i| evaluator.elements(i)));
-                }
-                _ => into.extend(evaluator.elements(&answer)),
-            }
+            into.extend(elements_of(evaluator, &answer));
         }
         return;
     };
@@ -191,42 +201,175 @@ fn collect(evaluator: &Evaluator<'_>, at: &Path, names: &[&str], into: &mut Vec<
     }
 }
 
-/// Returns the steps of a program's body that speak of one, or of one that does, in order.
-pub(crate) fn dependents(text: &str, program: &str, step: &str) -> Vec<String> {
-    let Some(body) = text::program(text, program).and_then(|p| p.body()) else { return Vec::new() };
-    let mut gone = BTreeSet::from([step.to_string()]);
-    let mut found = Vec::new();
-    for member in body.members() {
-        let Member::Assign(assign) = &member else { continue };
-        let name = assign.target().map(|t| t.syntax().text().to_string().trim().to_string());
-        let Some(name) = name.filter(|name| !gone.contains(name)) else { continue };
-        let says = assign.value().map(|v| v.syntax().text().to_string()).unwrap_or_default();
-        if gone.iter().any(|g| !text::places_of(&says, g).is_empty()) {
-            gone.insert(name.clone());
-            found.push(name);
+/// Returns the steps that speak of one, or of one that does, in order: what goes when it is deleted.
+pub(crate) fn dependents(source: &str, program: &str, address: &str) -> Vec<String> {
+    let mut gone = vec![address.to_string()];
+    let mut found: Vec<String> = Vec::new();
+    let mut at = 0;
+    while let Some(next) = gone.get(at).cloned() {
+        at += 1;
+        for user in users(source, program, &next) {
+            let is_inside = gone.iter().any(|g| user.starts_with(&format!("{g}.")) || *g == user);
+            if !is_inside {
+                gone.push(user.clone());
+                found.push(user);
+            }
         }
     }
+    let order = addresses(source, program);
+    found.sort_by_key(|user| order.iter().position(|a| a == user));
     found
 }
 
-/// Returns a text without a step and those that speak of it.
+/// Lists the addresses of all steps of a program, in the order of its text.
+pub(crate) fn addresses(source: &str, program: &str) -> Vec<String> {
+    fn list(steps: &[StepNode], way: &str, into: &mut Vec<String>) {
+        for step in steps {
+            let address = text::joined(way, &step.segment);
+            into.push(address.clone());
+            for (segment, steps) in step.value.iter().flat_map(text::inner_steps) {
+                list(&steps, &text::joined(&address, segment), into);
+            }
+        }
+    }
+    let mut all = Vec::new();
+    if let Some(body) = text::block(source, program, "") {
+        list(&text::steps_of(&body), "", &mut all);
+    }
+    all
+}
+
+/// Returns the steps that speak of what another makes, itself and what is in it apart.
+pub(crate) fn users(source: &str, program: &str, address: &str) -> Vec<String> {
+    let Some(step) = text::step_at(source, program, address) else { return Vec::new() };
+    let Some(body) = text::block(source, program, "") else { return Vec::new() };
+    let names = text::names_made(std::slice::from_ref(&step));
+    // the named blocks around it, by which it is reached from outside
+    let mut reached: Vec<Vec<String>> = names.iter().map(|name| vec![name.clone()]).collect();
+    let around: Vec<&str> = address.split('.').collect();
+    let named = around[..around.len() - 1].iter().rev();
+    let named = named.filter(|s| !s.starts_with('#') && !matches!(**s, "then" | "else"));
+    for outer in named {
+        let longer: Vec<Vec<String>> = reached
+            .iter()
+            .map(|way| std::iter::once((*outer).to_string()).chain(way.clone()).collect())
+            .collect();
+        reached.extend(longer);
+    }
+    let mut found = Vec::new();
+    let search = Search { source, own: address, reached: &reached };
+    search.steps(&text::steps_of(&body), "", &mut found);
+    found
+}
+
+struct Search<'s> {
+    source: &'s str,
+    own: &'s str,
+    /// The ways to what is looked for: its name, or those of named blocks around it and its own.
+    reached: &'s [Vec<String>],
+}
+
+impl Search<'_> {
+    fn steps(&self, steps: &[StepNode], way: &str, into: &mut Vec<String>) {
+        for step in steps {
+            let address = text::joined(way, &step.segment);
+            if address == self.own {
+                continue;
+            }
+            let Some(value) = &step.value else {
+                let span = step.span;
+                let says = &self.source[span.start as usize..span.end as usize];
+                if self.is_spoken_of(says) {
+                    into.push(address);
+                }
+                continue;
+            };
+            let says = self.outside_of_steps(value);
+            if says.iter().any(|says| self.is_spoken_of(says)) {
+                into.push(address.clone());
+            }
+            for (segment, steps) in text::inner_steps(value) {
+                self.steps(&steps, &text::joined(&address, segment), into);
+            }
+        }
+    }
+
+    /// What a step says besides the steps in it.
+    fn outside_of_steps(&self, value: &Value) -> Vec<String> {
+        let of = |span: base::Span| self.source[span.start as usize..span.end as usize].to_string();
+        let whole = value.span();
+        let bodies: Vec<base::Span> = match value {
+            Value::Expr(_) => Vec::new(),
+            Value::Repeat(it) => it.body().iter().map(AstNode::span).collect(),
+            Value::While(it) => it.body().iter().map(AstNode::span).collect(),
+            Value::For(it) => it.body().iter().map(AstNode::span).collect(),
+            Value::If(it) => return it.condition().iter().map(|c| of(c.span())).collect(),
+        };
+        let Some(body) = bodies.first() else { return vec![of(whole)] };
+        let before = base::Span { start: whole.start, end: body.start };
+        let after = base::Span { start: body.end, end: whole.end };
+        let mut all = vec![of(before), of(after)];
+        let members = match value {
+            Value::Repeat(it) => it.body(),
+            Value::While(it) => it.body(),
+            Value::For(it) => it.body(),
+            Value::Expr(_) | Value::If(_) => None,
+        };
+        for member in members.into_iter().flat_map(|body| body.members()) {
+            if let Member::Next(next) = member {
+                all.push(next.syntax().text().to_string());
+            }
+        }
+        all
+    }
+
+    fn is_spoken_of(&self, says: &str) -> bool {
+        self.reached.iter().any(|way| {
+            let Some((first, rest)) = way.split_first() else { return false };
+            text::places_of(says, first).iter().any(|&at| {
+                let is_part = |c: char| c.is_alphanumeric() || "_.[]".contains(c);
+                let chain = &says[at..];
+                let chain = &chain[..chain.find(|c| !is_part(c)).unwrap_or(chain.len())];
+                let mut parts = chain.split(['.', '[', ']']).skip(1);
+                rest.iter().all(|wanted| parts.any(|part| part == wanted))
+            })
+        })
+    }
+}
+
+/// Returns a text without some steps of a program.
 ///
 /// # Errors
 /// There is no such step.
-pub(crate) fn without(text: &str, program: &str, step: &str) -> Result<String, Refusal> {
-    let mut gone = dependents(text, program, step);
-    gone.insert(0, step.into());
-    let mut text = text.to_string();
-    // from the last, so that what is before keeps its place
-    for name in gone.iter().rev() {
-        let none = || words::refuse(format!("{program} has no step {name}"));
-        let (span, _) = text::step(&text, program, name).ok_or_else(none)?;
-        let (mut start, mut end) = (span.start as usize, span.end as usize);
-        start = text[..start].rfind('\n').map_or(start, |i| i + 1);
-        end += text[end..].find('\n').map_or(0, |i| i + 1);
-        text.replace_range(start..end, "");
+pub(crate) fn without(
+    source: &str,
+    program: &str,
+    addresses: &[String],
+) -> Result<String, Refusal> {
+    let mut spans = Vec::new();
+    for address in addresses {
+        let none = || words::refuse(format!("{program} has no step {address}"));
+        spans.push(text::step_at(source, program, address).ok_or_else(none)?.span);
     }
-    Ok(text)
+    spans.sort_by_key(|span| std::cmp::Reverse(span.start));
+    let mut edited = source.to_string();
+    // from the last, so that what is before keeps its place; what is in one that goes, goes with it
+    let mut last: Option<usize> = None;
+    for span in spans.iter().filter(|s| {
+        !spans
+            .iter()
+            .any(|o| o.start <= s.start && s.end <= o.end && (o.start, o.end) != (s.start, s.end))
+    }) {
+        let (mut start, mut end) = (span.start as usize, span.end as usize);
+        if last == Some(start) {
+            continue;
+        }
+        last = Some(start);
+        start = source[..start].rfind('\n').map_or(start, |i| i + 1);
+        end += source[end..].find('\n').map_or(0, |i| i + 1);
+        edited.replace_range(start..end, "");
+    }
+    Ok(edited)
 }
 
 /// Returns a text in which a step says something else.
@@ -234,17 +377,16 @@ pub(crate) fn without(text: &str, program: &str, step: &str) -> Result<String, R
 /// # Errors
 /// There is no such step, or nothing is said.
 pub(crate) fn with_formula(
-    text: &str,
-    program: &str,
-    step: &str,
+    source: &str,
+    (program, address): (&str, &str),
     formula: &str,
 ) -> Result<String, Refusal> {
-    let none = || words::refuse(format!("{program} has no step {step}"));
-    let (_, span) = text::step(text, program, step).ok_or_else(none)?;
+    let none = || words::refuse(format!("{program} has no step {address}"));
+    let (_, span) = text::step(source, program, address).ok_or_else(none)?;
     let formula = formula.trim();
     if formula.is_empty() {
-        return Err(words::refuse(format!("what {step} does is wanted")));
+        return Err(words::refuse(format!("what {address} does is wanted")));
     }
     let (start, end) = (span.start as usize, span.end as usize);
-    Ok(format!("{}{formula}{}", &text[..start], &text[end..]))
+    Ok(format!("{}{formula}{}", &source[..start], &source[end..]))
 }

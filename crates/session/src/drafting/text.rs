@@ -1,13 +1,40 @@
-//! The text of a program: where its steps and parameters stand in it.
+//! The text of a program: where its steps, blocks and parameters stand in it.
+//!
+//! An *address* names a step by the blocks around it: `column.ring`. A block without a name is `#0`, `#1`, … by its
+//! place among those of its body; the branches of an `if` are `then` and `else`: `#0.else.line`. `else if` counts as
+//! an `else` whose only member is an `if`.
 
 use super::Home;
 use crate::view::Refusal;
 use crate::words;
 use base::Span;
-use syntax::ast::{AstNode, Expr, Member, Value, span_without_doc};
+use std::collections::BTreeSet;
+use syntax::ast::{self, AstNode, Else, Expr, Member, Value, span_without_doc};
+
+/// Where a walk along an address has got to.
+enum Inside {
+    /// The members of a body.
+    Body(ast::Body),
+    /// What stands after `else`: an `if` alone.
+    If(ast::If),
+}
+
+/// A member of a body that a run does something for.
+pub(crate) struct StepNode {
+    /// Its segment of an address: its name, or `#0`.
+    pub(crate) segment: String,
+    /// Its name, where it has one.
+    pub(crate) name: Option<String>,
+    /// Its bytes, without its doc comment.
+    pub(crate) span: Span,
+    /// What it is; nothing for `erase`.
+    pub(crate) value: Option<Value>,
+    /// Whether it is drawn for construction alone.
+    pub(crate) is_guide: bool,
+}
 
 /// Finds a program in a text.
-pub(crate) fn program(text: &str, name: &str) -> Option<syntax::ast::Program> {
+pub(crate) fn program(text: &str, name: &str) -> Option<ast::Program> {
     let file = syntax::parse(base::FileId(0), text).file();
     let is_it = |member: Member| match member {
         Member::Program(program) => {
@@ -19,45 +46,235 @@ pub(crate) fn program(text: &str, name: &str) -> Option<syntax::ast::Program> {
     { file.members() }.find_map(is_it)
 }
 
-/// Returns a text with members added at the end of a home.
+/// Lists the steps of a body in order, messages and demands apart.
+pub(crate) fn steps_of(body: &ast::Body) -> Vec<StepNode> {
+    let mut unnamed = 0;
+    let mut all = Vec::new();
+    for member in body.members() {
+        let span = span_without_doc(member.syntax());
+        let (name, value, is_guide) = match member {
+            Member::Assign(assign) => match assign.target() {
+                Some(Expr::Name(word)) => (
+                    Some(word.syntax().text().to_string().trim().to_string()),
+                    assign.value(),
+                    assign.is_guide(),
+                ),
+                _ => continue,
+            },
+            Member::If(choice) => (None, Some(Value::If(choice)), false),
+            Member::Repeat(block) => (None, Some(Value::Repeat(block)), false),
+            Member::While(block) => (None, Some(Value::While(block)), false),
+            Member::For(block) => (None, Some(Value::For(block)), false),
+            Member::Erase(_) => (None, None, false),
+            _ => continue,
+        };
+        let segment = name.clone().unwrap_or_else(|| {
+            unnamed += 1;
+            format!("#{}", unnamed - 1)
+        });
+        all.push(StepNode { segment, name, span, value, is_guide });
+    }
+    all
+}
+
+fn only_if(choice: &ast::If) -> StepNode {
+    StepNode {
+        segment: "#0".into(),
+        name: None,
+        span: choice.span(),
+        value: Some(Value::If(choice.clone())),
+        is_guide: false,
+    }
+}
+
+fn branch(choice: &ast::If, segment: &str) -> Option<Inside> {
+    match (segment, choice.else_branch()) {
+        ("then", _) => choice.then_body().map(Inside::Body),
+        ("else", Some(Else::Body(body))) => Some(Inside::Body(body)),
+        ("else", Some(Else::If(choice))) => Some(Inside::If(choice)),
+        _ => None,
+    }
+}
+
+fn inside_of(value: &Value, rest: &mut std::slice::Iter<'_, &str>) -> Option<Inside> {
+    match value {
+        Value::Repeat(block) => block.body().map(Inside::Body),
+        Value::While(block) => block.body().map(Inside::Body),
+        Value::For(block) => block.body().map(Inside::Body),
+        Value::If(choice) => branch(choice, rest.next()?),
+        Value::Expr(_) => None,
+    }
+}
+
+impl Inside {
+    fn steps(&self) -> Vec<StepNode> {
+        match self {
+            Self::Body(body) => steps_of(body),
+            Self::If(choice) => vec![only_if(choice)],
+        }
+    }
+}
+
+fn walk(text: &str, program_name: &str, address: &str) -> Option<Inside> {
+    let mut at = Inside::Body(program(text, program_name)?.body()?);
+    let segments: Vec<&str> = address.split('.').filter(|s| !s.is_empty()).collect();
+    let mut rest = segments.iter();
+    while let Some(segment) = rest.next() {
+        let step = at.steps().into_iter().find(|step| step.segment == **segment)?;
+        at = inside_of(&step.value?, &mut rest)?;
+    }
+    Some(at)
+}
+
+/// Finds a step by its address.
+pub(crate) fn step_at(text: &str, program_name: &str, address: &str) -> Option<StepNode> {
+    let (around, last) = address.rsplit_once('.').unwrap_or(("", address));
+    let inside = walk(text, program_name, around)?;
+    inside.steps().into_iter().find(|step| step.segment == last)
+}
+
+/// Finds the body of a block by its address: a loop's, `#0.then`, the program's own for nothing.
+pub(crate) fn block(text: &str, program_name: &str, address: &str) -> Option<ast::Body> {
+    match walk(text, program_name, address)? {
+        Inside::Body(body) => Some(body),
+        Inside::If(_) => None,
+    }
+}
+
+/// Returns the bytes of a step and those of its value.
+pub(crate) fn step(text: &str, program_name: &str, address: &str) -> Option<(Span, Span)> {
+    let step = step_at(text, program_name, address)?;
+    Some((step.span, step.value?.span()))
+}
+
+/// Returns the names that the steps of a body make where it stands: those of blocks without a name, too.
+pub(crate) fn names_made(steps: &[StepNode]) -> Vec<String> {
+    let mut all = Vec::new();
+    for step in steps {
+        match (&step.name, &step.value) {
+            (Some(name), _) => all.push(name.clone()),
+            (None, Some(Value::If(choice))) => {
+                for segment in ["then", "else"] {
+                    if let Some(inside) = branch(choice, segment) {
+                        all.extend(names_made(&inside.steps()));
+                    }
+                }
+            }
+            (None, _) => {}
+        }
+    }
+    all
+}
+
+/// Lists the steps in a block, by branch where it is an `if`.
+pub(crate) fn inner_steps(value: &Value) -> Vec<(&'static str, Vec<StepNode>)> {
+    let of_body = |body: Option<ast::Body>| body.map(|body| ("", steps_of(&body)));
+    match value {
+        Value::Repeat(block) => of_body(block.body()).into_iter().collect(),
+        Value::While(block) => of_body(block.body()).into_iter().collect(),
+        Value::For(block) => of_body(block.body()).into_iter().collect(),
+        Value::If(choice) => {
+            let one = |segment| Some((segment, branch(choice, segment)?.steps()));
+            ["then", "else"].into_iter().filter_map(one).collect()
+        }
+        Value::Expr(_) => Vec::new(),
+    }
+}
+
+/// Returns the names that a turn of a block begins with.
+pub(crate) fn carried_names(value: &Value) -> Vec<String> {
+    let (with, of_element) = match value {
+        Value::Repeat(block) => (block.with(), Vec::new()),
+        Value::While(block) => (block.with(), Vec::new()),
+        Value::For(block) => (block.with(), block.names().map(|w| w.text().to_string()).collect()),
+        Value::Expr(_) | Value::If(_) => (None, Vec::<String>::new()),
+    };
+    let with = with.into_iter().flat_map(|with| with.bindings()).filter_map(|b| b.name());
+    of_element.into_iter().chain(with.map(|w| w.text().to_string())).collect()
+}
+
+/// What a home sees of each block around it, from the program inwards: the names of the level.
+pub(crate) fn visible(text: &str, home: &Home) -> Vec<Vec<String>> {
+    let Home::Program { program: name, way, before, .. } = home else { return Vec::new() };
+    let mut levels = vec![Vec::new()];
+    let mut address = String::new();
+    for (i, around) in way.iter().enumerate() {
+        let Some(inside) = walk(text, name, &address) else { return levels };
+        let until = way.get(i).map(|around| around.segment().to_string());
+        let steps = inside.steps();
+        let seen = steps.iter().position(|s| Some(&s.segment) == until.as_ref());
+        let seen = &steps[..seen.unwrap_or(steps.len())];
+        let made = names_made(seen);
+        levels.last_mut().into_iter().for_each(|level| level.extend(made.clone()));
+        if around.name.is_some() {
+            let own = step_at(text, name, &joined(&address, around.segment()));
+            let carried = own.and_then(|s| s.value).map_or(Vec::new(), |v| carried_names(&v));
+            levels.push(carried);
+        }
+        address = joined(&address, &around.address);
+    }
+    if let Some(inside) = walk(text, name, &address) {
+        let steps = inside.steps();
+        let seen = before.as_ref().and_then(|b| steps.iter().position(|s| s.segment == *b));
+        let made = names_made(&steps[..seen.unwrap_or(steps.len())]);
+        levels.last_mut().into_iter().for_each(|level| level.extend(made.clone()));
+    }
+    levels
+}
+
+/// Joins two parts of an address.
+pub(crate) fn joined(around: &str, inner: &str) -> String {
+    match (around, inner) {
+        ("", inner) => inner.into(),
+        (around, "") => around.into(),
+        (around, inner) => format!("{around}.{inner}"),
+    }
+}
+
+/// Returns the address of the block that a home is.
+pub(crate) fn address_of(home: &Home) -> String {
+    match home {
+        Home::Document => String::new(),
+        Home::Program { way, .. } => {
+            way.iter().fold(String::new(), |at, around| joined(&at, &around.address))
+        }
+    }
+}
+
+/// Returns a text with members added to a home: at its end, or before the step that it says.
 ///
 /// # Errors
-/// The program is not in the text.
+/// The program, or the block of it, is not in the text.
 pub(crate) fn with_members(text: &str, home: &Home, members: &str) -> Result<String, Refusal> {
-    match home {
-        Home::Document => Ok(format!("{}\n{members}\n", text.trim_end())),
-        Home::Program { program: name, block: Some(step), .. } => {
-            let none = || words::refuse(format!("{name} has no loop {step}"));
-            let body = block(text, name, step).ok_or_else(none)?;
-            Ok(with_lines(text, &body, 2, members))
-        }
-        Home::Program { program: name, block: None, .. } => {
-            let none = || words::refuse(format!("the document has no program {name}"));
-            let body = program(text, name).and_then(|p| p.body()).ok_or_else(none)?;
-            Ok(with_lines(text, &body, 1, members))
-        }
-    }
-}
-
-/// Finds the body of a loop of a program.
-pub(crate) fn block(text: &str, program_name: &str, step: &str) -> Option<syntax::ast::Body> {
-    let body = program(text, program_name)?.body()?;
-    match assigned(&body, step)?.value()? {
-        Value::Repeat(block) => block.body(),
-        _ => None,
-    }
-}
-
-/// Returns the names of the steps of a loop.
-pub(crate) fn steps_of_block(text: &str, program_name: &str, step: &str) -> Vec<String> {
-    let Some(body) = block(text, program_name, step) else { return Vec::new() };
-    let name = |member: Member| match member {
-        Member::Assign(assign) => {
-            assign.target().map(|target| target.syntax().text().to_string().trim().to_string())
-        }
-        _ => None,
+    let Home::Program { program: name, way, before, .. } = home else {
+        return Ok(format!("{}\n{members}\n", text.trim_end()));
     };
-    body.members().filter_map(name).collect()
+    if program(text, name).is_none() {
+        return Err(words::refuse(format!("the document has no program {name}")));
+    }
+    let address = address_of(home);
+    let gone = || words::refuse(format!("{name} has no block {address}"));
+    let body = block(text, name, &address).ok_or_else(gone)?;
+    let depth = way.len() + 1;
+    let next = before.as_ref().and_then(|b| steps_of(&body).into_iter().find(|s| s.segment == *b));
+    match next {
+        Some(next) => Ok(with_lines_before(text, next.span.start as usize, depth, members)),
+        None => Ok(with_lines(text, &body, depth, members)),
+    }
+}
+
+fn with_lines_before(text: &str, at: usize, depth: usize, lines: &str) -> String {
+    let indent = "    ".repeat(depth);
+    // what is said of the step stands above it
+    let mut start = text[..at].rfind('\n').map_or(0, |i| i + 1);
+    while let Some(above) = text[..start.saturating_sub(1)].rfind('\n').map(|i| i + 1) {
+        if !text[above..start].trim_start().starts_with("//") {
+            break;
+        }
+        start = above;
+    }
+    let lines: Vec<String> = lines.lines().map(|line| format!("{indent}{line}\n")).collect();
+    format!("{}{}{}", &text[..start], lines.concat(), &text[start..])
 }
 
 /// Where a text speaks of a name: not of a part of something else, and not by a label.
@@ -83,12 +300,7 @@ pub(crate) fn renamed(text: &str, name: &str, to: &str) -> String {
 }
 
 /// Adds lines before the closing brace of a body.
-pub(crate) fn with_lines(
-    text: &str,
-    body: &syntax::ast::Body,
-    depth: usize,
-    lines: &str,
-) -> String {
+pub(crate) fn with_lines(text: &str, body: &ast::Body, depth: usize, lines: &str) -> String {
     let span = body.span();
     let inside = &text[span.start as usize..span.end as usize];
     let close = span.start as usize + inside.rfind('}').unwrap_or(inside.len());
@@ -98,34 +310,32 @@ pub(crate) fn with_lines(
     format!("{before}\n{}\n{outer}{}", lines.join("\n"), &text[close..])
 }
 
-/// Returns the bytes of a step, by the names of the blocks around it and its own, and those of its value.
-pub(crate) fn step(text: &str, program_name: &str, path: &str) -> Option<(Span, Span)> {
-    let mut body = program(text, program_name)?.body()?;
-    let names: Vec<&str> = path.split('.').collect();
-    let (last, around) = names.split_last()?;
-    for name in around {
-        body = match assigned(&body, name)?.value()? {
-            Value::Repeat(block) => block.body()?,
-            Value::While(block) => block.body()?,
-            Value::For(block) => block.body()?,
-            Value::If(choice) => choice.then_body()?,
-            Value::Expr(_) => return None,
-        };
+/// Returns the words that a program uses as names, labels apart.
+pub(crate) fn words_in(text: &str, program_name: &str) -> BTreeSet<String> {
+    let Some(program) = program(text, program_name) else { return BTreeSet::new() };
+    // what is asked in words is no name
+    let all = program.syntax().text().to_string();
+    let all: Vec<&str> = all.split('"').step_by(2).collect();
+    let all = all.join("\"\"");
+    let is_word = |c: char| c.is_alphanumeric() || c == '_';
+    let mut found = BTreeSet::new();
+    let mut at = 0;
+    while let Some(start) = all[at..].find(is_word).map(|i| at + i) {
+        let end = all[start..].find(|c| !is_word(c)).map_or(all.len(), |i| start + i);
+        let is_label = all[end..].trim_start().starts_with(':');
+        if !is_label || is_parameter(&all, start) {
+            found.insert(all[start..end].to_string());
+        }
+        at = end;
     }
-    let assign = assigned(&body, last)?;
-    Some((span_without_doc(assign.syntax()), assign.value()?.span()))
+    found
 }
 
-fn assigned(body: &syntax::ast::Body, name: &str) -> Option<syntax::ast::Assign> {
-    body.members().find_map(|member| match member {
-        Member::Assign(assign) => match assign.target() {
-            Some(Expr::Name(word)) if word.syntax().text().to_string().trim() == name => {
-                Some(assign)
-            }
-            _ => None,
-        },
-        _ => None,
-    })
+/// Whether a word stands in the list of parameters of a program: that is the first bracket of its text.
+fn is_parameter(program: &str, at: usize) -> bool {
+    let open = program.find('(').unwrap_or(program.len());
+    let brace = program.find('{').unwrap_or(program.len());
+    (open..brace).contains(&at)
 }
 
 /// Returns a text with a parameter added to a program.

@@ -1,13 +1,28 @@
 //! Operands as they are typed: `3,4`, `@10,0`, `20<45`, a number, any expression.
 
 use super::catalogue::{Slot, SlotKind};
-use crate::view::Refusal;
+use crate::view::{Pointer, Refusal};
 use crate::words;
 use base::number::shortest;
 
-/// Writes a place of the sheet.
-pub(crate) fn place((x, y): (f64, f64)) -> String {
-    format!("Point({}, {})", shortest(x), shortest(y))
+/// Writes the place of the sheet where a pointer is: on the pointer's grid, unless it finds nothing.
+pub(crate) fn place(pointer: &Pointer) -> String {
+    format!("Point({}, {})", coordinate(pointer, "x"), coordinate(pointer, "y"))
+}
+
+/// Writes how far to the right a pointer is, or how far up.
+pub(crate) fn coordinate(pointer: &Pointer, axis: &str) -> String {
+    let x = if axis == "x" { pointer.at.0 } else { pointer.at.1 };
+    let tidy = match pointer.grid > 0.0 && !pointer.alone {
+        true => {
+            let parts = (x / pointer.grid).round();
+            // a grid of 0.1 is written by tenths
+            let inverse = (1.0 / pointer.grid).round();
+            if inverse > 1.0 { parts / inverse } else { parts * pointer.grid }
+        }
+        false => x,
+    };
+    shortest(if tidy == 0.0 { 0.0 } else { tidy })
 }
 
 /// Returns what is typed as the language writes it. `last` is the point that was given last.
@@ -24,7 +39,7 @@ pub(crate) fn operand(slot: &Slot, typed: &str, last: Option<&str>) -> Result<St
         last.map(String::from).ok_or_else(none)
     };
     Ok(match slot.kind {
-        SlotKind::Curve => typed.into(),
+        SlotKind::Curve | SlotKind::Set => typed.into(),
         SlotKind::Value if *slot.class == *"Angle" && is_number(typed) => format!("{typed} deg"),
         SlotKind::Value => typed.into(),
         SlotKind::Point => match (typed.strip_prefix('@'), pair(typed, '<')) {

@@ -1,6 +1,6 @@
 //! What drafting shows: plain data.
 
-use crate::view::Change;
+use crate::view::{Change, Pointer};
 
 /// A construction that can be chosen.
 #[derive(Clone, PartialEq, Eq, Debug, Default)]
@@ -9,7 +9,7 @@ pub struct ConstructionRow {
     pub id: String,
     /// The class of what it makes.
     pub class: String,
-    /// `circle tangent`
+    /// `Circle that touches two curves`
     pub label: String,
     /// What it waits for: `first, second, radius`.
     pub operands: String,
@@ -17,10 +17,10 @@ pub struct ConstructionRow {
     pub doc: String,
 }
 
-/// What a construction waits for.
+/// What is waited for: an operand of a construction, an answer, a condition.
 #[derive(Clone, PartialEq, Eq, Debug, Default)]
 pub struct Prompt {
-    /// The construction.
+    /// The construction; nothing where none waits.
     pub tool: String,
     /// Its name in words.
     pub label: String,
@@ -30,8 +30,95 @@ pub struct Prompt {
     pub operands: Vec<(String, Option<String>)>,
     /// Whether a value is wanted, so that what is picked is a measure.
     pub is_value: bool,
+    /// Whether a pick may mean the turn of what is picked, or the whole loop.
+    pub takes_sets: bool,
+    /// What kind of answer is wanted.
+    pub wants: Wants,
     /// What a pick adds to what is typed: `ring.radius`.
     pub insert: Option<String>,
+}
+
+/// What kind of answer a prompt wants.
+#[derive(Clone, PartialEq, Eq, Debug, Default)]
+pub enum Wants {
+    /// An operand of a construction.
+    #[default]
+    Operand,
+    /// The same, or an object of the turn before.
+    Recurrence(RecurrenceQuestion),
+    /// What ends a loop.
+    Ends(Ends),
+    /// When the branch that is drawn next is taken.
+    Condition,
+    /// Another object for one that is deleted, or that what speaks of it goes, too.
+    Substitute {
+        /// The step that speaks of it.
+        step: String,
+        /// What goes.
+        gone: String,
+    },
+    /// That the branch which is not taken is drawn: by the same values, or by others.
+    Otherwise,
+}
+
+/// How a loop ends.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub enum Ends {
+    /// After the turn in which a condition becomes true.
+    Until,
+    /// Before a turn for which a condition is not true.
+    While,
+    /// After so many turns.
+    Times,
+}
+
+/// Where a visit goes.
+#[derive(Clone, PartialEq, Debug)]
+pub enum Go {
+    /// Before the first step.
+    Start,
+    /// Past the step that comes next, blocks as a whole.
+    Step,
+    /// Back before the step that came last.
+    Back,
+    /// Into the block that comes next.
+    In,
+    /// Past the block that is visited.
+    Out,
+    /// Behind the last step: recording goes on there.
+    End,
+    /// Before a step, by its address.
+    To(String),
+    /// Before the step that drew what lies under a pointer, in the turn that drew it.
+    UntilPicked(Pointer),
+}
+
+/// A measure that is taken by pointing.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub enum MeasureKind {
+    /// Of a circle or an arc.
+    Radius,
+    /// Of a line or an arc.
+    Length,
+    /// Between two of points, lines, circles.
+    Distance,
+    /// From a line to another, turning left.
+    Angle,
+    /// How far to the right a point lies.
+    Across,
+    /// How far up a point lies.
+    Up,
+    /// What a circle, contour or surface covers.
+    Area,
+}
+
+/// What an expression of a calculator comes to now.
+#[derive(Clone, PartialEq, Eq, Debug, Default)]
+pub struct Computed {
+    /// Its value in words; nothing where it has none yet.
+    pub value: Option<String>,
+    /// Why it has none.
+    pub why: Option<String>,
 }
 
 /// What a pointer would do for a construction.
@@ -39,18 +126,18 @@ pub struct Prompt {
 pub struct Hover {
     /// What it finds, and where that is.
     pub finds: Option<String>,
-    /// What would be made.
+    /// What would be made, or is found.
     pub ghost: drawing::Drawing,
     /// Why nothing would be, where the last operand is wanted.
     pub why: Option<String>,
 }
 
-/// What comes of an operand.
+/// What comes of an operand or an answer.
 #[derive(Clone, PartialEq, Debug)]
 pub enum Turn {
     /// The next one is wanted.
     Wants(Prompt),
-    /// It was the last one: the figure is made.
+    /// It was the last one: the figure is made, the block is closed.
     Made {
         /// What that did to the document.
         change: Box<Change>,
@@ -58,8 +145,8 @@ pub enum Turn {
         name: String,
         /// How it is written.
         text: String,
-        /// The prompt of the same construction, begun anew.
-        next: Prompt,
+        /// What is waited for then: the same construction, begun anew, or the next answer.
+        next: Option<Prompt>,
     },
 }
 
@@ -72,8 +159,13 @@ pub struct StepsView {
     pub example: String,
     /// Whether it is recorded now.
     pub is_recorded: bool,
-    /// The loop that is open in it.
-    pub open_loop: Option<LoopView>,
+    /// The blocks that are open in it, from the outermost.
+    pub open: Vec<OpenBlock>,
+    /// Where it is visited: the address of the step that comes next, or of the block at whose end one is; nothing where
+    /// recording goes on at the end of the program.
+    pub at: Option<String>,
+    /// The step that what is drawn next takes the place of.
+    pub replaces: Option<String>,
     /// Its parameters: name and the example's value.
     pub parameters: Vec<ParameterRow>,
     /// Its steps, in order.
@@ -94,8 +186,10 @@ pub struct ParameterRow {
 /// A step of a program.
 #[derive(Clone, PartialEq, Eq, Debug, Default)]
 pub struct StepRow {
-    /// Its name, with those of the blocks around it: `column.ring`.
+    /// Its address, with the blocks around it: `column.ring`, `#0.else.line`.
     pub path: String,
+    /// Its name; nothing for a block that has none.
+    pub name: String,
     /// How many blocks are around it.
     pub depth: usize,
     /// What it does, in words.
@@ -106,6 +200,10 @@ pub struct StepRow {
     pub value: Option<String>,
     /// Whether it is drawn for construction alone.
     pub is_guide: bool,
+    /// Whether steps stand in it.
+    pub is_block: bool,
+    /// Whether the example does not come to it.
+    pub is_unmade: bool,
 }
 
 /// What is asked of the second turn of a loop: the same, or which object of the turn before?
@@ -121,17 +219,39 @@ pub struct RecurrenceQuestion {
     pub operand: String,
     /// What it is in the first turn.
     pub first: String,
+    /// Whether it is a number or a yes or no.
+    pub is_value: bool,
+    /// What runs through the set, where the loop is one over a set: the other answer.
+    pub element: Option<String>,
 }
 
-/// A loop that is demonstrated.
+/// A block that is demonstrated.
 #[derive(Clone, PartialEq, Eq, Debug, Default)]
-pub struct LoopView {
-    /// Its step.
-    pub name: String,
-    /// Whether its first turn is drawn.
-    pub is_drawn: bool,
-    /// What is asked of the second turn.
-    pub question: Option<RecurrenceQuestion>,
+pub struct OpenBlock {
+    /// Its address in the program.
+    pub address: String,
+    /// What it is, and what is drawn in it now.
+    pub words: String,
+    /// What it is.
+    pub kind: OpenKind,
+}
+
+/// What is open, and how far its demonstration has got.
+#[derive(Clone, Copy, PartialEq, Eq, Debug, Default)]
+pub enum OpenKind {
+    /// The first turn of a loop is drawn.
+    #[default]
+    Turn,
+    /// The first turn of a loop over a set is drawn.
+    Each,
+    /// A loop whose first turn is drawn: it asks.
+    Asking,
+    /// The branch that is taken is drawn.
+    Then,
+    /// The other branch is drawn.
+    Otherwise,
+    /// A block that was closed, and is visited.
+    Visited,
 }
 
 /// A parameter to be defined.

@@ -6,7 +6,7 @@ use session::view::{Pointer, ToolView};
 
 /// A pointer of a mouse on a sheet at 100 %.
 fn pointer(x: f64, y: f64) -> Pointer {
-    Pointer { at: (x, y), reach: 10.0, alone: false, length: None }
+    Pointer { at: (x, y), reach: 10.0, ..Pointer::default() }
 }
 
 /// Clicks with the tool in the hand; where that makes something, it is made.

@@ -40,6 +40,8 @@ enum Mode {
     Pan { last: (f64, f64) },
     /// A tool has set something where the pointer was pressed.
     Tool { start: (f64, f64) },
+    /// A rubber band is drawn.
+    Band { start: (f64, f64) },
     /// Two fingers: their middle and their distance.
     Pinch { middle: (f64, f64), distance: f64 },
 }
@@ -134,6 +136,12 @@ impl Hand {
             self.set_mode(pinch);
         } else if e.button() == 1 || (e.button() == 0 && space == Space::Down) {
             self.set_mode(Mode::Pan { last: at });
+        } else if e.button() == 0 && self.lab.drafting.banding.get_untracked() {
+            self.set_mode(Mode::Band { start: at });
+        } else if e.button() == 0 && self.lab.drafting.seeking.get_untracked() {
+            self.lab.visit_picked(&self.pointer(at));
+            e.prevent_default();
+            self.set_mode(Mode::Idle);
         } else if e.button() == 0 && self.lab.drafts() {
             self.lab.draft_point(&self.pointer(at));
             // The keyboard stays with what is typed.
@@ -253,6 +261,7 @@ impl Hand {
                 }
             }
             Mode::Drag { .. } => self.drag_to(at),
+            Mode::Band { start } => self.lab.show_band(start, at),
             Mode::Pan { last } => {
                 self.lab.look_at(|view| view.panned(at.0 - last.0, at.1 - last.1));
                 self.set_mode(Mode::Pan { last: at });
@@ -326,6 +335,7 @@ impl Hand {
             Mode::Tool { start } if distance(start, at) > PULL => {
                 self.lab.tool_set(&self.pointer(at));
             }
+            Mode::Band { start } if distance(start, at) > PULL => self.lab.take_band(start, at),
             // Escape may have ended the drag already.
             Mode::Drag { .. } if self.lab.dragging.with_untracked(Option::is_some) => {
                 match self.lab.dropping.get_untracked() {

@@ -22,8 +22,7 @@ pub(super) fn pick(
     if let Some((path, _)) = pick_word(picture, view, at) {
         return Some(path);
     }
-    let near =
-        picture.drawing.elements.iter().map(|element| (from_shape(p, &element.shape), element));
+    let near = picture.drawing.elements.iter().map(|element| (from_element(p, element), element));
     let nearest = near.filter(|(d, _)| *d <= 0.6 * reach).min_by(|a, b| a.0.total_cmp(&b.0))?;
     picture.paths.get(nearest.1.tag.0 as usize).cloned()
 }
@@ -77,6 +76,17 @@ fn from_segment(p: Point, a: Point, b: Point) -> f64 {
     let along = if square > 0.0 { ((p.x - a.x) * dx + (p.y - a.y) * dy) / square } else { 0.0 };
     let along = along.clamp(0.0, 1.0);
     distance(p, Point { x: a.x + along * dx, y: a.y + along * dy })
+}
+
+/// The distance of a point from an element; of a line without ends, from wherever it goes.
+fn from_element(p: Point, element: &drawing::Element) -> f64 {
+    match element.shape {
+        Shape::Segment(a, b) if element.style.is_unbounded && a != b => {
+            let (dx, dy) = (b.x - a.x, b.y - a.y);
+            (dx * (p.y - a.y) - dy * (p.x - a.x)).abs() / base::number::hypot(dx, dy)
+        }
+        _ => from_shape(p, &element.shape),
+    }
 }
 
 /// The distance of a point from a line or curve; words and dots are not picked this way.

@@ -1,0 +1,202 @@
+//! Blocks that are open in what is recorded: loops and branches that are demonstrated, and blocks that are visited.
+
+use super::choice::Choice;
+use super::repeat::Loop;
+use super::view::{OpenBlock, OpenKind, Prompt, Wants};
+use super::{Around, Home, Recording, recording, text};
+use crate::document::Open;
+use crate::host::Host;
+use crate::view::{Change, Refusal};
+use crate::words;
+use base::Name;
+
+/// A block that is open.
+#[derive(Clone, PartialEq, Debug)]
+pub(crate) struct Block {
+    /// Where it stands in the block around it.
+    pub(crate) around: Around,
+    /// What is demonstrated by it.
+    pub(crate) kind: Kind,
+    /// How many steps could be taken back when it was begun.
+    pub(crate) since: usize,
+    /// The step before which it stands in the block around it; none where it is the last.
+    pub(crate) before: Option<String>,
+}
+
+/// What is demonstrated.
+#[derive(Clone, PartialEq, Debug)]
+pub(crate) enum Kind {
+    /// A loop.
+    Loop(Loop),
+    /// An `if`.
+    Choice(Choice),
+    /// Nothing: a block that is there is visited.
+    Visited,
+}
+
+impl Recording {
+    /// Leaves the blocks that the text no longer has.
+    pub(crate) fn prune(&mut self, source: &str) {
+        let mut address = String::new();
+        let kept = self.blocks.iter().take_while(|block| {
+            address = text::joined(&address, &block.around.address);
+            text::block(source, &self.program, &address).is_some()
+        });
+        let kept = kept.count();
+        if kept < self.blocks.len() {
+            self.before = self.blocks.get(kept).and_then(|block| block.before.clone());
+            self.blocks.truncate(kept);
+        }
+        let home = Home::of(Some(self));
+        let body = text::block(source, &self.program, &text::address_of(&home));
+        let steps = body.map(|body| text::steps_of(&body)).unwrap_or_default();
+        self.before = self.before.take().filter(|b| steps.iter().any(|step| step.segment == *b));
+    }
+
+    /// The block that is demonstrated now.
+    pub(crate) fn innermost(&self) -> Option<&Block> {
+        self.blocks.last()
+    }
+}
+
+/// Makes what is recorded agree with the text, which undo may have changed.
+pub(crate) fn settle(open: &mut Open) {
+    let state = open.state.clone();
+    if let Some(recording) = &mut open.recording {
+        match text::program(&state.text, &recording.program) {
+            Some(_) => recording.prune(&state.text),
+            None => open.recording = None,
+        }
+    }
+}
+
+/// Returns what is recorded, agreeing with the text.
+///
+/// # Errors
+/// Nothing is recorded.
+pub(crate) fn recorded(open: &mut Open) -> Result<&mut Recording, Refusal> {
+    settle(open);
+    let none = || words::refuse("nothing is recorded: record a program first".into());
+    open.recording.as_mut().ok_or_else(none)
+}
+
+/// Begins a block: writes it where drawing goes on, and enters it.
+///
+/// # Errors
+/// Nothing is recorded; the text is none.
+pub(crate) fn begin(
+    open: &mut Open,
+    host: &dyn Host,
+    (lines, label): (&str, String),
+    (around, kind): (Around, Kind),
+) -> Result<Change, Refusal> {
+    let home = Home::of(Some(recorded(open)?));
+    let text = text::with_members(&open.state.text, &home, lines)?;
+    let since = open.done.len();
+    let change = recording::retext(open, host, text, label)?;
+    if let Some(recording) = &mut open.recording {
+        let mut before = recording.before.take();
+        if around.name.is_none() {
+            before = before.map(|segment| shifted(&segment));
+        }
+        recording.blocks.push(Block { around, kind, since, before });
+    }
+    open.dialogue = None;
+    Ok(change)
+}
+
+/// The segment of a step without a name behind which another one came.
+fn shifted(segment: &str) -> String {
+    match segment.strip_prefix('#').and_then(|n| n.parse::<usize>().ok()) {
+        Some(n) => format!("#{}", n + 1),
+        None => segment.into(),
+    }
+}
+
+/// Leaves the innermost block; what was done since it was begun is one step to undo.
+pub(crate) fn leave(open: &mut Open) {
+    let Some(recording) = &mut open.recording else { return };
+    let Some(block) = recording.blocks.pop() else { return };
+    recording.before = block.before;
+    if !matches!(block.kind, Kind::Visited) {
+        open.one_step(block.since);
+    }
+    open.dialogue = None;
+}
+
+/// The segment that a block without a name gets where drawing goes on.
+pub(crate) fn next_segment(source: &str, home: &Home) -> String {
+    let Home::Program { program, before, .. } = home else { return "#0".into() };
+    let body = text::block(source, program, &text::address_of(home));
+    let steps = body.map(|body| text::steps_of(&body)).unwrap_or_default();
+    let until = before.as_ref().and_then(|b| steps.iter().position(|step| step.segment == *b));
+    let unnamed = steps[..until.unwrap_or(steps.len())].iter().filter(|s| s.name.is_none());
+    format!("#{}", unnamed.count())
+}
+
+/// Returns a name for a block, or whatever else, that its program does not use; `wanted` where that is free.
+///
+/// # Errors
+/// What is wanted is no name, or taken.
+pub(crate) fn name_for(
+    source: &str,
+    program: &Name,
+    (wanted, usual): (&str, &str),
+) -> Result<Name, Refusal> {
+    let taken = text::words_in(source, program);
+    let wanted = wanted.trim();
+    if wanted.is_empty() {
+        let names = std::iter::once(usual.to_string()).chain((2..).map(|i| format!("{usual}{i}")));
+        return Ok(Name::new(&{ names }.find(|n| !taken.contains(n)).unwrap_or_default()));
+    }
+    let starts_well = wanted.chars().next().is_some_and(char::is_alphabetic);
+    if !starts_well || !wanted.chars().all(|c| c.is_alphanumeric() || c == '_') {
+        return Err(words::refuse(format!("`{wanted}` is no name: a word without spaces is")));
+    }
+    if taken.contains(wanted) {
+        return Err(words::refuse(format!("{wanted} stands for something else in {program}")));
+    }
+    Ok(Name::new(wanted))
+}
+
+/// Lists the blocks that are open.
+pub(crate) fn view(recording: &Recording) -> Vec<OpenBlock> {
+    let mut address = String::new();
+    let one = |block: &Block| {
+        address = text::joined(&address, &block.around.address);
+        let name = block.around.name.as_ref().map_or("", Name::as_str);
+        let (kind, words) = match &block.kind {
+            Kind::Loop(it) if it.is_drawn() => {
+                (OpenKind::Asking, format!("{name}: what the second turn does"))
+            }
+            Kind::Loop(it) if it.element().is_some() => {
+                (OpenKind::Each, format!("{name}: draw what is done for the first of the set"))
+            }
+            Kind::Loop(_) => (OpenKind::Turn, format!("{name}: draw its first turn")),
+            Kind::Choice(choice) => choice.view(),
+            Kind::Visited => (OpenKind::Visited, format!("visiting {address}")),
+        };
+        OpenBlock { address: address.clone(), words, kind }
+    };
+    recording.blocks.iter().map(one).collect()
+}
+
+/// What is waited for, where no construction is.
+pub(crate) fn prompt(open: &Open) -> Option<Prompt> {
+    let recording = open.recording.as_ref()?;
+    if recording.asks_condition {
+        return Some(Prompt {
+            label: "If".into(),
+            words: "when is the branch taken that you draw next? Type it, or use the calculator"
+                .into(),
+            is_value: true,
+            wants: Wants::Condition,
+            ..Prompt::default()
+        });
+    }
+    match &recording.innermost()?.kind {
+        Kind::Loop(it) => it.prompt(),
+        Kind::Choice(choice) => choice.prompt(),
+        Kind::Visited => None,
+    }
+}

@@ -1,0 +1,250 @@
+//! An `if` by two demonstrations: the condition is given, the branch that is taken now is drawn; then the other one,
+//! with the same values or under others.
+//!
+//! While the other branch is drawn with the same values, its condition is turned round in the text, so that it
+//! is the one that runs. What the example's values were comes back when the `if` is ended.
+
+use super::blocks::{self, Block, Kind};
+use super::outcome::{self, Worth};
+use super::view::{OpenKind, Prompt, Wants};
+use super::{Around, Home, recording, text};
+use crate::document::Open;
+use crate::host::Host;
+use crate::view::{Change, Refusal};
+use crate::words;
+use syntax::ast::{AstNode, Value};
+
+/// An `if` that is demonstrated.
+#[derive(Clone, PartialEq, Debug)]
+pub(crate) struct Choice {
+    /// When its first branch is taken.
+    condition: String,
+    /// Whether the branch that is drawn is that of the condition.
+    is_then: bool,
+    /// Whether the other branch is drawn.
+    is_second: bool,
+    /// Whether it is asked how the other branch shall be drawn.
+    asks: bool,
+    /// The example in the document's text when it was begun.
+    example: Option<String>,
+}
+
+impl Choice {
+    /// What it is, and what is drawn in it now.
+    pub(crate) fn view(&self) -> (OpenKind, String) {
+        let kind = if self.is_second { OpenKind::Otherwise } else { OpenKind::Then };
+        let condition = &self.condition;
+        let words = match self.is_then {
+            true => format!("draw what is done if {condition}"),
+            false => format!("draw what is done unless {condition}"),
+        };
+        (kind, words)
+    }
+
+    /// Whether the other branch is drawn.
+    pub(crate) fn is_second(&self) -> bool {
+        self.is_second
+    }
+
+    /// What is waited for.
+    pub(crate) fn prompt(&self) -> Option<Prompt> {
+        self.asks.then(|| Prompt {
+            label: "Otherwise".into(),
+            words: "draw the other branch with the same values, or under values that take it"
+                .into(),
+            wants: Wants::Otherwise,
+            ..Prompt::default()
+        })
+    }
+}
+
+/// Begins an `if`: asks for its condition.
+///
+/// # Errors
+/// Nothing is recorded.
+pub(crate) fn ask(open: &mut Open) -> Result<(), Refusal> {
+    open.dialogue = None;
+    blocks::recorded(open)?.asks_condition = true;
+    Ok(())
+}
+
+/// Begins the branch that a condition takes now.
+///
+/// # Errors
+/// It is no condition; the text is none.
+pub(crate) fn begin(open: &mut Open, host: &dyn Host, condition: &str) -> Result<Change, Refusal> {
+    let condition = condition.trim();
+    let home = Home::of(Some(blocks::recorded(open)?));
+    let is_then = match outcome::worth(&open.state, host, &home, condition)? {
+        Worth::Truth(truth) => truth,
+        Worth::Number(n) => {
+            return Err(words::refuse(format!("{condition} is {n}, where a yes or no is wanted")));
+        }
+        Worth::Other(kind) => {
+            return Err(words::refuse(format!(
+                "{condition} is {kind}, where a yes or no is wanted"
+            )));
+        }
+    };
+    let segment = blocks::next_segment(&open.state.text, &home);
+    let (lines, branch) = match is_then {
+        true => (format!("if {condition} {{\n}}"), "then"),
+        false => (format!("if {condition} {{\n}} else {{\n}}"), "else"),
+    };
+    let around = Around { address: format!("{segment}.{branch}"), name: None, turn: None };
+    let choice = Choice {
+        condition: condition.into(),
+        is_then,
+        is_second: false,
+        asks: false,
+        example: example_text(open),
+    };
+    let label = format!("if {condition}");
+    let change = blocks::begin(open, host, (&lines, label), (around, Kind::Choice(choice)))?;
+    if let Some(recording) = &mut open.recording {
+        recording.asks_condition = false;
+    }
+    Ok(change)
+}
+
+fn opened(open: &mut Open) -> Result<(&mut Block, Choice), Refusal> {
+    let none = || words::refuse("no `if` is open".into());
+    let block = blocks::recorded(open)?.blocks.last_mut().ok_or_else(none)?;
+    match &block.kind {
+        Kind::Choice(choice) => {
+            let choice = choice.clone();
+            Ok((block, choice))
+        }
+        Kind::Loop(_) | Kind::Visited => Err(none()),
+    }
+}
+
+/// The first branch is drawn: the other one is asked for.
+///
+/// # Errors
+/// No `if` is open, or its second branch is.
+pub(crate) fn otherwise(open: &mut Open) -> Result<(), Refusal> {
+    let (block, choice) = opened(open)?;
+    if choice.is_second {
+        return Err(words::refuse("both branches are drawn: end the `if`".into()));
+    }
+    block.kind = Kind::Choice(Choice { asks: true, ..choice });
+    open.dialogue = None;
+    Ok(())
+}
+
+/// Goes on drawing the first branch.
+pub(crate) fn back(open: &mut Open) {
+    if let Ok((block, choice)) = opened(open) {
+        block.kind = Kind::Choice(Choice { asks: false, ..choice });
+    }
+}
+
+/// Begins the other branch: with the same values, or with those that the example has now.
+///
+/// # Errors
+/// No `if` is open; the values do not take the other branch.
+pub(crate) fn second(open: &mut Open, host: &dyn Host, is_same: bool) -> Result<Change, Refusal> {
+    let (_, choice) = opened(open)?;
+    let home = Home::of(open.recording.as_ref());
+    let Home::Program { program, mut way, example, .. } = home else {
+        return Err(words::refuse("nothing is recorded".into()));
+    };
+    let segment = way.pop().map_or(String::new(), |around| around.segment().to_string());
+    let outside = Home::Program { program: program.clone(), example, way, before: None };
+    let address = text::joined(&text::address_of(&outside), &segment);
+    let now = outcome::worth(&open.state, host, &outside, &choice.condition)?;
+    let is_other = now == Worth::Truth(!choice.is_then);
+    if !is_same && !is_other {
+        let wanted = if choice.is_then { "false" } else { "true" };
+        let message = format!(
+            "{} has to be {wanted} for the other branch: set parameters so, or choose a row",
+            choice.condition
+        );
+        return Err(words::refuse(message));
+    }
+    let source = open.state.text.clone();
+    let gone = || words::refuse("the `if` is gone".into());
+    let Some(Value::If(it)) = text::step_at(&source, &program, &address).and_then(|s| s.value)
+    else {
+        return Err(gone());
+    };
+    let mut edited = source.clone();
+    if choice.is_then && it.else_branch().is_none() {
+        let end = it.span().end as usize;
+        let indent =
+            "    ".repeat(address.split('.').filter(|s| !matches!(*s, "then" | "else")).count());
+        edited.insert_str(end, &format!(" else {{\n{indent}}}"));
+    }
+    if is_same && !is_other {
+        let condition = it.condition().ok_or_else(gone)?.span();
+        edited.replace_range(
+            condition.start as usize..condition.end as usize,
+            &format!("not ({})", choice.condition),
+        );
+    }
+    let change = recording::retext(open, host, edited, format!("otherwise {}", choice.condition))?;
+    if let Some(block) = open.recording.as_mut().and_then(|r| r.blocks.last_mut()) {
+        let branch = if choice.is_then { "else" } else { "then" };
+        block.around.address = format!("{segment}.{branch}");
+        block.kind = Kind::Choice(Choice {
+            is_then: !choice.is_then,
+            is_second: true,
+            asks: false,
+            ..choice
+        });
+    }
+    Ok(change)
+}
+
+/// Ends the `if`: the condition and the example's values are again what they were. It is one step.
+///
+/// # Errors
+/// No `if` is open.
+pub(crate) fn end(open: &mut Open, host: &dyn Host) -> Result<Change, Refusal> {
+    let (_, choice) = opened(open)?;
+    let Home::Program { program, mut way, example, .. } = Home::of(open.recording.as_ref()) else {
+        return Err(words::refuse("nothing is recorded".into()));
+    };
+    let segment = way.pop().map_or(String::new(), |around| around.segment().to_string());
+    let outside = Home::Program { program: program.clone(), example, way, before: None };
+    let address = text::joined(&text::address_of(&outside), &segment);
+    let mut edited = open.state.text.clone();
+    if let Some(Value::If(it)) = text::step_at(&edited, &program, &address).and_then(|s| s.value)
+        && let Some(condition) = it.condition()
+    {
+        let span = condition.span();
+        edited.replace_range(span.start as usize..span.end as usize, &choice.condition);
+    }
+    if let Some(before) = &choice.example
+        && let Some(now) = example_span(open, &edited)
+    {
+        edited.replace_range(now, before);
+    }
+    let change = match edited == open.state.text {
+        true => Change::default(),
+        false => recording::retext(open, host, edited, format!("if {}", choice.condition))?,
+    };
+    blocks::leave(open);
+    open.label_last(format!("if {}", choice.condition));
+    Ok(change)
+}
+
+/// Where the declaration of the example stands in a text.
+fn example_span(open: &Open, source: &str) -> Option<std::ops::Range<usize>> {
+    let example = &open.recording.as_ref()?.example;
+    let file = syntax::parse(base::FileId(0), source).file();
+    file.members().find_map(|member| match member {
+        syntax::ast::Member::Part(part) => {
+            let is_it = part.names().any(|word| word.text() == example.as_str());
+            let span = syntax::ast::span_without_doc(part.syntax());
+            is_it.then_some(span.start as usize..span.end as usize)
+        }
+        _ => None,
+    })
+}
+
+fn example_text(open: &Open) -> Option<String> {
+    let source = &open.state.text;
+    example_span(open, source).map(|span| source[span].to_string())
+}

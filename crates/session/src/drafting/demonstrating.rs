@@ -1,0 +1,138 @@
+//! Recording at the boundary: a program begun and ended, its parameters, loops and branches demonstrated.
+
+use super::hands::{home, prompt, turn_of};
+use super::view::{Ends, NewParameter, Prompt, Turn};
+use super::{blocks, choice, recording, repeat, scene};
+use crate::host::Beside;
+use crate::session::Session;
+use crate::view::{Change, DocumentId, Refusal};
+use crate::words;
+
+impl Session {
+    /// Begins to record a program: a new one, with an example of it in the document, or more of one that is there.
+    ///
+    /// # Errors
+    /// The name is none for a program, or something else is called so.
+    pub fn record(&mut self, id: DocumentId, name: &str) -> Result<Change, Refusal> {
+        let beside = Beside::of(&*self.host, &self.documents, id);
+        let change = recording::begin(&mut self.documents[id.0 as usize], &beside, name)?;
+        Ok(*self.with_reach(id, change))
+    }
+
+    /// Ends the recording: what is drawn then belongs to the document.
+    ///
+    /// # Errors
+    /// A loop or an `if` is still demonstrated.
+    pub fn stop_recording(&mut self, id: DocumentId) -> Result<(), Refusal> {
+        let open = self.document_mut(id);
+        blocks::settle(open);
+        if let Some(recording) = &open.recording
+            && let Some(block) = recording.blocks.iter().find(|b| b.kind != blocks::Kind::Visited)
+        {
+            let what = match &block.around.name {
+                Some(name) => name.to_string(),
+                None => "the `if`".into(),
+            };
+            return Err(words::refuse(format!("{what} is open still: end it, or undo it, first")));
+        }
+        open.recording = None;
+        open.dialogue = None;
+        open.picking = super::Picking::default();
+        Ok(())
+    }
+
+    /// Begins a loop in the program that is recorded; what is drawn next is its first turn. Without a name it gets one.
+    ///
+    /// # Errors
+    /// Nothing is recorded, the name is none or taken.
+    pub fn begin_loop(&mut self, id: DocumentId, name: &str) -> Result<Change, Refusal> {
+        let beside = Beside::of(&*self.host, &self.documents, id);
+        let change = repeat::begin(&mut self.documents[id.0 as usize], &beside, name)?;
+        Ok(*self.with_reach(id, change))
+    }
+
+    /// Begins a loop over what lies in a rectangle, each by its name; what is drawn next is done for each.
+    ///
+    /// # Errors
+    /// Nothing is recorded, nothing lies there.
+    pub fn begin_each(
+        &mut self,
+        id: DocumentId,
+        corners: ((f64, f64), (f64, f64)),
+    ) -> Result<Change, Refusal> {
+        let beside = Beside::of(&*self.host, &self.documents, id);
+        let open = &mut self.documents[id.0 as usize];
+        blocks::recorded(open)?;
+        let set = scene::within(&open.state, &home(open), corners);
+        let change = repeat::begin_each(open, &beside, ("", &set))?;
+        Ok(*self.with_reach(id, change))
+    }
+
+    /// Ends the first turn of the loop, and says how the loop ends; what is asked of the second turn is then waited for.
+    ///
+    /// # Errors
+    /// No loop is open, or nothing is drawn in it.
+    pub fn end_turn(&mut self, id: DocumentId, ends: Ends) -> Result<Turn, Refusal> {
+        let beside = Beside::of(&*self.host, &self.documents, id);
+        let open = &mut self.documents[id.0 as usize];
+        let closed = repeat::end_turn(open, &beside, ends)?;
+        let turn = turn_of(open, closed, String::new());
+        Ok(self.reached(id, turn))
+    }
+
+    /// Begins an `if`: its condition is waited for; the branch that it takes now is drawn then.
+    ///
+    /// # Errors
+    /// Nothing is recorded.
+    pub fn begin_choice(&mut self, id: DocumentId) -> Result<Option<Prompt>, Refusal> {
+        let open = self.document_mut(id);
+        choice::ask(open)?;
+        Ok(prompt(open))
+    }
+
+    /// Ends the first branch of an `if`; how the other one shall be drawn is waited for.
+    ///
+    /// # Errors
+    /// No `if` is open, or its second branch is.
+    pub fn otherwise(&mut self, id: DocumentId) -> Result<Option<Prompt>, Refusal> {
+        let open = self.document_mut(id);
+        choice::otherwise(open)?;
+        Ok(prompt(open))
+    }
+
+    /// Begins the other branch of an `if`: with the same values, or with those that were set meanwhile.
+    ///
+    /// # Errors
+    /// No `if` is open; the values do not take the other branch.
+    pub fn other_branch(&mut self, id: DocumentId, is_same: bool) -> Result<Change, Refusal> {
+        let beside = Beside::of(&*self.host, &self.documents, id);
+        let open = &mut self.documents[id.0 as usize];
+        let change = choice::second(open, &beside, is_same)?;
+        Ok(*self.with_reach(id, change))
+    }
+
+    /// Ends an `if`. The example has its values again.
+    ///
+    /// # Errors
+    /// No `if` is open.
+    pub fn end_choice(&mut self, id: DocumentId) -> Result<Change, Refusal> {
+        let beside = Beside::of(&*self.host, &self.documents, id);
+        let change = choice::end(&mut self.documents[id.0 as usize], &beside)?;
+        Ok(*self.with_reach(id, change))
+    }
+
+    /// Defines a parameter of the program that is recorded.
+    ///
+    /// # Errors
+    /// Nothing is recorded, the name is taken, the example is no value.
+    pub fn define_parameter(
+        &mut self,
+        id: DocumentId,
+        parameter: &NewParameter,
+    ) -> Result<Change, Refusal> {
+        let beside = Beside::of(&*self.host, &self.documents, id);
+        let open = &mut self.documents[id.0 as usize];
+        let change = recording::define(open, &beside, &home(open), parameter)?;
+        Ok(*self.with_reach(id, change))
+    }
+}

@@ -1,0 +1,206 @@
+//! A construction that waits for its operands, and what a pointer finds for the one that is wanted.
+
+use super::catalogue::{Slot, SlotKind, Tool};
+use super::scene::{self, Found};
+use super::view::{Hover, Prompt, Wants};
+use super::{Home, measure, outcome, typed};
+use crate::host::Host;
+use crate::state::State;
+use crate::view::{Pointer, Refusal};
+use crate::words;
+
+/// An operand as it is given.
+#[derive(Clone, PartialEq, Debug)]
+pub(crate) struct Operand {
+    /// How it is written.
+    pub(crate) text: String,
+    /// Where it was picked.
+    pub(crate) at: Option<(f64, f64)>,
+}
+
+/// A construction that waits for operands.
+#[derive(Clone, Debug)]
+pub(crate) struct Dialogue {
+    pub(crate) tool: Tool,
+    /// Those that are given.
+    pub(crate) filled: Vec<Operand>,
+    /// Whether what is made is drawn for construction alone.
+    pub(crate) is_guide: bool,
+    /// Where the pointer was last.
+    pub(crate) pointer: Option<(f64, f64)>,
+    /// The point that was given last, to which `@dx,dy` and `length<angle` go.
+    pub(crate) last_point: Option<String>,
+    /// Whether it was chosen since it made something last.
+    pub(crate) is_begun: bool,
+    /// What waits for the outcome of this one as its operand.
+    pub(crate) goal: Option<Goal>,
+    /// The step that is done anew by this one.
+    pub(crate) replaces: Option<String>,
+}
+
+/// What waits for the outcome of another construction.
+#[derive(Clone, Debug)]
+pub(crate) enum Goal {
+    /// A construction.
+    Operand(Box<Dialogue>),
+    /// A question of the second turn of a loop.
+    Answer,
+}
+
+impl Dialogue {
+    pub(crate) fn new(tool: Tool) -> Self {
+        Self {
+            tool,
+            filled: Vec::new(),
+            is_guide: false,
+            pointer: None,
+            last_point: None,
+            is_begun: true,
+            goal: None,
+            replaces: None,
+        }
+    }
+
+    /// The slot that waits.
+    pub(crate) fn slot(&self) -> Option<&Slot> {
+        self.tool.slots.get(self.filled.len())
+    }
+
+    /// What it says.
+    pub(crate) fn prompt(&self) -> Prompt {
+        let slot = self.slot();
+        let words = slot.map_or_else(String::new, |slot| {
+            let wanted = match slot.kind {
+                SlotKind::Point => {
+                    "pick a point, or type `x,y`, `@dx,dy`, `length<angle`".to_string()
+                }
+                SlotKind::Curve => format!("pick a {}", slot.class.to_lowercase()),
+                SlotKind::Set => "pick a figure; Tab takes its turn, or the whole loop".to_string(),
+                SlotKind::Value => "type a value, pick a parameter or what has it".to_string(),
+            };
+            format!("{}: {wanted}", slot.name)
+        });
+        let given = |i: usize| self.filled.get(i).map(|operand| operand.text.clone());
+        let operands = self.tool.slots.iter().enumerate();
+        let label = match (&self.goal, &self.replaces) {
+            (Some(Goal::Operand(goal)), _) => {
+                let of = goal.slot().map_or("", |slot| slot.name.as_str());
+                format!("{}, as {of} of {}", self.tool.label, goal.tool.label)
+            }
+            (Some(Goal::Answer), _) => format!("{}, as the answer", self.tool.label),
+            (None, Some(step)) => format!("{step} anew: {}", self.tool.label),
+            (None, None) => self.tool.label.clone(),
+        };
+        Prompt {
+            tool: self.tool.id.clone(),
+            label,
+            words,
+            operands: operands.map(|(i, slot)| (slot.name.clone(), given(i))).collect(),
+            is_value: slot.is_some_and(|slot| slot.kind == SlotKind::Value),
+            takes_sets: slot.is_some_and(|slot| slot.kind == SlotKind::Set),
+            wants: Wants::Operand,
+            insert: None,
+        }
+    }
+
+    /// What a pointer finds for the slot that waits.
+    ///
+    /// # Errors
+    /// Nothing that fits; what lies there and cannot be picked is named.
+    pub(crate) fn pick(
+        &self,
+        state: &State,
+        home: &Home,
+        (pointer, level): (&Pointer, usize),
+    ) -> Result<Operand, Refusal> {
+        let Some(slot) = self.slot() else {
+            return Err(words::refuse("no operand is wanted".into()));
+        };
+        let found = scene::scene(state, home);
+        if let Some(found) = nearest(state, slot, &found, pointer) {
+            let text = match slot.kind {
+                SlotKind::Value => measure::usual(state, found)
+                    .ok_or_else(|| words::refuse(format!("{} has no measure", found.text)))?,
+                SlotKind::Set => found.at_level(level),
+                SlotKind::Point | SlotKind::Curve => found.text.clone(),
+            };
+            return Ok(Operand { text, at: Some(pointer.at) });
+        }
+        if slot.kind == SlotKind::Point {
+            return Ok(Operand { text: typed::place(pointer), at: Some(pointer.at) });
+        }
+        if let (SlotKind::Value, "x" | "y") = (slot.kind, slot.name.as_str()) {
+            return Ok(Operand {
+                text: typed::coordinate(pointer, &slot.name),
+                at: Some(pointer.at),
+            });
+        }
+        let outside = match home {
+            Home::Document => None,
+            Home::Program { example, .. } => {
+                let all = scene::scene(state, &Home::Document);
+                let is_outside = |f: &Found| !f.text.starts_with(example.as_str());
+                let all: Vec<Found> = all.into_iter().filter(is_outside).collect();
+                nearest(state, slot, &all, pointer).map(|f| f.text.clone())
+            }
+        };
+        Err(words::refuse(match outside {
+            Some(text) => format!("{text} is outside of the program that is recorded"),
+            None => format!("there is no {} here", slot.class.to_lowercase()),
+        }))
+    }
+
+    /// What a pointer, with what is typed so far, would do.
+    pub(crate) fn hover(
+        &self,
+        state: &State,
+        host: &dyn Host,
+        home: &Home,
+        (pointer, level, typed): (&Pointer, usize, &str),
+    ) -> Hover {
+        let Some(slot) = self.slot() else { return Hover::default() };
+        let operand = match typed.trim().is_empty() {
+            true => self.pick(state, home, (pointer, level)),
+            false => typed::operand(slot, typed, self.last_point.as_deref())
+                .map(|text| Operand { text, at: None }),
+        };
+        let operand = match operand {
+            Ok(operand) => operand,
+            Err(refusal) => return Hover { why: Some(refusal.message), ..Hover::default() },
+        };
+        let finds = Some(operand.text.clone());
+        let lit = match (slot.kind, typed.trim().is_empty()) {
+            (SlotKind::Curve | SlotKind::Set | SlotKind::Point, true) => {
+                scene::drawing_of(state, home, &operand.text)
+            }
+            _ => drawing::Drawing::default(),
+        };
+        if self.filled.len() + 1 < self.tool.slots.len() {
+            return Hover { finds, ghost: lit, why: None };
+        }
+        let mut operands = self.filled.clone();
+        operands.push(operand);
+        match outcome::choose(state, host, home, (&self.tool, &operands, Some(pointer.at))) {
+            Ok(chosen) => Hover { finds, ghost: chosen.drawing, why: None },
+            Err(refusal) => Hover { finds, why: Some(refusal.message), ..Hover::default() },
+        }
+    }
+}
+
+/// Returns the nearest figure that fits a slot, a point before what runs through it.
+pub(crate) fn nearest<'f>(
+    state: &State,
+    slot: &Slot,
+    all: &'f [Found],
+    pointer: &Pointer,
+) -> Option<&'f Found> {
+    let document = &state.lowered.document;
+    let wanted: Vec<_> = slot.classes().filter_map(|c| document.class_named(c)).collect();
+    let fits = |f: &&Found| match slot.kind {
+        SlotKind::Value => measure::usual(state, f).is_some(),
+        SlotKind::Point | SlotKind::Curve | SlotKind::Set => {
+            wanted.iter().any(|&w| document.is_a(f.class, w))
+        }
+    };
+    scene::nearest(all.iter().filter(fits), pointer)
+}

@@ -1,0 +1,155 @@
+//! Measures that a calculator takes of what is drawn, by pointing: each is an expression over what was picked.
+
+use super::Home;
+use super::scene::{self, Curve, Found};
+use super::view::MeasureKind;
+use crate::state::State;
+use crate::view::{Pointer, Refusal};
+use crate::words;
+
+/// A measure that waits for what it is of.
+#[derive(Clone, Debug)]
+pub(crate) struct Measuring {
+    pub(crate) kind: MeasureKind,
+    /// What was picked so far.
+    picked: Vec<Found>,
+}
+
+/// What a figure is, for a measure.
+#[derive(Clone, Copy, PartialEq, Eq)]
+enum Sort {
+    Point,
+    Straight,
+    Round,
+}
+
+fn sort(state: &State, found: &Found) -> Option<Sort> {
+    let is_of = |name: &str| is_a(state, found, name);
+    match () {
+        () if is_of("Point") => Some(Sort::Point),
+        () if is_of("Straight") => Some(Sort::Straight),
+        () if is_of("Circle") || is_of("Arc") => Some(Sort::Round),
+        () => None,
+    }
+}
+
+fn is_a(state: &State, found: &Found, name: &str) -> bool {
+    let document = &state.lowered.document;
+    document.class_named(name).is_some_and(|class| document.is_a(found.class, class))
+}
+
+/// The radius of what is round, as a size.
+fn radius(found: &Found) -> String {
+    match found.curve.runs_right() {
+        true => format!("abs({}.radius)", found.text),
+        false => format!("{}.radius", found.text),
+    }
+}
+
+/// Returns the measure that a figure has without being asked for a certain one: a circle's radius, a line's length.
+pub(crate) fn usual(state: &State, found: &Found) -> Option<String> {
+    match sort(state, found)? {
+        Sort::Round => Some(radius(found)),
+        Sort::Straight if is_a(state, found, "Line") => Some(format!("{}.length", found.text)),
+        Sort::Straight | Sort::Point => None,
+    }
+}
+
+impl Measuring {
+    pub(crate) fn new(kind: MeasureKind) -> Self {
+        Self { kind, picked: Vec::new() }
+    }
+
+    /// What is wanted next, in words.
+    pub(crate) fn words(&self) -> &'static str {
+        match (self.kind, self.picked.len()) {
+            (MeasureKind::Radius, _) => "radius: pick a circle or an arc",
+            (MeasureKind::Length, _) => "length: pick a line or an arc",
+            (MeasureKind::Across | MeasureKind::Up, _) => "coordinate: pick a point",
+            (MeasureKind::Area, _) => "area: pick a circle, or a surface",
+            (MeasureKind::Distance, 0) => "distance: pick a point, a line or a circle",
+            (MeasureKind::Distance, _) => "distance: pick the other",
+            (MeasureKind::Angle, 0) => "angle: pick a line",
+            (MeasureKind::Angle, _) => "angle: pick the line that it goes to",
+        }
+    }
+
+    fn takes(&self, state: &State, found: &Found) -> bool {
+        let sort = sort(state, found);
+        match self.kind {
+            MeasureKind::Radius => sort == Some(Sort::Round),
+            MeasureKind::Length => is_a(state, found, "Line") || is_a(state, found, "Arc"),
+            MeasureKind::Across | MeasureKind::Up => sort == Some(Sort::Point),
+            MeasureKind::Area => {
+                is_a(state, found, "Circle")
+                    || is_a(state, found, "Surface")
+                    || is_a(state, found, "Contour")
+            }
+            MeasureKind::Distance => sort.is_some(),
+            MeasureKind::Angle => sort == Some(Sort::Straight),
+        }
+    }
+
+    /// What lies under a pointer that it can be of.
+    ///
+    /// # Errors
+    /// Nothing does.
+    pub(crate) fn find(
+        &self,
+        state: &State,
+        home: &Home,
+        pointer: &Pointer,
+    ) -> Result<Found, Refusal> {
+        let all = scene::scene(state, home);
+        let found = scene::nearest(all.iter().filter(|f| self.takes(state, f)), pointer).cloned();
+        found.ok_or_else(|| words::refuse(self.words().into()))
+    }
+
+    /// Takes one more pick; returns the expression once it is complete.
+    pub(crate) fn take(&mut self, state: &State, found: Found) -> Option<String> {
+        self.picked.push(found);
+        match (self.kind, self.picked.as_slice()) {
+            (MeasureKind::Radius, [a, ..]) => Some(radius(a)),
+            (MeasureKind::Length, [a, ..]) => Some(format!("{}.length", a.text)),
+            (MeasureKind::Across, [a, ..]) => Some(format!("{}.x", a.text)),
+            (MeasureKind::Up, [a, ..]) => Some(format!("{}.y", a.text)),
+            (MeasureKind::Area, [a, ..]) if is_a(state, a, "Circle") => {
+                Some(format!("pi() * {}.radius^2", a.text))
+            }
+            (MeasureKind::Area, [a, ..]) => Some(format!("{}.area", a.text)),
+            (MeasureKind::Angle, [a, b, ..]) => Some(format!("{}.angle(to: {})", a.text, b.text)),
+            (MeasureKind::Distance, [a, b, ..]) => distance(state, a, b),
+            (_, _) => None,
+        }
+    }
+}
+
+/// Writes how far two figures are from each other: of lines that of a point of one, of circles between the curves.
+fn distance(state: &State, a: &Found, b: &Found) -> Option<String> {
+    let (one, other) = (sort(state, a)?, sort(state, b)?);
+    Some(match (one, other) {
+        (Sort::Point, Sort::Point) => format!("{}.distance(to: {})", a.text, b.text),
+        (Sort::Straight, Sort::Point) => format!("abs({}.offset(of: {}))", a.text, b.text),
+        (Sort::Straight, Sort::Straight) => format!("abs({}.offset(of: {}.p1))", a.text, b.text),
+        (Sort::Straight, Sort::Round) => {
+            format!("abs(abs({}.offset(of: {}.center)) - {})", a.text, b.text, radius(b))
+        }
+        (Sort::Round, Sort::Point) => {
+            format!("abs({}.center.distance(to: {}) - {})", a.text, b.text, radius(a))
+        }
+        (Sort::Round, Sort::Round) => {
+            let apart = format!("{}.center.distance(to: {}.center)", a.text, b.text);
+            format!("abs({apart} - {} - {})", radius(a), radius(b))
+        }
+        (Sort::Point | Sort::Round, Sort::Straight) | (Sort::Point, Sort::Round) => {
+            return distance(state, b, a);
+        }
+    })
+}
+
+impl Curve {
+    /// Whether it is round and runs to the right around its centre.
+    fn runs_right(&self) -> bool {
+        self.radius().is_some_and(|radius| radius < 0.0)
+    }
+}

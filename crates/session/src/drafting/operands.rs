@@ -1,0 +1,149 @@
+//! The operands of a turn that come from outside of it: what a second turn is asked.
+
+use super::text;
+use base::Span;
+use syntax::ast::{AstNode, Expr, Value};
+
+/// An operand of a step in a turn.
+pub(super) struct Occurrence {
+    /// The step, by its address in the turn.
+    pub(super) step: String,
+    /// The label, or the place.
+    pub(super) slot: String,
+    /// How it is written.
+    pub(super) first: String,
+    /// Where it stands.
+    pub(super) span: Span,
+}
+
+/// Lists the operands of a turn that speak of something that it has not made, those of blocks in it too.
+pub(super) fn operands(body: &syntax::ast::Body) -> Vec<Occurrence> {
+    let mut all = Vec::new();
+    collect(&text::steps_of(body), "", &mut Vec::new(), &mut all);
+    all
+}
+
+fn collect(steps: &[text::StepNode], way: &str, own: &mut Vec<String>, into: &mut Vec<Occurrence>) {
+    for step in steps {
+        let step_way = text::joined(way, &step.segment);
+        let Some(value) = &step.value else { continue };
+        let mut operands = heads(value);
+        add(&mut operands, (&step_way, own), into);
+        let known = own.len();
+        own.extend(text::carried_names(value));
+        for (segment, steps) in text::inner_steps(value) {
+            collect(&steps, &text::joined(&step_way, segment), own, into);
+        }
+        let mut operands = tails(value);
+        add(&mut operands, (&step_way, own), into);
+        // what a block with a name makes is reached by that name alone
+        if step.name.is_some() {
+            own.truncate(known);
+        }
+        own.extend(step.name.clone());
+    }
+}
+
+/// Keeps of operands those that speak of something from outside.
+fn add(
+    operands: &mut Vec<(String, Expr)>,
+    (step, own): (&str, &[String]),
+    into: &mut Vec<Occurrence>,
+) {
+    for (slot, value) in operands.drain(..) {
+        let first = value.syntax().text().to_string().trim().to_string();
+        if speaks_of_outside(&first, own) {
+            let span = syntax::ast::span_without_doc(value.syntax());
+            into.push(Occurrence { step: step.into(), slot, first, span });
+        }
+    }
+}
+
+/// The operands of a step: those of a construction, or what stands before a block.
+fn heads(value: &Value) -> Vec<(String, Expr)> {
+    let named = |name: &str, value: Option<Expr>| value.map(|value| (name.to_string(), value));
+    let carried = |with: Option<syntax::ast::With>| {
+        let bindings: Vec<_> = with.into_iter().flat_map(|with| with.bindings()).collect();
+        let one = |b: &syntax::ast::Binding| Some((b.name()?.text().to_string(), b.value()?));
+        bindings.iter().filter_map(one).collect::<Vec<_>>()
+    };
+    match value {
+        Value::Expr(value) => operands_of(value),
+        Value::Repeat(block) => {
+            named("times", block.times()).into_iter().chain(carried(block.with())).collect()
+        }
+        Value::While(block) => carried(block.with()),
+        Value::For(block) => {
+            named("set", block.range()).into_iter().chain(carried(block.with())).collect()
+        }
+        Value::If(choice) => named("condition", choice.condition()).into_iter().collect(),
+    }
+}
+
+/// What ends a loop, and what its next turn begins with.
+fn tails(value: &Value) -> Vec<(String, Expr)> {
+    let named = |name: &str, value: Option<Expr>| value.map(|value| (name.to_string(), value));
+    let (body, condition) = match value {
+        Value::Repeat(block) => (block.body(), named("until", block.until())),
+        Value::While(block) => (block.body(), named("while", block.condition())),
+        Value::For(block) => (block.body(), None),
+        Value::Expr(_) | Value::If(_) => (None, None),
+    };
+    let next = body.into_iter().flat_map(|body| body.members()).filter_map(|m| match m {
+        syntax::ast::Member::Next(next) => Some(next),
+        _ => None,
+    });
+    let bindings: Vec<_> = next.flat_map(|next| next.bindings()).collect();
+    let one = |b: &syntax::ast::Binding| Some((b.name()?.text().to_string(), b.value()?));
+    condition.into_iter().chain(bindings.iter().filter_map(one)).collect()
+}
+
+fn operands_of(value: &Expr) -> Vec<(String, Expr)> {
+    let is_capital = |text: &str| text.trim().starts_with(char::is_uppercase);
+    let (receiver, list) = match value {
+        Expr::Call(call) if call.name().is_some_and(|w| is_capital(w.text())) => {
+            (None, call.args())
+        }
+        Expr::Field(field) => (field.receiver(), field.args()),
+        _ => (None, None),
+    };
+    let Some(list) = list else { return vec![("value".into(), value.clone())] };
+    // `line.mirrored(about: axis)` is sent to what stands before the word
+    let receiver = receiver.filter(|r| !is_capital(&r.syntax().text().to_string()));
+    let receiver = receiver.map(|r| ("what".to_string(), r));
+    let one = |(i, argument): (usize, syntax::ast::Arg)| {
+        let label = argument.label().map(|word| word.text().to_string());
+        Some((label.unwrap_or_else(|| ordinal(i)), argument.value()?))
+    };
+    receiver.into_iter().chain(list.args().enumerate().filter_map(one)).collect()
+}
+
+/// What an operand without a label is called.
+fn ordinal(i: usize) -> String {
+    ["first", "second", "third"].get(i).map_or_else(|| format!("operand{}", i + 1), |n| (*n).into())
+}
+
+/// Whether an operand speaks of something that its turn has not made: not a literal, not a class or function.
+fn speaks_of_outside(text: &str, own: &[String]) -> bool {
+    let is_word = |c: char| c.is_alphanumeric() || c == '_';
+    let mut rest = text;
+    let mut before = ' ';
+    while let Some(start) = rest.find(is_word) {
+        if let Some(c) = rest[..start].chars().next_back() {
+            before = c;
+        }
+        let word: String = rest[start..].chars().take_while(|&c| is_word(c)).collect();
+        rest = &rest[start + word.len()..];
+        let follows = rest.trim_start().chars().next();
+        let is_name = word.starts_with(char::is_lowercase) && before != '.';
+        let is_unit = before == ' '
+            && text[..text.len() - rest.len() - word.len()]
+                .trim_end()
+                .ends_with(|c: char| c.is_ascii_digit());
+        if is_name && !is_unit && !matches!(follows, Some('(' | ':')) && !own.contains(&word) {
+            return true;
+        }
+        before = ' ';
+    }
+    false
+}

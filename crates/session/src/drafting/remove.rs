@@ -1,0 +1,232 @@
+//! A step deleted: for each step that speaks of it another object is asked for, or it goes too; one by one.
+
+use super::view::{Prompt, Wants};
+use super::{blocks, outcome, recording, scene, steps, text, visit};
+use crate::document::Open;
+use crate::host::Host;
+use crate::view::{Change, Pointer, Refusal};
+use crate::words;
+use base::Name;
+
+/// A deletion whose dependents are asked about.
+#[derive(Clone, PartialEq, Debug)]
+pub(crate) struct Removing {
+    /// The steps that go, by address, the first of them the one that was meant.
+    gone: Vec<String>,
+    /// What speaks of one that goes: the step, what it speaks of, and what it shall speak of instead.
+    asked: Vec<Asked>,
+}
+
+#[derive(Clone, PartialEq, Debug)]
+struct Asked {
+    step: String,
+    of: String,
+    answer: Option<Answer>,
+}
+
+#[derive(Clone, PartialEq, Debug)]
+enum Answer {
+    /// It goes, too.
+    Along,
+    /// Another object, as it is written.
+    Instead(String),
+}
+
+impl Removing {
+    fn open_question(&self) -> Option<usize> {
+        self.asked.iter().position(|asked| asked.answer.is_none())
+    }
+
+    /// Lists what speaks of a step that goes, once.
+    fn go_along(&mut self, source: &str, program: &str, address: &str) {
+        self.gone.push(address.to_string());
+        let of = address.rsplit('.').next().unwrap_or_default().to_string();
+        for user in steps::users(source, program, address) {
+            let is_in = |gone: &String| *gone == user || user.starts_with(&format!("{gone}."));
+            if !self.gone.iter().any(is_in) {
+                self.asked.push(Asked { step: user, of: of.clone(), answer: None });
+            }
+        }
+        let gone = self.gone.clone();
+        self.asked.retain(|asked| asked.answer.is_some() || !gone.contains(&asked.step));
+    }
+
+    /// What is waited for.
+    pub(crate) fn prompt(&self) -> Option<Prompt> {
+        let at = self.open_question()?;
+        let Asked { step, of, .. } = &self.asked[at];
+        Some(Prompt {
+            label: format!("Delete {}, {} of {}", self.gone[0], at + 1, self.asked.len()),
+            words: format!(
+                "{step} speaks of {of}: pick or type another object for it, or delete it too"
+            ),
+            takes_sets: true,
+            wants: Wants::Substitute { step: step.clone(), gone: of.clone() },
+            ..Prompt::default()
+        })
+    }
+}
+
+/// Begins to delete a step; what speaks of it is asked about. Where nothing does, it goes at once.
+///
+/// # Errors
+/// Nothing is recorded, a block is demonstrated, there is no such step.
+pub(crate) fn begin(
+    open: &mut Open,
+    host: &dyn Host,
+    address: &str,
+) -> Result<Option<Change>, Refusal> {
+    let recording = blocks::recorded(open)?;
+    if recording.blocks.iter().any(|block| block.kind != blocks::Kind::Visited) {
+        return Err(words::refuse("a block is demonstrated: end it, or undo it, first".into()));
+    }
+    let program = recording.program.clone();
+    let source = open.state.text.clone();
+    let none = || words::refuse(format!("{program} has no step {address}"));
+    text::step_at(&source, &program, address).ok_or_else(none)?;
+    let mut removing = Removing { gone: Vec::new(), asked: Vec::new() };
+    removing.go_along(&source, &program, address);
+    open.dialogue = None;
+    keep(open, Some(removing));
+    finish(open, host)
+}
+
+fn keep(open: &mut Open, removing: Option<Removing>) {
+    if let Some(recording) = &mut open.recording {
+        recording.removing = removing;
+    }
+}
+
+fn opened(open: &mut Open) -> Result<(Removing, Name, Name), Refusal> {
+    let none = || words::refuse("nothing is deleted".into());
+    let recording = blocks::recorded(open)?;
+    let (program, example) = (recording.program.clone(), recording.example.clone());
+    Ok((recording.removing.clone().ok_or_else(none)?, program, example))
+}
+
+/// Takes the latest answer back; without one nothing is deleted.
+pub(crate) fn back(open: &mut Open) {
+    let Ok((mut removing, program, _)) = opened(open) else { return };
+    match removing.asked.iter().rposition(|asked| asked.answer.is_some()) {
+        Some(at) => {
+            let first = removing.gone[0].clone();
+            let kept: Vec<Asked> = removing.asked[..at].to_vec();
+            let source = open.state.text.clone();
+            let mut again = Removing { gone: Vec::new(), asked: Vec::new() };
+            again.go_along(&source, &program, &first);
+            for answered in kept {
+                if let (Some(place), Some(answer)) = (again.open_question(), answered.answer) {
+                    answer_at(&mut again, (&source, &program), place, &answer);
+                }
+            }
+            removing = again;
+            keep(open, Some(removing));
+        }
+        None => keep(open, None),
+    }
+}
+
+fn answer_at(removing: &mut Removing, (source, program): (&str, &str), at: usize, answer: &Answer) {
+    let step = removing.asked[at].step.clone();
+    removing.asked[at].answer = Some(answer.clone());
+    if *answer == Answer::Along {
+        removing.go_along(source, program, &step);
+    }
+}
+
+/// The step that is asked about goes, too.
+///
+/// # Errors
+/// Nothing is asked.
+pub(crate) fn along(open: &mut Open, host: &dyn Host) -> Result<Option<Change>, Refusal> {
+    let (mut removing, program, _) = opened(open)?;
+    let none = || words::refuse("nothing is asked".into());
+    let at = removing.open_question().ok_or_else(none)?;
+    let source = open.state.text.clone();
+    answer_at(&mut removing, (&source, &program), at, &Answer::Along);
+    keep(open, Some(removing));
+    finish(open, host)
+}
+
+/// Gives another object for what goes: as it is typed, or as a pointer finds it.
+///
+/// # Errors
+/// Nothing is asked; it is made after the step, or goes itself; the step would have no outcome with it.
+pub(crate) fn instead(
+    open: &mut Open,
+    host: &dyn Host,
+    (typed, picked): (&str, Option<(&Pointer, usize)>),
+) -> Result<Option<Change>, Refusal> {
+    let (mut removing, program, example) = opened(open)?;
+    let none = || words::refuse("nothing is asked".into());
+    let at = removing.open_question().ok_or_else(none)?;
+    let Asked { step, of, .. } = removing.asked[at].clone();
+    let source = open.state.text.clone();
+    let home = visit::home_of(&source, (&program, &example), &step, &[]).ok_or_else(none)?;
+    let found = match picked {
+        Some((pointer, level)) => {
+            let all = scene::scene(&open.state, &home);
+            let is_gone = |text: &str| {
+                removing.gone.iter().any(|gone| {
+                    let name = gone.rsplit('.').next().unwrap_or_default();
+                    !text::places_of(text, name).is_empty()
+                })
+            };
+            let nothing = || words::refuse(format!("nothing that {step} can speak of lies here"));
+            let found = scene::nearest(all.iter().filter(|f| !is_gone(&f.text)), pointer);
+            found.map(|found| found.at_level(level)).ok_or_else(nothing)?
+        }
+        None => typed.trim().to_string(),
+    };
+    if found.is_empty() {
+        return Err(words::refuse(format!("pick or type what {step} shall speak of instead")));
+    }
+    outcome::worth(&open.state, host, &home, &found)?;
+    // the step must have an outcome with it
+    let edited = substituted(&source, &program, (&step, &of), &found)?;
+    let (tried, _) =
+        crate::state::State::of(edited, Some(&open.state), host, plan::Plans::default());
+    if let Some(wrong) = recording::new_error(&open.state, &tried) {
+        return Err(words::refuse(wrong));
+    }
+    answer_at(&mut removing, (&source, &program), at, &Answer::Instead(found));
+    keep(open, Some(removing));
+    finish(open, host)
+}
+
+/// Returns a text in which a step speaks of something else.
+fn substituted(
+    source: &str,
+    program: &str,
+    (step, of): (&str, &str),
+    found: &str,
+) -> Result<String, Refusal> {
+    let none = || words::refuse(format!("{program} has no step {step}"));
+    let (_, span) = text::step(source, program, step).ok_or_else(none)?;
+    let (start, end) = (span.start as usize, span.end as usize);
+    let says = &source[start..end];
+    let is_plain = found.chars().all(|c| c.is_alphanumeric() || "_.[]".contains(c));
+    let written = if is_plain { found.to_string() } else { format!("({found})") };
+    Ok(format!("{}{}{}", &source[..start], text::renamed(says, of, &written), &source[end..]))
+}
+
+/// Deletes once everything is answered.
+fn finish(open: &mut Open, host: &dyn Host) -> Result<Option<Change>, Refusal> {
+    let (removing, program, _) = opened(open)?;
+    if removing.open_question().is_some() {
+        return Ok(None);
+    }
+    let mut edited = open.state.text.clone();
+    for asked in &removing.asked {
+        if let Some(Answer::Instead(found)) = &asked.answer
+            && !removing.gone.contains(&asked.step)
+        {
+            edited = substituted(&edited, &program, (&asked.step, &asked.of), found)?;
+        }
+    }
+    let edited = steps::without(&edited, &program, &removing.gone)?;
+    let label = format!("delete {}", removing.gone.join(", "));
+    let change = recording::retext(open, host, edited, label);
+    keep(open, None);
+    change.map(Some)
+}

@@ -1,0 +1,276 @@
+//! Visiting a program: going through its steps, and inserting, replacing and deleting where one is.
+//!
+//! A visit is a place: the blocks around it, each with the turn that is shown, and the step that comes next. What is
+//! drawn there is inserted before that step.
+
+use super::blocks::{self, Block, Kind};
+use super::view::Go;
+use super::{Around, Home, scene, steps, text};
+use crate::document::Open;
+use crate::host::Host;
+use crate::state::State;
+use crate::view::{Pointer, Refusal};
+use crate::words;
+use base::Name;
+use eval::{Answer, Evaluator};
+use syntax::ast::Value;
+
+/// The home in front of a step: the first turn of the loops around it.
+pub(crate) fn home_of(
+    source: &str,
+    (program, example): (&Name, &Name),
+    address: &str,
+    turns: &[u32],
+) -> Option<Home> {
+    text::step_at(source, program, address)?;
+    let segments: Vec<&str> = address.split('.').collect();
+    let (last, around) = segments.split_last()?;
+    let mut way: Vec<Around> = Vec::new();
+    let mut at = String::new();
+    let mut rest = around.iter();
+    let mut turns = turns.iter().copied();
+    while let Some(segment) = rest.next() {
+        at = text::joined(&at, segment);
+        let step = text::step_at(source, program, &at)?;
+        let name = step.name.as_deref().map(Name::new);
+        let is_loop =
+            matches!(step.value, Some(Value::Repeat(_) | Value::While(_) | Value::For(_)));
+        let mut own = (*segment).to_string();
+        if matches!(step.value, Some(Value::If(_))) {
+            let branch = rest.next()?;
+            own = text::joined(&own, branch);
+            at = text::joined(&at, branch);
+        }
+        let turn = is_loop.then(|| turns.next().unwrap_or(0));
+        way.push(Around { address: own, name, turn });
+    }
+    let (program, example) = (program.clone(), example.clone());
+    Some(Home::Program { program, example, way, before: Some((*last).to_string()) })
+}
+
+/// Goes somewhere in the program that is recorded.
+///
+/// # Errors
+/// Nothing is recorded, a block is demonstrated; there is no such place.
+pub(crate) fn go(open: &mut Open, host: &dyn Host, go: &Go) -> Result<(), Refusal> {
+    let recording = blocks::recorded(open)?;
+    if recording.blocks.iter().any(|block| block.kind != Kind::Visited) {
+        return Err(words::refuse("a block is demonstrated: end it, or undo it, first".into()));
+    }
+    let (program, example) = (recording.program.clone(), recording.example.clone());
+    let home = Home::of(Some(recording));
+    let source = open.state.text.clone();
+    let body_of = |home: &Home| {
+        let body = text::block(&source, &program, &text::address_of(home));
+        body.map(|body| text::steps_of(&body)).unwrap_or_default()
+    };
+    let Home::Program { mut way, before, .. } = home.clone() else { return Ok(()) };
+    let at_home = |way: Vec<Around>, before: Option<String>| Home::Program {
+        program: program.clone(),
+        example: example.clone(),
+        way,
+        before,
+    };
+    let after = |home: &Home, segment: &str| {
+        let steps = body_of(home);
+        let at = steps.iter().position(|step| step.segment == segment);
+        at.and_then(|at| steps.get(at + 1)).map(|step| step.segment.clone())
+    };
+    let out = |mut way: Vec<Around>| {
+        let around = way.pop()?;
+        let outer = at_home(way.clone(), None);
+        let next = after(&outer, around.segment());
+        Some(at_home(way, next))
+    };
+    let to = match go {
+        Go::Start => {
+            let outer = at_home(Vec::new(), None);
+            let first = body_of(&outer).first().map(|step| step.segment.clone());
+            at_home(Vec::new(), first)
+        }
+        Go::End => at_home(Vec::new(), None),
+        Go::Step => match &before {
+            Some(before) => {
+                let next = after(&home, before);
+                at_home(way, next)
+            }
+            None => out(way).unwrap_or_else(|| at_home(Vec::new(), None)),
+        },
+        Go::Back => {
+            let steps = body_of(&home);
+            let at = before.as_ref().and_then(|b| steps.iter().position(|s| s.segment == *b));
+            match at.unwrap_or(steps.len()).checked_sub(1).and_then(|at| steps.get(at)) {
+                Some(step) => at_home(way, Some(step.segment.clone())),
+                None => match way.pop() {
+                    Some(around) => at_home(way, Some(around.segment().to_string())),
+                    None => home.clone(),
+                },
+            }
+        }
+        Go::Out => out(way).unwrap_or_else(|| at_home(Vec::new(), None)),
+        Go::In => {
+            let none =
+                || words::refuse("no block comes next: there is nothing to step into".into());
+            let segment = before.clone().ok_or_else(none)?;
+            let address = text::joined(&text::address_of(&home), &segment);
+            let inner =
+                inner_of(&open.state, host, (&home, &program), &address).ok_or_else(none)?;
+            let first = home_of(&source, (&program, &example), &inner, &[]);
+            first.ok_or_else(none)?
+        }
+        Go::To(address) => {
+            let none = || words::refuse(format!("{program} has no step {address}"));
+            home_of(&source, (&program, &example), address, &[]).ok_or_else(none)?
+        }
+        Go::UntilPicked(pointer) => until_picked(open, (&program, &example), pointer)?,
+    };
+    enter(open, to);
+    Ok(())
+}
+
+/// Makes a home that which is visited.
+pub(crate) fn enter(open: &mut Open, to: Home) {
+    let Home::Program { way, before, .. } = to else { return };
+    let Some(recording) = &mut open.recording else { return };
+    let source = open.state.text.clone();
+    let since = open.done.len();
+    let mut blocks: Vec<Block> = Vec::new();
+    for around in way {
+        let outer: Vec<Around> = blocks.iter().map(|block| block.around.clone()).collect();
+        let home = Home::Program {
+            program: recording.program.clone(),
+            example: recording.example.clone(),
+            way: outer,
+            before: None,
+        };
+        let body = text::block(&source, &recording.program, &text::address_of(&home));
+        let steps = body.map(|body| text::steps_of(&body)).unwrap_or_default();
+        let at = steps.iter().position(|step| step.segment == around.segment());
+        let before = at.and_then(|at| steps.get(at + 1)).map(|step| step.segment.clone());
+        blocks.push(Block { around, kind: Kind::Visited, since, before });
+    }
+    recording.blocks = blocks;
+    recording.before = before;
+    open.dialogue = None;
+}
+
+/// The address of the first step in a block; of an `if` in the branch that is taken now.
+fn inner_of(
+    state: &State,
+    host: &dyn Host,
+    (home, program): (&Home, &Name),
+    address: &str,
+) -> Option<String> {
+    let value = text::step_at(&state.text, program, address)?.value?;
+    let branch = match &value {
+        Value::Expr(_) => return None,
+        Value::Repeat(_) | Value::While(_) | Value::For(_) => "",
+        Value::If(choice) => {
+            use syntax::ast::AstNode;
+            let condition = choice.condition()?.syntax().text().to_string();
+            let truth = super::outcome::worth(state, host, home, condition.trim());
+            match truth {
+                Ok(super::outcome::Worth::Truth(false)) => "else",
+                _ => "then",
+            }
+        }
+    };
+    let inner = text::inner_steps(&value);
+    let (_, steps) = inner.into_iter().find(|(segment, _)| *segment == branch)?;
+    let first = steps.first()?.segment.clone();
+    Some(text::joined(&text::joined(address, branch), &first))
+}
+
+/// The home right after the step that drew what lies under a pointer, in the turn that drew it.
+fn until_picked(
+    open: &Open,
+    (program, example): (&Name, &Name),
+    pointer: &Pointer,
+) -> Result<Home, Refusal> {
+    let whole = Home::Program {
+        program: program.clone(),
+        example: example.clone(),
+        way: Vec::new(),
+        before: None,
+    };
+    let all = scene::scene(&open.state, &whole);
+    let none = || words::refuse("nothing that the program drew lies here".into());
+    let found = scene::nearest(all.iter(), pointer).ok_or_else(none)?;
+    let (address, turns) = place_of(&open.state.text, program, &found.text).ok_or_else(none)?;
+    home_of(&open.state.text, (program, example), &address, &turns).ok_or_else(none)
+}
+
+/// The address of the step that made what a path leads to, and the turns on the way: `column[2].ring.center`.
+fn place_of(source: &str, program: &Name, path: &str) -> Option<(String, Vec<u32>)> {
+    let mut turns = Vec::new();
+    let mut names: Vec<String> = Vec::new();
+    for part in path.split('.') {
+        let (name, index) = part.split_once('[').unwrap_or((part, ""));
+        names.push(name.to_string());
+        turns.extend(index.trim_end_matches(']').parse::<u32>().ok());
+    }
+    // the longest beginning of the path that is a step
+    let all = steps::addresses(source, program);
+    let is_named = |address: &String, names: &[String]| {
+        let own =
+            address.split('.').filter(|s| !s.starts_with('#') && !matches!(*s, "then" | "else"));
+        own.eq(names.iter().map(String::as_str))
+    };
+    let fits = |n: usize| all.iter().find(|a| is_named(a, &names[..n])).cloned();
+    let address = (1..=names.len()).rev().find_map(fits)?;
+    Some((address, turns))
+}
+
+/// Whether something is visited: what is drawn does not go to the end of the program.
+pub(crate) fn is_inside(open: &Open) -> bool {
+    open.recording.as_ref().is_some_and(|recording| {
+        recording.before.is_some()
+            || recording.blocks.iter().any(|block| block.kind == Kind::Visited)
+    })
+}
+
+/// What the program has drawn up to where it is visited.
+pub(crate) fn drawn_so_far(state: &State, home: &Home) -> drawing::Drawing {
+    let evaluator = state.evaluator(&state.values);
+    let mut elements = Vec::new();
+    let Home::Program { example, way, .. } = home else { return drawing::Drawing::default() };
+    let mut path = kernel::Path::of(&[example]);
+    let mut levels = text::visible(&state.text, home).into_iter();
+    add(&evaluator, &path, &levels.next().unwrap_or_default(), &mut elements);
+    for around in way {
+        let Some(name) = &around.name else { continue };
+        path = path.then(kernel::Step::Part(name.clone()));
+        if let Some(turn) = around.turn {
+            for before in 0..turn {
+                if let Ok(answer) = evaluator.at(&path.then(kernel::Step::Index(before))) {
+                    elements.extend(scene::elements_of(&evaluator, &answer));
+                }
+            }
+            path = path.then(kernel::Step::Index(turn));
+        }
+        add(&evaluator, &path, &levels.next().unwrap_or_default(), &mut elements);
+    }
+    drawing::Drawing { elements, ..drawing::Drawing::default() }
+}
+
+fn add<'a>(
+    evaluator: &Evaluator<'a>,
+    path: &kernel::Path,
+    names: &[String],
+    into: &mut Vec<drawing::Element>,
+) {
+    let context = match evaluator.at(path) {
+        Ok(Answer::Context(turn)) => turn,
+        Ok(Answer::Thing(thing)) => match evaluator.run(thing) {
+            Ok(Some(run)) => run,
+            Ok(None) | Err(_) => return,
+        },
+        Ok(_) | Err(_) => return,
+    };
+    for entry in &context.made {
+        let is_own = entry.standing != eval::Standing::Carried;
+        if is_own && names.iter().any(|name| **name == *entry.name) {
+            into.extend(scene::elements_of(evaluator, &entry.answer));
+        }
+    }
+}

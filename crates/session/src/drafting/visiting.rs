@@ -1,0 +1,132 @@
+//! Programs at the boundary: visited, and their steps told, replaced and deleted.
+
+use super::hands::{home, replaced, turn_of};
+use super::view::{Go, StepsView, Turn};
+use super::{recording, remove, steps, visit};
+use crate::host::Beside;
+use crate::session::Session;
+use crate::view::{Change, DocumentId, Refusal};
+use crate::words;
+
+impl Session {
+    /// Goes somewhere in the program that is recorded: what is drawn then is inserted there.
+    ///
+    /// # Errors
+    /// Nothing is recorded, a block is demonstrated; there is no such place.
+    pub fn visit(&mut self, id: DocumentId, go: &Go) -> Result<(), Refusal> {
+        let beside = Beside::of(&*self.host, &self.documents, id);
+        let open = &mut self.documents[id.0 as usize];
+        visit::go(open, &beside, go)?;
+        if let Some(recording) = &mut open.recording {
+            recording.replaces = None;
+            recording.removing = None;
+        }
+        open.picking = super::Picking::default();
+        Ok(())
+    }
+
+    /// Returns what the program has drawn up to where it is visited; nothing where recording goes on at its end.
+    pub fn drawn_so_far(&self, id: DocumentId) -> Option<drawing::Drawing> {
+        let open = self.document(id);
+        visit::is_inside(open).then(|| visit::drawn_so_far(&open.state, &home(open)))
+    }
+
+    /// Goes to a step, and lets what is drawn next take its place: it keeps its name, and what speaks of it.
+    ///
+    /// # Errors
+    /// Nothing is recorded, a block is demonstrated; there is no such step, or it is a block.
+    pub fn begin_replace(&mut self, id: DocumentId, step: &str) -> Result<(), Refusal> {
+        self.visit(id, &Go::To(step.into()))?;
+        let open = self.document_mut(id);
+        let Some(recording) = &mut open.recording else { return Ok(()) };
+        let found = super::text::step_at(&open.state.text, &recording.program, step);
+        if !matches!(found.and_then(|s| s.value), Some(syntax::ast::Value::Expr(_))) {
+            return Err(words::refuse(format!("{step} is a block: step into it, or delete it")));
+        }
+        recording.replaces = Some(step.into());
+        Ok(())
+    }
+
+    /// Begins to delete a step: for each step that speaks of it another object is waited for, one by one.
+    ///
+    /// # Errors
+    /// Nothing is recorded, a block is demonstrated, there is no such step.
+    pub fn begin_delete(&mut self, id: DocumentId, step: &str) -> Result<Turn, Refusal> {
+        let beside = Beside::of(&*self.host, &self.documents, id);
+        let open = &mut self.documents[id.0 as usize];
+        let done = remove::begin(open, &beside, step)?;
+        let turn = turn_of(open, done, String::new());
+        Ok(self.reached(id, turn))
+    }
+
+    /// Answers that the step which is asked about goes, too.
+    ///
+    /// # Errors
+    /// Nothing is asked.
+    pub fn delete_along(&mut self, id: DocumentId) -> Result<Turn, Refusal> {
+        let beside = Beside::of(&*self.host, &self.documents, id);
+        let open = &mut self.documents[id.0 as usize];
+        let done = remove::along(open, &beside)?;
+        let turn = turn_of(open, done, String::new());
+        Ok(self.reached(id, turn))
+    }
+
+    /// Returns the steps of the program that is recorded, or of that of a thing.
+    pub fn steps(&self, id: DocumentId, thing: Option<&str>) -> Option<StepsView> {
+        let open = self.document(id);
+        steps::view(open, &home(open), thing)
+    }
+
+    /// Returns what something comes to, in words: a number, a place, a circle's centre and radius. Of whatever a path
+    /// leads to, what is drawn and computed too; nothing where it leads nowhere.
+    pub fn comes_to(&self, id: DocumentId, path: &str) -> Option<String> {
+        let open = self.document(id);
+        steps::comes_to(&open.state, open.values(), path)
+    }
+
+    /// Returns what a step of a program drew in its example.
+    pub fn step_drawing(&self, id: DocumentId, example: &str, step: &str) -> drawing::Drawing {
+        let open = self.document(id);
+        steps::drawing(&open.state, open.values(), example, step)
+    }
+
+    /// Returns the steps that speak of a step, or of one that does: what goes when it is deleted.
+    pub fn step_dependents(&self, id: DocumentId, program: &str, step: &str) -> Vec<String> {
+        steps::dependents(&self.document(id).state.text, program, step)
+    }
+
+    /// Deletes a step, with those that speak of it.
+    ///
+    /// # Errors
+    /// There is no such step; its text cannot go.
+    pub fn delete_step(
+        &mut self,
+        id: DocumentId,
+        program: &str,
+        step: &str,
+    ) -> Result<Change, Refusal> {
+        let beside = Beside::of(&*self.host, &self.documents, id);
+        let open = &mut self.documents[id.0 as usize];
+        let mut gone = steps::dependents(&open.state.text, program, step);
+        gone.push(step.into());
+        let text = steps::without(&open.state.text, program, &gone)?;
+        let change = recording::retext(open, &beside, text, format!("delete {step}"))?;
+        Ok(*self.with_reach(id, change))
+    }
+
+    /// Says anew what a step does; it keeps its name, and what speaks of it.
+    ///
+    /// # Errors
+    /// There is no such step; the text is none that a step can have, or steps after it no longer fit.
+    pub fn replace_step(
+        &mut self,
+        id: DocumentId,
+        (program, step): (&str, &str),
+        formula: &str,
+    ) -> Result<Change, Refusal> {
+        let beside = Beside::of(&*self.host, &self.documents, id);
+        let open = &mut self.documents[id.0 as usize];
+        let change = replaced(open, &beside, (program, step), formula)?;
+        Ok(*self.with_reach(id, change))
+    }
+}

@@ -1,0 +1,145 @@
+//! What is waited for, over the lower edge of the picture.
+
+use super::calculator::Calculator;
+use crate::lab::Lab;
+use crate::words;
+use leptos::html::Input;
+use leptos::prelude::*;
+use session::drafting::view::{Prompt, Wants};
+
+/// The prompt of what waits: an operand, an answer, a condition.
+#[component]
+pub fn PromptLine(
+    /// The lab.
+    lab: Lab,
+) -> impl IntoView {
+    let drafting = lab.drafting;
+    let field = NodeRef::<Input>::new();
+    Effect::new(move |_| {
+        drafting.prompt.track();
+        if let Some(field) = field.get() {
+            // The keyboard types what is wanted.
+            let _ = field.focus();
+        }
+    });
+    let of =
+        move |ask: &dyn Fn(&Prompt) -> bool| drafting.prompt.with(|p| p.as_ref().is_some_and(ask));
+    let is_drawn = move || of(&|p| !p.tool.is_empty());
+    let is_value = move || of(&|p| p.is_value);
+    let is_typed = move || of(&|p| p.wants != Wants::Otherwise);
+    let takes_sets = Memo::new(move |_| of(&|p| p.takes_sets));
+    let operands = move || {
+        let prompt = drafting.prompt.get().unwrap_or_default();
+        let is_next = prompt.operands.iter().position(|(_, given)| given.is_none());
+        let one = |(i, (name, given)): (usize, (String, Option<String>))| {
+            view! {
+                <span class="operand" class:next=is_next == Some(i)>
+                    {name}{given.map(|given| view! { " "<code>{given}</code> })}
+                </span>
+            }
+        };
+        prompt.operands.into_iter().enumerate().map(one).collect_view()
+    };
+    let key = move |e: leptos::ev::KeyboardEvent| match e.key().as_str() {
+        "Escape" => {
+            e.prevent_default();
+            e.stop_propagation();
+            lab.draft_end();
+        }
+        // the keyboard goes on where nothing is under the pointer
+        "Tab"
+            if !e.shift_key()
+                && takes_sets.get_untracked()
+                && drafting.finds.with_untracked(Option::is_some) =>
+        {
+            e.prevent_default();
+            lab.draft_wider();
+        }
+        _ => {}
+    };
+    view! {
+        <Show when=move || drafting.prompt.with(Option::is_some)>
+            <form class="strip prompt" aria-label=words::CONSTRUCTION
+                on:submit=move |e| { e.prevent_default(); lab.draft_enter(); }>
+                <Show when=move || drafting.calculator.get() && is_value()>
+                    <Calculator lab=lab />
+                </Show>
+                <b>{move || drafting.prompt.with(|p| p.as_ref().map(|p| p.label.clone()))}</b>
+                {operands}
+                <span class="wanted" role="status">{move || drafting.prompt.with(|p| p.as_ref().map(|p| p.words.clone()))}</span>
+                <Show when=is_typed>
+                    <input node_ref=field name="operand" autocomplete="off" aria-label=words::OPERAND
+                        placeholder=words::OPERAND
+                        prop:value=move || drafting.typed.get()
+                        on:input=move |e| drafting.typed.set(event_target_value(&e))
+                        on:keydown=key />
+                </Show>
+                <Show when=is_value>
+                    <button type="button" data-draft="calculator" aria-pressed=move || drafting.calculator.get().to_string()
+                        on:click=move |_| drafting.calculator.update(|open| *open = !*open)>{words::CALCULATOR}</button>
+                </Show>
+                <Answers lab=lab />
+                <Show when=move || takes_sets.get()>
+                    <button type="button" data-draft="wider" on:click=move |_| lab.draft_wider()>{words::WIDER}</button>
+                </Show>
+                <Show when=is_drawn>
+                    <label><input type="checkbox" name="guide" prop:checked=move || drafting.guides.get()
+                        on:change=move |e| lab.draw_guides(event_target_checked(&e)) />{words::GUIDE}</label>
+                </Show>
+                <button type="button" data-draft="back" on:click=move |_| lab.draft_back()>{words::BACK}</button>
+                <Show when=is_drawn>
+                    <button type="button" data-draft="end" on:click=move |_| lab.draft_end()>{words::GIVE_UP}</button>
+                </Show>
+                <span class="finds" aria-live="polite">{move || drafting.finds.get()}</span>
+            </form>
+        </Show>
+    }
+}
+
+/// The buttons that answer what is asked.
+#[component]
+fn Answers(lab: Lab) -> impl IntoView {
+    let drafting = lab.drafting;
+    let is_drawn = move || drafting.prompt.with(|p| p.as_ref().is_some_and(|p| !p.tool.is_empty()));
+    move || {
+        match drafting.prompt.with(|p| p.as_ref().map(|p| p.wants.clone())) {
+        Some(Wants::Recurrence(question)) if !is_drawn() => {
+            let element = question.element.map(|element| {
+                let answer = element.clone();
+                view! {
+                    <button type="button" class="primary" data-draft="each"
+                        on:click=move |_| {
+                            drafting.typed.set(answer.clone());
+                            lab.draft_enter();
+                        }>{words::EACH_IN_TURN}</button>
+                }
+            });
+            view! {
+                {element}
+                <button type="button" class="primary" data-draft="same"
+                    on:click=move |_| lab.draft_same()>{words::THE_SAME}</button>
+            }
+            .into_any()
+        }
+        Some(Wants::Otherwise) => view! {
+            <button type="button" class="primary" data-draft="here"
+                on:click=move |_| lab.about_block(|s, id| s.other_branch(id, true))>{words::SAME_VALUES}</button>
+            <button type="button" data-draft="others"
+                on:click=move |_| lab.about_block(|s, id| s.other_branch(id, false))>{words::OTHER_VALUES}</button>
+        }
+        .into_any(),
+        Some(Wants::Substitute { .. }) => view! {
+            <button type="button" class="primary" data-draft="along"
+                on:click=move |_| lab.delete_along()>{words::DELETE_TOO}</button>
+        }
+        .into_any(),
+        Some(Wants::Ends(_)) => {
+            view! { <button class="primary" data-draft="close">{words::CLOSE_LOOP}</button> }.into_any()
+        }
+        Some(Wants::Condition) => {
+            view! { <button class="primary" data-draft="close">{words::DRAW_BRANCH}</button> }.into_any()
+        }
+        _ => ().into_any(),
+    }
+    }
+}

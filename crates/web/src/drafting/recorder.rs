@@ -1,0 +1,113 @@
+//! Begins and ends recording, defines parameters, and demonstrates blocks.
+
+use crate::lab::Lab;
+use crate::words;
+use leptos::prelude::*;
+use session::drafting::view::{Ends, NewParameter, OpenBlock, OpenKind, StepsView};
+
+/// Recording, from its name to its end.
+#[component]
+pub fn Recorder(
+    /// The lab.
+    lab: Lab,
+    /// What is recorded, or selected.
+    steps: Memo<Option<StepsView>>,
+) -> impl IntoView {
+    let name = RwSignal::new(String::new());
+    let recorded = Memo::new(move |_| {
+        steps.with(|s| s.as_ref().filter(|s| s.is_recorded).map(|s| s.program.clone()))
+    });
+    let begin = move |e: leptos::ev::SubmitEvent| {
+        e.prevent_default();
+        lab.record(&name.get_untracked());
+    };
+    let open =
+        Memo::new(move |_| steps.with(|s| s.as_ref().map(|s| s.open.clone())).unwrap_or_default());
+    view! {
+        {move || match recorded.get() {
+            Some(program) => view! {
+                <p class="recording" role="status">
+                    <span class="lamp" aria-hidden="true"></span>{words::recording(&program)}
+                    <button data-draft="stop" on:click=move |_| lab.stop_recording()>{words::STOP}</button>
+                </p>
+                <Define lab=lab />
+                {move || view! { <Blocks lab=lab open=open.get() /> }}
+            }.into_any(),
+            None => view! {
+                <form class="line" aria-label=words::RECORD on:submit=begin>
+                    <input name="program" autocomplete="off" placeholder=words::PROGRAM_NAME
+                        aria-label=words::PROGRAM_NAME
+                        on:input=move |e| name.set(event_target_value(&e)) />
+                    <button class="primary" data-draft="record">{words::RECORD}</button>
+                </form>
+            }.into_any(),
+        }}
+    }
+}
+
+/// The blocks that are demonstrated, and what can be begun.
+#[component]
+fn Blocks(lab: Lab, open: Vec<OpenBlock>) -> impl IntoView {
+    let innermost = open.last().map(|block| block.kind);
+    let lines =
+        open.into_iter().map(|block| view! { <p class="asked" role="status">{block.words}</p> });
+    let button = |label: &'static str, mark: &'static str, run: Box<dyn Fn() + Send>| {
+        view! { <button data-draft=mark on:click=move |_| run()>{label}</button> }
+    };
+    let turn = |label, mark, ends| button(label, mark, Box::new(move || lab.end_turn(ends)));
+    let ends = match innermost {
+        Some(OpenKind::Turn) => view! {
+            {turn(words::UNTIL, "until", Ends::Until)}
+            {turn(words::WHILE, "while", Ends::While)}
+            {turn(words::TIMES, "times", Ends::Times)}
+        }
+        .into_any(),
+        Some(OpenKind::Each) => turn(words::DONE_FOR_EACH, "until", Ends::Until).into_any(),
+        Some(OpenKind::Then) => view! {
+            {button(words::ELSE, "else", Box::new(move || lab.ask_prompt(session::Session::otherwise)))}
+            {button(words::END_IF, "end-if", Box::new(move || lab.about_block(session::Session::end_choice)))}
+        }
+        .into_any(),
+        Some(OpenKind::Otherwise) => {
+            button(words::END_IF, "end-if", Box::new(move || lab.about_block(session::Session::end_choice)))
+                .into_any()
+        }
+        Some(OpenKind::Asking | OpenKind::Visited) | None => ().into_any(),
+    };
+    let begins = (innermost != Some(OpenKind::Asking)).then(|| view! {
+        {button(words::REPEAT, "repeat", Box::new(move || lab.about_block(|s, id| s.begin_loop(id, ""))))}
+        {button(words::IF, "if", Box::new(move || lab.ask_prompt(session::Session::begin_choice)))}
+        {button(words::FOR_EACH, "for-each", Box::new(move || lab.begin_band()))}
+    });
+    view! {
+        {lines.collect_view()}
+        <div class="line blocks">{ends}{begins}</div>
+    }
+}
+
+/// Defines a parameter by its example.
+#[component]
+fn Define(lab: Lab) -> impl IntoView {
+    let new = RwSignal::new(NewParameter::default());
+    let define = move |e: leptos::ev::SubmitEvent| {
+        e.prevent_default();
+        let parameter = new.get_untracked();
+        if lab.settle(lab.tell(|session, id| session.define_parameter(id, &parameter))) {
+            new.set(NewParameter::default());
+        }
+    };
+    view! {
+        <form class="line" aria-label=words::DEFINE on:submit=define>
+            <input name="parameter" autocomplete="off" placeholder=words::PARAMETER_NAME
+                aria-label=words::PARAMETER_NAME prop:value=move || new.with(|n| n.name.clone())
+                on:input=move |e| new.update(|n| n.name = event_target_value(&e)) />
+            <input name="example" autocomplete="off" placeholder=words::EXAMPLE aria-label=words::EXAMPLE
+                prop:value=move || new.with(|n| n.example.clone())
+                on:input=move |e| new.update(|n| n.example = event_target_value(&e)) />
+            <input name="question" autocomplete="off" placeholder=words::QUESTION aria-label=words::QUESTION
+                prop:value=move || new.with(|n| n.prompt.clone())
+                on:input=move |e| new.update(|n| n.prompt = event_target_value(&e)) />
+            <button data-draft="define">{words::DEFINE}</button>
+        </form>
+    }
+}

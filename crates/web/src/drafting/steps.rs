@@ -1,0 +1,136 @@
+//! The parameters and steps of a program.
+
+use crate::lab::Lab;
+use crate::words;
+use leptos::prelude::*;
+use session::drafting::view::{Go, ParameterRow, StepRow, StepsView};
+
+/// The parameters with their values, and the steps in words.
+#[component]
+pub fn Steps(
+    /// The lab.
+    lab: Lab,
+    /// What is recorded, or selected.
+    steps: Memo<Option<StepsView>>,
+) -> impl IntoView {
+    let view = move || steps.get().unwrap_or_default();
+    let parameters = move || {
+        let example = view().example;
+        let one = |row| view! { <Parameter lab=lab example=example.clone() row=row /> };
+        view().parameters.into_iter().map(one).collect_view()
+    };
+    let rows = move || {
+        let all = view();
+        let one = |row: StepRow| view! { <Row lab=lab steps=all.clone() row=row /> };
+        all.rows.clone().into_iter().map(one).collect_view()
+    };
+    let go = move |go: Go| move |_| lab.visit(&go);
+    let is_recorded = Memo::new(move |_| steps.with(|s| s.as_ref().is_some_and(|s| s.is_recorded)));
+    let more = move |_| lab.record(&steps.get_untracked().unwrap_or_default().program);
+    let visit = move || {
+        match is_recorded.get() {
+        true => view! {
+            <div class="line visit" role="group" aria-label=words::VISIT>
+                <button data-visit="start" title=words::VISIT_START on:click=go(Go::Start)>"|◀"</button>
+                <button data-visit="back" title=words::VISIT_BACK on:click=go(Go::Back)>"◀"</button>
+                <button data-visit="step" title=words::VISIT_STEP on:click=go(Go::Step)>"▶"</button>
+                <button data-visit="in" title=words::VISIT_IN on:click=go(Go::In)>"↘"</button>
+                <button data-visit="out" title=words::VISIT_OUT on:click=go(Go::Out)>"↗"</button>
+                <button data-visit="end" title=words::VISIT_END on:click=go(Go::End)>"▶|"</button>
+                <button data-visit="picked" title=words::VISIT_PICKED
+                    aria-pressed=move || lab.drafting.seeking.get().to_string()
+                    on:click=move |_| lab.drafting.seeking.update(|on| *on = !*on)>{words::VISIT_UNTIL}</button>
+            </div>
+        }
+        .into_any(),
+        false => view! { <button data-draft="more" on:click=more>{words::RECORD_MORE}</button> }.into_any(),
+    }
+    };
+    view! {
+        <h3>{move || words::steps_of(&view().program)}</h3>
+        <div class="parameters">{parameters}</div>
+        {visit}
+        <ol class="steps">{rows}</ol>
+    }
+}
+
+/// A parameter: its name goes where a value is wanted, its value is typed.
+#[component]
+fn Parameter(lab: Lab, example: String, row: ParameterRow) -> impl IntoView {
+    let name = StoredValue::new(row.name.clone());
+    let path = StoredValue::new(format!("{example}.{}", row.name));
+    let wrong = RwSignal::new(None::<String>);
+    let typed = move |e: leptos::ev::Event| {
+        match lab.set_typed(&path.get_value(), &event_target_value(&e)) {
+            Ok(()) => wrong.set(None),
+            Err(refusal) => wrong.set(Some(crate::field::reason(&refusal))),
+        }
+        lab.drafting.turned.update(|n| *n += 1);
+    };
+    view! {
+        <span class="parameter">
+            <button type="button" data-parameter=row.name.clone() title=row.prompt
+                on:click=move |_| lab.draft_parameter(&name.get_value())><code>{row.name.clone()}</code></button>
+            <input name=format!("value-{}", row.name) autocomplete="off" aria-label=words::value_of_parameter(&row.name)
+                prop:value=row.value on:change=typed
+                aria-invalid=move || wrong.with(Option::is_some).to_string() />
+            {move || wrong.get().map(|why| view! { <span class="wrong" role="alert">{why}</span> })}
+        </span>
+    }
+}
+
+/// One step: what it does in words, and what it made.
+#[component]
+fn Row(lab: Lab, steps: StepsView, row: StepRow) -> impl IntoView {
+    let asks = RwSignal::new(None::<Vec<String>>);
+    let is_recorded = steps.is_recorded;
+    let is_next = steps.at.as_deref() == Some(row.path.as_str());
+    let own = StoredValue::new((steps, row.clone()));
+    let path = row.path.clone();
+    let is_lit = Memo::new(move |_| lab.drafting.lit.with(|lit| lit.as_ref() == Some(&path)));
+    let light = move |_| own.with_value(|(steps, row)| lab.light_step(steps, row));
+    let ask = move |_| {
+        if is_recorded {
+            own.with_value(|(_, row)| lab.delete_step(&row.path));
+            return;
+        }
+        let found = own.with_value(|(steps, row)| {
+            lab.id().map(|id| lab.ask(|s| s.step_dependents(id, &steps.program, &row.path)))
+        });
+        asks.set(found);
+    };
+    let delete = move |_| {
+        asks.set(None);
+        own.with_value(|(steps, row)| {
+            lab.show_made(drawing::Drawing::default());
+            lab.settle(lab.tell(|s, id| s.delete_step(id, &steps.program, &row.path)));
+        });
+    };
+    let replace = move |_| own.with_value(|(_, row)| lab.replace_step(&row.path));
+    let here = move |_| own.with_value(|(_, row)| lab.visit(&Go::To(row.path.clone())));
+    let can_replace = is_recorded && !row.is_block;
+    let indent = format!("{}px", 14 * row.depth);
+    let name = row.path.clone();
+    view! {
+        <li class:lit=is_lit class:guide=row.is_guide class:unmade=row.is_unmade class:next=is_next style:margin-left=indent data-step=name>
+            <button class="bare step" title=row.formula on:click=light>
+                <b>{row.name}</b>" "{row.words}
+                {row.value.map(|value| view! { <span class="quiet">{value}</span> })}
+            </button>
+            {is_recorded.then(|| view! {
+                <button class="bare" data-step-visit="" title=words::VISIT_HERE aria-label=words::VISIT_HERE on:click=here>"⇥"</button>
+            })}
+            {can_replace.then(|| view! {
+                <button class="bare" data-step-replace="" title=words::REPLACE_STEP aria-label=words::REPLACE_STEP on:click=replace>"✎"</button>
+            })}
+            <button class="bare" data-step-delete="" title=words::DELETE_STEP aria-label=words::DELETE_STEP on:click=ask>"×"</button>
+            {move || asks.get().map(|along| view! {
+                <p class="along" role="alertdialog">
+                    {words::deleted_along(&along)}
+                    <button data-draft="delete" on:click=delete>{words::DELETE_STEP}</button>
+                    <button class="bare" on:click=move |_| asks.set(None)>{words::CANCEL}</button>
+                </p>
+            })}
+        </li>
+    }
+}
