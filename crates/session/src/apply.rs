@@ -14,7 +14,7 @@ use crate::state::State;
 use crate::texts::Texts;
 use crate::view::{Change, Choice, DragState, Limit, Question, Refusal};
 use crate::words;
-use crate::write_back::{differing, sides_after, write_back, write_sides};
+use crate::write_back::{differing, settle_places, sides_after, write_back, write_sides};
 use base::number::Toward;
 use kernel::{
     ClassId, Command, DOCUMENT, Literal, Path, SlotId, Step, Term, ThingId, Value, Values,
@@ -481,6 +481,9 @@ fn restructure(open: &mut Open, host: &dyn Host, command: &Command) -> Result<Ch
             write_back(&state, &values, &[], host, planner.into_plans())
         }
         (None, Some(class)) => place_new_parts(&before, state, planner, class, host),
+        (None, None) if matches!(command, Command::Edit { .. } | Command::Merge(_)) => {
+            settle_places(&before, state, planner, host)
+        }
         (None, None) => (state, planner),
     };
     if matches!(command, Command::Merge(_)) && open.status.satisfied {

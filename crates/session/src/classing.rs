@@ -1,13 +1,15 @@
 //! A class by example: some things of the document become the parts of a new class, and one thing of it.
 //!
 //! What speaks of these things alone goes into the class: their constraints, merges and anchors. What speaks of
-//! others too stays, and reaches them through the new thing. Values are the prototype's from then on.
+//! others too stays, and reaches them through the new thing. Of each part, value, constraint and merge a person
+//! decides whether it is of the class, of this one thing only, or, where it says a number, a parameter.
 
 use crate::document::Open;
 use crate::host::Host;
 use crate::recognise;
+use crate::session::{parse_path, thing_at};
 use crate::state::State;
-use crate::view::Refusal;
+use crate::view::{ClassItem, ClassPlan, ItemKind, Refusal, Scope};
 use crate::words;
 use base::{Name, Severity, Span};
 use kernel::{Command, DOCUMENT, Path, Step};
@@ -17,6 +19,29 @@ use syntax::ast::{AstNode, Member};
 use syntax::edit::{TextEdit, apply, delete_member};
 use syntax::{SyntaxElement, SyntaxKind, SyntaxNode};
 
+/// Returns what has to be decided of some things that become the parts of a class, in the order of the text: each
+/// part with the values that it is given, and what is said of these things alone.
+pub(crate) fn items(open: &Open, paths: &[Path]) -> Vec<ClassItem> {
+    let Ok(chosen) = chosen(paths) else { return Vec::new() };
+    let known = known(&open.state);
+    let file = syntax::parse(base::FileId(0), &open.state.text).file();
+    let mut found = Vec::new();
+    for member in file.members().filter(|member| goes(member, &chosen, &known) == Ok(true)) {
+        let Some(kind) = kind(&member) else { continue };
+        let says = member.syntax().text().to_string();
+        let says = says.split_whitespace().collect::<Vec<_>>().join(" ");
+        let says = says.split(" {").next().unwrap_or_default().to_string();
+        let parameter = number_said(&open.state, &member).map(|number| number.name);
+        found.push(ClassItem { kind, says, parameter });
+        for given in givens(&open.state, &member) {
+            let says = format!("{} = {}", given.path, given.shown);
+            let parameter = given.class.is_some().then(|| given.name.clone());
+            found.push(ClassItem { kind: ItemKind::Value, says, parameter });
+        }
+    }
+    found
+}
+
 /// Returns the command that makes a class of some things, and what the one thing of it is called.
 ///
 /// # Errors
@@ -25,9 +50,10 @@ pub(crate) fn class_of(
     open: &Open,
     host: &dyn Host,
     paths: &[Path],
-    class: &str,
+    plan: &ClassPlan,
 ) -> Result<(Command, String), Refusal> {
     let state = &open.state;
+    let class = plan.name.as_str();
     let named = class.starts_with(char::is_uppercase) && class.chars().all(char::is_alphanumeric);
     if !named {
         let message = format!("{class}: a class's name is one word that begins with a capital");
@@ -36,24 +62,9 @@ pub(crate) fn class_of(
     if state.lowered.document.class_named(class).is_some() {
         return Err(words::refuse(format!("there is a class {class} already")));
     }
-    let mut chosen: BTreeSet<String> = BTreeSet::new();
-    for path in paths {
-        match path.0.as_slice() {
-            [Step::Part(name)] => drop(chosen.insert(name.to_string())),
-            _ => return Err(words::refuse(format!("{path} is a part: choose the whole"))),
-        }
-    }
-    if chosen.is_empty() {
-        return Err(words::refuse("nothing is selected".into()));
-    }
-    let document = &state.lowered.document;
-    let known: BTreeSet<String> = state
-        .structure
-        .parts(DOCUMENT)
-        .filter_map(|part| state.structure.field_name(document, part).map(ToString::to_string))
-        .collect();
+    let chosen = chosen(paths)?;
     let thing = recognise::free_name(state, &Name::new(class));
-    let text = rewritten(&state.text, &chosen, &known, class, &thing)?;
+    let text = rewritten(state, &chosen, plan, &thing)?;
     let trial = State::of(text.clone(), Some(state), host, Plans::default()).0;
     let errors = |s: &State| -> BTreeSet<String> {
         let wrong = s.diagnostics.iter().filter(|d| d.severity == Severity::Error);
@@ -65,47 +76,191 @@ pub(crate) fn class_of(
     Ok((Command::Text(text), thing))
 }
 
-/// Returns the text in which the chosen things are the parts of a class.
-fn rewritten(
-    text: &str,
+/// The names of the chosen things.
+fn chosen(paths: &[Path]) -> Result<BTreeSet<String>, Refusal> {
+    let mut chosen: BTreeSet<String> = BTreeSet::new();
+    for path in paths {
+        match path.0.as_slice() {
+            [Step::Part(name)] => drop(chosen.insert(name.to_string())),
+            _ => return Err(words::refuse(format!("{path} is a part: choose the whole"))),
+        }
+    }
+    match chosen.is_empty() {
+        true => Err(words::refuse("nothing is selected".into())),
+        false => Ok(chosen),
+    }
+}
+
+/// The names of all things of the document.
+fn known(state: &State) -> BTreeSet<String> {
+    let document = &state.lowered.document;
+    let parts = state.structure.parts(DOCUMENT);
+    let name = |part| state.structure.field_name(document, part).map(ToString::to_string);
+    parts.filter_map(name).collect()
+}
+
+/// Whether a member is, or speaks of, the chosen things alone.
+fn goes(
+    member: &Member,
     chosen: &BTreeSet<String>,
     known: &BTreeSet<String>,
-    class: &str,
+) -> Result<bool, Refusal> {
+    match member {
+        Member::Part(part) => {
+            let names: Vec<bool> = part.names().map(|w| chosen.contains(w.text())).collect();
+            if names.contains(&true) && names.contains(&false) {
+                let message = "things that are declared together are chosen together";
+                return Err(words::refuse(message.into()));
+            }
+            Ok(names.contains(&true))
+        }
+        Member::Constraint(_)
+        | Member::Merge(_)
+        | Member::Anchor(_)
+        | Member::Stay(_)
+        | Member::Side(_)
+        | Member::Assign(_) => {
+            let spoken = spoken(member.syntax(), known);
+            Ok(!spoken.is_empty() && spoken.iter().all(|(_, name)| chosen.contains(*name)))
+        }
+        _ => Ok(false),
+    }
+}
+
+/// What has to be decided of a member, if anything.
+fn kind(member: &Member) -> Option<ItemKind> {
+    match member {
+        Member::Part(_) => Some(ItemKind::Part),
+        Member::Constraint(_) => Some(ItemKind::Constraint),
+        Member::Merge(_) => Some(ItemKind::Merge),
+        _ => None,
+    }
+}
+
+/// A value that the body of a part gives.
+struct Given {
+    /// What gets it, from the document.
+    path: String,
+    /// As it is written, and as it is shown.
+    value: String,
+    shown: String,
+    /// What a parameter would be called.
+    name: String,
+    /// The class of a parameter for it, where it is a number.
+    class: Option<String>,
+    node: SyntaxNode,
+}
+
+/// The values that the body of a part gives.
+fn givens(state: &State, member: &Member) -> Vec<Given> {
+    let Member::Part(part) = member else { return Vec::new() };
+    let mut names = part.names();
+    let (Some(name), None) = (names.next(), names.next()) else { return Vec::new() };
+    let assigned = part.body().into_iter().flat_map(|body| body.members());
+    let given = |assign: Member| {
+        let Member::Assign(assign) = assign else { return None };
+        let target = assign.target()?.syntax().text().to_string();
+        let value = assign.value()?.syntax().text().to_string();
+        let path = format!("{}.{}", name.text(), target.trim());
+        let thing = thing_at(state, &parse_path(&path)?)?;
+        let structure = &state.structure;
+        let slot = structure.slot_of(thing).map(|slot| &structure.slots[slot]);
+        let is_number = slot.is_some_and(|s| s.primitive.is_number() && s.place.is_none());
+        let class = is_number.then(|| words::class_name(state, thing));
+        let name = String::from(target.trim().rsplit('.').next().unwrap_or_default());
+        let node = assign.syntax().clone();
+        let value = value.trim().to_string();
+        let shown = words::show_thing(state, thing, &state.values).unwrap_or(value.clone());
+        Some(Given { path, value, shown, name, class, node })
+    };
+    assigned.filter_map(given).collect()
+}
+
+/// A number that a constraint says.
+struct NumberSaid {
+    /// What a parameter for it would be called, and its class.
+    name: String,
+    class: String,
+    value: String,
+    /// Where it stands in the member.
+    span: Span,
+}
+
+/// The number on the right of a constraint's equation, where there is nothing else.
+fn number_said(state: &State, member: &Member) -> Option<NumberSaid> {
+    let Member::Constraint(constraint) = member else { return None };
+    let whole = constraint.syntax();
+    let rule = constraint.rule()?;
+    let start = u32::from(rule.syntax().text_range().start() - whole.text_range().start());
+    let text = rule.syntax().text().to_string();
+    let (left, right) = text.split_once(" = ")?;
+    let value = right.trim();
+    let document = &state.lowered.document;
+    let read = lang::read_literal(value, lang::Wanted::Anything, document).ok()?;
+    let kernel::Literal::Number(_) = read else { return None };
+    let path = parse_path(left.trim())?;
+    let name = match path.0.last()? {
+        Step::Part(name) => name.to_string(),
+        _ => return None,
+    };
+    let evaluator = state.evaluator(&state.values);
+    let term = kernel::Term::at(kernel::Term::Me, &path);
+    let Ok(eval::Answer::Number(_, dimension)) = evaluator.evaluate(&term, DOCUMENT) else {
+        return None;
+    };
+    let class = String::from(dimension.named().unwrap_or("Real"));
+    let at = start + u32::try_from(text.len() - right.len()).ok()?;
+    let span = Span::new(at, at + u32::try_from(value.len()).ok()?);
+    Some(NumberSaid { name, class, value: value.into(), span })
+}
+
+/// What is written of a class and of its one thing.
+#[derive(Default)]
+struct Written {
+    /// The members of the class; parameters stand first.
+    parameters: Vec<String>,
+    members: Vec<String>,
+    /// The members of the one thing's body.
+    own: Vec<String>,
+    /// The names that the class has.
+    names: BTreeSet<String>,
+}
+
+impl Written {
+    /// Adds a parameter; returns what it is called.
+    fn parameter(&mut self, name: &str, class: &str, value: &str) -> String {
+        let mut free = String::from(name);
+        let mut n = 2;
+        while !self.names.insert(free.clone()) {
+            free = format!("{name}{n}");
+            n += 1;
+        }
+        self.parameters.push(format!("{free}: {class} = {value}"));
+        free
+    }
+}
+
+/// Returns the text in which the chosen things are the parts of a class.
+fn rewritten(
+    state: &State,
+    chosen: &BTreeSet<String>,
+    plan: &ClassPlan,
     thing: &str,
 ) -> Result<String, Refusal> {
+    let (text, class, known) = (&state.text, plan.name.as_str(), known(state));
     let file = syntax::parse(base::FileId(0), text).file();
-    let mut body: Vec<String> = Vec::new();
+    let mut written = Written { names: chosen.clone(), ..Written::default() };
     let mut edits: Vec<TextEdit> = Vec::new();
     let mut at = None;
+    let mut scopes = plan.scopes.iter().copied();
     for member in file.members() {
         let syntax = member.syntax();
-        let goes = match &member {
-            Member::Part(part) => {
-                let names: Vec<bool> = part.names().map(|w| chosen.contains(w.text())).collect();
-                if names.contains(&true) && names.contains(&false) {
-                    let message = "things that are declared together are chosen together";
-                    return Err(words::refuse(message.into()));
-                }
-                names.contains(&true)
-            }
-            Member::Constraint(_)
-            | Member::Merge(_)
-            | Member::Anchor(_)
-            | Member::Stay(_)
-            | Member::Side(_)
-            | Member::Assign(_) => {
-                let spoken: BTreeSet<&str> =
-                    spoken(syntax, known).iter().map(|(_, n)| *n).collect();
-                !spoken.is_empty() && spoken.iter().all(|name| chosen.contains(*name))
-            }
-            Member::Class(_) | Member::Use(_) => continue,
-            _ => false,
-        };
-        if goes {
+        if matches!(member, Member::Class(_) | Member::Use(_)) {
+            continue;
+        }
+        if goes(&member, chosen, &known)? {
             at = at.or(Some(u32::from(syntax.text_range().start())));
-            let own = syntax.text().to_string();
-            let lines = own.trim().lines().map(|line| format!("    {line}"));
-            body.push(lines.collect::<Vec<_>>().join("\n"));
+            sort(state, &member, &mut scopes, &mut written);
             edits.push(delete_member(syntax));
         } else {
             let through = |(start, _): (u32, &str)| TextEdit {
@@ -117,10 +272,78 @@ fn rewritten(
         }
     }
     let Some(at) = at else { return Err(words::refuse("nothing is selected".into())) };
-    let said = format!("class {class} {{\n{}\n}}\n\n{thing}: {class}\n", body.join("\n"));
+    let Written { parameters, mut members, own, .. } = written;
+    if !plan.attachers.is_empty() {
+        let paths: Vec<String> = plan.attachers.iter().map(ToString::to_string).collect();
+        members.push(format!("attachers {}", paths.join(", ")));
+    }
+    let indented = |member: &String| {
+        member.lines().map(|line| format!("    {line}")).collect::<Vec<_>>().join("\n")
+    };
+    let body: Vec<String> = parameters.iter().chain(&members).map(indented).collect();
+    let own: Vec<String> = own.iter().map(indented).collect();
+    let own = match own.is_empty() {
+        true => String::new(),
+        false => format!(" {{\n{}\n}}", own.join("\n")),
+    };
+    let said = format!("class {class} {{\n{}\n}}\n\n{thing}: {class}{own}\n", body.join("\n"));
     edits.push(TextEdit { span: Span::new(at, at), insert: said });
     edits.sort_by_key(|edit| (edit.span.start, edit.span.end));
     Ok(apply(text, &edits))
+}
+
+/// Writes a member where it belongs.
+fn sort(
+    state: &State,
+    member: &Member,
+    scopes: &mut impl Iterator<Item = Scope>,
+    written: &mut Written,
+) {
+    let text = member.syntax().text().to_string();
+    let start = u32::from(member.syntax().text_range().start());
+    let Some(_) = kind(member) else { return written.members.push(text.trim().into()) };
+    let scope = scopes.next().unwrap_or_default();
+    let mut changes = Vec::new();
+    if let (Scope::Parameter, Some(said)) = (scope, number_said(state, member)) {
+        let name = written.parameter(&said.name, &said.class, &said.value);
+        changes.push(TextEdit { span: said.span, insert: name });
+    }
+    let mut merges = Vec::new();
+    for given in givens(state, member) {
+        let its = scopes.next().unwrap_or_default();
+        let gone = || {
+            let gone = delete_member(&given.node);
+            let span = Span::new(gone.span.start - start, gone.span.end - start);
+            TextEdit { span, insert: gone.insert }
+        };
+        match (scope, its, &given.class) {
+            // it goes where its part goes
+            (Scope::Own, ..) | (_, Scope::Class, _) | (_, Scope::Parameter, None) => {}
+            (_, Scope::Own, _) => {
+                written.own.push(format!("{} = {}", given.path, given.value));
+                changes.push(gone());
+            }
+            (_, Scope::Parameter, Some(class)) => {
+                let name = written.parameter(&given.name, class, &given.value);
+                merges.push(format!("merge {name} = {}", given.path));
+                changes.push(gone());
+            }
+        }
+    }
+    let said = apply(&text, &changes).trim().to_string();
+    match scope {
+        Scope::Own => written.own.push(said),
+        Scope::Class | Scope::Parameter => written.members.push(said),
+    }
+    written.members.extend(merges);
+}
+
+/// Returns where some members speak of things of the document by their own names, and these, in order.
+pub(crate) fn things_spoken_of(state: &State, members: &str) -> Vec<(u32, String)> {
+    let file = syntax::parse(base::FileId(0), members).file();
+    let known = known(state);
+    let found = spoken(file.syntax(), &known).into_iter();
+    found.map(|(start, name)| (start, name.to_string())).collect()
 }
 
 /// Returns where a member speaks of things by their own names, and these.

@@ -219,6 +219,9 @@ impl Offerer<'_> {
         };
         let single = |name: &str| {
             let [one] = self.things else { return None };
+            if document.classes[one.class].kind != ClassKind::Composite {
+                return None;
+            }
             let path = one.path.then(Step::Part(Name::new(name)));
             let now = self.number(&Term::at(Term::Document, &path))?;
             let members = format!("constraint {path} = {{}}");

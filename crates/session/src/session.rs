@@ -4,7 +4,6 @@ use crate::advice;
 use crate::apply;
 use crate::calculator;
 use crate::check;
-use crate::classing;
 use crate::complaints;
 use crate::document::Open;
 use crate::drag;
@@ -160,8 +159,10 @@ impl Session {
         typed: &str,
     ) -> Result<Change, Refusal> {
         let path = parse_path(path).ok_or_else(|| words::refuse(format!("{path} is no path")))?;
-        let literal = words::read_typed(&self.document(id).state, &path, typed)?;
-        self.apply(id, &Command::Set(vec![(path, literal)]))
+        let state = &self.document(id).state;
+        let literal = words::read_typed(state, &path, typed)?;
+        let target = crate::by_hand::anchored_whole(state, &path, &literal);
+        self.apply(id, &Command::Set(vec![target.unwrap_or((path, literal))]))
     }
     /// Begins a drag of a number, of a place, or of a thing with all the places that it is made of.
     ///
@@ -280,9 +281,10 @@ impl Session {
     }
     /// The tool follows the pointer. Nothing of the document changes.
     pub fn tool_moved(&mut self, id: DocumentId, pointer: &Pointer) -> Option<ToolView> {
-        let open = self.document_mut(id);
+        let beside = Beside::of(&*self.host, &self.documents, id);
+        let open = &mut self.documents[id.0 as usize];
         let state = open.state.clone();
-        open.tool.as_mut().map(|tool| tool.moved(&state, pointer))
+        open.tool.as_mut().map(|tool| tool.moved(&state, pointer, &beside))
     }
     /// The tool sets what it is about to set, where the pointer is; with the last one the view has the command.
     ///
@@ -328,20 +330,6 @@ impl Session {
     ) -> Result<(Command, String), Refusal> {
         let beside = Beside::of(&*self.host, &self.documents, id);
         tools::copies::duplication(self.document(id), &beside, paths)
-    }
-    /// Returns the command that makes a class of some things of the document, whose one thing they then are, and
-    /// what that is called.
-    ///
-    /// # Errors
-    /// A path is no thing of the document itself, or the name is none for a new class.
-    pub fn class_of(
-        &self,
-        id: DocumentId,
-        paths: &[Path],
-        class: &str,
-    ) -> Result<(Command, String), Refusal> {
-        let beside = Beside::of(&*self.host, &self.documents, id);
-        classing::class_of(self.document(id), &beside, paths, class)
     }
     /// Returns what goes when something is deleted, besides itself, as it is written.
     pub fn along_with(&self, id: DocumentId, path: &Path) -> Vec<String> {

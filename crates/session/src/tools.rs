@@ -21,7 +21,7 @@ use crate::state::State;
 use crate::view::{Caught, PictureView, Pointer, Refusal, ToolView};
 use crate::{views, words};
 use base::Name;
-use base::number::{hypot, shortest};
+use base::number::{cos, hypot, shortest, sin};
 use catch::{Catch, Sight};
 use drawing::{Color, Element, Layer, Line, Point, Shape, Style, Tag};
 use kernel::{Command, Literal, Path, Step};
@@ -111,8 +111,14 @@ impl Tool {
             apply::Aim::Thing(thing) => drag::press(&state, planner, thing, held),
             apply::Aim::Term(term) => drag::press_computed(&state, planner, term, held),
         };
-        let drag = pressed
-            .map_err(|reason| words::refusal_for(&state, &reason, &plan::EditReport::default()))?;
+        let drag = match (pressed, &stage) {
+            (Ok(drag), _) => drag,
+            // what its class anchors is set instead
+            (Err(plan::RefusalReason::Anchored(_)), Stage::Place { .. }) => return Ok(()),
+            (Err(reason), _) => {
+                return Err(words::refusal_for(&state, &reason, &plan::EditReport::default()));
+            }
+        };
         let handle = drag.handle();
         self.trial.drag = Some(drag);
         self.offset = match (&stage, first) {
@@ -139,16 +145,9 @@ impl Tool {
     fn catch(&self, state: &State, pointer: &Pointer) -> Catch {
         let Some(stage) = self.stages.get(self.set.len()) else { return Catch::at(pointer.at) };
         let last = self.set.last().map(|catch| catch.at);
-        if let (Some(length), Some(last)) = (pointer.length, last) {
-            let way = (pointer.at.0 - last.0, pointer.at.1 - last.1);
-            let far = hypot(way.0, way.1);
-            let (dx, dy) = if far > 0.0 { (way.0 / far, way.1 / far) } else { (1.0, 0.0) };
-            let at = (last.0 + length * dx, last.1 + length * dy);
-            let mut catch = Catch::at(at);
-            if self.goes_on {
-                catch.rules.push(format!("{}.length = {}", self.name, shortest(length)));
-            }
-            return catch;
+        let is_typed = pointer.length.is_some() || pointer.angle.is_some();
+        if let Some(last) = last.filter(|_| is_typed) {
+            return self.typed(pointer, last);
         }
         let class = stage.class(&self.trial.state, &self.name);
         let class = class.and_then(|name| state.lowered.document.class_named(&name));
@@ -165,8 +164,32 @@ impl Tool {
         catch::find(&sight, pointer)
     }
 
+    /// The place that a length or an angle tells that was typed.
+    fn typed(&self, pointer: &Pointer, last: (f64, f64)) -> Catch {
+        let way = (pointer.at.0 - last.0, pointer.at.1 - last.1);
+        let far = hypot(way.0, way.1);
+        let length = pointer.length.unwrap_or(far);
+        let radians = |degrees: f64| degrees * std::f64::consts::PI / 180.0;
+        let (dx, dy) = match pointer.angle.map(radians) {
+            Some(angle) => (cos(angle), sin(angle)),
+            None if far > 0.0 => (way.0 / far, way.1 / far),
+            None => (1.0, 0.0),
+        };
+        let mut catch = Catch::at((last.0 + length * dx, last.1 + length * dy));
+        if self.goes_on {
+            let name = &self.name;
+            let run = format!("atan2({name}.p2.y - {name}.p1.y, {name}.p2.x - {name}.p1.x)");
+            let said = [
+                pointer.length.map(|x| format!("{name}.length = {}", shortest(x))),
+                pointer.angle.map(|x| format!("{run} = {} deg", shortest(x))),
+            ];
+            catch.rules.extend(said.into_iter().flatten());
+        }
+        catch
+    }
+
     /// Has the present stage follow a place.
-    fn follow(&mut self, at: (f64, f64)) {
+    fn follow(&mut self, at: (f64, f64), host: &dyn Host) {
         let to = match (self.stages.get(self.set.len()), self.set.last()) {
             (Some(Stage::Reach { .. }), Some(last)) => {
                 (hypot(at.0 - last.at.0, at.1 - last.at.1), 0.0)
@@ -176,13 +199,40 @@ impl Tool {
         let state = self.trial.state.clone();
         if let Some(drag) = &mut self.trial.drag {
             drag.to(&state, &mut self.trial.planner, to);
+        } else if let Some(Stage::Place { place, .. }) = self.stages.get(self.set.len()) {
+            let path = Path(vec![Step::Part(Name::new(&self.name))]).join(place);
+            // what cannot be there stays where it is, as what is dragged would
+            let _ = apply::apply(&mut self.trial, host, &Command::Set(vec![at_place(path, at)]));
+        }
+    }
+
+    /// Takes over what the class says of a thing that was drawn like this.
+    fn take_inserted(&mut self, host: &dyn Host) {
+        let state = self.trial.state.clone();
+        let whole = Path(vec![Step::Part(Name::new(&self.name))]);
+        let Some(thing) = thing_at(&state, &whole) else { return };
+        let document = &state.lowered.document;
+        let class = state.structure.things[thing].class;
+        let message = document.find_message(class, &Name::new("inserted"), None);
+        let Some((_, kernel::Message { answer: kernel::Term::Make { arguments, .. }, .. })) =
+            message
+        else {
+            return;
+        };
+        for argument in arguments {
+            let Some(label) = &argument.label else { continue };
+            let answer = state.evaluator(&state.values).evaluate(&argument.value, thing);
+            let Ok(eval::Answer::Number(x, _)) = answer else { continue };
+            let target = (whole.then(Step::Part(label.clone())), Literal::Number(x));
+            // where constraints want it otherwise it is as the prototype has it
+            let _ = apply::apply(&mut self.trial, host, &Command::Set(vec![target]));
         }
     }
 
     /// The pointer is elsewhere.
-    pub(crate) fn moved(&mut self, state: &State, pointer: &Pointer) -> ToolView {
+    pub(crate) fn moved(&mut self, state: &State, pointer: &Pointer, host: &dyn Host) -> ToolView {
         let catch = self.catch(state, pointer);
-        self.follow(catch.at);
+        self.follow(catch.at, host);
         let mut view = self.view();
         view.preview.elements.extend(guides(&catch, self.set.last()));
         view.caught = catch.word.map(|word| Caught { at: catch.at, word });
@@ -209,7 +259,7 @@ impl Tool {
     }
 
     fn set_to(&mut self, catch: Catch, host: &dyn Host) -> Result<(), Refusal> {
-        self.follow(catch.at);
+        self.follow(catch.at, host);
         let stage = self.stages.get(self.set.len()).cloned();
         if let Some(drag) = self.trial.drag.take() {
             drag.release(&mut self.trial, host)?;
@@ -223,6 +273,9 @@ impl Tool {
             let command = Command::Anchor { path, held: true };
             // what cannot be anchored is held by its stay
             let _ = apply::apply(&mut self.trial, host, &command);
+        }
+        if self.set.len() == self.stages.len() {
+            self.take_inserted(host);
         }
         self.begin()
     }
@@ -274,7 +327,7 @@ impl Tool {
             None => String::new(),
         };
         let hint = if self.goes_on && !self.set.is_empty() {
-            format!("{hint}; digits: its length")
+            format!("{hint}; digits: its length, < its angle")
         } else {
             hint
         };

@@ -266,6 +266,8 @@ pub struct Pointer {
     pub alone: bool,
     /// A length that was typed: the place is so far from the last one, in the pointer's direction.
     pub length: Option<f64>,
+    /// An angle that was typed, in degrees: the direction from the last place, turned left from the right.
+    pub angle: Option<f64>,
     /// The grid to which a free place of a construction goes, on the sheet: 1, 2 or 5 of a power of ten; 0 for none.
     pub grid: f64,
 }
@@ -314,6 +316,62 @@ impl Offer {
         let members = self.members.replace("{}", value);
         kernel::Command::Edit { target: kernel::Path::default(), members }
     }
+}
+
+/// Of what something is that becomes part of a class by example.
+#[derive(Clone, Copy, PartialEq, Eq, Debug, Default)]
+pub enum Scope {
+    /// Of the class: every thing of it has it.
+    #[default]
+    Class,
+    /// Of this one thing only.
+    Own,
+    /// A parameter of the class: every thing may have another number.
+    Parameter,
+}
+
+/// What has to be decided of a class by example.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub enum ItemKind {
+    /// A part.
+    Part,
+    /// A value that a part is given.
+    Value,
+    /// A constraint.
+    Constraint,
+    /// A merge.
+    Merge,
+}
+
+/// One thing that has to be decided of a class by example.
+#[derive(Clone, PartialEq, Eq, Debug)]
+pub struct ClassItem {
+    /// What it is.
+    pub kind: ItemKind,
+    /// What the text says of it, on one line.
+    pub says: String,
+    /// What a parameter for its number would be called; nothing where it has no number of its own.
+    pub parameter: Option<String>,
+}
+
+/// What was decided of a class by example.
+#[derive(Clone, PartialEq, Eq, Debug, Default)]
+pub struct ClassPlan {
+    /// The class's name.
+    pub name: String,
+    /// Of what each item is, in the order of the items; the class, where there are fewer.
+    pub scopes: Vec<Scope>,
+    /// The parts by which a thing of it is placed, in this order.
+    pub attachers: Vec<kernel::Path>,
+}
+
+/// A value of a thing or its parts, which may be shared with what that is merged with.
+#[derive(Clone, PartialEq, Eq, Debug)]
+pub struct ValueWithin {
+    /// Its path within the thing; empty for a thing that is a value itself.
+    pub path: String,
+    /// The path of its row of the values view.
+    pub row: String,
 }
 
 /// A class that things can be made of.

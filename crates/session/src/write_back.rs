@@ -6,6 +6,7 @@
 //! value, else one that the edit was about, else the first. Given numbers that the edit left alone and that come
 //! to other bits, since they give way whenever the text is opened, are written as they are.
 
+use crate::doubles;
 use crate::host::Host;
 use crate::state::State;
 use base::number::{Toward, close};
@@ -81,6 +82,56 @@ pub(crate) fn write_back(
         more = if written.len() < 8 { 1 } else { more * 2 };
         plans = planner.into_plans();
     }
+}
+
+/// Has the text give places as they are that gave way to what a hand has just said, so that they open as they
+/// are seen. Places that a class gives, and numbers that are no places, stay as they are written.
+pub(crate) fn settle_places(
+    before: &State,
+    state: State,
+    planner: Planner,
+    host: &dyn Host,
+) -> (State, Planner) {
+    if state.has_errors() {
+        return (state, planner);
+    }
+    let text = syntax::edit::apply(&state.text, &doubles::forgotten(before, &state));
+    let (state, planner) = match text == state.text {
+        true => (state, planner),
+        false => {
+            let (next, planner) = State::of(text, Some(&state), host, planner.into_plans());
+            match is_same(&next, &state) {
+                true => (next, planner),
+                false => State::of(state.text, Some(before), host, planner.into_plans()),
+            }
+        }
+    };
+    let is_told = |slot: &SlotId| {
+        let s = &state.structure.slots[*slot];
+        s.place.is_some() && state.structure.given(*slot).is_some_and(|given| !given.of_class)
+    };
+    let slots = state.gave_way.iter().map(|(slot, _)| *slot).filter(is_told);
+    let units: BTreeSet<ThingId> = slots.map(|slot| unit_of_writing(&state, slot)).collect();
+    if units.is_empty() {
+        return (state, planner);
+    }
+    let document = &state.lowered.document;
+    let path = |t: ThingId| state.structure.path(document, written_at(&state, t));
+    let writes: Vec<(Path, Literal)> =
+        units.iter().map(|&t| (path(t), literal(&state, t, &state.values))).collect();
+    let edits = lang::write_values(&state.lowered, &writes);
+    let text = syntax::edit::apply(&state.text, &edits);
+    let (next, planner) = State::written(text, &state, host, planner.into_plans());
+    match is_same(&next, &state) {
+        true => (next, planner),
+        false => State::of(state.text, Some(before), host, planner.into_plans()),
+    }
+}
+
+/// Whether two states are of the same things with the same values.
+fn is_same(next: &State, state: &State) -> bool {
+    next.structure.slots.len() == state.structure.slots.len()
+        && differing(next, &state.values).next().is_none()
 }
 
 /// Returns which way slots go from where two branches meet, after an edit: as the edit says, and as is

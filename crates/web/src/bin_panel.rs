@@ -9,6 +9,7 @@ use crate::words;
 use leptos::html::Canvas;
 use leptos::prelude::*;
 use session::view::{BinEntry, PictureView};
+use wasm_bindgen::JsCast;
 
 /// The classes in use, with a field that finds them, and the libraries that could be used besides.
 #[component]
@@ -29,36 +30,60 @@ pub fn Bin(
         };
         entries.with(|all| all.iter().filter(|entry| has(entry)).cloned().collect::<Vec<_>>())
     });
-    let shelves = Memo::new(move |_| {
-        found.with(|found| {
-            let mut shelves: Vec<(String, Vec<BinEntry>)> = Vec::new();
-            for entry in found {
-                let name = entry.toolbox.as_ref().unwrap_or(&entry.library);
-                match shelves.iter_mut().find(|(shelf, _)| shelf == name) {
-                    Some((_, shelf)) => shelf.push(entry.clone()),
-                    None => shelves.push((name.clone(), vec![entry.clone()])),
-                }
-            }
-            shelves
-        })
-    });
+    let shelves = Memo::new(move |_| found.with(|found| shelved(found)));
     let libraries = Memo::new(move |_| {
         let text = lab.text.with(|text| text.source.clone());
         let used = |name: &String| text.lines().any(|line| line.trim() == format!("use {name}"));
         lab.libraries().into_iter().filter(|name| !used(name)).collect::<Vec<_>>()
     });
+    // Enter: the library of that name, else the class that is called so, or is found first
+    let take = move || {
+        let typed = wanted.get_untracked().trim().to_lowercase();
+        let library = libraries.get_untracked().into_iter().find(|name| *name == typed);
+        let class = found.with_untracked(|found| {
+            let is_it = |entry: &&BinEntry| entry.class.to_lowercase() == typed;
+            let entry = found.iter().find(is_it).or_else(|| found.first());
+            entry.map(|entry| entry.class.clone())
+        });
+        match (library, class) {
+            (Some(library), _) => lab.use_library(&library),
+            (None, Some(class)) => lab.insert(&class),
+            (None, None) => lab.say_refused(words::nothing_called(&typed)),
+        }
+    };
     view! {
         <section class="panel bin" aria-label=words::BIN>
             <div class="head">
                 <input type="search" placeholder=words::FILTER aria-label=words::FILTER_BIN
-                    on:input=move |e| wanted.set(event_target_value(&e)) />
+                    on:input=move |e| wanted.set(event_target_value(&e))
+                    on:keydown=move |e| {
+                        match e.key().as_str() {
+                            "Enter" => take(),
+                            "ArrowDown" => focus_tile(|_| 0),
+                            _ => return,
+                        }
+                        e.prevent_default();
+                        e.stop_propagation();
+                    } />
             </div>
-            <div class="scroll">
-                <For each=move || shelves.get() key=|shelf| (shelf.0.clone(), shelf.1.len()) let(shelf)>
-                    <h3>{if shelf.0.is_empty() { String::from(words::OWN_CLASSES) } else { shelf.0.clone() }}</h3>
-                    <ul class="tiles">
-                        {shelf.1.into_iter().map(|entry| view! { <Tile lab=lab entry=entry /> }).collect_view()}
-                    </ul>
+            <div class="scroll" on:keydown=move |e| {
+                match e.key().as_str() {
+                    "ArrowDown" | "ArrowRight" => focus_tile(|at| at + 1),
+                    "ArrowUp" | "ArrowLeft" => focus_tile(|at| at.saturating_sub(1)),
+                    _ => return,
+                }
+                e.prevent_default();
+                e.stop_propagation();
+            }>
+                <For each=move || shelves.get() key=|shelf| (shelf.0.clone(), shelf.1, shelf.2.len()) let(shelf)>
+                    <details open>
+                        <summary>{if shelf.0.is_empty() { String::from(words::OWN_CLASSES) } else { shelf.0.clone() }}</summary>
+                        <ul class="tiles">
+                            {(shelf.1..).zip(shelf.2).map(|(number, entry)| view! {
+                                <Tile lab=lab entry=entry number=number />
+                            }).collect_view()}
+                        </ul>
+                    </details>
                 </For>
                 <Show when=move || !libraries.with(Vec::is_empty)>
                     <h3>{words::MORE_LIBRARIES}</h3>
@@ -79,9 +104,30 @@ pub fn Bin(
     }
 }
 
+/// The entries by library, what was taken into use last first, the document's own before it; of each the number of
+/// its first entry.
+fn shelved(found: &[BinEntry]) -> Vec<(String, usize, Vec<BinEntry>)> {
+    let mut shelves: Vec<(String, Vec<BinEntry>)> = Vec::new();
+    for entry in found {
+        let name = entry.toolbox.as_ref().unwrap_or(&entry.library);
+        match shelves.iter_mut().find(|(shelf, _)| shelf == name) {
+            Some((_, shelf)) => shelf.push(entry.clone()),
+            None => shelves.push((name.clone(), vec![entry.clone()])),
+        }
+    }
+    shelves.reverse();
+    let mut before = 0;
+    let numbered = shelves.into_iter().map(|(library, shelf)| {
+        let first = before;
+        before += shelf.len();
+        (library, first, shelf)
+    });
+    numbered.collect()
+}
+
 /// A tile: a click takes the tool that places such a thing, Enter inserts one where there is room.
 #[component]
-fn Tile(lab: Lab, entry: BinEntry) -> impl IntoView {
+fn Tile(lab: Lab, entry: BinEntry, number: usize) -> impl IntoView {
     let canvas = NodeRef::<Canvas>::new();
     let size = RwSignal::new((0.0, 0.0));
     let painter = StoredValue::new_local(None::<Painter>);
@@ -110,7 +156,7 @@ fn Tile(lab: Lab, entry: BinEntry) -> impl IntoView {
     let held = Memo::new(move |_| lab.tool.get() == Some(class.get_value()));
     view! {
         <li>
-            <button class="tile" title=entry.doc data-class=entry.class.clone()
+            <button class="tile" title=entry.doc data-tile=number.to_string() data-class=entry.class.clone()
                 aria-pressed=move || held.get().to_string()
                 on:pointerdown=move |e| {
                     if e.button() == 0 {
@@ -128,8 +174,32 @@ fn Tile(lab: Lab, entry: BinEntry) -> impl IntoView {
                     }
                 }>
                 {is_drawn.then(|| view! { <canvas node_ref=canvas aria-hidden="true"></canvas> })}
-                <span>{name}</span>
+                <span>{humps(&name).into_iter().map(|hump| view! { {hump}<wbr /> }).collect_view()}</span>
             </button>
         </li>
     }
+}
+
+/// Gives the keyboard to a tile: to the one whose number is told from that of the present one.
+fn focus_tile(which: impl Fn(usize) -> usize) {
+    let active = document().active_element();
+    let now = active.and_then(|tile| tile.get_attribute("data-tile")?.parse().ok());
+    let wanted = format!(".bin [data-tile='{}']", which(now.unwrap_or_default()));
+    let tile = document().query_selector(&wanted).ok().flatten();
+    if let Some(tile) = tile.and_then(|tile| tile.dyn_into::<web_sys::HtmlElement>().ok()) {
+        // It stands in the page.
+        let _ = tile.focus();
+    }
+}
+
+/// A name in the pieces between which a line of it may break: `HorizontalLine` in two.
+fn humps(name: &str) -> Vec<String> {
+    let mut humps: Vec<String> = Vec::new();
+    for c in name.chars() {
+        match humps.last_mut() {
+            Some(hump) if !c.is_uppercase() => hump.push(c),
+            _ => humps.push(c.to_string()),
+        }
+    }
+    humps
 }

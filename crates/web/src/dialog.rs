@@ -7,16 +7,17 @@ use leptos::html::Input;
 use leptos::prelude::*;
 use session::Command;
 use session::view::Offer;
+use std::time::Duration;
 
 /// What a person is asked to type.
 #[derive(Clone, PartialEq, Eq, Debug)]
 pub enum Wish {
     /// The name that the document is saved under.
     SaveAs,
-    /// The name of the class that the selection becomes the parts of.
-    ClassOf,
     /// The value of a dimension.
     Dimension(Offer),
+    /// An equation, as it is begun.
+    Equation(String),
     /// Another name for what a path leads to.
     Rename(String),
 }
@@ -44,21 +45,47 @@ fn Open(lab: Lab, wish: Wish) -> impl IntoView {
             let name = path.rsplit('.').next().unwrap_or_default();
             (words::new_name_of(path), String::from(name))
         }
-        Wish::ClassOf => (String::from(words::NAME_OF_CLASS), String::new()),
         Wish::Dimension(offer) => {
             (words::value_of(&offer.label), offer.value.clone().unwrap_or_default())
         }
+        Wish::Equation(begun) => (String::from(words::ASK_EQUATION), begun.clone()),
     };
+    let is_whole = !matches!(wish, Wish::Equation(_));
     Effect::new(move |_| {
         if let Some(input) = input.get() {
             request_animation_frame(move || {
                 // It stands in the page, so it takes the focus.
                 let _ = input.focus();
-                input.select();
+                if is_whole {
+                    input.select();
+                }
             });
         }
     });
     let wish = StoredValue::new(wish);
+    let foreseen = RwSignal::new(None::<String>);
+    let typing = StoredValue::new(0_u32);
+    let look = move || {
+        let Some(typed) = input.get_untracked().map(|input| input.value()) else { return };
+        let command = match wish.get_value() {
+            Wish::Dimension(offer) => offer.command(Some(typed.trim())),
+            Wish::Equation(_) => equation(&typed),
+            Wish::SaveAs | Wish::Rename(_) => return,
+        };
+        foreseen.set(lab.said_before(&command));
+    };
+    let change = move |_| {
+        error.set(None);
+        typing.update_value(|n| *n += 1);
+        let mine = typing.get_value();
+        let later = move || {
+            if typing.try_get_value() == Some(mine) {
+                look();
+            }
+        };
+        set_timeout(later, Duration::from_millis(200));
+    };
+    on_cleanup(move || lab.foresee_command(None));
     let accept = move |e: SubmitEvent| {
         e.prevent_default();
         let Some(typed) = input.get_untracked().map(|input| input.value()) else { return };
@@ -72,11 +99,11 @@ fn Open(lab: Lab, wish: Wish) -> impl IntoView {
                     }
                 }
             }),
-            Wish::ClassOf => match lab.class_of_selection(typed.trim()) {
+            Wish::Dimension(offer) => match lab.set_dimension(&offer, typed.trim()) {
                 Ok(()) => lab.wish.set(None),
                 Err(sentence) => error.set(Some(sentence)),
             },
-            Wish::Dimension(offer) => match lab.set_dimension(&offer, typed.trim()) {
+            Wish::Equation(_) => match lab.say_equation(&typed) {
                 Ok(()) => lab.wish.set(None),
                 Err(sentence) => error.set(Some(sentence)),
             },
@@ -99,8 +126,9 @@ fn Open(lab: Lab, wish: Wish) -> impl IntoView {
                 on:pointerdown=|e| e.stop_propagation() on:submit=accept on:keydown=key>
                 <label for="asked">{label}</label>
                 <input id="asked" node_ref=input type="text" prop:value=value spellcheck="false"
-                    autocomplete="off" aria-invalid=move || error.with(Option::is_some).to_string() />
+                    autocomplete="off" on:input=change aria-invalid=move || error.with(Option::is_some).to_string() />
                 {move || error.get().map(|error| view! { <p class="error" role="alert">{error}</p> })}
+                {move || foreseen.get().map(|says| view! { <p class="quiet" aria-live="polite">{says}</p> })}
                 <p class="choices">
                     <button class="primary" type="submit">{words::DONE}</button>
                     <button type="button" on:click=move |_| lab.wish.set(None)>{words::CANCEL}</button>
@@ -111,22 +139,34 @@ fn Open(lab: Lab, wish: Wish) -> impl IntoView {
 }
 
 impl Lab {
-    /// Makes a class of what is selected.
+    /// Asks for an equation over what is selected.
+    pub fn begin_equation(self) {
+        self.flush_text();
+        let paths: Vec<_> =
+            self.selection_untracked().iter().filter_map(|p| session::parse_path(p)).collect();
+        let begun = self.ask_of_shown(|session, id| session.equation_begun(id, &paths));
+        self.wish.set(Some(Wish::Equation(begun.unwrap_or_default())));
+    }
+
+    /// Says an equation as it was typed.
     ///
     /// # Errors
     /// Why not, in one sentence.
-    pub fn class_of_selection(self, class: &str) -> Result<(), String> {
-        self.flush_text();
-        let Some(id) = self.id() else { return Ok(()) };
-        let paths: Vec<_> =
-            self.selection_untracked().iter().filter_map(|p| session::parse_path(p)).collect();
-        let made = self.ask(|session| session.class_of(id, &paths, class));
-        let (command, name) = made.map_err(|refusal| crate::field::reason(&refusal))?;
-        if self.apply_as_meant(&command) {
-            self.select(Some(name));
+    fn say_equation(self, typed: &str) -> Result<(), String> {
+        if self.apply(&equation(typed)) {
             return Ok(());
         }
         refused(self)
+    }
+
+    /// Shows what a command would do, and says what it would move.
+    fn said_before(self, command: &Command) -> Option<String> {
+        self.foresee_command(Some(command));
+        let moved = self.ask_of_shown(|session, id| session.moved_by(id, command))?;
+        Some(match moved {
+            Ok(moved) => words::would_move(&moved),
+            Err(refusal) => crate::field::reason(&refusal),
+        })
     }
 
     /// Says a dimension with the value that was typed.
@@ -139,6 +179,12 @@ impl Lab {
         }
         refused(self)
     }
+}
+
+/// The command that says an equation of the document.
+fn equation(typed: &str) -> Command {
+    let members = format!("constraint {}", typed.trim());
+    Command::Edit { target: session::Path::default(), members }
 }
 
 /// Takes what was refused out of the notices, to be said in the dialog.

@@ -1,5 +1,5 @@
-//! The first minute: offered in the gallery until it was taken or skipped, and not again. What it is, its document
-//! says: the first lesson of the gallery.
+//! The first minute: it opens by itself on a first visit that names no document, is offered in the gallery until it
+//! was taken or skipped, and does not come again. What it is, its document says: the first lesson of the gallery.
 
 use crate::lab::Lab;
 use crate::{route, theme, words};
@@ -14,6 +14,15 @@ pub fn is_offered() -> bool {
 }
 
 impl Lab {
+    /// Opens the first minute by itself, where somebody is here for the first time and asked for no document.
+    pub fn welcome(self) {
+        let asks_for_nothing = route::present().is_none() && route::shared().is_none();
+        if asks_for_nothing && self.first.get_untracked() {
+            self.end_invitation();
+            route::go(&route::to(LESSON));
+        }
+    }
+
     /// Offers the first minute no more.
     pub fn end_invitation(self) {
         self.first.set(false);

@@ -8,7 +8,7 @@ use crate::values::{self, Place};
 use crate::{structure, words};
 use leptos::prelude::*;
 use session::Command;
-use session::view::{RowKind, StructureRow, ValueRow};
+use session::view::{RowKind, StructureRow, ValueRow, ValueWithin};
 
 /// At most so many values, and so many constraints, are shown at once; table and tree have the others.
 const MOST: usize = 40;
@@ -25,6 +25,10 @@ pub fn Inspector(
     });
     let title = move || {
         let name = row.with(|row| row.as_ref().map(|row| row.path.clone()));
+        let several = lab.also.with(Vec::len) + 1;
+        if several > 1 {
+            return words::several(several);
+        }
         name.unwrap_or_else(|| {
             lab.document.with(|d| d.as_ref().map_or_else(String::new, |d| d.title.clone()))
         })
@@ -65,13 +69,20 @@ pub fn Inspector(
 /// The values of the selection, or the given ones of the document, each with a slider where it is a number.
 #[component]
 fn Numbers(lab: Lab) -> impl IntoView {
+    let within = Memo::new(move |_| {
+        lab.structure.track();
+        let path = lab.selected.get().and_then(|path| session::parse_path(&path));
+        let found = lab.id().zip(path);
+        found.map(|(id, path)| lab.ask(|s| s.values_within(id, &path))).unwrap_or_default()
+    });
     let found = Memo::new(move |_| {
         let selected = lab.selected.get();
-        lab.values.with(|rows| shown_values(rows, selected.as_deref()))
+        within
+            .with(|within| lab.values.with(|rows| shown_values(rows, selected.as_deref(), within)))
     });
     let shown = move || {
         let shown = found.get();
-        lab.inspected_values.set_value(shown.clone());
+        lab.inspected_values.set_value(shown.iter().map(|shown| shown.0).collect());
         shown
     };
     on_cleanup(move || {
@@ -89,11 +100,11 @@ fn Numbers(lab: Lab) -> impl IntoView {
             <table>
                 <caption class="unseen">{words::VALUES}</caption>
                 <tbody>
-                    <For each=shown key=|at| *at let(at)>
-                        <values::Row lab=lab at=at place=Place::Inspector />
+                    <For each=shown key=Clone::clone let(row)>
+                        <values::Row lab=lab at=row.0 place=Place::Inspector within=row.1 />
                         <tr><td colspan="4">
-                            {asked(lab, at)}
-                            <values::Slider lab=lab at=at />
+                            {asked(lab, row.0)}
+                            <values::Slider lab=lab at=row.0 />
                         </td></tr>
                     </For>
                 </tbody>
@@ -146,27 +157,44 @@ fn Rule(lab: Lab, row: StructureRow) -> impl IntoView {
             <button class="path" title=row.doc
                 on:click=move |_| lab.select(Some(select.clone()))
                 on:pointerenter=move |_| lab.hover(Some(hover.clone()))>{path}</button>
-            <code>{row.detail}</code>
+            <code title=row.detail.clone()>{words::formula(&row.detail)}</code>
             <span class=format!("state {state}")><span class="unseen">{state}</span></span>
         </li>
     }
 }
 
-/// Which rows of the values the inspector shows: those of a thing, outermost first; of the document what is given.
-fn shown_values(rows: &[ValueRow], selected: Option<&str>) -> Vec<usize> {
-    let depth = |row: &ValueRow| row.shortest.matches('.').count();
-    let fits = |row: &ValueRow| match selected {
-        Some(path) => covers(path, &row.path) || covers(path, &row.shortest),
-        None => row.given && !row.is_layout && row.number.is_some() && depth(row) <= 1,
+/// Which rows of the values the inspector shows, by their paths within what is selected: those of a thing and what
+/// it shares with others, outermost first; of the document what is given.
+fn shown_values(
+    rows: &[ValueRow],
+    selected: Option<&str>,
+    within: &[ValueWithin],
+) -> Vec<(usize, String)> {
+    let depth = |name: &str| name.matches('.').count();
+    let name = |row: &ValueRow| match selected {
+        Some(path) => {
+            let shared = within.iter().find(|w| w.row == row.path && !w.path.is_empty());
+            let rest = [&row.path, &row.shortest].into_iter().find(|p| covers(path, p))?;
+            let rest = rest.get(path.len()..).unwrap_or_default().trim_start_matches('.');
+            let own = if rest.is_empty() { row.path.clone() } else { String::from(rest) };
+            Some(shared.map_or(own, |w| w.path.clone()))
+        }
+        None => {
+            let is_given = row.given && !row.is_layout && row.number.is_some();
+            (is_given && depth(&row.shortest) <= 1).then(|| row.path.clone())
+        }
     };
-    let mut found: Vec<usize> = (0..rows.len()).filter(|&at| fits(&rows[at])).collect();
-    let is_own = |at: &usize| selected.is_some_and(|path| rows[*at].path == path);
-    if found.iter().any(|at| !rows[*at].is_layout) {
-        found.retain(|at| is_own(at) || !rows[*at].is_layout);
+    let shared =
+        |row: &ValueRow| { within.iter().find(|w| w.row == row.path) }.map(|w| w.path.clone());
+    let mut found: Vec<(usize, String)> = { rows.iter().enumerate() }
+        .filter_map(|(at, row)| Some((at, name(row).or_else(|| shared(row))?)))
+        .collect();
+    let is_own = |at: usize| selected.is_some_and(|path| rows[at].path == path);
+    if found.iter().any(|(at, _)| !rows[*at].is_layout) {
+        found.retain(|(at, _)| is_own(*at) || !rows[*at].is_layout);
     }
-    found.sort_by_key(|&at| depth(&rows[at]));
+    found.sort_by_key(|(at, name)| (depth(name), *at));
     found.truncate(MOST);
-    found.sort_unstable();
     found
 }
 

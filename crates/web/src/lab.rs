@@ -162,6 +162,8 @@ pub struct Lab {
     pub editing: RwSignal<Option<InPlace>>,
     /// The menu that is open.
     pub menu: RwSignal<Option<Menu>>,
+    /// While a class is made of the selection, the points by which its things are placed.
+    pub attachers: RwSignal<Option<Vec<String>>>,
     /// What a person is asked to type.
     pub wish: RwSignal<Option<Wish>>,
     /// Whether the picture has a grid.
@@ -288,6 +290,7 @@ impl Lab {
             drawer: RwSignal::new(Drawer::Structure),
             editing: RwSignal::new(None),
             menu: RwSignal::new(None),
+            attachers: RwSignal::new(None),
             wish: RwSignal::new(None),
             grid: RwSignal::new(theme::keep(GRID_KEY).is_none_or(|kept| kept != "off")),
             zoom: RwSignal::new(None),
@@ -393,6 +396,10 @@ impl Lab {
         let Some(id) = self.id() else { return };
         let (picture, values) = self.ask(|session| (session.picture(id), session.values(id)));
         self.set_moved(MovedView::Everything);
+        // which way the sheet counts y may have been said just now
+        if picture.drawing.vertical != self.view.with_untracked(|view| view.vertical) {
+            self.zoom.set(Some(Zoom::Fit));
+        }
         self.picture.set(picture);
         self.values.set(values);
         let (structure, text, status, title) = self.ask(|session| {

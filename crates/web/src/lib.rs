@@ -14,6 +14,7 @@
 pub mod actions;
 pub mod bench;
 pub mod bin_panel;
+pub mod by_example;
 pub mod calculator;
 pub mod dialog;
 pub mod dock;

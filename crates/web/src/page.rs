@@ -2,6 +2,7 @@
 
 use crate::actions::{self, Action};
 use crate::bin_panel::Bin;
+use crate::by_example::ByExample;
 use crate::dialog::Dialog;
 use crate::dock::{Dock, Handles};
 use crate::drafting::Drawing;
@@ -34,6 +35,7 @@ pub fn Page() -> impl IntoView {
     leptos::task::spawn_local(async move {
         lab.fetch_library().await;
         ready.set(true);
+        lab.welcome();
         follow(lab);
     });
     let listeners = [
@@ -191,11 +193,14 @@ fn Document(lab: Lab) -> impl IntoView {
             <Drawer lab=lab />
             <Splitter name="left" way=Way::Right least=160.0 most=560.0 />
             <div class="centre">
-                <Rail lab=lab />
-                <Picture lab=lab />
-                <Strip lab=lab />
-                <PromptLine lab=lab />
-                <Coach lab=lab />
+                <div class="stage">
+                    <Rail lab=lab />
+                    <Picture lab=lab />
+                    <Strip lab=lab />
+                    <PromptLine lab=lab />
+                    <ByExample lab=lab />
+                    <Coach lab=lab />
+                </div>
                 <Show when=move || lab.why.get()>
                     <Splitter name="why" way=Way::Up least=96.0 most=640.0 />
                     <Why lab=lab />

@@ -16,7 +16,7 @@ use js_sys::Array;
 use leptos::ev::{KeyboardEvent, MouseEvent, PointerEvent, WheelEvent};
 use leptos::html::Canvas;
 use leptos::prelude::*;
-use session::view::{Freedom, Grip, MovedView, PictureView, StructureRow};
+use session::view::{Caught, Freedom, Grip, MovedView, PictureView, StructureRow};
 use std::collections::BTreeMap;
 use std::sync::Arc;
 use wasm_bindgen::closure::Closure;
@@ -161,6 +161,13 @@ fn lists(lab: Lab) -> Lists {
                 tool.caught.iter().for_each(|found| caught(&mut list, found));
             });
             lab.dropping.with(|d| d.iter().for_each(|(_, found)| caught(&mut list, found)));
+            lab.attachers.with(|chosen| {
+                for (n, path) in chosen.iter().flatten().enumerate() {
+                    let grip = picture.grips.iter().find(|grip| grip.path == *path);
+                    let word = (n + 1).to_string();
+                    grip.inspect(|g| caught(&mut list, &Caught { at: (g.x, g.y), word }));
+                }
+            });
             list
         })
     });

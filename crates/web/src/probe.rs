@@ -57,6 +57,21 @@ fn state(lab: Lab) -> String {
         };
         picture.grips.iter().map(grip).collect()
     });
+    let words: Array = lab.picture.with_untracked(|picture| {
+        let word = |element: &drawing::Element| {
+            let drawing::Shape::Text { at, text: shown, .. } = &element.shape else { return None };
+            let (x, y) = view.screen_from_sheet(*at);
+            let path = picture.paths.get(element.tag.0 as usize)?;
+            // where a pointer hits it: a little to the right of where it begins
+            Some(object(&[
+                ("path", text(path)),
+                ("text", text(shown)),
+                ("px", (left + x + 10.0).into()),
+                ("py", (top + y - 4.0).into()),
+            ]))
+        };
+        picture.drawing.elements.iter().filter_map(word).collect()
+    });
     let status = lab.status.get_untracked();
     let notice = match lab.notice.get_untracked() {
         Some(Notice::Said(words)) => words,
@@ -77,6 +92,7 @@ fn state(lab: Lab) -> String {
         ("dirty", document.as_ref().is_some_and(|d| d.dirty).into()),
         ("values", values.into()),
         ("grips", grips.into()),
+        ("words", words.into()),
         (
             "status",
             object(&[

@@ -5,7 +5,6 @@ use crate::lab::{Lab, Notice};
 use crate::{icons, words};
 use leptos::prelude::*;
 use session::view::{Pointer, ToolView};
-use session::{Command, Path};
 
 /// The tools, one below the other; those that the document has no classes for say why not.
 #[component]
@@ -131,7 +130,16 @@ impl Lab {
             self.renew_tool();
             return;
         }
-        self.select(Some(view.makes));
+        self.select(Some(view.makes.clone()));
+        if class.as_deref() == Some("Caption") {
+            // what it says is typed at once
+            self.drop_tool();
+            let at = self.view.with_untracked(|v| {
+                v.screen_from_sheet(drawing::Point { x: pointer.at.0, y: pointer.at.1 })
+            });
+            self.edit_in_place(&view.makes, None, at);
+            return;
+        }
         match self.tell(session::Session::take_tool_again) {
             Some(Some(view)) => self.show_tool(view),
             _ => self.drop_tool(),
@@ -150,8 +158,8 @@ impl Lab {
             "ArrowUp" => (0.0, -step),
             "ArrowDown" => (0.0, step),
             "Enter" => {
-                let length = self.typed.with_untracked(|typed| typed.parse::<f64>().ok());
-                let pointer = Pointer { length, ..self.keyboard_pointer(size) };
+                let (length, angle) = self.typed.with_untracked(|typed| length_and_angle(typed));
+                let pointer = Pointer { length, angle, ..self.keyboard_pointer(size) };
                 self.tool_set(&pointer);
                 return true;
             }
@@ -161,7 +169,10 @@ impl Lab {
                 });
                 return true;
             }
-            digit if digit.len() == 1 && digit.chars().all(|c| c.is_ascii_digit() || c == '.') => {
+            digit
+                if digit.len() == 1
+                    && digit.chars().all(|c| c.is_ascii_digit() || ".<-".contains(c)) =>
+            {
                 self.typed.update(|typed| typed.push_str(digit));
                 return true;
             }
@@ -186,7 +197,13 @@ impl Lab {
             let decimals = view.decimals();
             let round = |x: f64| base::number::rounded(x, decimals).parse().unwrap_or(x);
             let at = (round(p.x), round(p.y));
-            Pointer { at, reach: reach / view.scale, alone, length: None, grid: view.tidy() }
+            Pointer {
+                at,
+                reach: reach / view.scale,
+                alone,
+                grid: view.tidy(),
+                ..Pointer::default()
+            }
         })
     }
 
@@ -210,7 +227,18 @@ impl Lab {
 
     /// Has the document use a library.
     pub fn use_library(self, name: &str) {
-        let edit = Command::Edit { target: Path::default(), members: format!("use {name}") };
-        self.apply_as_meant(&edit);
+        self.flush_text();
+        let Some(id) = self.id() else { return };
+        let command = self.ask(|session| session.using(id, name));
+        if self.apply_as_meant(&command) {
+            let shelves = document().query_selector(".bin .scroll").ok().flatten();
+            shelves.inspect(|shelves| shelves.set_scroll_top(0));
+        }
     }
+}
+
+/// Reads what was typed of a length and, after `<`, of an angle in degrees.
+fn length_and_angle(typed: &str) -> (Option<f64>, Option<f64>) {
+    let (length, angle) = typed.split_once('<').unwrap_or((typed, ""));
+    (length.parse().ok(), angle.parse().ok())
 }

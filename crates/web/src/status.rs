@@ -116,11 +116,20 @@ pub fn Asked(
                 let _ = button.focus();
             }
         });
+        let command = StoredValue::new(choice.command);
         let go = move |_| {
+            lab.foresee_command(None);
             lab.notice.set(None);
-            lab.apply_as_meant(&choice.command);
+            lab.apply_as_meant(&command.get_value());
         };
-        view! { <button node_ref=button on:click=go>{choice.label}</button> }
+        let look = move || lab.foresee_command(Some(&command.get_value()));
+        view! {
+            <button node_ref=button on:click=go
+                on:pointerenter=move |_| look()
+                on:pointerleave=move |_| lab.foresee_command(None)
+                on:focus=move |_| look()
+                on:blur=move |_| lab.foresee_command(None)>{choice.label}</button>
+        }
     };
     let shown = move |question: Question| {
         let choices = question.choices.into_iter().enumerate();

@@ -1,5 +1,6 @@
 //! The strip: what can be said of the selection, each shown in the picture before it is done.
 
+use crate::actions;
 use crate::dialog::Wish;
 use crate::lab::{Lab, Notice};
 use crate::words;
@@ -29,6 +30,8 @@ pub fn Strip(
                 <For each=move || offers.get() key=|offer| offer.members.clone() let(offer)>
                     <Button lab=lab offer=offer />
                 </For>
+                <button data-action="class-of" title=words::CLASS_OF
+                    on:click=move |_| actions::run(actions::named("class-of"), lab)>{words::CLASS}</button>
             </div>
         </Show>
     }

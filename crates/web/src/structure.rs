@@ -186,9 +186,9 @@ impl Tree {
             "ArrowDown" => go(Some(place + 1)),
             "ArrowUp" => go(place.checked_sub(1)),
             " " if apart => self.choose_also(at),
-            _ if apart => return,
             "Home" => go(Some(0)),
             "End" => go(visible.len().checked_sub(1)),
+            _ if apart => return,
             "ArrowRight" if row.descendants > 0 && !open => self.toggle(&row),
             "ArrowRight" => go(Some(place + 1)),
             "ArrowLeft" if open => self.toggle(&row),
@@ -411,6 +411,7 @@ fn Row(tree: Tree, place: usize, shown: Shown) -> impl IntoView {
     view! {
         <div
             id=format!("row-{at}")
+            data-path=path
             class=move || format!("row {}", kind.get())
             class:selected=selected
             class:hovered=hovered

@@ -97,6 +97,9 @@ pub fn Row(
     at: usize,
     /// Where it is shown.
     place: Place,
+    /// Its path within what is inspected, where that is another than its own.
+    #[prop(optional)]
+    within: Option<String>,
 ) -> impl IntoView {
     let row = Memo::new(move |_| lab.values.with(|rows| rows.get(at).cloned()));
     let of = move |read: fn(&ValueRow) -> String| {
@@ -106,8 +109,10 @@ pub fn Row(
         Memo::new(move |_| row.with(|row| row.as_ref().is_some_and(read)))
     };
     let path = of(|row| row.path.clone());
-    let (owner, name) =
-        (of(|row| String::from(split(&row.path).0)), of(|r| String::from(split(&r.path).1)));
+    let within = StoredValue::new(within);
+    let named = move || within.get_value().unwrap_or_else(|| path.get());
+    let owner = Memo::new(move |_| String::from(split(&named()).0));
+    let name = Memo::new(move |_| String::from(split(&named()).1));
     let unit = of(|row| row.unit.clone());
     let class = of(|row| row.class.clone());
     let state = of(|row| row.freedom.map(words::freedom).map(String::from).unwrap_or_default());
@@ -142,9 +147,9 @@ pub fn Row(
             on:pointerenter=move |_| lab.hover(Some(path.get_untracked()))
         >
             <th scope="row">
-                <Scrub lab=lab row=row owner=owner name=name />
+                <Scrub lab=lab row=row owner=owner name=name selects={place == Place::Table} />
             </th>
-            <td><Field lab=lab row=row /></td>
+            <td><Field lab=lab row=row selects={place == Place::Table} /></td>
             <td class="unit">{move || if unit.with(String::is_empty) { String::new() } else { unit.get() }}
                 <span class="unseen">{class}</span></td>
             <td class="marks">
@@ -178,6 +183,7 @@ fn Scrub(
     row: Memo<Option<ValueRow>>,
     owner: Memo<String>,
     name: Memo<String>,
+    selects: bool,
 ) -> impl IntoView {
     let span = NodeRef::<Span>::new();
     // Where the pointer was pressed, the number there, and whether it has become a drag.
@@ -194,7 +200,10 @@ fn Scrub(
             span.get_untracked().inspect(|span| js::capture(span, e.pointer_id()));
             start.set_value(Some((f64::from(e.client_x()), number, false)));
         }
-        lab.select(path());
+        // the inspector goes on showing what it shows
+        if selects {
+            lab.select(path());
+        }
     };
     let frame = move || {
         let x = latest.try_update_value(Option::take).flatten();
@@ -320,7 +329,7 @@ fn step(number: f64) -> f64 {
 
 /// The field of one value: Enter sets it, Escape brings back what was there.
 #[component]
-fn Field(lab: Lab, row: Memo<Option<ValueRow>>) -> impl IntoView {
+fn Field(lab: Lab, row: Memo<Option<ValueRow>>, selects: bool) -> impl IntoView {
     let typed = RwSignal::new(None::<String>);
     let error = RwSignal::new(None::<String>);
     let active = RwSignal::new(false);
@@ -358,6 +367,12 @@ fn Field(lab: Lab, row: Memo<Option<ValueRow>>) -> impl IntoView {
         "ArrowUp" if focus_beside(&e, Beside::Above) => e.prevent_default(),
         _ => {}
     };
+    // the inspector goes on showing what it shows
+    let choose = move || {
+        if selects {
+            lab.select(Some(path.get_untracked()));
+        }
+    };
     let select = move || {
         let one = move |option: String| {
             let is_chosen = {
@@ -372,7 +387,7 @@ fn Field(lab: Lab, row: Memo<Option<ValueRow>>) -> impl IntoView {
                 aria-label=path
                 aria-invalid=move || error.with(Option::is_some).to_string()
                 prop:value=move || { error.track(); text.get() }
-                on:focus=move |_| lab.select(Some(path.get_untracked()))
+                on:focus=move |_| choose()
                 on:change=move |e| {
                     typed.set(Some(event_target_value(&e)));
                     commit();
@@ -394,7 +409,7 @@ fn Field(lab: Lab, row: Memo<Option<ValueRow>>) -> impl IntoView {
                 prop:value=move || typed.get().unwrap_or_else(|| if active.get() { exact.get() } else { text.get() })
                 on:focus=move |_| {
                     active.set(true);
-                    lab.select(Some(path.get_untracked()));
+                    choose();
                 }
                 on:input=move |e| {
                     typed.set(Some(event_target_value(&e)));

@@ -107,6 +107,21 @@ pub const AS_OPENED: &str = "as it was opened";
 pub const DUPLICATE: &str = "Make a copy of the selection";
 pub const CLASS_OF: &str = "Make a class of the selection";
 pub const NAME_OF_CLASS: &str = "Name of the class that the selection becomes the parts of";
+/// What a class's name looks like.
+pub const CLASS_NAME_LIKE: &str = "Rhombus";
+/// Over what has to be decided of a class by example.
+pub const OF_WHAT: &str = "What every one of them has";
+/// That something is of the class.
+pub const OF_CLASS: &str = "every one";
+/// That something is of the one thing only.
+pub const OF_THIS_ONE: &str = "this one only";
+/// Over the points by which a thing is placed.
+pub const STICKS_AT: &str = "Where it sticks to others";
+/// How such points are said.
+pub const STICKS_AT_HINT: &str =
+    "Click points in the picture, or choose them here, in the order in which they are placed.";
+/// The button that makes the class.
+pub const MAKE_CLASS: &str = "Make the class";
 pub const NAME: &str = "Name";
 pub const NAME_OF_DOCUMENT: &str = "Save under the name";
 pub const DOWNLOAD: &str = "Download the text";
@@ -537,4 +552,92 @@ pub const BAND: &str = "Draw a rectangle around the figures; each is taken by it
 /// The field of a parameter's value.
 pub fn value_of_parameter(name: &str) -> String {
     format!("value of {name}")
+}
+
+/// What is asked of a part, a value, a constraint or a merge of a class by example.
+pub fn scope_of(says: &str) -> String {
+    format!("{says}: of what")
+}
+
+/// That a number becomes a parameter.
+pub fn parameter(name: &str) -> String {
+    format!("parameter {name}")
+}
+
+/// The tool that draws regular polygons.
+pub const TOOL_POLYGON: &str = "Polygon";
+/// The tool that places words.
+pub const TOOL_TEXT: &str = "Text";
+/// The action that says an equation over what is selected.
+pub const EQUATION: &str = "Equation";
+/// What is asked of an equation.
+pub const ASK_EQUATION: &str = "An equation that shall hold, such as a.length = 2 * b.length";
+
+/// What an edit would move.
+pub fn would_move(moved: &[String]) -> String {
+    const MOST: usize = 4;
+    match moved {
+        [] => String::from("it moves nothing"),
+        all if all.len() <= MOST => format!("it moves {}", all.join(", ")),
+        all => format!("it moves {} and {} more", all[..MOST].join(", "), all.len() - MOST),
+    }
+}
+
+/// The button of the strip that makes a class of the selection.
+pub const CLASS: &str = "class…";
+/// The action that gives the keyboard to the inspector.
+pub const GO_INSPECTOR: &str = "Go to the inspector";
+
+/// What the inspector is about where several things are selected.
+pub fn several(number: usize) -> String {
+    format!("{number} things")
+}
+
+/// That no class and no library has a name.
+pub fn nothing_called(typed: &str) -> String {
+    format!("nothing in the bin is called {typed}, and no library")
+}
+
+/// That a class was made.
+pub fn class_made(name: &str) -> String {
+    format!("{name} is a class now; the bin has it")
+}
+
+/// A rule as a person reads it: without the word `constraint`, its name and how it is computed, with the signs of
+/// arithmetic.
+pub fn formula(rule: &str) -> String {
+    let rule = rule.split(" {").next().unwrap_or(rule);
+    let rule = rule.strip_prefix("constraint ").unwrap_or(rule).trim();
+    let is_name = |name: &str| name.chars().all(|c| c.is_alphanumeric() || c == '_');
+    let rule = match rule.split_once(": ") {
+        Some((name, rest)) if is_name(name) => rest,
+        _ => rule,
+    };
+    let signs = [
+        (" * ", " · "),
+        (" - ", " − "),
+        ("<=", "≤"),
+        (">=", "≥"),
+        ("!=", "≠"),
+        ("sqrt(", "√("),
+        ("^2", "²"),
+        ("^3", "³"),
+        (" ohm", " Ω"),
+        (" deg", "°"),
+    ];
+    signs.iter().fold(String::from(rule), |rule, (from, to)| rule.replace(from, to))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::formula;
+
+    #[test]
+    fn a_rule_is_read_as_a_formula() {
+        let rule = "constraint ohm: a.node.voltage - b.node.voltage = current * resistance";
+        assert_eq!(formula(rule), "a.node.voltage − b.node.voltage = current · resistance");
+        assert_eq!(formula("constraint a = b { a := b }"), "a = b");
+        assert_eq!(formula("constraint a.passes(through: b)"), "a.passes(through: b)");
+        assert_eq!(formula("constraint x^2 <= 4"), "x² ≤ 4");
+    }
 }

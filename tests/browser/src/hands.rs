@@ -108,3 +108,224 @@ pub async fn chord(visit: &Visit, held: &[char], key: char) {
     }
     visit.client.perform_actions(actions).await.expect("the keys are pressed");
 }
+
+/// Keys by the names that people give them, as WebDriver writes them.
+pub mod key {
+    /// Ctrl.
+    pub const CONTROL: char = '\u{e009}';
+    /// Alt.
+    pub const ALT: char = '\u{e00a}';
+    /// Shift.
+    pub const SHIFT: char = '\u{e008}';
+    /// Enter.
+    pub const ENTER: char = '\u{e007}';
+    /// Escape.
+    pub const ESCAPE: char = '\u{e00c}';
+    /// Tab.
+    pub const TAB: char = '\u{e004}';
+    /// The arrow down.
+    pub const DOWN: char = '\u{e015}';
+    /// The arrow to the right.
+    pub const RIGHT: char = '\u{e014}';
+    /// Home.
+    pub const HOME: char = '\u{e011}';
+    /// The space bar.
+    pub const SPACE: char = ' ';
+}
+
+/// Opens the gallery and begins a document, by its keys.
+///
+/// # Panics
+/// Where it does not begin.
+pub async fn begin() -> Visit {
+    let visit = Visit::open(None).await;
+    visit.until("document.querySelector('.card')").await;
+    visit.script("document.querySelector('.file').focus()").await;
+    chord(&visit, &[], key::ENTER).await;
+    visit.until("document.activeElement.dataset.action === 'new'").await;
+    chord(&visit, &[], key::ENTER).await;
+    visit.until("window.__thinglab.state().path === 'untitled.thing'").await;
+    visit.until("document.getElementById('picture').width > 10").await;
+    visit
+}
+
+/// Presses keys one after the other.
+///
+/// # Panics
+/// Where the browser refuses.
+pub async fn keys(visit: &Visit, all: &str) {
+    let mut actions = KeyActions::new("keys".into());
+    for value in all.chars() {
+        actions = actions.then(KeyAction::Down { value }).then(KeyAction::Up { value });
+    }
+    visit.client.perform_actions(actions).await.expect("the keys are pressed");
+}
+
+/// Has a document use a library, and takes the tool of a class out of the bin, where one is named.
+///
+/// # Panics
+/// Where the bin does not have it.
+pub async fn use_library(visit: &Visit, library: &str) {
+    visit.script("document.getElementById('tab-bin').click()").await;
+    visit.until(&format!("document.querySelector('[data-library={library}]')")).await;
+    visit.script(&format!("document.querySelector('[data-library={library}]').click()")).await;
+    visit.until(&format!("window.__thinglab.state().text.includes('use {library}')")).await;
+}
+
+/// Takes the tool of a class out of the bin and clicks at places in the window.
+///
+/// # Panics
+/// Where the bin does not have it.
+pub async fn place(visit: &Visit, class: &str, places: &[(f64, f64)]) {
+    let tile = format!("document.querySelector('[data-class={class}]')");
+    visit.until(&tile).await;
+    for kind in ["pointerdown", "pointerup"] {
+        let event = format!("new PointerEvent('{kind}', {{ button: 0 }})");
+        visit.script(&format!("{tile}.dispatchEvent({event})")).await;
+    }
+    visit.until(&format!("{tile}.getAttribute('aria-pressed') === 'true'")).await;
+    for &at in places {
+        point(visit, at, MOUSE_BUTTON_LEFT).await;
+    }
+}
+
+/// Clicks twice at a place in the window and types over the value that is there.
+///
+/// # Panics
+/// Where no editor opens.
+pub async fn type_over(visit: &Visit, (x, y): (f64, f64), value: &str) {
+    let mut actions = MouseActions::new("mouse".into()).then(PointerAction::MoveTo {
+        duration: Some(Duration::from_millis(40)),
+        x: x.round(),
+        y: y.round(),
+    });
+    for _ in 0..2 {
+        actions = actions
+            .then(PointerAction::Down { button: MOUSE_BUTTON_LEFT })
+            .then(PointerAction::Up { button: MOUSE_BUTTON_LEFT });
+    }
+    visit.client.perform_actions(actions).await.expect("the mouse clicks twice");
+    visit.until("document.querySelector('.inplace input') === document.activeElement").await;
+    chord(visit, &[key::CONTROL], 'a').await;
+    keys(visit, value).await;
+    chord(visit, &[], key::ENTER).await;
+    visit.until("!document.querySelector('.inplace')").await;
+}
+
+/// Inserts a thing by the keyboard: the bin's field, what is typed there, Enter.
+///
+/// # Panics
+/// Where nothing changes.
+pub async fn insert_by_keys(visit: &Visit, class: &str) {
+    let before = text_of(&state(visit).await);
+    visit.script("document.getElementById('picture').focus()").await;
+    chord(visit, &[], 'i').await;
+    visit.until("document.activeElement.matches('.bin input')").await;
+    chord(visit, &[key::CONTROL], 'a').await;
+    keys(visit, class).await;
+    visit.until(&format!("document.activeElement.value === '{class}'")).await;
+    chord(visit, &[], key::ENTER).await;
+    let before = serde_json::to_string(&before).expect("a text");
+    visit.until(&format!("window.__thinglab.state().text !== {before}")).await;
+}
+
+/// Goes through the rows of the structure by the arrow keys to some paths, opens what is shut on the way, and selects
+/// them together.
+///
+/// # Panics
+/// Where the keys do not lead there.
+pub async fn choose_by_keys(visit: &Visit, paths: &[&str]) {
+    chord(visit, &[key::ALT], '2').await;
+    visit.until("document.activeElement.getAttribute('role') === 'treeitem'").await;
+    for (n, path) in paths.iter().enumerate() {
+        let held: &[char] = if n == 0 { &[] } else { &[key::CONTROL] };
+        if n == 0 {
+            chord(visit, &[], key::HOME).await;
+            tokio::time::sleep(Duration::from_millis(100)).await;
+        }
+        go_to_row(visit, path, held).await;
+        if n > 0 {
+            chord(visit, &[key::CONTROL], key::SPACE).await;
+        }
+    }
+    let wanted = serde_json::to_string(paths).expect("paths are texts");
+    visit
+        .until(&format!(
+            "(s => JSON.stringify([s.selected, ...s.also]) === '{wanted}')(window.__thinglab.state())"
+        ))
+        .await;
+}
+
+/// Brings the tree's present row to a path, with the keys that are held.
+async fn go_to_row(visit: &Visit, path: &str, held: &[char]) {
+    let row = "document.activeElement.closest('[role=treeitem]')";
+    // between two frames no row may have the keyboard
+    let ask = format!(
+        "return (r => r ? [r.dataset.path, r.id, r.getAttribute('aria-expanded')] : [])({row})"
+    );
+    for _ in 0..400 {
+        let now = visit.script(&ask).await;
+        if now[1].is_null() {
+            tokio::time::sleep(Duration::from_millis(20)).await;
+            continue;
+        }
+        let at = now[0].as_str().unwrap_or_default();
+        if at == path {
+            return;
+        }
+        let leads = at.is_empty() || path.starts_with(&format!("{at}."));
+        if leads && now[2] == "false" {
+            chord(visit, &[], key::RIGHT).await;
+            visit.until(&format!("{row} && {row}.getAttribute('aria-expanded') !== 'false'")).await;
+            continue;
+        }
+        chord(visit, held, key::DOWN).await;
+        // the page gives the row the keyboard with its next frame
+        let mut is_last = true;
+        for _ in 0..10 {
+            tokio::time::sleep(Duration::from_millis(20)).await;
+            let next = visit.script(&ask).await;
+            if !next[1].is_null() && next[1] != now[1] {
+                is_last = false;
+                break;
+            }
+        }
+        if is_last {
+            chord(visit, held, key::HOME).await;
+            tokio::time::sleep(Duration::from_millis(100)).await;
+        }
+    }
+    panic!("the keys do not lead to {path}");
+}
+
+/// Where a word in the picture of a thing lies in the window: the first that has a figure.
+///
+/// # Panics
+/// Where the thing shows none.
+pub fn word(state: &Value, path: &str) -> (f64, f64) {
+    let words = state["words"].as_array().expect("words are a list");
+    let has_figure = |word: &&Value| {
+        word["path"] == path
+            && word["text"].as_str().is_some_and(|t| t.contains(|c: char| c.is_ascii_digit()))
+    };
+    let word = words.iter().find(has_figure).unwrap_or_else(|| panic!("{path} shows no number"));
+    (word["px"].as_f64().expect("a number"), word["py"].as_f64().expect("a number"))
+}
+
+/// Selects what lies at some places in the window, together.
+///
+/// # Panics
+/// Where the browser refuses.
+pub async fn select(visit: &Visit, places: &[(f64, f64)]) {
+    for (n, at) in places.iter().enumerate() {
+        let held = KeyActions::new("keys".into()).then(KeyAction::Down { value: key::CONTROL });
+        if n > 0 {
+            visit.client.perform_actions(held).await.expect("Ctrl is held");
+        }
+        point(visit, *at, MOUSE_BUTTON_LEFT).await;
+        let free = KeyActions::new("keys".into()).then(KeyAction::Up { value: key::CONTROL });
+        if n > 0 {
+            visit.client.perform_actions(free).await.expect("Ctrl is let go");
+        }
+    }
+}

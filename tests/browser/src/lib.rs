@@ -97,6 +97,11 @@ impl Visit {
             .await
             .expect("chromedriver opens Chromium");
         let name = client.session_id().await.ok().flatten().expect("an open session has a name");
+        // whoever comes here has had the first minute
+        let beside = address.replace("/#", "/favicon.svg#");
+        client.goto(&beside).await.expect("the server answers");
+        let over = "localStorage.setItem('thinglab/first-minute', 'over')";
+        client.execute(over, Vec::new()).await.expect("the browser keeps it");
         client.goto(&address).await.expect("the page's address answers");
         let session = Session { port, name };
         Visit { client, address, _session: session, _driver: driver, _server: server, folder }
@@ -123,6 +128,16 @@ impl Visit {
         }
         let shown = self.script("return document.body.innerText").await;
         panic!("never true: {expression}; the page shows\n{}", shown.as_str().unwrap_or_default());
+    }
+
+    /// Takes a picture of the page, for whoever wants to look: only where `THINGLAB_PICTURES` names a folder.
+    ///
+    /// # Panics
+    /// Where it cannot be taken or written.
+    pub async fn picture(&self, name: &str) {
+        let Some(folder) = env::var_os("THINGLAB_PICTURES") else { return };
+        let image = self.client.screenshot().await.expect("the browser takes a picture");
+        fs::write(PathBuf::from(folder).join(format!("{name}.png")), image).expect("it is written");
     }
 
     /// Puts a document into the gallery's copy.

@@ -2,10 +2,8 @@
 //! by keyboard alone; and what strangers stumbled over.
 
 use browser::Visit;
-use browser::hands::{chord, drag, grip, point, state, text_of};
-use fantoccini::actions::{
-    InputSource, KeyAction, KeyActions, MOUSE_BUTTON_LEFT, MOUSE_BUTTON_RIGHT,
-};
+use browser::hands::{begin, chord, drag, grip, keys, point, select, state, text_of};
+use fantoccini::actions::{MOUSE_BUTTON_LEFT, MOUSE_BUTTON_RIGHT};
 use serde_json::json;
 use std::time::Duration;
 
@@ -32,44 +30,10 @@ async fn click(visit: &Visit, at: (f64, f64)) {
     point(visit, at, MOUSE_BUTTON_LEFT).await;
 }
 
-async fn keys(visit: &Visit, all: &str) {
-    for key in all.chars() {
-        chord(visit, &[], key).await;
-    }
-}
-
-/// Opens the gallery and begins a document, by its key.
-async fn begin() -> Visit {
-    let visit = Visit::open(None).await;
-    visit.until("document.querySelector('.card')").await;
-    visit.script("document.querySelector('.file').focus()").await;
-    chord(&visit, &[], ENTER).await;
-    visit.until("document.activeElement.dataset.action === 'new'").await;
-    chord(&visit, &[], ENTER).await;
-    visit.until("window.__thinglab.state().path === 'untitled.thing'").await;
-    visit.until("document.getElementById('picture').width > 10").await;
-    visit
-}
-
 /// Takes an offer of the strip by its label.
 async fn say(visit: &Visit, label: &str) {
     visit.until(&format!("document.querySelector('[data-offer=\"{label}\"]')")).await;
     visit.script(&format!("document.querySelector('[data-offer=\"{label}\"]').click()")).await;
-}
-
-/// Selects a row of the structure by its path, besides what is selected where that is wanted.
-async fn select(visit: &Visit, paths: &[(f64, f64)]) {
-    for (n, at) in paths.iter().enumerate() {
-        if n == 0 {
-            click(visit, *at).await;
-            continue;
-        }
-        let hold = KeyActions::new("keys".into()).then(KeyAction::Down { value: CONTROL });
-        visit.client.perform_actions(hold).await.expect("Ctrl is held");
-        click(visit, *at).await;
-        let leave = KeyActions::new("keys".into()).then(KeyAction::Up { value: CONTROL });
-        visit.client.perform_actions(leave).await.expect("Ctrl is let go");
-    }
 }
 
 fn between(a: (f64, f64), b: (f64, f64), t: f64) -> (f64, f64) {

@@ -55,14 +55,17 @@ async fn a_link_carries_a_whole_document() {
 }
 
 #[tokio::test]
-async fn the_first_minute_is_offered_once() {
+async fn the_first_minute_opens_by_itself_and_comes_once() {
     let visit = Visit::open(None).await;
-    visit.until("document.querySelector('.first .primary')").await;
-    visit.script("document.querySelector('.first .primary').click()").await;
+    visit.until("document.querySelector('.card')").await;
+    visit.script("localStorage.clear()").await;
+    visit.client.goto("about:blank").await.expect("elsewhere");
+    visit.client.goto(&visit.address).await.expect("the page's address answers");
     visit.until("document.querySelector('.pulse') && document.querySelector('.coach')").await;
     visit.script("document.querySelector('.coach .bare').click()").await;
     visit.until("!document.querySelector('.coach')").await;
-    visit.script("location.hash = '#/'").await;
+    visit.client.goto("about:blank").await.expect("elsewhere");
+    visit.client.goto(&visit.address).await.expect("the page's address answers");
     visit.until("document.querySelector('.card')").await;
     let offered = visit.script("return document.querySelectorAll('.first').length").await;
     assert_eq!(offered, 0);

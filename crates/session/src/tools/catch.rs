@@ -52,8 +52,10 @@ pub(crate) fn find(sight: &Sight<'_>, pointer: &Pointer) -> Catch {
     if pointer.alone {
         return Catch::at(pointer.at);
     }
-    let found = at_point(sight, pointer).or_else(|| at_shape(sight, pointer));
-    let found = found.or_else(|| level(sight, pointer)).unwrap_or_else(|| Catch::at(pointer.at));
+    let found = at_point(sight, pointer).or_else(|| touching(sight, pointer));
+    let found = found.or_else(|| at_shape(sight, pointer)).or_else(|| level(sight, pointer));
+    let found = found.or_else(|| aligned(sight, pointer));
+    let found = found.unwrap_or_else(|| Catch::at(pointer.at));
     match found.joins {
         // one with what is there, to the bit
         Some(_) => found,
@@ -157,4 +159,89 @@ fn level(sight: &Sight<'_>, pointer: &Pointer) -> Option<Catch> {
     };
     let rules = vec![format!("{} = {}", coordinate(before, name), coordinate(&sight.own, name))];
     Some(Catch { rules, word: Some(word.into()), is_level: true, ..Catch::at(at) })
+}
+
+/// The lines and circles of the picture by their paths, those whose class answers a message.
+fn shapes<'s>(
+    sight: &'s Sight<'_>,
+    message: &'s str,
+) -> impl Iterator<Item = (&'s Shape, &'s String)> {
+    let document = &sight.state.lowered.document;
+    let answers = move |path: &String| {
+        let thing = parse_path(path).and_then(|path| thing_at(sight.state, &path));
+        let class = thing.map(|thing| sight.state.structure.things[thing].class);
+        class.is_some_and(|c| document.find_message(c, &Name::new(message), None).is_some())
+    };
+    let elements = sight.picture.drawing.elements.iter();
+    let pathed = elements.filter_map(|element| {
+        Some((&element.shape, sight.picture.paths.get(element.tag.0 as usize)?))
+    });
+    pathed.filter(move |(_, path)| answers(path))
+}
+
+/// Where a line from the last place touches a circle.
+fn touching(sight: &Sight<'_>, pointer: &Pointer) -> Option<Catch> {
+    let (last, _) = sight.last.as_ref()?;
+    let (x, y) = pointer.at;
+    let near = shapes(sight, "passes").find_map(|(shape, path)| {
+        let Shape::Circle { center, radius } = shape else { return None };
+        let (dx, dy) = (center.x - last.0, center.y - last.1);
+        let far = hypot(dx, dy);
+        if far <= *radius {
+            return None;
+        }
+        // the foot of the centre on each tangent
+        let along = (far * far - radius * radius).sqrt();
+        let (cos, sin) = (along / far, radius / far);
+        let at = |side: f64| {
+            let (ux, uy) = ((dx * cos - side * dy * sin) / far, (dy * cos + side * dx * sin) / far);
+            (last.0 + along * ux, last.1 + along * uy)
+        };
+        let at = [at(1.0), at(-1.0)]
+            .into_iter()
+            .find(|at| hypot(at.0 - x, at.1 - y) <= pointer.reach)?;
+        Some((at, path))
+    });
+    let (at, path) = near?;
+    let (own, whole) = (&sight.own, &sight.whole);
+    let rules = vec![
+        format!("{path}.passes(through: {own})"),
+        format!("{whole}.perpendicular(to: Line({path}.center, {own}))"),
+    ];
+    Some(Catch { rules, word: Some(format!("touches {path}")), is_level: true, ..Catch::at(at) })
+}
+
+/// At most so many lines are compared with one that is drawn.
+const MOST_ALIGNED: usize = 40;
+
+/// A place so that what is drawn from the last one is parallel or perpendicular to another line.
+fn aligned(sight: &Sight<'_>, pointer: &Pointer) -> Option<Catch> {
+    let (last, _) = sight.last.as_ref()?;
+    let way = (pointer.at.0 - last.0, pointer.at.1 - last.1);
+    let far = hypot(way.0, way.1);
+    if far <= 3.0 * pointer.reach {
+        return None;
+    }
+    let mut nearest: Option<(f64, Catch)> = None;
+    for (shape, path) in shapes(sight, "parallel").take(MOST_ALIGNED) {
+        let Shape::Segment(a, b) = shape else { continue };
+        let (dx, dy) = (b.x - a.x, b.y - a.y);
+        let length = hypot(dx, dy);
+        if length <= 0.0 {
+            continue;
+        }
+        let (dx, dy) = (dx / length, dy / length);
+        for (name, (ux, uy)) in [("parallel", (dx, dy)), ("perpendicular", (-dy, dx))] {
+            let along = way.0 * ux + way.1 * uy;
+            let aside = (way.1 * ux - way.0 * uy).abs();
+            let is_nearer = nearest.as_ref().is_none_or(|(least, _)| aside < *least);
+            if aside <= 0.3 * pointer.reach && is_nearer {
+                let at = (last.0 + along * ux, last.1 + along * uy);
+                let rules = vec![format!("{}.{name}(to: {path})", sight.whole)];
+                let word = Some(format!("{name} to {path}"));
+                nearest = Some((aside, Catch { rules, word, is_level: true, ..Catch::at(at) }));
+            }
+        }
+    }
+    nearest.map(|(_, catch)| catch)
 }

@@ -122,7 +122,7 @@ fn decided_by(steps: &[plan::ExplainedStep]) -> &'static str {
     } else if is(|k| matches!(k, ExplainedKind::LeastChange { .. })) {
         "the least change with which the constraints hold"
     } else {
-        "the constraints alone decide it"
+        "the constraints leave it no other value"
     }
 }
 

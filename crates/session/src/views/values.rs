@@ -439,5 +439,5 @@ fn is_picture(term: &Term) -> bool {
 }
 
 fn is_view(name: &Name) -> bool {
-    matches!(name.as_str(), "picture" | "structure" | "values")
+    matches!(name.as_str(), "picture" | "structure" | "values" | "inserted")
 }

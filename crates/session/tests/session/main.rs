@@ -1,5 +1,7 @@
 //! The session, from outside: what a person does to a document, and what its text says then.
+mod by_hand;
 mod choosing;
+mod classing;
 mod completing;
 mod desk;
 mod drafting;

@@ -131,7 +131,7 @@ pub const ACTIONS: &[Action] = &[
         label: words::CLASS_OF,
         keys: &["Shift+C"],
         enabled: |lab| several(lab).map(drop),
-        run: |lab| lab.wish.set(Some(Wish::ClassOf)),
+        run: Lab::begin_class,
     },
     Action {
         id: "unmerge",
@@ -277,6 +277,24 @@ pub const ACTIONS: &[Action] = &[
         run: |lab| hold(lab, "Rectangle"),
     },
     Action {
+        id: "tool-regularpolygon",
+        group: Group::Tool,
+        contexts: &[],
+        label: words::TOOL_POLYGON,
+        keys: &["N"],
+        enabled: |lab| class(lab, "RegularPolygon"),
+        run: |lab| hold(lab, "RegularPolygon"),
+    },
+    Action {
+        id: "tool-caption",
+        group: Group::Tool,
+        contexts: &[],
+        label: words::TOOL_TEXT,
+        keys: &["T"],
+        enabled: |lab| class(lab, "Caption"),
+        run: |lab| hold(lab, "Caption"),
+    },
+    Action {
         id: "dimension",
         group: Group::Tool,
         contexts: &[Context::Thing],
@@ -298,6 +316,15 @@ pub const ACTIONS: &[Action] = &[
         run: |_| focus(".strip button"),
     },
     Action {
+        id: "equation",
+        group: Group::Tool,
+        contexts: &[Context::Thing],
+        label: words::EQUATION,
+        keys: &["E"],
+        enabled: |lab| document(lab).map(drop),
+        run: Lab::begin_equation,
+    },
+    Action {
         id: "insert",
         group: Group::Tool,
         contexts: &[Context::Sheet],
@@ -306,7 +333,7 @@ pub const ACTIONS: &[Action] = &[
         enabled: |lab| document(lab).map(drop),
         run: |lab| {
             lab.drawer.set(Drawer::Bin);
-            request_animation_frame(|| focus(".bin .tile"));
+            request_animation_frame(|| focus(".bin input"));
         },
     },
     Action {
@@ -411,6 +438,20 @@ pub const ACTIONS: &[Action] = &[
         run: |lab| {
             lab.open_dock(Tab::Text);
             request_animation_frame(|| focus(".cm-content"));
+        },
+    },
+    Action {
+        id: "go-inspector",
+        group: Group::Go,
+        contexts: &[],
+        label: words::GO_INSPECTOR,
+        keys: &["Alt+5"],
+        enabled: |lab| document(lab).map(drop),
+        run: |_| {
+            let field = ".inspector .field";
+            let is_there =
+                leptos::prelude::document().query_selector(field).ok().flatten().is_some();
+            focus(if is_there { field } else { ".inspector button" });
         },
     },
     Action {

@@ -1,10 +1,9 @@
 //! Edits: commands, drags, joins, typed text, and what came of them.
 
 use super::{InPlace, Lab, Notice, Zoom};
-use crate::picture::covers;
 use crate::words;
 use leptos::prelude::*;
-use session::view::{Caught, Change, Choice, DragState, FixView, Question, Refusal, ValueRow};
+use session::view::{Caught, Change, Choice, DragState, FixView, Question, Refusal};
 use session::{Command, Path, Session};
 use std::time::Duration;
 
@@ -16,7 +15,8 @@ impl Lab {
     pub fn apply(self, command: &Command) -> bool {
         self.flush_text();
         let asked = self.id().and_then(|id| self.ask(|session| session.preview(id, command).ok()));
-        match asked.flatten() {
+        let over = || self.ask_of_shown(|session, id| session.over_constrained(id, command));
+        match asked.flatten().or_else(|| over().flatten()) {
             Some(question) => {
                 self.notice.set(Some(Notice::Asked(question)));
                 false
@@ -158,21 +158,14 @@ impl Lab {
     /// Opens the editor of a thing's value in the picture: of the one that a word there shows, else of the
     /// outermost that the text gives.
     pub fn edit_in_place(self, path: &str, word: Option<&str>, at: (f64, f64)) {
+        let value = self
+            .id()
+            .zip(session::parse_path(path))
+            .and_then(|(id, path)| self.ask(|session| session.value_shown(id, &path, word)));
         let found = self.values.with_untracked(|rows| {
-            let is_coordinate = |path: &str| matches!(path.rsplit('.').next(), Some("x" | "y"));
-            let own =
-                rows.iter().filter(|row| covers(path, &row.path) && !is_coordinate(&row.path));
-            let depth = |row: &ValueRow| row.path.matches('.').count();
-            let is_shown = |row: &ValueRow| {
-                word.is_some_and(|word| !row.text.is_empty() && word.contains(&row.text))
-            };
-            own.min_by_key(|row| (!is_shown(row), row.is_virtual, depth(row), !row.given)).map(
-                |row| {
-                    let unit =
-                        if row.unit.is_empty() { String::new() } else { format!(" {}", row.unit) };
-                    InPlace { path: row.path.clone(), value: format!("{}{unit}", row.text), at }
-                },
-            )
+            let row = rows.iter().find(|row| value.as_ref() == Some(&row.path))?;
+            let unit = if row.unit.is_empty() { String::new() } else { format!(" {}", row.unit) };
+            Some(InPlace { path: row.path.clone(), value: format!("{}{unit}", row.text), at })
         });
         match found {
             Some(found) => self.editing.set(Some(found)),

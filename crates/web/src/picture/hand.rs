@@ -150,6 +150,9 @@ impl Hand {
         } else if e.button() == 0 && self.lab.tool.with_untracked(Option::is_some) {
             self.lab.tool_set(&self.pointer(at));
             self.set_mode(Mode::Tool { start: at });
+        } else if e.button() == 0 && self.lab.attachers.with_untracked(Option::is_some) {
+            self.pick(at).inspect(|path| self.lab.toggle_attacher(path));
+            self.set_mode(Mode::Idle);
         } else if e.button() == 0 {
             let picked = self.pick(at);
             if e.ctrl_key() || e.meta_key() || e.shift_key() {

@@ -1,0 +1,258 @@
+//! What hands ask of a document that they work on: which values a thing shows, which of them a word in the picture
+//! is, and what a library wants of the sheet.
+
+use crate::apply;
+use crate::classing;
+use crate::document::Open;
+use crate::host::Beside;
+use crate::over;
+use crate::session::thing_at;
+use crate::state::State;
+use crate::view::{ClassItem, ClassPlan, DocumentId, Question, Refusal, ValueRow, ValueWithin};
+use crate::{Session, views};
+use kernel::{Command, Literal, Path, SlotId, Step, ThingId};
+use lang::Wanted;
+
+/// At most so many values of one thing are looked for.
+const MOST: usize = 200;
+
+impl Session {
+    /// Returns the values of a thing and its parts, also those that it shares with what it is merged with: each by
+    /// its path within the thing, and by the path of its row of the values view.
+    pub fn values_within(&self, id: DocumentId, path: &Path) -> Vec<ValueWithin> {
+        let state = &self.document(id).state;
+        let mut found = Vec::new();
+        if let Some(thing) = thing_at(state, path) {
+            collect(state, thing, &mut Vec::new(), &mut Vec::new(), &mut found);
+        }
+        found
+    }
+
+    /// Returns the path of the value that a word in the picture of a thing shows, or without a word of the one that
+    /// is meant most likely: what is stored before what is computed, the outermost first. Nothing where a thing has
+    /// no value but its place.
+    pub fn value_shown(&self, id: DocumentId, path: &Path, word: Option<&str>) -> Option<String> {
+        let open = self.document(id);
+        let within = self.values_within(id, path);
+        let own = format!("{path}.");
+        let rows = views::values::rows(&open.state, open.values(), &open.status);
+        let depth = |row: &ValueRow| {
+            let shared = within.iter().find(|w| w.row == row.path).map(|w| w.path.as_str());
+            let name = shared.or_else(|| row.path.strip_prefix(&own)).unwrap_or_default();
+            name.matches('.').count()
+        };
+        let is_own = |row: &&ValueRow| {
+            row.path.starts_with(&own)
+                || row.path == path.to_string()
+                || within.iter().any(|w| w.row == row.path)
+        };
+        let is_coordinate = |row: &ValueRow| {
+            matches!(row.path.rsplit('.').next(), Some("x" | "y")) && row.path != path.to_string()
+        };
+        let rank = |row: &&ValueRow| {
+            let shows = word.map_or(Shows::Nothing, |word| shows(open, row, word));
+            // what a word shows lies near, what is typed without one is stored
+            let near = if shows == Shows::Nothing { 0 } else { depth(row) };
+            (shows, row.is_layout, near, row.is_virtual, depth(row), !row.given)
+        };
+        let rows = rows.iter().filter(is_own).filter(|row| !is_coordinate(row));
+        rows.min_by_key(rank).map(|row| row.path.clone())
+    }
+
+    /// Returns what has to be asked before something is said by hand that contradicts what holds: the ways out, each
+    /// tried. Nothing where it would hold, or where the document does not hold anyway.
+    pub fn over_constrained(&self, id: DocumentId, command: &Command) -> Option<Question> {
+        let beside = Beside::of(&*self.host, &self.documents, id);
+        over::question(self.document(id), &beside, command)
+    }
+
+    /// Returns what a command would move, by path, without doing it.
+    ///
+    /// # Errors
+    /// Why it would be refused.
+    pub fn moved_by(&self, id: DocumentId, command: &Command) -> Result<Vec<String>, Refusal> {
+        let beside = Beside::of(&*self.host, &self.documents, id);
+        let open = self.document(id);
+        let mut trial = Open::of(&open.name, open.state.text.clone(), &beside);
+        apply::apply(&mut trial, &beside, command)?;
+        let (was, is) = (&open.state, &trial.state);
+        let mut moved: Vec<String> = Vec::new();
+        for slot in was.structure.slots.ids() {
+            let path = was.slot_path(slot);
+            let then = thing_at(is, &path).and_then(|thing| is.structure.slot_of(thing));
+            let is_same =
+                then.is_none_or(|then| match (was.values.get(slot), is.values.get(then)) {
+                    (kernel::Value::Number(a), kernel::Value::Number(b)) => {
+                        base::number::close(a, b)
+                    }
+                    (a, b) => a.same_bits(&b),
+                });
+            let thing = was.structure.slots[slot].place.unwrap_or(was.structure.slots[slot].thing);
+            let path = was.structure.path(&was.lowered.document, thing).to_string();
+            if !is_same && !moved.contains(&path) {
+                moved.push(path);
+            }
+        }
+        Ok(moved)
+    }
+
+    /// Returns the right side that an equation over some picked things begins with: numbers as they are, of things
+    /// what they have in common.
+    pub fn equation_begun(&self, id: DocumentId, paths: &[Path]) -> String {
+        let state = &self.document(id).state;
+        let number = |path: &Path| {
+            let term = kernel::Term::at(kernel::Term::Me, path);
+            let answer = state.evaluator(&state.values).evaluate(&term, kernel::DOCUMENT);
+            matches!(answer, Ok(eval::Answer::Number(..)))
+        };
+        let told = |path: &Path| {
+            let of = |name: &str| path.then(Step::Part(name.into()));
+            let named = ["length", "radius", "x"].map(of).into_iter().find(number);
+            if number(path) { Some(path.clone()) } else { named }
+        };
+        let all: Vec<String> = paths.iter().filter_map(told).map(|p| p.to_string()).collect();
+        match all.as_slice() {
+            [] => String::new(),
+            [one] => format!("{one} = "),
+            [first, others @ ..] => format!("{first} = {}", others.join(" + ")),
+        }
+    }
+
+    /// Returns what has to be decided of some things that are to be the parts of a class.
+    pub fn class_items(&self, id: DocumentId, paths: &[Path]) -> Vec<ClassItem> {
+        classing::items(self.document(id), paths)
+    }
+
+    /// Returns the command that makes a class of some things of the document, whose one thing they then are, and
+    /// what that is called.
+    ///
+    /// # Errors
+    /// A path is no thing of the document itself, or the name is none for a new class.
+    pub fn class_of(
+        &self,
+        id: DocumentId,
+        paths: &[Path],
+        plan: &ClassPlan,
+    ) -> Result<(Command, String), Refusal> {
+        let beside = Beside::of(&*self.host, &self.documents, id);
+        classing::class_of(self.document(id), &beside, paths, plan)
+    }
+
+    /// Returns the command by which a document uses a library; an empty one takes over which way the library's
+    /// pictures count `y`.
+    pub fn using(&self, id: DocumentId, library: &str) -> Command {
+        let state = &self.document(id).state;
+        let is_y = |text: &str| {
+            let file = syntax::parse(base::FileId(0), text).file();
+            file.members().find_map(|member| match member {
+                syntax::ast::Member::Y(y) => Some(y.is_down()),
+                _ => None,
+            })
+        };
+        let is_empty = state.structure.parts(kernel::DOCUMENT).next().is_none();
+        let is_told = is_y(&state.text).is_some();
+        let wants = self.host.read(library).and_then(|text| is_y(&text)) == Some(true);
+        let y = if is_empty && !is_told && wants { "\ny down" } else { "" };
+        Command::Edit { target: Path::default(), members: format!("use {library}{y}") }
+    }
+}
+
+/// Returns what a coordinate of an anchored place means that is typed: the place as a whole, which alone may be set.
+pub(crate) fn anchored_whole(
+    state: &State,
+    path: &Path,
+    literal: &Literal,
+) -> Option<(Path, Literal)> {
+    let structure = &state.structure;
+    let slot = structure.slot_of(thing_at(state, path)?)?;
+    let place = structure.slots[slot].place.filter(|_| structure.slots[slot].anchored)?;
+    let (_, whole) = path.0.split_last()?;
+    let coordinates = structure.slots_under(place);
+    let is_anchored = coordinates.iter().all(|&s| structure.slots[s].anchored);
+    let now = |s: &SlotId| match *s == slot {
+        true => literal.clone(),
+        false => Literal::Number(state.values.numbers[*s]),
+    };
+    let all = coordinates.iter().map(now).collect();
+    is_anchored.then(|| (Path(whole.to_vec()), Literal::Tuple(all)))
+}
+
+/// How a word and a value go together, best first.
+#[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
+enum Shows {
+    /// The word has this number, in a unit of what it measures.
+    Number,
+    /// The word has this text.
+    Text,
+    /// Neither.
+    Nothing,
+}
+
+/// Says how a word shows a value.
+fn shows(open: &Open, row: &ValueRow, word: &str) -> Shows {
+    let is_text = !row.text.is_empty() && word.contains(&row.text);
+    match row.number {
+        Some(number) if shows_number(&open.state, row, number, word) => Shows::Number,
+        None if is_text && !row.is_virtual => Shows::Text,
+        _ => Shows::Nothing,
+    }
+}
+
+/// Whether the number in a word is that of a row, as far as its digits go.
+fn shows_number(state: &State, row: &ValueRow, number: f64, word: &str) -> bool {
+    let start = word.find(|c: char| c.is_ascii_digit());
+    let Some(start) = start else { return false };
+    let sign = word[..start].chars().next_back();
+    let is_minus = matches!(sign, Some('-' | '−'));
+    let rest = word[start..].replace('Ω', "ohm").replace('°', " deg");
+    let digits: String =
+        rest.chars().take_while(|c| c.is_ascii_digit() || *c == '.' || *c == 'e').collect();
+    let decimals = digits.split_once('.').map_or(0, |(_, decimals)| decimals.len());
+    let Ok(shown) = digits.parse::<f64>() else { return false };
+    let document = &state.lowered.document;
+    let wanted = document.class_named(&row.class).map_or(Wanted::Anything, Wanted::Class);
+    let typed = format!("{}{}", if is_minus { "-" } else { "" }, rest.trim());
+    let Ok(Literal::Number(read)) = lang::read_literal(&typed, wanted, document) else {
+        return false;
+    };
+    let unit = if shown == 0.0 { 1.0 } else { (read / shown).abs() };
+    let decimal = (0..decimals).fold(0.5, |half, _| half / 10.0);
+    (read - number).abs() <= unit * decimal + 1e-6 * number.abs()
+}
+
+/// Adds the values under a thing, by their ways from it.
+fn collect(
+    state: &State,
+    thing: ThingId,
+    way: &mut Vec<Step>,
+    open: &mut Vec<ThingId>,
+    found: &mut Vec<ValueWithin>,
+) {
+    let structure = &state.structure;
+    let thing = structure.merged[thing];
+    if found.len() >= MOST || open.contains(&thing) {
+        return;
+    }
+    if structure.slot_of(thing).is_some() {
+        let row = structure.path(&state.lowered.document, thing).to_string();
+        let path = Path(way.clone()).to_string();
+        let steps = |path: &str| path.matches(['.', '[']).count();
+        match found.iter_mut().find(|known| known.row == row) {
+            Some(known) if steps(&known.path) <= steps(&path) => {}
+            Some(known) => known.path = path,
+            None => found.push(ValueWithin { path, row }),
+        }
+        return;
+    }
+    open.push(thing);
+    for part in structure.parts(thing) {
+        let step = match structure.field_name(&state.lowered.document, part) {
+            Some(name) => Step::Part(name.clone()),
+            None => Step::Index(structure.things[part].field),
+        };
+        way.push(step);
+        collect(state, part, way, open, found);
+        way.pop();
+    }
+    open.pop();
+}

@@ -1,0 +1,85 @@
+//! Places that a hand has made one and that the text gives twice: it gives them once, where they count.
+//!
+//! In: the states before and after an edit by hand. Out: the edits of the text that take away what does not count
+//! any more. What was given twice before is left alone.
+
+use crate::session::thing_at;
+use crate::state::State;
+use kernel::{Structure, ThingId};
+use std::collections::BTreeSet;
+use syntax::ast::AstNode;
+use syntax::edit::TextEdit;
+use syntax::{SyntaxKind, SyntaxNode};
+
+/// Returns the edits that leave out what of merged places the text gives besides what counts.
+pub(crate) fn forgotten(before: &State, state: &State) -> Vec<TextEdit> {
+    let structure = &state.structure;
+    let merged = structure.merged.iter().filter(|(t, _)| structure.merged_with(*t).len() > 1);
+    let is_new = |thing: ThingId| {
+        let path = structure.path(&state.lowered.document, thing);
+        thing_at(before, &path).is_none_or(|was| !is_double(before, was))
+    };
+    let doubles: BTreeSet<ThingId> =
+        merged.map(|(t, _)| t).filter(|&t| is_double(state, t) && is_new(t)).collect();
+    if doubles.is_empty() {
+        return Vec::new();
+    }
+    let file = syntax::parse(base::FileId(0), &state.text).file();
+    let spans = |thing: &ThingId| {
+        let given = structure.given_apart(*thing)?;
+        Some(state.lowered.place(given.origin).span)
+    };
+    let nodes = file.syntax().descendants().filter(|n| n.kind() == SyntaxKind::Assign);
+    let says = |node: &SyntaxNode, thing: &ThingId| {
+        let of = syntax::span_of(node);
+        spans(thing).is_some_and(|span| of.start <= span.start && span.end <= of.end)
+    };
+    // a line goes where nothing of it counts
+    let all: Vec<ThingId> =
+        { structure.things.ids() }.filter(|&t| is_given(structure, t)).collect();
+    let gone: Vec<SyntaxNode> = nodes
+        .filter(|node| doubles.iter().any(|thing| says(node, thing)))
+        .filter(|node| all.iter().filter(|thing| says(node, thing)).all(|t| doubles.contains(t)))
+        .collect();
+    let is_gone = |node: &SyntaxNode| gone.contains(node);
+    let mut bodies: Vec<SyntaxNode> = Vec::new();
+    let mut edits = Vec::new();
+    for node in &gone {
+        match node.parent().filter(|body| body.kind() == SyntaxKind::Body) {
+            Some(body) if body.children().all(|member| is_gone(&member)) => {
+                if !bodies.contains(&body) {
+                    edits.push(without_body(&body));
+                    bodies.push(body);
+                }
+            }
+            _ => edits.push(syntax::edit::delete_member(node)),
+        }
+    }
+    edits
+}
+
+/// The edit that takes an empty body away, with the space before it.
+fn without_body(body: &SyntaxNode) -> TextEdit {
+    let span = syntax::span_of(body);
+    let space = body.prev_sibling_or_token().filter(|e| e.kind() == SyntaxKind::Whitespace);
+    let start = space.map_or(span.start, |space| u32::from(space.text_range().start()));
+    TextEdit { span: base::Span::new(start, span.end), insert: String::new() }
+}
+
+fn is_given(structure: &Structure, thing: ThingId) -> bool {
+    structure.slot_of(thing).is_some() && structure.given_apart(thing).is_some()
+}
+
+/// Whether the document gives a coordinate that counts as another part of the document gives it.
+fn is_double(state: &State, thing: ThingId) -> bool {
+    let structure = &state.structure;
+    let Some(slot) = structure.slot_of(thing) else { return false };
+    let (Some(given), Some(own)) = (structure.given(slot), structure.given_apart(thing)) else {
+        return false;
+    };
+    let is_own = |origin| state.lowered.is_own_given(origin);
+    structure.slots[slot].place.is_some()
+        && given.origin != own.origin
+        && is_own(given.origin)
+        && is_own(own.origin)
+}

@@ -1,0 +1,185 @@
+//! Over-constraining: what a person may want instead of a constraint that contradicts others.
+//!
+//! In: a document that holds, and a command that says something of it. Out: nothing where it would go on holding;
+//! else a question with the ways out, each tried in a copy: a reference dimension that only reads, one of the others
+//! replaced, the new one kept switched off, or kept as a conflict.
+
+use crate::apply;
+use crate::classing;
+use crate::document::Open;
+use crate::host::Host;
+use crate::recognise;
+use crate::session::{parse_path, thing_at};
+use crate::state::State;
+use crate::view::{Choice, Question};
+use crate::{views, words};
+use base::Name;
+use kernel::{Command, Path};
+use std::collections::BTreeSet;
+
+/// At most so many others are offered to be replaced.
+const MOST_REPLACED: usize = 4;
+/// Documents of more things than this are not tried in a copy.
+const MOST_THINGS: usize = 20_000;
+
+/// Returns what has to be asked before a command that says something by hand is applied.
+pub(crate) fn question(open: &Open, host: &dyn Host, command: &Command) -> Option<Question> {
+    let Command::Edit { target, members } = command else { return None };
+    if let Some(question) = for_every(&open.state, target, members) {
+        return Some(question);
+    }
+    let things = open.state.structure.things.len();
+    if !target.is_empty() || !open.status.satisfied || things > MOST_THINGS {
+        return None;
+    }
+    let mut trial = copy(open, host);
+    apply::apply(&mut trial, host, command).ok()?;
+    if trial.status.satisfied {
+        return None;
+    }
+    let was = constraints(&open.state);
+    let new: Vec<String> = constraints(&trial.state).difference(&was).cloned().collect();
+    let contradictions = views::analysis::view(&mut trial).contradictions;
+    let against = contradictions.iter().flat_map(|c| c.constraints.iter());
+    let others: Vec<String> = against.filter(|name| was.contains(*name)).cloned().collect();
+    let mut choices = Vec::new();
+    if let Some(reference) = reference(&open.state, members) {
+        let command = Command::Edit { target: Path::default(), members: reference };
+        let mut measured = copy(open, host);
+        let holds = apply::apply(&mut measured, host, &command).is_ok();
+        if holds && measured.status.satisfied {
+            let label = "reference dimension: it only reads".into();
+            choices.push(Choice { label, command });
+        }
+    }
+    for other in others.iter().take(MOST_REPLACED) {
+        let Some(path) = parse_path(other) else { continue };
+        let mut replaced = copy(open, host);
+        let gone = apply::apply(&mut replaced, host, &Command::Delete(path));
+        let said = gone.and_then(|_| apply::apply(&mut replaced, host, command));
+        if said.is_ok() && replaced.status.satisfied {
+            let command = Command::Text(replaced.state.text.clone());
+            let label = format!("instead of {}", in_words(&open.state, other));
+            choices.push(Choice { label, command });
+        }
+    }
+    let mut off = copy(open, host);
+    let mut done = apply::apply(&mut off, host, command).is_ok();
+    for name in &new {
+        let Some(path) = parse_path(name) else { continue };
+        done &= apply::apply(&mut off, host, &Command::Enable { path, on: false }).is_ok();
+    }
+    if done && off.status.satisfied {
+        let command = Command::Text(off.state.text.clone());
+        choices.push(Choice { label: "keep it switched off".into(), command });
+    }
+    choices.push(Choice { label: "keep it as a conflict".into(), command: command.clone() });
+    let message = match others.is_empty() {
+        true => "This cannot hold with what stands fixed.".into(),
+        false => {
+            let others: Vec<String> = others.iter().map(|o| in_words(&open.state, o)).collect();
+            format!("This cannot hold together with {}.", words::listed(&others))
+        }
+    };
+    Some(Question { message, choices })
+}
+
+/// Asks of what is said of one thing's parts alone whether it is meant of its whole class, where the document
+/// declares that.
+fn for_every(state: &State, target: &Path, members: &str) -> Option<Question> {
+    if !target.is_empty() || !members.starts_with("constraint ") {
+        return None;
+    }
+    let spoken = classing::things_spoken_of(state, members);
+    let (_, name) = spoken.first()?;
+    if spoken.iter().any(|(_, other)| other != name) {
+        return None;
+    }
+    let path = parse_path(name)?;
+    let class = words::class_name(state, thing_at(state, &path)?);
+    let of_class = state.lowered.document.class_named(&class)?;
+    if !state.lowered.declares_class(&class) {
+        return None;
+    }
+    let mut said = members.to_string();
+    for (start, name) in spoken.iter().rev() {
+        let (start, end) = (*start as usize, *start as usize + name.len() + 1);
+        // a thing as a whole has no name in its class
+        if said.get(end - 1..end) != Some(".") {
+            return None;
+        }
+        said.replace_range(start..end, "");
+    }
+    let things = state.structure.things.iter();
+    let number = things.filter(|(_, t)| state.lowered.document.is_a(t.class, of_class)).count();
+    let only = Command::Edit { target: Path::default(), members: members.into() };
+    let every = Command::Edit { target: parse_path(&class)?, members: said };
+    Some(Question {
+        message: format!("Is this of {name} alone, or of every {class} ({number} here)?"),
+        choices: vec![
+            Choice { label: format!("only {name}"), command: only },
+            Choice { label: format!("every {class}"), command: every },
+        ],
+    })
+}
+
+/// A copy of a document, to try something in.
+fn copy(open: &Open, host: &dyn Host) -> Open {
+    Open::of(&open.name, open.state.text.clone(), host)
+}
+
+/// The paths and names of the constraints of a document.
+fn constraints(state: &State) -> BTreeSet<String> {
+    sources(state).filter_map(|source| words::source_name(state, source)).collect()
+}
+
+fn sources(state: &State) -> impl Iterator<Item = plan::Source> {
+    (0u32..).take(state.structure.constraints.len()).map(plan::Source::Constraint)
+}
+
+/// What a constraint is called, with its rule where it has no name of its own.
+fn in_words(state: &State, name: &str) -> String {
+    let is_it = |source: &plan::Source| {
+        words::source_name(state, *source).is_some_and(|known| known == name)
+    };
+    let found = sources(state).find(is_it).and_then(|source| words::source_in_words(state, source));
+    found.unwrap_or_else(|| name.to_string())
+}
+
+/// Returns the members of a dimension that only reads what another would set.
+fn reference(state: &State, members: &str) -> Option<String> {
+    let named = |class: &str| {
+        state.lowered.document.class_named(class)?;
+        Some(recognise::free_name(state, &Name::new(class)))
+    };
+    if let Some((name, rest)) = members.split_once(": Distance {") {
+        let class = "ReferenceDistance";
+        let new = named(class)?;
+        let (_, merges) = rest.split_once('}')?;
+        let merges = merges.replace(&format!("{name}."), &format!("{new}."));
+        return Some(format!("{new}: {class}{merges}"));
+    }
+    let rule = members.strip_prefix("constraint ")?;
+    let (left, _) = rule.split_once(" = ")?;
+    if let Some((from, to)) = left.split_once(".angle(to: ") {
+        let (class, to) = ("ReferenceAngle", to.strip_suffix(')')?);
+        let new = named(class)?;
+        return Some(format!("{new}: {class}\nmerge {from} = {new}.from\nmerge {to} = {new}.to"));
+    }
+    let (whole, what) = left.rsplit_once('.')?;
+    match what {
+        "length" => {
+            let class = "ReferenceDistance";
+            let new = named(class)?;
+            Some(format!(
+                "{new}: {class}\nmerge {whole}.p1 = {new}.from\nmerge {whole}.p2 = {new}.to"
+            ))
+        }
+        "radius" => {
+            let class = "ReferenceRadius";
+            let new = named(class)?;
+            Some(format!("{new}: {class}\nmerge {whole} = {new}.circle"))
+        }
+        _ => None,
+    }
+}

@@ -1,0 +1,173 @@
+//! What hands ask of a document that they work on, and what is inserted as it is drawn.
+
+use crate::desk::{Desk, at};
+use session::view::Pointer;
+
+const CONVERTER: &str = "\
+use calculator
+times: Times { operand1.at = (0, 0)  operand2.at = (0, 100)  result.at = (100, 50) }
+factor: Constant { node.at = (0, 100) }
+merge times.operand2 = factor.node
+";
+
+fn place(desk: &mut Desk, class: &str, places: &[(f64, f64)]) {
+    desk.session.take_tool(desk.id, class).expect("there is such a tool");
+    let mut made = None;
+    for &at in places {
+        let pointer = Pointer { at, reach: 5.0, ..Pointer::default() };
+        desk.session.tool_moved(desk.id, &pointer);
+        made = desk.session.tool_set(desk.id, &pointer).expect("it can be there").command;
+    }
+    desk.apply(&made.expect("the last place makes it")).expect("it can be made");
+    desk.session.drop_tool(desk.id);
+}
+
+#[test]
+fn a_constant_shows_the_number_that_it_shares_with_its_node() {
+    let mut desk = Desk::of(CONVERTER);
+    let within = desk.session.values_within(desk.id, &at("factor"));
+    let found: Vec<(&str, &str)> =
+        within.iter().map(|w| (w.path.as_str(), w.row.as_str())).collect();
+    assert_eq!(found[0], ("node.number", "times.operand2.number"));
+    let shown = desk.session.value_shown(desk.id, &at("factor"), Some("0"));
+    assert_eq!(shown.as_deref(), Some("times.operand2.number"));
+    desk.type_in("times.operand2.number", "1.8").expect("it is a number");
+    let shown = desk.session.value_shown(desk.id, &at("factor"), Some("1.8"));
+    assert_eq!(shown.as_deref(), Some("times.operand2.number"));
+}
+
+#[test]
+fn a_word_in_the_picture_is_the_number_of_its_unit() {
+    let desk = Desk::of(
+        "use circuits\nbattery: Battery\nground: Ground\nmeter: Voltmeter\n\
+         merge battery.a.node = meter.a.node\nmerge battery.b.node = meter.b.node = ground.lead.node\n",
+    );
+    let shown = |path: &str, word: &str| desk.session.value_shown(desk.id, &at(path), Some(word));
+    assert_eq!(shown("meter", "1.5 V").as_deref(), Some("meter.drop"));
+    assert_eq!(shown("battery", "1.5 V").as_deref(), Some("battery.emf"));
+    let alone = desk.session.value_shown(desk.id, &at("battery"), None);
+    assert_eq!(alone.as_deref(), Some("battery.emf"));
+}
+
+#[test]
+fn what_its_class_anchors_is_placed_by_hand_too() {
+    let mut desk = Desk::of("use bridges\n");
+    place(&mut desk, "FixedJoint", &[(30.0, 40.0)]);
+    assert!(desk.text().contains("fixedJoint: FixedJoint { at = (30, 40) }"), "{}", desk.text());
+}
+
+#[test]
+fn a_beam_that_is_drawn_between_free_joints_pulls_at_neither() {
+    let mut desk = Desk::of("use bridges\n");
+    place(&mut desk, "FreeJoint", &[(0.0, 0.0)]);
+    place(&mut desk, "FreeJoint", &[(200.0, 0.0)]);
+    place(&mut desk, "Beam", &[(0.0, 0.0), (200.0, 0.0)]);
+    let number = |path: &str| {
+        let rows = desk.session.values(desk.id);
+        rows.iter().find(|row| row.path == path).and_then(|row| row.number)
+    };
+    assert_eq!(number("beam.rest"), Some(200.0), "{}", desk.text());
+    assert_eq!(number("beam.tension"), Some(0.0));
+    assert_eq!(number("freeJoint2.at.x"), Some(200.0));
+}
+
+#[test]
+fn an_empty_document_counts_y_as_the_library_that_it_uses() {
+    let mut desk = Desk::of("use geometry\n");
+    let using = desk.session.using(desk.id, "circuits");
+    desk.apply(&using).expect("there is such a library");
+    assert_eq!(desk.text(), "use geometry\nuse circuits\ny down\n");
+    let mut drawn = Desk::of("use geometry\np: Point = (1, 2)\n");
+    let using = drawn.session.using(drawn.id, "circuits");
+    drawn.apply(&using).expect("there is such a library");
+    assert!(!drawn.text().contains("y down"), "{}", drawn.text());
+}
+
+#[test]
+fn places_that_a_constraint_moves_are_written_where_they_are() {
+    let mut desk = Desk::of(
+        "use geometry\na: Line { p1 = (0, 0)  p2 = (100, 10) }\nb: Line { p1 = (0, 50)  p2 = (90, 80) }\n",
+    );
+    let paths = [at("a"), at("b")];
+    let offers = desk.session.offers(desk.id, &paths);
+    let offer = offers.iter().find(|offer| offer.label == "equal length").expect("it is offered");
+    desk.apply(&offer.command(None)).expect("it can be said");
+    assert_eq!(desk.wrong(), [], "{}", desk.text());
+    assert!(desk.session.status(desk.id).satisfied);
+}
+
+#[test]
+fn what_is_joined_by_hand_is_given_once() {
+    let mut desk = Desk::of("use circuits\n");
+    place(&mut desk, "Battery", &[(0.0, 0.0), (0.0, 100.0)]);
+    place(&mut desk, "Resistor", &[(0.0, 0.0), (90.0, 0.0)]);
+    place(&mut desk, "Wire", &[(90.0, 0.0), (0.0, 100.0)]);
+    let text = desk.text();
+    assert!(text.contains("resistor: Resistor { b.node.at = (90, 0) }"), "{text}");
+    assert!(text.contains("wire: Wire\n"), "{text}");
+    desk.move_to("battery.a.node.at", 10.0, 5.0).expect("it is free");
+    assert_eq!(desk.wrong(), [], "{}", desk.text());
+}
+
+#[test]
+fn what_contradicts_is_asked_about_with_ways_out_that_hold() {
+    let mut desk = Desk::of(
+        "use geometry\na: Line { p1 = (0, 0)  p2 = (100, 0) }\nconstraint a.length = 100\n",
+    );
+    let offers = desk.session.offers(desk.id, &[at("a.p1"), at("a.p2")]);
+    let offer = offers.iter().find(|offer| offer.label == "distance").expect("it is offered");
+    assert_eq!(desk.session.over_constrained(desk.id, &offer.command(Some("100"))), None);
+    let asked = desk.session.over_constrained(desk.id, &offer.command(Some("120")));
+    let asked = asked.expect("both cannot hold");
+    let labels: Vec<&str> = asked.choices.iter().map(|c| c.label.as_str()).collect();
+    assert_eq!(
+        labels,
+        [
+            "reference dimension: it only reads",
+            "instead of constraint1 (a.length = 100)",
+            "keep it switched off",
+            "keep it as a conflict",
+        ]
+    );
+    let before = desk.text();
+    for (n, wanted) in [(0, 100.0), (1, 120.0), (2, 100.0)] {
+        desk.apply(&asked.choices[n].command).expect("it was tried");
+        assert!(desk.session.status(desk.id).satisfied, "{}", desk.text());
+        assert!((desk.number("a.length") - wanted).abs() < 1e-9, "{}", desk.text());
+        desk.apply(&session::Command::Undo).expect("a step");
+        assert_eq!(desk.text(), before);
+    }
+    let reference = &asked.choices[0].command;
+    desk.apply(reference).expect("it was tried");
+    assert!((desk.number("referenceDistance.reading") - 100.0).abs() < 1e-9);
+}
+
+#[test]
+fn a_coordinate_of_an_anchored_place_is_typed() {
+    let mut desk = Desk::of("use bridges\nj: FixedJoint { at = (3, 4) }\n");
+    desk.type_in("j.at.x", "160").expect("the place as a whole may be set");
+    assert_eq!(desk.text(), "use bridges\nj: FixedJoint { at = (160, 4) }\n");
+}
+
+#[test]
+fn a_text_is_offered_no_length() {
+    let desk = Desk::of("t: Text = \"abc\"\n");
+    let offers = desk.session.offers(desk.id, &[at("t")]);
+    assert!(offers.iter().all(|offer| offer.label != "length"), "{offers:?}");
+}
+
+#[test]
+fn what_is_said_of_one_things_parts_may_be_meant_of_its_class() {
+    let mut desk = Desk::of(
+        "use geometry\nclass Pair {\n    a: Line { p2 = (9, 1) }\n    b: Line { p1 = (0, 5)  p2 = (8, 9) }\n}\none: Pair\ntwo: Pair\n",
+    );
+    let offers = desk.session.offers(desk.id, &[at("one.a"), at("one.b")]);
+    let offer = offers.iter().find(|offer| offer.label == "parallel").expect("it is offered");
+    let asked = desk.session.over_constrained(desk.id, &offer.command(None)).expect("it is asked");
+    let labels: Vec<&str> = asked.choices.iter().map(|c| c.label.as_str()).collect();
+    assert_eq!(labels, ["only one", "every Pair"]);
+    assert_eq!(desk.session.status(desk.id).freedom, 16);
+    desk.apply(&asked.choices[1].command).expect("it can be said");
+    assert_eq!(desk.session.status(desk.id).freedom, 14, "{}", desk.text());
+    assert!(desk.text().contains("    constraint a.parallel(to: b)\n}"), "{}", desk.text());
+}
