@@ -308,8 +308,10 @@ pub fn Structure(
             rows
         })
     });
+    // what is chosen beside it moves nothing: the keyboard stays at its row
+    let chosen = Memo::new(move |_| lab.selected.get());
     Effect::new(move |_| {
-        if let Some(path) = lab.selected.get() {
+        if let Some(path) = chosen.get() {
             reveal(tree, &path);
         }
     });

@@ -22,12 +22,14 @@ pub async fn state(visit: &Visit) -> Value {
 /// Where it does not within ten seconds.
 pub async fn show(visit: &Visit, name: &str) -> Value {
     visit.until("document.querySelector('main') && window.__thinglab").await;
+    let before = visit.script("return window.__thinglab.state().text").await;
     visit.script(&format!("location.hash = '#/gallery/{name}'")).await;
     let path = format!("gallery/{name}");
+    // a document that is begun with an empty sheet has no values
     visit
         .until(&format!(
-            "window.__thinglab.state().path === '{path}' \
-             && window.__thinglab.state().values.length > 0"
+            "(s => s.path === '{path}' && (s.values.length > 0 || s.text !== {before})) \
+             (window.__thinglab.state())"
         ))
         .await;
     state(visit).await
@@ -295,7 +297,9 @@ async fn go_to_row(visit: &Visit, path: &str, held: &[char]) {
             tokio::time::sleep(Duration::from_millis(100)).await;
         }
     }
-    panic!("the keys do not lead to {path}");
+    let rows = "return [...document.querySelectorAll('[role=treeitem]')].map(r => r.dataset.path).join(' ')";
+    let rows = visit.script(rows).await;
+    panic!("the keys do not lead to {path}; the tree shows {rows}");
 }
 
 /// Where a word in the picture of a thing lies in the window: the first that has a figure.
