@@ -43,10 +43,13 @@ pub fn Gallery(
                     let (gallery, own): (Vec<_>, Vec<_>) = all.into_iter().partition(|one| one.in_gallery);
                     let (lessons, gallery): (Vec<_>, Vec<_>) =
                         gallery.into_iter().partition(|one| lesson::is_lesson(&one.path));
+                    let (below, own): (Vec<_>, Vec<_>) =
+                        own.into_iter().partition(|one| one.path.contains('/'));
                     view! {
                         <Shelf lab=lab heading=words::YOUR_DOCUMENTS documents=own />
                         <Shelf lab=lab heading=words::LESSONS documents=lessons />
                         <Shelf lab=lab heading=words::GALLERY documents=gallery />
+                        <Shelf lab=lab heading=words::DOCUMENTS_BELOW documents=below />
                     }.into_any()
                 }
             }}

@@ -7,6 +7,7 @@ pub const LAB: &str = "ThingLab";
 pub const GALLERY: &str = "Gallery";
 pub const GALLERY_LEAD: &str = "Documents whose constraints stay true while you drag. Open one, take hold of a point, and look.";
 pub const YOUR_DOCUMENTS: &str = "In this folder";
+pub const DOCUMENTS_BELOW: &str = "In folders below it";
 pub const NO_DOCUMENTS: &str = "There are no documents here yet.";
 pub const LOADING: &str = "Loading";
 pub const SKIP: &str = "Skip to the picture";
@@ -56,7 +57,7 @@ pub const NOTHING_PLOTTED: &str = "select a value or a point to plot";
 pub const CHART_HELP: &str =
     "wheel: zoom; drag: shift; double click or F: all of it; arrow keys: read along the curve";
 pub const PARTS: &str = "Parts";
-pub const DOCK: &str = "Text, table, plot and calculator";
+pub const DOCK: &str = "Text, tables";
 pub const SHEET: &str = "Panels";
 pub const EXPORT_SVG: &str = "Export the picture as SVG";
 pub const EXPORT_PNG: &str = "Export the picture as PNG";
