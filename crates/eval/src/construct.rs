@@ -5,7 +5,7 @@ use crate::evaluator::{Evaluator, Given, Result};
 use crate::fault::Fault;
 use base::Name;
 use expr::dimension::Dimension;
-use geometry::{Bend, Figure, Made, Surface, combine, construct, offset};
+use geometry::{Bend, Construction, Figure, Made, Surface, combine, construct, offset};
 use kernel::builtin::Making;
 use kernel::{ClassId, ClassKind, ThingId};
 use std::rc::Rc;
@@ -19,7 +19,43 @@ impl<'a> Evaluator<'a> {
         of: &[Answer<'a>],
         nearest: ThingId,
     ) -> Result<Answer<'a>> {
-        let Making::Figure(what) = what else { return self.region(what, class, of, nearest) };
+        let combined = |how| match of {
+            [first, second] => {
+                let (first, second) =
+                    (self.surfaces(first, nearest)?, self.surfaces(second, nearest)?);
+                self.burn_for(first.iter().chain(&second))?;
+                combine(how, &first, &second).map_err(|why| self.no_such(class, why.words()))
+            }
+            _ => Err(Fault::wrong("a region is made of two")),
+        };
+        let widened = || match of {
+            [region, distance] => {
+                let region = self.surfaces(region, nearest)?;
+                self.burn_for(&region)?;
+                offset(&region, self.number(distance)?.0)
+                    .map_err(|why| self.no_such(class, why.words()))
+            }
+            _ => Err(Fault::wrong("an offset has a region and a distance")),
+        };
+        match what {
+            Making::Figure(what) => self.made_figure(what, class, of, nearest),
+            Making::Combined(how) => self.made_region(&combined(how)?, class, nearest),
+            Making::Offset => self.made_region(&widened()?, class, nearest),
+        }
+    }
+
+    fn no_such(&self, class: ClassId, why: &str) -> Fault {
+        Fault::no_answer(format!("there is no such {}: {why}", self.document.classes[class].name))
+    }
+
+    /// Makes a thing of a figure that a construction builds.
+    fn made_figure(
+        &self,
+        what: Construction,
+        class: ClassId,
+        of: &[Answer<'a>],
+        nearest: ThingId,
+    ) -> Result<Answer<'a>> {
         let (mut figures, mut numbers) = (Vec::new(), Vec::new());
         for operand in of {
             match operand {
@@ -27,10 +63,8 @@ impl<'a> Evaluator<'a> {
                 thing => figures.push(self.figure(thing, nearest)?),
             }
         }
-        let built = construct(what, &figures, &numbers).map_err(|why| {
-            let name = &self.document.classes[class].name;
-            Fault::no_answer(format!("there is no such {name}: {}", why.words()))
-        })?;
+        let built =
+            construct(what, &figures, &numbers).map_err(|why| self.no_such(class, why.words()))?;
         let place = |[x, y]: [f64; 2]| {
             Answer::List(Rc::from([x, y].map(|x| Answer::Number(x, Dimension::LENGTH))))
         };
@@ -55,31 +89,13 @@ impl<'a> Evaluator<'a> {
         self.make(class, &given, nearest)
     }
 
-    /// Makes a region of one or two.
-    fn region(
+    /// Makes a region of its surfaces.
+    fn made_region(
         &self,
-        what: Making,
+        made: &[Surface],
         class: ClassId,
-        of: &[Answer<'a>],
         nearest: ThingId,
     ) -> Result<Answer<'a>> {
-        let [first, second] = of else { return Err(Fault::wrong("a region is made of two")) };
-        let first = self.surfaces(first, nearest)?;
-        let made = match what {
-            Making::Combined(how) => {
-                let second = self.surfaces(second, nearest)?;
-                self.burn_for(first.iter().chain(&second))?;
-                combine(how, &first, &second)
-            }
-            Making::Offset | Making::Figure(_) => {
-                self.burn_for(&first)?;
-                offset(&first, self.number(second)?.0)
-            }
-        };
-        let made = made.map_err(|why| {
-            let name = &self.document.classes[class].name;
-            Fault::no_answer(format!("there is no such {name}: {}", why.words()))
-        })?;
         let number = |x| Answer::Number(x, Dimension::LENGTH);
         let corner = |b: &Bend| {
             let [x, y] = b.at.map(number);

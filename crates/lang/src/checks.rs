@@ -236,11 +236,26 @@ fn is_statement(member: &Member) -> bool {
     if let Member::If(choice) = member {
         return choice.then_body().is_some_and(|b| b.members().any(|m| is_statement(&m)));
     }
+    is_restructuring(member)
+        || matches!(
+            member,
+            Member::Set(_)
+                | Member::Move(_)
+                | Member::Simulate(_)
+                | Member::Try(_)
+                | Member::Expect(_)
+                | Member::Note(_)
+                | Member::Say(_)
+                | Member::Task(_)
+                | Member::Hint(_)
+        )
+}
+
+/// Returns true for a statement after which there may be other parts, or other names for them.
+pub(crate) fn is_restructuring(member: &Member) -> bool {
     matches!(
         member,
-        Member::Set(_)
-            | Member::Move(_)
-            | Member::Merge(_)
+        Member::Merge(_)
             | Member::Unmerge(_)
             | Member::Delete(_)
             | Member::Edit(_)
@@ -248,13 +263,6 @@ fn is_statement(member: &Member) -> bool {
             | Member::Promote(_)
             | Member::Undo(_)
             | Member::Redo(_)
-            | Member::Simulate(_)
-            | Member::Try(_)
-            | Member::Expect(_)
-            | Member::Note(_)
-            | Member::Say(_)
-            | Member::Task(_)
-            | Member::Hint(_)
     )
 }
 

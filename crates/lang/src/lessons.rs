@@ -127,21 +127,11 @@ fn grouped(members: &[Member]) -> Vec<&[Member]> {
 
 /// Returns true for what adds, takes away or names things: what speaks of these means something only then.
 fn changes_structure(member: &Member) -> bool {
-    matches!(
+    let adds = matches!(
         member,
-        Member::Part(_)
-            | Member::Constraint(_)
-            | Member::Anchor(_)
-            | Member::Assign(_)
-            | Member::Unmerge(_)
-            | Member::Merge(_)
-            | Member::Delete(_)
-            | Member::Edit(_)
-            | Member::Rename(_)
-            | Member::Promote(_)
-            | Member::Undo(_)
-            | Member::Redo(_)
-    )
+        Member::Part(_) | Member::Constraint(_) | Member::Anchor(_) | Member::Assign(_)
+    );
+    adds || checks::is_restructuring(member)
 }
 
 fn lower_member(l: &mut Lowerer<'_>, scope: &Scope, member: &Member, step: &mut LessonStep) {
@@ -172,16 +162,9 @@ fn lower_member(l: &mut Lowerer<'_>, scope: &Scope, member: &Member, step: &mut 
             }
         }
         Member::Error(_) => {}
-        Member::Set(_)
-        | Member::Move(_)
-        | Member::Unmerge(_)
-        | Member::Merge(_)
-        | Member::Delete(_)
-        | Member::Edit(_)
-        | Member::Rename(_)
-        | Member::Promote(_)
-        | Member::Undo(_)
-        | Member::Redo(_) => {
+        edit if matches!(edit, Member::Set(_) | Member::Move(_))
+            || checks::is_restructuring(edit) =>
+        {
             let kind = checks::statement(l, scope, member).unwrap_or(StatementKind::Unclear);
             step.solution.push(Statement { kind, span, is_note: false, whole: span });
         }

@@ -5,10 +5,10 @@ use crate::apply;
 use crate::classing;
 use crate::document::Open;
 use crate::host::Beside;
-use crate::over;
 use crate::session::thing_at;
 use crate::state::State;
 use crate::view::{ClassItem, ClassPlan, DocumentId, Question, Refusal, ValueRow, ValueWithin};
+use crate::ways_out;
 use crate::{Session, views};
 use kernel::{Command, Literal, Path, SlotId, Step, ThingId};
 use lang::Wanted;
@@ -63,7 +63,7 @@ impl Session {
     /// tried. Nothing where it would hold, or where the document does not hold anyway.
     pub fn over_constrained(&self, id: DocumentId, command: &Command) -> Option<Question> {
         let beside = Beside::of(&*self.host, &self.documents, id);
-        over::question(self.document(id), &beside, command)
+        ways_out::question(self.document(id), &beside, command)
     }
 
     /// Returns what a command would move, by path, without doing it.

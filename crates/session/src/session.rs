@@ -77,16 +77,18 @@ impl Session {
     pub(crate) fn document_mut(&mut self, id: DocumentId) -> &mut Open {
         self.documents.get_mut(id.0 as usize).expect("a document id comes from this session's open")
     }
+    /// Returns a document to be changed, and what stands beside it.
+    fn beside_others(&mut self, id: DocumentId) -> (&mut Open, Beside<'_>) {
+        let beside = Beside::of(&*self.host, &self.documents, id);
+        let open = self.documents.get_mut(id.0 as usize);
+        (open.expect("a document id comes from this session's open"), beside)
+    }
     /// Applies a command: one undo step with all that it implies.
     ///
     /// # Errors
     /// Why it was refused; then nothing has changed.
     pub fn apply(&mut self, id: DocumentId, command: &Command) -> Result<Change, Refusal> {
-        let beside = Beside::of(&*self.host, &self.documents, id);
-        let open = self
-            .documents
-            .get_mut(id.0 as usize)
-            .expect("a document id comes from this session's open");
+        let (open, beside) = self.beside_others(id);
         open.drag = None;
         let mut change = apply::apply(open, &beside, command)?;
         if !change.edits.is_empty() {
@@ -172,11 +174,7 @@ impl Session {
     /// # Errors
     /// Why the thing cannot be dragged: there is none, it has no place, or an anchor holds it.
     pub fn press(&mut self, id: DocumentId, path: &Path) -> Result<(f64, f64), Refusal> {
-        let beside = Beside::of(&*self.host, &self.documents, id);
-        let open = self
-            .documents
-            .get_mut(id.0 as usize)
-            .expect("a document id comes from this session's open");
+        let (open, beside) = self.beside_others(id);
         let handle = drag::begin(open, path)?;
         open.rest_picture();
         if let Some(mut trace) = open.trace.take() {
@@ -205,11 +203,7 @@ impl Session {
     /// # Errors
     /// Why it could not be kept; then all is as it was before the press.
     pub fn release(&mut self, id: DocumentId) -> Result<Change, Refusal> {
-        let beside = Beside::of(&*self.host, &self.documents, id);
-        let open = self
-            .documents
-            .get_mut(id.0 as usize)
-            .expect("a document id comes from this session's open");
+        let (open, beside) = self.beside_others(id);
         let Some(drag) = open.drag.take() else { return Ok(Change::default()) };
         let mut change = drag.release(open, &beside)?;
         if !change.edits.is_empty() {
@@ -381,9 +375,8 @@ impl Session {
     }
     /// Returns the values of some expressions in words, as of the drag where one goes on, or why they have none.
     pub fn calculate(&mut self, id: DocumentId, written: &[String]) -> Vec<Result<String, String>> {
-        let beside = Beside::of(&*self.host, &self.documents, id);
-        let open = self.documents.get_mut(id.0 as usize);
-        open.map(|open| calculator::values(open, &beside, written)).unwrap_or_default()
+        let (open, beside) = self.beside_others(id);
+        calculator::values(open, &beside, written)
     }
     /// Returns the views that the class of a thing defines, the nearest class's first.
     pub fn views_of(&self, id: DocumentId, path: &Path) -> Vec<PlotEntry> {
@@ -600,8 +593,7 @@ impl Session {
     /// Returns what the lesson shows that goes on, at the first step that is not done; `explained` says that the
     /// reasons are asked for. Nothing where no lesson goes on.
     pub fn lesson(&mut self, id: DocumentId, explained: bool) -> Option<LessonView> {
-        let beside = Beside::of(&*self.host, &self.documents, id);
-        let open = self.documents.get_mut(id.0 as usize)?;
+        let (open, beside) = self.beside_others(id);
         lessons::follow(open, &beside, explained)
     }
     /// Goes to the next step of the lesson, whether or not this one is done.
@@ -613,11 +605,7 @@ impl Session {
     /// # Errors
     /// The lesson does not show it, or it can no longer be done.
     pub fn show_solution(&mut self, id: DocumentId) -> Result<Change, Refusal> {
-        let beside = Beside::of(&*self.host, &self.documents, id);
-        let open = self
-            .documents
-            .get_mut(id.0 as usize)
-            .expect("a document id comes from this session's open");
+        let (open, beside) = self.beside_others(id);
         open.drag = None;
         lessons::show(open, &beside)
     }

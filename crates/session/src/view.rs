@@ -4,7 +4,17 @@
 //! A `number` counts in base units: angles in radians, lengths in the document's units. A number's
 //! `text` is what a person reads and may type back: six digits in its `unit`, angles in degrees.
 
+mod reasons;
+mod tools;
+
+pub use reasons::{
+    Advice, Analysis, ContradictionView, ExplainedStep, Explanation, HeldView, MotionView,
+    RedundantView, Velocity,
+};
 use serde::{Deserialize, Serialize};
+pub use tools::{
+    Caught, ClassItem, ClassPlan, ItemKind, Offer, Pointer, Scope, ToolView, ValueWithin,
+};
 
 /// Which open document.
 #[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Debug, Serialize, Deserialize)]
@@ -255,125 +265,6 @@ pub struct Grip {
     pub drawn: bool,
 }
 
-/// Where a pointer is, for a tool.
-#[derive(Clone, Copy, PartialEq, Debug, Default)]
-pub struct Pointer {
-    /// On the sheet.
-    pub at: (f64, f64),
-    /// How near it must be to what it finds, on the sheet.
-    pub reach: f64,
-    /// Whether it finds nothing: no joints, no guides.
-    pub alone: bool,
-    /// A length that was typed: the place is so far from the last one, in the pointer's direction.
-    pub length: Option<f64>,
-    /// An angle that was typed, in degrees: the direction from the last place, turned left from the right.
-    pub angle: Option<f64>,
-    /// The grid to which a free place of a construction goes, on the sheet: 1, 2 or 5 of a power of ten; 0 for none.
-    pub grid: f64,
-}
-
-/// What a tool shows.
-#[derive(Clone, Debug, Default)]
-pub struct ToolView {
-    /// What the mouse does now, in one sentence.
-    pub hint: String,
-    /// What would be made, and the guides to it.
-    pub preview: drawing::Drawing,
-    /// What the pointer finds, if anything.
-    pub caught: Option<Caught>,
-    /// What makes it, once every place is set.
-    pub command: Option<kernel::Command>,
-    /// Whether something of it is set already.
-    pub begun: bool,
-    /// The path of what it makes.
-    pub makes: String,
-}
-
-/// What a pointer with a tool, or with something dragged, finds.
-#[derive(Clone, PartialEq, Debug)]
-pub struct Caught {
-    /// Where it is, on the sheet.
-    pub at: (f64, f64),
-    /// What comes of it: `joins line.p2`, `midpoint of line`, `horizontal`.
-    pub word: String,
-}
-
-/// Something that can be said of what is selected.
-#[derive(Clone, PartialEq, Eq, Debug)]
-pub struct Offer {
-    /// What a button says: `parallel`, `equal length`, `distance`.
-    pub label: String,
-    /// The members of the document that say it; `{}` stands where a value goes.
-    pub members: String,
-    /// The value as it is now, where one goes there.
-    pub value: Option<String>,
-}
-
-impl Offer {
-    /// Returns the command that says it, with a value where one goes there.
-    pub fn command(&self, value: Option<&str>) -> kernel::Command {
-        let value = value.or(self.value.as_deref()).unwrap_or_default();
-        let members = self.members.replace("{}", value);
-        kernel::Command::Edit { target: kernel::Path::default(), members }
-    }
-}
-
-/// Of what something is that becomes part of a class by example.
-#[derive(Clone, Copy, PartialEq, Eq, Debug, Default)]
-pub enum Scope {
-    /// Of the class: every thing of it has it.
-    #[default]
-    Class,
-    /// Of this one thing only.
-    Own,
-    /// A parameter of the class: every thing may have another number.
-    Parameter,
-}
-
-/// What has to be decided of a class by example.
-#[derive(Clone, Copy, PartialEq, Eq, Debug)]
-pub enum ItemKind {
-    /// A part.
-    Part,
-    /// A value that a part is given.
-    Value,
-    /// A constraint.
-    Constraint,
-    /// A merge.
-    Merge,
-}
-
-/// One thing that has to be decided of a class by example.
-#[derive(Clone, PartialEq, Eq, Debug)]
-pub struct ClassItem {
-    /// What it is.
-    pub kind: ItemKind,
-    /// What the text says of it, on one line.
-    pub says: String,
-    /// What a parameter for its number would be called; nothing where it has no number of its own.
-    pub parameter: Option<String>,
-}
-
-/// What was decided of a class by example.
-#[derive(Clone, PartialEq, Eq, Debug, Default)]
-pub struct ClassPlan {
-    /// The class's name.
-    pub name: String,
-    /// Of what each item is, in the order of the items; the class, where there are fewer.
-    pub scopes: Vec<Scope>,
-    /// The parts by which a thing of it is placed, in this order.
-    pub attachers: Vec<kernel::Path>,
-}
-
-/// A value of a thing or its parts, which may be shared with what that is merged with.
-#[derive(Clone, PartialEq, Eq, Debug)]
-pub struct ValueWithin {
-    /// Its path within the thing; empty for a thing that is a value itself.
-    pub path: String,
-    /// The path of its row of the values view.
-    pub row: String,
-}
-
 /// A class that things can be made of.
 #[derive(Clone, PartialEq, Debug)]
 pub struct BinEntry {
@@ -569,118 +460,6 @@ pub struct DragState {
     pub limit: Option<Limit>,
     /// What acts otherwise than at the press.
     pub modes: Vec<ModeView>,
-}
-
-/// The plan and the reasons, in words.
-#[derive(Clone, PartialEq, Debug, Default, Serialize)]
-pub struct Explanation {
-    /// What was asked.
-    pub about: String,
-    /// One paragraph.
-    pub summary: String,
-    /// The steps, in order.
-    pub steps: Vec<ExplainedStep>,
-    /// What is approached step by step, without a proof that this ends at an answer.
-    pub warnings: Vec<String>,
-}
-
-/// One step of a plan.
-#[derive(Clone, PartialEq, Debug, Serialize)]
-pub struct ExplainedStep {
-    /// The paths that it computes.
-    pub targets: Vec<String>,
-    /// How: `method 1 of 2`, `its rule, solved for it`, `4 linear equations, solved together`, ….
-    pub method: String,
-    /// The method that ran, or the rules, in the language.
-    pub formula: String,
-    /// Why this way: the constraint it comes from and what decided its direction.
-    pub reason: String,
-    /// The values that it gave.
-    pub values: Vec<String>,
-}
-
-/// Why a thing does not move.
-#[derive(Clone, PartialEq, Eq, Debug, Serialize)]
-pub struct HeldView {
-    /// One sentence.
-    pub message: String,
-    /// The constraints that would have to give way, by path and name.
-    pub constraints: Vec<String>,
-    /// The anchored places that take part.
-    pub anchors: Vec<String>,
-}
-
-/// What is free, what says nothing new, what cannot hold together.
-#[derive(Clone, PartialEq, Debug, Default, Serialize)]
-pub struct Analysis {
-    /// The degrees of freedom.
-    pub freedom: u32,
-    /// The paths of the places and numbers that can move.
-    pub free: Vec<String>,
-    /// The ways to move, those of one place first; at most 64 of each connected part.
-    pub motions: Vec<MotionView>,
-    /// The required constraints that say nothing new.
-    pub redundant: Vec<RedundantView>,
-    /// The required constraints that cannot hold together.
-    pub contradictions: Vec<ContradictionView>,
-    /// Second views that would let what is solved together be computed one after the other.
-    pub advice: Vec<Advice>,
-}
-
-/// A second view of things that would make a plan lighter; it was tried.
-#[derive(Clone, PartialEq, Eq, Debug, Serialize)]
-pub struct Advice {
-    /// One sentence.
-    pub message: String,
-    /// The members of the document that would make it.
-    pub members: String,
-}
-
-/// A way to move while every required constraint goes on holding.
-#[derive(Clone, PartialEq, Debug, Serialize)]
-pub struct MotionView {
-    /// One sentence.
-    pub summary: String,
-    /// What moves, in order.
-    pub moves: Vec<Velocity>,
-}
-
-/// How a place or a number moves in a motion.
-#[derive(Clone, PartialEq, Debug, Serialize)]
-pub struct Velocity {
-    /// Its path.
-    pub path: String,
-    /// Its velocity by coordinate; the largest number in a motion is 1.
-    pub direction: Vec<f64>,
-}
-
-/// A required constraint that says nothing new.
-#[derive(Clone, PartialEq, Eq, Debug, Serialize)]
-pub struct RedundantView {
-    /// Its path and name.
-    pub constraint: String,
-    /// The constraints that imply it.
-    pub implied_by: Vec<String>,
-    /// Why it is superfluous, in words.
-    pub because: String,
-}
-
-/// Required constraints that cannot hold together, none of which can be spared.
-#[derive(Clone, PartialEq, Debug, Serialize)]
-pub struct ContradictionView {
-    /// Their paths and names.
-    pub constraints: Vec<String>,
-    /// The anchored places that take part.
-    pub anchors: Vec<String>,
-    /// False if the search ended before it was known which can be spared.
-    pub decided: bool,
-    /// One sentence.
-    pub message: String,
-    /// What would work, each tried.
-    pub repairs: Vec<String>,
-    /// The same as commands, where one command does it.
-    #[serde(skip)]
-    pub choices: Vec<Choice>,
 }
 
 /// A view that a thing's class defines: a plot of some of its numbers.

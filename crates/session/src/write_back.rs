@@ -6,7 +6,7 @@
 //! value, else one that the edit was about, else the first. Given numbers that the edit left alone and that come
 //! to other bits, since they give way whenever the text is opened, are written as they are.
 
-use crate::doubles;
+use crate::given_twice;
 use crate::host::Host;
 use crate::state::State;
 use base::number::{Toward, close};
@@ -95,7 +95,7 @@ pub(crate) fn settle_places(
     if state.has_errors() {
         return (state, planner);
     }
-    let text = syntax::edit::apply(&state.text, &doubles::forgotten(before, &state));
+    let text = syntax::edit::apply(&state.text, &given_twice::forgotten(before, &state));
     let (state, planner) = match text == state.text {
         true => (state, planner),
         false => {

@@ -241,8 +241,9 @@ fn what_is_outside_of_a_recorded_program_cannot_be_picked() {
     assert_eq!(refused.message, "there is a class Circle already");
 }
 
-/// Records figure 7.6 up to its loop: two lines, then a ring that touches both and one around its centre.
-fn rings() -> Desk {
+/// Records figure 7.6 up to the end of its first turn: two lines, then a ring that touches both and one around its
+/// centre, whose radius is given.
+fn rings(second_radius: &str) -> Desk {
     let mut desk = Desk::of("use geometry\nunit mm\n");
     desk.session.record(desk.id, "Rings").expect("a new program");
     for (name, example) in [("radius", "40"), ("least", "2")] {
@@ -259,7 +260,7 @@ fn rings() -> Desk {
     assert_eq!(made(enter(&mut desk, "radius")), "Circle.tangent(axis, axis2, radius: radius)");
     begin(&mut desk, "Circle.concentric(with,radius)");
     point(&mut desk, -80.0, 40.0);
-    made(enter(&mut desk, "circle.radius / 2"));
+    made(enter(&mut desk, second_radius));
     desk
 }
 
@@ -273,7 +274,7 @@ fn asked(desk: &Desk) -> Option<RecurrenceQuestion> {
 
 #[test]
 fn figure_7_6_is_drawn_by_its_first_turn_and_the_answers_for_the_second() {
-    let mut desk = rings();
+    let mut desk = rings("circle.radius / 2");
     desk.session.end_turn(desk.id, Ends::Until).expect("the turn is drawn");
     let ask = asked(&desk).expect("it is asked");
     assert_eq!((ask.number, ask.of, &*ask.step, &*ask.first), (1, 3, "circle", "axis"));
@@ -314,7 +315,7 @@ fn figure_7_6_is_drawn_by_its_first_turn_and_the_answers_for_the_second() {
 
 #[test]
 fn an_answer_that_has_no_turn_is_refused() {
-    let mut desk = rings();
+    let mut desk = rings("circle.radius / 2");
     desk.session.end_turn(desk.id, Ends::Until).expect("the turn is drawn");
     let refused = |desk: &mut Desk, typed: &str| {
         desk.session.enter(desk.id, typed).expect_err("it does not fit").message
@@ -327,23 +328,7 @@ fn an_answer_that_has_no_turn_is_refused() {
 
 /// Records figure 7.6 whole, with a wrong second circle: half of the parameter, not of the first circle's radius.
 fn wrong_rings() -> Desk {
-    let mut desk = Desk::of("use geometry\nunit mm\n");
-    desk.session.record(desk.id, "Rings").expect("a new program");
-    for (name, example) in [("radius", "40"), ("least", "2")] {
-        desk.session.define_parameter(desk.id, &parameter(name, example, "")).expect("it is new");
-    }
-    begin(&mut desk, "Axis.horizontal(y)");
-    made(enter(&mut desk, "0"));
-    begin(&mut desk, "Axis.vertical(x)");
-    made(enter(&mut desk, "0"));
-    desk.session.begin_loop(desk.id, "column").expect("a loop");
-    begin(&mut desk, "Circle.tangent(first,second,radius)");
-    point(&mut desk, -40.0, 0.0);
-    point(&mut desk, 0.0, 40.0);
-    made(enter(&mut desk, "radius"));
-    begin(&mut desk, "Circle.concentric(with,radius)");
-    point(&mut desk, -80.0, 40.0);
-    made(enter(&mut desk, "radius / 2"));
+    let mut desk = rings("radius / 2");
     desk.session.end_turn(desk.id, Ends::Until).expect("the turn is drawn");
     point(&mut desk, -20.0, 76.0);
     desk.session.same(desk.id).expect("the same");

@@ -1,0 +1,120 @@
+//! What hands and their tools ask, and are answered.
+
+/// Where a pointer is, for a tool.
+#[derive(Clone, Copy, PartialEq, Debug, Default)]
+pub struct Pointer {
+    /// On the sheet.
+    pub at: (f64, f64),
+    /// How near it must be to what it finds, on the sheet.
+    pub reach: f64,
+    /// Whether it finds nothing: no joints, no guides.
+    pub alone: bool,
+    /// A length that was typed: the place is so far from the last one, in the pointer's direction.
+    pub length: Option<f64>,
+    /// An angle that was typed, in degrees: the direction from the last place, turned left from the right.
+    pub angle: Option<f64>,
+    /// The grid to which a free place of a construction goes, on the sheet: 1, 2 or 5 of a power of ten; 0 for none.
+    pub grid: f64,
+}
+
+/// What a tool shows.
+#[derive(Clone, Debug, Default)]
+pub struct ToolView {
+    /// What the mouse does now, in one sentence.
+    pub hint: String,
+    /// What would be made, and the guides to it.
+    pub preview: drawing::Drawing,
+    /// What the pointer finds, if anything.
+    pub caught: Option<Caught>,
+    /// What makes it, once every place is set.
+    pub command: Option<kernel::Command>,
+    /// Whether something of it is set already.
+    pub begun: bool,
+    /// The path of what it makes.
+    pub makes: String,
+}
+
+/// What a pointer with a tool, or with something dragged, finds.
+#[derive(Clone, PartialEq, Debug)]
+pub struct Caught {
+    /// Where it is, on the sheet.
+    pub at: (f64, f64),
+    /// What comes of it: `joins line.p2`, `midpoint of line`, `horizontal`.
+    pub word: String,
+}
+
+/// Something that can be said of what is selected.
+#[derive(Clone, PartialEq, Eq, Debug)]
+pub struct Offer {
+    /// What a button says: `parallel`, `equal length`, `distance`.
+    pub label: String,
+    /// The members of the document that say it; `{}` stands where a value goes.
+    pub members: String,
+    /// The value as it is now, where one goes there.
+    pub value: Option<String>,
+}
+
+impl Offer {
+    /// Returns the command that says it, with a value where one goes there.
+    pub fn command(&self, value: Option<&str>) -> kernel::Command {
+        let value = value.or(self.value.as_deref()).unwrap_or_default();
+        let members = self.members.replace("{}", value);
+        kernel::Command::Edit { target: kernel::Path::default(), members }
+    }
+}
+
+/// Of what something is that becomes part of a class by example.
+#[derive(Clone, Copy, PartialEq, Eq, Debug, Default)]
+pub enum Scope {
+    /// Of the class: every thing of it has it.
+    #[default]
+    Class,
+    /// Of this one thing only.
+    Own,
+    /// A parameter of the class: every thing may have another number.
+    Parameter,
+}
+
+/// What has to be decided of a class by example.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub enum ItemKind {
+    /// A part.
+    Part,
+    /// A value that a part is given.
+    Value,
+    /// A constraint.
+    Constraint,
+    /// A merge.
+    Merge,
+}
+
+/// One thing that has to be decided of a class by example.
+#[derive(Clone, PartialEq, Eq, Debug)]
+pub struct ClassItem {
+    /// What it is.
+    pub kind: ItemKind,
+    /// What the text says of it, on one line.
+    pub says: String,
+    /// What a parameter for its number would be called; nothing where it has no number of its own.
+    pub parameter: Option<String>,
+}
+
+/// What was decided of a class by example.
+#[derive(Clone, PartialEq, Eq, Debug, Default)]
+pub struct ClassPlan {
+    /// The class's name.
+    pub name: String,
+    /// Of what each item is, in the order of the items; the class, where there are fewer.
+    pub scopes: Vec<Scope>,
+    /// The parts by which a thing of it is placed, in this order.
+    pub attachers: Vec<kernel::Path>,
+}
+
+/// A value of a thing or its parts, which may be shared with what that is merged with.
+#[derive(Clone, PartialEq, Eq, Debug)]
+pub struct ValueWithin {
+    /// Its path within the thing; empty for a thing that is a value itself.
+    pub path: String,
+    /// The path of its row of the values view.
+    pub row: String,
+}
