@@ -456,6 +456,16 @@ impl Sampler {
 /// # Errors
 /// What the first that means nothing is, and why.
 pub(crate) fn read(state: &State, host: &dyn Host, named: &[&str]) -> Result<Vec<Term>, Refusal> {
+    let refuse = |what: &str, d: &base::Diagnostic| {
+        let hint = d.hint.as_ref().map(|hint| format!("; {hint}")).unwrap_or_default();
+        words::refuse(format!("{what}: {}{hint}", d.message))
+    };
+    for words in named {
+        let alone = syntax::parse_expression(base::FileId(0), words);
+        if let Some(d) = alone.diagnostics().first() {
+            return Err(refuse(words, d));
+        }
+    }
     let mut stem = String::from("plotted");
     while state.text.contains(&stem) {
         stem.push('_');
@@ -478,8 +488,7 @@ pub(crate) fn read(state: &State, host: &dyn Host, named: &[&str]) -> Result<Vec
     if let Some(d) = wrong {
         let at = ends.iter().position(|end| (d.place.span.start as usize) < *end);
         let what = at.and_then(|at| named.get(at)).copied().unwrap_or_default();
-        let hint = d.hint.as_ref().map(|hint| format!("; {hint}")).unwrap_or_default();
-        return Err(words::refuse(format!("{what}: {}{hint}", d.message)));
+        return Err(refuse(what, d));
     }
     let root = &lowered.document.classes[lowered.document.root];
     let term = |(i, words): (usize, &&str)| {

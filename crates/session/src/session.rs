@@ -361,6 +361,14 @@ impl Session {
         let beside = Beside::of(&*self.host, &self.documents, id);
         tools::room::insertion(self.document(id), &beside, class)
     }
+    /// Reads an expression as the document's own members would.
+    ///
+    /// # Errors
+    /// It means nothing here.
+    pub fn understand(&self, id: DocumentId, written: &str) -> Result<(), Refusal> {
+        let beside = Beside::of(&*self.host, &self.documents, id);
+        plotting::read(&self.document(id).state, &beside, &[written]).map(drop)
+    }
     /// Makes the plot of a sweep, in a copy of the document.
     ///
     /// # Errors

@@ -251,9 +251,15 @@ fn Shown(lab: Lab) -> impl IntoView {
     let add = move || {
         let text = typed.get_untracked();
         let text = text.trim();
-        if !text.is_empty() {
-            show.update(|show| show.push(String::from(text)));
-            typed.set(String::new());
+        if text.is_empty() {
+            return;
+        }
+        match lab.ask_of_shown(|session, id| session.understand(id, text)) {
+            Some(Err(refusal)) => lab.plotting.refused.set(Some(field::reason(&refusal))),
+            _ => {
+                show.update(|show| show.push(String::from(text)));
+                typed.set(String::new());
+            }
         }
     };
     let chip = move |(at, path): (usize, String)| {

@@ -93,6 +93,10 @@ fn what_cannot_be_plotted_is_told() {
     };
     let range = ("a", "0", "1");
     assert!(told(&["c"], range, 4).starts_with("c: "), "{}", told(&["c"], range, 4));
+    let broken = "b +: found the end of the text, wanted an expression";
+    assert!(told(&["a", "b +"], range, 4).starts_with(broken), "{}", told(&["a", "b +"], range, 4));
+    assert!(desk.session.understand(desk.id, "b +").is_err());
+    assert!(desk.session.understand(desk.id, "b + 1").is_ok());
     assert_eq!(told(&["name"], range, 4), "name is a text, and a plot shows numbers and places");
     assert_eq!(told(&[], range, 4), "nothing is named that could be shown");
     assert_eq!(told(&["b"], ("a", "1", "1"), 4), "the range from 1 to 1 is empty");
