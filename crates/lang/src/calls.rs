@@ -543,6 +543,8 @@ fn asked_of_first(lowerer: &Lowerer<'_>, word: &ast::Word, args: &[Arg]) -> Opti
     let (first, rest) = args.split_first()?;
     let labels: Vec<&str> = match &first.kind {
         Kind::Thing(class) => match lowerer.find_message(*class, &word.name(), None) {
+            // of three things the first need not be the one that is asked: `angle(a, b, c)`
+            Some((_, message)) if message.parameters.len() > 1 => return None,
             Some((_, message)) => message.parameters.iter().map(|p| p.label.as_str()).collect(),
             None => lowerer.class_of_part(*class, &word.name()).map(|_| Vec::new())?,
         },

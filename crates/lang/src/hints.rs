@@ -2,12 +2,16 @@
 
 use crate::kinds::Kind;
 use crate::lower::Lowerer;
+use crate::names::LONGEST_WORD;
 use crate::scope::Scope;
 use base::{Diagnostic, Place};
+use kernel::Message;
 use syntax::ast::{self, AstNode, Expr};
 
 /// How many names a hint lists.
 const MOST_LISTED: usize = 12;
+/// How many messages of other classes a hint shows.
+const MOST_SHOWN: usize = 3;
 
 impl Lowerer<'_> {
     /// Says of an unknown word that was to be a text, that texts stand in quotes.
@@ -114,6 +118,62 @@ impl Lowerer<'_> {
             false => d,
         });
     }
+
+    /// Reports a fault of what stands here, unless the rest of its line was not understood: that was the fault then.
+    pub(crate) fn report_whole(&mut self, d: Diagnostic) {
+        let Place { file, span } = d.place;
+        let follows = |known: &Diagnostic| {
+            let between = span.end..known.place.span.start;
+            let text = &self.files[file].text;
+            known.place.file == file
+                && text
+                    .get(between.start as usize..between.end as usize)
+                    .is_some_and(|t| !t.contains('\n'))
+        };
+        if !self.diagnostics.iter().any(follows) {
+            self.report(d);
+        }
+    }
+
+    /// Says which things are asked by an unknown name: `angle` of a `Straight`.
+    pub(crate) fn asked_elsewhere(&self, scope: &Scope, word: &ast::Word) -> Option<String> {
+        let asked = |class: &str, m: &Message| {
+            let receiver = class.to_lowercase();
+            format!("a {class}: `{}`", written(&receiver, m))
+        };
+        let of =
+            self.messages_by(scope, word, |m| !m.is_of_class() && m.name == *word.text(), asked);
+        (!of.is_empty()).then(|| format!("it is asked of {}", of.join(" or of ")))
+    }
+
+    /// Says which classes make what a thing does not answer: `Point.projection(of, onto)`.
+    pub(crate) fn made_elsewhere(&self, scope: &Scope, word: &ast::Word) -> Option<String> {
+        let made = |class: &str, m: &Message| format!("`{}`", written(class, m));
+        let by = |m: &Message| m.is_of_class() && m.word() == word.text();
+        let of = self.messages_by(scope, word, by, made);
+        (!of.is_empty()).then(|| format!("it is asked of a class: {}", of.join(" or ")))
+    }
+
+    /// Returns how the messages that fit are written, of every class in sight, a few of them.
+    fn messages_by(
+        &self,
+        scope: &Scope,
+        word: &ast::Word,
+        fits: impl Fn(&Message) -> bool,
+        shown: impl Fn(&str, &Message) -> String,
+    ) -> Vec<String> {
+        if !self.may_guess() || word.text().len() > LONGEST_WORD {
+            return Vec::new();
+        }
+        let classes = self.visible.names(scope.file).filter_map(|name| {
+            Some((name.as_str(), self.visible.class(scope.file, name.as_str())?))
+        });
+        let found = classes.flat_map(|(name, class)| {
+            let own = self.document.classes[class].messages.iter().filter(|m| fits(m));
+            own.map(|m| shown(name, m)).collect::<Vec<_>>()
+        });
+        found.take(MOST_SHOWN).collect()
+    }
 }
 
 /// Returns what to write for a word that other languages have and this one has not.
@@ -127,6 +187,7 @@ pub(crate) fn called_otherwise(word: &str) -> Option<&'static str> {
         "atn" | "arctan" | "arctg" => "write `atan(x)`",
         "tg" => "write `tan(x)`",
         "degrees" | "radians" | "toRadians" => "an angle is in radians; `30 deg` says degrees",
+        "sum" | "total" => "a sum is `a + b`, of a list `[a, b].sum`",
         "ceiling" => "write `ceil(x)`",
         "trunc" | "int" => "write `floor(x)` or `round(x)`",
         "PI" | "Pi" | "π" => "write `pi`",
@@ -136,6 +197,15 @@ pub(crate) fn called_otherwise(word: &str) -> Option<&'static str> {
         "False" | "FALSE" | "no" => "write `false`",
         _ => return None,
     })
+}
+
+/// Returns a message as it is written to what is asked, its arguments by their labels.
+fn written(asked: &str, message: &Message) -> String {
+    let labels: Vec<&str> = message.parameters.iter().map(|p| p.label.as_str()).collect();
+    match labels.is_empty() {
+        true => format!("{asked}.{}", message.word()),
+        false => format!("{asked}.{}({})", message.word(), labels.join(", ")),
+    }
 }
 
 /// Returns the class that a new part with this value is likely to be of.

@@ -65,7 +65,11 @@ impl Kind {
             Self::Bool => "a truth value".into(),
             Self::Text => "a text".into(),
             Self::Thing(class) | Self::Option(class) => {
-                with_article(&document.classes[*class].name)
+                let class = &document.classes[*class];
+                // what a body adds to makes a class of one, which nobody has named
+                let of_one = class.is_of_one.then(|| class.supers.first()).flatten();
+                let named = of_one.map_or(&class.name, |s| &document.classes[s.class].name);
+                with_article(named)
             }
             Self::List(element) if **element == Self::Unknown => "a list".into(),
             Self::List(element) => format!("a list, each element {}", element.words(document)),

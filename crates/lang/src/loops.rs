@@ -169,7 +169,7 @@ impl Lowerer<'_> {
             let d = Diagnostic::error("not-a-path", place, message);
             let counted = matches!(list, Expr::Number(_));
             let number = list.syntax().text();
-            self.report(match counted {
+            self.report_whole(match counted {
                 true => d.hint(format!("write `0..<{number}` for the numbers below {number}")),
                 false => d.hint("declare the list as a part, or write `for a in [b, c]`"),
             });

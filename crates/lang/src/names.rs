@@ -16,7 +16,7 @@ const DEEPEST: u32 = 200;
 const MOST_GUESSES: usize = 100;
 
 /// The longest word that a nearest one is looked for.
-const LONGEST_WORD: usize = 100;
+pub(crate) const LONGEST_WORD: usize = 100;
 
 /// How many names a hint lists.
 const MOST_LISTED: usize = 12;
@@ -128,6 +128,10 @@ impl Lowerer<'_> {
             d = d.hint(made);
         } else if let Some(hint) = crate::hints::called_otherwise(word.text()) {
             d = d.hint(hint);
+        } else if let Some(hint) =
+            self.asked_elsewhere(scope, word).or_else(|| self.made_elsewhere(scope, word))
+        {
+            d = d.hint(hint);
         } else if self.may_guess() {
             let locals = scope.locals.iter().map(|(n, _)| n.to_string());
             let elements = scope.elements.iter().map(|e| e.name.to_string());
@@ -145,7 +149,7 @@ impl Lowerer<'_> {
     }
 
     /// Returns true while errors are reported and few.
-    fn may_guess(&self) -> bool {
+    pub(crate) fn may_guess(&self) -> bool {
         self.silent == 0 && self.diagnostics.len() < MOST_GUESSES
     }
 
@@ -158,7 +162,12 @@ impl Lowerer<'_> {
         if !self.may_guess() || found.len() > LONGEST_WORD {
             return None;
         }
-        base::diagnostic::nearest(found, names.into_iter().filter(|n| n.len() <= LONGEST_WORD))
+        // of two single letters only the case may differ
+        let may_be = |n: &&str| match found.chars().nth(1) {
+            None => n.eq_ignore_ascii_case(found) || n.chars().nth(1).is_some(),
+            Some(_) => n.len() <= LONGEST_WORD,
+        };
+        base::diagnostic::nearest(found, names.into_iter().filter(may_be))
     }
 
     /// Says that a receiver has no part or message of this name, and which it has.
@@ -184,9 +193,14 @@ impl Lowerer<'_> {
             Kind::List(element) => self.is_part_of_each(element, word),
             _ => false,
         };
+        let made = match receiver {
+            Kind::Thing(_) => self.made_elsewhere(scope, word),
+            _ => None,
+        };
         d = match self.nearest(word.text(), names.iter().map(String::as_str)) {
             _ if of_each => d.meant(&format!("map(each => each.{})", word.text())),
             Some(near) => d.meant(near),
+            None if let Some(made) = made => d.hint(made),
             None if names.is_empty() => d,
             None if names.len() > MOST_LISTED => {
                 d.hint(format!("it has {}, …", names[..MOST_LISTED].join(", ")))

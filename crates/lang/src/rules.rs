@@ -509,7 +509,7 @@ impl Lowerer<'_> {
                     format!("a rule is true or false, this is {}", kind.words(&self.document));
                 let place = Place { file: scope.file, span: rule.span() };
                 let d = Diagnostic::error("not-a-rule", place, message);
-                self.report(d.hint("write an equation, `a = b`"));
+                self.report_whole(d.hint("write an equation, `a = b`"));
                 None
             }
             Rule::If(rule) => {

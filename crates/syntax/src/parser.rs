@@ -535,7 +535,10 @@ fn token_fault(file: FileId, text: &str, span: Span, fault: Fault) -> Diagnostic
                     "a text stands between straight double quotes: `\"hello\"`"
                 }
                 Some('&') => "write `and`",
-                Some('|') => "write `or`; a size is `abs(x)`",
+                Some('|') => "write `or`; a size is `abs(x)`, a relation `l.parallel(to: m)`",
+                Some('∥' | '⊥') => {
+                    "a relation is asked of a thing: `l.parallel(to: m)`, `l.perpendicular(to: m)`"
+                }
                 Some('!') => "write `not`",
                 Some('%') => "the remainder is `x mod 3`; right after a number `%` is percent",
                 Some('#') => "a comment begins with `//`",

@@ -26,7 +26,12 @@ pub(super) fn of_member(p: &mut Parser<'_>) -> bool {
         || declared_elsewhere(p)
         || enumeration(p)
         || bare_equation(p)
+        || held(p)
         || name_and_class(p)
+        || class_called(p)
+        || class_counted(p)
+        || values_in_braces(p)
+        || relation_in_words(p)
         || anchored_value(p)
 }
 
@@ -165,7 +170,27 @@ pub(super) fn equation_since(p: &mut Parser<'_>, first: usize, last: usize) {
     p.report_mistake((first, last), said, Some(fix));
 }
 
-/// `a Line`, `Line a`
+/// `fix a`, `lock a.x`: what holds a part in other tools
+fn held(p: &mut Parser<'_>) -> bool {
+    const WORDS: [&str; 6] = ["fix", "fixed", "lock", "pin", "freeze", "hold"];
+    let is_one =
+        p.at(Ident) && WORDS.contains(&p.word(0)) && p.nth(1) == Ident && !p.begins_line(1);
+    if is_one {
+        let at = p.pos();
+        let said = (
+            "expected-member",
+            format!("found `{}`, wanted a part, constraint, message or value", p.word(0)),
+            format!(
+                "what shall stay as it is is held by `anchor {}`",
+                p.text_between(at + 1, p.line_end())
+            ),
+        );
+        p.report_mistake((at, at), said, Some((p.span_at(at), "anchor".into())));
+    }
+    is_one
+}
+
+/// `a Line`, `Line a`, `Point A = (1, 2)`
 fn name_and_class(p: &mut Parser<'_>) -> bool {
     let is_one = p.at(Ident) && p.nth(1) == Ident && !p.begins_line(1) && !is_keyword(p.word(0));
     if !is_one {
@@ -175,18 +200,144 @@ fn name_and_class(p: &mut Parser<'_>) -> bool {
     let is_class = |word: &str| word.starts_with(char::is_uppercase);
     let (name, class) = match (is_class(a), is_class(b)) {
         (false, true) => (a, b),
-        (true, false) => (b, a),
-        _ => return false,
+        (true, _) => (b, a),
+        (false, false) => return false,
     };
     let at = p.pos();
+    let rest = if p.nth(2) == Eq && !p.begins_line(2) {
+        format!(" {}", p.text_between(at + 2, p.line_end()))
+    } else {
+        String::new()
+    };
     let said = (
         "expected-member",
         format!("found `{a} {b}`, wanted a part with its class"),
-        format!("write `{name}: {class}`"),
+        format!("write `{name}: {class}{rest}`"),
     );
     let span = p.span_at(at).join(p.span_at(at + 1));
     p.report_mistake((at, at + 1), said, Some((span, format!("{name}: {class}"))));
     true
+}
+
+/// `c: Circle(a, 5)`: a value that follows its class without `=`
+fn class_called(p: &mut Parser<'_>) -> bool {
+    let is_one = p.at(LParen)
+        && !p.begins_line(0)
+        && p.behind(1) == Ident
+        && p.behind(2) == Colon
+        && p.behind(3) == Ident;
+    if is_one {
+        let at = p.pos();
+        let (name, class) = (p.text_between(at - 3, at - 3), p.text_between(at - 1, at - 1));
+        let value = p.text_between(at, p.line_end());
+        let said = (
+            "expected-member",
+            format!("found `(` after the class {class}, wanted `=` and a value"),
+            format!("a value is given with `=`: `{name}: {class} = {class}{value}`"),
+        );
+        let start = p.span_at(at).start;
+        let fix = (Span::new(start, start), format!(" = {class}"));
+        p.report_mistake((at, at), said, Some(fix));
+    }
+    is_one
+}
+
+/// `q: Point[5]`
+fn class_counted(p: &mut Parser<'_>) -> bool {
+    let is_one = p.at(LBracket)
+        && !p.begins_line(0)
+        && p.behind(1) == Ident
+        && p.behind(2) == Colon
+        && p.behind(3) == Ident;
+    if is_one {
+        let at = p.pos();
+        let (name, class) = (p.text_between(at - 3, at - 3), p.text_between(at - 1, at - 1));
+        let count = if p.nth(1) == RBracket { String::new() } else { format!("{} ", p.word(1)) };
+        let said = (
+            "expected-member",
+            format!(
+                "found `[` after the class {class}, wanted a part, constraint, message or value"
+            ),
+            format!("a list is written `{name}: List of {count}{class}`"),
+        );
+        p.report_mistake((at, at), said, None);
+    }
+    is_one
+}
+
+/// `p: Point { 1, 2 }`
+fn values_in_braces(p: &mut Parser<'_>) -> bool {
+    let is_one = matches!(p.current(), Number | Minus)
+        && p.behind(1) == LBrace
+        && p.behind(2) == Ident
+        && p.behind(3) == Colon;
+    if is_one {
+        let at = p.pos();
+        let class = p.text_between(at - 2, at - 2);
+        let said = (
+            "expected-member",
+            format!("found `{}`, wanted a part, constraint, message or value", p.word(0)),
+            format!(
+                "the parts of a {class} by their places stand in round brackets: `= (…)` after its class"
+            ),
+        );
+        p.report_mistake((at, at), said, None);
+    }
+    is_one
+}
+
+/// `constraint a on b`, `constraint a touches b`
+fn relation_in_words(p: &mut Parser<'_>) -> bool {
+    const WORDS: [&str; 9] = [
+        "on",
+        "lies",
+        "touches",
+        "meets",
+        "through",
+        "parallel",
+        "perpendicular",
+        "tangent",
+        "equals",
+    ];
+    let is_one = p.at(Ident)
+        && !p.begins_line(0)
+        && WORDS.contains(&p.word(0))
+        && matches!(p.behind(1), Ident | RParen | RBracket);
+    if is_one {
+        let at = p.pos();
+        let hint = match p.word(0) {
+            "equals" => "equal is `=`".to_string(),
+            _ => "a relation is asked of a thing: `l.passes(through: p)`, `l.parallel(to: m)`"
+                .to_string(),
+        };
+        let said = (
+            "expected-member",
+            format!("found `{}` after a rule, wanted its end", p.word(0)),
+            hint,
+        );
+        p.report_mistake((at, at), said, None);
+    }
+    is_one
+}
+
+/// `for i in 1 to 5`. Returns true where it was reported.
+pub(super) fn range_in_words(p: &mut Parser<'_>) -> bool {
+    let is_one = p.at(Ident)
+        && matches!(p.word(0), "to" | "until")
+        && p.behind(1) == Number
+        && p.nth(1) == Number;
+    if is_one {
+        let at = p.pos();
+        let (from, to) = (p.text_between(at - 1, at - 1), p.word(1));
+        let said = (
+            "expected-range",
+            format!("found `{}`, wanted a range", p.word(0)),
+            format!("write `{from}..{to}`"),
+        );
+        let span = p.span_at(at - 1).join(p.span_at(at + 1));
+        p.report_mistake((at, at + 1), said, Some((span, format!("{from}..{to}"))));
+    }
+    is_one
 }
 
 /// `anchor x = 3`
@@ -287,6 +438,9 @@ pub(super) fn value_for_class(p: &Parser<'_>) -> Option<String> {
         Text => Some(format!(
             "write `{name} = {value}` for a value, `{name}: Text = {value}` for a new part"
         )),
+        LBracket if p.nth(1) == Ident && p.nth(2) == RBracket => {
+            Some(format!("a list is written `{name}: List of {}`", p.word(1)))
+        }
         LParen | LBracket | Minus => {
             Some(format!("a class follows `:`; a value is given with `=`: `{name} = …`"))
         }

@@ -101,6 +101,7 @@ fn for_rest(p: &mut Parser<'_>, scope: Scope) {
         }
     }
     super::members::into(p, "in", expression);
+    super::mistakes::range_in_words(p);
     with(p);
     body(p, scope);
 }
