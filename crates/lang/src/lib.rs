@@ -44,6 +44,7 @@ mod lessons;
 mod loops;
 mod lower;
 mod members;
+mod mixed;
 mod names;
 mod numbers;
 mod origins;

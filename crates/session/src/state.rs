@@ -121,6 +121,7 @@ impl State {
         };
         let mut warnings = crate::yielding::warnings(&state, &planner);
         warnings.extend(crate::unlike::warnings(&state));
+        warnings.extend(state.lowered.mixed_lengths());
         if !warnings.is_empty() {
             state.diagnostics.extend(warnings);
             state.diagnostics.sort_by_key(|d| (d.place.file, d.place.span.start));

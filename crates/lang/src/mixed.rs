@@ -1,0 +1,82 @@
+//! Lengths with a unit beside lengths without one, in a text that does not say what these are.
+//!
+//! Without `unit mm` a bare length counts in plain units of the sheet, each one metre to what has a unit: `5 cm` is
+//! 0.05 of them. Few writers mean that, so it is said.
+
+use crate::lower::{Lowered, OWN};
+use base::{Diagnostic, Place};
+use expr::dimension::Dimension;
+use kernel::{OriginId, Term};
+use syntax::ast::{AstNode, NumberExpr};
+use syntax::{SyntaxKind, WalkEvent};
+
+/// The code of the warning.
+const CODE: &str = "mixed-lengths";
+
+impl Lowered {
+    /// Returns a warning where the text gives bare lengths, others with a unit that is not the metre, and names no
+    /// unit of its sheet.
+    ///
+    /// Cost: a look at every node of the text.
+    pub fn mixed_lengths(&self) -> Option<Diagnostic> {
+        if self.document.unit.is_some() {
+            return None;
+        }
+        let (number, si) = self.first_length()?;
+        let bare = self.first_bare_length()?;
+        let unit = number.unit()?;
+        let (written, unit) = (number.syntax().text(), unit.text());
+        let is = base::number::shortest(si);
+        let message = format!("{written} is {is} here, where other lengths have no unit");
+        let place = Place { file: OWN, span: number.span() };
+        let d = Diagnostic::warning(CODE, place, message).label(self.place(bare), "this has none");
+        Some(d.hint(format!(
+            "say what a length without a unit is: `unit {unit}`, in a line of its own"
+        )))
+    }
+
+    /// Returns the first length that the text states with a unit that is not the metre, and how many metres it is.
+    fn first_length(&self) -> Option<(NumberExpr, f64)> {
+        let root = self.effective_parse.syntax();
+        let mut walk = root.preorder();
+        while let Some(event) = walk.next() {
+            let WalkEvent::Enter(node) = event else { continue };
+            match node.kind() {
+                SyntaxKind::Check | SyntaxKind::Lesson | SyntaxKind::Within => walk.skip_subtree(),
+                SyntaxKind::NumberExpr => {
+                    let found = NumberExpr::cast(node).and_then(|n| Some((length(&n)?, n)));
+                    if let Some((si, number)) = found {
+                        return Some((number, si));
+                    }
+                }
+                _ => {}
+            }
+        }
+        None
+    }
+
+    /// Returns where the text first gives a length without a unit, if it does.
+    fn first_bare_length(&self) -> Option<OriginId> {
+        let givens = self.document.classes.iter().flat_map(|(_, class)| &class.givens);
+        let mut bare = givens.filter(|g| self.place(g.origin).file == OWN && has_bare(&g.value));
+        bare.next().map(|g| g.origin)
+    }
+}
+
+/// Returns how many metres a number with a unit is; nothing for what is zero, written in metres or no length.
+fn length(number: &NumberExpr) -> Option<f64> {
+    let (digits, unit) = (number.digits()?, number.unit()?);
+    let (si, dimension) = expr::units::read_quantity(digits.text(), unit.text())?;
+    let (one, _) = expr::units::read_quantity("1", unit.text())?;
+    (dimension == Dimension::LENGTH && si != 0.0 && one != 1.0).then_some(si)
+}
+
+fn has_bare(term: &Term) -> bool {
+    match term {
+        Term::Number { value, dimension, bare } => {
+            *bare && *value != 0.0 && *dimension == Dimension::LENGTH
+        }
+        Term::Tuple(items) | Term::List(items) => items.iter().any(has_bare),
+        _ => false,
+    }
+}
