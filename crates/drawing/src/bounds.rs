@@ -52,9 +52,17 @@ impl Bounds {
 /// assert_eq!((b.least.x, b.most.y, b.width()), (-2.0, 5.0, 6.0));
 /// ```
 pub fn bounds(drawing: &Drawing) -> Option<Bounds> {
+    bounds_of(&drawing.elements, drawing.vertical)
+}
+
+/// Returns the smallest box around some elements of a drawing, as [`fn@bounds`] does around all.
+pub fn bounds_of<'e>(
+    elements: impl IntoIterator<Item = &'e Element>,
+    vertical: Vertical,
+) -> Option<Bounds> {
     let mut all: Option<Bounds> = None;
-    for element in &drawing.elements {
-        corners(element, drawing.vertical, &mut |p| {
+    for element in elements {
+        corners(element, vertical, &mut |p| {
             all = Some(all.map_or(Bounds::at(p), |b| b.with(p)));
         });
     }

@@ -12,7 +12,7 @@ pub mod metrics;
 pub mod spline;
 pub mod svg;
 
-pub use bounds::{Bounds, bounds};
+pub use bounds::{Bounds, bounds, bounds_of};
 pub use element::{
     Anchoring, Color, Corner, Dimension, DimensionKind, Drawing, Element, Layer, Line, Placement,
     Point, Shape, Style, Tag, Vertical,

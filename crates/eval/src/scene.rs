@@ -55,6 +55,36 @@ struct Drawn {
     reads: BTreeSet<SlotId>,
 }
 
+impl Scene {
+    /// Returns what was drawn from these slots: what moves where they change, unless a picture turns to others.
+    pub fn drawn_from(&self, slots: &[SlotId]) -> Moved {
+        let read = slots.iter().flat_map(|&slot| &self.readers[slot]);
+        let elements = read.flat_map(|&source| &self.sources[source as usize].at).copied();
+        let grips = slots.iter().flat_map(|&slot| &self.coordinates[slot]).copied();
+        Moved { elements: elements.collect(), grips: grips.collect() }
+    }
+}
+
+impl Moved {
+    /// Whether nothing else has moved than in another.
+    pub fn is_within(&self, other: &Moved) -> bool {
+        self.elements.is_subset(&other.elements) && self.grips.is_subset(&other.grips)
+    }
+    /// Adds another's.
+    pub fn extend(&mut self, other: Moved) {
+        self.elements.extend(other.elements);
+        self.grips.extend(other.grips);
+    }
+    /// How many there are.
+    pub fn len(&self) -> usize {
+        self.elements.len() + self.grips.len()
+    }
+    /// Whether nothing has moved.
+    pub fn is_empty(&self) -> bool {
+        self.len() == 0
+    }
+}
+
 impl Evaluator<'_> {
     /// Draws a thing by its message `picture`, and keeps what each element follows from.
     ///

@@ -77,6 +77,10 @@ impl Press {
         };
         self.pulls.iter().flat_map(held).collect()
     }
+    /// Returns the slots that the drag may change, and more: all that its targets are connected with.
+    pub fn reach(&self) -> impl Iterator<Item = SlotId> + '_ {
+        self.pulls.iter().flat_map(|pull| pull.task.component.slots()).copied()
+    }
     /// Returns what acts in the modes that stand.
     pub fn acting(&self, planner: &Planner) -> Vec<Acting> {
         self.pulls.iter().flat_map(|pull| pull.task.acting(planner)).collect()

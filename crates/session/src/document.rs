@@ -95,10 +95,11 @@ impl Open {
         shown.renew(&self.state, self.values());
         ask(shown)
     }
-    /// From now on, the picture tells what moves from here.
+    /// From now on, the picture tells what the drag moves that was just begun.
     pub(crate) fn rest_picture(&self) {
+        let reach = self.drag.as_ref().map(crate::drag::Drag::reach).unwrap_or_default();
         if let Some(shown) = &mut *self.shown.borrow_mut() {
-            shown.rest();
+            shown.rest(reach);
         }
     }
     /// Makes `state` the present one, as one step; `edited` is what an edit of values was about.

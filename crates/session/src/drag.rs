@@ -272,6 +272,10 @@ impl Drag {
     pub(crate) fn held(&self) -> Vec<SlotId> {
         self.press.held()
     }
+    /// Returns the slots that it may change, and more.
+    pub(crate) fn reach(&self) -> Vec<SlotId> {
+        self.press.reach().collect()
+    }
     /// Follows the pointer to a place on the sheet; a number follows the first of its coordinates.
     /// The first place goes there, the others as far and in the same direction.
     pub(crate) fn to(&mut self, state: &State, planner: &mut Planner, to: (f64, f64)) -> DragState {

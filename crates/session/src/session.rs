@@ -419,7 +419,7 @@ impl Session {
         let open = self.document(id);
         open.with_picture(|shown| shown.view(&open.status))
     }
-    /// Brings a picture up to date that was asked for since the last command, and says what has moved since the press.
+    /// Brings a picture up to date that was asked for since the last command, and says what moves.
     /// Cost: that of drawing what moved.
     pub fn follow_picture(&self, id: DocumentId, view: &mut PictureView) -> MovedView {
         let open = self.document(id);

@@ -212,7 +212,7 @@ pub struct PictureView {
     pub made: u32,
 }
 
-/// What of a picture has moved since a drag was pressed.
+/// What of a picture moves with a drag: all that has moved since the press, and what is counted with that.
 #[derive(Clone, PartialEq, Eq, Debug)]
 pub enum MovedView {
     /// Other elements are drawn than before: it was made anew.

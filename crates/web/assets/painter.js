@@ -2,6 +2,8 @@
 // which says what each operation means; one call paints one frame. Words and colours that a document
 // names come separately, because they seldom change.
 
+import { MANY, createStamps } from "./stamps.js"
+
 // The colours by their part in the picture, in the order of `Hue` in `src/paint.rs`.
 const ROLES = ["ink", "faint", "accent", "paper", "free", "fixed", "conflict", "redundant", "halo", "halo-soft", "grid", "grid-strong"]
 const DASHES = [[], [7, 5], [0.5, 4], [], [14, 3, 3, 3]]
@@ -36,6 +38,7 @@ export function createPainter(canvas, onSize) {
   let font = "sans-serif"
   const under = document.createElement("canvas")
   let kept = false
+  const stamps = createStamps()
 
   const observer = new ResizeObserver(([entry]) => {
     const box = entry.contentRect
@@ -46,6 +49,7 @@ export function createPainter(canvas, onSize) {
     canvas.width = exact ? exact.inlineSize : Math.round(width * devicePixelRatio)
     canvas.height = exact ? exact.blockSize : Math.round(height * devicePixelRatio)
     ratio = canvas.width / width
+    stamps.forget()
     if (roles.length === 0) own.look()
     onSize(width, height)
   })
@@ -55,8 +59,7 @@ export function createPainter(canvas, onSize) {
     observer.observe(canvas)
   }
 
-  function mark(kind, x, y, r) {
-    const c = context
+  function mark(c, kind, x, y, r) {
     if (kind === 0) {
       c.moveTo(x + r, y)
       c.arc(x, y, r, 0, 2 * Math.PI)
@@ -74,6 +77,14 @@ export function createPainter(canvas, onSize) {
       c.lineTo(x - r, y)
       c.closePath()
     }
+  }
+
+  // How many points from an operation on are of its kind and size.
+  function alike(list, from) {
+    const [kind, r] = [list[from + 1], list[from + 4]]
+    let end = from
+    while (list[end] === 5 && list[end + 1] === kind && list[end + 4] === r) end += 5
+    return (end - from) / 5
   }
 
   function arrow(x, y, dx, dy) {
@@ -95,11 +106,13 @@ export function createPainter(canvas, onSize) {
     look() {
       roles = roleColors(canvas)
       colors = [...roles, ...named]
+      stamps.forget()
       font = getComputedStyle(canvas).fontFamily
     },
     setColors(list) {
       named = list
       colors = [...roles, ...named]
+      stamps.forget()
     },
     setWords(list) {
       words = list
@@ -119,9 +132,7 @@ export function createPainter(canvas, onSize) {
       let line = NO_LINE
       let thickness = 1
       let rule = "nonzero"
-      // A path is built where its numbers live and drawn on the screen, where widths are pixels.
-      const draw = () => {
-        onScreen()
+      const inStyle = (c) => {
         if (fill >= 0) {
           c.fillStyle = colors[fill]
           c.fill(rule)
@@ -133,6 +144,34 @@ export function createPainter(canvas, onSize) {
           c.setLineDash(DASHES[line])
           c.stroke()
         }
+      }
+      // A path is built where its numbers live and drawn on the screen, where widths are pixels.
+      const draw = () => {
+        onScreen()
+        inStyle(c)
+      }
+      // What stands in the path is drawn before, so that later points still hide earlier ones.
+      const stamp = (from, count) => {
+        draw()
+        c.beginPath()
+        const [kind, r] = [list[from + 1], list[from + 4]]
+        const places = new Float64Array(2 * count)
+        for (let n = 0; n < count; n++) {
+          places[2 * n] = ratio * (x + kx * list[from + 5 * n + 2])
+          places[2 * n + 1] = ratio * (y + ky * list[from + 5 * n + 3])
+        }
+        stamps.put(c, places, {
+          key: `${stroke} ${fill} ${line} ${thickness} ${kind} ${r}`,
+          half: Math.ceil((r * Math.SQRT2 + thickness) * ratio) + 1,
+          paintOne(c, x, y) {
+            c.setTransform(ratio, 0, 0, ratio, x, y)
+            c.lineJoin = "round"
+            c.beginPath()
+            mark(c, kind, 0, 0, r)
+            inStyle(c)
+          },
+        })
+        onScreen()
       }
       for (let i = 0; i < list.length; ) {
         switch (list[i++]) {
@@ -170,10 +209,19 @@ export function createPainter(canvas, onSize) {
             i += 5
             break
           }
-          case 5:
-            mark(list[i], x + kx * list[i + 1], y + ky * list[i + 2], list[i + 3])
-            i += 4
+          case 5: {
+            const count = alike(list, i - 1)
+            if (count >= MANY) {
+              stamp(i - 1, count)
+              i += 5 * count - 1
+              break
+            }
+            for (const end = i - 1 + 5 * count; i < end; i += 5) {
+              mark(c, list[i], x + kx * list[i + 1], y + ky * list[i + 2], list[i + 3])
+            }
+            i -= 1
             break
+          }
           case 6: {
             const size = list[i + 5] ? list[i + 4] * Math.abs(ky) : list[i + 4]
             c.font = `${size}px ${font}`

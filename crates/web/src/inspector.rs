@@ -77,8 +77,11 @@ fn Numbers(lab: Lab) -> impl IntoView {
     });
     let found = Memo::new(move |_| {
         let selected = lab.selected.get();
-        within
-            .with(|within| lab.values.with(|rows| shown_values(rows, selected.as_deref(), within)))
+        lab.value_rows.track();
+        let of = |rows: &Vec<ValueRow>| {
+            within.with(|within| shown_values(rows, selected.as_deref(), within))
+        };
+        lab.values.with_untracked(of)
     });
     let shown = move || {
         let shown = found.get();

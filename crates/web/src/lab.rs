@@ -90,6 +90,8 @@ pub struct Lab {
     pub dragged_values: RwSignal<BTreeMap<usize, String>>,
     /// Its values view.
     pub values: RwSignal<Vec<ValueRow>>,
+    /// How often the rows of the values view have become others; a drag changes only what they say.
+    pub value_rows: RwSignal<u32>,
     /// Which rows of the values view are in the page, in order: those that a drag keeps up to date.
     pub shown_values: StoredValue<Vec<usize>>,
     /// The same for the rows in the inspector.
@@ -252,6 +254,7 @@ impl Lab {
             document: RwSignal::new(None),
             structure,
             values: RwSignal::new(Vec::new()),
+            value_rows: RwSignal::new(0),
             shown_things: StoredValue::new(Vec::new()),
             dragged_values: RwSignal::new(BTreeMap::new()),
             shown_values: StoredValue::new(Vec::new()),
@@ -402,6 +405,7 @@ impl Lab {
         }
         self.picture.set(picture);
         self.values.set(values);
+        self.value_rows.update(|n| *n += 1);
         let (structure, text, status, title) = self.ask(|session| {
             (session.structure(id), session.text(id), session.status(id), session.title(id))
         });

@@ -23,6 +23,7 @@
 use crate::sheet::View;
 use drawing::{Anchoring, Color, Drawing, Element, Layer, Line, Placement, Point, Shape, Style};
 use session::view::{Caught, Freedom, MovedView, PictureView, Velocity};
+use std::cell::LazyCell;
 use std::collections::BTreeSet;
 
 /// What is painted: numbers, and the words and colours that they speak of.
@@ -183,9 +184,8 @@ impl Reach {
         const ALONE: f64 = 2000.0;
         /// So many times as far as the picture is wide and high.
         const TIMES: f64 = 4.0;
-        let ends = picture.elements.iter().filter(|e| !e.style.is_unbounded).cloned();
-        let ends = Drawing { elements: ends.collect(), vertical: picture.vertical };
-        match drawing::bounds(&ends) {
+        let ends = picture.elements.iter().filter(|e| !e.style.is_unbounded);
+        match drawing::bounds_of(ends, picture.vertical) {
             Some(b) if b.most != b.least => Self {
                 middle: Point {
                     x: f64::midpoint(b.least.x, b.most.x),
@@ -197,19 +197,31 @@ impl Reach {
         }
     }
 
-    /// What is shown of an element.
-    fn shown(&self, element: &Element) -> Shape {
-        let Shape::Segment(a, b) = element.shape else { return element.shape.clone() };
+    /// What is shown of a line without ends; nothing where it has no direction.
+    fn across(&self, (a, b): (Point, Point)) -> Option<Shape> {
         let (dx, dy) = (b.x - a.x, b.y - a.y);
         let length = base::number::hypot(dx, dy);
-        if !element.style.is_unbounded || length <= 0.0 {
-            return element.shape.clone();
+        if length <= 0.0 {
+            return None;
         }
         let (ux, uy) = (dx / length, dy / length);
         let along = (self.middle.x - a.x) * ux + (self.middle.y - a.y) * uy;
         let at = |t: f64| Point { x: a.x + t * ux, y: a.y + t * uy };
-        Shape::Segment(at(along - self.length), at(along + self.length))
+        Some(Shape::Segment(at(along - self.length), at(along + self.length)))
     }
+}
+
+/// Adds an element's shape, as far as it is shown: where it has no ends, from one side of the picture to the other.
+fn shown(
+    list: &mut DisplayList,
+    element: &Element,
+    reach: &LazyCell<Reach, impl FnOnce() -> Reach>,
+) {
+    let across = match element.shape {
+        Shape::Segment(a, b) if element.style.is_unbounded => reach.across((a, b)),
+        _ => None,
+    };
+    shape(list, across.as_ref().unwrap_or(&element.shape));
 }
 
 /// Adds an arrow for every place that a motion moves.
@@ -260,7 +272,7 @@ pub fn loci(list: &mut DisplayList, drawn: &Drawing) {
 /// Adds what a tool would make.
 pub fn preview(list: &mut DisplayList, drawn: &Drawing, picture: &Drawing) {
     let accent = Hue::Accent as i32;
-    let reach = Reach::of(picture);
+    let reach = LazyCell::new(|| Reach::of(picture));
     for element in &drawn.elements {
         match element.shape {
             Shape::Dot(at) => {
@@ -276,7 +288,7 @@ pub fn preview(list: &mut DisplayList, drawn: &Drawing, picture: &Drawing) {
             | Shape::Region(_)
             | Shape::Text { .. } => {
                 begin(list, accent, -1, element.style.line, USUAL_WIDTH, Space::Sheet);
-                shape(list, &reach.shown(element));
+                shown(list, element, &reach);
             }
         }
     }
@@ -313,7 +325,7 @@ fn paint_elements(
     anchored: &BTreeSet<&str>,
     elements: &[&Element],
 ) {
-    let reach = Reach::of(&picture.drawing);
+    let reach = LazyCell::new(|| Reach::of(&picture.drawing));
     for element in elements {
         let tag = element.tag.0 as usize;
         let freedom = picture.freedom.get(tag).copied().flatten();
@@ -324,7 +336,7 @@ fn paint_elements(
         }
         let now = style_of(list, &element.style, freedom);
         take_up(list, now);
-        shape(list, &reach.shown(element));
+        shown(list, element, &reach);
     }
 }
 

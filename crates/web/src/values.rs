@@ -20,7 +20,8 @@ pub fn Values(
     let filter = RwSignal::new(String::new());
     let found = Memo::new(move |_| {
         let wanted = filter.get().to_lowercase();
-        lab.values.with(|rows| {
+        lab.value_rows.track();
+        lab.values.with_untracked(|rows| {
             let fits = |row: &ValueRow| {
                 // where things are drawn is listed where it is asked for
                 if wanted.is_empty() {

@@ -5,7 +5,6 @@ use crate::view::{Grip, MovedView, PictureView};
 use crate::views::drawn;
 use crate::words;
 use kernel::{ClassKind, DOCUMENT, SlotId, ThingId, Values};
-use std::collections::BTreeSet;
 use std::rc::Rc;
 
 /// The picture of a state, kept while values change.
@@ -18,6 +17,8 @@ pub(crate) struct Shown {
     /// The grips of what programs draw; they stand after those.
     drawn: Vec<Grip>,
     moved: Moved,
+    /// The slots that the drag may change that goes on.
+    reach: Vec<SlotId>,
 }
 
 impl Shown {
@@ -39,7 +40,8 @@ impl Shown {
         let grips = grips.map(|(at, _)| at).collect();
         let drawn = drawn::grips(state, values);
         let (state, values) = (state.clone(), values.clone());
-        Self { state, values, scene, grips, drawn, moved: Moved::default() }
+        let (moved, reach) = (Moved::default(), Vec::new());
+        Self { state, values, scene, grips, drawn, moved, reach }
     }
 
     /// Brings it up to date. Cost: that of drawing what reads a changed slot, where the state is the same.
@@ -54,8 +56,8 @@ impl Shown {
         }
         match state.evaluator(values).renew(&mut self.scene, &changed) {
             Some(moved) => {
-                self.moved.elements.extend(moved.elements);
-                self.moved.grips.extend(moved.grips);
+                self.set_apart(&moved);
+                self.moved.so_far.extend(moved);
                 self.values.clone_from(values);
                 let drawn = drawn::grips(state, values);
                 if drawn.iter().map(|g| &g.path).ne(self.drawn.iter().map(|g| &g.path)) {
@@ -64,16 +66,35 @@ impl Shown {
                 self.drawn = drawn;
             }
             None => {
-                let made = self.moved.made + 1;
-                *self = Self::of(state, values);
+                let (made, reach) = (self.moved.made + 1, std::mem::take(&mut self.reach));
+                *self = Self { reach, ..Self::of(state, values) };
                 self.moved.made = made;
             }
         }
     }
 
-    /// Forgets what has moved so far.
-    pub(crate) fn rest(&mut self) {
+    /// Counts as apart what has moved now for the first time. Whoever paints what rests has to paint it anew then; so
+    /// that this is seldom, all that may move is apart from the second time on, unless it is far more than what does.
+    fn set_apart(&mut self, moved: &eval::Moved) {
+        /// So many times as much as has moved is not far more.
+        const TIMES: usize = 4;
+        if moved.is_within(&self.moved.apart) {
+            return;
+        }
+        let is_first = self.moved.apart.is_empty();
+        self.moved.apart.extend(moved.clone());
+        if !is_first {
+            let may_move = self.scene.drawn_from(&self.reach);
+            if may_move.len() <= TIMES * self.moved.apart.len() {
+                self.moved.apart.extend(may_move);
+            }
+        }
+    }
+
+    /// Forgets what has moved so far; a drag begins that may change some slots.
+    pub(crate) fn rest(&mut self, reach: Vec<SlotId>) {
         self.moved = Moved::default();
+        self.reach = reach;
     }
 
     /// Returns the whole picture.
@@ -101,40 +122,39 @@ impl Shown {
         }
     }
 
-    /// Brings a view up to date that was made of the same state; returns what has moved since the press.
+    /// Brings a view up to date that was made of the same state; returns what moves.
     pub(crate) fn follow(&self, view: &mut PictureView, status: &plan::Status) -> MovedView {
         if view.made != self.moved.made || view.grips.len() != self.grips.len() + self.drawn.len() {
             *view = self.view(status);
             return MovedView::Everything;
         }
         let made = &self.scene.picture;
-        for &at in &self.moved.elements {
+        for &at in &self.moved.so_far.elements {
             let now = &made.drawing.elements[at as usize];
             view.drawing.elements[at as usize].shape.clone_from(&now.shape);
         }
-        let mut grips = Vec::new();
-        for &at in &self.moved.grips {
-            if let Ok(shown) = self.grips.binary_search(&at) {
-                let now = made.grips[at as usize].at;
-                (view.grips[shown].x, view.grips[shown].y) = (now.x, now.y);
-                grips.push(shown as u32);
-            }
+        let shown = |&at: &u32| Some((self.grips.binary_search(&at).ok()?, at));
+        for (shown, at) in self.moved.so_far.grips.iter().filter_map(shown) {
+            let now = made.grips[at as usize].at;
+            (view.grips[shown].x, view.grips[shown].y) = (now.x, now.y);
         }
-        for (at, grip) in (self.grips.len()..).zip(&self.drawn) {
-            if view.grips[at] != *grip {
-                view.grips[at].clone_from(grip);
-                grips.push(at as u32);
-            }
+        view.grips.truncate(self.grips.len());
+        view.grips.extend(self.drawn.iter().cloned());
+        let grips = self.moved.apart.grips.iter().filter_map(shown).map(|(shown, _)| shown);
+        let drawn = self.grips.len()..view.grips.len();
+        MovedView::These {
+            elements: self.moved.apart.elements.iter().copied().collect(),
+            grips: grips.chain(drawn).map(|at| at as u32).collect(),
         }
-        MovedView::These { elements: self.moved.elements.iter().copied().collect(), grips }
     }
 }
 
 /// What has moved since a drag began.
 #[derive(Default)]
 struct Moved {
-    elements: BTreeSet<u32>,
-    grips: BTreeSet<u32>,
+    so_far: eval::Moved,
+    /// That, and what is counted with it because it may move as well.
+    apart: eval::Moved,
     /// How often the picture was made anew in the midst, because other elements were drawn.
     made: u32,
 }

@@ -287,6 +287,40 @@ fn a_picture_that_is_followed_is_the_one_that_is_made_anew() {
     }
 }
 
+/// Twelve points in a row, ten apart: the first pushes the second, these the third, and so on.
+#[test]
+fn what_moves_one_after_the_other_is_set_apart_in_few_steps() {
+    let mut text = String::from("use geometry\nrow: List of 12 Point\nrest: List of 9 Point\n");
+    for i in 0..12 {
+        text += &format!("row[{i}] = ({}, 0)\n", 10 * i);
+    }
+    for i in 1..12 {
+        text += &format!("constraint row[{i}].x >= row[{}].x + 5\n", i - 1);
+    }
+    for i in 0..9 {
+        text += &format!("rest[{i}] = ({i}, 100)\n");
+    }
+    let mut desk = Desk::of(&text);
+    let path = session::parse_path("row[0]").unwrap();
+    let mut view = desk.session.picture(desk.id);
+    desk.session.press(desk.id, &path).unwrap();
+    let (mut told, mut moving): (Vec<MovedView>, Vec<usize>) = (Vec::new(), Vec::new());
+    for step in 1..60 {
+        let before = view.grips.clone();
+        desk.session.drag(desk.id, (f64::from(step), 0.0));
+        let moved = desk.session.follow_picture(desk.id, &mut view);
+        let pairs = before.iter().zip(&view.grips);
+        moving.push(pairs.filter(|(a, b)| a != b).count());
+        if told.last() != Some(&moved) {
+            told.push(moved);
+        }
+    }
+    assert!(moving.first() == Some(&1) && moving.last() == Some(&12), "{moving:?}");
+    assert!(told.len() <= 4, "{told:?}");
+    let Some(MovedView::These { elements, grips }) = told.last() else { panic!("{told:?}") };
+    assert_eq!((elements.len(), grips.len()), (12, 12));
+}
+
 #[test]
 fn a_parameter_of_a_program_says_what_it_asks_and_in_which_range() {
     let desk = Desk::of(
