@@ -1,8 +1,7 @@
 //! Plots: any number over another, while a value is swept or something is dragged, and loci of places.
 //!
-//! A sweep drags a value through a range in a copy of the document, from where it is now towards both
-//! ends, so that a curve follows one branch and ends where the constraints end it. A drag that goes on is
-//! sampled at each of its events. [`chart`] makes the picture of a plot.
+//! A sweep ([`Sweeping`]) drags a value through a range. A drag that goes on is sampled at each of its events. [`chart`]
+//! makes the picture of a plot.
 
 use crate::apply::{self, Aim};
 use crate::document::Open;
@@ -14,22 +13,22 @@ use crate::view::{PlotEntry, Refusal};
 use crate::words;
 use eval::Answer;
 use expr::Dimension;
-use kernel::{Command, DOCUMENT, Literal, Path, Step, Term, Values};
+use kernel::{DOCUMENT, Path, Step, Term, Values};
 use lang::Quantity;
 use serde::Serialize;
 use std::rc::Rc;
 
 pub mod chart;
+mod sweeping;
 mod table;
+
+pub use sweeping::Sweeping;
 
 /// A sweep has at most so many steps.
 pub const MOST_STEPS: u32 = 10_000;
 
 /// A drag is sampled at most so often; what comes after is not kept.
 pub const MOST_SAMPLES: usize = 20_000;
-
-/// So often a long way to one value is gone on with, before it counts as not reached.
-const PATIENCE: u32 = 64;
 
 /// What a plot shows, and over what.
 #[derive(Clone, PartialEq, Eq, Debug, Default)]
@@ -164,64 +163,6 @@ impl Trace {
     }
 }
 
-/// Makes a plot of a sweep.
-///
-/// # Errors
-/// What is shown or swept means nothing, the range is none, or the value cannot be moved.
-pub(crate) fn sweep(
-    open: &Open,
-    host: &dyn Host,
-    request: &Request,
-    sweep: &Sweep,
-) -> Result<Plot, Refusal> {
-    let path = parse_path(sweep.of.trim())
-        .ok_or_else(|| words::refuse(format!("{} is no path of a value to sweep", sweep.of)))?;
-    let now = number_at(&open.state, &path, &open.state.values)?;
-    let [from, to] = [&sweep.from, &sweep.to].map(|typed| end_of(&open.state, &path, typed));
-    let (from, to) = (from?, to?);
-    if from == to {
-        return Err(words::refuse(format!("the range from {from} to {to} is empty")));
-    }
-    if !(1..=MOST_STEPS).contains(&sweep.steps) {
-        let steps = sweep.steps;
-        return Err(words::refuse(format!("{steps} steps, where 1 to {MOST_STEPS} can be")));
-    }
-    let mut trial = Open::of(&open.name, open.state.text.clone(), host);
-    let over = request.over.as_deref().unwrap_or(&sweep.of);
-    let mut sampler = Sampler::of(&trial, host, (Some(over), &request.show))?;
-    let value = |i: u32| from + (to - from) * f64::from(i) / f64::from(sweep.steps);
-    // the first place in the range that is not behind where the value is
-    let part = (now - from) / (to - from) * f64::from(sweep.steps);
-    let first = (0..=sweep.steps).find(|&i| f64::from(i) >= part).unwrap_or(sweep.steps);
-    let mut notes = Vec::new();
-    let mut walk = Walk::begin(&mut trial, host, &path)?;
-    for i in first..=sweep.steps {
-        if let Err(note) = walk.to(&mut trial, host, (&path, value(i))) {
-            notes.extend(note);
-            break;
-        }
-        sampler.read(trial.values());
-    }
-    let ahead = std::mem::take(&mut sampler.samples);
-    let mut trial = Open::of(&open.name, open.state.text.clone(), host);
-    let mut walk = Walk::begin(&mut trial, host, &path)?;
-    for i in (0..first).rev() {
-        if let Err(note) = walk.to(&mut trial, host, (&path, value(i))) {
-            notes.extend(note);
-            break;
-        }
-        sampler.read(trial.values());
-    }
-    sampler.samples.reverse();
-    sampler.samples.extend(ahead);
-    if sampler.samples.is_empty() {
-        let why = notes.into_iter().next().unwrap_or_default();
-        return Err(words::refuse(format!("nothing of the range can be reached: {why}")));
-    }
-    notes.dedup();
-    Ok(sampler.plot("", notes))
-}
-
 /// So many steps a view of a class has.
 const VIEW_STEPS: u32 = 200;
 
@@ -247,68 +188,6 @@ pub(crate) fn views_of(state: &State, path: &Path) -> Vec<PlotEntry> {
         found.push(PlotEntry { title: view.title.clone(), doc: view.doc.clone(), request });
     }
     found
-}
-
-/// How the swept value is brought from one number to the next.
-enum Walk {
-    /// By a drag, which follows the branch.
-    Drag,
-    /// By edits, where an anchor holds it against drags.
-    Edits,
-}
-
-impl Walk {
-    fn begin(trial: &mut Open, host: &dyn Host, path: &Path) -> Result<Self, Refusal> {
-        let Err(refusal) = drag::begin(trial, path) else { return Ok(Self::Drag) };
-        let now = number_at(&trial.state, path, &trial.state.values)?;
-        match Self::Edits.to(trial, host, (path, now)) {
-            Ok(()) => Ok(Self::Edits),
-            Err(_) => Err(refusal),
-        }
-    }
-    /// Goes on to a value.
-    ///
-    /// # Errors
-    /// Why it does not come there, where that is known.
-    fn to(
-        &mut self,
-        trial: &mut Open,
-        host: &dyn Host,
-        (path, value): (&Path, f64),
-    ) -> Result<(), Option<String>> {
-        match self {
-            Self::Drag => {
-                let state = trial.state.clone();
-                let mut why = None;
-                for _ in 0..PATIENCE {
-                    let Some(drag) = &mut trial.drag else { return Err(None) };
-                    let came = drag.to(&state, &mut trial.planner, (value, 0.0));
-                    if came.reached {
-                        return Ok(());
-                    }
-                    why = came.message;
-                    if came.limit.is_some() {
-                        break;
-                    }
-                }
-                Err(why)
-            }
-            Self::Edits => {
-                let command = Command::Set(vec![(path.clone(), Literal::Number(value))]);
-                let done = apply::apply(trial, host, &command);
-                trial.done.clear();
-                done.map(drop).map_err(|refusal| Some(refusal.message))
-            }
-        }
-    }
-}
-
-/// Reads an end of a range.
-fn end_of(state: &State, path: &Path, typed: &str) -> Result<f64, Refusal> {
-    match words::read_typed(state, path, typed.trim())? {
-        Literal::Number(x) => Ok(x),
-        _ => Err(words::refuse(format!("found `{typed}` where a range ends, wanted a number"))),
-    }
 }
 
 /// Returns the number at a path.
@@ -359,6 +238,12 @@ impl Sampler {
             }
         }
         Ok(sampler)
+    }
+
+    /// Returns one that has read these.
+    fn with_samples(&self, samples: Vec<Vec<Option<Reading>>>) -> Self {
+        let (terms, labels) = (self.terms.clone(), self.labels.clone());
+        Self { state: self.state.clone(), terms, labels, samples }
     }
 
     /// Reads everything at one moment.

@@ -12,7 +12,7 @@ use crate::host::{Beside, Host};
 use crate::joining;
 use crate::lessons;
 use crate::offers;
-use crate::plotting::{self, Plot, Request};
+use crate::plotting::{self, Plot, Request, Sweeping};
 use crate::recognise;
 use crate::state::State;
 use crate::texts::Texts;
@@ -374,12 +374,29 @@ impl Session {
     /// # Errors
     /// What is shown or swept means nothing, the range is none, or the value cannot be moved.
     pub fn plot(&self, id: DocumentId, request: &Request) -> Result<Plot, Refusal> {
-        let beside = Beside::of(&*self.host, &self.documents, id);
-        let open = self.document(id);
-        match &request.sweep {
-            Some(sweep) => plotting::sweep(open, &beside, request, sweep),
-            None => Ok(open.trace.as_ref().map(plotting::Trace::plot).unwrap_or_default()),
+        if request.sweep.is_none() {
+            let trace = self.document(id).trace.as_ref();
+            return Ok(trace.map(plotting::Trace::plot).unwrap_or_default());
         }
+        let mut sweeping = self.begin_sweep(id, request)?;
+        while self.go_on(id, &mut sweeping)? {}
+        sweeping.finished()
+    }
+    /// Begins the plot of a sweep, in a copy of the document.
+    ///
+    /// # Errors
+    /// What is shown or swept means nothing, the range is none, or the value cannot be moved.
+    pub fn begin_sweep(&self, id: DocumentId, request: &Request) -> Result<Sweeping, Refusal> {
+        let beside = Beside::of(&*self.host, &self.documents, id);
+        let sweep = request.sweep.clone().unwrap_or_default();
+        Sweeping::begin(self.document(id), &beside, request, &sweep)
+    }
+    /// Goes on with a sweep to its next value; returns false at its end.
+    ///
+    /// # Errors
+    /// The value cannot be moved the other way.
+    pub fn go_on(&self, id: DocumentId, sweeping: &mut Sweeping) -> Result<bool, Refusal> {
+        sweeping.step(&Beside::of(&*self.host, &self.documents, id))
     }
     /// Returns the values of some expressions in words, as of the drag where one goes on, or why they have none.
     pub fn calculate(&mut self, id: DocumentId, written: &[String]) -> Vec<Result<String, String>> {

@@ -1,8 +1,9 @@
 //! `?bench=drag`: leads the document's first grip round in a circle and says how long it takes.
 //!
-//! Out: `<pre id="bench">` and `window.__bench`, with microseconds for one step of the session alone,
-//! milliseconds for a whole frame of work, and frames a second.
+//! Out: `<pre id="bench">` and `window.__bench`, with the milliseconds until there was something to drag, microseconds
+//! for one step of the session alone, milliseconds for a whole frame of work, and frames a second.
 
+use crate::js::now;
 use crate::lab::Lab;
 use crate::{js, orbit, route};
 use leptos::prelude::*;
@@ -21,6 +22,7 @@ struct Run {
     radius: f64,
     frame: u32,
     steps: u32,
+    opened: f64,
     begun: f64,
     in_steps: f64,
     in_frames: f64,
@@ -47,6 +49,7 @@ pub fn Bench(
             return;
         }
         begun.set_value(true);
+        let opened = now();
         set_timeout(
             move || {
                 if lab.press(&grip.path).is_none() {
@@ -59,6 +62,7 @@ pub fn Bench(
                     radius: 0.1 * across,
                     frame: 0,
                     steps: 0,
+                    opened,
                     begun: now(),
                     in_steps: 0.0,
                     in_frames: 0.0,
@@ -70,10 +74,6 @@ pub fn Bench(
         );
     });
     view! { <pre id="bench">{report}</pre> }
-}
-
-fn now() -> f64 {
-    window().performance().map_or(0.0, |performance| performance.now())
 }
 
 fn frame(mut run: Run) {
@@ -109,8 +109,9 @@ fn finish(run: &Run) {
     let seconds = (now() - run.begun) / 1000.0;
     run.lab.cancel();
     let json = format!(
-        "{{\"path\": {:?}, \"frames\": {FRAMES}, \"steps\": {}, \"step_us\": {:.3}, \"frame_ms\": {:.3}, \"fps\": {:.1}}}",
+        "{{\"path\": {:?}, \"opened_ms\": {:.0}, \"frames\": {FRAMES}, \"steps\": {}, \"step_us\": {:.3}, \"frame_ms\": {:.3}, \"fps\": {:.1}}}",
         run.grip.path,
+        run.opened,
         run.steps,
         1000.0 * run.in_steps / f64::from(run.steps),
         run.in_frames / f64::from(FRAMES),

@@ -161,3 +161,8 @@ pub fn field(object: &JsValue, name: &str) -> JsValue {
 pub fn text_field(object: &JsValue, name: &str) -> String {
     field(object, name).as_string().unwrap_or_default()
 }
+
+/// The milliseconds since the page was begun.
+pub fn now() -> f64 {
+    leptos::prelude::window().performance().map_or(0.0, |performance| performance.now())
+}

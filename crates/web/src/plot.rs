@@ -5,19 +5,21 @@
 
 use crate::dock::Tab;
 use crate::field;
-use crate::lab::Lab;
+use crate::lab::{Lab, Notice};
 use crate::{icons, js, values, words};
 use chart::Chart;
 use leptos::ev::KeyboardEvent;
 use leptos::prelude::*;
 use session::Session;
-use session::plotting::{Plot, Request, Sweep};
-use session::view::{PlotEntry, ValueRow};
+use session::plotting::{Plot, Request, Sweep, Sweeping};
+use session::view::{PlotEntry, Refusal, ValueRow};
 
 pub mod chart;
 
 /// So many steps a sweep has in the page.
 const STEPS: u32 = 200;
+/// A sweep goes on for so many milliseconds before the page has its turn.
+const A_WHILE: f64 = 24.0;
 /// How large a chart is that leaves the page, in pixels.
 const EXPORTED: (f64, f64) = (720.0, 420.0);
 /// So many values are offered while a path is typed.
@@ -40,6 +42,10 @@ pub struct Plotting {
     pub plot: RwSignal<Plot>,
     /// Why nothing did.
     pub refused: RwSignal<Option<String>>,
+    /// How many values of a sweep that goes on are done, and how many there are.
+    pub progress: RwSignal<Option<(u32, u32)>>,
+    /// That sweep, and which one of the page's it is.
+    sweeping: StoredValue<(u32, Option<Sweeping>), LocalStorage>,
 }
 
 impl Default for Plotting {
@@ -53,6 +59,8 @@ impl Default for Plotting {
             over: empty(),
             plot: RwSignal::new(Plot::default()),
             refused: RwSignal::new(None),
+            progress: RwSignal::new(None),
+            sweeping: StoredValue::new_local((0, None)),
         }
     }
 }
@@ -81,6 +89,13 @@ impl Plotting {
         [self.of, self.from, self.to, self.over].into_iter().for_each(|s| s.set(String::new()));
         self.plot.set(Plot::default());
         self.refused.set(None);
+        self.put_sweep(None);
+    }
+    /// Goes on with this sweep from now on, instead of any other; returns its number.
+    fn put_sweep(self, sweeping: Option<Sweeping>) -> u32 {
+        self.progress.set(sweeping.as_ref().map(Sweeping::progress));
+        self.sweeping.update_value(|kept| *kept = (kept.0 + 1, sweeping));
+        self.sweeping.with_value(|kept| kept.0)
     }
 }
 
@@ -128,19 +143,76 @@ impl Lab {
     fn ask_for_plot(self, request: Option<&Request>) {
         let follow = request.filter(|request| request.sweep.is_none());
         let watched = self.tell(|session, id| session.watch(id, follow));
-        let made = match (request, watched) {
-            (None, _) | (_, None) => Ok(Plot::default()),
-            (Some(_), Some(Err(refusal))) => Err(refusal),
-            (Some(request), Some(Ok(()))) => self
-                .ask_of_shown(|session, id| session.plot(id, request))
-                .unwrap_or_else(|| Ok(Plot::default())),
-        };
+        self.plotting.put_sweep(None);
+        match (request, watched) {
+            (None, _) | (_, None) => self.show_plot(Ok(Plot::default())),
+            (Some(_), Some(Err(refusal))) => self.show_plot(Err(refusal)),
+            (Some(request), Some(Ok(()))) if request.sweep.is_some() => {
+                match self.ask_of_shown(|session, id| session.begin_sweep(id, request)) {
+                    Some(Ok(sweeping)) => {
+                        let number = self.plotting.put_sweep(Some(sweeping));
+                        self.go_on_sweeping(number);
+                    }
+                    Some(Err(refusal)) => self.show_plot(Err(refusal)),
+                    None => {}
+                }
+            }
+            (Some(request), Some(Ok(()))) => {
+                let made = self.ask_of_shown(|session, id| session.plot(id, request));
+                self.show_plot(made.unwrap_or_else(|| Ok(Plot::default())));
+            }
+        }
+    }
+
+    fn show_plot(self, made: Result<Plot, Refusal>) {
         let (plot, refused) = match made {
             Ok(plot) => (plot, None),
             Err(refusal) => (Plot::default(), Some(field::reason(&refusal))),
         };
         self.plotting.refused.set(refused);
         self.plotting.plot.set(plot);
+    }
+
+    /// Goes on with a sweep for a while, and again in the next frame until it is over or another has taken its place.
+    fn go_on_sweeping(self, number: u32) {
+        let mut kept = None;
+        self.plotting.sweeping.try_update_value(|(at, sweeping)| {
+            if *at == number {
+                kept = sweeping.take();
+            }
+        });
+        let Some(mut sweeping) = kept else { return };
+        let begun = js::now();
+        let went = loop {
+            let went = self.ask_of_shown(|session, id| session.go_on(id, &mut sweeping));
+            let is_over = !matches!(went, Some(Ok(true)));
+            if is_over || js::now() - begun > A_WHILE {
+                break went;
+            }
+        };
+        match went {
+            Some(Ok(true)) => {
+                self.show_plot(Ok(sweeping.plot()));
+                self.plotting.progress.set(Some(sweeping.progress()));
+                self.plotting.sweeping.update_value(|kept| kept.1 = Some(sweeping));
+                request_animation_frame(move || self.go_on_sweeping(number));
+                return;
+            }
+            Some(Ok(false)) => self.show_plot(sweeping.finished()),
+            Some(Err(refusal)) => self.show_plot(Err(refusal)),
+            None => {}
+        }
+        self.plotting.progress.set(None);
+    }
+
+    /// Ends a sweep that goes on where it is; returns whether there was one.
+    pub fn stop_sweeping(self) -> bool {
+        let was = self.plotting.progress.with_untracked(Option::is_some);
+        if was {
+            self.plotting.put_sweep(None);
+            self.notice.set(Some(Notice::Said(String::from(words::SWEEP_STOPPED))));
+        }
+        was
     }
 
     /// Sweeps a value through a range around where it is now.
@@ -182,6 +254,7 @@ pub fn PlotPane(
     });
     on_cleanup(move || {
         lab.tell(|session: &mut Session, id| session.watch(id, None));
+        plotting.put_sweep(None);
         plotting.plot.set(Plot::default());
     });
     let is_swept = Memo::new(move |_| plotting.of.with(|of| !of.trim().is_empty()));

@@ -39,10 +39,14 @@ pub fn StatusLine(
         let typed = (!typed.is_empty()).then(|| words::typed_length(&typed));
         lab.tool.with(Option::is_some).then(|| typed.unwrap_or(hint))
     });
+    let swept = move || {
+        let progress = lab.plotting.progress.get();
+        progress.map(|(done, all)| words::sweeping(&lab.plotting.of.get(), done, all))
+    };
     let wanted =
         move || lab.drafting.prompt.with(|prompt| prompt.as_ref().map(|p| p.words.clone()));
     let heard = Memo::new(move |_| {
-        drag.get().or_else(wanted).or_else(|| said.get()).or_else(|| hint.get())
+        drag.get().or_else(swept).or_else(wanted).or_else(|| said.get()).or_else(|| hint.get())
     });
     view! {
         <footer class="status" class:wrong=move || !holds.get() class:doubtful=doubtful>

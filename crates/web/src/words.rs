@@ -179,6 +179,7 @@ pub const COLUMN_VALUE: &str = "Value";
 pub const COLUMN_UNIT: &str = "Unit";
 pub const OFF_BY: &str = "off by";
 pub const CLOSE: &str = "Close";
+pub const SWEEP_STOPPED: &str = "the sweep was stopped; the plot shows how far it had come";
 pub const RESTORE: &str = "Restore";
 pub const DISCARD: &str = "Discard";
 pub const DRAFT_FOUND: &str = "There are unsaved changes of yours from an earlier visit.";
@@ -216,6 +217,11 @@ pub const IS_ON: &str = "it is on already";
 pub const ENABLED: &str = "switched on";
 pub const DONE: &str = "Done";
 pub const CANCEL: &str = "Cancel";
+
+/// What the status line says while a value is swept.
+pub fn sweeping(of: &str, done: u32, all: u32) -> String {
+    format!("sweeping {of}: {done} of {all}; Esc stops")
+}
 
 /// What a change did besides what it was meant to do; nothing if that is all.
 /// Says what a chart shows, to those who do not see it.

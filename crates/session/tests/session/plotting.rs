@@ -42,6 +42,25 @@ fn the_voltage_over_a_resistance_is_that_of_a_divider() {
 }
 
 #[test]
+fn a_sweep_can_be_looked_at_and_left_before_its_end() {
+    let desk = Desk::of(&gallery("voltage-divider"));
+    let asked = request(&["meter.current"], ("r2.resistance", "10 ohm", "410 ohm"), 40);
+    let mut sweeping = desk.session.begin_sweep(desk.id, &asked).expect("it is possible");
+    assert_eq!(sweeping.progress(), (0, 41));
+    assert!(sweeping.plot().is_empty());
+    for done in 1..=41 {
+        assert_eq!(desk.session.go_on(desk.id, &mut sweeping), Ok(true));
+        assert_eq!(sweeping.progress(), (done, 41));
+        let points = sweeping.plot().curves.swap_remove(0).points;
+        let over: Vec<f64> = points.into_iter().flatten().map(|(r, _)| r).collect();
+        assert_eq!(over.len() as u32, done);
+        assert!(over.is_sorted(), "{over:?}");
+    }
+    assert_eq!(desk.session.go_on(desk.id, &mut sweeping), Ok(false));
+    assert_eq!(sweeping.finished(), desk.session.plot(desk.id, &asked));
+}
+
+#[test]
 fn a_locus_keeps_its_distance_and_ends_where_the_linkage_ends() {
     let desk = Desk::of(&gallery("four-bar"));
     let plot = swept(&desk, &["coupler.p2", "crank.p2"], ("coupler.p2.x", "60", "400"), 100);

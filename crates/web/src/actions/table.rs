@@ -346,6 +346,8 @@ pub const ACTIONS: &[Action] = &[
         run: |lab| {
             if lab.dragging.with_untracked(Option::is_some) {
                 lab.cancel();
+            } else if lab.stop_sweeping() {
+                // what else there is, another Esc ends
             } else if lab.drafts() {
                 lab.draft_end();
             } else if lab.tool.with_untracked(Option::is_some) {
