@@ -33,9 +33,10 @@ const LONGEST_HEAD: usize = 16 << 10;
 pub(crate) struct Arguments {
     /// The document to open, or to begin where there is none yet; without it the gallery.
     file: Option<PathBuf>,
-    /// The port on 127.0.0.1; 0 takes a free one.
-    #[arg(long, default_value_t = 0)]
-    port: u16,
+    /// The port on 127.0.0.1; 0 takes a free one. Without it each folder has one of its own, so that the browser
+    /// finds again what it keeps for that folder: unsaved texts, what was chosen.
+    #[arg(long)]
+    port: Option<u16>,
     /// The folder whose documents may be read and saved; else the current one, or FILE's where that
     /// lies elsewhere.
     #[arg(long)]
@@ -68,7 +69,7 @@ pub(crate) fn run(arguments: &Arguments) -> ExitCode {
 
 async fn open(arguments: &Arguments) -> io::Result<()> {
     let (root, document) = choose(arguments.root.as_deref(), arguments.file.as_deref())?;
-    let listener = TcpListener::bind((Ipv4Addr::LOCALHOST, arguments.port)).await?;
+    let listener = listen(arguments.port, root.folder()).await?;
     let address = listener.local_addr()?;
     let guard = guard::Guard::new(address.port())?;
     let page = page_address(address, document.as_deref(), guard.token());
@@ -77,6 +78,31 @@ async fn open(arguments: &Arguments) -> io::Result<()> {
         open_browser(&page);
     }
     accept(listener, Rc::new(Lab { root, guard })).await
+}
+
+/// Listens on a port that was asked for, or else on the folder's own; where another program has that, on a free one.
+async fn listen(port: Option<u16>, folder: &Path) -> io::Result<TcpListener> {
+    let at = |port| TcpListener::bind((Ipv4Addr::LOCALHOST, port));
+    match port {
+        Some(port) => at(port).await,
+        None => match at(own_port(folder)).await {
+            Ok(listener) => Ok(listener),
+            Err(_) => at(0).await,
+        },
+    }
+}
+
+/// The port that a folder has where it is free, by its name: one that nothing is registered for, above those that
+/// Linux gives to outgoing connections. **Source:** RFC 6335, section 6.
+fn own_port(folder: &Path) -> u16 {
+    const FIRST: u32 = 61_000;
+    const COUNT: u32 = 65_536 - FIRST;
+    // FNV-1a
+    let bytes = folder.as_os_str().as_encoded_bytes();
+    let hash = bytes
+        .iter()
+        .fold(0x811c_9dc5_u32, |hash, &byte| (hash ^ u32::from(byte)).wrapping_mul(0x0100_0193));
+    (FIRST + hash % COUNT) as u16
 }
 
 /// The folder to serve, and the document's name in it.

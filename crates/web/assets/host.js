@@ -14,7 +14,10 @@ const tabs = new BroadcastChannel(KEY)
 tabs.onmessage = ({ data }) => {
   const own = sessionStorage.getItem(KEY)
   if (data === "ask" && own) tabs.postMessage({ token: own })
+  // a server that was started again has another token: tabs of the one before go on with it
+  if (data?.renewed) sessionStorage.setItem(KEY, data.renewed)
 }
+if (given) tabs.postMessage({ renewed: given })
 
 // The token: this tab's, or that of another tab that answers within a moment.
 function token() {

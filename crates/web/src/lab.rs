@@ -27,8 +27,11 @@ use std::collections::BTreeMap;
 use std::fmt;
 
 mod documents;
+mod drafts;
 mod edits;
 mod export;
+
+pub use drafts::Draft;
 
 /// An open document.
 #[derive(Clone, PartialEq, Debug)]
@@ -135,7 +138,7 @@ pub struct Lab {
     /// What stands on disk instead, after a save was refused for it.
     pub conflict: RwSignal<Option<Option<Stored>>>,
     /// Unsaved text of an earlier visit.
-    pub draft: RwSignal<Option<String>>,
+    pub draft: RwSignal<Option<Draft>>,
     /// Whether the explanation panel is open.
     pub why: RwSignal<bool>,
     /// Whether the palette of actions is open.

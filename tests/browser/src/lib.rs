@@ -28,7 +28,7 @@ pub struct Visit {
     // Dropped in this order: a folder is gone only after those who write into it.
     _session: Session,
     _driver: Process,
-    _server: Process,
+    server: Option<Process>,
     folder: Folder,
 }
 
@@ -81,15 +81,7 @@ impl Visit {
     /// Where the server, the driver or the browser does not start: then there is nothing to test.
     pub async fn open(document: Option<&str>) -> Visit {
         let folder = copy_of_the_gallery();
-        let (server, line) = start(
-            Command::new(named("THINGLAB"))
-                .args(["serve", "--no-open", "--root"])
-                .arg(&folder.0)
-                .args(document.map(|name| folder.0.join("gallery").join(name))),
-            "http://",
-        )
-        .expect("the server says that it runs");
-        let address = format!("http://{}", line.split_once("http://").expect("an address").1);
+        let (server, address) = serve(&folder, document);
         let (driver, port) = start_driver();
         let client = ClientBuilder::new(HttpConnector::new())
             .capabilities(capabilities(&folder.0))
@@ -104,7 +96,27 @@ impl Visit {
         client.execute(over, Vec::new()).await.expect("the browser keeps it");
         client.goto(&address).await.expect("the page's address answers");
         let session = Session { port, name };
-        Visit { client, address, _session: session, _driver: driver, _server: server, folder }
+        let server = Some(server);
+        Visit { client, address, _session: session, _driver: driver, server, folder }
+    }
+
+    /// Kills the server in the midst of whatever it does, and starts another over the same folder; the page stays.
+    ///
+    /// # Panics
+    /// Where the other one does not start.
+    pub fn kill_server(&mut self) {
+        self.server = None;
+        let (server, address) = serve(&self.folder, None);
+        (self.server, self.address) = (Some(server), address);
+    }
+
+    /// Leaves the page at once, asked or not, and comes to the lab again.
+    ///
+    /// # Panics
+    /// Where the browser does not go there.
+    pub async fn leave_and_return(&self) {
+        self.client.goto("about:blank").await.expect("an empty page");
+        self.client.goto(&self.address).await.expect("the page's address answers");
     }
 
     /// Runs a script in the page and gives what it returns.
@@ -165,6 +177,19 @@ fn named(variable: &str) -> PathBuf {
             panic!("{variable} is not set: `cargo verify` builds and names what these tests need")
         }
     }
+}
+
+/// Starts the server; gives it and its address.
+fn serve(folder: &Folder, document: Option<&str>) -> (Process, String) {
+    let (server, line) = start(
+        Command::new(named("THINGLAB"))
+            .args(["serve", "--no-open", "--root"])
+            .arg(&folder.0)
+            .args(document.map(|name| folder.0.join("gallery").join(name))),
+        "http://",
+    )
+    .expect("the server says that it runs");
+    (server, format!("http://{}", line.split_once("http://").expect("an address").1))
 }
 
 /// Starts chromedriver and gives its port. It takes a port that is free for one kind of address and

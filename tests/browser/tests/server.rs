@@ -1,6 +1,10 @@
 //! The page and its server together, whatever the page shows.
 
 use browser::Visit;
+use browser::hands::key::CONTROL;
+use browser::hands::{chord, drag, grip, show, state, text_of};
+use fantoccini::Locator;
+use std::time::Duration;
 
 #[tokio::test]
 async fn the_page_starts_and_keeps_its_token_to_itself() {
@@ -64,4 +68,56 @@ async fn the_page_comes_compressed() {
     let size = |n: usize| sizes[n].as_f64().expect("a number");
     assert_eq!(size(0), 1.0);
     assert!(2.0 * size(1) < size(2), "{sizes}");
+}
+
+/// The same numbers in every run, that look as if they were drawn.
+fn drawn(seed: &mut u64) -> u64 {
+    *seed = seed.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
+    *seed >> 33
+}
+
+#[tokio::test]
+async fn what_was_seen_outlives_a_killed_server_and_a_closed_page() {
+    const END: char = '\u{e010}';
+    let mut visit = Visit::open(None).await;
+    let mut seed = 1979;
+    let mut seen = text_of(&show(&visit, "quadrilateral.thing").await);
+    for round in 0..6 {
+        if round % 2 == 0 {
+            visit.script("document.getElementById('tab-text').ariaSelected !== 'true' && document.getElementById('tab-text').click()").await;
+            visit.until("document.querySelector('.cm-content')").await;
+            let editor = visit.client.find(Locator::Css(".cm-content")).await.expect("the editor");
+            editor.click().await.expect("a click");
+            chord(&visit, &[CONTROL], END).await;
+            let line = format!("seen{round}: Real = {}\n", drawn(&mut seed) % 1000);
+            editor.send_keys(&line).await.expect("typing");
+            seen += &line;
+        } else {
+            let from = grip(&state(&visit).await, "q.outer.side1.p1");
+            let by = [drawn(&mut seed), drawn(&mut seed)].map(|n| (n % 60) as f64 - 30.0);
+            drag(&visit, from, (from.0 + by[0], from.1 + by[1])).await;
+            seen = text_of(&state(&visit).await);
+        }
+        tokio::time::sleep(Duration::from_millis(drawn(&mut seed) % 200)).await;
+        if drawn(&mut seed).is_multiple_of(2) {
+            visit.kill_server();
+        }
+        visit.leave_and_return().await;
+        show(&visit, "quadrilateral.thing").await;
+        visit.until("document.querySelector('.notice .primary')").await;
+        visit.script("document.querySelector('.notice .primary').click()").await;
+        assert_eq!(text_of(&state(&visit).await), seen, "round {round}");
+    }
+    visit.kill_server();
+    // a page that was there before goes on with the new server, once another has come with its address
+    let old = visit.client.window().await.expect("a window");
+    let new = visit.client.new_window(true).await.expect("another tab");
+    visit.client.switch_to_window(new.handle).await.expect("it is there");
+    visit.client.goto(&visit.address).await.expect("the page's address answers");
+    visit.until("document.querySelector('main')").await;
+    visit.client.close_window().await.expect("the tab closes");
+    visit.client.switch_to_window(old).await.expect("it is still there");
+    chord(&visit, &[CONTROL], 's').await;
+    visit.until("!window.__thinglab.state().dirty").await;
+    assert_eq!(visit.saved("quadrilateral.thing"), seen);
 }

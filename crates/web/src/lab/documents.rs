@@ -4,7 +4,7 @@ use super::{ABSENT, Lab, Opened, Zoom};
 use crate::dialog::Wish;
 use crate::lab::Notice;
 use crate::server::{self, Listed, Saved, Stored};
-use crate::{js, route, theme, words};
+use crate::{js, route, words};
 use leptos::prelude::*;
 use session::Command;
 use session::view::DocumentId;
@@ -110,10 +110,9 @@ impl Lab {
         self.sums.set(Vec::new());
         self.notice.set(None);
         self.conflict.set(None);
-        let draft = theme::keep(&draft_key(path)).filter(|draft| *draft != opened.saved);
-        self.draft.set(draft.filter(|_| !opened.dirty));
         self.current.set(Some(String::from(path)));
         self.document.set(Some(opened));
+        self.offer_draft(path);
         self.refresh();
         self.meet_lesson(path);
         self.zoom.set(Some(Zoom::Fit));
@@ -141,29 +140,6 @@ impl Lab {
                 all.insert(path, document.clone());
             });
             self.document.set(Some(document));
-        }
-    }
-
-    /// Keeps unsaved text in the browser, outside the bundle's memory.
-    pub(super) fn keep_draft(self, source: &str) {
-        let Some(path) = self.current.get_untracked() else { return };
-        let dirty = self.document.with_untracked(|d| d.as_ref().is_some_and(|d| d.dirty));
-        if dirty {
-            theme::put(&draft_key(&path), Some(source));
-        } else if self.draft.with_untracked(Option::is_none) {
-            theme::put(&draft_key(&path), None);
-        }
-    }
-
-    /// Takes up the unsaved text of an earlier visit, or forgets it.
-    pub fn decide_draft(self, restore: bool) {
-        let Some(draft) = self.draft.get_untracked() else { return };
-        self.draft.set(None);
-        if restore {
-            self.apply(&Command::Text(draft));
-        } else {
-            let source = self.text.with_untracked(|text| text.source.clone());
-            self.keep_draft(&source);
         }
     }
 
@@ -226,7 +202,7 @@ impl Lab {
         let outcome = server::save(&path, &text, ABSENT).await;
         match outcome {
             Saved::Done(version) => {
-                theme::put(&draft_key(&old), None);
+                Self::forget_draft(&old);
                 self.order(|session| session.rename(document.id, &path));
                 let writable = true;
                 let opened = Opened { version, writable, saved: text, dirty: false, ..document };
@@ -321,10 +297,6 @@ async fn stands(path: &str) -> Result<Stored, String> {
     let begun =
         || Stored { text: String::from(NEW_TEXT), version: String::from(ABSENT), writable: true };
     Ok(server::document(path).await?.unwrap_or_else(begun))
-}
-
-fn draft_key(path: &str) -> String {
-    format!("thinglab/draft/{path}")
 }
 
 /// The path of a file that a document names in `use`: `parts.bolts` is `parts/bolts.thing` beside it.

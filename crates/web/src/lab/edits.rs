@@ -197,6 +197,7 @@ impl Lab {
     /// Takes note of what the editor holds; it becomes a command a little later, or before the next
     /// one.
     pub fn typed_text(self, text: String) {
+        self.keep_draft(&text);
         self.pending_text.set_value(Some(text));
         self.typing.update_value(|n| *n += 1);
         let mine = self.typing.get_value();
