@@ -3,7 +3,7 @@
 //! `cargo bench-table SECTION` prints one section, `cargo bench-table SECTION NAME` the rows whose names
 //! begin so: `cargo bench-table sketches rects`. The sections: `sketches`, `drags`, `displaced`, `circuits`,
 //! `trusses`, `rows`, `instances`, `tape`, `things`, `gallery` (`gallery NAME GRIP` drags by one grip), `browser` (in
-//! WebAssembly, in a browser). Figures to
+//! WebAssembly, in a browser), `lab` (the page as people get it). Figures to
 //! read, not tests: nothing here fails for being slow.
 
 mod circuits;
@@ -19,7 +19,7 @@ use std::io::{self, Write};
 use std::process::{Command, Stdio};
 
 /// The sections, in the order in which they are printed.
-const SECTIONS: [&str; 11] = [
+const SECTIONS: [&str; 12] = [
     "sketches",
     "drags",
     "displaced",
@@ -31,6 +31,7 @@ const SECTIONS: [&str; 11] = [
     "things",
     "gallery",
     "browser",
+    "lab",
 ];
 
 fn main() -> io::Result<()> {
@@ -56,6 +57,7 @@ fn main() -> io::Result<()> {
             "tape" => tape::table(out)?,
             "things" => things::table(out)?,
             "gallery" => gallery::table(out, filter, grip)?,
+            "lab" => figures(out, &["lab"])?,
             _ => browser(out)?,
         }
     }
@@ -65,8 +67,13 @@ fn main() -> io::Result<()> {
 /// Prints the figures that a browser can tell, native ones first; builds their page and has a browser print it.
 fn browser(out: &mut impl Write) -> io::Result<()> {
     writeln!(out, "native\n{}in the browser", bench::browser::table())?;
+    figures(out, &[])
+}
+
+/// Prints what a browser tells.
+fn figures(out: &mut impl Write, of: &[&str]) -> io::Result<()> {
     let cargo = std::env::var_os("CARGO").unwrap_or_else(|| "cargo".into());
     let xtask = ["run", "--quiet", "--package", "xtask", "--", "figures"];
-    let printed = Command::new(cargo).args(xtask).stderr(Stdio::inherit()).output()?;
+    let printed = Command::new(cargo).args(xtask).args(of).stderr(Stdio::inherit()).output()?;
     out.write_all(&printed.stdout)
 }

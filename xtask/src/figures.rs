@@ -1,4 +1,5 @@
-//! What `cargo bench-table browser` calls: builds the page of figures and reads it in a browser.
+//! What `cargo bench-table browser` calls: builds the page of figures and reads it in a browser. And what
+//! `cargo bench-table lab` calls: builds the lab and visits it.
 
 use std::path::{Path, PathBuf};
 use std::process::{Command, ExitCode, Stdio};
@@ -6,26 +7,42 @@ use std::{fs, io};
 
 use crate::bundle::{self, Effort};
 use crate::say;
-use crate::tools::{self, Missing, Tool};
+use crate::tools::{self, Missing, Tool, WasmCompiler};
+
+/// Whose figures are wanted.
+#[derive(Clone, Copy)]
+pub(crate) enum Of {
+    /// What the solver does in WebAssembly.
+    Browser,
+    /// The lab's, as people get it.
+    Lab,
+}
 
 /// Reads the command line.
 ///
 /// # Errors
 /// A sentence about the first argument that is not one.
-pub(crate) fn parse(arguments: &[String]) -> Result<Missing, String> {
-    match arguments {
-        [] => Ok(Missing::Name),
-        [install] if install == "--install" => Ok(Missing::Install),
+pub(crate) fn parse(arguments: &[String]) -> Result<(Of, Missing), String> {
+    let (of, rest) = match arguments.split_first() {
+        Some((first, rest)) if first == "lab" => (Of::Lab, rest),
+        _ => (Of::Browser, arguments),
+    };
+    match rest {
+        [] => Ok((of, Missing::Name)),
+        [install] if install == "--install" => Ok((of, Missing::Install)),
         [other, ..] => Err(format!("unknown argument {other}")),
     }
 }
 
 /// Builds and prints; 2 where something is missing, 1 where something does not compile or run.
-pub(crate) fn run(missing: Missing) -> ExitCode {
+pub(crate) fn run((of, missing): (Of, Missing)) -> ExitCode {
     tools::require(&[Tool::WasmCompiler, Tool::Browser], missing);
     let (Some(compiler), Some(browser)) = (tools::wasm_compiler(), tools::browser()) else {
         return ExitCode::from(2);
     };
+    if let Of::Lab = of {
+        return lab(&compiler, &browser);
+    }
     let table = bundle::module("figures", &compiler, Effort::Full).and_then(|module| {
         let page = written(&module).map_err(|error| format!("no page of figures: {error}"))?;
         shown(&browser, &page)
@@ -34,6 +51,26 @@ pub(crate) fn run(missing: Missing) -> ExitCode {
         Ok(table) => {
             say!("{table}");
             ExitCode::SUCCESS
+        }
+        Err(why) => {
+            say!("{why}");
+            ExitCode::FAILURE
+        }
+    }
+}
+
+/// Builds the lab as people get it, and has it visited.
+fn lab(compiler: &WasmCompiler, browser: &Path) -> ExitCode {
+    let built = bundle::build(compiler, Effort::Full);
+    match built.and_then(|()| bundle::build_command(Effort::Quick)) {
+        Ok(thinglab) => {
+            let mut visit =
+                tools::cargo(&["run", "--quiet", "--package", "browser", "--bin", "lab-figures"]);
+            visit.env("THINGLAB", thinglab).env("CHROMIUM", browser);
+            match visit.status() {
+                Ok(status) if status.success() => ExitCode::SUCCESS,
+                Ok(_) | Err(_) => ExitCode::FAILURE,
+            }
         }
         Err(why) => {
             say!("{why}");
