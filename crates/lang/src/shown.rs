@@ -13,18 +13,18 @@ use kernel::Document;
 /// So many significant digits of a number are shown.
 const DIGITS: usize = 6;
 
-/// The prefixes of a thousand, smallest first.
-const PREFIXES: [(&str, i8); 10] = [
-    ("f", -15),
-    ("p", -12),
-    ("n", -9),
-    ("u", -6),
-    ("m", -3),
-    ("", 0),
-    ("k", 3),
-    ("M", 6),
-    ("G", 9),
-    ("T", 12),
+/// The prefixes of a thousand, smallest first, each with its power of ten and that as a number.
+const PREFIXES: [(&str, i8, f64); 10] = [
+    ("f", -15, 1e-15),
+    ("p", -12, 1e-12),
+    ("n", -9, 1e-9),
+    ("u", -6, 1e-6),
+    ("m", -3, 1e-3),
+    ("", 0, 1.0),
+    ("k", 3, 1e3),
+    ("M", 6, 1e6),
+    ("G", 9, 1e9),
+    ("T", 12, 1e12),
 ];
 
 /// What is known of a number beside its value.
@@ -139,20 +139,23 @@ fn prefixed(spelling: &str, size: impl Fn(&str) -> f64) -> String {
         (unit.dimension, unit.mantissa) == (base.dimension, 1.0)
             && unit.exponent == base.exponent + by
     };
-    let rungs = PREFIXES.iter().filter(|(_, by)| *by <= highest).filter_map(|(prefix, by)| {
+    let rung = |&(prefix, by, _): &(&str, i8, f64)| {
         let spelling = format!("{prefix}{stem}");
-        units::unit(&spelling).filter(|u| is_known(*u, *by)).map(|_| spelling)
-    });
-    let mut rungs: Vec<String> = rungs.collect();
+        units::unit(&spelling).filter(|u| by <= highest && is_known(*u, by)).map(|_| spelling)
+    };
     // as it is shown, so that 999.9999 is a thousand
     let reads =
         |s: &String| significant(size(s), DIGITS).parse::<f64>().is_ok_and(|shown| shown >= 1.0);
-    match rungs.iter().rposition(reads) {
-        Some(best) => rungs.swap_remove(best),
+    let bare = size(stem);
+    // what rounding does not bring to one is not looked at
+    let near = PREFIXES.iter().rev().filter(|(_, _, power)| bare >= 0.5 * power);
+    let smallest = || PREFIXES.iter().find_map(rung).filter(|s| size(s) >= 1e-3);
+    { near }
+        .filter_map(rung)
+        .find(reads)
         // below the smallest prefix that there is
-        None if rungs.first().is_some_and(|s| size(s) >= 1e-3) => rungs.swap_remove(0),
-        None => spelling.into(),
-    }
+        .or_else(smallest)
+        .unwrap_or_else(|| spelling.into())
 }
 
 #[cfg(test)]
