@@ -33,7 +33,7 @@ const LONGEST_HEAD: usize = 16 << 10;
 pub(crate) struct Arguments {
     /// The document to open, or to begin where there is none yet; without it the gallery.
     file: Option<PathBuf>,
-    /// The port on 127.0.0.1; 0 takes a free one. Without it each folder has one of its own, so that the browser
+    /// The port on 127.0.0.1; 0 takes a free one. Without it each folder has some of its own, so that the browser
     /// finds again what it keeps for that folder: unsaved texts, what was chosen.
     #[arg(long)]
     port: Option<u16>,
@@ -80,29 +80,34 @@ async fn open(arguments: &Arguments) -> io::Result<()> {
     accept(listener, Rc::new(Lab { root, guard })).await
 }
 
-/// Listens on a port that was asked for, or else on the folder's own; where another program has that, on a free one.
+/// Listens on a port that was asked for, or else on the first of the folder's own that no other program has; where
+/// there is none, on any that is free.
 async fn listen(port: Option<u16>, folder: &Path) -> io::Result<TcpListener> {
     let at = |port| TcpListener::bind((Ipv4Addr::LOCALHOST, port));
-    match port {
-        Some(port) => at(port).await,
-        None => match at(own_port(folder)).await {
-            Ok(listener) => Ok(listener),
-            Err(_) => at(0).await,
-        },
+    if let Some(port) = port {
+        return at(port).await;
     }
+    for port in own_ports(folder) {
+        if let Ok(listener) = at(port).await {
+            return Ok(listener);
+        }
+    }
+    at(0).await
 }
 
-/// The port that a folder has where it is free, by its name: one that nothing is registered for, above those that
-/// Linux gives to outgoing connections. **Source:** RFC 6335, section 6.
-fn own_port(folder: &Path) -> u16 {
+/// The ports of a folder by its name, one for each lab that may be open over it at once: ports that nothing is
+/// registered for, above those that Linux gives to outgoing connections. **Source:** RFC 6335, section 6.
+fn own_ports(folder: &Path) -> impl Iterator<Item = u16> {
     const FIRST: u32 = 61_000;
-    const COUNT: u32 = 65_536 - FIRST;
+    const EACH: u32 = 8;
+    const FOLDERS: u32 = (65_536 - FIRST) / EACH;
     // FNV-1a
     let bytes = folder.as_os_str().as_encoded_bytes();
     let hash = bytes
         .iter()
         .fold(0x811c_9dc5_u32, |hash, &byte| (hash ^ u32::from(byte)).wrapping_mul(0x0100_0193));
-    (FIRST + hash % COUNT) as u16
+    let own = FIRST + hash % FOLDERS * EACH;
+    (own..own + EACH).map(|port| port as u16)
 }
 
 /// The folder to serve, and the document's name in it.
@@ -210,7 +215,17 @@ async fn serve_connection(stream: TcpStream, lab: Rc<Lab>) {
 
 #[cfg(test)]
 mod tests {
-    use super::real_path;
+    use super::{own_ports, real_path};
+    use std::path::Path;
+
+    #[test]
+    fn a_folder_has_the_same_ports_again_and_another_has_others() {
+        let ports = |folder: &str| own_ports(Path::new(folder)).collect::<Vec<u16>>();
+        assert_eq!(ports("/home/a"), ports("/home/a"));
+        assert_eq!(ports("/home/a").len(), 8);
+        assert!(ports("/home/a").iter().all(|port| (61_000..=65_535).contains(port)));
+        assert!(ports("/home/a").iter().all(|port| !ports("/home/b").contains(port)));
+    }
 
     #[test]
     fn a_file_that_is_not_there_yet_is_begun_in_a_folder_that_is() {
