@@ -43,6 +43,9 @@ pub(crate) fn build(compiler: &WasmCompiler, effort: Effort) -> Result<(), Strin
     Ok(())
 }
 
+/// The files of the assets that are worth compressing.
+const COMPRESSED: [&str; 2] = ["codemirror.js", "style.css"];
+
 /// Compiles a package's program of the same name for the browser; gives the folder of its module: `NAME.js`, and
 /// `NAME_bg.wasm` that it loads.
 ///
@@ -59,13 +62,18 @@ pub(crate) fn module(
     let made = made.with_extension("wasm");
     run("the page did not compile", &mut compile_command(package, compiler, effort))?;
     let module = target().join("bindgen").join(profile).join(package);
-    if is_older(&module.join(format!("{package}_bg.wasm")), &made) {
+    let compressed = COMPRESSED.map(|name| top().join("crates/web/assets").join(name));
+    let is_stale =
+        |(name, file): (&str, &PathBuf)| is_older(&module.join(format!("{name}.br")), file);
+    if is_older(&module.join(format!("{package}_bg.wasm")), &made)
+        || COMPRESSED.into_iter().zip(&compressed).any(is_stale)
+    {
         say!("page: making its module");
         let mut bindgen = tools::cargo(&["run", "--package", "bindgen", "--"]);
         if effort == Effort::Quick {
             bindgen.arg("--quick");
         }
-        bindgen.arg(&made).arg(&module).arg(top().join("crates/web/assets/codemirror.js"));
+        bindgen.arg(&made).arg(&module).args(&compressed);
         run("the page's module was not made", quiet(&mut bindgen))?;
     }
     Ok(module)
