@@ -38,6 +38,14 @@ pub fn of_tool(action: &str) -> AnyView {
 pub fn chevron() -> AnyView {
     icon("M6 4l4 4-4 4")
 }
+/// A triangle to the right.
+pub fn play() -> AnyView {
+    icon("M5 3l8 5-8 5z")
+}
+/// A square.
+pub fn stop() -> AnyView {
+    icon("M4.500 4.500h7v7h-7z")
+}
 /// Two rings of a chain.
 pub fn link() -> AnyView {
     icon("M6.5 9.5l3-3M7 4.5l1-1a2.8 2.8 0 014 4l-1 1M9 11.5l-1 1a2.8 2.8 0 01-4-4l1-1")

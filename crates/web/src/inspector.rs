@@ -183,8 +183,11 @@ fn shown_values(
             Some(shared.map_or(own, |w| w.path.clone()))
         }
         None => {
-            let is_given = row.given && !row.is_layout && row.number.is_some();
-            (is_given && depth(&row.shortest) <= 1).then(|| row.path.clone())
+            let is_given = row.given && depth(&row.shortest) <= 1;
+            // what the document itself computes and has a word for
+            let is_told = row.is_virtual && depth(&row.shortest) == 0 && !row.doc.is_empty();
+            let is_shown = (is_given || is_told) && !row.is_layout && row.number.is_some();
+            is_shown.then(|| row.path.clone())
         }
     };
     let shared =

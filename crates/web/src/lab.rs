@@ -11,6 +11,7 @@ use crate::files::{FileSet, Files};
 use crate::first;
 use crate::menu::{self, Menu};
 use crate::picture::covers;
+use crate::player::Player;
 use crate::plot::Plotting;
 use crate::server::{Listed, Stored};
 use crate::sheet::View;
@@ -155,6 +156,8 @@ pub struct Lab {
     pub carried: StoredValue<bool>,
     /// What the thing that is dragged would be joined with.
     pub dropping: RwSignal<Option<(Path, Caught)>>,
+    /// What plays values.
+    pub player: Player,
     /// The expressions of the calculator.
     pub sums: RwSignal<Vec<String>>,
     /// What is plotted.
@@ -227,6 +230,8 @@ pub struct InPlace {
 pub enum Zoom {
     /// Everything in sight.
     Fit,
+    /// A box of the sheet in sight, unless it is.
+    Over(drawing::Bounds),
     /// Larger or smaller by this factor.
     By(f64),
 }
@@ -290,6 +295,7 @@ impl Lab {
             cursor: RwSignal::new(None),
             carried: StoredValue::new(false),
             dropping: RwSignal::new(None),
+            player: Player::default(),
             sums: RwSignal::new(Vec::new()),
             plotting: Plotting::default(),
             drafting: Drafting::default(),

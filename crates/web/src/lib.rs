@@ -35,6 +35,7 @@ pub mod page;
 pub mod paint;
 pub mod palette;
 pub mod picture;
+pub mod player;
 pub mod plot;
 pub mod probe;
 pub mod rail;

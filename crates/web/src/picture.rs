@@ -9,7 +9,7 @@ use crate::lab::{Lab, Marked, Zoom, first_path};
 use crate::paint::{
     DisplayList, Mark, Part, arrows, caught, display_list, ghosts, grid, loci, preview,
 };
-use crate::sheet::{View, fit};
+use crate::sheet::{View, fit, fit_box};
 use crate::words;
 use drawing::{Point, Vertical};
 use js_sys::Array;
@@ -270,10 +270,20 @@ fn zoom_as_asked(lab: Lab, size: (f64, f64)) {
         return;
     }
     lab.zoom.set(None);
+    let margin = MARGIN.min(0.12 * size.0.min(size.1));
     match asked {
+        Zoom::Over(all) => {
+            let is_seen = |p: Point| {
+                let (x, y) = lab.view.with_untracked(|view| view.screen_from_sheet(p));
+                (0.0..=size.0).contains(&x) && (0.0..=size.1).contains(&y)
+            };
+            if !is_seen(all.least) || !is_seen(all.most) {
+                let vertical = lab.picture.with_untracked(|p| p.drawing.vertical);
+                lab.view.set(fit_box(all, vertical, size, margin));
+            }
+        }
         Zoom::Fit => {
             lab.fits.set_value(true);
-            let margin = MARGIN.min(0.12 * size.0.min(size.1));
             lab.view.set(lab.picture.with_untracked(|p| fit(&p.drawing, size, margin)));
         }
         Zoom::By(factor) => {

@@ -220,7 +220,10 @@ impl Lab {
         let range = self.values.with_untracked(|rows| {
             let row = rows.iter().find(|row| row.path == path || row.shortest == path)?;
             let number = row.exact.parse::<f64>().ok()?;
-            let (least, most) = values::slider_range(number, None);
+            // as the number is shown: an angle in degrees, unless a unit says otherwise
+            let scale = if row.unit == "deg" { 180.0 / std::f64::consts::PI } else { 1.0 };
+            let turn = values::whole_turn(row).map(|ends| (ends.0 * scale, ends.1 * scale));
+            let (least, most) = values::slider_range(number, turn, None);
             let end = |x: f64| words::with_unit(&base::number::significant(x, 6), &row.unit);
             Some((end(least), end(most)))
         });

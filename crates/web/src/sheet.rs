@@ -2,6 +2,7 @@
 //!
 //! Screen coordinates are CSS pixels from the canvas's top left corner, `y` down.
 
+pub use drawing::Bounds;
 use drawing::{Drawing, Point, Shape, Vertical};
 
 /// The part of the sheet that one sees.
@@ -21,15 +22,6 @@ impl Default for View {
     fn default() -> Self {
         Self { scale: 1.0, x: 0.0, y: 0.0, vertical: Vertical::Up }
     }
-}
-
-/// A box on the sheet.
-#[derive(Clone, Copy, PartialEq, Debug)]
-pub struct Bounds {
-    /// The corner with the smallest coordinates.
-    pub least: Point,
-    /// The corner with the largest.
-    pub most: Point,
 }
 
 /// The scales between which one can zoom.
@@ -105,8 +97,17 @@ impl View {
 }
 
 /// Returns the view that shows all of a drawing in the middle of a canvas of that size.
-pub fn fit(drawing: &Drawing, (width, height): (f64, f64), margin: f64) -> View {
-    let bounds = bounds(drawing);
+pub fn fit(drawing: &Drawing, size: (f64, f64), margin: f64) -> View {
+    fit_box(bounds(drawing), drawing.vertical, size, margin)
+}
+
+/// Returns the view that shows a box of the sheet in the middle of a canvas of that size.
+pub fn fit_box(
+    bounds: Bounds,
+    vertical: Vertical,
+    (width, height): (f64, f64),
+    margin: f64,
+) -> View {
     let (w, h) = (bounds.most.x - bounds.least.x, bounds.most.y - bounds.least.y);
     let room = ((width - 2.0 * margin).max(1.0), (height - 2.0 * margin).max(1.0));
     let wanted = f64::min(
@@ -114,7 +115,7 @@ pub fn fit(drawing: &Drawing, (width, height): (f64, f64), margin: f64) -> View 
         if h > 0.0 { room.1 / h } else { f64::INFINITY },
     );
     let scale = if wanted.is_finite() { wanted.clamp(SCALES.0, SCALES.1) } else { 1.0 };
-    let view = View { scale, x: 0.0, y: 0.0, vertical: drawing.vertical };
+    let view = View { scale, x: 0.0, y: 0.0, vertical };
     let middle = Point { x: bounds.least.x + w / 2.0, y: bounds.least.y + h / 2.0 };
     let (x, y) = view.screen_from_sheet(middle);
     view.panned(width / 2.0 - x, height / 2.0 - y)

@@ -1,6 +1,7 @@
 //! The status line, and what the lab has to say.
 
 use crate::lab::{Lab, Notice};
+use crate::player::NowPlaying;
 use crate::why::listed;
 use crate::{icons, words};
 use leptos::prelude::*;
@@ -56,6 +57,7 @@ pub fn StatusLine(
                 {move || if holds.get() && !doubtful.get() { icons::holds() } else { icons::warning() }}
                 <span role="status" aria-label=words::STATUS>{sentence}</span>
             </button>
+            <NowPlaying lab=lab />
             <span class="said" aria-live="polite" title=heard>{heard}</span>
         </footer>
     }

@@ -1,11 +1,13 @@
 //! The values view: a table in which every value can be typed, scrubbed and locked.
 
 use crate::lab::Lab;
+use crate::player::Play;
 use crate::{field, js, words};
 use leptos::ev::{KeyboardEvent, PointerEvent};
 use leptos::html::Span;
 use leptos::prelude::*;
 use session::view::ValueRow;
+use std::f64::consts::{PI, TAU};
 use wasm_bindgen::JsCast;
 
 /// At most so many rows are in the page at once; the filter finds the others.
@@ -273,7 +275,9 @@ pub fn Slider(
     let whole =
         Memo::new(move |_| row.with(|row| row.as_ref().is_some_and(|r| r.class == "Integer")));
     let range = Memo::new(move |old: Option<&(f64, f64)>| {
-        asked.get().unwrap_or_else(|| slider_range(number.get().unwrap_or(0.0), old))
+        let turn = row.with(|row| row.as_ref().and_then(whole_turn));
+        let around = || slider_range(number.get().unwrap_or(0.0), turn, old);
+        asked.get().unwrap_or_else(around)
     });
     let pressed = StoredValue::new(false);
     let moved = move |e: leptos::ev::Event| {
@@ -297,23 +301,39 @@ pub fn Slider(
     move || {
         number.with(Option::is_some).then(|| {
             view! {
+                <div class="led">
+                <Play lab=lab at=at path=path ends=range />
                 <input type="range" class="slider" aria-label=move || words::slider_of(&path.get())
                     min=move || range.get().0.to_string() max=move || range.get().1.to_string()
                     step=move || step().to_string()
                     prop:value=move || number.get().unwrap_or_default().to_string()
                     on:input=moved on:change=done />
+                </div>
             }
         })
     }
 }
 
-/// The ends of a slider: the old ones while the number lies between them, else around the number and zero.
-pub(crate) fn slider_range(number: f64, old: Option<&(f64, f64)>) -> (f64, f64) {
-    match old {
-        Some(&(least, most)) if least <= number && number <= most => (least, most),
-        _ if number == 0.0 => (-100.0, 100.0),
-        _ => ((2.0 * number).min(0.0), (2.0 * number).max(0.0)),
+/// The ends of a slider: the old ones while the number lies between them, else `natural` ones that hold it, else some
+/// around the number and zero.
+pub(crate) fn slider_range(
+    number: f64,
+    natural: Option<(f64, f64)>,
+    old: Option<&(f64, f64)>,
+) -> (f64, f64) {
+    let holds = |(least, most): &(f64, f64)| *least <= number && number <= *most;
+    match old.copied().filter(holds).or(natural.filter(holds)) {
+        Some(ends) => ends,
+        None if number == 0.0 => (-100.0, 100.0),
+        None => ((2.0 * number).min(0.0), (2.0 * number).max(0.0)),
     }
+}
+
+/// The ends of a whole turn in the units of a row's number, where that is an angle. One that is computed lies within
+/// half a turn of zero.
+pub(crate) fn whole_turn(row: &ValueRow) -> Option<(f64, f64)> {
+    let is_upward = !row.is_virtual && row.number.is_some_and(|number| number >= 0.0);
+    (row.class == "Angle").then_some(if is_upward { (0.0, TAU) } else { (-PI, PI) })
 }
 
 /// How much one step of scrubbing changes a number: one unit of its third figure or so.
@@ -481,9 +501,12 @@ mod tests {
 
     #[test]
     fn a_slider_keeps_its_ends_while_its_number_lies_between_them() {
-        assert_eq!(slider_range(120.0, None), (0.0, 240.0));
-        assert_eq!(slider_range(180.0, Some(&(0.0, 240.0))), (0.0, 240.0));
-        assert_eq!(slider_range(-5.0, Some(&(0.0, 240.0))), (-10.0, 0.0));
+        assert_eq!(slider_range(120.0, None, None), (0.0, 240.0));
+        assert_eq!(slider_range(180.0, None, Some(&(0.0, 240.0))), (0.0, 240.0));
+        assert_eq!(slider_range(-5.0, None, Some(&(0.0, 240.0))), (-10.0, 0.0));
+        assert_eq!(slider_range(30.0, Some((0.0, 360.0)), None), (0.0, 360.0));
+        assert_eq!(slider_range(30.0, Some((-180.0, 180.0)), None), (-180.0, 180.0));
+        assert_eq!(slider_range(400.0, Some((0.0, 360.0)), None), (0.0, 800.0));
     }
 
     #[test]

@@ -132,6 +132,8 @@ pub const FIT: &str = "Fit the picture";
 pub const ZOOM_IN: &str = "Zoom in";
 pub const ZOOM_OUT: &str = "Zoom out";
 pub const GRID: &str = "Show or hide the grid";
+pub const PLAY: &str = "Play the selected number, or stop";
+pub const NO_NUMBER: &str = "select a number that can change";
 pub const LOCK: &str = "Lock or unlock the selection";
 pub const ENABLE: &str = "Switch the constraint on";
 pub const DISABLE: &str = "Switch the constraint off";
@@ -401,6 +403,16 @@ pub fn no_value_to_type(path: &str) -> String {
 /// What a screen reader hears of a constraint's switch.
 pub fn switch_of(path: &str) -> String {
     format!("{path} holds")
+}
+
+/// What begins to play a value.
+pub fn plays(path: &str) -> String {
+    format!("Play {path}")
+}
+
+/// What ends it.
+pub fn stops(path: &str) -> String {
+    format!("Stop {path}")
 }
 
 /// What a screen reader hears of a value's slider.

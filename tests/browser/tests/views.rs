@@ -37,6 +37,28 @@ async fn a_value_is_plotted_over_a_sweep_and_a_point_leaves_its_locus_while_it_i
 }
 
 #[tokio::test]
+async fn a_value_is_played_until_it_is_stopped_and_that_is_one_step_back() {
+    let visit = Visit::open(None).await;
+    let before = show(&visit, "four-bar.thing").await;
+    let from = grip(&before, "crank.p2");
+    let button = "document.querySelector('button.play[aria-label=\"Play turn\"]')";
+    visit.until(button).await;
+    visit.script(&format!("{button}.click()")).await;
+    visit.until("document.querySelector('.status .playing')").await;
+    let has_moved = format!(
+        "window.__thinglab.state().grips.some(g => g.path === 'crank.p2' && Math.hypot(g.x - {}, g.y - {}) > 3)",
+        from.0, from.1
+    );
+    visit.until(&has_moved).await;
+    visit.script("document.querySelector('.status .playing').click()").await;
+    visit.until("!document.querySelector('.playing')").await;
+    visit.until("window.__thinglab.state().status.undo").await;
+    visit.script("document.querySelector('[data-action=undo]').click()").await;
+    visit.until("!window.__thinglab.state().status.undo").await;
+    assert_eq!(state(&visit).await["text"], before["text"]);
+}
+
+#[tokio::test]
 async fn a_lesson_goes_on_as_its_tasks_are_done() {
     let visit = Visit::open(None).await;
     let before = show(&visit, "lesson-1-first-minute.thing").await;

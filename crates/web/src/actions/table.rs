@@ -86,6 +86,19 @@ pub const ACTIONS: &[Action] = &[
         run: |lab| lab.why.update(|why| *why = !*why),
     },
     Action {
+        id: "play",
+        group: Group::Edit,
+        contexts: &[Context::Thing],
+        label: words::PLAY,
+        keys: &["Alt+P"],
+        enabled: |lab| {
+            document(lab)?;
+            let plays = lab.player.now.with(Option::is_some);
+            if plays || lab.playable().is_some() { Ok(()) } else { Err(words::NO_NUMBER) }
+        },
+        run: Lab::play_selection,
+    },
+    Action {
         id: "lock",
         group: Group::Edit,
         contexts: &[Context::Thing],

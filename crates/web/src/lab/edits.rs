@@ -224,6 +224,7 @@ impl Lab {
 
     /// Hands the session what was typed into the editor and not yet handed over.
     pub fn flush_text(self) {
+        self.stop_playing();
         let typed = self.pending_text.try_update_value(Option::take).flatten();
         if let Some(text) = typed {
             self.settle(self.tell(|session, id| session.apply(id, &Command::Text(text))));
