@@ -176,7 +176,7 @@ mod tests {
         };
         assert_eq!(first("zoom in"), "zoom-in");
         assert_eq!(first("undo"), "undo");
-        assert_eq!(first("under"), "gallery/bridge.thing");
+        assert_eq!(first("under load"), "gallery/bridge.thing");
         assert_eq!(first("ftp"), "fit");
         assert_eq!(first("recog"), "recognise");
         assert_eq!(first("brg"), "gallery/bridge.thing");
