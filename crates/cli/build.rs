@@ -11,19 +11,20 @@ fn main() -> io::Result<()> {
     println!("cargo::rerun-if-env-changed=THINGLAB_DIST");
 
     let mut table = String::new();
-    write_texts(&mut table, "LIBRARY", &top.join("library"))?;
-    write_texts(&mut table, "GALLERY", &top.join("gallery"))?;
+    write_texts(&mut table, "LIBRARY", &top.join("library"), "thing")?;
+    write_texts(&mut table, "GALLERY", &top.join("gallery"), "thing")?;
+    write_texts(&mut table, "TABLES", &top.join("gallery"), "csv")?;
     write_page(&mut table, env::var_os("THINGLAB_DIST").map(PathBuf::from))?;
     let out = PathBuf::from(env::var("OUT_DIR").expect("cargo names the output folder"));
     fs::write(out.join("embedded.rs"), table)
 }
 
-/// One table of `.thing` files: `(file name, text)`, in order of name.
-fn write_texts(table: &mut String, name: &str, folder: &Path) -> io::Result<()> {
+/// One table of the files with an ending: `(file name, text)`, in order of name.
+fn write_texts(table: &mut String, name: &str, folder: &Path, ending: &str) -> io::Result<()> {
     println!("cargo::rerun-if-changed={}", folder.display());
     writeln!(table, "pub(crate) static {name}: &[(&str, &str)] = &[").expect("a string");
     for path in
-        files_below(folder)?.iter().filter(|path| path.extension().is_some_and(|e| e == "thing"))
+        files_below(folder)?.iter().filter(|path| path.extension().is_some_and(|e| e == ending))
     {
         let short = path.strip_prefix(folder).expect("found below the folder");
         writeln!(table, "    ({short:?}, include_str!({path:?})),").expect("a string");

@@ -94,12 +94,17 @@ impl Root {
 /// # Errors
 /// [`DiskError::Name`] with what is wrong.
 pub(crate) fn check_name(name: &str) -> Result<(), DiskError> {
+    if !name.ends_with(".thing") {
+        return Err(DiskError::Name("it must end in .thing"));
+    }
+    check_path(name)
+}
+
+/// Refuses every name that is not a plain relative path, on any system.
+fn check_path(name: &str) -> Result<(), DiskError> {
     let refuse = |why| Err(DiskError::Name(why));
     if name.len() > 1024 || name.split('/').count() > DEEPEST {
         return refuse("too long or too deep");
-    }
-    if !name.ends_with(".thing") {
-        return refuse("it must end in .thing");
     }
     for component in name.split('/') {
         if component.is_empty() || component.len() > 255 {
@@ -171,10 +176,10 @@ pub(crate) fn list(root: &Root) -> Result<Vec<String>, DiskError> {
     Ok(names)
 }
 
-/// The real path of a document that exists or may be made: its folder exists below the root, and
+/// The real path of a file that exists or may be made: its folder exists below the root, and
 /// whatever stands at its name is a plain file.
 fn locate(root: &Root, name: &str) -> Result<PathBuf, DiskError> {
-    check_name(name)?;
+    check_path(name)?;
     let path = root.0.join(name);
     let folder = path.parent().expect("a file's path has a folder");
     let real = folder.canonicalize().map_err(|error| match error.kind() {
@@ -197,7 +202,19 @@ fn locate(root: &Root, name: &str) -> Result<PathBuf, DiskError> {
 /// # Errors
 /// Every case of [`DiskError`] but `Changed`.
 pub(crate) fn read(root: &Root, name: &str) -> Result<Stored, DiskError> {
+    check_name(name)?;
     read_at(&locate(root, name)?)
+}
+
+/// Reads the table of a family.
+///
+/// # Errors
+/// Every case of [`DiskError`] but `Changed`.
+pub(crate) fn read_table(root: &Root, name: &str) -> Result<String, DiskError> {
+    if !name.ends_with(".csv") {
+        return Err(DiskError::Name("a table must end in .csv"));
+    }
+    Ok(read_at(&locate(root, name)?)?.text)
 }
 
 fn read_at(path: &Path) -> Result<Stored, DiskError> {

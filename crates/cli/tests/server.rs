@@ -231,7 +231,7 @@ fn no_spelling_leads_out_of_the_folder() {
 fn unknown_methods_and_broken_bodies_change_nothing() {
     let server = Server::start("broken");
     for method in ["POST", "DELETE", "PATCH", "OPTIONS", "TRACE", "PROPFIND"] {
-        for target in ["/", "/api/documents", "/api/document", "/api/library"] {
+        for target in ["/", "/api/documents", "/api/document", "/api/table", "/api/library"] {
             let answer = server.ask(method, target, "");
             assert_eq!(status(&answer), 405, "{method} {target}\n{answer}");
             assert!(!answer.to_lowercase().contains("access-control"), "{answer}");

@@ -20,10 +20,21 @@ pub struct Family {
     pub program: ClassId,
     /// The name of the file with the table, where there is one.
     pub table: Option<String>,
-    /// The rows that are written out, each in the order of the parameters.
-    pub rows: Vec<Vec<Term>>,
+    /// The rows that are written out.
+    pub rows: Vec<Row>,
     /// What all rows have to fulfil, each as it is written.
     pub rules: Vec<(String, Term)>,
+}
+
+/// A row of a family that is written out.
+#[derive(Clone, PartialEq, Debug)]
+pub struct Row {
+    /// What it is called, where it begins with a text that is no value of the first parameter.
+    pub name: Option<String>,
+    /// Its values, in the order of the parameters.
+    pub values: Vec<Term>,
+    /// How each is written.
+    pub texts: Vec<String>,
 }
 
 /// Lowers the families of all texts.
@@ -98,9 +109,17 @@ fn lower_row(
     file: FileId,
     program: ClassId,
     row: &ast::TupleExpr,
-) -> Option<Vec<Term>> {
+) -> Option<Row> {
     let kinds = crate::kinds::fields(&l.document, program);
-    let values: Vec<ast::Expr> = row.elements().collect();
+    let mut values: Vec<ast::Expr> = row.elements().collect();
+    let takes_text = kinds.first() == Some(&Kind::Text);
+    let name = match values.first() {
+        Some(ast::Expr::Text(text)) if !takes_text => text.plain(),
+        _ => None,
+    };
+    if name.is_some() {
+        values.remove(0);
+    }
     if values.len() > kinds.len() {
         let (name, n) = (&l.document.classes[program].name, kinds.len());
         let message = format!("{name} has {n} parameters, here are {} values", values.len());
@@ -108,5 +127,7 @@ fn lower_row(
         return None;
     }
     let scope = Scope::of(file, l.object);
-    values.iter().zip(kinds).map(|(value, kind)| l.expr_of(&scope, value, &kind)).collect()
+    let texts = values.iter().map(|v| v.syntax().text().to_string().trim().to_string()).collect();
+    let values = values.iter().zip(kinds).map(|(value, kind)| l.expr_of(&scope, value, &kind));
+    Some(Row { name, values: values.collect::<Option<_>>()?, texts })
 }

@@ -71,7 +71,7 @@ mod write;
 
 pub use checks::{Check, Expectation, PlanKind, Statement, StatementKind, without_checks};
 pub use edits::{Restructuring, edits_for, for_every, is_count, of_constraint, write_sides};
-pub use families::Family;
+pub use families::{Family, Row as FamilyRow};
 pub use files::File;
 pub use lessons::{Goal, Lesson, LessonStep, Task};
 pub use lower::{Lowered, lower, lower_written};
@@ -79,4 +79,4 @@ pub use numbers::{Wanted, read_literal, show_limit};
 pub use origins::Origins;
 pub use shown::{Quantity, Shown, in_unit, show_quantity};
 pub use views::{PlotOf, Toolbox};
-pub use write::write_values;
+pub use write::{quoted, write_values};

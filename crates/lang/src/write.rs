@@ -459,7 +459,7 @@ impl Writer<'_> {
 }
 
 /// Writes a text with its quotes.
-pub(crate) fn quoted(text: &str) -> String {
+pub fn quoted(text: &str) -> String {
     let mut out = String::from("\"");
     for c in text.chars() {
         match c {

@@ -7,7 +7,7 @@
 //! Nothing is known of any construction: `catalogue` finds them in the classes in scope, `outcome` tries
 //! them in a copy of the text. So a construction that a library gains is a tool at once.
 //!
-//! Reading order: `catalogue`, `scene`, `typed`, `outcome`, `dialogue`, `hands`, `recording`, `blocks`, `operands`,
+//! Reading order: `catalogue`, `scene`, `typed`, `outcome`, `dialogue`, `older`, `hands`, `recording`, `blocks`, `operands`,
 //! `repeat`, `choice`, `demonstrating`, `measure`, `steps`, `visit`, `remove`, `visiting`, `text`.
 mod blocks;
 mod catalogue;
@@ -16,6 +16,7 @@ mod demonstrating;
 mod dialogue;
 mod hands;
 mod measure;
+mod older;
 mod operands;
 mod outcome;
 mod recording;
@@ -30,6 +31,7 @@ mod visit;
 mod visiting;
 
 pub(crate) use dialogue::Dialogue;
+pub(crate) use recording::retext;
 
 use base::Name;
 use kernel::Path;
@@ -126,4 +128,6 @@ pub(crate) struct Picking {
     pub(crate) level: usize,
     /// The measure that is taken.
     pub(crate) measure: Option<measure::Measuring>,
+    /// What was picked outside of the program, and is asked about.
+    pub(crate) older: Option<older::Older>,
 }

@@ -3,16 +3,26 @@
 //! In: a document with a program, and a table as text. Out: rows of plain values, and for each what came of
 //! it: it is drawn, or it lies outside of what the program demands, or a step has no outcome, or it takes too
 //! long. Every row is on its own.
+//!
+//! `grid` shows and changes rows that stand in the document, `map` runs a program over two of its parameters, `hands`
+//! is what the page asks.
+
+mod grid;
+mod hands;
+mod map;
+
+pub(crate) use grid::csv;
 
 use crate::state::State;
 use crate::view::{FamilyRow, FamilyView, Refusal, RowFormats, RowOutcome, TableView};
 use crate::views::drawn::walk;
 use crate::words;
 use drawing::{Drawing, Vertical, dxf, svg};
-use eval::{Answer, Standing, Why};
+use eval::{Answer, Context, Evaluator, Standing, Why};
 use kernel::{ClassId, ClassKind, DOCUMENT, Document, Literal, Primitive};
 use lang::{Family, Wanted};
 use std::collections::BTreeMap;
+use std::rc::Rc;
 
 /// Of what was drawn at most this many measures are told.
 const MOST_MEASURES: usize = 200;
@@ -170,14 +180,18 @@ fn written_rows(state: &State, family: &Family, read: &mut TableView) -> Result<
     let fields = document.layout(family.program);
     for (i, row) in family.rows.iter().enumerate() {
         let mut values = Vec::new();
-        for (term, &field) in row.iter().zip(&fields) {
+        let mut written = Vec::new();
+        for ((term, text), &field) in row.values.iter().zip(&row.texts).zip(&fields) {
             let answer =
                 evaluator.evaluate(term, DOCUMENT).map_err(|f| words::refuse(f.message))?;
             let name = document.field_name(field).to_string();
-            values.push((name, crate::check::literal_of(&answer)?));
+            let literal = crate::check::literal_of(&answer)?;
+            let text = if let Literal::Text(said) = &literal { said } else { text };
+            written.push((name.clone(), text.clone()));
+            values.push((name, literal));
         }
-        let name = (i + 1).to_string();
-        read.rows.push(FamilyRow { name, values, line: 0, fault: None });
+        let name = row.name.clone().unwrap_or_else(|| (i + 1).to_string());
+        read.rows.push(FamilyRow { name, values, written, line: 0, fault: None });
     }
     Ok(())
 }
@@ -213,7 +227,7 @@ fn read_table(
         let line = record.position().map_or(0, |p| p.line() as u32);
         let designated = designation.and_then(|at| record.get(at)).filter(|cell| !cell.is_empty());
         let name = designated.map_or_else(|| (i + 1).to_string(), str::to_string);
-        let mut row = FamilyRow { name: name.clone(), values: Vec::new(), line, fault: None };
+        let mut row = FamilyRow { name: name.clone(), line, ..FamilyRow::default() };
         if record.len() > columns.len() {
             let (n, m) = (columns.len(), record.len());
             row.fault = Some(format!("{m} cells, where the table has {n} columns"));
@@ -224,8 +238,12 @@ fn read_table(
             }
             // an empty cell is the program's own example
             let Some(class) = field(column).filter(|_| !cell.is_empty()) else { continue };
-            match literal(document, class, cell, unit) {
-                Ok(value) => row.values.push((column.clone(), value)),
+            let typed = with_unit_of_column(document, class, cell, unit);
+            match literal(document, class, &typed) {
+                Ok(value) => {
+                    row.values.push((column.clone(), value));
+                    row.written.push((column.clone(), typed));
+                }
                 Err(message) => row.fault = Some(format!("{column}: {message}")),
             }
         }
@@ -247,14 +265,18 @@ fn name_and_unit(header: &str) -> (String, String) {
     }
 }
 
-/// Reads a cell as a value of a class.
-fn literal(document: &Document, class: ClassId, cell: &str, unit: &str) -> Result<Literal, String> {
+/// Returns a cell with the unit of its column, where it is a bare number.
+fn with_unit_of_column(document: &Document, class: ClassId, cell: &str, unit: &str) -> String {
     let is_real = matches!(document.classes[class].kind, ClassKind::Primitive(Primitive::Real(_)));
-    let typed = match is_real && !unit.is_empty() && cell.parse::<f64>().is_ok() {
+    match is_real && !unit.is_empty() && cell.parse::<f64>().is_ok() {
         true => format!("{cell} {unit}"),
         false => cell.to_string(),
-    };
-    lang::read_literal(&typed, Wanted::Class(class), document).map_err(|d| d.message)
+    }
+}
+
+/// Reads what is typed as a value of a class.
+fn literal(document: &Document, class: ClassId, typed: &str) -> Result<Literal, String> {
+    lang::read_literal(typed, Wanted::Class(class), document).map_err(|d| d.message)
 }
 
 /// Notes names that stand twice, and rows that say the same.
@@ -320,34 +342,15 @@ pub(crate) fn draw(
         outcome.message = fault.clone();
         return Ok(outcome);
     }
-    let fields = document.layout(program);
-    let value = |(name, literal): &(String, Literal)| {
-        let field = *fields.iter().find(|&&f| *document.field_name(f) == **name)?;
-        Some((document.field_name(field), answer(document, document.field_class(field), literal)))
-    };
-    let values = row.values.iter().filter_map(value).collect();
-    let run = evaluator.run_with(program, values).map_err(|f| words::refuse(f.message))?;
+    let run = run_of((state, &evaluator), program, &row.values)?;
     let elements = evaluator.elements(&Answer::Context(run.clone()));
-    outcome.outcome = "drawn".into();
-    if let Some(ended) = &run.ended {
-        outcome.outcome = match ended.why {
-            Why::Outside => "outside",
-            Why::Failed => "failed",
-            Why::TooLong => "too-long",
-        }
-        .into();
-        outcome.step.clone_from(&ended.step);
-        outcome.message = ended.to_string();
+    if let Some((ended, step, message)) = ended(&evaluator, family, &run) {
+        outcome.outcome = ended.into();
+        outcome.step = step;
+        outcome.message = message;
         return Ok(outcome);
     }
-    for (said, rule) in family.map_or(&[][..], |f| &f.rules) {
-        if !evaluator.holds(rule, &run).unwrap_or(false) {
-            outcome.outcome = "outside".into();
-            outcome.step.clone_from(said);
-            outcome.message = format!("{said} is not met");
-            return Ok(outcome);
-        }
-    }
+    outcome.outcome = "drawn".into();
     outcome.measures = measures(document, &Answer::Context(run));
     let vertical = match document.vertical {
         kernel::Vertical::Up => Vertical::Up,
@@ -372,6 +375,44 @@ pub(crate) fn draw(
         outcome.dxf = dxf::write(&drawing, &options);
     }
     Ok(outcome)
+}
+
+/// Runs a program for values of its parameters; those that are not said are its own example's.
+///
+/// # Errors
+/// Values that its parameters do not take.
+fn run_of<'a>(
+    (state, evaluator): (&'a State, &Evaluator<'a>),
+    program: ClassId,
+    values: &[(String, Literal)],
+) -> Result<Rc<Context<'a>>, Refusal> {
+    let document = &state.lowered.document;
+    let fields = document.layout(program);
+    let value = |(name, literal): &(String, Literal)| {
+        let field = *fields.iter().find(|&&f| *document.field_name(f) == **name)?;
+        Some((document.field_name(field), answer(document, document.field_class(field), literal)))
+    };
+    let values = values.iter().filter_map(value).collect();
+    evaluator.run_with(program, values).map_err(|f| words::refuse(f.message))
+}
+
+/// Says why a run is no member of a family: what it is called, the step or the rule, and the words.
+fn ended<'a>(
+    evaluator: &Evaluator<'a>,
+    family: Option<&'a Family>,
+    run: &Rc<Context<'a>>,
+) -> Option<(&'static str, String, String)> {
+    if let Some(ended) = &run.ended {
+        let outcome = match ended.why {
+            Why::Outside => "outside",
+            Why::Failed => "failed",
+            Why::TooLong => "too-long",
+        };
+        return Some((outcome, ended.step.clone(), ended.to_string()));
+    }
+    let rules = family.map_or(&[][..], |f| &f.rules);
+    let broken = rules.iter().find(|(_, rule)| !evaluator.holds(rule, run).unwrap_or(false));
+    broken.map(|(said, _)| ("outside", said.clone(), format!("{said} is not met")))
 }
 
 /// Returns a literal as what an expression would be worth.

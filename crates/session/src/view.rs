@@ -4,9 +4,13 @@
 //! A `number` counts in base units: angles in radians, lengths in the document's units. A number's
 //! `text` is what a person reads and may type back: six digits in its `unit`, angles in degrees.
 
+mod families;
 mod reasons;
 mod tools;
 
+pub use families::{
+    FamilyAxis, FamilyGrid, FamilyMap, GridColumn, MapAxis, MapPlace, MapReason, RowUse,
+};
 pub use reasons::{
     Advice, Analysis, ContradictionView, ExplainedStep, Explanation, HeldView, MotionView,
     RedundantView, Velocity,
@@ -555,12 +559,14 @@ pub struct TableView {
 }
 
 /// A row: a name, and values of parameters. What is not said is the program's own example.
-#[derive(Clone, PartialEq, Debug)]
+#[derive(Clone, PartialEq, Debug, Default)]
 pub struct FamilyRow {
     /// Its name: the designation, or its number.
     pub name: String,
     /// Parameters and values.
     pub values: Vec<(String, kernel::Literal)>,
+    /// The same as they are written, with their units.
+    pub written: Vec<(String, String)>,
     /// The line of the table, from 1; 0 for a row of the document.
     pub line: u32,
     /// Why a cell is no value, where one is none.

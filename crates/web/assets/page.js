@@ -101,10 +101,10 @@ export async function unpack(packed) {
 }
 
 // Lets a person choose a file, and calls back with its name and its text.
-export function chooseFile(chosen) {
+export function chooseFile(endings, chosen) {
   const input = document.createElement("input")
   input.type = "file"
-  input.accept = ".thing,text/plain"
+  input.accept = endings
   input.addEventListener("change", async () => {
     const [file] = input.files
     if (file) chosen(file.name, await file.text())

@@ -1,6 +1,7 @@
-//! The bottom dock: text, table, plot and calculator, shut at first; and what a narrow page pulls up instead.
+//! The bottom dock: text, table, plot, calculator and family, shut at first; and what a narrow page pulls up instead.
 
 use crate::calculator::Calculator;
+use crate::family::Families;
 use crate::lab::Lab;
 use crate::plot::PlotPane;
 use crate::splitter::{Splitter, Way};
@@ -22,7 +23,12 @@ pub enum Tab {
     Plot,
     /// Expressions and their values.
     Calculator,
+    /// Rows that a program draws.
+    Family,
 }
+
+/// The tabs, in order.
+const ALL: [Tab; 5] = [Tab::Text, Tab::Table, Tab::Plot, Tab::Calculator, Tab::Family];
 
 impl Tab {
     fn label(self) -> &'static str {
@@ -31,6 +37,7 @@ impl Tab {
             Self::Table => words::TABLE,
             Self::Plot => words::PLOT,
             Self::Calculator => words::CALCULATOR,
+            Self::Family => words::FAMILY,
         }
     }
 }
@@ -63,7 +70,7 @@ impl Sheet {
 /// What the dock showed in the last visit.
 pub fn kept() -> Option<Tab> {
     let kept = theme::keep(DOCK_KEY)?;
-    [Tab::Text, Tab::Table, Tab::Plot, Tab::Calculator].into_iter().find(|tab| tab.label() == kept)
+    ALL.into_iter().find(|tab| tab.label() == kept)
 }
 
 /// The dock below the picture.
@@ -89,13 +96,14 @@ pub fn Dock(
             <Splitter name="dock" way=Way::Up least=120.0 most=800.0 />
         </Show>
         <div class="dock" class:open=move || lab.dock.get().is_some()>
-            <div class="tabs" role="tablist" aria-label=words::DOCK>{tab(Tab::Text)}{tab(Tab::Table)}{tab(Tab::Plot)}{tab(Tab::Calculator)}</div>
+            <div class="tabs" role="tablist" aria-label=words::DOCK>{ALL.map(tab).into_iter().collect_view()}</div>
             <div class="shelf" id="dock" role="tabpanel" aria-label=words::DOCK>
                 {move || match lab.dock.get() {
                     Some(Tab::Text) => view! { <Text lab=lab /> }.into_any(),
                     Some(Tab::Table) => view! { <Values lab=lab /> }.into_any(),
                     Some(Tab::Plot) => view! { <PlotPane lab=lab /> }.into_any(),
                     Some(Tab::Calculator) => view! { <Calculator lab=lab /> }.into_any(),
+                    Some(Tab::Family) => view! { <Families lab=lab /> }.into_any(),
                     None => ().into_any(),
                 }}
             </div>
@@ -111,10 +119,11 @@ pub fn Handles(
 ) -> impl IntoView {
     let handle = move |label: &'static str, sheet: Sheet| {
         let pull = move |_| {
+            let open = lab.sheet.get_untracked();
             if sheet == Sheet::Dock && lab.dock.get_untracked().is_none() {
                 lab.open_dock(Tab::Text);
             }
-            lab.sheet.update(|open| *open = if *open == sheet { Sheet::Shut } else { sheet });
+            lab.sheet.set(if open == sheet { Sheet::Shut } else { sheet });
         };
         view! {
             <button aria-pressed=move || (lab.sheet.get() == sheet).to_string() on:click=pull>{label}</button>

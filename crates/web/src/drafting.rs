@@ -1,10 +1,14 @@
 //! Drawing by constructions: what is waited for, recording, and its steps.
 
 use crate::lab::{Lab, Notice};
-use crate::words;
+use crate::{js, words};
 use leptos::prelude::*;
-use session::drafting::view::{Ends, Go, MeasureKind, Prompt, StepRow, StepsView, Turn, Wants};
+use session::drafting::view::{
+    Ends, Go, MeasureKind, OlderUse, Prompt, StepRow, StepsView, Turn, Wants,
+};
 use session::view::{Change, Pointer, Refusal};
+use wasm_bindgen::JsCast;
+use wasm_bindgen::closure::Closure;
 
 pub mod calculator;
 pub mod prompt;
@@ -159,9 +163,30 @@ impl Lab {
         self.take_turn(turn);
     }
 
+    /// Another solution is shown.
+    fn draft_turn(self) {
+        self.tell(session::Session::turn_round);
+        self.hover_again();
+    }
+
+    /// Says what something older is for the program.
+    fn take_older(self, to: OlderUse) {
+        let turn = self.tell(|session, id| session.take_older(id, to));
+        if matches!(turn, Some(Ok(Turn::Wants(_)))) {
+            // the program has more in it, though the figure waits for further operands
+            self.settle(Some(Ok(Change::default())));
+        }
+        self.take_turn(turn);
+        self.drafting.turned.update(|n| *n += 1);
+    }
+
     /// Picks of sets mean more.
     fn draft_wider(self) {
         self.tell(session::Session::pick_wider);
+        self.hover_again();
+    }
+
+    fn hover_again(self) {
         if let Some(at) = self.cursor.get_untracked() {
             self.draft_hover(&self.pointer_at(at, 12.0, false));
         }
@@ -337,6 +362,29 @@ impl Lab {
             Some(Ok(())) | None => self.notice.set(Some(Notice::Said(words::draw_anew(step)))),
         }
         self.show_waiting();
+    }
+
+    fn turn_step(self, program: &str, step: &str) {
+        self.settle(self.tell(|session, id| session.turn_step_round(id, (program, step))));
+        self.drafting.turned.update(|n| *n += 1);
+    }
+
+    /// Hands the user the values of a thing's parameters as a file.
+    fn save_parameters(self, thing: &str) {
+        match self.ask_of_shown(|session, id| session.parameter_table(id, thing)) {
+            Some(Ok(table)) => js::download(&format!("{thing}.csv"), &table),
+            Some(Err(refusal)) => self.notice.set(Some(Notice::Refused(refusal))),
+            None => {}
+        }
+    }
+
+    /// Lets a person choose a file with values of a thing's parameters.
+    fn load_parameters(self, thing: String) {
+        let took = Closure::once_into_js(move |_: String, table: String| {
+            self.settle(self.tell(|s, id| s.read_parameter_table(id, &thing, &table)));
+            self.drafting.turned.update(|n| *n += 1);
+        });
+        js::choose_file(".csv,text/csv,text/plain", took.unchecked_ref());
     }
 
     fn delete_step(self, step: &str) {

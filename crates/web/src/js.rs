@@ -122,9 +122,9 @@ extern "C" {
     /// Brings such a text back; undefined where it is none.
     pub async fn unpack(packed: &str) -> JsValue;
 
-    /// Lets a person choose a file; calls back with its name and its text.
+    /// Lets a person choose a file of some endings, `.csv,text/csv`; calls back with its name and its text.
     #[wasm_bindgen(js_name = chooseFile)]
-    pub fn choose_file(chosen: &Function);
+    pub fn choose_file(endings: &str, chosen: &Function);
 
     /// Makes `window.__thinglab.state()` of a function that gives JSON.
     pub fn publish(state: &Function);

@@ -19,6 +19,7 @@ pub mod calculator;
 pub mod dialog;
 pub mod dock;
 pub mod drafting;
+pub mod family;
 pub mod field;
 pub mod files;
 pub mod first;

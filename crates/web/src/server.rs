@@ -94,6 +94,20 @@ pub async fn document(path: &str) -> Result<Option<Stored>, String> {
     }
 }
 
+/// Returns the table of a family: the text of a `.csv` file.
+///
+/// # Errors
+/// One sentence: there is no such file, or it cannot be read.
+pub async fn table(path: &str) -> Result<String, String> {
+    let query = String::from(js_sys::encode_uri_component(path));
+    let (status, json) = ask("GET", &format!("/api/table?path={query}"), None).await;
+    match status {
+        200 => Ok(text_field(&json, "text")),
+        404 => Err(words::no_table(path)),
+        _ => Err(failure(status, &json)),
+    }
+}
+
 /// Saves a document if its file still is of that version.
 pub async fn save(path: &str, text: &str, version: &str) -> Saved {
     let body = Object::new();

@@ -3,6 +3,11 @@
 //! What a document says (its names, its comments, the session's messages) comes from the session.
 #![expect(missing_docs, reason = "a word says itself what it says")]
 
+mod drafting;
+mod family;
+pub use drafting::*;
+pub use family::*;
+
 pub const LAB: &str = "ThingLab";
 pub const GALLERY: &str = "Gallery";
 pub const GALLERY_LEAD: &str = "Documents whose constraints stay true while you drag. Open one, take hold of a point, and look.";

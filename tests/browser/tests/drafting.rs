@@ -221,3 +221,32 @@ async fn a_wrong_step_is_found_by_what_it_drew_and_replaced() {
     press(&visit, "[data-visit='end']").await;
     press(&visit, "[data-draft='stop']").await;
 }
+
+#[tokio::test]
+async fn a_family_is_a_grid_in_which_rows_are_changed_and_used() {
+    let visit = Visit::open(Some("bearing.thing")).await;
+    press(&visit, "#tab-family").await;
+    let outcome = |row: &str| {
+        format!("document.querySelector(\"[data-row='{row}'] .outcome\")?.innerText ?? ''")
+    };
+    visit.until(&format!("{} === 'drawn'", outcome("6210"))).await;
+    press(&visit, "[data-family='take']").await;
+    visit
+        .until("window.__thinglab.state().text.includes('(\"6204\", 20 mm, 47 mm, 14 mm, 8)')")
+        .await;
+    // an outer diameter within the bore
+    visit.until("!document.querySelector(\"[data-cell='4,2']\").readOnly").await;
+    visit.script("document.querySelector(\"[data-cell='4,2']\").select()").await;
+    fill(&visit, "[data-cell='4,2']", &format!("10 mm{ENTER}")).await;
+    visit.until(&format!("{}.includes('wall is not met')", outcome("6204"))).await;
+    press(&visit, "[data-row='6206'] [data-family='apply']").await;
+    visit.until("window.__thinglab.state().text.includes('outer = 62')").await;
+    press(&visit, "[data-family='pictures']").await;
+    visit.until("document.querySelectorAll('.specimen img').length === 10").await;
+    press(&visit, "[data-family='map']").await;
+    visit
+        .until(
+            "document.querySelector('.map circle.now') && document.querySelector('.map .look-2')",
+        )
+        .await;
+}

@@ -5,6 +5,7 @@
 //! - `PUT /api/document` with `{path, text, version}` → `{version}`; where the file is no longer
 //!   that version, status 409 and what stands there now, `{text, version}`, both null for no file;
 //!   the version `absent` makes a new file
+//! - `GET /api/table?path=P` → `{text}`: the table of a family, a `.csv` beside its document
 //! - `GET /api/library` → `[{name, text}]`
 //!
 //! Every error is `{error: sentence}` with its status.
@@ -179,9 +180,13 @@ async fn documents(lab: &Lab, request: Request<Incoming>) -> Answer {
             Ok(saving) => save(lab, &saving),
             Err(answer) => answer,
         },
+        "/api/table" if get => match asked_path(request.uri().query().unwrap_or_default()) {
+            Some(path) => table(lab, &path),
+            None => refused(StatusCode::BAD_REQUEST, "the query is not path=NAME"),
+        },
         "/api/library" if get => library(),
         "/api/document" => only_methods("GET, HEAD, PUT"),
-        "/api/documents" | "/api/library" => only_methods("GET, HEAD"),
+        "/api/documents" | "/api/table" | "/api/library" => only_methods("GET, HEAD"),
         _ => refused(StatusCode::NOT_FOUND, "no such page"),
     }
 }
@@ -250,6 +255,21 @@ fn open(lab: &Lab, path: &str) -> Answer {
 fn from_gallery(path: &str) -> Option<&'static str> {
     let name = path.strip_prefix("gallery/")?;
     embedded::GALLERY.iter().find(|(own, _)| *own == name).map(|(_, text)| *text)
+}
+
+fn table(lab: &Lab, path: &str) -> Answer {
+    let kept = |path: &str| {
+        let name = path.strip_prefix("gallery/")?;
+        embedded::TABLES.iter().find(|(own, _)| *own == name).map(|(_, text)| text.to_string())
+    };
+    let text = match disk::read_table(&lab.root, path) {
+        Err(DiskError::Missing) => kept(path).ok_or(DiskError::Missing),
+        read => read,
+    };
+    match text {
+        Ok(text) => json(StatusCode::OK, &serde_json::json!({ "text": text })),
+        Err(error) => disk_answer(error),
+    }
 }
 
 fn save(lab: &Lab, saving: &Saving) -> Answer {

@@ -3,7 +3,7 @@
 use super::catalogue::{Slot, SlotKind, Tool};
 use super::scene::{self, Found};
 use super::view::{Hover, Prompt, Wants};
-use super::{Home, measure, outcome, typed};
+use super::{Home, measure, older, outcome, typed};
 use crate::host::Host;
 use crate::state::State;
 use crate::view::{Pointer, Refusal};
@@ -36,6 +36,8 @@ pub(crate) struct Dialogue {
     pub(crate) goal: Option<Goal>,
     /// The step that is done anew by this one.
     pub(crate) replaces: Option<String>,
+    /// How often another solution was asked for than the nearest.
+    pub(crate) turned: usize,
 }
 
 /// What waits for the outcome of another construction.
@@ -58,6 +60,7 @@ impl Dialogue {
             is_begun: true,
             goal: None,
             replaces: None,
+            turned: 0,
         }
     }
 
@@ -126,28 +129,23 @@ impl Dialogue {
             };
             return Ok(Operand { text, at: Some(pointer.at) });
         }
-        if slot.kind == SlotKind::Point {
-            return Ok(Operand { text: typed::place(pointer), at: Some(pointer.at) });
+        if let Some(older) = older::find(state, home, self, pointer) {
+            return Err(words::refuse(format!(
+                "{} is outside of the program that is recorded",
+                older.path
+            )));
         }
-        if let (SlotKind::Value, "x" | "y") = (slot.kind, slot.name.as_str()) {
-            return Ok(Operand {
-                text: typed::coordinate(pointer, &slot.name),
-                at: Some(pointer.at),
-            });
-        }
-        let outside = match home {
-            Home::Document => None,
-            Home::Program { example, .. } => {
-                let all = scene::scene(state, &Home::Document);
-                let is_outside = |f: &Found| !f.text.starts_with(example.as_str());
-                let all: Vec<Found> = all.into_iter().filter(is_outside).collect();
-                nearest(state, slot, &all, pointer).map(|f| f.text.clone())
+        match (slot.kind, slot.name.as_str()) {
+            (SlotKind::Point, _) => {
+                Ok(Operand { text: typed::place(pointer), at: Some(pointer.at) })
             }
-        };
-        Err(words::refuse(match outside {
-            Some(text) => format!("{text} is outside of the program that is recorded"),
-            None => format!("there is no {} here", slot.class.to_lowercase()),
-        }))
+            (SlotKind::Value, "x" | "y") => {
+                Ok(Operand { text: typed::coordinate(pointer, &slot.name), at: Some(pointer.at) })
+            }
+            (SlotKind::Curve | SlotKind::Set | SlotKind::Value, _) => {
+                Err(words::refuse(format!("there is no {} here", slot.class.to_lowercase())))
+            }
+        }
     }
 
     /// What a pointer, with what is typed so far, would do.
@@ -171,7 +169,11 @@ impl Dialogue {
         let finds = Some(operand.text.clone());
         let lit = match (slot.kind, typed.trim().is_empty()) {
             (SlotKind::Curve | SlotKind::Set | SlotKind::Point, true) => {
-                scene::drawing_of(state, home, &operand.text)
+                let mut lit = scene::drawing_of(state, home, &operand.text);
+                let found = scene::scene(state, home);
+                let found = found.iter().find(|found| found.text == operand.text);
+                lit.elements.extend(found.and_then(|found| found.curve.arrow(pointer)));
+                lit
             }
             _ => drawing::Drawing::default(),
         };
@@ -180,8 +182,17 @@ impl Dialogue {
         }
         let mut operands = self.filled.clone();
         operands.push(operand);
-        match outcome::choose(state, host, home, (&self.tool, &operands, Some(pointer.at))) {
-            Ok(chosen) => Hover { finds, ghost: chosen.drawing, why: None },
+        match outcome::choose(
+            state,
+            host,
+            home,
+            (&self.tool, &operands, Some(pointer.at), self.turned),
+        ) {
+            Ok(chosen) => {
+                let mut ghost = chosen.drawing;
+                ghost.elements.extend(chosen.curve.and_then(|curve| curve.arrow(pointer)));
+                Hover { finds, ghost, why: None }
+            }
             Err(refusal) => Hover { finds, why: Some(refusal.message), ..Hover::default() },
         }
     }

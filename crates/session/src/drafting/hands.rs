@@ -2,17 +2,19 @@
 
 use super::catalogue::{SlotKind, Tool};
 use super::dialogue::{Dialogue, Goal, Operand};
-use super::view::{Computed, ConstructionRow, Hover, MeasureKind, Prompt, Turn, Wants};
+use super::view::{Computed, ConstructionRow, Hover, MeasureKind, OlderUse, Prompt, Turn, Wants};
 use super::{
-    Home, blocks, catalogue, choice, measure, outcome, recording, remove, repeat, scene, steps,
-    typed,
+    Home, blocks, catalogue, choice, measure, older, outcome, recording, remove, repeat, scene,
+    steps, typed,
 };
+use crate::apply;
 use crate::document::Open;
 use crate::host::{Beside, Host};
 use crate::session::Session;
 use crate::state::State;
 use crate::view::{Change, DocumentId, Pointer, Refusal};
 use crate::words;
+use kernel::Command;
 
 /// Where an open document's drawing goes.
 pub(crate) fn home(open: &Open) -> Home {
@@ -34,6 +36,9 @@ pub(super) fn prompt(open: &Open) -> Option<Prompt> {
         (None, Some(dialogue)) => Some(dialogue.prompt()),
         (None, None) => blocks::prompt(open),
     };
+    if let Some(older) = &open.picking.older {
+        return Some(older.prompt(prompt.unwrap_or_default()));
+    }
     match &open.picking.measure {
         Some(measuring) => Some(Prompt {
             words: measuring.words().into(),
@@ -71,7 +76,7 @@ fn give(open: &mut Open, host: &dyn Host, operand: Operand) -> Result<Turn, Refu
         dialogue.filled = filled;
         return Ok(Turn::Wants(dialogue.prompt()));
     }
-    let given = (&dialogue.tool, &filled[..], dialogue.pointer);
+    let given = (&dialogue.tool, &filled[..], dialogue.pointer, dialogue.turned);
     let chosen = outcome::choose(&open.state, host, &home, given)?;
     let dialogue = dialogue.clone();
     if let Some(goal) = dialogue.goal.clone() {
@@ -96,6 +101,7 @@ fn give(open: &mut Open, host: &dyn Host, operand: Operand) -> Result<Turn, Refu
         dialogue.filled.clear();
         dialogue.pointer = None;
         dialogue.is_begun = false;
+        dialogue.turned = 0;
     }
     let next = prompt(open);
     Ok(Turn::Made { change: Box::new(change), name: line.name, text: chosen.text, next })
@@ -289,7 +295,10 @@ impl Session {
     /// Takes the latest operand or answer back; without one what waits is given up. Returns what is wanted then.
     pub fn back(&mut self, id: DocumentId) -> Option<Prompt> {
         let open = self.document_mut(id);
-        open.picking = super::Picking::default();
+        let picking = std::mem::take(&mut open.picking);
+        if picking.older.is_some() {
+            return prompt(open);
+        }
         match open.dialogue.take() {
             Some(mut dialogue) => {
                 let had = dialogue.filled.pop();
@@ -318,6 +327,48 @@ impl Session {
             }
         }
         prompt(open)
+    }
+
+    /// Says what something is for the program that was picked outside of it, and gives it as the operand.
+    ///
+    /// # Errors
+    /// Nothing is asked, or it can be neither; then nothing has changed.
+    pub fn take_older(&mut self, id: DocumentId, to: OlderUse) -> Result<Turn, Refusal> {
+        let beside = Beside::of(&*self.host, &self.documents, id);
+        let open = &mut self.documents[id.0 as usize];
+        let none = || words::refuse("nothing outside of the program was picked".into());
+        let older = open.picking.older.clone().ok_or_else(none)?;
+        let home = home(open);
+        let since = open.done.len();
+        let text = older::settle(open, &beside, &home, (&older, to))?;
+        if let Some(dialogue) = &mut open.dialogue {
+            dialogue.pointer = None;
+        }
+        match give(open, &beside, Operand { text, at: Some(older.at) }) {
+            Ok(turn) => Ok(self.reached(id, turn)),
+            Err(refusal) => {
+                if open.done.len() > since {
+                    apply::apply(open, &beside, &Command::Undo)?;
+                    open.undone.clear();
+                }
+                open.picking.older = Some(older);
+                Err(refusal)
+            }
+        }
+    }
+
+    /// Asks the construction that waits for another solution than the one that is shown: the next in distance.
+    ///
+    /// # Errors
+    /// None waits.
+    pub fn turn_round(&mut self, id: DocumentId) -> Result<(), Refusal> {
+        match &mut self.document_mut(id).dialogue {
+            Some(dialogue) => {
+                dialogue.turned += 1;
+                Ok(())
+            }
+            None => Err(words::refuse("no construction waits: choose one first".into())),
+        }
     }
 
     /// Lets picks of sets mean more: an entity, its turn, the whole loop, and around.
@@ -414,7 +465,16 @@ fn pointed(open: &mut Open, host: &dyn Host, pointer: &Pointer) -> Result<Turn, 
         return Ok(turn_of(open, done, String::new()));
     }
     if let Some(dialogue) = &mut open.dialogue {
-        let operand = dialogue.pick(&state, &home, (pointer, level))?;
+        let operand = match dialogue.pick(&state, &home, (pointer, level)) {
+            Ok(operand) => operand,
+            Err(refusal) => {
+                open.picking.older = older::find(&state, &home, dialogue, pointer);
+                return match &open.picking.older {
+                    Some(_) => Ok(Turn::Wants(prompt(open).unwrap_or_default())),
+                    None => Err(refusal),
+                };
+            }
+        };
         if dialogue.slot().is_some_and(|slot| slot.kind == SlotKind::Value) {
             let insert = Some(operand.text);
             return Ok(Turn::Wants(Prompt { insert, ..dialogue.prompt() }));
@@ -432,6 +492,7 @@ fn pointed(open: &mut Open, host: &dyn Host, pointer: &Pointer) -> Result<Turn, 
         }
         Wants::Otherwise => Err(words::refuse("say how the other branch is drawn first".into())),
         Wants::Substitute { .. }
+        | Wants::Older { .. }
         | Wants::Recurrence(_)
         | Wants::Ends(_)
         | Wants::Condition
@@ -469,8 +530,9 @@ fn entered(open: &mut Open, host: &dyn Host, typed: &str) -> Result<Turn, Refusa
             let change = choice::begin(open, host, typed)?;
             Ok(turn_of(open, Some(change), typed.into()))
         }
-        Some(Wants::Otherwise | Wants::Operand | Wants::Substitute { .. }) | None => {
-            Err(words::refuse("nothing that is typed is waited for".into()))
-        }
+        Some(
+            Wants::Otherwise | Wants::Operand | Wants::Older { .. } | Wants::Substitute { .. },
+        )
+        | None => Err(words::refuse("nothing that is typed is waited for".into())),
     }
 }

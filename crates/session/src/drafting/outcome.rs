@@ -24,6 +24,8 @@ pub(crate) struct Chosen {
     pub(crate) text: String,
     /// How it looks.
     pub(crate) drawing: drawing::Drawing,
+    /// Where it lies, if it is a figure.
+    pub(crate) curve: Option<Curve>,
 }
 
 /// Looks at what a trial came to.
@@ -33,7 +35,8 @@ type Look<'l> =
 /// What answers the trials of a copy.
 const TRIAL: &str = "outcome__";
 
-/// Chooses among the outcomes of a construction from its operands, with where the pointer is.
+/// Chooses among the outcomes of a construction from its operands, with where the pointer is: the nearest, or one
+/// further away for each time that another was asked for.
 ///
 /// # Errors
 /// Why there is none.
@@ -41,12 +44,12 @@ pub(crate) fn choose(
     state: &State,
     host: &dyn Host,
     home: &Home,
-    (tool, operands, pointer): (&Tool, &[Operand], Option<(f64, f64)>),
+    (tool, operands, pointer, turned): (&Tool, &[Operand], Option<(f64, f64)>, usize),
 ) -> Result<Chosen, Refusal> {
     let ways = ways(tool, operands);
     let texts: Vec<String> = ways.iter().map(|(text, _)| text.clone()).collect();
     let picks: Vec<(f64, f64)> = operands.iter().filter_map(|o| o.at).chain(pointer).collect();
-    let mut best: Option<(f64, u32, Chosen)> = None;
+    let mut all: Vec<(f64, u32, Chosen)> = Vec::new();
     let mut why = None;
     let unwritten = try_all(state, host, home, &texts, &mut |tried, i, evaluator, answer| {
         let answer = match answer {
@@ -58,24 +61,27 @@ pub(crate) fn choose(
         };
         let curve = Curve::of(evaluator, tried, &answer);
         let away = curve.map_or(0.0, |c| picks.iter().map(|&p| c.distance(p)).sum());
-        let reversals = ways[i].1;
-        let is_better = best.as_ref().is_none_or(|(least, fewest, _)| {
-            let same = (away - least).abs() <= 1e-9 * (1.0 + least.abs());
-            if same { reversals < *fewest } else { away < *least }
-        });
-        if is_better {
-            let elements = evaluator.elements(&answer);
-            let drawing = drawing::Drawing { elements, ..drawing::Drawing::default() };
-            best = Some((away, reversals, Chosen { text: texts[i].clone(), drawing }));
+        let elements = evaluator.elements(&answer);
+        let drawing = drawing::Drawing { elements, ..drawing::Drawing::default() };
+        let chosen = Chosen { text: texts[i].clone(), drawing, curve };
+        match all.iter_mut().find(|(_, _, other)| other.curve == curve) {
+            // of equal ones that with the fewest reversals
+            Some(known) if ways[i].1 < known.1 => *known = (away, ways[i].1, chosen),
+            Some(_) => {}
+            None => all.push((away, ways[i].1, chosen)),
         }
     });
-    match best {
-        Some((_, _, chosen)) => Ok(chosen),
-        None => {
-            let why = unwritten.or(why).unwrap_or_else(|| "there is no such figure".into());
-            Err(words::refuse(why))
-        }
+    let is_as_far = |a: f64, b: f64| (a - b).abs() <= 1e-9 * (1.0 + b.abs());
+    all.sort_by(|a, b| match is_as_far(a.0, b.0) {
+        true => a.1.cmp(&b.1),
+        false => a.0.total_cmp(&b.0),
+    });
+    if all.is_empty() {
+        let why = unwritten.or(why).unwrap_or_else(|| "there is no such figure".into());
+        return Err(words::refuse(why));
     }
+    let at = turned % all.len();
+    Ok(all.swap_remove(at).2)
 }
 
 /// Checks that an operand is what a slot wants.

@@ -219,6 +219,8 @@ pub(crate) fn define(
     if !starts_well || !name.chars().all(|c| c.is_alphanumeric() || c == '_') {
         return Err(words::refuse(format!("`{name}` is no name for a parameter")));
     }
+    let place = super::typed::pair(example, ',').map(|(x, y)| format!("Point({x}, {y})"));
+    let example = place.as_deref().unwrap_or(example);
     let class = match new.class.trim() {
         "" => class_of_example(&open.state, host, example)?,
         class => class.into(),
@@ -227,7 +229,15 @@ pub(crate) fn define(
         "" => String::new(),
         prompt => format!(" \"{}\"", prompt.replace(['"', '\\'], "")),
     };
-    let written = format!("{name}: {class} = {example}{prompt}");
+    let range = match new.range.trim() {
+        "" => String::new(),
+        range if range.contains("..") => format!(" in {range}"),
+        range => {
+            let message = format!("`{range}` is no range: wanted is from..to, as 1 mm..100 mm");
+            return Err(words::refuse(message));
+        }
+    };
+    let written = format!("{name}: {class}{range} = {example}{prompt}");
     let text = text::with_parameter(&open.state.text, program, &written)?;
     retext(open, host, text, format!("define {name}"))
 }
@@ -237,8 +247,12 @@ fn class_of_example(state: &State, host: &dyn Host, example: &str) -> Result<Str
     let mut class = Err(words::refuse(format!("`{example}` is no value of a parameter")));
     let texts = [example.to_string()];
     let is_bare = example.parse::<f64>().is_ok();
-    let wrong =
-        outcome::try_all(state, host, &Home::Document, &texts, &mut |tried, _, _, answer| {
+    let wrong = outcome::try_all(
+        state,
+        host,
+        &Home::Document,
+        &texts,
+        &mut |tried, _, evaluator, answer| {
             let document = &tried.lowered.document;
             class = match answer {
                 Ok(Answer::Bool(_)) => Ok("Bool".into()),
@@ -249,10 +263,17 @@ fn class_of_example(state: &State, host: &dyn Host, example: &str) -> Result<Str
                 Ok(Answer::Number(_, d)) if d == Dimension::NONE => Ok("Real".into()),
                 Ok(Answer::Text(_)) => Ok("Text".into()),
                 Ok(Answer::Option(of, _)) => Ok(document.classes[of].name.to_string()),
-                Ok(other) => Err(words::refuse(format!("{example} is {}, no value", other.kind()))),
+                Ok(other) => {
+                    let made = evaluator.class_of(&other).map(|class| document.named_class(class));
+                    let made = made.filter(|&class| document.figure(class).is_some());
+                    made.map(|class| document.classes[class].name.to_string()).ok_or_else(|| {
+                        words::refuse(format!("{example} is {}, no value", other.kind()))
+                    })
+                }
                 Err(fault) => Err(words::refuse(format!("{example}: {}", fault.message))),
             };
-        });
+        },
+    );
     match wrong {
         Some(message) => Err(words::refuse(format!("{example}: {message}"))),
         None => class,

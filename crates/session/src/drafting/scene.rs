@@ -177,6 +177,44 @@ impl Curve {
         }
     }
 
+    /// Returns an arrow that shows which way it runs, near a pointer; nothing for what runs no way.
+    pub(crate) fn arrow(&self, near: &Pointer) -> Option<drawing::Element> {
+        let (x, y) = near.at;
+        let (at, way) = match self.figure {
+            Figure::Straight { from, to } => {
+                let (dx, dy) = (to[0] - from[0], to[1] - from[1]);
+                let length = hypot(dx, dy);
+                let along = ((x - from[0]) * dx + (y - from[1]) * dy) / (length * length);
+                let along = if self.is_endless { along } else { along.clamp(0.0, 1.0) };
+                ([from[0] + along * dx, from[1] + along * dy], [dx / length, dy / length])
+            }
+            Figure::Circle { center, radius } => {
+                let (dx, dy) = (x - center[0], y - center[1]);
+                let far = hypot(dx, dy);
+                let [ux, uy] = if far > 0.0 { [dx / far, dy / far] } else { [1.0, 0.0] };
+                let (size, sign) = (radius.abs(), radius.signum());
+                ([center[0] + size * ux, center[1] + size * uy], [-uy * sign, ux * sign])
+            }
+            Figure::Point(_) | Figure::Arc { .. } => return None,
+        };
+        let size = near.reach;
+        let corner = |ahead: f64, left: f64| drawing::Point {
+            x: at[0] + size * (ahead * way[0] - left * way[1]),
+            y: at[1] + size * (ahead * way[1] + left * way[0]),
+        };
+        let points = vec![corner(1.0, 0.0), corner(-0.5, 0.5), corner(-0.5, -0.5)];
+        let is_sound = size > 0.0 && points.iter().all(|p| p.x.is_finite() && p.y.is_finite());
+        is_sound.then(|| drawing::Element {
+            shape: drawing::Shape::Polyline { points, closed: true },
+            style: drawing::Style {
+                fill: Some(drawing::Color::Accent),
+                ..drawing::Style::default()
+            },
+            layer: drawing::Layer::Points,
+            tag: drawing::Tag(0),
+        })
+    }
+
     /// What it is, in words and numbers.
     pub(crate) fn words(&self) -> String {
         let number = |x: f64| base::number::rounded(x, 4);

@@ -72,7 +72,7 @@ fn grouped(text: &str) -> String {
 }
 
 /// Splits what is typed in two, outside of any brackets.
-fn pair(text: &str, at: char) -> Option<(&str, &str)> {
+pub(super) fn pair(text: &str, at: char) -> Option<(&str, &str)> {
     let mut depth = 0;
     let split = text.char_indices().find(|(_, c)| {
         match c {

@@ -59,6 +59,20 @@ pub enum Wants {
     },
     /// That the branch which is not taken is drawn: by the same values, or by others.
     Otherwise,
+    /// Whether what was picked outside of the program is a parameter, or its construction is taken along.
+    Older {
+        /// What was picked, by its path from the document.
+        path: String,
+    },
+}
+
+/// What something that stands outside of a program is for it.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub enum OlderUse {
+    /// A parameter of its class, which is given it in the example.
+    Parameter,
+    /// Steps of the program draw it, and what it is drawn by, anew.
+    Along,
 }
 
 /// How a loop ends.
@@ -265,4 +279,6 @@ pub struct NewParameter {
     pub prompt: String,
     /// Its class; nothing where the example tells.
     pub class: String,
+    /// The values that are allowed, `1 mm..100 mm`; nothing for all.
+    pub range: String,
 }

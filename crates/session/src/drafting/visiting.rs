@@ -114,6 +114,29 @@ impl Session {
         Ok(*self.with_reach(id, change))
     }
 
+    /// Turns round what a step makes: a curve runs the other way, and what touches it goes to its other side.
+    ///
+    /// # Errors
+    /// There is no such step, or it makes no curve; steps after it no longer fit.
+    pub fn turn_step_round(
+        &mut self,
+        id: DocumentId,
+        (program, step): (&str, &str),
+    ) -> Result<Change, Refusal> {
+        let source = &self.document(id).state.text;
+        let found = super::text::step_at(source, program, step).and_then(|found| found.value);
+        let Some(syntax::ast::Value::Expr(_)) = found else {
+            return Err(words::refuse(format!("{step} is no step that makes a curve")));
+        };
+        let (_, span) = super::text::step(source, program, step).unwrap_or_default();
+        let formula = source[span.start as usize..span.end as usize].trim().to_string();
+        let turned = match formula.strip_prefix("-(").and_then(|rest| rest.strip_suffix(')')) {
+            Some(inner) => inner.to_string(),
+            None => super::outcome::turned_round(&formula),
+        };
+        self.replace_step(id, (program, step), &turned)
+    }
+
     /// Says anew what a step does; it keeps its name, and what speaks of it.
     ///
     /// # Errors

@@ -5,7 +5,7 @@ use crate::lab::Lab;
 use crate::words;
 use leptos::html::Input;
 use leptos::prelude::*;
-use session::drafting::view::{Prompt, Wants};
+use session::drafting::view::{OlderUse, Prompt, Wants};
 
 /// The prompt of what waits: an operand, an answer, a condition.
 #[component]
@@ -26,7 +26,7 @@ pub fn PromptLine(
         move |ask: &dyn Fn(&Prompt) -> bool| drafting.prompt.with(|p| p.as_ref().is_some_and(ask));
     let is_drawn = move || of(&|p| !p.tool.is_empty());
     let is_value = move || of(&|p| p.is_value);
-    let is_typed = move || of(&|p| p.wants != Wants::Otherwise);
+    let is_typed = move || of(&|p| !matches!(p.wants, Wants::Otherwise | Wants::Older { .. }));
     let takes_sets = Memo::new(move |_| of(&|p| p.takes_sets));
     let operands = move || {
         let prompt = drafting.prompt.get().unwrap_or_default();
@@ -86,6 +86,10 @@ pub fn PromptLine(
                     <label><input type="checkbox" name="guide" prop:checked=move || drafting.guides.get()
                         on:change=move |e| lab.draw_guides(event_target_checked(&e)) />{words::GUIDE}</label>
                 </Show>
+                <Show when=is_drawn>
+                    <button type="button" data-draft="turn" title=words::OTHER_SOLUTION_HELP
+                        on:click=move |_| lab.draft_turn()>{words::OTHER_SOLUTION}</button>
+                </Show>
                 <button type="button" data-draft="back" on:click=move |_| lab.draft_back()>{words::BACK}</button>
                 <Show when=is_drawn>
                     <button type="button" data-draft="end" on:click=move |_| lab.draft_end()>{words::GIVE_UP}</button>
@@ -126,6 +130,13 @@ fn Answers(lab: Lab) -> impl IntoView {
                 on:click=move |_| lab.about_block(|s, id| s.other_branch(id, true))>{words::SAME_VALUES}</button>
             <button type="button" data-draft="others"
                 on:click=move |_| lab.about_block(|s, id| s.other_branch(id, false))>{words::OTHER_VALUES}</button>
+        }
+        .into_any(),
+        Some(Wants::Older { .. }) => view! {
+            <button type="button" class="primary" data-draft="parameter"
+                on:click=move |_| lab.take_older(OlderUse::Parameter)>{words::AS_PARAMETER}</button>
+            <button type="button" data-draft="take-along"
+                on:click=move |_| lab.take_older(OlderUse::Along)>{words::TAKE_ALONG}</button>
         }
         .into_any(),
         Some(Wants::Substitute { .. }) => view! {

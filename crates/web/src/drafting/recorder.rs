@@ -85,6 +85,11 @@ fn Blocks(lab: Lab, open: Vec<OpenBlock>) -> impl IntoView {
     }
 }
 
+/// The classes of parameters that can be chosen instead of the example's own.
+const CLASSES: [&str; 11] = [
+    "Length", "Angle", "Real", "Integer", "Bool", "Text", "Point", "Line", "Axis", "Circle", "Arc",
+];
+
 /// Defines a parameter by its example.
 #[component]
 fn Define(lab: Lab) -> impl IntoView {
@@ -104,6 +109,15 @@ fn Define(lab: Lab) -> impl IntoView {
             <input name="example" autocomplete="off" placeholder=words::EXAMPLE aria-label=words::EXAMPLE
                 prop:value=move || new.with(|n| n.example.clone())
                 on:input=move |e| new.update(|n| n.example = event_target_value(&e)) />
+            <select name="class" aria-label=words::PARAMETER_CLASS title=words::PARAMETER_CLASS
+                prop:value=move || new.with(|n| n.class.clone())
+                on:change=move |e| new.update(|n| n.class = event_target_value(&e))>
+                <option value="">{words::CLASS_OF_EXAMPLE}</option>
+                {CLASSES.map(|class| view! { <option value=class>{class}</option> }).into_iter().collect_view()}
+            </select>
+            <input name="range" autocomplete="off" placeholder=words::RANGE aria-label=words::RANGE
+                prop:value=move || new.with(|n| n.range.clone())
+                on:input=move |e| new.update(|n| n.range = event_target_value(&e)) />
             <input name="question" autocomplete="off" placeholder=words::QUESTION aria-label=words::QUESTION
                 prop:value=move || new.with(|n| n.prompt.clone())
                 on:input=move |e| new.update(|n| n.prompt = event_target_value(&e)) />

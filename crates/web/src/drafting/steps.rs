@@ -49,6 +49,12 @@ pub fn Steps(
     view! {
         <h3>{move || words::steps_of(&view().program)}</h3>
         <div class="parameters">{parameters}</div>
+        <Show when=move || !view().parameters.is_empty()>
+            <div class="line">
+                <button data-draft="save-values" on:click=move |_| lab.save_parameters(&view().example)>{words::SAVE_VALUES}</button>
+                <button data-draft="load-values" on:click=move |_| lab.load_parameters(view().example)>{words::LOAD_VALUES}</button>
+            </div>
+        </Show>
         {visit}
         <ol class="steps">{rows}</ol>
     }
@@ -107,6 +113,7 @@ fn Row(lab: Lab, steps: StepsView, row: StepRow) -> impl IntoView {
         });
     };
     let replace = move |_| own.with_value(|(_, row)| lab.replace_step(&row.path));
+    let turn = move |_| own.with_value(|(steps, row)| lab.turn_step(&steps.program, &row.path));
     let here = move |_| own.with_value(|(_, row)| lab.visit(&Go::To(row.path.clone())));
     let can_replace = is_recorded && !row.is_block;
     let indent = format!("{}px", 14 * row.depth);
@@ -121,6 +128,7 @@ fn Row(lab: Lab, steps: StepsView, row: StepRow) -> impl IntoView {
                 <button class="bare" data-step-visit="" title=words::VISIT_HERE aria-label=words::VISIT_HERE on:click=here>"⇥"</button>
             })}
             {can_replace.then(|| view! {
+                <button class="bare" data-step-turn="" title=words::TURN_STEP aria-label=words::TURN_STEP on:click=turn>"⇄"</button>
                 <button class="bare" data-step-replace="" title=words::REPLACE_STEP aria-label=words::REPLACE_STEP on:click=replace>"✎"</button>
             })}
             <button class="bare" data-step-delete="" title=words::DELETE_STEP aria-label=words::DELETE_STEP on:click=ask>"×"</button>

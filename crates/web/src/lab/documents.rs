@@ -182,7 +182,7 @@ impl Lab {
                 }
             });
         });
-        js::choose_file(took.unchecked_ref());
+        js::choose_file(".thing,text/plain", took.unchecked_ref());
     }
 
     /// Saves the shown document under another name, which becomes its own.

@@ -1,0 +1,453 @@
+//! Families at the boundary: their rows changed and used, and the map of a program.
+
+use super::grid::{self, Line};
+use super::{find, map};
+use crate::document::Open;
+use crate::drafting::retext;
+use crate::host::Beside;
+use crate::session::{Session, parse_path};
+use crate::state::State;
+use crate::view::{
+    Change, DocumentId, FamilyAxis, FamilyGrid, FamilyMap, FamilyRow, Refusal, RowUse,
+};
+use crate::words;
+use kernel::{Command, DOCUMENT, Literal, Path, Step};
+
+impl Session {
+    /// Shows the rows of a family as a grid; `table` is the text of its file, where it has one.
+    ///
+    /// # Errors
+    /// No such family or program, a table that cannot be read.
+    pub fn family_grid(
+        &self,
+        id: DocumentId,
+        name: &str,
+        table: Option<&str>,
+    ) -> Result<FamilyGrid, Refusal> {
+        grid::grid(&self.document(id).state, name, table)
+    }
+
+    /// Returns the programs of which families can be made, by their names.
+    pub fn programs(&self, id: DocumentId) -> Vec<String> {
+        let document = &self.document(id).state.lowered.document;
+        let programs = document
+            .classes
+            .iter()
+            .filter(|(id, c)| c.program.is_some() && document.class_named(&c.name) == Some(*id));
+        programs.map(|(_, class)| class.name.to_string()).collect()
+    }
+
+    /// Returns the things of the document that a program draws, by their paths.
+    pub fn drawn_by(&self, id: DocumentId, program: &str) -> Vec<String> {
+        let state = &self.document(id).state;
+        let (document, structure) = (&state.lowered.document, &state.structure);
+        let Some(class) = document.class_named(program) else { return Vec::new() };
+        let own = structure.parts(DOCUMENT).filter(|&part| {
+            structure.merged[part] == part && document.is_a(structure.things[part].class, class)
+        });
+        own.map(|part| structure.path(document, part).to_string()).collect()
+    }
+
+    /// Gives parameters of a thing the values that are typed, as one step.
+    ///
+    /// # Errors
+    /// There is no such thing or parameter, what is typed is no value, or a constraint forbids it.
+    pub fn set_parameters(
+        &mut self,
+        id: DocumentId,
+        thing: &str,
+        typed: &[(String, String)],
+    ) -> Result<Change, Refusal> {
+        let state = &self.document(id).state;
+        let path = parse_path(thing).ok_or_else(|| words::refuse(format!("{thing} is no path")))?;
+        let value = |(name, typed): &(String, String)| {
+            let path = path.then(Step::Part(name.as_str().into()));
+            words::find(state, &path)?;
+            let literal = words::read_typed(state, &path, typed).map_err(|refusal| Refusal {
+                message: format!("{name}: {}", refusal.message),
+                ..refusal
+            })?;
+            Ok((path, literal))
+        };
+        let values = typed.iter().map(value).collect::<Result<Vec<_>, Refusal>>()?;
+        self.apply(id, &Command::Set(values))
+    }
+
+    /// Writes the parameters of a thing as a table, CSV, of names and values.
+    ///
+    /// # Errors
+    /// There is no such thing, or no program draws it.
+    pub fn parameter_table(&self, id: DocumentId, thing: &str) -> Result<String, Refusal> {
+        let state = &self.document(id).state;
+        let (path, names) = parameters_of(state, thing)?;
+        let mut out = csv::Writer::from_writer(Vec::new());
+        // what is written goes to memory, which takes it
+        let _ = out.write_record(["name", "value"]);
+        for name in names {
+            let own = words::find(state, &path.then(Step::Part(name.as_str().into())))?;
+            let value = words::show_thing_exactly(state, own, &state.values).unwrap_or_default();
+            let _ = out.write_record([name, value]);
+        }
+        Ok(out.into_inner().ok().and_then(|b| String::from_utf8(b).ok()).unwrap_or_default())
+    }
+
+    /// Gives the parameters of a thing the values of a table: CSV of names, values and, where there is a third column,
+    /// units; `#` begins a comment. One step.
+    ///
+    /// # Errors
+    /// A line that names no parameter, or whose value is none of it; then nothing has changed.
+    pub fn read_parameter_table(
+        &mut self,
+        id: DocumentId,
+        thing: &str,
+        table: &str,
+    ) -> Result<Change, Refusal> {
+        let (_, names) = parameters_of(&self.document(id).state, thing)?;
+        let mut reader = csv::ReaderBuilder::new()
+            .comment(Some(b'#'))
+            .trim(csv::Trim::All)
+            .has_headers(false)
+            .flexible(true)
+            .from_reader(table.as_bytes());
+        let mut typed = Vec::new();
+        for (i, record) in reader.records().enumerate() {
+            let refused = |e: csv::Error| words::refuse(format!("the table cannot be read: {e}"));
+            let record = record.map_err(refused)?;
+            let cell = |at: usize| record.get(at).unwrap_or_default();
+            let (name, value) = (cell(0), words::with_unit(cell(1).into(), cell(2)));
+            if i == 0 && !names.iter().any(|own| own == name) && cell(1) == "value" {
+                continue;
+            }
+            let line = record.position().map_or(0, csv::Position::line);
+            if !names.iter().any(|own| own == name) {
+                let names = names.join(", ");
+                let message =
+                    format!("line {line}: {thing} has no parameter {name}: wanted are {names}");
+                return Err(words::refuse(message));
+            }
+            if cell(1).is_empty() {
+                return Err(words::refuse(format!("line {line}: {name} has no value")));
+            }
+            typed.push((name.to_string(), value));
+        }
+        if typed.is_empty() {
+            return Err(words::refuse("the table has no line with a name and a value".into()));
+        }
+        self.set_parameters(id, thing, &typed)
+    }
+
+    /// Begins a family of a program in the document, without rows; returns what it is called.
+    ///
+    /// # Errors
+    /// There is no such program, or it has no parameters.
+    pub fn begin_family(
+        &mut self,
+        id: DocumentId,
+        program: &str,
+    ) -> Result<(Change, String), Refusal> {
+        let state = &self.document(id).state;
+        let document = &state.lowered.document;
+        let class = document.class_named(program).and_then(|class| document.program(class));
+        let none = || words::refuse(format!("there is no program {program}"));
+        if class.ok_or_else(none)?.parameters.is_empty() {
+            let message = format!("{program} has no parameters that rows could say");
+            return Err(words::refuse(message));
+        }
+        let is_free = |name: &String| {
+            document.class_named(name).is_none()
+                && state.lowered.families.iter().all(|family| *family.name != **name)
+        };
+        let names = std::iter::once(format!("{program}Sizes"))
+            .chain((2..).map(|n| format!("{program}Sizes{n}")));
+        let name = { names }.find(is_free).unwrap_or_default();
+        let text = format!("{}\n\nfamily {name} of {program} {{\n}}\n", state.text.trim_end());
+        let label = format!("begin family {name}");
+        Ok((self.with_family_text(id, text, label)?, name))
+    }
+
+    /// Says anew what stands in a cell, or what a row is called, where no column is named. An empty cell is the
+    /// program's own example.
+    ///
+    /// # Errors
+    /// The rows do not stand in the document; there is no such row or column; what is typed is no value.
+    pub fn set_family_cell(
+        &mut self,
+        id: DocumentId,
+        family: &str,
+        (row, column): (usize, Option<&str>),
+        typed: &str,
+    ) -> Result<Change, Refusal> {
+        let label = format!("set {} of {family}", column.unwrap_or("a name"));
+        self.with_family(id, (family, label), |_, grid, lines| {
+            let none = || words::refuse(format!("{family} has no row {}", row + 1));
+            let line = lines.get_mut(row).ok_or_else(none)?;
+            let typed = typed.trim();
+            match column {
+                None if typed.is_empty() => {
+                    return Err(words::refuse("a name is wanted".into()));
+                }
+                None => line.name = typed.into(),
+                Some(column) => {
+                    let at = grid.columns.iter().position(|c| c.name == column);
+                    let none = || words::refuse(format!("{family} has no column {column}"));
+                    line.cells[at.ok_or_else(none)?] = (!typed.is_empty()).then(|| typed.into());
+                }
+            }
+            Ok(())
+        })
+    }
+
+    /// Adds a row with the values of a thing that the program draws; without one with those of the program's own
+    /// example.
+    ///
+    /// # Errors
+    /// The rows do not stand in the document; there is no such thing.
+    pub fn add_family_row(
+        &mut self,
+        id: DocumentId,
+        family: &str,
+        of: Option<&str>,
+    ) -> Result<Change, Refusal> {
+        let label = format!("add a row to {family}");
+        self.with_family(id, (family, label), |state, grid, lines| {
+            let is_numbered =
+                lines.iter().enumerate().all(|(i, line)| line.name == (i + 1).to_string());
+            let name = match (is_numbered, of) {
+                (false, Some(of)) if lines.iter().all(|line| line.name != of) => of.to_string(),
+                _ => {
+                    let mut numbers = (lines.len() + 1..).map(|n| n.to_string());
+                    let is_free = |n: &String| lines.iter().all(|line| line.name != *n);
+                    numbers.find(is_free).unwrap_or_default()
+                }
+            };
+            let cells = match of {
+                Some(of) => {
+                    let path =
+                        parse_path(of).ok_or_else(|| words::refuse(format!("{of} is no path")))?;
+                    let value = |column: &crate::view::GridColumn| {
+                        let path = path.then(Step::Part(column.name.as_str().into()));
+                        let thing = words::find(state, &path)?;
+                        Ok(words::show_thing_exactly(state, thing, &state.values))
+                    };
+                    grid.columns.iter().map(value).collect::<Result<Vec<_>, Refusal>>()?
+                }
+                None => grid.columns.iter().map(|c| Some(c.example.clone())).collect(),
+            };
+            lines.push(Line { name, cells });
+            Ok(())
+        })
+    }
+
+    /// Deletes a row.
+    ///
+    /// # Errors
+    /// The rows do not stand in the document; there is no such row.
+    pub fn delete_family_row(
+        &mut self,
+        id: DocumentId,
+        family: &str,
+        row: usize,
+    ) -> Result<Change, Refusal> {
+        let label = format!("delete a row of {family}");
+        self.with_family(id, (family, label), |_, _, lines| {
+            let none = || words::refuse(format!("{family} has no row {}", row + 1));
+            (row < lines.len()).then(|| lines.remove(row)).ok_or_else(none)?;
+            Ok(())
+        })
+    }
+
+    /// Takes a table into the document: its rows take the place of those that the family has.
+    ///
+    /// # Errors
+    /// The family is none of the document's own; the table cannot be read, or a cell of it is no value.
+    pub fn take_family_table(
+        &mut self,
+        id: DocumentId,
+        family: &str,
+        csv: &str,
+    ) -> Result<Change, Refusal> {
+        let state = &self.document(id).state;
+        let shown = grid::grid(state, family, None)?;
+        let lines = grid::lines_of(state, &shown, csv)?;
+        let text = grid::with_rows(state, &shown, &lines)?;
+        self.with_family_text(id, text, format!("take rows into {family}"))
+    }
+
+    /// Uses a row of a family: a thing that the program draws takes its values, or a new one has them. Returns the
+    /// path of the thing.
+    ///
+    /// # Errors
+    /// There is no such thing; the row is none of the family, or a constraint forbids it.
+    pub fn use_family_row(
+        &mut self,
+        id: DocumentId,
+        (family, row): (&str, &FamilyRow),
+        to: &RowUse,
+    ) -> Result<(Change, String), Refusal> {
+        let state = &self.document(id).state;
+        let (program, _) = find(state, family)?;
+        if let Some(fault) = &row.fault {
+            return Err(words::refuse(format!("{}: {fault}", row.name)));
+        }
+        let document = &state.lowered.document;
+        match to {
+            RowUse::Set(thing) => {
+                let path = parse_path(thing)
+                    .ok_or_else(|| words::refuse(format!("{thing} is no path")))?;
+                let own = words::find(state, &path)?;
+                if !document.is_a(state.structure.things[own].class, program) {
+                    let program = &document.classes[program].name;
+                    return Err(words::refuse(format!("{thing} is not drawn by {program}")));
+                }
+                let shown = grid::grid(state, &document.classes[program].name, None)?;
+                let mut values = Vec::new();
+                for column in &shown.columns {
+                    let said = row.values.iter().find(|(name, _)| *name == column.name);
+                    let value = match said {
+                        Some((_, value)) => value.clone(),
+                        None => example(state, program, column)?,
+                    };
+                    values.push((path.then(Step::Part(column.name.as_str().into())), value));
+                }
+                Ok((self.apply(id, &Command::Set(values))?, thing.clone()))
+            }
+            RowUse::Place => {
+                let class = &document.classes[program].name;
+                let name = free_name(state, &row.name, class);
+                let value = |(name, written): &(String, String)| {
+                    let value = row.values.iter().find(|(own, _)| own == name).map(|(_, v)| v);
+                    let text = match value {
+                        Some(Literal::Text(text)) => lang::quoted(text),
+                        _ => written.clone(),
+                    };
+                    format!("{name} = {text}")
+                };
+                let values: Vec<String> = row.written.iter().map(value).collect();
+                let members = format!("{name}: {class} {{\n    {}\n}}", values.join("\n    "));
+                let edit = Command::Edit { target: Path::default(), members };
+                Ok((self.apply(id, &edit)?, name))
+            }
+        }
+    }
+
+    /// Returns the parameters that a map can be made over, each with a range around its value in a thing.
+    ///
+    /// # Errors
+    /// No such program or thing.
+    pub fn family_axes(
+        &self,
+        id: DocumentId,
+        name: &str,
+        of: Option<&str>,
+    ) -> Result<Vec<FamilyAxis>, Refusal> {
+        let open = self.document(id);
+        map::axes(&open.state, name, &values_of(open, name, of)?)
+    }
+
+    /// Runs a program over a lattice of values of two parameters; the others are those of a thing, else the program's
+    /// own.
+    ///
+    /// # Errors
+    /// No such program, thing or parameter; an end that is no value.
+    pub fn family_map(
+        &self,
+        id: DocumentId,
+        (name, of): (&str, Option<&str>),
+        axes: [&FamilyAxis; 2],
+    ) -> Result<FamilyMap, Refusal> {
+        let open = self.document(id);
+        map::map(&open.state, name, &values_of(open, name, of)?, axes)
+    }
+
+    /// Changes the rows of a family.
+    fn with_family(
+        &mut self,
+        id: DocumentId,
+        (family, label): (&str, String),
+        change: impl FnOnce(&State, &FamilyGrid, &mut Vec<Line>) -> Result<(), Refusal>,
+    ) -> Result<Change, Refusal> {
+        let state = &self.document(id).state;
+        let shown = grid::grid(state, family, None)?;
+        if !shown.is_own {
+            return Err(words::refuse(match &shown.table {
+                Some(file) => {
+                    format!("the rows stand in {file}: take them into the document to change them")
+                }
+                None => format!("{family} is no family of this document: begin one"),
+            }));
+        }
+        let mut lines: Vec<Line> = shown.rows.iter().map(|row| Line::of(&shown, row)).collect();
+        change(state, &shown, &mut lines)?;
+        let text = grid::with_rows(state, &shown, &lines)?;
+        self.with_family_text(id, text, label)
+    }
+
+    fn with_family_text(
+        &mut self,
+        id: DocumentId,
+        text: String,
+        label: String,
+    ) -> Result<Change, Refusal> {
+        let beside = Beside::of(&*self.host, &self.documents, id);
+        let open = &mut self.documents[id.0 as usize];
+        let mut change = retext(open, &beside, text, label)?;
+        if !change.edits.is_empty() {
+            change.documents = self.reach(id);
+        }
+        Ok(change)
+    }
+}
+
+/// The path of a thing that a program draws, and the names of its parameters.
+fn parameters_of(state: &State, thing: &str) -> Result<(Path, Vec<String>), Refusal> {
+    let path = parse_path(thing).ok_or_else(|| words::refuse(format!("{thing} is no path")))?;
+    let class = state.structure.things[words::find(state, &path)?].class;
+    let none = || words::refuse(format!("{thing} is not drawn by a program"));
+    let program = state.lowered.document.program(class).ok_or_else(none)?;
+    Ok((path, program.parameters.iter().map(|asked| asked.name.to_string()).collect()))
+}
+
+/// The value of a parameter in the program's own example.
+fn example(
+    state: &State,
+    program: kernel::ClassId,
+    column: &crate::view::GridColumn,
+) -> Result<Literal, Refusal> {
+    let none = || words::refuse(format!("{} has no example", column.name));
+    let class = grid::class_of(state, program, &column.name).ok_or_else(none)?;
+    super::literal(&state.lowered.document, class, &column.example).map_err(words::refuse)
+}
+
+/// The values of the parameters in a thing of a document; none without a thing.
+fn values_of(open: &Open, name: &str, of: Option<&str>) -> Result<Vec<(String, Literal)>, Refusal> {
+    let Some(of) = of else { return Ok(Vec::new()) };
+    let state = &open.state;
+    let (program, _) = find(state, name)?;
+    let document = &state.lowered.document;
+    let path = parse_path(of).ok_or_else(|| words::refuse(format!("{of} is no path")))?;
+    words::find(state, &path)?;
+    let evaluator = state.evaluator(open.values());
+    let asked = document.program(program).map(|p| p.parameters.as_slice()).unwrap_or_default();
+    let value = |asked: &kernel::program::Asked| {
+        let answer = evaluator.at(&path.then(Step::Part(asked.name.clone()))).ok()?;
+        Some((asked.name.to_string(), crate::check::literal_of(&answer).ok()?))
+    };
+    Ok(asked.iter().filter_map(value).collect())
+}
+
+/// Returns a name for a thing that has the values of a row: `b6204` for `6204`, `m10` for `M10`.
+fn free_name(state: &State, row: &str, class: &str) -> String {
+    let plain: String = row.chars().map(|c| if c.is_alphanumeric() { c } else { ' ' }).collect();
+    let mut words = plain.split_whitespace();
+    let first = words.next().unwrap_or_default().to_lowercase();
+    let rest: String = words.collect();
+    let small: String = class.chars().take(1).flat_map(char::to_lowercase).collect();
+    let starts_well = first.starts_with(char::is_alphabetic);
+    let base = if starts_well { format!("{first}{rest}") } else { format!("{small}{first}{rest}") };
+    let is_free = |name: &String| {
+        let path = Path(vec![Step::Part(name.as_str().into())]);
+        state.structure.follow(DOCUMENT, &path).is_err()
+    };
+    let names = std::iter::once(base.clone()).chain((2..).map(|n| format!("{base}_{n}")));
+    { names }.find(is_free).unwrap_or_default()
+}

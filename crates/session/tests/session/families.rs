@@ -1,0 +1,195 @@
+//! Families in the lab: rows changed cell by cell, used, and the map of a program.
+
+use crate::desk::{Desk, gallery};
+use session::view::{FamilyAxis, RowFormats, RowUse};
+use std::fs;
+
+const DISCS: &str = "\
+use geometry
+unit mm
+
+program Disc(
+    rim: Length in 1 mm..100 mm = 20 mm \"Radius?\",
+    hole: Length = 5 mm,
+    spokes: Integer = 3,
+) {
+    constraint wall: hole < rim
+    edge = Circle(center: Point(0, 0), radius: rim)
+    bore = Circle(center: Point(0, 0), radius: hole)
+}
+
+/// Two that are sold.
+family Sold of Disc {
+    rows: (\"D10\", 10 mm, 2 mm)  (\"D30\", 30 mm)
+    constraint even: rim < 90 mm
+}
+
+disc: Disc
+";
+
+fn cells(desk: &Desk, family: &str) -> Vec<(String, Vec<String>)> {
+    let grid = desk.session.family_grid(desk.id, family, None).expect("there is one");
+    let row = |at: usize| {
+        let cells = (0..grid.columns.len()).map(|column| grid.cell(at, column).to_string());
+        (grid.rows[at].name.clone(), cells.collect())
+    };
+    (0..grid.rows.len()).map(row).collect()
+}
+
+fn named(name: &str, cells: [&str; 3]) -> (String, Vec<String>) {
+    (name.into(), cells.map(String::from).to_vec())
+}
+
+#[test]
+fn a_family_is_a_grid_of_what_is_written() {
+    let desk = Desk::of(DISCS);
+    let grid = desk.session.family_grid(desk.id, "Sold", None).expect("there is one");
+    assert!(grid.is_own && grid.program == "Disc" && grid.table.is_none());
+    let columns: Vec<_> = grid
+        .columns
+        .iter()
+        .map(|c| (c.name.as_str(), c.example.as_str(), c.prompt.as_str()))
+        .collect();
+    assert_eq!(columns, [("rim", "20 mm", "Radius?"), ("hole", "5 mm", ""), ("spokes", "3", "")]);
+    let rows = [named("D10", ["10 mm", "2 mm", ""]), named("D30", ["30 mm", "", ""])];
+    assert_eq!(cells(&desk, "Sold"), rows);
+}
+
+#[test]
+fn a_cell_is_said_anew_and_a_step_takes_it_back() {
+    let mut desk = Desk::of(DISCS);
+    let set = |desk: &mut Desk, row, column, typed: &str| {
+        desk.session.set_family_cell(desk.id, "Sold", (row, column), typed)
+    };
+    set(&mut desk, 1, Some("spokes"), "7").expect("it is a whole number");
+    // what stands before it is the program's own value, which has to be written out
+    assert!(desk.text().contains("(\"D30\", 30 mm, 5 mm, 7)"), "{}", desk.text());
+    assert!(desk.text().contains("constraint even: rim < 90 mm"), "{}", desk.text());
+    set(&mut desk, 0, None, "D 10 \"old\"").expect("it is a name");
+    assert_eq!(cells(&desk, "Sold")[0], named("D 10 \"old\"", ["10 mm", "2 mm", ""]));
+    set(&mut desk, 0, Some("hole"), "").expect("a cell may be empty");
+    assert_eq!(cells(&desk, "Sold")[0].1, ["10 mm", "", ""]);
+    let before = desk.text();
+    let wrong = set(&mut desk, 0, Some("hole"), "3 kg").expect_err("a mass is no length");
+    assert!(wrong.message.starts_with("hole: "), "{}", wrong.message);
+    assert_eq!(desk.text(), before);
+    for _ in 0..3 {
+        desk.apply(&session::Command::Undo).expect("there is a step");
+    }
+    assert_eq!(desk.text(), DISCS);
+}
+
+#[test]
+fn rows_are_added_from_what_is_drawn_and_deleted() {
+    let mut desk = Desk::of(DISCS);
+    desk.type_in("disc.rim", "40 mm").expect("it is free");
+    desk.session.add_family_row(desk.id, "Sold", Some("disc")).expect("disc is one");
+    desk.session.add_family_row(desk.id, "Sold", None).expect("the program has values");
+    let rows = cells(&desk, "Sold");
+    assert_eq!(rows[2], named("disc", ["40 mm", "5 mm", "3"]));
+    assert_eq!(rows[3], named("4", ["20 mm", "5 mm", "3"]));
+    for _ in 0..4 {
+        desk.session.delete_family_row(desk.id, "Sold", 0).expect("there is a first row");
+    }
+    assert!(cells(&desk, "Sold").is_empty());
+    assert!(desk.session.delete_family_row(desk.id, "Sold", 0).is_err());
+    desk.session.add_family_row(desk.id, "Sold", None).expect("rows may be added again");
+    assert_eq!(cells(&desk, "Sold"), [named("1", ["20 mm", "5 mm", "3"])]);
+}
+
+#[test]
+fn a_family_is_begun_and_leaves_and_comes_as_a_table() {
+    let mut desk = Desk::of(DISCS);
+    let (_, name) = desk.session.begin_family(desk.id, "Disc").expect("it has parameters");
+    assert_eq!(name, "DiscSizes");
+    let table = "part,rim [mm],hole\na,12,3 mm\nb,13.5,\n";
+    desk.session.take_family_table(desk.id, &name, table).expect("it is a table");
+    assert_eq!(
+        cells(&desk, &name),
+        [named("a", ["12 mm", "3 mm", ""]), named("b", ["13.5 mm", "", ""])]
+    );
+    let grid = desk.session.family_grid(desk.id, &name, None).expect("there is one");
+    assert_eq!(grid.csv(), "name,rim [mm],hole [mm],spokes\na,12,3,\nb,13.5,,\n");
+    let before = desk.text();
+    let wrong = desk.session.take_family_table(desk.id, &name, "part,rim\na,wide\n");
+    let wrong = wrong.expect_err("wide is no length").message;
+    assert!(wrong.starts_with("line 2 of the table, a: rim: "), "{wrong}");
+    assert_eq!(desk.text(), before);
+}
+
+#[test]
+fn rows_of_a_file_are_read_alone_until_they_are_taken_in() {
+    let mut desk = Desk::of(&gallery("bearing"));
+    let csv = concat!(env!("CARGO_MANIFEST_DIR"), "/../../gallery/bearing.csv");
+    let table = fs::read_to_string(csv).expect("the gallery has it");
+    let grid = desk.session.family_grid(desk.id, "Series62", Some(&table)).expect("there is one");
+    assert_eq!((grid.rows.len(), grid.is_own), (11, false));
+    assert_eq!(grid.cell(4, 1), "47 mm");
+    let refused = desk.session.set_family_cell(desk.id, "Series62", (0, Some("bore")), "9 mm");
+    let refused = refused.expect_err("they stand in a file").message;
+    assert_eq!(
+        refused,
+        "the rows stand in bearing.csv: take them into the document to change them"
+    );
+    desk.session.take_family_table(desk.id, "Series62", &table).expect("all are values");
+    let taken = desk.session.family_grid(desk.id, "Series62", None).expect("there is one");
+    assert!(taken.is_own);
+    assert_eq!(taken.rows[4].name, "6204");
+    let drawn = taken.rows.iter().map(|row| {
+        let formats = RowFormats::default();
+        desk.session.draw_row(desk.id, "Series62", row, formats).expect("it is one").outcome
+    });
+    assert_eq!(drawn.collect::<Vec<_>>(), vec!["drawn"; 11]);
+}
+
+#[test]
+fn a_row_is_used_by_its_name() {
+    let mut desk = Desk::of(DISCS);
+    let grid = desk.session.family_grid(desk.id, "Sold", None).expect("there is one");
+    desk.type_in("disc.spokes", "9").expect("it is free");
+    let to = RowUse::Set("disc".into());
+    desk.session.use_family_row(desk.id, ("Sold", &grid.rows[0]), &to).expect("disc is one");
+    let comes_to = |desk: &Desk, path: &str| desk.session.comes_to(desk.id, path);
+    assert_eq!(comes_to(&desk, "disc.rim").as_deref(), Some("10 mm"));
+    // what the row does not say is the program's own value
+    assert_eq!(comes_to(&desk, "disc.spokes").as_deref(), Some("3"));
+    let placed = desk.session.use_family_row(desk.id, ("Sold", &grid.rows[1]), &RowUse::Place);
+    assert_eq!(placed.expect("it can be placed").1, "d30");
+    assert_eq!(comes_to(&desk, "d30.rim").as_deref(), Some("30 mm"));
+    let again = desk.session.use_family_row(desk.id, ("Sold", &grid.rows[1]), &RowUse::Place);
+    assert_eq!(again.expect("it can be placed").1, "d30_2");
+}
+
+#[test]
+fn a_map_shows_where_a_program_draws() {
+    let desk = Desk::of(DISCS);
+    let axis = |parameter: &str, from: &str, to: &str| FamilyAxis {
+        parameter: parameter.into(),
+        from: from.into(),
+        to: to.into(),
+    };
+    let (rim, hole) = (axis("rim", "10 mm", "103 mm"), axis("hole", "0 mm", "62 mm"));
+    let map = desk.session.family_map(desk.id, ("Sold", Some("disc")), [&rim, &hole]);
+    let map = map.expect("both are lengths");
+    assert_eq!((map.across.values.len(), map.up.values.len()), (32, 32));
+    for (at, reason) in map.places.iter().enumerate() {
+        let (x, y) = (map.across.values[at % 32], map.up.values[at / 32]);
+        let reason = reason.map(|r| map.reasons[r].step.as_str());
+        // the range of the program, then its demand, then the rule of the family
+        let wanted = match () {
+            () if x > 100.0 => reason.filter(|&r| r != "even"),
+            () if y >= x => Some("wall"),
+            () if x >= 90.0 => Some("even"),
+            () => None,
+        };
+        assert_eq!(reason, wanted, "{x} {y}");
+        assert!(x <= 100.0 || reason.is_some(), "{x} {y}");
+    }
+    let place = map.place(10, 0).expect("it lies on the map");
+    assert_eq!((place.across.as_str(), place.up.as_str(), place.why), ("40 mm", "0 mm", None));
+    let wrong = desk.session.family_map(desk.id, ("Sold", None), [&rim, &rim]);
+    assert!(wrong.is_err());
+    let axes = desk.session.family_axes(desk.id, "Sold", Some("disc")).expect("it has numbers");
+    assert_eq!(axes[0], axis("rim", "2 mm", "50 mm"));
+    assert_eq!(axes[2].parameter, "spokes");
+}

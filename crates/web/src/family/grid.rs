@@ -1,0 +1,146 @@
+//! The rows of a family as a grid: each cell a field, each row with what comes of it.
+
+use super::{Family, MOST_ROWS};
+use crate::{icons, words};
+use leptos::ev::KeyboardEvent;
+use leptos::prelude::*;
+use session::view::{FamilyRow, RowUse};
+use wasm_bindgen::JsCast;
+
+/// The grid.
+#[component]
+pub fn Grid(
+    /// What is shown.
+    family: Family,
+) -> impl IntoView {
+    let grid = family.grid;
+    let counted = move || {
+        let drawn = family.outcomes.with(|all| all.iter().filter(|o| o.outcome == "drawn").count());
+        let all = family.outcomes.with(Vec::len);
+        (all > 0).then(|| words::rows_drawn(drawn, all))
+    };
+    let more = move || grid.with(|grid| grid.rows.len().saturating_sub(MOST_ROWS));
+    let rows = move || {
+        let shown = grid.with(|grid| grid.rows.iter().take(MOST_ROWS).cloned().collect::<Vec<_>>());
+        let row = |(at, row)| view! { <Row family=family at=at row=row /> };
+        shown.into_iter().enumerate().map(row).collect_view()
+    };
+    let head = move || {
+        let columns = grid.with(|grid| grid.columns.clone());
+        let one = |column: session::view::GridColumn| {
+            view! { <th scope="col" title=column.prompt>{column.name}</th> }
+        };
+        columns.into_iter().map(one).collect_view()
+    };
+    let is_empty = move || grid.with(|grid| grid.rows.is_empty());
+    let nothing = move || match grid.with(|grid| (grid.name == grid.program, grid.table.is_some()))
+    {
+        (true, _) => words::NO_FAMILY,
+        (false, true) => words::TABLE_COMES,
+        (false, false) => words::NO_ROWS,
+    };
+    view! {
+        <div class="scroll">
+            <Show when=move || !is_empty() fallback=move || view! { <p class="quiet">{nothing}</p> }>
+                <table>
+                    <thead><tr>
+                        <th scope="col">{words::ROW_NAME}</th>{head}
+                        <th scope="col">{words::ROW_OUTCOME}</th>
+                        <th scope="col"><span class="unseen">{words::ROW_SET}</span></th>
+                    </tr></thead>
+                    <tbody>{rows}</tbody>
+                </table>
+            </Show>
+            <p class="quiet" role="status">{counted}</p>
+            {move || grid.with(|grid| grid.notes.clone()).into_iter().map(|note| view! { <p class="quiet">{note}</p> }).collect_view()}
+            {move || (more() > 0).then(|| view! { <p class="quiet">{words::more_rows(more())}</p> })}
+        </div>
+    }
+}
+
+/// One row.
+#[component]
+fn Row(family: Family, at: usize, row: FamilyRow) -> impl IntoView {
+    let Family { lab, name, grid, outcomes, thing, .. } = family;
+    let is_own = grid.with_untracked(|grid| grid.is_own);
+    let columns = grid.with_untracked(|grid| grid.columns.clone());
+    let outcome = Memo::new(move |_| outcomes.with(|all| all.get(at).cloned()).unwrap_or_default());
+    let row = StoredValue::new(row);
+    let row_name = row.with_value(|row| row.name.clone());
+    let mark = row_name.clone();
+    let name_label = words::cell_of(words::ROW_NAME, &row_name);
+    let set = move |column: Option<String>, typed: &str| {
+        let name = name.get_untracked();
+        let cell = (at, column.as_deref());
+        family.settle(lab.tell(|s, id| s.set_family_cell(id, &name, cell, typed)))
+    };
+    let cell = move |(index, column): (usize, session::view::GridColumn)| {
+        let value = grid.with_untracked(|grid| grid.cell(at, index).to_string());
+        let label = words::cell_of(&column.name, &row.with_value(|row| row.name.clone()));
+        let named = column.name.clone();
+        let change = move |e: leptos::ev::Event| {
+            set(Some(named.clone()), &event_target_value(&e));
+        };
+        view! {
+            <td><input class="field" autocomplete="off" spellcheck="false" aria-label=label
+                placeholder=column.example readonly=!is_own data-cell=format!("{at},{}", index + 1)
+                prop:value=value on:change=change on:keydown=move |e| walk(&e) /></td>
+        }
+    };
+    let delete = move |_| {
+        let name = name.get_untracked();
+        family.settle(lab.tell(|s, id| s.delete_family_row(id, &name, at)));
+    };
+    let is_bad = move || outcome.with(|o| o.outcome != "drawn");
+    let said = move || {
+        outcome.with(|o| match o.outcome.as_str() {
+            "drawn" => String::from(words::ROW_DRAWN),
+            kind => format!("{kind}: {}", o.message),
+        })
+    };
+    view! {
+        <tr class:bad=is_bad data-row=mark>
+            <th scope="row"><input class="field" autocomplete="off" spellcheck="false" readonly=!is_own
+                aria-label=name_label data-cell=format!("{at},0")
+                prop:value=row_name on:keydown=move |e| walk(&e)
+                on:change=move |e| { set(None, &event_target_value(&e)); } /></th>
+            {columns.into_iter().enumerate().map(cell).collect_view()}
+            <td class="outcome">{said}</td>
+            <td class="uses">
+                {move || thing.get().map(|thing| view! {
+                    <button data-family="apply" title=words::applied_to(&thing)
+                        on:click=move |_| row.with_value(|row| family.apply_row(row))>{words::ROW_SET}</button>
+                })}
+                <button data-family="place" on:click=move |_| row.with_value(|row| family.use_row(row, &RowUse::Place))>{words::ROW_PLACE}</button>
+                {is_own.then(|| view! {
+                    <button class="bare" data-family="delete" aria-label=words::ROW_DELETE title=words::ROW_DELETE on:click=delete>{icons::close()}</button>
+                })}
+            </td>
+        </tr>
+    }
+}
+
+/// Arrow keys and Enter go from cell to cell up and down.
+fn walk(e: &KeyboardEvent) {
+    let by: i64 = match e.key().as_str() {
+        "ArrowUp" => -1,
+        "ArrowDown" | "Enter" => 1,
+        _ => return,
+    };
+    let field = e.target().and_then(|t| t.dyn_into::<web_sys::HtmlElement>().ok());
+    let Some(at) = field.and_then(|field| field.get_attribute("data-cell")) else { return };
+    let Some((row, column)) = at.split_once(',') else { return };
+    let to = row.parse::<i64>().unwrap_or_default() + by;
+    let focus = move |selector: String| {
+        let found = document().query_selector(&selector).ok().flatten();
+        found.and_then(|f| f.dyn_into::<web_sys::HtmlElement>().ok()).map(|f| f.focus())
+    };
+    e.prevent_default();
+    let selector = format!("[data-cell='{to},{column}']");
+    // a change makes the rows anew: the next field is looked for then
+    if focus(selector.clone()).is_some() {
+        request_animation_frame(move || {
+            focus(selector);
+        });
+    }
+}
