@@ -23,6 +23,7 @@ use base::{Diagnostic, Span};
 pub use counts::is_count;
 use home::{Home, Site};
 use kernel::{ClassId, Command, Literal, Path, Step, Structure};
+pub(crate) use rename::is_class_name;
 pub use sides::write_sides;
 pub use switch::of_constraint;
 use syntax::ast::Expr;

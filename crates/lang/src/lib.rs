@@ -22,7 +22,7 @@
 //! `settle`, `restore`,
 //! `checks`, `lessons`, `views`,
 //! `numbers`, `shown`, `write`, `uses`,
-//! `edits`.
+//! `edits`, `references`, `mentions`.
 mod bindings;
 mod calls;
 mod checks;
@@ -44,6 +44,7 @@ mod lessons;
 mod loops;
 mod lower;
 mod members;
+mod mentions;
 mod mixed;
 mod names;
 mod numbers;
@@ -74,7 +75,8 @@ pub use edits::{Restructuring, edits_for, for_every, is_count, of_constraint, wr
 pub use families::{Family, Row as FamilyRow};
 pub use files::File;
 pub use lessons::{Goal, Lesson, LessonStep, Task};
-pub use lower::{Lowered, lower, lower_written};
+pub use lower::{Lowered, lower, lower_written, mentions};
+pub use mentions::{Meant, Mention};
 pub use numbers::{Wanted, read_literal, show_limit};
 pub use origins::Origins;
 pub use shown::{Quantity, Shown, in_unit, show_quantity};

@@ -14,6 +14,7 @@ use crate::kinds::Kind;
 use crate::lessons::{self, Lesson};
 use crate::loops::Repeated;
 use crate::members::{Definition, Pending};
+use crate::mentions::Mention;
 use crate::origins::Origins;
 use crate::placed::PlacedClasses;
 use crate::programs::Programs;
@@ -131,6 +132,16 @@ fn errors(lowered: &Lowered) -> usize {
     lowered.diagnostics.iter().filter(|d| d.severity == Severity::Error).count()
 }
 
+/// Finds what every word of a text names, of those that name something.
+///
+/// What has an error names what it can. Cost: that of lowering the text once.
+pub fn mentions(text: &str, load: &dyn Fn(&str) -> Option<String>) -> Vec<Mention> {
+    let mut l = Lowerer::new(load, None);
+    l.references = Some(References::default());
+    l.run(text);
+    l.mentions()
+}
+
 /// Finds what of a text speaks of a member of a class.
 pub(crate) fn references(text: &str, load: &dyn Fn(&str) -> Option<String>) -> References {
     let mut l = Lowerer::new(load, None);
@@ -227,8 +238,8 @@ pub(crate) struct Lowerer<'l> {
     pub(crate) broken: BTreeSet<(ClassId, Name)>,
     /// Where parts and messages are named.
     pub(crate) named_at: ByName<Place>,
-    /// Names of constraints and merges.
-    pub(crate) rule_names: BTreeSet<(ClassId, Name)>,
+    /// Where constraints and merges are named.
+    pub(crate) rule_names: BTreeMap<(ClassId, Name), Place>,
     /// What `without` names.
     pub(crate) masks: Vec<Mask>,
     /// What switches name.
@@ -314,7 +325,7 @@ impl<'l> Lowerer<'l> {
             given_counts: BTreeMap::new(),
             given_in_bodies: BTreeMap::new(),
             longer: Vec::new(),
-            rule_names: BTreeSet::new(),
+            rule_names: BTreeMap::new(),
             masks: Vec::new(),
             switches: Vec::new(),
             replacements: Vec::new(),

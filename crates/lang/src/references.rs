@@ -71,7 +71,7 @@ impl Lowerer<'_> {
     fn symbol_of(&self, name: &Name, class: ClassId) -> Option<Symbol> {
         let declares = |c: ClassId| {
             let key = (c, name.clone());
-            self.named_at.contains_key(&key) || self.rule_names.contains(&key)
+            self.named_at.contains_key(&key) || self.rule_names.contains_key(&key)
         };
         let class = self.document.lineage(class).into_iter().find(|&c| declares(c))?;
         Some(Symbol { class, name: name.clone() })

@@ -374,12 +374,14 @@ impl Lowerer<'_> {
         word: Option<ast::Word>,
     ) -> Option<Option<Name>> {
         let Some(word) = word else { return Some(None) };
-        let is_new = self.rule_names.insert((scope.class(), word.name()));
+        let place = Place { file: scope.file, span: word.span() };
+        let key = (scope.class(), word.name());
+        let is_new = !self.rule_names.contains_key(&key);
+        self.rule_names.entry(key).or_insert(place);
         if is_new || !scope.constants.is_empty() || !scope.elements.is_empty() {
             return Some(Some(word.name()));
         }
         let message = format!("there is a constraint or merge {} already", word.text());
-        let place = Place { file: scope.file, span: word.span() };
         let d = Diagnostic::error("duplicate-name", place, message);
         self.report(d.hint("give one of them another name"));
         None

@@ -288,7 +288,7 @@ fn as_dragged(
     };
     let latest = planner.take_latest();
     let path = state.structure.path(&state.lowered.document, thing);
-    let ended = drag::press(state, planner, thing, path).ok().and_then(|mut drag| {
+    let ended = drag::press(state, planner, &[thing], path).ok().and_then(|mut drag| {
         let mut wishes = (0..WISHES).map(|_| drag.to(state, planner, to));
         wishes.find(|came| came.reached || came.limit.is_some())
     });

@@ -19,6 +19,8 @@ use std::collections::BTreeSet;
 pub(crate) struct Drag {
     /// What is dragged, for the undo list.
     pub(crate) path: Path,
+    /// What is dragged with it.
+    others: Vec<Path>,
     /// The thing and where its first place was at the press, where its class says how it moves.
     moved: Option<(ThingId, (f64, f64))>,
     /// The expression, where what is dragged is computed.
@@ -36,11 +38,12 @@ pub(crate) struct Drag {
     pub(crate) wish: [f64; 2],
 }
 
-/// Begins a drag in a document, and returns where its handle is on the sheet.
+/// Begins a drag of some things in a document, and returns where its handle is on the sheet: that of the first.
 ///
 /// # Errors
-/// Why the thing cannot be dragged.
-pub(crate) fn begin(open: &mut Open, path: &Path) -> Result<(f64, f64), Refusal> {
+/// Why they cannot be dragged; of several, each must be a thing with places of its own.
+pub(crate) fn begin(open: &mut Open, paths: &[Path]) -> Result<(f64, f64), Refusal> {
+    let [path] = paths else { return begin_several(open, paths) };
     let state = open.state.clone();
     let aim = apply::aim(&state, path);
     let drag = match aim.map_err(|r| words::find(&state, path).err().unwrap_or(r))? {
@@ -50,7 +53,7 @@ pub(crate) fn begin(open: &mut Open, path: &Path) -> Result<(f64, f64), Refusal>
             let term = Term::at(Term::Me, &path.join(&place));
             press_computed(&state, &mut open.planner, term, path.clone())
         }
-        Aim::Thing(thing) => press(&state, &mut open.planner, thing, path.clone()),
+        Aim::Thing(thing) => press(&state, &mut open.planner, &[thing], path.clone()),
         Aim::Term(term) => press_computed(&state, &mut open.planner, term, path.clone()),
     };
     let drag =
@@ -60,23 +63,52 @@ pub(crate) fn begin(open: &mut Open, path: &Path) -> Result<(f64, f64), Refusal>
     Ok(handle)
 }
 
-/// Begins a drag: of a number, of a place, or of a thing with all the places that it is made of.
+/// Begins a drag of several things, which move as one.
+fn begin_several(open: &mut Open, paths: &[Path]) -> Result<(f64, f64), Refusal> {
+    let state = open.state.clone();
+    let mut things = Vec::new();
+    for path in paths {
+        match apply::aim(&state, path)? {
+            Aim::Thing(thing) if !places(&state.structure, &[thing]).is_empty() => {
+                things.push(thing)
+            }
+            Aim::Thing(_) | Aim::Term(_) => {
+                let message =
+                    format!("{path} has no place of its own: it is not dragged with others");
+                return Err(words::refuse(message));
+            }
+        }
+    }
+    let Some(path) = paths.first() else { return Err(words::refuse("nothing is selected".into())) };
+    let drag = press(&state, &mut open.planner, &things, path.clone());
+    let mut drag =
+        drag.map_err(|reason| words::refusal_for(&state, &reason, &plan::EditReport::default()))?;
+    drag.others = paths[1..].to_vec();
+    let handle = drag.handle();
+    open.drag = Some(drag);
+    Ok(handle)
+}
+
+/// Begins a drag: of a number, of a place, or of things with all the places that they are made of.
 ///
 /// # Errors
-/// Why the thing cannot be dragged.
+/// Why they cannot be dragged.
 pub(crate) fn press(
     state: &State,
     planner: &mut Planner,
-    thing: ThingId,
+    things: &[ThingId],
     path: Path,
 ) -> Result<Drag, RefusalReason> {
     let structure = &state.structure;
     general::accept(state, &path).map_err(|r| RefusalReason::Target(r.message))?;
-    let otherwise = otherwise(state, thing);
-    let handles: Vec<Vec<ThingId>> = match (structure.slot_of(thing), &otherwise) {
-        (Some(_), _) => vec![vec![thing]],
-        (None, Some(moves)) => moves.iter().map(|&s| vec![structure.slots[s].thing]).collect(),
-        (None, None) => places(structure, thing),
+    // how a thing moves that says so itself is known of it alone
+    let single = if let [thing] = things { Some(*thing) } else { None };
+    let otherwise = single.and_then(|thing| Some((thing, otherwise(state, thing)?)));
+    let number = single.filter(|&thing| structure.slot_of(thing).is_some());
+    let handles: Vec<Vec<ThingId>> = match (number, &otherwise) {
+        (Some(thing), _) => vec![vec![thing]],
+        (None, Some((_, moves))) => moves.iter().map(|&s| vec![structure.slots[s].thing]).collect(),
+        (None, None) => places(structure, things),
     };
     let slots = |&t: &ThingId| structure.slots_under(t);
     let is_held =
@@ -94,8 +126,8 @@ pub(crate) fn press(
     let press = planner.press(state.model(), &state.values, &targets)?;
     let start: Vec<f64> = dragged.iter().map(|&s| state.values.numbers[s]).collect();
     let number = |s: Option<&SlotId>| s.map_or(0.0, |&s| state.values.numbers[s]);
-    let moved = otherwise.map(|_| {
-        let first = places(structure, thing).into_iter().next().unwrap_or_default();
+    let moved = otherwise.map(|(thing, _)| {
+        let first = places(structure, &[thing]).into_iter().next().unwrap_or_default();
         let first: Vec<SlotId> = first.iter().flat_map(slots).collect();
         (thing, (number(first.first()), number(first.get(1))))
     });
@@ -103,6 +135,7 @@ pub(crate) fn press(
     let values = state.values.clone();
     Ok(Drag {
         path,
+        others: Vec::new(),
         moved,
         computed: None,
         slots: dragged,
@@ -129,7 +162,7 @@ pub(crate) fn press_computed(
     let (answer, read) = evaluator.listening(|| evaluator.evaluate(&term, DOCUMENT));
     let answer = answer.map_err(|fault| RefusalReason::Target(fault.message))?;
     if let Answer::Thing(thing) = answer {
-        return press(state, planner, thing, path);
+        return press(state, planner, &[thing], path);
     }
     let Some(start) = numbers_of(&answer) else {
         return Err(RefusalReason::Target(format!("{path} is no number and no place")));
@@ -144,6 +177,7 @@ pub(crate) fn press_computed(
     let (slots, values) = (read.into_iter().collect(), state.values.clone());
     Ok(Drag {
         path,
+        others: Vec::new(),
         moved: None,
         computed: Some(term),
         slots,
@@ -159,7 +193,7 @@ pub(crate) fn press_computed(
 /// first that its class, or one above it, answers with.
 pub(crate) fn computed_place(state: &State, thing: ThingId) -> Option<Path> {
     let (structure, document) = (&state.structure, &state.lowered.document);
-    if structure.slot_of(thing).is_some() || !places(structure, thing).is_empty() {
+    if structure.slot_of(thing).is_some() || !places(structure, &[thing]).is_empty() {
         return None;
     }
     let evaluator = state.evaluator(&state.values);
@@ -224,12 +258,17 @@ pub(crate) fn coordinates(structure: &Structure, thing: ThingId) -> Option<[(Thi
     Some([coordinate("x")?, coordinate("y")?])
 }
 
-/// Returns the places that a thing is made of, each merged one once: itself, or those of its parts. A
+/// Returns true for a thing that has a place to be dragged by.
+pub(crate) fn has_place(structure: &Structure, thing: ThingId) -> bool {
+    !places(structure, &[thing]).is_empty()
+}
+
+/// Returns the places that things are made of, each merged one once: themselves, or those of their parts. A
 /// place that has more than its coordinates, two numbers x and y, is dragged by these.
-fn places(structure: &Structure, thing: ThingId) -> Vec<Vec<ThingId>> {
+fn places(structure: &Structure, things: &[ThingId]) -> Vec<Vec<ThingId>> {
     let mut places: Vec<Vec<ThingId>> = Vec::new();
     let mut known: BTreeSet<[SlotId; 2]> = BTreeSet::new();
-    let mut stack = vec![thing];
+    let mut stack: Vec<ThingId> = things.iter().rev().copied().collect();
     while let Some(t) = stack.pop() {
         let Some([(x, of_x), (y, of_y)]) = coordinates(structure, t) else {
             stack.extend(structure.parts(t).rev());
@@ -336,7 +375,9 @@ impl Drag {
         if let Some(reason) = &report.refusal {
             return Err(words::refusal_for(&state, reason, &report));
         }
-        let label = format!("move {}", self.path);
+        let dragged: Vec<String> =
+            std::iter::once(&self.path).chain(&self.others).map(Path::to_string).collect();
+        let label = format!("move {}", words::listed(&dragged));
         let wishes = match &self.computed {
             None => self.slots.iter().copied().zip(self.wanted).collect(),
             Some(_) => Vec::new(),

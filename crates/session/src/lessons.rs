@@ -8,9 +8,11 @@ use crate::check::{command_of, expect_rule, literal_of, meant};
 use crate::document::Open;
 use crate::host::Host;
 use crate::state::State;
+use crate::tools::of_classes;
 use crate::view::{Change, CheckReport, LessonEntry, LessonView, Refusal, Shortfall};
-use crate::words;
+use crate::{views, words};
 use base::LineIndex;
+use drawing::Drawing;
 use kernel::{Command, DOCUMENT, Path, Term};
 use lang::{Expectation, Goal, Lesson, LessonStep, StatementKind};
 use std::rc::Rc;
@@ -56,7 +58,10 @@ pub(crate) fn follow(open: &mut Open, host: &dyn Host, explained: bool) -> Optio
         let is_done = step.is_some_and(|step| step.task.is_some())
             && missing.as_ref().is_some_and(Vec::is_empty);
         if !is_done {
-            let view = view(lesson, study.at, missing.unwrap_or_default());
+            let mut view = view(lesson, study.at, missing.unwrap_or_default());
+            if let Some(step) = step {
+                (view.traced, view.tool) = traced(open, host, step, &study.since);
+            }
             let study = open.study.as_mut()?;
             study.explained = explained;
             return Some(view);
@@ -106,7 +111,37 @@ fn view(lesson: &Lesson, at: usize, missing: Vec<String>) -> LessonView {
         hints: step.map(|step| step.hints.clone()).unwrap_or_default(),
         points_at: points_at.collect(),
         can_show: step.is_some_and(|step| !step.solution.is_empty()),
+        traced: Drawing::default(),
+        tool: None,
     }
+}
+
+/// Returns what a step's solution draws on a sheet that was empty when the step began, and the class of its first
+/// thing as long as nothing has been drawn.
+fn traced(
+    open: &Open,
+    host: &dyn Host,
+    step: &LessonStep,
+    since: &State,
+) -> (Drawing, Option<String>) {
+    let is_empty = |state: &State| state.structure.parts(DOCUMENT).next().is_none();
+    let drawn = step.solution.iter().filter_map(|statement| match &statement.kind {
+        StatementKind::Command(Command::Edit { target, members }) if target.0.is_empty() => {
+            Some(members.as_str())
+        }
+        _ => None,
+    });
+    let drawn: Vec<&str> = drawn.collect();
+    if drawn.is_empty() || !is_empty(since) {
+        return (Drawing::default(), None);
+    }
+    let text = format!("{}\n{}\n", of_classes(&since.text), drawn.join("\n"));
+    let trial = Open::of("lesson", text, host);
+    let shown = views::picture::picture(&trial.state, trial.values(), &trial.status);
+    let document = &trial.state.lowered.document;
+    let first = trial.state.structure.parts(DOCUMENT).next().filter(|_| is_empty(&open.state));
+    let class = first.map(|thing| document.named_class(trial.state.structure.things[thing].class));
+    (shown.drawing, class.map(|class| document.classes[class].name.to_string()))
 }
 
 /// Says what a goal asks for.
@@ -176,7 +211,7 @@ fn expected(open: &Open, expectation: &Expectation) -> Result<(), String> {
     match expectation {
         Expectation::Rule { rule, within } => expect_rule(&open.state, rule, within.as_ref()),
         Expectation::Satisfied => {
-            let status = crate::views::status::view(open);
+            let status = views::status::view(open);
             if status.satisfied { Ok(()) } else { Err(status.message) }
         }
         Expectation::Free(n) => {

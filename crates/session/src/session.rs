@@ -16,6 +16,7 @@ use crate::plotting::{self, Plot, Request, Sweeping};
 use crate::recognise;
 use crate::state::State;
 use crate::texts::Texts;
+use crate::tools::copies::{Clip, Relations};
 use crate::tools::{self, Tool};
 use crate::view::{
     Advice, Affected, Analysis, BinEntry, Change, CheckReport, CompletionView, DiagnosticView,
@@ -174,8 +175,15 @@ impl Session {
     /// # Errors
     /// Why the thing cannot be dragged: there is none, it has no place, or an anchor holds it.
     pub fn press(&mut self, id: DocumentId, path: &Path) -> Result<(f64, f64), Refusal> {
+        self.press_all(id, std::slice::from_ref(path))
+    }
+    /// Begins a drag of several things, which move as one; the handle is the first place of the first.
+    ///
+    /// # Errors
+    /// Why they cannot be dragged: there is nothing at a path, it has no place of its own, or anchors hold all of it.
+    pub fn press_all(&mut self, id: DocumentId, paths: &[Path]) -> Result<(f64, f64), Refusal> {
         let (open, beside) = self.beside_others(id);
-        let handle = drag::begin(open, path)?;
+        let handle = drag::begin(open, paths)?;
         open.rest_picture();
         if let Some(mut trace) = open.trace.take() {
             // what was watched may be gone from the document: then nothing is watched
@@ -312,18 +320,44 @@ impl Session {
         };
         (labels(&open.done), labels(&open.undone))
     }
-    /// Returns the command that makes copies of some things of the document beside them, and what the first is
-    /// called. A copy has the same values and parts and shares nothing.
+    /// Takes copies of some things of the document, with their values and what is said of them.
     ///
     /// # Errors
-    /// A path is no thing of the document itself, or it speaks of others.
-    pub fn duplication(
+    /// A path is no thing of the document itself, or it is declared with others that are not copied.
+    pub fn copied(
         &self,
         id: DocumentId,
         paths: &[Path],
-    ) -> Result<(Command, String), Refusal> {
+        relations: Relations,
+    ) -> Result<Clip, Refusal> {
+        tools::copies::copied(&self.document(id).state, paths, relations)
+    }
+    /// Returns the command that puts copies into a document, so many steps aside from where they were taken, and
+    /// what they are called.
+    ///
+    /// # Errors
+    /// They speak of what is not there, a class or other things.
+    pub fn pasting(
+        &self,
+        id: DocumentId,
+        clip: &Clip,
+        aside: u32,
+    ) -> Result<(Command, Vec<String>), Refusal> {
         let beside = Beside::of(&*self.host, &self.documents, id);
-        tools::copies::duplication(self.document(id), &beside, paths)
+        tools::copies::pasting(self.document(id), &beside, clip, aside)
+    }
+    /// Returns the command that deletes several things with all that speaks of them, and what else goes, as it is
+    /// written.
+    ///
+    /// # Errors
+    /// One of them cannot be deleted.
+    pub fn deletion(
+        &self,
+        id: DocumentId,
+        paths: &[Path],
+    ) -> Result<(Command, Vec<String>), Refusal> {
+        let beside = Beside::of(&*self.host, &self.documents, id);
+        tools::copies::deletion(self.document(id), &beside, paths)
     }
     /// Returns what goes when something is deleted, besides itself, as it is written.
     pub fn along_with(&self, id: DocumentId, path: &Path) -> Vec<String> {
@@ -590,7 +624,8 @@ impl Session {
     }
     /// Returns the words that may stand at an offset of a text that is being written in a document.
     pub fn completions(&self, id: DocumentId, text: &str, offset: u32) -> Vec<CompletionView> {
-        crate::completing::completions(&self.document(id).state, text, offset)
+        let libraries = self.host.libraries();
+        crate::completing::completions(&self.document(id).state, text, offset, &libraries)
     }
     /// Returns what the document calls itself: the first words of its first `///`, else its name.
     pub fn title(&self, id: DocumentId) -> String {

@@ -108,7 +108,7 @@ impl Tool {
         let aim = apply::aim(&state, &held)?;
         let planner = &mut self.trial.planner;
         let pressed = match aim {
-            apply::Aim::Thing(thing) => drag::press(&state, planner, thing, held),
+            apply::Aim::Thing(thing) => drag::press(&state, planner, &[thing], held),
             apply::Aim::Term(term) => drag::press_computed(&state, planner, term, held),
         };
         let drag = match (pressed, &stage) {
@@ -363,7 +363,7 @@ fn trial_text(text: &str, name: &str, class: &str) -> String {
 }
 
 /// What a text says of classes, and not of things.
-fn of_classes(text: &str) -> String {
+pub(crate) fn of_classes(text: &str) -> String {
     let file = syntax::parse(base::FileId(0), text).file();
     let is_of_classes = |m: &Member| {
         matches!(m, Member::Use(_) | Member::Class(_) | Member::Unit(_) | Member::Y(_))

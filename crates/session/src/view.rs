@@ -411,10 +411,45 @@ pub struct TokenView {
 pub struct CompletionView {
     /// The word.
     pub label: String,
-    /// `property`, `class`, `function`, `unit`, or `enum` for an option of a choice.
+    /// `property`, `method`, `class`, `function`, `unit`, `keyword`, `module` for a library, or `enum` for an option of
+    /// a choice.
     pub kind: String,
     /// A part's class, how a function is called, what a unit measures, which choice has an option.
     pub detail: String,
+}
+
+/// What a word of the text names.
+#[derive(Clone, PartialEq, Eq, Debug, Serialize)]
+pub struct WordView {
+    /// The first byte of the word.
+    pub start: u32,
+    /// The byte after the last.
+    pub end: u32,
+    /// How it was declared, in a line: `p1: Point`, `class Line`, `atan2(y, x)`.
+    pub says: String,
+    /// What is said of it in a sentence or more; empty for nothing.
+    pub doc: String,
+    /// Its value now, where it is a thing of the document that has one.
+    pub value: Option<String>,
+    /// What a command calls it, from the document or a class of it; empty for what has no name to change.
+    pub path: String,
+    /// Where it is declared, where that is written somewhere.
+    pub declared: Option<DeclaredView>,
+    /// Where else the document's own text names it, as first byte and byte after the last; the word itself too.
+    pub uses: Vec<(u32, u32)>,
+}
+
+/// Where something is declared.
+#[derive(Clone, PartialEq, Eq, Debug, Serialize)]
+pub struct DeclaredView {
+    /// The file as `use` names it; empty for the document.
+    pub file: String,
+    /// The file's text, where it is another than the document's own.
+    pub text: String,
+    /// The first byte of the name there.
+    pub start: u32,
+    /// The byte after its last.
+    pub end: u32,
 }
 
 /// What the status line says.
@@ -490,7 +525,7 @@ pub struct LessonEntry {
 }
 
 /// Where someone is in a lesson.
-#[derive(Clone, PartialEq, Eq, Debug, Default, Serialize)]
+#[derive(Clone, PartialEq, Debug, Default, Serialize)]
 pub struct LessonView {
     /// What it is called.
     pub title: String,
@@ -510,6 +545,11 @@ pub struct LessonView {
     pub points_at: Vec<String>,
     /// Whether the lesson can show how it is done.
     pub can_show: bool,
+    /// What is to be traced, on a sheet that was empty.
+    #[serde(skip)]
+    pub traced: drawing::Drawing,
+    /// The class of what is drawn first, while nothing is drawn yet.
+    pub tool: Option<String>,
 }
 
 /// How a `check` block, or a lesson, came out.

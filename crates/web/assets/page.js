@@ -131,6 +131,9 @@ export function onColorScheme(callback) {
 export const calm = () => matchMedia("(prefers-reduced-motion: reduce)").matches
 export const coarse = () => matchMedia("(pointer: coarse)").matches
 
+// Whether words of the page are marked.
+export const marked = () => getSelection()?.isCollapsed === false
+
 // Follows a pointer outside the element; a pointer that no device has cannot be followed.
 export function capture(element, pointer) {
   try {

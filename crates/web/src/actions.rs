@@ -1,5 +1,6 @@
 //! One table of what can be done: it makes the buttons, the menu, the palette and the shortcuts.
 
+use crate::js;
 use crate::lab::{Lab, Notice};
 use leptos::ev::KeyboardEvent;
 use leptos::prelude::*;
@@ -79,7 +80,12 @@ pub fn key(lab: Lab, e: &KeyboardEvent) -> bool {
         return false;
     };
     let plain = !(e.ctrl_key() || e.meta_key() || e.alt_key());
-    if plain && is_written_in(e) {
+    let is_of_text = ["copy", "cut", "paste", "select-all"].contains(&action.id);
+    if (plain || is_of_text) && is_written_in(e) {
+        return false;
+    }
+    // words that are marked in the page are what Ctrl+C means
+    if action.id == "copy" && js::marked() {
         return false;
     }
     run(action, lab);

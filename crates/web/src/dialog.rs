@@ -8,6 +8,8 @@ use leptos::prelude::*;
 use session::Command;
 use session::view::Offer;
 use std::time::Duration;
+use wasm_bindgen::JsCast;
+use web_sys::HtmlElement;
 
 /// What a person is asked to type.
 #[derive(Clone, PartialEq, Eq, Debug)]
@@ -60,6 +62,15 @@ fn Open(lab: Lab, wish: Wish) -> impl IntoView {
                     input.select();
                 }
             });
+        }
+    });
+    // whoever had the keyboard has it again
+    let before = document().active_element().and_then(|e| e.dyn_into::<HtmlElement>().ok());
+    let before = StoredValue::new_local(before);
+    on_cleanup(move || {
+        if let Some(before) = before.try_get_value().flatten() {
+            // It may be gone from the page meanwhile.
+            request_animation_frame(move || drop(before.focus()));
         }
     });
     let wish = StoredValue::new(wish);
@@ -122,8 +133,8 @@ fn Open(lab: Lab, wish: Wish) -> impl IntoView {
     let name = label.clone();
     view! {
         <div class="shade" on:pointerdown=move |_| lab.wish.set(None)>
-            <form class="asking" role="dialog" aria-modal="true" aria-label=name
-                on:pointerdown=|e| e.stop_propagation() on:submit=accept on:keydown=key>
+            <div role="dialog" aria-modal="true" aria-label=name on:pointerdown=|e| e.stop_propagation()>
+            <form class="asking" on:submit=accept on:keydown=key>
                 <label for="asked">{label}</label>
                 <input id="asked" node_ref=input type="text" prop:value=value spellcheck="false"
                     autocomplete="off" on:input=change aria-invalid=move || error.with(Option::is_some).to_string() />
@@ -134,6 +145,7 @@ fn Open(lab: Lab, wish: Wish) -> impl IntoView {
                     <button type="button" on:click=move |_| lab.wish.set(None)>{words::CANCEL}</button>
                 </p>
             </form>
+            </div>
         </div>
     }
 }

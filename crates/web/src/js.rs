@@ -140,6 +140,9 @@ extern "C" {
     /// Whether the system asks for little motion.
     pub fn calm() -> bool;
 
+    /// Whether words of the page are marked.
+    pub fn marked() -> bool;
+
     /// Whether a finger is the pointer.
     pub fn coarse() -> bool;
 

@@ -23,7 +23,7 @@ use session::view::{
     PictureView, Question, Recognised, Refusal, RowKind, Status, StructureRow, TextView, ToolView,
     ValueRow, Velocity,
 };
-use session::{Path, Session};
+use session::{Clip, Path, Session};
 use std::collections::BTreeMap;
 use std::fmt;
 
@@ -104,8 +104,14 @@ pub struct Lab {
     pub first: RwSignal<bool>,
     /// The lesson that goes on.
     pub lesson: RwSignal<Option<LessonView>>,
+    /// What the lesson has one trace.
+    pub traced: Memo<drawing::Drawing>,
     /// The lesson that the shown document offers.
     pub lesson_offered: RwSignal<Option<String>>,
+    /// What was copied last, and how often it was put down since.
+    pub clip: RwSignal<Option<(Clip, u32)>>,
+    /// The band that is drawn over what is to be selected, by its corners on the canvas: pressed, and now.
+    pub band: RwSignal<Option<((f64, f64), (f64, f64))>>,
     /// What the dock shows, where it is open.
     pub dock: RwSignal<Option<Tab>>,
     /// What a narrow page has pulled up.
@@ -252,6 +258,10 @@ impl Lab {
             })
         });
         let files = StoredValue::new(FileSet::default());
+        let lesson = RwSignal::new(None::<LessonView>);
+        let traced = Memo::new(move |_| {
+            lesson.with(|lesson| lesson.as_ref().map(|l| l.traced.clone()).unwrap_or_default())
+        });
         Self {
             session: StoredValue::new_local(Session::new(Box::new(Files(files)))),
             files,
@@ -268,8 +278,11 @@ impl Lab {
             shown_values: StoredValue::new(Vec::new()),
             inspected_values: StoredValue::new(Vec::new()),
             first: RwSignal::new(first::is_offered()),
-            lesson: RwSignal::new(None),
+            lesson,
+            traced,
             lesson_offered: RwSignal::new(None),
+            clip: RwSignal::new(None),
+            band: RwSignal::new(None),
             dock: RwSignal::new(dock::kept()),
             sheet: RwSignal::new(Sheet::Shut),
             text: RwSignal::new(no_text()),

@@ -1,6 +1,6 @@
 //! A lesson beside the picture: what it says, its task, a tick when it is done, a hint, and how it is done.
 
-use crate::lab::Lab;
+use crate::lab::{Lab, Zoom};
 use crate::{icons, route, theme, words};
 use drawing::Point;
 use leptos::prelude::*;
@@ -38,6 +38,17 @@ impl Lab {
         self.lesson_offered.set(None);
         self.why.set(false);
         self.lesson.set(self.tell(|session, id| session.lesson(id, false)).flatten());
+        self.begin_tracing();
+    }
+
+    /// Where there is something to trace, shows all of it and takes the tool that begins it.
+    fn begin_tracing(self) {
+        let tool =
+            self.lesson.with_untracked(|lesson| lesson.as_ref().and_then(|l| l.tool.clone()));
+        if let Some(class) = tool {
+            self.zoom.set(Some(Zoom::Fit));
+            self.take_tool(&class);
+        }
     }
 
     /// Leaves the lesson; what was done stays.

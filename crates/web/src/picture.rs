@@ -22,6 +22,7 @@ use std::sync::Arc;
 use wasm_bindgen::closure::Closure;
 use wasm_bindgen::{JsCast, JsValue};
 
+mod band;
 mod hand;
 mod pick;
 pub mod thumbnail;
@@ -108,6 +109,14 @@ pub fn Picture(
                     </div>
                 }
             })}
+            {move || lab.band.get().map(|(from, to)| {
+                let (left, top) = (f64::min(from.0, to.0), f64::min(from.1, to.1));
+                view! {
+                    <div class="band" class=("crossing", to.0 < from.0) style:left=format!("{left}px")
+                        style:top=format!("{top}px") style:width=format!("{}px", (to.0 - from.0).abs())
+                        style:height=format!("{}px", (to.1 - from.1).abs())></div>
+                }
+            })}
             <p id="picture-live" class="unseen" aria-live="polite">{live}</p>
             <div class="corner" role="group" aria-label=words::TOOLS>
                 <button title=words::ZOOM_OUT aria-label=words::ZOOM_OUT
@@ -155,6 +164,7 @@ fn lists(lab: Lab) -> Lists {
             let mut list = lab.moved.with(|moved| listed(picture, Part::Moving(moved)));
             lab.plotting.plot.with(|plot| loci(&mut list, &plot.drawn_loci()));
             lab.ghosts.with(|drawn| ghosts(&mut list, drawn));
+            lab.traced.with(|drawn| ghosts(&mut list, std::slice::from_ref(drawn)));
             lab.motion.with(|motion| arrows(&mut list, picture, motion));
             lab.tool_view.with(|tool| {
                 preview(&mut list, &tool.preview, &picture.drawing);
@@ -284,7 +294,12 @@ fn zoom_as_asked(lab: Lab, size: (f64, f64)) {
         }
         Zoom::Fit => {
             lab.fits.set_value(true);
-            lab.view.set(lab.picture.with_untracked(|p| fit(&p.drawing, size, margin)));
+            // what is to be traced is in sight before it is drawn
+            let traced = lab.traced.get_untracked();
+            lab.view.set(lab.picture.with_untracked(|p| {
+                let is_empty = p.drawing.elements.is_empty();
+                fit(if is_empty { &traced } else { &p.drawing }, size, margin)
+            }));
         }
         Zoom::By(factor) => {
             lab.look_at(|view| view.zoomed(factor, (size.0 / 2.0, size.1 / 2.0)));

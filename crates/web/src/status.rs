@@ -3,7 +3,7 @@
 use crate::lab::{Lab, Notice};
 use crate::player::NowPlaying;
 use crate::why::listed;
-use crate::{icons, words};
+use crate::{icons, js, words};
 use leptos::prelude::*;
 use session::view::{Choice, Question, Recognised, Refusal};
 use session::{Command, Path};
@@ -46,8 +46,13 @@ pub fn StatusLine(
     };
     let wanted =
         move || lab.drafting.prompt.with(|prompt| prompt.as_ref().map(|p| p.words.clone()));
+    let idle = move || {
+        let is_bare = lab.selected.with(Option::is_none) && lab.document.with(Option::is_some);
+        (is_bare && !js::coarse()).then(|| String::from(words::BAND_HINT))
+    };
     let heard = Memo::new(move |_| {
-        drag.get().or_else(swept).or_else(wanted).or_else(|| said.get()).or_else(|| hint.get())
+        let held = drag.get().or_else(swept).or_else(wanted).or_else(|| said.get());
+        held.or_else(|| hint.get()).or_else(idle)
     });
     view! {
         <footer class="status" class:wrong=move || !holds.get() class:doubtful=doubtful>

@@ -1,13 +1,15 @@
-//! The text view: CodeMirror with the session's colours and diagnostics, and a list of these.
+//! The text view: CodeMirror with the session's colours and diagnostics, a list of these, and what its keys ask for.
 
+use crate::dialog::Wish;
 use crate::js::{self, Editor, set_option};
-use crate::lab::Lab;
+use crate::lab::{Lab, Notice};
 use crate::{icons, words};
 use js_sys::{Array, Object, Uint32Array};
-use leptos::html::Div;
+use leptos::ev::KeyboardEvent;
+use leptos::html::{Div, Pre};
 use leptos::prelude::*;
 use session::Command;
-use session::view::{DiagnosticView, StructureRow, TextView};
+use session::view::{DeclaredView, DiagnosticView, StructureRow, TextView, WordView};
 use wasm_bindgen::closure::Closure;
 use wasm_bindgen::{JsCast, JsValue};
 
@@ -23,9 +25,12 @@ pub fn Text(
 ) -> impl IntoView {
     let place = NodeRef::<Div>::new();
     let editor = StoredValue::new_local(None::<Editor>);
+    let peek = RwSignal::new(None::<DeclaredView>);
     Effect::new(move |_| {
         if let Some(parent) = place.get() {
-            editor.set_value(Some(js::create_editor(&parent, &options(lab))));
+            let options = options(lab);
+            ask_by_keys(lab, editor, peek, &options);
+            editor.set_value(Some(js::create_editor(&parent, &options)));
         }
     });
     // Marks are offsets into the text that is shown, so they come after it.
@@ -62,6 +67,7 @@ pub fn Text(
                 <span class="quiet">{move || lab.current.get()}</span>
             </header>
             <div class="editor" id="editor" node_ref=place></div>
+            {move || peek.get().map(|declared| view! { <Peek declared=declared peek=peek editor=editor /> })}
             <Show when=move || diagnostics.with(|list| !list.is_empty())>
                 <ul class="problems" aria-label=words::PROBLEMS>
                     <For each=move || diagnostics.get().into_iter().enumerate() key=|(at, d)| (*at, d.message.clone()) let((_, d))>
@@ -88,12 +94,7 @@ fn Problem(
     };
     let go = move |_| {
         if own {
-            editor.with_value(|editor| {
-                editor.as_ref().map(|editor| {
-                    editor.set_cursor(start);
-                    editor.focus();
-                })
-            });
+            go_to(editor, start);
         }
     };
     view! {
@@ -110,6 +111,126 @@ fn Problem(
             }).collect_view()}
         </li>
     }
+}
+
+/// The text of another file, where a name is declared that the document's own text uses.
+#[component]
+fn Peek(
+    declared: DeclaredView,
+    peek: RwSignal<Option<DeclaredView>>,
+    editor: StoredValue<Option<Editor>, LocalStorage>,
+) -> impl IntoView {
+    let place = NodeRef::<Pre>::new();
+    Effect::new(move |_| {
+        let Some(text) = place.get() else { return };
+        request_animation_frame(move || {
+            let mark = text.query_selector("mark").ok().flatten();
+            if let Some(mark) = mark.and_then(|mark| mark.dyn_into::<web_sys::HtmlElement>().ok()) {
+                text.set_scroll_top(mark.offset_top() - text.offset_top() - 48);
+            }
+            // It stands in the page, so it takes the focus.
+            let _ = text.focus();
+        });
+    });
+    let shut = move || {
+        peek.set(None);
+        editor.with_value(|editor| editor.as_ref().map(Editor::focus));
+    };
+    let key = move |e: KeyboardEvent| {
+        if e.key() == "Escape" {
+            e.prevent_default();
+            e.stop_propagation();
+            shut();
+        }
+    };
+    let DeclaredView { file, text, start, end } = declared;
+    let piece = |from: u32, to: usize| text.get(from as usize..to).unwrap_or_default().to_string();
+    let (before, name, after) =
+        (piece(0, start as usize), piece(start, end as usize), piece(end, text.len()));
+    view! {
+        <aside class="peek" aria-label=words::declared_in(&file) on:keydown=key>
+            <header class="head">
+                <h3>{file.clone()}</h3>
+                <span class="quiet">{words::OF_A_LIBRARY}</span>
+                <button class="bare" aria-label=words::CLOSE title=words::CLOSE on:click=move |_| shut()>{icons::close()}</button>
+            </header>
+            <pre tabindex="0" node_ref=place>{before}<mark>{name}</mark>{after}</pre>
+        </aside>
+    }
+}
+
+/// Puts the cursor somewhere in the text.
+fn go_to(editor: StoredValue<Option<Editor>, LocalStorage>, offset: u32) {
+    editor.with_value(|editor| {
+        editor.as_ref().map(|editor| {
+            editor.set_cursor(offset);
+            editor.focus();
+        })
+    });
+}
+
+/// What the keys of the editor ask for: what a word is, where it is declared, another name, a fix, another layout.
+fn ask_by_keys(
+    lab: Lab,
+    editor: StoredValue<Option<Editor>, LocalStorage>,
+    peek: RwSignal<Option<DeclaredView>>,
+    options: &Object,
+) {
+    let word_at = move |offset: u32| -> Option<WordView> {
+        let text = lab.written();
+        lab.ask_of_shown(|session, id| session.word_at(id, &text, offset)).flatten()
+    };
+    let said = move |sentence: String| lab.notice.set(Some(Notice::Said(sentence)));
+    let about = Closure::<dyn FnMut(u32) -> JsValue>::new(move |offset| {
+        let Some(word) = word_at(offset) else { return JsValue::NULL };
+        let object = Object::new();
+        set_option(&object, "from", &word.start.into());
+        set_option(&object, "to", &word.end.into());
+        set_option(&object, "says", &word.says.into());
+        set_option(&object, "doc", &word.doc.into());
+        set_option(&object, "value", &word.value.into());
+        object.into()
+    });
+    set_option(options, "about", &about.into_js_value());
+    let definition = Closure::<dyn FnMut(u32)>::new(move |offset| {
+        match word_at(offset).map(|word| (word.says, word.declared)) {
+            Some((_, Some(declared))) if declared.file.is_empty() => go_to(editor, declared.start),
+            Some((_, Some(declared))) => peek.set(Some(declared)),
+            Some((says, None)) => said(words::of_the_language(&says)),
+            None => said(String::from(words::NAMES_NOTHING)),
+        }
+    });
+    set_option(options, "onDefinition", &definition.into_js_value());
+    let rename = Closure::<dyn FnMut(u32)>::new(move |offset| {
+        lab.flush_text();
+        match word_at(offset) {
+            Some(WordView { declared: Some(declared), says, .. }) if !declared.file.is_empty() => {
+                said(words::keeps_its_name(&says, &declared.file));
+            }
+            Some(word) if word.path.is_empty() => said(words::of_the_language(&word.says)),
+            Some(word) => lab.wish.set(Some(Wish::Rename(word.path))),
+            None => said(String::from(words::NAMES_NOTHING)),
+        }
+    });
+    set_option(options, "onRename", &rename.into_js_value());
+    let format = Closure::<dyn FnMut()>::new(move || {
+        lab.flush_text();
+        let text = lab.written();
+        match session::misspelled(&text) {
+            Some((line, column, message)) => {
+                said(format!("{}: {message}", words::line_column(line, column)));
+            }
+            None => drop(lab.apply(&Command::Text(session::format(&text)))),
+        }
+    });
+    set_option(options, "onFormat", &format.into_js_value());
+    let fix = Closure::<dyn FnMut(usize, usize)>::new(move |problem: usize, fix: usize| {
+        let chosen = lab.text.with_untracked(|text| {
+            text.diagnostics.get(problem).and_then(|d| d.fixes.get(fix).cloned())
+        });
+        chosen.inspect(|fix| lab.fix(fix));
+    });
+    set_option(options, "onFix", &fix.into_js_value());
 }
 
 /// What the editor calls back.
@@ -165,12 +286,12 @@ fn show(editor: &Editor, text: &TextView) {
         text.tokens.iter().flat_map(|t| [t.start, t.end, number(&t.kind)]).collect();
     let classes: Array = KINDS.iter().map(|kind| JsValue::from(format!("tok-{kind}"))).collect();
     editor.set_tokens(&Uint32Array::from(&spans[..]), &classes);
-    let squiggles: Array =
-        text.diagnostics.iter().filter(|d| d.file.is_empty()).map(squiggle).collect();
+    let own = (0_u32..).zip(&text.diagnostics).filter(|(_, d)| d.file.is_empty());
+    let squiggles: Array = own.map(|(number, d)| squiggle(number, d)).collect();
     editor.set_diagnostics(&squiggles);
 }
 
-fn squiggle(d: &DiagnosticView) -> JsValue {
+fn squiggle(number: u32, d: &DiagnosticView) -> JsValue {
     let object = Object::new();
     let severity = if d.severity == "note" { "info" } else { &d.severity };
     let message = match &d.hint {
@@ -181,6 +302,9 @@ fn squiggle(d: &DiagnosticView) -> JsValue {
     set_option(&object, "to", &d.end.into());
     set_option(&object, "severity", &severity.into());
     set_option(&object, "message", &message.into());
+    set_option(&object, "number", &number.into());
+    let fixes: Array = d.fixes.iter().map(|fix| JsValue::from(&fix.title)).collect();
+    set_option(&object, "fixes", &fixes);
     object.into()
 }
 

@@ -89,6 +89,10 @@ pub const NEW: &str = "New document";
 pub const OPEN_FILE: &str = "Open a file of this machine";
 pub const FILE: &str = "File";
 pub const RENAME: &str = "Rename";
+/// Where a name is looked for and there is none.
+pub const NAMES_NOTHING: &str = "Nothing is named here.";
+/// Of a text that belongs to a library.
+pub const OF_A_LIBRARY: &str = "read only";
 pub const MENU: &str = "Menu of the selection";
 pub const VIEWS: &str = "Structure, bin and history";
 pub const BIN: &str = "Bin";
@@ -111,6 +115,16 @@ pub const NOTHING_TO_SAY: &str = "nothing can be said of this selection";
 pub const HISTORY: &str = "History";
 pub const AS_OPENED: &str = "as it was opened";
 pub const DUPLICATE: &str = "Make a copy of the selection";
+pub const DUPLICATE_JOINED: &str = "Make a copy that is joined as the selection is";
+pub const COPY: &str = "Copy";
+pub const CUT: &str = "Cut";
+pub const PASTE: &str = "Paste";
+pub const SELECT_ALL: &str = "Select everything";
+pub const NOTHING_COPIED: &str = "nothing was copied";
+pub const NOTHING_THERE: &str = "the document has no things";
+/// What the mouse does with nothing in the hand.
+pub const BAND_HINT: &str =
+    "drag over things to select them; Space and drag: move the sheet; wheel: zoom";
 pub const CLASS_OF: &str = "Make a class of the selection";
 pub const NAME_OF_CLASS: &str = "Name of the class that the selection becomes the parts of";
 /// What a class's name looks like.
@@ -395,6 +409,11 @@ pub fn goes_along(path: &str, along: &[String]) -> String {
     format!("With {path} goes what speaks of it: {}", along.join("; "))
 }
 
+/// Several things, by their number.
+pub fn counted(things: usize) -> String {
+    format!("the {things} things")
+}
+
 /// A button that deletes so many members.
 pub fn delete_all(members: usize) -> String {
     format!("Delete all {members}")
@@ -650,6 +669,29 @@ pub fn formula(rule: &str) -> String {
         (" deg", "°"),
     ];
     signs.iter().fold(String::from(rule), |rule, (from, to)| rule.replace(from, to))
+}
+
+/// Names the text in which a name is declared.
+pub fn declared_in(file: &str) -> String {
+    format!("Declared in {file}")
+}
+
+/// Says of a word of the language that nobody declares it.
+pub fn of_the_language(says: &str) -> String {
+    format!("{says}: a word of the language itself.")
+}
+
+/// Says of what a library declares that it cannot be renamed here.
+pub fn keeps_its_name(says: &str, file: &str) -> String {
+    format!("{says} is declared in {file}: it keeps its name here.")
+}
+
+/// Says how many copies wait to be put down.
+pub fn copied(count: usize) -> String {
+    match count {
+        1 => String::from("copied; Ctrl+V puts it down"),
+        _ => format!("{count} things copied; Ctrl+V puts them down"),
+    }
 }
 
 #[cfg(test)]

@@ -129,6 +129,12 @@ pub mod key {
     pub const DOWN: char = '\u{e015}';
     /// The arrow to the right.
     pub const RIGHT: char = '\u{e014}';
+    /// Delete.
+    pub const DELETE: char = '\u{e017}';
+    /// F2.
+    pub const F2: char = '\u{e032}';
+    /// F12.
+    pub const F12: char = '\u{e03c}';
     /// Home.
     pub const HOME: char = '\u{e011}';
     /// The space bar.

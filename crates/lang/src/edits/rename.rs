@@ -123,7 +123,7 @@ impl Text<'_> {
     }
 }
 
-pub(super) fn is_class_name(token: &SyntaxToken) -> bool {
+pub(crate) fn is_class_name(token: &SyntaxToken) -> bool {
     let Some(parent) = token.parent() else { return false };
     let is_use = parent.parent().is_some_and(|p| p.kind() == SyntaxKind::Use);
     match parent.kind() {

@@ -162,7 +162,9 @@ enum Walk {
 
 impl Walk {
     fn begin(trial: &mut Open, host: &dyn Host, path: &Path) -> Result<Self, Refusal> {
-        let Err(refusal) = drag::begin(trial, path) else { return Ok(Self::Drag) };
+        let Err(refusal) = drag::begin(trial, std::slice::from_ref(path)) else {
+            return Ok(Self::Drag);
+        };
         let now = number_at(&trial.state, path, &trial.state.values)?;
         match Self::Edits.to(trial, host, (path, now)) {
             Ok(()) => Ok(Self::Edits),

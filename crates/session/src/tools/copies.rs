@@ -1,9 +1,10 @@
-//! Copies: things of the document again, a little aside, with the same values.
+//! Copies: things of the document again, a little aside, with the same values and what is said between them.
 //!
-//! What a thing is called changes, and nothing else of what the text says of it; then the copy is moved in a
-//! document of its own, so that what it lies at is written as any move would be.
+//! A copy is the text that says it. What the things are called changes when they are put down, and nothing else; then
+//! they are moved together in a document of their own, so that where they lie is written as any move would be.
 
 use super::{member_of, of_classes};
+use crate::apply;
 use crate::document::Open;
 use crate::drag;
 use crate::host::Host;
@@ -12,95 +13,232 @@ use crate::session::thing_at;
 use crate::state::State;
 use crate::view::Refusal;
 use crate::words;
-use base::Name;
+use base::{Name, Span};
 use kernel::{Command, Path, Step};
+use lang::{Meant, Mention};
+use std::collections::{BTreeMap, BTreeSet};
 use syntax::ast::{AstNode, Member};
 use syntax::edit::TextEdit;
 
 /// How far aside a copy lies, on the sheet.
 const ASIDE: f64 = 20.0;
 
-/// Returns the command that copies things of the document, and the first copy's name.
+/// Which relations of what is copied are copied too.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub enum Relations {
+    /// Those between the copied things alone.
+    Own,
+    /// Those with other things as well: a copy of a line is joined to what the line is joined to.
+    All,
+}
+
+/// Copies of things, to be put into a document.
+#[derive(Clone, PartialEq, Eq, Debug)]
+pub struct Clip {
+    /// What is copied, by name, each with its class.
+    things: Vec<(Name, Name)>,
+    relations: Relations,
+    members: Vec<Copied>,
+}
+
+/// A member of a text that says something of what is copied.
+#[derive(Clone, PartialEq, Eq, Debug)]
+struct Copied {
+    text: String,
+    /// Where it names what is copied.
+    names: Vec<(Span, Name)>,
+    is_thing: bool,
+}
+
+/// Takes copies of things of the document.
 ///
 /// # Errors
-/// A path is no thing of the document itself, or what is said of it speaks of others.
-pub(crate) fn duplication(
+/// A path is no thing of the document itself, or it is declared with others that are not copied.
+pub(crate) fn copied(state: &State, paths: &[Path], relations: Relations) -> Result<Clip, Refusal> {
+    let document = &state.lowered.document;
+    let mut things: Vec<(Name, Name)> = Vec::new();
+    for path in paths {
+        let ([Step::Part(name)], Some(thing)) = (path.0.as_slice(), thing_at(state, path)) else {
+            let message = format!("{path} is a part: copy the whole that it is a part of");
+            return Err(words::refuse(message));
+        };
+        let class = document.named_class(state.structure.things[thing].class);
+        things.push((name.clone(), document.classes[class].name.clone()));
+    }
+    if things.is_empty() {
+        return Err(words::refuse("nothing is selected".into()));
+    }
+    let is_copied = |name: &str| things.iter().any(|(copied, _)| **copied == *name);
+    let said = heads(&state.text, state);
+    let mut members: Vec<Copied> = Vec::new();
+    for member in syntax::parse(base::FileId(0), &state.text).file().members() {
+        let range = member.syntax().text_range();
+        let span = Span::new(range.start().into(), range.end().into());
+        let within = said.range(Span::new(span.start, span.start)..Span::new(span.end, span.end));
+        let within: Vec<(Span, Name)> = within.map(|(s, n)| (*s, n.clone())).collect();
+        let is_own = |(_, name): &(Span, Name)| is_copied(name);
+        let (is_thing, is_wanted) = match &member {
+            Member::Part(part) => {
+                let names: Vec<String> = part.names().map(|word| word.text().to_string()).collect();
+                let count = names.iter().filter(|name| is_copied(name)).count();
+                if count > 0 && count < names.len() {
+                    let message = format!(
+                        "{} are declared together: copy all of them, or none",
+                        words::listed(&names)
+                    );
+                    return Err(words::refuse(message));
+                }
+                (true, count > 0)
+            }
+            Member::Constraint(_) | Member::Merge(_) | Member::Anchor(_) | Member::Stay(_) => {
+                let is_wanted = match relations {
+                    Relations::Own => !within.is_empty() && within.iter().all(is_own),
+                    Relations::All => within.iter().any(is_own),
+                };
+                (false, is_wanted)
+            }
+            _ => (false, false),
+        };
+        if is_wanted {
+            let text = member.syntax().text().to_string();
+            let own = within.into_iter().filter(is_own);
+            let names =
+                own.map(|(at, name)| (Span::new(at.start - span.start, at.end - span.start), name));
+            members.push(Copied { text, names: names.collect(), is_thing });
+        }
+    }
+    Ok(Clip { things, relations, members })
+}
+
+/// Returns where a text names things of the document itself.
+fn heads(text: &str, state: &State) -> BTreeMap<Span, Name> {
+    let load = |name: &str| {
+        let file = state.lowered.files.iter().find(|(_, file)| file.name == name);
+        file.map(|(_, file)| file.text.to_string())
+    };
+    let head = |mention: Mention| match (mention.meant, mention.path.0.as_slice()) {
+        (Meant::Part, [Step::Part(name)]) => Some((mention.span, name.clone())),
+        _ => None,
+    };
+    lang::mentions(text, &load).into_iter().filter_map(head).collect()
+}
+
+/// Returns the command that puts copies into a document, and what they are called.
+///
+/// # Errors
+/// They speak of what is not there.
+pub(crate) fn pasting(
+    open: &Open,
+    host: &dyn Host,
+    clip: &Clip,
+    aside: u32,
+) -> Result<(Command, Vec<String>), Refusal> {
+    let names = free_names(&open.state, &clip.things);
+    let called = |name: &Name| names.get(name).cloned().unwrap_or_else(|| name.to_string());
+    let written = |copied: &Copied| {
+        let edits: Vec<TextEdit> = { copied.names.iter() }
+            .map(|(span, name)| TextEdit { span: *span, insert: called(name) })
+            .collect();
+        syntax::edit::apply(&copied.text, &edits).trim().to_string()
+    };
+    let members: Vec<String> = clip.members.iter().map(written).collect();
+    let base = match clip.relations {
+        Relations::Own => of_classes(&open.state.text),
+        Relations::All => open.state.text.clone(),
+    };
+    let mut trial = Open::of(&open.name, format!("{base}\n{}\n", members.join("\n")), host);
+    let before = Open::of(&open.name, format!("{base}\n"), host);
+    let errors = |open: &Open| {
+        let errors =
+            { open.state.diagnostics.iter() }.filter(|d| d.severity == base::Severity::Error);
+        errors.map(|d| d.message.clone()).collect::<Vec<String>>()
+    };
+    if errors(&trial).len() > errors(&before).len() {
+        let first = errors(&trial).pop().unwrap_or_default();
+        let message = match clip.relations {
+            Relations::Own => format!(
+                "the copy speaks of what is not copied: {first}; copy it with its relations, or with what it speaks of"
+            ),
+            Relations::All => format!("the copy cannot stand here: {first}"),
+        };
+        return Err(words::refuse(message));
+    }
+    let copies: Vec<String> = clip.things.iter().map(|(name, _)| called(name)).collect();
+    let moved = move_aside(&mut trial, host, &copies, f64::from(aside) * ASIDE);
+    let is_kept = |text: &str| text.starts_with(base.trim_end());
+    let moved = moved && (clip.relations == Relations::Own || is_kept(&trial.state.text));
+    let said = |(copied, member): (&Copied, &String)| match copied.is_thing && moved {
+        true => {
+            let name = copied.names.first().map(|(_, name)| called(name)).unwrap_or_default();
+            let now = member_of(&trial.state.text, &name);
+            if now.is_empty() { member.clone() } else { now }
+        }
+        false => member.clone(),
+    };
+    let members: Vec<String> = clip.members.iter().zip(&members).map(said).collect();
+    Ok((Command::Edit { target: Path::default(), members: members.join("\n") }, copies))
+}
+
+/// Returns what copies are called in a document: as they were, where nothing is called so yet.
+fn free_names(state: &State, things: &[(Name, Name)]) -> BTreeMap<Name, String> {
+    let mut taken: BTreeSet<String> = BTreeSet::new();
+    let mut names = BTreeMap::new();
+    let is_free = |name: &str, taken: &BTreeSet<String>| {
+        let path = Path(vec![Step::Part(Name::new(name))]);
+        !taken.contains(name) && words::find(state, &path).is_err()
+    };
+    for (name, class) in things {
+        let first = recognise::free_name(state, class);
+        let stem = first.trim_end_matches(|c: char| c.is_ascii_digit()).to_string();
+        let others = (2..).map(|i| format!("{stem}{i}"));
+        let mut wanted = [name.to_string(), first].into_iter().chain(others);
+        let found = wanted.find(|name| is_free(name, &taken)).unwrap_or_default();
+        taken.insert(found.clone());
+        names.insert(name.clone(), found);
+    }
+    names
+}
+
+/// Moves things together; where that cannot be kept they stay, and false is returned.
+fn move_aside(trial: &mut Open, host: &dyn Host, names: &[String], far: f64) -> bool {
+    let paths = names.iter().map(|name| Path(vec![Step::Part(Name::new(name))]));
+    let has_place = |path: &Path| {
+        let thing = thing_at(&trial.state, path);
+        thing.is_some_and(|thing| drag::has_place(&trial.state.structure, thing))
+    };
+    let paths: Vec<Path> = paths.filter(has_place).collect();
+    if paths.is_empty() || drag::begin(trial, &paths).is_err() {
+        return false;
+    }
+    let state = trial.state.clone();
+    let Some(mut drag) = trial.drag.take() else { return false };
+    let (x, y) = drag.handle();
+    drag.to(&state, &mut trial.planner, (x + far, y + far));
+    drag.release(trial, host).is_ok()
+}
+
+/// Returns the command that deletes several things with all that speaks of them, and what else goes.
+///
+/// # Errors
+/// One of them cannot be deleted.
+pub(crate) fn deletion(
     open: &Open,
     host: &dyn Host,
     paths: &[Path],
-) -> Result<(Command, String), Refusal> {
-    let mut text = open.state.text.clone();
-    let mut members: Vec<String> = Vec::new();
-    let mut first = None;
+) -> Result<(Command, Vec<String>), Refusal> {
+    let own: Vec<String> =
+        paths.iter().map(|path| member_of(&open.state.text, &path.to_string())).collect();
+    let mut trial = Open::of(&open.name, open.state.text.clone(), host);
+    let mut along: Vec<String> = Vec::new();
     for path in paths {
-        let [Step::Part(name)] = path.0.as_slice() else {
-            return Err(words::refuse(format!(
-                "{path} is a part: copy the whole that it is a part of"
-            )));
-        };
-        let state = State::of(text.clone(), Some(&open.state), host, plan::Plans::default()).0;
-        let (copy, member) = copy_of(&state, open, host, name)?;
-        text = format!("{text}\n{member}\n");
-        members.push(member);
-        first = first.or(Some(copy));
+        // what goes with another is gone already
+        if words::find(&trial.state, path).is_err() {
+            continue;
+        }
+        along.extend(apply::along(&trial.state, path));
+        apply::apply(&mut trial, host, &Command::Delete(path.clone()))?;
     }
-    let Some(first) = first else { return Err(words::refuse("nothing is selected".into())) };
-    Ok((Command::Edit { target: Path::default(), members: members.join("\n") }, first))
-}
-
-/// Returns a copy's name, and what the text says of it.
-fn copy_of(
-    state: &State,
-    open: &Open,
-    host: &dyn Host,
-    name: &Name,
-) -> Result<(String, String), Refusal> {
-    let thing = thing_at(state, &Path(vec![Step::Part(name.clone())]));
-    let Some(thing) = thing else {
-        return Err(words::refuse(format!("there is no {name}")));
-    };
-    let document = &state.lowered.document;
-    let class = document.named_class(state.structure.things[thing].class);
-    let copy = recognise::free_name(state, &document.classes[class].name);
-    let member = renamed(&state.text, name, &copy);
-    let Some(member) = member else {
-        let message = format!("{name} is declared together with others: it cannot be copied alone");
-        return Err(words::refuse(message));
-    };
-    let mut trial = Open::of(&open.name, format!("{}\n{member}\n", of_classes(&state.text)), host);
-    if trial.state.diagnostics.iter().any(|d| d.severity == base::Severity::Error) {
-        return Err(words::refuse(format!(
-            "{name} speaks of other things: it cannot be copied alone"
-        )));
-    }
-    let path = Path(vec![Step::Part(Name::new(&copy))]);
-    let held = thing_at(&trial.state, &path);
-    let trial_state = trial.state.clone();
-    let pressed =
-        held.and_then(|thing| drag::press(&trial_state, &mut trial.planner, thing, path).ok());
-    if let Some(mut drag) = pressed {
-        let (x, y) = drag.handle();
-        drag.to(&trial_state, &mut trial.planner, (x + ASIDE, y + ASIDE));
-        // where it cannot be kept the copy lies on its model
-        let _ = drag.release(&mut trial, host);
-    }
-    let moved = member_of(&trial.state.text, &copy);
-    Ok((copy, if moved.is_empty() { member } else { moved }))
-}
-
-/// Returns what a text says of a thing, of another name; nothing where it is declared with others.
-fn renamed(text: &str, name: &Name, to: &str) -> Option<String> {
-    let file = syntax::parse(base::FileId(0), text).file();
-    let part = file.members().find_map(|member| match member {
-        Member::Part(part) if part.names().any(|word| word.text() == &**name) => Some(part),
-        _ => None,
-    })?;
-    let mut words = part.names();
-    let (word, None) = (words.next()?, words.next()) else { return None };
-    let start = u32::from(part.syntax().text_range().start());
-    let span = word.span();
-    let span = base::Span::new(span.start - start, span.end - start);
-    let whole = part.syntax().text().to_string();
-    let edited = syntax::edit::apply(&whole, &[TextEdit { span, insert: to.into() }]);
-    Some(edited.trim().to_string())
+    along.retain(|said| !own.iter().any(|own| own.trim() == said.trim()));
+    along.dedup();
+    Ok((Command::Text(trial.state.text.clone()), along))
 }

@@ -13,7 +13,39 @@ fn after_a_dot_the_parts_of_what_stands_before_it_are_offered() {
     let text = "use geometry\nl: Line\n";
     let desk = Desk::of(text);
     let found = labels(&desk, &format!("{text}constraint l.p1."));
-    assert_eq!(found, ["x", "y"]);
+    assert_eq!(found[..2], ["x", "y"]);
+    assert!(found.contains(&"distance".to_string()), "{found:?}");
+}
+
+#[test]
+fn in_the_body_of_a_class_its_own_parts_and_those_that_it_inherits_are_offered() {
+    let text =
+        "use geometry\nclass Strut is Line {\n    middle: Point\n    constraint \n}\nout: Real\n";
+    let desk = Desk::of(text);
+    let at = (text.find("constraint ").expect("it is written") + 11) as u32;
+    let words = desk.session.completions(desk.id, text, at);
+    let of = |label: &str| words.iter().position(|word| word.label == label);
+    for own in ["middle", "p1", "p2", "length", "out"] {
+        assert!(of(own).is_some(), "{own} in {words:?}");
+    }
+    assert!(of("p1") < of("out"), "what is nearer comes first");
+    let dotted = text.replacen("constraint ", "constraint middle.", 1);
+    let words = desk.session.completions(desk.id, &dotted, at + 7);
+    assert_eq!(words[0].label, "x");
+}
+
+#[test]
+fn after_a_colon_classes_alone_after_use_libraries_and_in_a_comment_nothing() {
+    let text = "use geometry\nl: Line\n";
+    let desk = Desk::of(text);
+    let classes = labels(&desk, &format!("{text}k: "));
+    assert!(classes.contains(&"Circle".to_string()) && !classes.contains(&"sqrt".to_string()));
+    let libraries = labels(&desk, &format!("{text}use ge"));
+    assert!(libraries.contains(&"geometry".to_string()) && !libraries.contains(&"l".to_string()));
+    assert!(labels(&desk, &format!("{text}// of a L")).is_empty());
+    assert!(
+        labels(&desk, &format!("{text}constraint Line.")).iter().any(|word| word == "horizontal")
+    );
 }
 
 #[test]

@@ -229,23 +229,6 @@ fn a_tool_changes_nothing_before_its_last_click() {
 }
 
 #[test]
-fn a_copy_has_the_values_of_its_model_and_shares_nothing() {
-    let mut desk = Desk::of(
-        "use circuits\n/// The load.\nload: Resistor { a.node.at = (0, 0)  b.node.at = (0, 100)  resistance = 50 ohm }\n",
-    );
-    let copied = desk.session.duplication(desk.id, &[at("load")]).expect("it stands alone");
-    assert_eq!(copied.1, "resistor");
-    desk.apply(&copied.0).expect("it can be made");
-    holds(&desk);
-    assert_eq!(shown(&desk, "resistor.resistance"), "50 ohm");
-    assert_eq!(desk.place("resistor.b.node.at"), (20.0, 120.0));
-    desk.type_in("resistor.resistance", "70 ohm").expect("it is its own");
-    assert_eq!(shown(&desk, "load.resistance"), "50 ohm");
-    let part = desk.session.duplication(desk.id, &[at("load.a")]).expect_err("it is a part");
-    assert_eq!(part.message, "load.a is a part: copy the whole that it is a part of");
-}
-
-#[test]
 fn what_goes_along_with_something_deleted_is_told_before() {
     let desk = Desk::of(
         "use geometry\na: Line { p1 = (0, 0)  p2 = (9, 0) }\nb: Line\nmerge a.p2 = b.p1\nconstraint a.length = b.length\n",

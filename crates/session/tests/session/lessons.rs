@@ -96,3 +96,21 @@ fn a_lesson_that_cannot_be_done_is_told() {
     assert!(codes.contains(&"unknown-name".to_string()), "{codes:?}");
     assert!(codes.contains(&"not-in-a-lesson".to_string()), "{codes:?}");
 }
+
+#[test]
+fn on_an_empty_sheet_a_lesson_shows_what_to_trace_and_the_tool_to_begin_with() {
+    let mut desk = Desk::of(&gallery("lesson-2-figure"));
+    desk.session.begin_lesson(desk.id, Some(0));
+    let first = desk.session.lesson(desk.id, false).expect("it has begun");
+    let is_stroke = |e: &&drawing::Element| matches!(e.shape, drawing::Shape::Segment(..));
+    assert_eq!(first.traced.elements.iter().filter(is_stroke).count(), 4);
+    assert_eq!(first.tool.as_deref(), Some("Line"));
+    let drawn = format!("{}\nmine: Line\n", desk.text());
+    desk.type_text(&drawn);
+    let second = desk.session.lesson(desk.id, false).expect("it goes on");
+    assert!(second.at == 0 && second.tool.is_none(), "the hand knows what to do");
+    assert!(!second.traced.elements.is_empty());
+    desk.session.next_step(desk.id);
+    let later = desk.session.lesson(desk.id, false).expect("it goes on");
+    assert!(later.traced.elements.is_empty());
+}

@@ -1,15 +1,15 @@
 // The text view: CodeMirror 6 behind the few calls that the page needs.
 // In: the document's text, spans and diagnostics, all in UTF-8 byte offsets as the Rust side counts
-// them. Out: the text after an edit, the cursor, the hovered offset, undo and redo requests.
+// them. Out: the text after an edit, the cursor, the hovered offset, what the keys ask for.
 // Bundled with CodeMirror into ../codemirror.js by the command in README.md.
 
-import { autocompletion, closeBrackets, closeBracketsKeymap, completionKeymap } from "@codemirror/autocomplete"
+import { autocompletion, closeBrackets, closeBracketsKeymap, completionKeymap, startCompletion } from "@codemirror/autocomplete"
 import { defaultKeymap } from "@codemirror/commands"
 import { bracketMatching, indentUnit } from "@codemirror/language"
-import { lintGutter, lintKeymap, setDiagnostics } from "@codemirror/lint"
+import { forEachDiagnostic, lintGutter, lintKeymap, setDiagnostics } from "@codemirror/lint"
 import { highlightSelectionMatches, search, searchKeymap } from "@codemirror/search"
 import { Annotation, EditorState, StateEffect, StateField, Transaction } from "@codemirror/state"
-import { Decoration, drawSelection, EditorView, highlightActiveLine, highlightActiveLineGutter, keymap, lineNumbers } from "@codemirror/view"
+import { Decoration, drawSelection, EditorView, highlightActiveLine, highlightActiveLineGutter, hoverTooltip, keymap, lineNumbers } from "@codemirror/view"
 
 // A change that came from the page, not from the keyboard: it is not reported back.
 const fromPage = Annotation.define()
@@ -103,6 +103,11 @@ const theme = EditorView.theme({
   "&.cm-focused .cm-matchingBracket": { backgroundColor: "var(--selection)", outline: "1px solid var(--line)" },
   ".cm-panels, .cm-tooltip": { color: "var(--ink)", backgroundColor: "var(--raised)", borderColor: "var(--line)" },
   ".cm-tooltip-autocomplete > ul > li[aria-selected]": { color: "var(--on-accent)", backgroundColor: "var(--accent)" },
+  ".cm-about": { padding: "0.375rem 0.625rem", maxWidth: "28rem", whiteSpace: "pre-wrap" },
+  ".cm-about code": { fontFamily: "var(--mono)", fontSize: "0.8125rem" },
+  ".cm-about p": { margin: "0.25rem 0 0" },
+  "&.cm-goes .cm-content": { cursor: "pointer" },
+  ".cm-diagnosticAction": { font: "inherit", color: "var(--on-accent)", backgroundColor: "var(--accent)", border: "0", borderRadius: "4px", padding: "2px 8px" },
   ".cm-diagnostic": { whiteSpace: "pre-wrap" },
   ".cm-diagnostic-error": { borderLeftColor: "var(--conflict)" },
   ".cm-diagnostic-warning": { borderLeftColor: "var(--redundant)" },
@@ -131,19 +136,67 @@ function difference(old, next) {
 //   onUndo(), onRedo()            the keys; the editor keeps no history of its own
 //   onLeave()                     when the editor loses the focus
 //   complete(offset)              [{label, kind, detail}] for the word that ends there
+//   about(offset)                 {from, to, says, doc, value} of the word there, or null
+//   onDefinition(offset)          F12, or a click with Ctrl: go to where the word there is declared
+//   onRename(offset)              F2: give what the word there names another name
+//   onFormat()                    Shift+Alt+F: lay the text out
+//   onFix(problem, fix)           a fix of a diagnostic was chosen, both by number
 export function createEditor(parent, options) {
   let offsets
   const inDoc = (state) => (offsets && offsets.doc === state.doc ? offsets : (offsets = new Offsets(state.doc)))
   const call = (name, ...values) => options[name]?.(...values)
   const asks = (name) => () => (call(name), true)
 
+  // What the cursor's line can be mended by, each once, as completions: a list for the keyboard.
+  let mends = false
+  const fixesAt = (state, position) => {
+    const line = state.doc.lineAt(position)
+    const found = new Map()
+    forEachDiagnostic(state, (diagnostic, from, to) => {
+      if (to < line.from || from > line.to) return
+      for (const action of diagnostic.actions ?? []) found.set(action.name, action)
+    })
+    return [...found.values()]
+  }
+  const fixes = (context) => {
+    mends = false
+    const found = fixesAt(context.state, context.pos)
+    const option = ({ name, apply }) => ({ label: name, type: "text", apply: (own) => apply(own) })
+    return found.length ? { from: context.pos, options: found.map(option), filter: false } : null
+  }
+  const offerFixes = (own) => {
+    if (!fixesAt(own.state, own.state.selection.main.head).length) return true
+    mends = true
+    return startCompletion(own)
+  }
+
   const completions = (context) => {
+    if (mends) return fixes(context)
     const word = context.matchBefore(/[\p{L}\p{N}_.]+/u)
     if (!word && !context.explicit) return null
     const found = options.complete(inDoc(context.state).outside(context.pos))
     const start = word ? Math.max(word.from, word.from + word.text.lastIndexOf(".") + 1) : context.pos
-    return { from: start, options: found.map(({ label, kind, detail }) => ({ label, type: kind, detail })) }
+    return { from: start, options: found.map(({ label, kind, detail }, at) => ({ label, type: kind, detail, boost: Math.max(-99, 99 - at) })) }
   }
+
+  const atCursor = (name) => (own) => (call(name, inDoc(own.state).outside(own.state.selection.main.head)), true)
+  const about = hoverTooltip((own, position) => {
+    const offsets = inDoc(own.state)
+    const found = options.about?.(offsets.outside(position))
+    if (!found) return null
+    const create = () => {
+      const dom = document.createElement("div")
+      dom.className = "cm-about"
+      dom.append(Object.assign(document.createElement("code"), { textContent: found.says }))
+      const line = (text) => dom.append(Object.assign(document.createElement("p"), { textContent: text }))
+      if (found.value) line(`= ${found.value}`)
+      if (found.doc) line(found.doc)
+      return { dom }
+    }
+    return { pos: offsets.inside(found.from), end: offsets.inside(found.to), above: true, create }
+  })
+  // While Ctrl is held a word is a link to where it is declared.
+  const goes = (event, own) => own.dom.classList.toggle("cm-goes", event.ctrlKey || event.metaKey) && false
 
   let hovered = -1
   const hover = (offset) => {
@@ -168,7 +221,12 @@ export function createEditor(parent, options) {
         EditorState.tabSize.of(4),
         EditorState.languageData.of(() => [{ commentTokens: { line: "//", block: { open: "/*", close: "*/" } } }]),
         options.complete ? autocompletion({ override: [completions] }) : [],
+        about,
         keymap.of([
+          { key: "F12", run: atCursor("onDefinition"), preventDefault: true, stopPropagation: true },
+          { key: "F2", run: atCursor("onRename"), preventDefault: true, stopPropagation: true },
+          { key: "Mod-.", run: offerFixes, preventDefault: true, stopPropagation: true },
+          { key: "Shift-Alt-f", run: asks("onFormat"), preventDefault: true, stopPropagation: true },
           { key: "Mod-z", run: asks("onUndo"), preventDefault: true },
           { key: "Mod-y", run: asks("onRedo"), preventDefault: true },
           { key: "Mod-Shift-z", run: asks("onRedo"), preventDefault: true },
@@ -186,14 +244,25 @@ export function createEditor(parent, options) {
             call(event.inputType === "historyUndo" ? "onUndo" : "onRedo")
             return true
           },
+          mousedown(event, own) {
+            if (event.button !== 0 || !(event.ctrlKey || event.metaKey)) return false
+            const at = own.posAtCoords({ x: event.clientX, y: event.clientY })
+            if (at === null) return false
+            event.preventDefault()
+            call("onDefinition", inDoc(own.state).outside(at))
+            return true
+          },
+          keydown: goes,
+          keyup: goes,
           mousemove(event, own) {
+            goes(event, own)
             const at = own.posAtCoords({ x: event.clientX, y: event.clientY })
             hover(at === null ? -1 : inDoc(own.state).outside(at))
           },
           mouseleave: () => hover(-1),
           blur: () => call("onLeave"),
         }),
-        EditorView.contentAttributes.of({ "aria-label": options.label ?? "Text", spellcheck: "false" }),
+        EditorView.contentAttributes.of({ "aria-label": options.label ?? "Text", spellcheck: "false", tabindex: "0" }),
         EditorView.updateListener.of((update) => {
           const ours = update.transactions.some((one) => one.annotation(fromPage))
           if (update.docChanged && !ours) call("onChange", update.state.doc.toString())
@@ -218,10 +287,14 @@ export function createEditor(parent, options) {
       const old = view.state.doc.toString()
       if (old !== text) page({ changes: difference(old, text) })
     },
-    // diagnostics: [{from, to, severity: "error" | "warning" | "info" | "hint", message}]
+    // diagnostics: [{from, to, severity: "error" | "warning" | "info" | "hint", message, number, fixes}], the fixes by
+    // what their buttons say, `number` what `onFix` is told
     setDiagnostics(diagnostics) {
       const at = inDoc(view.state)
-      const list = diagnostics.map(({ from, to, severity, message }) => ({ from: at.inside(from), to: at.inside(to), severity, message }))
+      const list = diagnostics.map(({ from, to, severity, message, number, fixes }) => {
+        const actions = fixes.map((name, fix) => ({ name, apply: () => call("onFix", number, fix) }))
+        return { from: at.inside(from), to: at.inside(to), severity, message, actions }
+      })
       view.dispatch(setDiagnostics(view.state, list))
     },
     setTokens(spans, classes) {

@@ -7,7 +7,7 @@ use crate::lab::{Drawer, Lab, Zoom};
 use crate::{js, route, structure, words};
 use leptos::prelude::*;
 use session::view::{RowKind, StructureRow};
-use session::{Command, Path};
+use session::{Command, Path, Relations};
 use wasm_bindgen::JsCast;
 
 /// Everything that can be done, in the order of the menu.
@@ -186,7 +186,10 @@ pub const ACTIONS: &[Action] = &[
         contexts: &[Context::Thing],
         label: words::DELETE,
         keys: &["Delete"],
-        enabled: |lab| selected(lab).map(drop),
+        enabled: |lab| match several(lab)?.len() {
+            1 => selected(lab).map(drop),
+            _ => Ok(()),
+        },
         run: Lab::delete_selection,
     },
     Action {
@@ -196,7 +199,74 @@ pub const ACTIONS: &[Action] = &[
         label: words::DUPLICATE,
         keys: &["Ctrl+D"],
         enabled: |lab| several(lab).map(drop),
-        run: Lab::duplicate_selection,
+        run: |lab| lab.duplicate_selection(Relations::Own),
+    },
+    Action {
+        id: "duplicate-joined",
+        group: Group::Edit,
+        contexts: &[Context::Thing],
+        label: words::DUPLICATE_JOINED,
+        keys: &["Ctrl+Shift+D"],
+        enabled: |lab| several(lab).map(drop),
+        run: |lab| lab.duplicate_selection(Relations::All),
+    },
+    Action {
+        id: "copy",
+        group: Group::Edit,
+        contexts: &[Context::Thing],
+        label: words::COPY,
+        keys: &["Ctrl+C"],
+        enabled: |lab| several(lab).map(drop),
+        run: |lab| {
+            lab.copy_selection();
+        },
+    },
+    Action {
+        id: "cut",
+        group: Group::Edit,
+        contexts: &[Context::Thing],
+        label: words::CUT,
+        keys: &["Ctrl+X"],
+        enabled: |lab| several(lab).map(drop),
+        run: |lab| {
+            if lab.copy_selection() {
+                lab.delete_selection();
+            }
+        },
+    },
+    Action {
+        id: "paste",
+        group: Group::Edit,
+        contexts: &[Context::Sheet],
+        label: words::PASTE,
+        keys: &["Ctrl+V"],
+        enabled: |lab| {
+            document(lab)?;
+            let is_copied = lab.clip.with(Option::is_some);
+            if is_copied { Ok(()) } else { Err(words::NOTHING_COPIED) }
+        },
+        run: Lab::paste,
+    },
+    Action {
+        id: "select-all",
+        group: Group::Edit,
+        contexts: &[Context::Sheet],
+        label: words::SELECT_ALL,
+        keys: &["Ctrl+A"],
+        enabled: |lab| {
+            document(lab)?;
+            let is_something = lab.structure.with(|rows| rows.iter().any(is_thing));
+            if is_something { Ok(()) } else { Err(words::NOTHING_THERE) }
+        },
+        run: |lab| {
+            let things = lab.structure.with_untracked(|rows| {
+                rows.iter()
+                    .filter(|row| is_thing(row))
+                    .map(|row| row.path.clone())
+                    .collect::<Vec<_>>()
+            });
+            lab.select_all(&things);
+        },
     },
     Action {
         id: "history",
@@ -357,7 +427,9 @@ pub const ACTIONS: &[Action] = &[
         keys: &["Escape"],
         enabled: |lab| document(lab).map(drop),
         run: |lab| {
-            if lab.dragging.with_untracked(Option::is_some) {
+            if lab.band.with_untracked(Option::is_some) {
+                lab.band.set(None);
+            } else if lab.dragging.with_untracked(Option::is_some) {
                 lab.cancel();
             } else if lab.stop_sweeping() {
                 // what else there is, another Esc ends
@@ -597,6 +669,11 @@ fn several(lab: Lab) -> Result<Vec<String>, &'static str> {
     document(lab)?;
     let selection = lab.selection();
     if selection.is_empty() { Err(words::NOTHING_SELECTED) } else { Ok(selection) }
+}
+
+/// Whether a row is that of a thing of the document itself.
+fn is_thing(row: &StructureRow) -> bool {
+    row.kind == RowKind::Part && row.depth == 1
 }
 
 /// Whether a constraint is selected that is on, or off, as is wanted.

@@ -4,7 +4,7 @@ use super::{InPlace, Lab, Notice, Zoom};
 use crate::words;
 use leptos::prelude::*;
 use session::view::{Caught, Change, Choice, DragState, FixView, Question, Refusal};
-use session::{Command, Path, Session};
+use session::{Clip, Command, Path, Relations, Session};
 use std::time::Duration;
 
 const TYPING_PAUSE: Duration = Duration::from_millis(150);
@@ -57,9 +57,14 @@ impl Lab {
 
     /// Begins a drag; returns where the handle of what is dragged lies on the sheet, if there is one.
     pub fn press(self, path: &str) -> Option<(f64, f64)> {
+        self.press_all(&[String::from(path)])
+    }
+
+    /// Begins a drag of several things, which move as one.
+    pub fn press_all(self, paths: &[String]) -> Option<(f64, f64)> {
         self.flush_text();
-        let path = session::parse_path(path)?;
-        match self.tell(|session, id| session.press(id, &path))? {
+        let paths: Option<Vec<Path>> = paths.iter().map(|p| session::parse_path(p)).collect();
+        match self.tell(|session, id| session.press_all(id, &paths.unwrap_or_default()))? {
             Ok(handle) => {
                 self.notice.set(None);
                 self.dragging.set(Some(DragState::default()));
@@ -125,6 +130,9 @@ impl Lab {
     /// Deletes what is selected; where more goes with it, that is told first.
     pub fn delete_selection(self) {
         self.flush_text();
+        if !self.also.with_untracked(Vec::is_empty) {
+            return self.delete_several();
+        }
         let Some(path) = self.selected.get_untracked() else { return };
         let (Some(id), Some(parsed)) = (self.id(), session::parse_path(&path)) else { return };
         let command = Command::Delete(parsed.clone());
@@ -139,19 +147,85 @@ impl Lab {
         self.notice.set(Some(Notice::Asked(Question { message, choices })));
     }
 
-    /// Makes copies of what is selected, a little aside, and selects the first.
-    pub fn duplicate_selection(self) {
-        self.flush_text();
-        let Some(id) = self.id() else { return };
-        let paths: Vec<Path> =
-            self.selection_untracked().iter().filter_map(|p| session::parse_path(p)).collect();
-        match self.ask(|session| session.duplication(id, &paths)) {
-            Ok((command, name)) => {
-                if self.apply_as_meant(&command) {
-                    self.select(Some(name));
-                }
+    /// Deletes all that is selected; where more goes with it, that is told first.
+    fn delete_several(self) {
+        let paths = self.selected_paths();
+        let Some(deletion) = self.ask_of_shown(|session, id| session.deletion(id, &paths)) else {
+            return;
+        };
+        match deletion {
+            Ok((command, along)) if along.is_empty() => {
+                self.apply(&command);
+            }
+            Ok((command, along)) => {
+                let message = words::goes_along(&words::counted(paths.len()), &along);
+                let label = words::delete_all(along.len() + paths.len());
+                let choices = vec![Choice { label, command }];
+                self.notice.set(Some(Notice::Asked(Question { message, choices })));
             }
             Err(refusal) => self.notice.set(Some(Notice::Refused(refusal))),
+        }
+    }
+
+    fn selected_paths(self) -> Vec<Path> {
+        self.selection_untracked().iter().filter_map(|p| session::parse_path(p)).collect()
+    }
+
+    /// Takes copies of what is selected; returns whether that was possible.
+    pub fn copy_selection(self) -> bool {
+        self.flush_text();
+        let paths = self.selected_paths();
+        let copied = self.ask_of_shown(|session, id| session.copied(id, &paths, Relations::Own));
+        match copied {
+            Some(Ok(clip)) => {
+                self.clip.set(Some((clip, 0)));
+                self.notice.set(Some(Notice::Said(words::copied(paths.len()))));
+                true
+            }
+            Some(Err(refusal)) => {
+                self.notice.set(Some(Notice::Refused(refusal)));
+                false
+            }
+            None => false,
+        }
+    }
+
+    /// Puts down what was copied last, a little further aside each time, and selects it.
+    pub fn paste(self) {
+        let Some((clip, aside)) = self.clip.get_untracked() else { return };
+        if self.put_down(&clip, aside + 1) {
+            self.clip.set(Some((clip, aside + 1)));
+        }
+    }
+
+    /// Makes copies of what is selected, a little aside, and selects them.
+    pub fn duplicate_selection(self, relations: Relations) {
+        self.flush_text();
+        let paths = self.selected_paths();
+        match self.ask_of_shown(|session, id| session.copied(id, &paths, relations)) {
+            Some(Ok(clip)) => {
+                self.put_down(&clip, 1);
+            }
+            Some(Err(refusal)) => self.notice.set(Some(Notice::Refused(refusal))),
+            None => {}
+        }
+    }
+
+    fn put_down(self, clip: &Clip, aside: u32) -> bool {
+        self.flush_text();
+        match self.ask_of_shown(|session, id| session.pasting(id, clip, aside)) {
+            Some(Ok((command, names))) => {
+                let done = self.apply_as_meant(&command);
+                if done {
+                    self.select_all(&names);
+                }
+                done
+            }
+            Some(Err(refusal)) => {
+                self.notice.set(Some(Notice::Refused(refusal)));
+                false
+            }
+            None => false,
         }
     }
 

@@ -2,8 +2,9 @@
 //!
 //! A press does nothing until the pointer moves; then it drags what was under it, or the sheet.
 
+use super::band::{Take, banded};
 use super::pick::{pick, pick_word};
-use super::sheet_point;
+use super::{covers, sheet_point};
 use crate::actions::Context;
 use crate::js;
 use crate::lab::Lab;
@@ -32,7 +33,7 @@ pub(super) enum Space {
 enum Mode {
     /// Nothing is pressed.
     Idle,
-    /// A thing is pressed that may be dragged.
+    /// A thing is pressed that may be dragged; with it all that is selected with it, or else it is selected alone.
     Pressed { path: String, start: (f64, f64) },
     /// A thing is dragged; the pointer is this far from it, on the sheet.
     Drag { offset: (f64, f64) },
@@ -40,8 +41,10 @@ enum Mode {
     Pan { last: (f64, f64) },
     /// A tool has set something where the pointer was pressed.
     Tool { start: (f64, f64) },
-    /// A rubber band is drawn.
+    /// A rubber band is drawn for a program's loop.
     Band { start: (f64, f64) },
+    /// A band is drawn over what is to be selected, besides what is selected already.
+    Select { start: (f64, f64), besides: Vec<String> },
     /// Two fingers: their middle and their distance.
     Pinch { middle: (f64, f64), distance: f64 },
 }
@@ -155,16 +158,19 @@ impl Hand {
             self.set_mode(Mode::Idle);
         } else if e.button() == 0 {
             let picked = self.pick(at);
-            if e.ctrl_key() || e.meta_key() || e.shift_key() {
+            let besides = e.ctrl_key() || e.meta_key() || e.shift_key();
+            if besides {
                 if let Some(path) = &picked {
                     self.lab.select_also(path);
                 }
-            } else {
+            } else if picked.as_ref().is_none_or(|path| self.together(path).is_none()) {
                 self.lab.select(picked.clone());
             }
             self.set_mode(match picked {
                 Some(path) => Mode::Pressed { path, start: at },
-                None => Mode::Pan { last: at },
+                // a finger moves the sheet
+                None if e.pointer_type() == "touch" => Mode::Pan { last: at },
+                None => Mode::Select { start: at, besides: self.lab.selection_untracked() },
             });
         }
     }
@@ -265,6 +271,11 @@ impl Hand {
             }
             Mode::Drag { .. } => self.drag_to(at),
             Mode::Band { start } => self.lab.show_band(start, at),
+            Mode::Select { start, .. } => {
+                if distance(start, at) >= STIR {
+                    self.lab.band.set(Some((start, at)));
+                }
+            }
             Mode::Pan { last } => {
                 self.lab.look_at(|view| view.panned(at.0 - last.0, at.1 - last.1));
                 self.set_mode(Mode::Pan { last: at });
@@ -280,12 +291,34 @@ impl Hand {
     }
 
     fn begin_drag(self, path: &str, start: (f64, f64)) {
-        let Some(handle) = self.lab.press(path) else {
+        let several = self.together(path);
+        let paths = several.unwrap_or_else(|| vec![String::from(path)]);
+        let Some(handle) = self.lab.press_all(&paths) else {
             self.set_mode(Mode::Pan { last: start });
             return;
         };
         let p = sheet_point(self.lab, start);
         self.set_mode(Mode::Drag { offset: (handle.0 - p.x, handle.1 - p.y) });
+    }
+
+    /// Returns what moves with a thing: all that is selected, where it is of several that are, itself first.
+    fn together(self, path: &str) -> Option<Vec<String>> {
+        let mut selection = self.lab.selection_untracked();
+        let own = selection.iter().position(|whole| covers(whole, path))?;
+        if selection.len() < 2 {
+            return None;
+        }
+        selection.swap(0, own);
+        Some(selection)
+    }
+
+    /// Selects what lies in a band.
+    fn take(self, start: (f64, f64), at: (f64, f64), besides: Vec<String>) {
+        let corners = (sheet_point(self.lab, start), sheet_point(self.lab, at));
+        let take = if at.0 < start.0 { Take::Crossed } else { Take::Within };
+        let found = self.lab.picture.with_untracked(|picture| banded(picture, corners, take));
+        let new = found.into_iter().filter(|path| !besides.contains(path)).collect::<Vec<_>>();
+        self.lab.select_all(&[besides, new].concat());
     }
 
     fn drag_to(self, at: (f64, f64)) {
@@ -307,11 +340,12 @@ impl Hand {
         let reach = if touch { REACH.1 } else { REACH.0 };
         let reach = reach / self.lab.view.with_untracked(|view| view.scale);
         let dragged = self.lab.selected.get_untracked().unwrap_or_default();
+        let is_single = self.lab.also.with_untracked(Vec::is_empty);
         self.lab.picture.with_untracked(|picture| {
             let is_place = picture.grips.iter().any(|grip| grip.path == dragged);
             let mut near: Vec<(f64, Caught)> = { &picture.grips }
                 .iter()
-                .filter(|grip| grip.path != dragged && is_place && !alt)
+                .filter(|grip| grip.path != dragged && is_place && !alt && is_single)
                 .map(|g| {
                     let caught = Caught { at: (g.x, g.y), word: g.path.clone() };
                     (distance((g.x, g.y), (x, y)), caught)
@@ -339,6 +373,14 @@ impl Hand {
                 self.lab.tool_set(&self.pointer(at));
             }
             Mode::Band { start } if distance(start, at) > PULL => self.lab.take_band(start, at),
+            // Escape may have ended the band already.
+            Mode::Select { start, besides } if self.lab.band.with_untracked(Option::is_some) => {
+                self.lab.band.set(None);
+                self.take(start, at, besides);
+            }
+            Mode::Pressed { path, .. } if !(e.shift_key() || e.ctrl_key() || e.meta_key()) => {
+                self.lab.select(Some(path));
+            }
             // Escape may have ended the drag already.
             Mode::Drag { .. } if self.lab.dragging.with_untracked(Option::is_some) => {
                 match self.lab.dropping.get_untracked() {
@@ -352,6 +394,7 @@ impl Hand {
 
     pub(super) fn lost(self, e: &PointerEvent) {
         let dragged = matches!(self.mode(), Mode::Drag { .. });
+        self.lab.band.set(None);
         self.let_go(e);
         if dragged {
             self.lab.cancel();

@@ -1,0 +1,129 @@
+//! Copies, and several things at once: relations kept or cut, dragged together, deleted together.
+
+use crate::desk::{Desk, at};
+use session::{Command, Relations};
+
+fn holds(desk: &Desk) {
+    let status = desk.session.status(desk.id);
+    assert!(status.satisfied, "{}", status.message);
+}
+
+/// What a value is, by any of its paths.
+fn shown(desk: &Desk, path: &str) -> String {
+    desk.session.shown_value(desk.id, &at(path)).expect("it has a value")
+}
+
+#[test]
+fn a_copy_has_the_values_of_its_model_and_shares_nothing() {
+    let mut desk = Desk::of(
+        "use circuits\n/// The load.\nload: Resistor { a.node.at = (0, 0)  b.node.at = (0, 100)  resistance = 50 ohm }\n",
+    );
+    let copied = copy(&desk, &["load"], Relations::Own).expect("it stands alone");
+    assert_eq!(copied.1, ["resistor"]);
+    desk.apply(&copied.0).expect("it can be made");
+    holds(&desk);
+    assert_eq!(shown(&desk, "resistor.resistance"), "50 ohm");
+    assert_eq!(desk.place("resistor.b.node.at"), (20.0, 120.0));
+    desk.type_in("resistor.resistance", "70 ohm").expect("it is its own");
+    assert_eq!(shown(&desk, "load.resistance"), "50 ohm");
+    let part = copy(&desk, &["load.a"], Relations::Own).expect_err("it is a part");
+    assert_eq!(part, "load.a is a part: copy the whole that it is a part of");
+}
+
+/// A corner of three lines: level, upright, and one that holds on to them.
+const HOOK: &str = "use geometry\na: Line { p1 = (0, 0)  p2 = (90, 0) }\nb: Line { p2 = (90, 60) }\nmerge a.p2 = b.p1\nconstraint a.p1.y = a.p2.y\nconstraint a.length = 90\nc: Line { p2 = (0, 60) }\nmerge a.p1 = c.p1\n";
+
+fn copy(
+    desk: &Desk,
+    names: &[&str],
+    relations: Relations,
+) -> Result<(Command, Vec<String>), String> {
+    let paths: Vec<_> = names.iter().map(|name| at(name)).collect();
+    let clip = desk.session.copied(desk.id, &paths, relations).map_err(|r| r.message)?;
+    desk.session.pasting(desk.id, &clip, 1).map_err(|r| r.message)
+}
+
+#[test]
+fn what_is_copied_together_keeps_what_is_said_between_it_and_leaves_the_rest() {
+    let mut desk = Desk::of(HOOK);
+    let (command, names) = copy(&desk, &["a", "b"], Relations::Own).expect("they stand together");
+    assert_eq!(names, ["line", "line2"]);
+    desk.apply(&command).expect("they can be made");
+    holds(&desk);
+    assert_eq!(desk.place("line.p1"), (20.0, 20.0));
+    assert_eq!(desk.place("line2.p2"), (110.0, 80.0));
+    let text = desk.text();
+    assert!(text.contains("merge line.p2 = line2.p1"), "{text}");
+    assert!(text.contains("constraint line.p1.y = line.p2.y"), "{text}");
+    assert!(!text.contains("merge line.p1"), "c is not copied: {text}");
+    // a, b and c are as they were, and the copies are free of them
+    assert_eq!(desk.place("c.p1"), (0.0, 0.0));
+    desk.apply(&Command::Undo).expect("one step");
+    assert_eq!(desk.text(), HOOK);
+}
+
+#[test]
+fn a_copy_with_its_relations_is_joined_to_what_its_model_is_joined_to() {
+    let mut desk = Desk::of(HOOK);
+    let (command, names) = copy(&desk, &["b"], Relations::All).expect("a stays");
+    desk.apply(&command).expect("it can be made");
+    holds(&desk);
+    assert!(desk.text().contains(&format!("merge a.p2 = {}.p1", names[0])), "{}", desk.text());
+    assert_eq!(desk.place(&format!("{}.p1", names[0])), (90.0, 0.0));
+    assert_eq!(desk.place("a.p2"), (90.0, 0.0));
+}
+
+#[test]
+fn a_copy_that_speaks_of_what_is_not_copied_is_refused_and_says_so() {
+    let desk =
+        Desk::of("use geometry\na: Line { p2 = (30, 0) }\nr: Circle { radius = a.length / 2 }\n");
+    let refused = copy(&desk, &["r"], Relations::Own).expect_err("a is not copied");
+    assert!(refused.starts_with("the copy speaks of what is not copied"), "{refused}");
+    assert!(copy(&desk, &["r"], Relations::All).is_ok());
+    assert!(copy(&desk, &["a", "r"], Relations::Own).is_ok());
+    assert_eq!(copy(&desk, &[], Relations::Own), Err("nothing is selected".into()));
+}
+
+#[test]
+fn copies_are_put_down_in_another_document_or_their_class_is_missed() {
+    let one = Desk::of(HOOK);
+    let clip = one.session.copied(one.id, &[at("a"), at("b")], Relations::Own).expect("a clip");
+    let mut other = Desk::of("use geometry\na: Point\n");
+    let (command, names) =
+        other.session.pasting(other.id, &clip, 0).expect("its classes are there");
+    assert_eq!(names, ["line", "b"]);
+    other.apply(&command).expect("they can be made");
+    assert_eq!(other.place("b.p1"), (90.0, 0.0));
+    let bare = Desk::of("x: Real = 1\n");
+    let missed = bare.session.pasting(bare.id, &clip, 0).expect_err("there are no lines");
+    assert!(missed.message.contains("Line"), "{}", missed.message);
+}
+
+#[test]
+fn several_things_are_dragged_as_one_in_one_step() {
+    let mut desk = Desk::of(
+        "use geometry\na: Line { p1 = (0, 0)  p2 = (50, 0) }\nk: Circle { center = (10, 40)  radius = 7 }\np: Point { x = 90  y = 90 }\nn: Real = 3\n",
+    );
+    let handle = desk.session.press_all(desk.id, &[at("k"), at("a")]).expect("both have places");
+    assert_eq!(handle, (10.0, 40.0));
+    assert!(desk.session.drag(desk.id, (30.0, 35.0)).reached);
+    let change = desk.session.release(desk.id).expect("it is kept");
+    assert!(!change.edits.is_empty());
+    assert_eq!(
+        [desk.place("k.center"), desk.place("a.p1"), desk.place("a.p2"), desk.place("p")],
+        [(30.0, 35.0), (20.0, -5.0), (70.0, -5.0), (90.0, 90.0)]
+    );
+    assert_eq!(desk.session.history(desk.id).0, ["move k, a"]);
+    let refused = desk.session.press_all(desk.id, &[at("k"), at("n")]).expect_err("a number");
+    assert_eq!(refused.message, "n has no place of its own: it is not dragged with others");
+}
+
+#[test]
+fn several_things_are_deleted_with_what_speaks_of_them() {
+    let mut desk = Desk::of(HOOK);
+    let (command, along) =
+        desk.session.deletion(desk.id, &[at("a"), at("b")]).expect("they can go");
+    assert_eq!(along.len(), 4, "{along:?}");
+    desk.apply(&command).expect("it is a text");
+    assert_eq!(desk.text(), "use geometry\nc: Line { p2 = (0, 60)  p1 = (0, 0) }\n");
+}

@@ -1,0 +1,60 @@
+//! What axe-core finds wrong with the page (`assets/axe.min.js`, MPL-2.0), light and dark, and what is cut off in a
+//! narrow window.
+
+use browser::Visit;
+use browser::hands::{chord, grip, key, point, show, state};
+use fantoccini::actions::MOUSE_BUTTON_LEFT;
+use serde_json::json;
+
+const AXE: &str = include_str!("../assets/axe.min.js");
+
+/// What axe-core calls serious or critical, each with where it is.
+const FINDINGS: &str = "
+    const done = arguments[arguments.length - 1];
+    axe.run(document, { resultTypes: ['violations'] }).then(found => done(found.violations
+        .filter(v => v.impact === 'serious' || v.impact === 'critical')
+        .map(v => `${v.id}: ${v.nodes.map(n => n.target.join(' ')).join(', ')}`)))";
+
+async fn accessible(visit: &Visit, place: &str) {
+    let found = visit.client.execute_async(FINDINGS, Vec::new()).await.expect("axe runs");
+    assert_eq!(found, json!([]), "{place}");
+}
+
+#[tokio::test]
+async fn gallery_document_panes_and_dialogs_have_no_serious_findings_light_and_dark() {
+    let visit = Visit::open(None).await;
+    visit.until("document.querySelector('.card')").await;
+    visit.client.execute(AXE, Vec::new()).await.expect("axe is loaded");
+    for scheme in ["light", "dark"] {
+        visit.script(&format!("document.documentElement.style.colorScheme = '{scheme}'")).await;
+        visit.script("location.hash = '#/'").await;
+        visit.until("document.querySelector('.card')").await;
+        accessible(&visit, &format!("{scheme}: the gallery")).await;
+        show(&visit, "quadrilateral.thing").await;
+        visit.until("document.getElementById('picture').width > 10").await;
+        point(&visit, grip(&state(&visit).await, "q.outer.side2.p2"), MOUSE_BUTTON_LEFT).await;
+        chord(&visit, &[key::ALT], '4').await;
+        visit.until("document.querySelector('.cm-content')").await;
+        accessible(&visit, &format!("{scheme}: text, a corner selected")).await;
+        chord(&visit, &[key::ALT], '3').await;
+        visit.until("document.querySelector('.values table')").await;
+        chord(&visit, &[key::ALT], '1').await;
+        accessible(&visit, &format!("{scheme}: table")).await;
+        for (keys, opened) in [("w", "#why"), ("i", ".bin input")] {
+            chord(&visit, &[], keys.chars().next().expect("one key")).await;
+            visit.until(&format!("document.querySelector('{opened}')")).await;
+            accessible(&visit, &format!("{scheme}: {opened}")).await;
+            chord(&visit, &[key::ALT], '1').await;
+        }
+        chord(&visit, &[], 'w').await;
+        chord(&visit, &[key::CONTROL], 'k').await;
+        visit.until("document.querySelector('[role=combobox], [role=listbox]')").await;
+        accessible(&visit, &format!("{scheme}: palette")).await;
+        chord(&visit, &[], key::ESCAPE).await;
+        chord(&visit, &[key::ALT], '1').await;
+        chord(&visit, &[], key::F2).await;
+        visit.until("document.activeElement.id === 'asked'").await;
+        accessible(&visit, &format!("{scheme}: the name dialog")).await;
+        chord(&visit, &[], key::ESCAPE).await;
+    }
+}
