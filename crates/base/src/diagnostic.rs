@@ -130,6 +130,8 @@ pub fn nearest<'a>(found: &str, candidates: impl IntoIterator<Item = &'a str>) -
         .into_iter()
         .map(|c| (edit_distance(found, c), c))
         .filter(|(d, c)| d * 3 <= found.chars().count().max(c.chars().count()).max(3))
+        // a letter is not meant by another one
+        .filter(|(d, c)| *d < found.chars().count() || c.eq_ignore_ascii_case(found))
         .min_by_key(|(d, _)| *d)
         .map(|(_, c)| c)
 }

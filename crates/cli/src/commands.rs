@@ -242,7 +242,8 @@ pub(crate) fn run(path: &Path, which: Rows, form: Form) -> Result<Report, OpenEr
     let listed: Vec<&ValueRow> =
         rows.iter().filter(|row| which == Rows::All || !row.is_layout).collect();
     let width = listed.iter().map(|r| r.shortest.chars().count()).max().unwrap_or(0);
-    let digits = listed.iter().map(|r| before_point(&r.text)).max().unwrap_or(0);
+    let numbers = listed.iter().filter(|row| row.number.is_some());
+    let digits = numbers.map(|r| before_point(&r.text)).max().unwrap_or(0);
     for row in &listed {
         let unit = if row.unit.is_empty() { String::new() } else { format!(" {}", row.unit) };
         let pad = if row.number.is_some() { digits - before_point(&row.text) } else { 0 };

@@ -8,7 +8,7 @@ use crate::operate::finite;
 use base::Name;
 use base::number::{
     acos, acosh, asin, asinh, atan, atan2, atanh, cbrt, cos, cosh, exp, joined, ln, log2, log10,
-    pow, rounded, shortest, sin, sinh, sqrt, tan, tanh,
+    rounded, shortest, sin, sinh, sqrt, tan, tanh,
 };
 use drawing::metrics;
 use expr::dimension::Dimension;
@@ -17,7 +17,7 @@ use kernel::builtin::{
     NumberMessage, PICTURE_MESSAGES, TEXT_MESSAGES, THING_MESSAGES, TextMessage, ThingMessage,
     find,
 };
-use kernel::{ClassKind, ThingId};
+use kernel::{ClassKind, Quantity, ThingId};
 
 /// More decimals than a number has say nothing.
 const MOST_DIGITS: i64 = 17;
@@ -172,14 +172,12 @@ impl<'a> Evaluator<'a> {
                 Ok(Answer::text(&number_text(x, digits)))
             }
             NumberMessage::Shown => {
-                let x = x / self.document.scale.factor(dimension);
-                let scale = pow(self.document.units_per_metre, f64::from(dimension.0[0]));
-                // what the sheet's own unit measures has none
-                if dimension.0[1..].iter().all(|&exponent| exponent == 0) {
-                    return Ok(Answer::text(&expr::units::six_digits(x)));
-                }
-                let (number, unit) = expr::units::engineering(x / scale, dimension);
-                Ok(Answer::text(format!("{number} {unit}").trim_end()))
+                let class = match arguments.first() {
+                    Some(Answer::Text(class)) => &**class,
+                    _ => "",
+                };
+                let quantity = Quantity { dimension, class, written: "" };
+                Ok(Answer::text(&kernel::show_quantity(x, quantity, self.document).with_unit()))
             }
             NumberMessage::Sqrt => finite(sqrt(x), measure::power(dimension, 0.5)),
             NumberMessage::Abs => Ok(Answer::Number(x.abs(), dimension)),

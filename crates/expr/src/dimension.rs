@@ -14,7 +14,7 @@ use std::fmt;
 pub struct Dimension(pub [i8; 7]);
 
 /// Names of quantities; of several names for one dimension the first is shown.
-const NAMES: [(&str, Dimension); 64] = [
+const NAMES: [(&str, Dimension); 71] = [
     ("Real", Dimension::NONE),
     ("Angle", Dimension::ANGLE),
     ("Length", Dimension::LENGTH),
@@ -79,6 +79,13 @@ const NAMES: [(&str, Dimension); 64] = [
     ("ElasticModulus", Dimension::PRESSURE),
     ("SectionModulus", Dimension::VOLUME),
     ("ReactivePower", Dimension::POWER),
+    ("MolarHeatCapacity", Dimension::MOLAR_HEAT_CAPACITY),
+    ("Concentration", Dimension::CONCENTRATION),
+    ("AreaDensity", Dimension::AREA_DENSITY),
+    ("HeatTransferCoefficient", Dimension::HEAT_TRANSFER),
+    ("ThermalExpansion", Dimension::THERMAL_EXPANSION),
+    ("Permittivity", Dimension::PERMITTIVITY),
+    ("Permeability", Dimension::PERMEABILITY),
 ];
 
 /// The base units in the order in which they are written, each with its place in a dimension.
@@ -182,6 +189,20 @@ impl Dimension {
     pub const ANGULAR_MOMENTUM: Self = Self([2, 1, -1, 0, 0, 0, 0]);
     /// Molar mass, kg/mol.
     pub const MOLAR_MASS: Self = Self([0, 1, 0, 0, 0, -1, 0]);
+    /// Molar heat capacity, the dimension of the gas constant, J/(mol·K).
+    pub const MOLAR_HEAT_CAPACITY: Self = Self([2, 1, -2, 0, -1, -1, 0]);
+    /// Concentration, mol/m³.
+    pub const CONCENTRATION: Self = Self([-3, 0, 0, 0, 0, 1, 0]);
+    /// Mass of an area, kg/m².
+    pub const AREA_DENSITY: Self = Self([-2, 1, 0, 0, 0, 0, 0]);
+    /// Heat transfer coefficient, W/(m²·K).
+    pub const HEAT_TRANSFER: Self = Self([0, 1, -3, 0, -1, 0, 0]);
+    /// Coefficient of thermal expansion, 1/K.
+    pub const THERMAL_EXPANSION: Self = Self([0, 0, 0, 0, -1, 0, 0]);
+    /// Permittivity, F/m.
+    pub const PERMITTIVITY: Self = Self([-3, -1, 4, 2, 0, 0, 0]);
+    /// Permeability, H/m.
+    pub const PERMEABILITY: Self = Self([1, 1, -2, -2, 0, 0, 0]);
     /// Illuminance, lx.
     pub const ILLUMINANCE: Self = Self([-2, 0, 0, 0, 0, 0, 1]);
 

@@ -348,61 +348,11 @@ fn shifted(number: &str, exponent: i32) -> Option<f64> {
     format!("{digits}e{}", own.checked_add(exponent)?).parse().ok()
 }
 
-/// Returns a number with six significant digits, without zeros behind them: `0.333333`, `1.5`, `1.2e9`.
-///
-/// ```
-/// assert_eq!(expr::units::six_digits(0.1 + 0.2), "0.3");
-/// assert_eq!(expr::units::six_digits(-1234567.0), "-1.23457e6");
-/// ```
-pub fn six_digits(x: f64) -> String {
-    let rounded: f64 = format!("{x:.5e}").parse().unwrap_or(x);
-    let size = rounded.abs();
-    if rounded == 0.0 || (1e-4..1e6).contains(&size) {
-        return shortest(rounded + 0.0);
-    }
-    format!("{rounded:e}")
-}
-
-/// Returns a number of SI as an engineer reads it: six digits, and a unit with the prefix that leaves 1 to 999 before
-/// the point. What no single unit measures stands in units of SI without a prefix.
-///
-/// ```
-/// use expr::{Dimension, units::engineering};
-/// let read = |x, d| { let (number, unit) = engineering(x, d); format!("{number} {unit}") };
-/// assert_eq!(read(4700.0, Dimension::RESISTANCE), "4.7 kohm");
-/// assert_eq!(read(999.9999, Dimension::VOLTAGE), "1 kV");
-/// assert_eq!(read(0.0, Dimension::CURRENT), "0 A");
-/// assert_eq!(read(0.25, Dimension::MASS), "250 g");
-/// ```
-pub fn engineering(in_si: f64, dimension: Dimension) -> (String, String) {
-    let Some(unit) = preferred(dimension) else {
-        let unit = if dimension.is_none() { String::new() } else { dimension.to_string() };
-        return (six_digits(in_si), unit);
-    };
-    let (base, in_base) = if unit == "kg" { ("g", in_si * 1e3) } else { (unit, in_si) };
-    let is_prefixed = NAMED_UNITS.iter().any(|n| n.spelling == base && n.is_prefixed);
-    let rounded: f64 = format!("{in_base:.5e}").parse().unwrap_or(in_base);
-    if !is_prefixed || rounded == 0.0 || base == "K" || (base == "g" && rounded.abs() >= 1e3) {
-        return (six_digits(in_si), unit.to_string());
-    }
-    let exponent = format!("{:e}", rounded.abs());
-    let exponent: i8 = exponent.rsplit('e').next().and_then(|e| e.parse().ok()).unwrap_or(0);
-    let thousands = exponent.div_euclid(3) * 3;
-    let prefix = PREFIXES.iter().find(|(_, _, e)| *e == thousands).map(|(prefix, ..)| *prefix);
-    match prefix {
-        None if thousands != 0 => (six_digits(in_si), unit.to_string()),
-        prefix => {
-            let number = shifted(&format!("{rounded:e}"), -i32::from(thousands)).unwrap_or(rounded);
-            (shortest(number), format!("{}{base}", prefix.unwrap_or_default()))
-        }
-    }
-}
-
 /// Returns the unit in which a quantity is shown: `V`, `A`, `kg`; none for plain numbers and lengths.
 ///
 /// It is always the unit of SI, so that the number shown is the number kept.
 pub fn preferred(dimension: Dimension) -> Option<&'static str> {
-    const PREFERRED: [(Dimension, &str); 44] = [
+    const PREFERRED: [(Dimension, &str); 51] = [
         (Dimension::AREA, "m^2"),
         (Dimension::VOLUME, "m^3"),
         (Dimension::MASS, "kg"),
@@ -447,6 +397,13 @@ pub fn preferred(dimension: Dimension) -> Option<&'static str> {
         (Dimension::DOSE, "J/kg"),
         (Dimension::ANGULAR_MOMENTUM, "J*s"),
         (Dimension::MOLAR_MASS, "kg/mol"),
+        (Dimension::MOLAR_HEAT_CAPACITY, "J/mol/K"),
+        (Dimension::CONCENTRATION, "mol/m^3"),
+        (Dimension::AREA_DENSITY, "kg/m^2"),
+        (Dimension::HEAT_TRANSFER, "W/m^2/K"),
+        (Dimension::THERMAL_EXPANSION, "m/m/K"),
+        (Dimension::PERMITTIVITY, "F/m"),
+        (Dimension::PERMEABILITY, "H/m"),
     ];
     PREFERRED.iter().find(|(d, _)| *d == dimension).map(|(_, unit)| *unit)
 }

@@ -34,6 +34,9 @@ pub struct Document {
     pub scale: crate::Scale,
     /// How the unit of the sheet is spelled: `mm` for `unit mm`; nothing without a unit line.
     pub unit: Option<Name>,
+    /// True if its text writes lengths with their units and names no unit of the sheet: then bare lengths are metres
+    /// to people, too.
+    pub writes_lengths: bool,
 }
 
 /// Which way a place or a number goes from where two branches meet, and its values do not say it.

@@ -1,4 +1,4 @@
-//! Classes, things, parts, paths, merges: the object model. No text, no arithmetic, no pixels.
+//! Classes, things, parts, paths, merges: the object model. No text, no arithmetic but that of units, no pixels.
 //!
 //! Three nouns. A [`Document`] is a set of classes, the last of which has the document itself as its
 //! one instance. [`instantiate`] makes its [`Structure`]: every thing of the document with its owner,
@@ -10,7 +10,7 @@
 //! a slot belongs to one primitive thing, the first by declaration among those merged.
 //!
 //! Reading order: [`path`], [`term`], [`class`], [`document`], [`structure`], [`values`],
-//! [`command`], [`builtin`], [`program`], [`check`].
+//! [`command`], [`builtin`], [`program`], [`quantity`], [`check`].
 pub mod builtin;
 pub mod check;
 pub mod class;
@@ -19,6 +19,7 @@ pub mod document;
 mod instantiate;
 pub mod path;
 pub mod program;
+pub mod quantity;
 mod scale;
 pub mod structure;
 pub mod term;
@@ -33,6 +34,7 @@ pub use document::{Document, PartRef, PartRole, Side, SideWay, Vertical, Voices}
 pub use instantiate::{Fault, FaultKind, MOST_THINGS, faults_of, instantiate, instantiate_again};
 pub use path::{Path, Step};
 pub use program::Program;
+pub use quantity::{Quantity, Shown, in_unit, show_quantity};
 pub use scale::Scale;
 pub use structure::{
     Astray, Condition, ConstraintInstance, DOCUMENT, Form, GivenId, GivenIn, GivenTerm, Givens,

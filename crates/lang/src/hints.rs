@@ -2,6 +2,7 @@
 
 use crate::kinds::Kind;
 use crate::lower::Lowerer;
+use crate::members::is_constant;
 use crate::names::LONGEST_WORD;
 use crate::scope::Scope;
 use base::{Diagnostic, Place};
@@ -51,18 +52,63 @@ impl Lowerer<'_> {
         let written = written.lines().next().unwrap_or_default();
         self.diagnostics[before + at] = match near {
             Some(near) => plain.meant(&near),
-            None if class == self.document.root || of_one && names.is_empty() => {
-                let class = class_for(value);
-                plain.hint(format!(
-                    "declare it with its class: `{}: {class} = {written}`",
-                    word.text()
-                ))
+            None if !is_constant(value)
+                || class == self.document.root
+                || of_one && names.is_empty() =>
+            {
+                let word = word.text();
+                plain.hint(match self.class_for(scope, value) {
+                    Some(class) => {
+                        format!("declare it with its class: `{word}: {class} = {written}`")
+                    }
+                    None => format!("say what it is computed by: `{word} => {written}`"),
+                })
             }
             None if names.len() > MOST_LISTED => {
                 plain.hint(format!("there are {}, …", names[..MOST_LISTED].join(", ")))
             }
             None => plain.hint(format!("there are {}", names.join(", "))),
         };
+    }
+
+    /// Says how a part further out is named, where one of the thing itself has its name and is not what is wanted.
+    pub(crate) fn meant_further_out(
+        &mut self,
+        scope: &Scope,
+        value: &Expr,
+        wanted: &Kind,
+    ) -> Option<String> {
+        let Expr::Name(name) = value else { return None };
+        let name = name.name()?.name();
+        let mut outwards = String::new();
+        for (at, &class) in scope.classes.iter().enumerate() {
+            let kind = self.kind_of_part(class, &name);
+            if at > 0 && kind.is_some_and(|kind| kind.fits(wanted, &self.document)) {
+                return Some(format!(
+                    "`{name}` is a part of the thing itself here: `{outwards}{name}` is that of what it belongs to"
+                ));
+            }
+            outwards.push_str("owner.");
+        }
+        None
+    }
+
+    /// Returns the class that a new part with this value is likely to be of; nothing where it measures what has no name.
+    fn class_for(&mut self, scope: &Scope, value: &Expr) -> Option<String> {
+        self.silent += 1;
+        let kind = self.expr(scope, value).map(|(_, kind)| kind);
+        self.silent -= 1;
+        Some(match kind {
+            Some(Kind::Number(Some(dimension))) => dimension.named()?.into(),
+            Some(Kind::Text) => "Text".into(),
+            Some(Kind::Bool) => "Bool".into(),
+            Some(Kind::Tuple(_)) => "Point".into(),
+            Some(Kind::Thing(class) | Kind::Option(class)) => {
+                self.document.classes[class].name.to_string()
+            }
+            Some(Kind::List(_) | Kind::Picture | Kind::Function) => return None,
+            Some(Kind::Number(None) | Kind::Unknown) | None => "Real".into(),
+        })
     }
 
     /// Adds what to write instead of a value of another kind, where that can be told.
@@ -205,21 +251,5 @@ fn written(asked: &str, message: &Message) -> String {
     match labels.is_empty() {
         true => format!("{asked}.{}", message.word()),
         false => format!("{asked}.{}({})", message.word(), labels.join(", ")),
-    }
-}
-
-/// Returns the class that a new part with this value is likely to be of.
-fn class_for(value: &Expr) -> String {
-    match value {
-        Expr::Text(_) => "Text".into(),
-        Expr::Bool(_) => "Bool".into(),
-        Expr::Tuple(_) => "Point".into(),
-        Expr::Call(call) => call.name().map_or("Real".into(), |w| w.text().to_string()),
-        Expr::Number(n) => {
-            let read = n.digits().zip(n.unit());
-            let read = read.and_then(|(d, u)| expr::units::read_quantity(d.text(), u.text()));
-            read.and_then(|(_, dimension)| dimension.named()).unwrap_or("Real").into()
-        }
-        _ => "Real".into(),
     }
 }

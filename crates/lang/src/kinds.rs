@@ -1,9 +1,9 @@
 //! Kinds: what an expression is worth, as far as the text alone tells.
 
 use crate::names::class_of_part;
-use crate::numbers::from_bare;
 use expr::dimension::Dimension;
 use kernel::builtin::Kind as Builtin;
+use kernel::quantity::from_bare;
 use kernel::{BinaryOperator, ClassId, ClassKind, Document, Primitive, Term};
 
 /// What an expression is worth. `Unknown` never complains.

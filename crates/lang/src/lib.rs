@@ -21,7 +21,7 @@
 //! `rules`, `switches`, `kept`, `names`, `hints`, `paths`, `refine`, `terms`, `components`, `calls`, `kin`, `kinds`,
 //! `settle`, `restore`,
 //! `checks`, `lessons`, `views`,
-//! `numbers`, `shown`, `write`, `uses`,
+//! `numbers`, `write`, `uses`,
 //! `edits`, `references`, `mentions`.
 mod bindings;
 mod calls;
@@ -60,7 +60,6 @@ mod rules;
 mod scale;
 mod scope;
 mod settle;
-mod shown;
 mod statics;
 mod switches;
 mod terms;
@@ -79,6 +78,5 @@ pub use lower::{Lowered, lower, lower_written, mentions};
 pub use mentions::{Meant, Mention};
 pub use numbers::{Wanted, read_literal, show_limit};
 pub use origins::Origins;
-pub use shown::{Quantity, Shown, in_unit, show_quantity};
 pub use views::{PlotOf, Toolbox};
 pub use write::{quoted, write_values};

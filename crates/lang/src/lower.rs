@@ -22,6 +22,7 @@ use crate::references::References;
 use crate::refine::Made;
 use crate::restore::{Grain, Patch};
 use crate::rules::Mask;
+use crate::scale::{self, Counting};
 use crate::scope::Scope;
 use crate::switches::PendingSwitch;
 use crate::views::{self, PlotOf, Toolbox};
@@ -98,22 +99,22 @@ pub fn lower_written(
     load: &dyn Fn(&str) -> Option<String>,
     before: &Lowered,
 ) -> Lowered {
-    lower_in(text, load, (Some(before), Some(before.document.scale)))
+    lower_in(text, load, (Some(before), Some(counting_of(&before.document))))
 }
 
 fn lower_in(
     text: &str,
     load: &dyn Fn(&str) -> Option<String>,
-    (before, scale): (Option<&Lowered>, Option<Scale>),
+    (before, counting): (Option<&Lowered>, Option<Counting>),
 ) -> Lowered {
-    let first = lower_text(text, load, (before, scale));
-    let scale = Some(first.document.scale);
+    let first = lower_text(text, load, (before, counting));
+    let counting = Some(counting_of(&first.document));
     let Some(before) = before.filter(|_| errors(&first) > 0) else { return first };
     // Members with an error are read as they were when they last had none.
     let mut best: Option<Lowered> = None;
     for grain in [Grain::Inner, Grain::Outer] {
         let (patched, patches) = crate::restore::restore(&first, &before.effective_parse, grain);
-        let mut mended = lower_text(&patched, load, (Some(before), scale));
+        let mut mended = lower_text(&patched, load, (Some(before), counting));
         mended.patches = patches;
         if errors(&mended) < best.as_ref().map_or(errors(&first), errors) {
             best = Some(mended);
@@ -126,6 +127,10 @@ fn lower_in(
     best.files[OWN] = first.files[OWN].clone();
     best.diagnostics = first.diagnostics;
     best
+}
+
+fn counting_of(document: &Document) -> Counting {
+    (document.scale, document.writes_lengths)
 }
 
 fn errors(lowered: &Lowered) -> usize {
@@ -153,10 +158,10 @@ pub(crate) fn references(text: &str, load: &dyn Fn(&str) -> Option<String>) -> R
 pub(crate) fn lower_text(
     text: &str,
     load: &dyn Fn(&str) -> Option<String>,
-    (before, scale): (Option<&Lowered>, Option<Scale>),
+    (before, counting): (Option<&Lowered>, Option<Counting>),
 ) -> Lowered {
     let mut l = Lowerer::new(load, before);
-    l.scale = scale;
+    l.counting = counting;
     let Blocks { checks, lessons, views, toolboxes, families } = l.run(text);
     let doc = l.first_doc();
     let own = &l.files[OWN];
@@ -234,6 +239,8 @@ pub(crate) struct Lowerer<'l> {
     pub(crate) messages: ByName<usize>,
     /// The names by which things are reached as their primary superclasses.
     pub(crate) primary_names: BTreeSet<Name>,
+    /// Parts that are constants: those at the top of a text are seen in its classes.
+    pub(crate) constants: BTreeSet<(ClassId, Name)>,
     /// Parts and messages whose declaration is wrong: what speaks of them says no more.
     pub(crate) broken: BTreeSet<(ClassId, Name)>,
     /// Where parts and messages are named.
@@ -280,8 +287,8 @@ pub(crate) struct Lowerer<'l> {
     pub(crate) declared_for_counts: Vec<(ClassId, FileId, ast::Class)>,
     /// What words speak of, where that is asked for.
     pub(crate) references: Option<References>,
-    /// The scale, where the text does not decide on it.
-    scale: Option<Scale>,
+    /// How it counts, where the text does not decide on it.
+    counting: Option<Counting>,
 }
 
 impl<'l> Lowerer<'l> {
@@ -303,6 +310,7 @@ impl<'l> Lowerer<'l> {
                 units_per_metre: 1.0,
                 scale: Scale::default(),
                 unit: None,
+                writes_lengths: false,
             },
             visible: Visible::default(),
             origins: Origins::default(),
@@ -320,6 +328,7 @@ impl<'l> Lowerer<'l> {
             parts: ByName::default(),
             messages: ByName::default(),
             primary_names: BTreeSet::new(),
+            constants: BTreeSet::new(),
             broken: BTreeSet::new(),
             named_at: ByName::default(),
             given_counts: BTreeMap::new(),
@@ -343,7 +352,7 @@ impl<'l> Lowerer<'l> {
             counts: Counts::default(),
             declared_for_counts: Vec::new(),
             references: None,
-            scale: None,
+            counting: None,
         };
         l.own_classes();
         l
@@ -353,8 +362,9 @@ impl<'l> Lowerer<'l> {
     fn run(&mut self, text: &str) -> Blocks {
         self.read("", text);
         let before = self.before.map(|before| before.document.scale);
-        let scale = self.scale.unwrap_or_else(|| crate::scale::of(&self.files[OWN].parse, before));
-        self.document.scale = scale;
+        let counting = self.counting.unwrap_or_else(|| scale::of(&self.files[OWN].parse, before));
+        (self.document.scale, self.document.writes_lengths) = counting;
+        let scale = self.document.scale;
         // what was read in other units is read anew
         self.before = self.before.filter(|before| before.document.scale == scale);
         self.declare_classes();

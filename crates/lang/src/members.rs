@@ -188,13 +188,10 @@ impl Lowerer<'_> {
         domain: &Expr,
         class: ClassId,
     ) -> Option<(i64, i64)> {
-        let of = match self.document.classes[class].kind {
-            ClassKind::List(element) => element,
-            ClassKind::Primitive(_)
-            | ClassKind::Composite
-            | ClassKind::Set(_)
-            | ClassKind::Reference(_) => class,
-        };
+        let mut of = class;
+        while let ClassKind::List(element) = self.document.classes[of].kind {
+            of = element;
+        }
         let is_whole =
             matches!(self.document.classes[of].kind, ClassKind::Primitive(Primitive::Integer));
         let range = self.constant_range(scope, domain);
@@ -322,6 +319,7 @@ impl Lowerer<'_> {
             let place = Place { file: scope.file, span: word.span() };
             self.add_part(place, scope.class(), declared);
             if part.is_constant() {
+                self.constants.insert((scope.class(), name.clone()));
                 let path = Path(vec![Step::Part(name.clone())]);
                 let stay = Stay { path, strength: None, origin };
                 self.document.classes[scope.class()].stays.push(stay);

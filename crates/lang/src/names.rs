@@ -1,10 +1,10 @@
 //! Names: what a word means where it stands, and the nearest that could have been meant.
 
 use crate::kinds::Kind;
-use crate::lower::{Lowered, Lowerer};
+use crate::lower::{Lowered, Lowerer, OWN};
 use crate::members::{Definition, FOR, FOR_AS_VALUE};
 use crate::scope::{Element, Scope};
-use base::{Diagnostic, Name, Place};
+use base::{Diagnostic, FileId, Name, Place};
 use kernel::builtin;
 use kernel::{ClassId, ClassKind, Document, PartRef, PartRole, Path, Step, Term};
 use syntax::ast;
@@ -61,8 +61,56 @@ impl Lowerer<'_> {
         if let Some(found) = self.option_named(scope, word) {
             return found;
         }
+        if let Some(found) = self.constant_of_text(scope, word) {
+            return Some(found);
+        }
         self.unknown_name(scope, word);
         None
+    }
+
+    /// Resolves the name of a constant of the text that a class stands in, or of a text that it uses.
+    fn constant_of_text(&mut self, scope: &Scope, word: &ast::Word) -> Option<(Term, Kind)> {
+        let (class, things) = self.top_of(scope.file)?;
+        let name = word.name();
+        let leads_there =
+            || self.file_things.values().any(|p| *p == things.then(Step::Part(name.clone())));
+        if !self.constants.contains(&(class, name.clone())) && !leads_there() {
+            return None;
+        }
+        let kind = self.kind_of_part(class, &name)?;
+        self.refer(Place { file: scope.file, span: word.span() }, &name, class);
+        Some((Term::send(Term::at(Term::Document, &things), &name), kind))
+    }
+
+    /// Returns the class of the things at the top of a text, and where they are in the document.
+    fn top_of(&self, file: FileId) -> Option<(ClassId, Path)> {
+        let things = match file {
+            OWN => Path::default(),
+            _ => self.file_things.get(&file)?.clone(),
+        };
+        Some((self.class_at(self.document.root, &things)?, things))
+    }
+
+    /// Returns the class that is declared for the part or message that a term names, if it names one.
+    pub(crate) fn declared_class(&self, scope: &Scope, term: &Term) -> Option<ClassId> {
+        if *term == Term::Document {
+            return Some(self.document.root);
+        }
+        if let Some((class, _)) = owners(scope).into_iter().find(|(_, me)| me == term) {
+            return Some(class);
+        }
+        match term {
+            Term::Send { to, name, search: None, .. } => {
+                let of = self.declared_class(scope, to)?;
+                let part = self.class_of_part(of, name);
+                part.or_else(|| self.find_message(of, name, None)?.1.class)
+            }
+            Term::Index(list, _) => {
+                let list = self.declared_class(scope, list)?;
+                class_at(&self.document, list, &Path(vec![Step::Last]))
+            }
+            _ => None,
+        }
     }
 
     /// Resolves the name of a function without brackets: `pi` is what it answers, `sqrt` is an error.
@@ -141,7 +189,19 @@ impl Lowerer<'_> {
             let classes = self.visible.names(scope.file).map(ToString::to_string);
             let names = locals.chain(constants).chain(parts).chain(functions).chain(classes);
             let names: Vec<String> = names.collect();
-            if let Some(near) = self.nearest(word.text(), names.iter().map(String::as_str)) {
+            let of_document = || {
+                let (top, _) =
+                    self.top_of(scope.file).filter(|(top, _)| !scope.classes.contains(top))?;
+                let name = word.name();
+                self.class_of_part(top, &name)
+                    .or_else(|| Some(self.find_message(top, &name, None)?.0))
+            };
+            if of_document().is_some() {
+                d = d.hint(format!(
+                    "a class sees its own parts and constants alone: `owner.{}` asks what its things are part of",
+                    word.text()
+                ));
+            } else if let Some(near) = self.nearest(word.text(), names.iter().map(String::as_str)) {
                 d = d.meant(near);
             }
         }

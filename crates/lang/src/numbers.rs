@@ -2,70 +2,18 @@
 
 use crate::kinds::dimension_in_words;
 use crate::lower::OWN;
-use crate::shown::{Quantity, in_unit, spelling_for};
 use base::number::{RULE_TOLERANCE, rounded, shortest};
 use base::{Diagnostic, Place, Span};
 use expr::dimension::Dimension;
 use expr::units;
-use kernel::{ClassId, ClassKind, Document, Literal, Primitive};
+use kernel::quantity::{from_bare, from_si, is_of_the_sheet, spelling_for, to_bare, to_si};
+use kernel::{ClassId, ClassKind, Document, Literal, Primitive, Quantity, in_unit};
 use syntax::ast::{BinaryOp, Expr, UnaryOp};
-
-/// Returns a number of SI in the document's base units. Powers of ten are shifted, not multiplied.
-pub(crate) fn from_si(document: &Document, si: f64, dimension: Dimension) -> f64 {
-    shifted(document, si, i32::from(dimension.0[0])) * document.scale.factor(dimension)
-}
-
-/// Returns a number of the document's base units in SI.
-pub(crate) fn to_si(document: &Document, x: f64, dimension: Dimension) -> f64 {
-    shifted(document, x / document.scale.factor(dimension), -i32::from(dimension.0[0]))
-}
-
-/// Returns a number that was written without a unit in base units.
-///
-/// A bare length, area or volume counts in the units of the sheet; whatever else, in those of SI.
-pub(crate) fn from_bare(document: &Document, x: f64, dimension: Dimension) -> f64 {
-    match is_of_the_sheet(dimension) {
-        true => x * document.scale.factor(dimension),
-        false => from_si(document, x, dimension),
-    }
-}
-
-/// Returns what to write for a number without its unit: what [`from_bare`] reads.
-pub(crate) fn to_bare(document: &Document, x: f64, dimension: Dimension) -> f64 {
-    match is_of_the_sheet(dimension) {
-        true => x / document.scale.factor(dimension),
-        false => to_si(document, x, dimension),
-    }
-}
-
-/// Returns true for plain numbers, lengths, areas, volumes.
-pub(crate) fn is_of_the_sheet(dimension: Dimension) -> bool {
-    dimension.0[1..].iter().all(|&exponent| exponent == 0)
-}
-
-/// Scales by the document's units of length in a metre, to a power.
-fn shifted(document: &Document, x: f64, power: i32) -> f64 {
-    let scale = document.units_per_metre;
-    if power == 0 || scale == 1.0 || x == 0.0 {
-        return x;
-    }
-    let tens = [10.0, 100.0, 1000.0, 1e6, 1e9].iter().position(|t| *t == scale);
-    let Some(exponent) = tens.map(|i| [1, 2, 3, 6, 9][i]) else {
-        return x * base::number::pow(scale, f64::from(power));
-    };
-    format!("{x:e}")
-        .split_once('e')
-        .and_then(|(digits, own)| {
-            let own: i32 = own.parse().ok()?;
-            format!("{digits}e{}", own + exponent * power).parse().ok()
-        })
-        .unwrap_or(x * base::number::pow(scale, f64::from(power)))
-}
 
 /// Returns a limit of a way that began at `from` as text and unit: as few digits as say it to a
 /// thousandth, rounded towards the beginning, so that what is read lies on the way.
 ///
-/// The unit is that of [`show_quantity`](crate::show_quantity).
+/// The unit is that of [`kernel::show_quantity`].
 pub fn show_limit(
     limit: f64,
     from: f64,

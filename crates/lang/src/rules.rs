@@ -176,10 +176,14 @@ impl Lowerer<'_> {
             let message = format!("{path} is {is}, and is given {given}");
             let place = Place { file: scope.file, span: value.span() };
             let d = Diagnostic::error(code_for(&kind, &wanted), place, message);
-            return self.report(match unit_before_equals(value) {
-                Some(unit) => d.hint(format!("`{unit}` is a unit here: write `;` before it")),
+            let unit = unit_before_equals(value)
+                .map(|unit| format!("`{unit}` is a unit here: write `;` before it"));
+            let hint = unit.or_else(|| self.meant_further_out(scope, value, &wanted));
+            let d = match hint {
+                Some(hint) => d.hint(hint),
                 None => self.with_value_hint(d, (&kind, &wanted), value),
-            });
+            };
+            return self.report(d);
         }
         if class.is_some_and(|class| self.loses_elements(scope, &path, class, value)) {
             return;

@@ -5,6 +5,7 @@
 
 use expr::dimension::Dimension;
 use kernel::Scale;
+use kernel::quantity::is_of_the_sheet;
 use syntax::ast::{AstNode, NumberExpr};
 use syntax::{Parse, SyntaxKind, WalkEvent};
 
@@ -22,22 +23,31 @@ const TOGETHER: f64 = 300.0;
 /// How many base quantities there are.
 const BASES: usize = 7;
 
-/// Returns the scale of a text; that of the text `before` where it is near.
+/// How a text counts: its scale, and whether it writes lengths with their units and names no unit of its sheet.
+pub(crate) type Counting = (Scale, bool);
+
+/// Returns how a text counts; the scale is that of the text `before` where it is near.
 ///
 /// It is the one in which the logarithms of its numbers are nearest to zero, in the sense of least squares. Lengths
 /// are scaled only where the text writes some with a unit and names no unit of its sheet.
-pub(crate) fn of(parse: &Parse, before: Option<Scale>) -> Scale {
-    let best = best(parse);
+pub(crate) fn of(parse: &Parse, before: Option<Scale>) -> Counting {
+    let quantities = quantities(parse);
+    let has_unit = parse.outline().any(|(kind, _)| kind == SyntaxKind::UnitLine);
+    let is_length = |(_, d): &(f64, Dimension)| is_of_the_sheet(*d);
+    let writes_lengths = !has_unit && quantities.iter().any(is_length);
+    let best = best(quantities, has_unit);
     let is_near = |scale: &Scale| scale.0.iter().zip(best.0).all(|(a, b)| a.abs_diff(b) <= NEAR);
-    before.filter(|scale| *scale != Scale::default()).filter(is_near).unwrap_or(best)
+    (
+        before.filter(|scale| *scale != Scale::default()).filter(is_near).unwrap_or(best),
+        writes_lengths,
+    )
 }
 
-fn best(parse: &Parse) -> Scale {
-    let quantities = quantities(parse);
+fn best(mut quantities: Vec<(f64, Dimension)>, has_unit: bool) -> Scale {
+    quantities.retain(|(x, _)| *x != 0.0);
     if quantities.iter().all(|(x, _)| EVERYDAY.contains(x)) {
         return Scale::default();
     }
-    let has_unit = parse.outline().any(|(kind, _)| kind == SyntaxKind::UnitLine);
     let keeps_length = has_unit || !quantities.iter().any(|q| q.1 == Dimension::LENGTH);
     let mut normal = [[0.0; BASES + 1]; BASES];
     for (i, row) in normal.iter_mut().enumerate() {
@@ -83,7 +93,7 @@ fn quantity(number: &NumberExpr) -> Option<(f64, Dimension)> {
     let (digits, unit) = (number.digits()?, number.unit()?);
     let (si, dimension) = expr::units::read_quantity(digits.text(), unit.text())?;
     let measures = dimension.0.iter().any(|&d| d != 0);
-    (measures && si != 0.0 && si.is_finite()).then_some((si.abs(), dimension))
+    (measures && si.is_finite()).then_some((si.abs(), dimension))
 }
 
 /// Returns the power of two next below a positive number.
@@ -116,7 +126,7 @@ mod tests {
     use base::number::shortest;
 
     fn scale(text: &str) -> Scale {
-        of(&syntax::parse(base::FileId(0), text), None)
+        of(&syntax::parse(base::FileId(0), text), None).0
     }
 
     #[test]

@@ -6,7 +6,8 @@ use crate::lower::Lowerer;
 use crate::scope::Scope;
 use base::{Diagnostic, Name, Place, Span};
 use expr::dimension::Dimension;
-use kernel::{Argument, BinaryOperator, Term, UnaryOperator};
+use kernel::builtin::{FUNCTIONS, find};
+use kernel::{Argument, BinaryOperator, Quantity, Term, UnaryOperator};
 use syntax::ast::{self, AstNode, BinaryOp, Expr, UnaryOp};
 
 type Lowered = Option<(Term, Kind)>;
@@ -126,7 +127,7 @@ impl Lowerer<'_> {
                 ast::TextPiece::Words(words) => Term::Text(words),
                 ast::TextPiece::Value(value) => {
                     let (term, kind) = self.expr(scope, &value)?;
-                    self.said(scope, value.span(), term, &kind)?
+                    self.said(scope, value.span(), (term, &kind))?
                 }
             };
             joined = Some(match joined {
@@ -138,10 +139,21 @@ impl Lowerer<'_> {
     }
 
     /// Makes the text that a value in a text is read as; reports one that is none.
-    fn said(&mut self, scope: &Scope, span: Span, term: Term, kind: &Kind) -> Option<Term> {
+    fn said(&mut self, scope: &Scope, span: Span, (term, kind): (Term, &Kind)) -> Option<Term> {
         match kind {
             Kind::Text => Some(term),
-            Kind::Number(_) => Some(Term::send(term, "shown")),
+            Kind::Number(_) => {
+                let class = self.declared_class(scope, &term);
+                let class = class.map(|c| self.document.classes[c].name.to_string());
+                let class = class.filter(|name| Quantity::is_told_by(name)).map(Term::Text);
+                let arguments = class.map(|value| Argument { label: None, value });
+                Some(Term::Send {
+                    to: Box::new(term),
+                    name: Name::new("shown"),
+                    arguments: arguments.into_iter().collect(),
+                    search: None,
+                })
+            }
             Kind::Bool | Kind::Option(_) | Kind::Unknown => Some(Term::send(term, "text")),
             Kind::Thing(_) | Kind::List(_) | Kind::Tuple(_) | Kind::Picture | Kind::Function => {
                 let what = kind.words(&self.document);
@@ -208,7 +220,7 @@ impl Lowerer<'_> {
         let (value, dimension) = match n.unit() {
             None => (n.value()?, None),
             Some(unit) => match expr::units::read_quantity(digits.text(), unit.text()) {
-                Some((si, d)) => (crate::numbers::from_si(&self.document, si, d), Some(d)),
+                Some((si, d)) => (kernel::quantity::from_si(&self.document, si, d), Some(d)),
                 None => {
                     self.unknown_unit(scope.file, unit.span(), unit.text());
                     return None;
@@ -232,8 +244,14 @@ impl Lowerer<'_> {
         // a unit after it or an operator's words: each of its factors by itself
         let meant = expr::units::meant(spelling);
         self.report(match meant.as_slice() {
+            [] if find(FUNCTIONS, spelling).is_some_and(|f| f.parameters.is_empty()) => {
+                let fix = format!("write * {spelling}");
+                let written = format!("* {spelling}");
+                d.hint(format!("a product has its sign: `* {spelling}`")).fix(fix, [(place, written)])
+            }
             [] => d.hint(
-                "known are m, s, kg, N, J, W, V, A, ohm, … with every prefix, and ft, lb, psi, …",
+                "known are m, s, kg, N, J, W, V, A, ohm, … with every prefix, and ft, lb, psi, …; a product has its \
+                 sign, `2 * x`",
             ),
             [one] => d.meant(one),
             several => d.hint(format!("write {}", several.join(" or "))),

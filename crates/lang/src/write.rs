@@ -5,11 +5,12 @@
 
 use crate::connections::is_bare_path;
 use crate::lower::{Lowered, OWN};
-use crate::numbers::{from_bare, from_si, write_number};
+use crate::numbers::write_number;
 use crate::paths::loose_path;
 use base::{Name, Span};
 use expr::dimension::Dimension;
 use indexmap::IndexMap;
+use kernel::quantity::{from_bare, from_si};
 use kernel::{ClassId, ClassKind, Document, Literal, Path, Primitive, Step};
 use std::collections::{BTreeMap, BTreeSet};
 use syntax::ast::{self, AstNode, Expr, Member};

@@ -6,8 +6,8 @@ use crate::view::{Limit, ModeView};
 use crate::words;
 use base::number::Toward;
 use expr::Dimension;
+use kernel::Quantity;
 use kernel::{DOCUMENT, Primitive, SlotId, Term, ThingId, Value};
-use lang::Quantity;
 use plan::{ActingKind, CourseChange, ModeChange, Source};
 
 /// How straight a place, the pointer and an anchored place lie for a reach: as a sine.

@@ -251,8 +251,8 @@ impl Offerer<'_> {
 
     /// The same as a person writes it, with all its digits: what is added moves nothing.
     fn written(&self, (x, dimension): (f64, Dimension)) -> String {
-        let quantity = lang::Quantity { dimension, ..lang::Quantity::default() };
-        let shown = lang::show_quantity(x, quantity, &self.state.lowered.document);
+        let quantity = kernel::Quantity { dimension, ..kernel::Quantity::default() };
+        let shown = kernel::show_quantity(x, quantity, &self.state.lowered.document);
         words::with_unit(shown.exact, &shown.unit)
     }
 

@@ -13,8 +13,7 @@ use crate::view::{PlotEntry, Refusal};
 use crate::words;
 use eval::Answer;
 use expr::Dimension;
-use kernel::{DOCUMENT, Path, Step, Term, Values};
-use lang::Quantity;
+use kernel::{DOCUMENT, Path, Quantity, Step, Term, Values};
 use serde::Serialize;
 use std::rc::Rc;
 
@@ -318,10 +317,10 @@ impl Sampler {
             (None, None) => "",
         };
         let quantity = Quantity { dimension, class, written: &written };
-        let unit = lang::show_quantity(largest, quantity, document).unit;
+        let unit = kernel::show_quantity(largest, quantity, document).unit;
         let shown = |x: &Option<(f64, Dimension)>| {
             let (x, dimension) = (*x)?;
-            Some(lang::in_unit(x, dimension, &unit, document)).filter(|x| x.is_finite())
+            Some(kernel::in_unit(x, dimension, &unit, document)).filter(|x| x.is_finite())
         };
         (Axis { label, unit: unit.clone() }, numbers.iter().map(shown).collect())
     }

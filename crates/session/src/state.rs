@@ -84,9 +84,18 @@ impl State {
         debug_assert_eq!(kernel::check::structure(&lowered.document, &structure), Ok(()));
         let model = Model { document: &lowered.document, structure: &structure };
         let (mut planner, unplanned) = Planner::new(model, plans);
-        // what is not there because its text is wrong is said of that text, and not of what speaks of it
+        // what is not there because its text is wrong is said of that text, and not of what speaks of it; so is a ring
+        // of messages
         let is_wrong = lowered.diagnostics.iter().any(|d| d.severity == base::Severity::Error);
-        let follows = |f: &plan::Fault| is_wrong && f.kind == plan::FaultKind::WrongKind;
+        let is_ring = |d: &Diagnostic| d.code == plan::FaultKind::Endless.code();
+        let has_ring = lowered.diagnostics.iter().any(is_ring);
+        let follows = |f: &plan::Fault| match f.kind {
+            plan::FaultKind::WrongKind => is_wrong,
+            plan::FaultKind::Endless => has_ring,
+            plan::FaultKind::NotYet | plan::FaultKind::UnknownName | plan::FaultKind::Reference => {
+                false
+            }
+        };
         let unplanned: Vec<plan::Fault> = unplanned.into_iter().filter(|f| !follows(f)).collect();
         let mut given = eval::Given::of(&lowered.document, &structure);
         let mut values = Values::new(structure.slots.len());
@@ -148,6 +157,12 @@ impl State {
     pub(crate) fn model(&self) -> Model<'_> {
         Model { document: &self.lowered.document, structure: &self.structure }
     }
+    /// Returns true for a constraint of the structure that has a place in a plan.
+    pub(crate) fn is_planned(&self, index: u32) -> bool {
+        let instance = self.structure.constraints[index as usize];
+        let class = &self.lowered.document.classes[instance.class];
+        !self.unplanned.contains(&class.constraints[instance.index as usize].origin)
+    }
     /// Returns what holds and what is free. A rule that no plan keeps is tested all the same.
     pub(crate) fn status(&self, planner: &mut Planner) -> Status {
         let mut texts = Texts::new(&self.lowered.document, &self.structure);
@@ -157,14 +172,12 @@ impl State {
         }
         let evaluator = self.evaluator(&self.values);
         for (index, &instance) in (0..).zip(self.structure.constraints.iter()) {
-            let class = &self.lowered.document.classes[instance.class];
-            let constraint = &class.constraints[instance.index as usize];
             let required = self.structure.strength(&self.lowered.document, instance)
                 == Strength::Required
                 && self.structure.is_on(instance);
             let source = Source::Constraint(index);
             let told = status.unmet.iter().any(|u| u.source == source);
-            if !self.unplanned.contains(&constraint.origin) || !required || told {
+            if self.is_planned(index) || !required || told {
                 continue;
             }
             let verdict = evaluator.test(instance).ok();

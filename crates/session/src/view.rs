@@ -374,7 +374,8 @@ pub struct ValueRow {
     pub is_virtual: bool,
     /// Whether an anchor holds it.
     pub anchored: bool,
-    /// Whether it only says how something is drawn: a part of layout, or what is computed for a picture.
+    /// Whether it is listed only where that is asked for: a part of layout, what is computed for a picture, a constant
+    /// of a library.
     pub is_layout: bool,
     /// Its state.
     pub freedom: Option<Freedom>,

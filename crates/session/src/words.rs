@@ -11,7 +11,7 @@ use kernel::{
     ClassId, ClassKind, Command, ConstraintInstance, Document, Literal, Path, Primitive, SlotId,
     Step, Structure, Term, ThingId, Value, Values,
 };
-use lang::{Quantity, Shown};
+use kernel::{Quantity, Shown};
 use plan::{Acting, ActingKind, Decided, EditReport, NotDecided, RefusalReason, Source};
 use std::collections::BTreeSet;
 
@@ -169,7 +169,7 @@ pub(crate) fn amount(state: &State, source: Source, x: f64) -> String {
     let Shown { text, unit, .. } = match measure(state, source) {
         Some(dimension) => {
             let quantity = Quantity { dimension, ..Quantity::default() };
-            lang::show_quantity(x, quantity, &state.lowered.document)
+            kernel::show_quantity(x, quantity, &state.lowered.document)
         }
         None => plain(base::number::significant(x, 6)),
     };
@@ -210,6 +210,10 @@ pub(crate) fn sides_in_words(state: &State, source: Source, values: &Values) -> 
     let [written_left, written_right] = rule.split(" = ").collect::<Vec<_>>()[..] else {
         return None;
     };
+    // of a binding the part alone
+    let is_name = |name: &&str| name.chars().all(|c| c.is_alphanumeric() || "._[]".contains(c));
+    let part = written_left.split_once(": ").map(|(part, _)| part).filter(is_name);
+    let written_left = part.unwrap_or(written_left);
     let written_right = written_right.split(" within ").next().unwrap_or(written_right);
     let evaluator = state.evaluator(values);
     let said = |term, written: &str| {
@@ -470,7 +474,7 @@ pub(crate) fn show_slot(state: &State, slot: SlotId, values: &Values) -> Shown {
         (Primitive::Real(_), Value::Number(x)) => {
             let written = written_for(state, slot);
             let quantity = quantity_of(state, slot, &written);
-            lang::show_quantity(x, quantity, &state.lowered.document)
+            kernel::show_quantity(x, quantity, &state.lowered.document)
         }
         (Primitive::Bool, Value::Number(x)) => plain((x != 0.0).to_string()),
         (Primitive::Choice(of), Value::Number(x)) => {

@@ -49,6 +49,7 @@ impl Build {
             units_per_metre: 1.0,
             scale: Default::default(),
             unit: None,
+            writes_lengths: false,
         };
         let mut b = Self {
             document,

@@ -86,6 +86,7 @@ impl Builder {
             units_per_metre: 1.0,
             scale: Default::default(),
             unit: None,
+            writes_lengths: false,
         }
     }
 }

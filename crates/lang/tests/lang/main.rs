@@ -3,6 +3,7 @@
 mod commands;
 mod diagnostics;
 mod lowering;
+mod shown;
 mod values;
 
 use lang::Lowered;

@@ -2,7 +2,8 @@
 
 use super::{load, lower, right};
 use kernel::{Literal, Path, Step};
-use lang::{Quantity, Shown, Wanted, read_literal, show_quantity, write_values};
+use kernel::{Quantity, Shown, show_quantity};
+use lang::{Wanted, read_literal, write_values};
 
 fn place(x: f64, y: f64) -> Literal {
     Literal::Tuple(vec![Literal::Number(x), Literal::Number(y)])

@@ -46,6 +46,7 @@ impl Builder {
             units_per_metre: 1.0,
             scale: Default::default(),
             unit: None,
+            writes_lengths: false,
         };
         let mut builder = Self { document };
         assert_eq!(builder.class("Point", &[("x", LENGTH), ("y", LENGTH)]), POINT);

@@ -41,8 +41,14 @@ pub(crate) fn view(open: &mut Open) -> Vec<DiagnosticView> {
     let told: Vec<Source> = against.iter().flat_map(|c| c.constraints.clone()).collect();
     let around = open.planner.connected(state.model(), &words::read_by(&state, &told));
     let around: BTreeSet<SlotId> = around.into_iter().collect();
-    let is_told =
-        |s: &Source| told.contains(s) || !words::read_by(&state, &[*s]).is_disjoint(&around);
+    // what could not be planned is said where it stands already
+    let is_planned = |s: &Source| match s {
+        Source::Constraint(index) => state.is_planned(*index),
+        Source::Stay(_) | Source::Wish(_) => true,
+    };
+    let is_told = |s: &Source| {
+        told.contains(s) || !is_planned(s) || !words::read_by(&state, &[*s]).is_disjoint(&around)
+    };
     let required = open.status.unmet.iter().filter(|u| u.level == Level::Required);
     let untold = required.map(|u| u.source).filter(|s| !is_told(s));
     problems.extend(untold.filter_map(|source| of_unmet(&state, source)));

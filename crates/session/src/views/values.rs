@@ -4,14 +4,14 @@ use crate::state::State;
 use crate::view::ValueRow;
 use crate::views::drawn::walk;
 use crate::words;
-use base::Name;
+use base::{FileId, Name};
 use eval::{Answer, Evaluator, Standing};
 use indexmap::IndexMap;
 use kernel::builtin::{FUNCTIONS, Kind, PICTURE_MESSAGES, find};
 use kernel::{
     ClassId, ClassKind, Document, Message, Path, Primitive, SlotId, Step, Term, ThingId, Values,
 };
-use lang::{Quantity, Shown};
+use kernel::{Quantity, Shown};
 use std::collections::{BTreeMap, BTreeSet};
 use std::fmt::Write;
 use std::rc::Rc;
@@ -126,7 +126,7 @@ fn show_answer<'d>(
     match answer {
         Answer::Number(x, dimension) => {
             let quantity = Quantity { dimension: *dimension, class, written: "" };
-            let words = lang::show_quantity(*x, quantity, document);
+            let words = kernel::show_quantity(*x, quantity, document);
             let class = if class.is_empty() { dimension.named().unwrap_or("Real") } else { class };
             Some((Cell { words, number: Some(*x) }, class))
         }
@@ -149,6 +149,12 @@ fn show_answer<'d>(
 pub(crate) fn in_words(document: &Document, answer: &Answer<'_>) -> Option<String> {
     let (Cell { words: Shown { text, unit, .. }, .. }, _) = show_answer(document, answer, "")?;
     Some(words::with_unit(text, &unit))
+}
+
+/// Returns true for what the text of a library gives.
+fn is_of_library(state: &State, slot: SlotId) -> bool {
+    let given = state.structure.given(slot);
+    given.is_some_and(|given| state.lowered.place(given.origin).file != FileId(0))
 }
 
 struct Maker<'a> {
@@ -187,7 +193,7 @@ impl Maker<'_> {
                 given: s.given.is_some(),
                 is_virtual: false,
                 anchored: s.anchored,
-                is_layout: s.is_layout,
+                is_layout: s.is_layout || s.anchored && is_of_library(state, slot),
                 freedom: words::freedom_of(structure, self.status, thing),
                 doc: words::doc_of(state, thing),
                 range: self.asked_range(thing),

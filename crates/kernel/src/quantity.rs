@@ -1,14 +1,13 @@
 //! How values are put to people: a number of base units in, six digits and an engineer's unit out.
 //!
-//! All that people read of numbers (tables, explanations, refusals) comes from here, and can be typed
+//! All that people read of numbers (tables, explanations, refusals, texts with values in them) comes from here, and can be typed
 //! back. The unit is the one that the value was written in, where it reads well; else that of its class,
 //! with a prefix by steps of a thousand. Angles are in degrees.
 
-use crate::numbers::{is_of_the_sheet, to_bare, to_si};
+use crate::Document;
 use base::number::{shortest, significant};
 use expr::dimension::Dimension;
 use expr::units::{self, Unit};
-use kernel::Document;
 
 /// So many significant digits of a number are shown.
 const DIGITS: usize = 6;
@@ -38,6 +37,20 @@ pub struct Quantity<'a> {
     pub written: &'a str,
 }
 
+impl Quantity<'_> {
+    /// Returns true for a class that tells more of a number than what it measures.
+    pub fn is_told_by(class: &str) -> bool {
+        matches!(class, "Angle" | "Torque" | "Moment" | "AngularVelocity" | "AngularAcceleration")
+    }
+}
+
+impl Shown {
+    /// Returns the number and its unit.
+    pub fn with_unit(&self) -> String {
+        format!("{} {}", self.text, self.unit).trim_end().into()
+    }
+}
+
 /// A number as people read it.
 #[derive(Clone, PartialEq, Eq, Debug, Default)]
 pub struct Shown {
@@ -51,7 +64,8 @@ pub struct Shown {
 
 /// Shows a number of base units.
 ///
-/// A length without a unit anywhere is in the units of the sheet and has none; `unit mm` gives it one.
+/// A length without a unit anywhere is in the units of the sheet and has none; `unit mm` gives it one, and so does a
+/// text that writes lengths in metres.
 pub fn show_quantity(x: f64, quantity: Quantity<'_>, document: &Document) -> Shown {
     let spelling = spelling_for(x, quantity, document);
     let shown = in_unit(x, quantity.dimension, &spelling, document);
@@ -66,13 +80,15 @@ pub fn in_unit(x: f64, dimension: Dimension, spelling: &str, document: &Document
 }
 
 /// Chooses the unit for a number of base units.
-pub(crate) fn spelling_for(x: f64, quantity: Quantity<'_>, document: &Document) -> String {
+pub fn spelling_for(x: f64, quantity: Quantity<'_>, document: &Document) -> String {
     let Quantity { dimension, class, written } = quantity;
     let size = |spelling: &str| in_unit(x, dimension, spelling, document).abs();
     if class == "Angle" {
         return "deg".into();
     }
     let last = written.trim_end_matches([')', ']', ',', '}']).rsplit(char::is_whitespace).next();
+    // `5%` is one word
+    let last = last.map(|word| word.trim_start_matches(|c: char| c.is_ascii_digit() || c == '.'));
     let fits = |spelling: &&str| units::unit(spelling).is_some_and(|u| u.dimension == dimension);
     if let Some(spelling) = last.filter(fits)
         && (x == 0.0 || (1e-3..1e6).contains(&size(spelling)))
@@ -102,7 +118,13 @@ fn of_the_sheet(
     size: impl Fn(&str) -> f64 + Copy,
 ) -> String {
     let power = dimension.0[0];
-    let Some(own) = document.unit.as_deref().filter(|_| power != 0) else { return String::new() };
+    let Some(own) = document.unit.as_deref().filter(|_| power != 0) else {
+        return match (document.writes_lengths, power) {
+            (false, _) | (true, 0) => String::new(),
+            (true, 1) => prefixed("m", size),
+            (true, _) => raised(power, size),
+        };
+    };
     if power != 1 {
         return format!("{own}^{power}");
     }
@@ -117,14 +139,24 @@ fn of_the_sheet(
     if shown == 0.0 || (least..1e5).contains(&shown) { own.into() } else { prefixed("m", size) }
 }
 
+/// Returns the power of the largest unit of length with which a number is not below a tenth.
+fn raised(power: i8, size: impl Fn(&str) -> f64) -> String {
+    let mut spellings = ["km", "m", "cm", "mm"].map(|unit| format!("{unit}^{power}")).into_iter();
+    if size(&format!("m^{power}")) == 0.0 || power < 0 {
+        return format!("m^{power}");
+    }
+    let reads = |spelling: &String| size(spelling) >= 0.1;
+    spellings.find(reads).unwrap_or_else(|| format!("mm^{power}"))
+}
+
 /// Returns a unit of SI with the largest prefix with which the number is not below one.
 fn prefixed(spelling: &str, size: impl Fn(&str) -> f64) -> String {
-    // the kilogram has its prefix already, squares have none, and nobody counts in kiloseconds
+    // the kilogram has its prefix already, squares have none, and nobody counts in kiloseconds or megametres a second
     let stem = if spelling == "kg" { "g" } else { spelling };
     let first = stem.split(['*', '/']).next().unwrap_or_default();
     let highest = match stem {
         "s" => 0,
-        "g" => 3,
+        "g" | "m/s" => 3,
         _ => i8::MAX,
     };
     if size(spelling) == 0.0
@@ -158,79 +190,54 @@ fn prefixed(spelling: &str, size: impl Fn(&str) -> f64) -> String {
         .unwrap_or_else(|| spelling.into())
 }
 
-#[cfg(test)]
-mod tests {
-    use super::*;
-    use crate::lower;
+/// Returns a number of SI in the document's base units. Powers of ten are shifted, not multiplied.
+pub fn from_si(document: &Document, si: f64, dimension: Dimension) -> f64 {
+    shifted(document, si, i32::from(dimension.0[0])) * document.scale.factor(dimension)
+}
 
-    fn document(text: &str) -> Document {
-        lower(text, &|_| None, None).document
-    }
-    fn shown(x: f64, class: &str, written: &str, document: &Document) -> String {
-        let dimension = Dimension::by_name(class).unwrap_or(Dimension::NONE);
-        let shown = show_quantity(x, Quantity { dimension, class, written }, document);
-        format!("{} {}", shown.text, shown.unit).trim().into()
-    }
+/// Returns a number of the document's base units in SI.
+pub fn to_si(document: &Document, x: f64, dimension: Dimension) -> f64 {
+    shifted(document, x / document.scale.factor(dimension), -i32::from(dimension.0[0]))
+}
 
-    #[test]
-    fn prefixes_go_by_thousands() {
-        let d = document("");
-        for (x, class, wanted) in [
-            (0.01, "Current", "10 mA"),
-            (1500.0, "Resistance", "1.5 kohm"),
-            (12_500.0, "Force", "12.5 kN"),
-            (-51_961.524_227_066_32, "Force", "-51.9615 kN"),
-            (0.999_999_9, "Voltage", "1 V"),
-            (999.999_99, "Voltage", "1 kV"),
-            (210e9, "Stress", "210 GPa"),
-            (4500.0, "Torque", "4.5 kN*m"),
-            (4500.0, "Energy", "4.5 kJ"),
-            (0.25, "Mass", "250 g"),
-            (7200.0, "Time", "7200 s"),
-            (0.0, "Current", "0 A"),
-            (1e-40, "Current", "1e-40 A"),
-            (293.15, "Temperature", "293.15 K"),
-            (1.0, "Density", "1 kg/m^3"),
-            (2.0, "AngularVelocity", "2 rad/s"),
-        ] {
-            assert_eq!(shown(x, class, "", &d), wanted);
-        }
+/// Returns a number that was written without a unit in base units.
+///
+/// A bare length, area or volume counts in the units of the sheet; whatever else, in those of SI.
+pub fn from_bare(document: &Document, x: f64, dimension: Dimension) -> f64 {
+    match is_of_the_sheet(dimension) {
+        true => x * document.scale.factor(dimension),
+        false => from_si(document, x, dimension),
     }
-    #[test]
-    fn angles_are_read_in_degrees() {
-        let d = document("unit mm");
-        assert_eq!(shown(std::f64::consts::FRAC_PI_4, "Angle", "", &d), "45 deg");
-        assert_eq!(shown(1.0, "Angle", "1 rad", &d), "57.2958 deg");
+}
+
+/// Returns what to write for a number without its unit: what [`from_bare`] reads.
+pub fn to_bare(document: &Document, x: f64, dimension: Dimension) -> f64 {
+    match is_of_the_sheet(dimension) {
+        true => x / document.scale.factor(dimension),
+        false => to_si(document, x, dimension),
     }
-    #[test]
-    fn what_is_written_is_read_in_its_unit() {
-        let d = document("");
-        assert_eq!(shown(1000.0, "Resistance", "1000 ohm", &d), "1000 ohm");
-        assert_eq!(shown(7500.0, "Force", "10 kN", &d), "7.5 kN");
-        assert_eq!(shown(1e-9, "Force", "10 kN", &d), "1 nN");
-        assert_eq!(shown(10.0, "Voltage", "2 * 5", &d), "10 V");
+}
+
+/// Returns true for plain numbers, lengths, areas, volumes.
+pub fn is_of_the_sheet(dimension: Dimension) -> bool {
+    dimension.0[1..].iter().all(|&exponent| exponent == 0)
+}
+
+/// Scales by the document's units of length in a metre, to a power.
+fn shifted(document: &Document, x: f64, power: i32) -> f64 {
+    let scale = document.units_per_metre;
+    if power == 0 || scale == 1.0 || x == 0.0 {
+        return x;
     }
-    #[test]
-    fn lengths_are_in_the_unit_of_the_sheet() {
-        let plain = document("");
-        assert_eq!(shown(121.666_666_67, "Length", "", &plain), "121.667");
-        let mm = document("unit mm");
-        assert_eq!(shown(0.5, "Length", "", &mm), "0.5 mm");
-        assert_eq!(shown(1250.0, "Length", "", &mm), "1250 mm");
-        assert_eq!(shown(0.02, "Length", "", &mm), "20 um");
-        assert_eq!(shown(2e5, "Length", "", &mm), "200 m");
-        assert_eq!(shown(400.0, "Area", "", &mm), "400 mm^2");
-        let dm = document("unit dm");
-        assert_eq!(shown(300.0, "Length", "", &dm), "30 m");
-        assert_eq!(shown(-0.568_75, "Length", "", &dm), "-56.875 mm");
-    }
-    #[test]
-    fn what_is_shown_reads_back() {
-        let d = document("unit mm");
-        let quantity = Quantity { dimension: Dimension::CURRENT, class: "Current", written: "" };
-        let shown = show_quantity(1.0 / 300.0, quantity, &d);
-        assert_eq!((&*shown.text, &*shown.unit), ("3.33333", "mA"));
-        let unit = units::unit(&shown.unit).expect("it is a unit");
-        assert_eq!(unit.read(&shown.exact), Some(1.0 / 300.0));
-    }
+    let tens = [10.0, 100.0, 1000.0, 1e6, 1e9].iter().position(|t| *t == scale);
+    let Some(exponent) = tens.map(|i| [1, 2, 3, 6, 9][i]) else {
+        return x * base::number::pow(scale, f64::from(power));
+    };
+    format!("{x:e}")
+        .split_once('e')
+        .and_then(|(digits, own)| {
+            let own: i32 = own.parse().ok()?;
+            format!("{digits}e{}", own + exponent * power).parse().ok()
+        })
+        .unwrap_or(x * base::number::pow(scale, f64::from(power)))
 }
