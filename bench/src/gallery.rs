@@ -15,7 +15,8 @@ use std::time::{Duration, Instant};
 /// How many steps a drag has: one turn, and then another.
 const STEPS: usize = 720;
 
-struct Library(PathBuf);
+/// Reads the library in a copy of the project.
+pub(crate) struct Library(pub(crate) PathBuf);
 
 impl Host for Library {
     fn read(&self, name: &str) -> Option<String> {
@@ -33,8 +34,7 @@ struct Figures {
 
 /// Prints one row for every document whose name begins with the filter; `grip` is what is dragged.
 pub(crate) fn table(out: &mut impl Write, filter: &str, grip: Option<&str>) -> std::io::Result<()> {
-    let top =
-        Path::new(env!("CARGO_MANIFEST_DIR")).parent().unwrap_or(Path::new(".")).to_path_buf();
+    let top = top();
     let mut documents: Vec<PathBuf> = Vec::new();
     for entry in fs::read_dir(top.join("gallery"))? {
         documents.push(entry?.path());
@@ -59,6 +59,11 @@ pub(crate) fn table(out: &mut impl Write, filter: &str, grip: Option<&str>) -> s
         )?;
     }
     Ok(())
+}
+
+/// Returns the folder of the project.
+pub(crate) fn top() -> PathBuf {
+    Path::new(env!("CARGO_MANIFEST_DIR")).parent().unwrap_or(Path::new(".")).to_path_buf()
 }
 
 /// Measures one document; nothing if it has no grip that can be pressed.
@@ -115,7 +120,7 @@ fn timed(run: impl FnOnce()) -> Duration {
 }
 
 /// Returns the middle one, in microseconds.
-fn median(mut all: Vec<Duration>) -> f64 {
+pub(crate) fn median(mut all: Vec<Duration>) -> f64 {
     all.sort();
     all.get(all.len() / 2).map_or(0.0, |d| d.as_secs_f64() * 1e6)
 }

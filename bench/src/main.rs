@@ -2,14 +2,15 @@
 //!
 //! `cargo bench-table SECTION` prints one section, `cargo bench-table SECTION NAME` the rows whose names
 //! begin so: `cargo bench-table sketches rects`. The sections: `sketches`, `drags`, `displaced`, `circuits`,
-//! `trusses`, `rows`, `instances`, `tape`, `things`, `gallery` (`gallery NAME GRIP` drags by one grip), `browser` (in
-//! WebAssembly, in a browser), `lab` (the page as people get it). Figures to
+//! `trusses`, `rows`, `instances`, `programs`, `tape`, `things`, `gallery` (`gallery NAME GRIP` drags by one grip),
+//! `browser` (in WebAssembly, in a browser), `lab` (the page as people get it). Figures to
 //! read, not tests: nothing here fails for being slow.
 
 mod circuits;
 mod displacements;
 mod gallery;
 mod instances;
+mod programs;
 mod rows;
 mod sketches;
 mod tape;
@@ -19,7 +20,7 @@ use std::io::{self, Write};
 use std::process::{Command, Stdio};
 
 /// The sections, in the order in which they are printed.
-const SECTIONS: [&str; 12] = [
+const SECTIONS: [&str; 13] = [
     "sketches",
     "drags",
     "displaced",
@@ -27,6 +28,7 @@ const SECTIONS: [&str; 12] = [
     "trusses",
     "rows",
     "instances",
+    "programs",
     "tape",
     "things",
     "gallery",
@@ -54,6 +56,7 @@ fn main() -> io::Result<()> {
             "trusses" => circuits::trusses(out, filter)?,
             "rows" => rows::table(out, filter)?,
             "instances" => instances::table(out)?,
+            "programs" => programs::table(out, filter)?,
             "tape" => tape::table(out)?,
             "things" => things::table(out)?,
             "gallery" => gallery::table(out, filter, grip)?,

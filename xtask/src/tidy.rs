@@ -117,7 +117,8 @@ fn files() -> Vec<(String, PathBuf)> {
 fn is_ours(name: &str) -> bool {
     let endings = ["rs", "md", "toml", "thing", "html", "css", "js", "json"];
     let ending = Path::new(name).extension().and_then(|ending| ending.to_str());
-    ending.is_some_and(|ending| endings.contains(&ending)) && !["codemirror.js", "axe.min.js"].contains(&name)
+    ending.is_some_and(|ending| endings.contains(&ending))
+        && !["codemirror.js", "axe.min.js"].contains(&name)
 }
 
 fn architecture() -> String {

@@ -203,9 +203,13 @@ fn body(figure: &Figure, thing: &str, merging: &mut Merging) -> String {
                 }
             }
         }
-        Figure::Words { at, words, size } => {
+        Figure::Words { at, words, size, turn } => {
             let words = on_one_line(words).replace('\\', "\\\\").replace('"', "\\\"");
-            format!("at = {}  words = \"{words}\"  size = {}", place(*at), shortest(*size))
+            let turn = match *turn {
+                0.0 => String::new(),
+                turn => format!("  angle = {}", shortest(turn)),
+            };
+            format!("at = {}  words = \"{words}\"  size = {}{turn}", place(*at), shortest(*size))
         }
     }
 }

@@ -176,3 +176,16 @@ fn every_row_of_every_family_of_the_gallery_is_drawn() {
         assert_eq!(words, all, "{file}: {family}");
     }
 }
+
+#[test]
+fn rules_speak_of_columns_that_the_program_does_not_ask_for() {
+    let table = "disc,r [mm],hole [mm],across [cm]\nright,4,1,0.8\nwrong,5,1,0.9\n";
+    let folder = folder("columns", table);
+    let family = "family Discs of Disc {\n    across: Length\n    table \"discs.csv\"\n    constraint across = 2 * r\n}\n";
+    let text = DISC.replace("family Discs of Disc { table \"discs.csv\" }\n", family);
+    fs::write(folder.join("disc.thing"), text).expect("it can be written");
+    let (good, words) = drawn(&folder, "Discs", &["--out", "out"]);
+    assert!(!good && words.contains("2 rows: 1 drawn, 1 outside"), "{words}");
+    let said = "across = 2 * r is not met; across is 9 mm, r is 5 mm";
+    assert!(words.contains(said), "{words}");
+}

@@ -118,6 +118,7 @@ round: RadialDimension { circle = ring angle = 30 deg }
 across: DiameterDimension { circle = ring angle = 200 deg }
 one: Line { p1 = (50, 30) p2 = (70, 30) }
 other: Line { p1 = (50, 30) p2 = (60, 50) }
+aside: Note { at = (0, 60)  words = \"turned\"  angle = 90 deg }
 turn: AngularDimension { from = one to = other away = 12 }
 plate => Surface(Contour.box(Rectangle((100, 0), 20, 10)), [Contour.circle(Circle((110, 5), 2))])
 ";
@@ -132,6 +133,7 @@ fn splines_dimensions_and_surfaces_come_back() {
     assert!(said.status.success() && said.stderr.is_empty(), "{said:?}");
     let text = fs::read_to_string(folder.join("back.thing")).expect("it is there");
     for wanted in [
+        "note1: Note { at = (0, 60)  words = \"turned\"  size = 3.5  angle = 1.5707963267948966 }",
         "curve1: Bezier { poles = [(0, 0),",
         "HorizontalDimension { from = (0, 20)  to = (30, 25)  aside = 8  size = 3.5 }",
         "HorizontalDimension { from = (0, 20)  to = (30, 25)  aside = -6  size = 3.5 }",
@@ -174,6 +176,9 @@ fn blocks_are_taken_apart_where_they_are_inserted() {
     let mirrored = insert("41\n-1.0\n42\n1.0\n");
     let rows = insert("70\n2\n71\n2\n44\n50.0\n45\n20.0\n");
     let stretched = insert("41\n2.0\n");
+    // words that are given to it, of 4 mm, with their middle at a place, upwards
+    let given = "66\n1\n0\nATTRIB\n8\n0\n10\n0\n20\n0\n40\n4.0\n1\nMM\n50\n90.0\n72\n1\n74\n2\n11\n50.0\n21\n10.0\n0\nSEQEND\n";
+    let stretched = stretched + given;
     let lost = "0\nINSERT\n8\n0\n2\nNUT\n10\n0\n20\n0\n";
     let entities = [turned.as_str(), &mirrored, &rows, &stretched, lost];
     let drawing = drawing("4", &entities).replacen(
@@ -194,12 +199,16 @@ fn blocks_are_taken_apart_where_they_are_inserted() {
         "line2: Line { p1 = (10, 5)  p2 = (8, 5",
         "arc2: ClockwiseArc {",
         "line6: Line { p1 = (60, 25)  p2 = (62, 25) }",
+        // stretched, a quarter of a circle is one of an ellipse
+        "line7: Line { p1 = (10, 5)  p2 = (14, 5) }",
+        "ellipse1: EllipticArc { center = (10, 5)  end = (12, 5)  across = 1  from = 0  sweep = 1.570796326794896",
+        // the width of MM is 1.666 of their size, the height of capitals 0.718
+        "note1: Note { at = (51.436, 6.668)  words = \"MM\"  size = 4  angle = 1.5707963267948966 }",
     ] {
         assert!(text.contains(wanted), "no {wanted} in\n{text}");
     }
     let words = String::from_utf8_lossy(&said.stderr).into_owned();
     assert!(words.contains("note: INSERT of a block that is not there"), "{words}");
-    assert!(words.contains("note: INSERT that stretches its block"), "{words}");
 }
 
 #[test]
@@ -246,4 +255,22 @@ fn paragraphs_are_notes_and_hatches_surfaces() {
     );
     let words = String::from_utf8_lossy(&said.stderr).into_owned();
     assert!(words.contains("note: the pattern of a HATCH: it is filled"), "{words}");
+}
+
+#[test]
+fn what_a_program_drew_is_a_block_and_comes_back() {
+    let folder = folder("parts");
+    let text = "use geometry\nunit mm\nprogram Posts(n: Integer = 3) {\n    row = repeat n times with x = 0 mm {\n        post = Circle(Point(x, 0 mm), 2 mm)\n        next x = x + 10 mm\n    }\n}\nleft: Posts\nalone: Circle { center = (50, 0)  radius = 1 }\n";
+    fs::write(folder.join("sheet.thing"), text).expect("it can be written");
+    thinglab(&folder, &["draw", "sheet.thing", "-o", "sheet.dxf"]);
+    let dxf = fs::read_to_string(folder.join("sheet.dxf")).expect("it is there");
+    assert!(dxf.contains("AcDbBlockReference\n2\nLEFT\n"), "{dxf}");
+    let said = thinglab(&folder, &["import", "sheet.dxf"]);
+    let text = String::from_utf8_lossy(&said.stdout).into_owned();
+    for center in
+        ["(0, 0)  radius = 2", "(10, 0)  radius = 2", "(20, 0)  radius = 2", "(50, 0)  radius = 1"]
+    {
+        assert!(text.contains(&format!("Circle {{ center = {center} }}")), "{center}: {text}");
+    }
+    assert!(said.stderr.is_empty(), "{said:?}");
 }

@@ -1,7 +1,7 @@
 //! Bounds: the smallest upright box around a drawing.
 
 use crate::curve;
-use crate::element::{Anchoring, Drawing, Element, Placement, Point, Shape, Vertical};
+use crate::element::{Drawing, Element, Placement, Point, Shape, Vertical};
 use crate::{metrics, spline};
 use base::number::{cos, sin};
 use std::f64::consts::{FRAC_PI_2, TAU};
@@ -102,14 +102,10 @@ fn corners(element: &Element, vertical: Vertical, say: &mut dyn FnMut(Point)) {
             Placement::OnScreen(_) => say(*at),
             Placement::OnSheet(size) => {
                 let width = metrics::text_width(text, *size);
-                let left = match anchoring {
-                    Anchoring::Start => 0.0,
-                    Anchoring::Middle => -width / 2.0,
-                    Anchoring::End => -width,
-                };
+                let (left, down) = anchoring.start(text, *size);
                 let lines_below = text.split('\n').count() as f64 - 1.0;
-                let above = metrics::ASCENT * size;
-                let below = (metrics::DESCENT + lines_below * metrics::LINE_HEIGHT) * size;
+                let above = metrics::ASCENT * size - down;
+                let below = down + (metrics::DESCENT + lines_below * metrics::LINE_HEIGHT) * size;
                 let (top, bottom) = match vertical {
                     Vertical::Up => (above, -below),
                     Vertical::Down => (-above, below),
@@ -183,12 +179,21 @@ mod tests {
         let text = |placement| Shape::Text {
             at: ORIGIN,
             text: "MM".into(),
-            anchoring: Anchoring::Middle,
+            anchoring: crate::Anchoring::Middle,
             placement,
             turn: 0.0,
         };
         near(of(text(Placement::OnScreen(12.0))).unwrap(), [0.0; 4]);
         near(of(text(Placement::OnSheet(10.0))).unwrap(), [-8.33, -2.07, 8.33, 7.18]);
+        let centered = Shape::Text {
+            at: ORIGIN,
+            text: "MM\nM".into(),
+            anchoring: crate::Anchoring::Center,
+            placement: Placement::OnSheet(10.0),
+            turn: 0.0,
+        };
+        // the capitals reach as far up as the last base line lies below
+        near(of(centered).unwrap(), [-8.33, -9.59 - 2.07, 8.33, 9.59]);
         let mut upright = text(Placement::OnSheet(10.0));
         if let Shape::Text { turn, .. } = &mut upright {
             *turn = FRAC_PI_2;

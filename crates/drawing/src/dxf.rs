@@ -6,15 +6,16 @@
 //!
 //! **Source:** Autodesk, *DXF Reference*, release 2000.
 
+mod blocks;
 mod dimension;
 
 use crate::bounds::bounds;
 use crate::element::{
-    Anchoring, Color, Corner, Drawing, Element, Line, Placement, Point, Shape, Vertical,
+    Anchoring, Color, Corner, Drawing, Element, Line, Placement, Point, Shape, Tag, Vertical,
 };
 use crate::spline;
 use base::number::{cos, sin};
-use dimension::Gathered;
+use blocks::Block;
 use std::collections::BTreeSet;
 use std::f64::consts::TAU;
 use std::fmt::Write as _;
@@ -58,6 +59,17 @@ const LAYERS: [(&str, u8); 3] = [("0", 7), ("CONSTRUCTION", 8), ("ACCENT", 1)];
 /// assert!(text.contains("AcDbCircle\n10\n3.0\n20\n4.0\n30\n0.0\n40\n2.0\n"));
 /// ```
 pub fn write(drawing: &Drawing, options: &DxfOptions) -> String {
+    write_in_blocks(drawing, options, &|_| None)
+}
+
+/// Writes a drawing as a DXF text; elements of tags with the same group are a block, which is inserted once.
+///
+/// Dimensions in a group are dimensions of the drawing.
+pub fn write_in_blocks(
+    drawing: &Drawing,
+    options: &DxfOptions,
+    group: &dyn Fn(Tag) -> Option<String>,
+) -> String {
     let mut dxf = Writer {
         out: String::new(),
         handle: FIRST_HANDLE,
@@ -80,12 +92,18 @@ pub fn write(drawing: &Drawing, options: &DxfOptions) -> String {
     dxf.end();
     let mut elements: Vec<&Element> = drawing.elements.iter().collect();
     elements.sort_by_key(|e| e.layer);
-    let mut dimensions = dimension::gathered(&elements);
-    dxf.tables(&named, &mut dimensions);
-    dxf.blocks(&dimensions);
+    let mut blocks = blocks::gathered(&elements, group);
+    dxf.tables(&named, &mut blocks);
+    dxf.blocks(&blocks);
     dxf.section("ENTITIES");
-    elements.into_iter().filter(|e| e.style.dimension.is_none()).for_each(|e| dxf.element(e));
-    dimensions.iter().for_each(|d| dxf.dimension(d));
+    let is_alone = |e: &&&Element| e.style.dimension.is_none() && group(e.tag).is_none();
+    elements.iter().filter(is_alone).for_each(|e| dxf.element(e));
+    for block in &blocks {
+        match block.dimension {
+            Some(of) => dxf.dimension(of, block),
+            None => dxf.insert(&block.name),
+        }
+    }
     dxf.end();
     dxf.objects();
     dxf.pair(0, "EOF");
@@ -190,7 +208,7 @@ impl Writer {
         self.pair(2, name);
         self.pair(70, 0);
     }
-    fn tables(&mut self, named: &BTreeSet<String>, dimensions: &mut [Gathered<'_>]) {
+    fn tables(&mut self, named: &BTreeSet<String>, blocks: &mut [Block<'_>]) {
         self.section("TABLES");
         let table = self.table("VPORT", 0);
         let _ = table;
@@ -246,12 +264,12 @@ impl Writer {
             self.real(code, height);
         }
         self.pair(0, "ENDTAB");
-        let table = self.table("BLOCK_RECORD", BLOCK_RECORDS.len() + dimensions.len());
-        for dimension in &mut *dimensions {
-            dimension.record = self.next();
+        let table = self.table("BLOCK_RECORD", BLOCK_RECORDS.len() + blocks.len());
+        for block in &mut *blocks {
+            block.record = self.next();
         }
         let records = BLOCK_RECORDS.map(|(handle, name)| (handle, name.to_string()));
-        let own = dimensions.iter().map(|d| (d.record, d.name.clone()));
+        let own = blocks.iter().map(|b| (b.record, b.name.clone()));
         for (handle, name) in records.into_iter().chain(own) {
             self.pair(0, "BLOCK_RECORD");
             self.hex(5, handle);
@@ -263,11 +281,11 @@ impl Writer {
         self.pair(0, "ENDTAB");
         self.end();
     }
-    fn blocks(&mut self, dimensions: &[Gathered<'_>]) {
+    fn blocks(&mut self, blocks: &[Block<'_>]) {
         self.section("BLOCKS");
         let records = BLOCK_RECORDS.map(|(record, name)| (record, name, None));
-        let own = dimensions.iter().map(|d| (d.record, d.name.as_str(), Some(d)));
-        for (record, name, dimension) in records.into_iter().chain(own) {
+        let own = blocks.iter().map(|b| (b.record, b.name.as_str(), Some(b)));
+        for (record, name, block) in records.into_iter().chain(own) {
             let handle = self.next();
             self.pair(0, "BLOCK");
             self.hex(5, handle);
@@ -277,13 +295,13 @@ impl Writer {
             self.pair(100, "AcDbBlockBegin");
             self.pair(2, name);
             // a block without a name of its own
-            self.pair(70, u8::from(dimension.is_some()));
+            self.pair(70, u8::from(block.is_some_and(|b| b.dimension.is_some())));
             self.at(10, Point::default());
             self.pair(3, name);
             self.pair(1, "");
-            if let Some(dimension) = dimension {
+            if let Some(block) = block {
                 self.owner = record;
-                dimension.elements.iter().for_each(|e| self.element(e));
+                block.elements.iter().for_each(|e| self.element(e));
                 self.owner = BLOCK_RECORDS[0].0;
             }
             let handle = self.next();
@@ -378,8 +396,12 @@ impl Writer {
                     Placement::OnSheet(height) => self.length(*height),
                     Placement::OnScreen(_) => self.options.text_height,
                 };
+                let first = match anchoring {
+                    Anchoring::Center => 0.5 - 0.5 * text.lines().count() as f64,
+                    Anchoring::Start | Anchoring::Middle | Anchoring::End => 0.0,
+                };
                 for (i, line) in text.lines().enumerate().filter(|(_, line)| !line.is_empty()) {
-                    self.words(element, *at, (line, *anchoring, *turn), (height, i));
+                    self.words(element, *at, (line, *anchoring, *turn), (height, first + i as f64));
                 }
             }
         }
@@ -469,12 +491,12 @@ impl Writer {
         element: &Element,
         at: Point,
         (line, anchoring, turn): (&str, Anchoring, f64),
-        (height, row): (f64, usize),
+        (height, row): (f64, f64),
     ) {
         /// How far lines of words are apart, as a part of their height.
         const LEADING: f64 = 5.0 / 3.0;
         let (x, y) = (self.length(at.x), self.sign * self.length(at.y));
-        let (down, turn) = (LEADING * height * row as f64, self.sign * turn);
+        let (down, turn) = (LEADING * height * row, self.sign * turn);
         let (x, y) = (x + down * sin(turn), y - down * cos(turn));
         let place = |w: &mut Self, code: u16| {
             w.real(code, x);
@@ -490,7 +512,7 @@ impl Writer {
         }
         let justified = match anchoring {
             Anchoring::Start => 0,
-            Anchoring::Middle => 1,
+            Anchoring::Middle | Anchoring::Center => 1,
             Anchoring::End => 2,
         };
         if justified > 0 {
@@ -498,6 +520,9 @@ impl Writer {
             place(self, 11);
         }
         self.pair(100, "AcDbText");
+        if anchoring == Anchoring::Center {
+            self.pair(73, 2);
+        }
     }
 }
 
@@ -624,6 +649,44 @@ mod tests {
         let text = drawn(shape, Vertical::Up);
         assert!(text.contains("11\n0.0\n21\n3.0\n31\n0.0\n"), "{text}");
         assert!(text.contains("40\n0.5\n41\n0.5\n42\n1.0\n"), "{text}");
+    }
+    #[test]
+    fn words_in_the_middle_are_aligned_both_ways() {
+        let text = Shape::Text {
+            at: Point { x: 1.0, y: 2.0 },
+            text: "A\nB".into(),
+            anchoring: Anchoring::Center,
+            placement: Placement::OnSheet(3.0),
+            turn: 0.0,
+        };
+        let out = drawn(text, Vertical::Up);
+        let aligned = "72\n1\n11\n1.0\n21\n4.5\n31\n0.0\n100\nAcDbText\n73\n2\n";
+        assert!(out.contains(aligned), "{out}");
+        assert!(out.contains("21\n-0.5\n"), "{out}");
+    }
+    #[test]
+    fn a_group_is_a_block_that_is_inserted_once() {
+        let ring = |radius, tag| {
+            let mut ring = Element::new(Shape::Circle { center: Point::default(), radius });
+            ring.tag = Tag(tag);
+            ring
+        };
+        let elements = vec![ring(1.0, 0), ring(2.0, 1), ring(3.0, 2), ring(4.0, 1)];
+        let drawing = Drawing { elements, vertical: Vertical::Up };
+        let group = |tag: Tag| match tag.0 {
+            1 => Some("a.b".to_string()),
+            2 => Some("a_b".to_string()),
+            _ => None,
+        };
+        let text = write_in_blocks(&drawing, &DxfOptions::default(), &group);
+        let (blocks, entities) = text.split_once("2\nENTITIES\n").expect("there are entities");
+        let own = blocks.split("2\nA_B\n70\n0\n").nth(1).expect("a block");
+        let own = own.split("ENDBLK").next().unwrap_or_default();
+        assert!(own.contains("40\n2.0\n") && own.contains("40\n4.0\n"), "{own}");
+        assert_eq!(entities.matches("\nCIRCLE\n").count(), 1);
+        assert_eq!(entities.matches("AcDbBlockReference\n2\nA_B\n").count(), 1);
+        // names that come to the same are told apart
+        assert_eq!(entities.matches("AcDbBlockReference\n2\nA_B_2\n").count(), 1);
     }
     #[test]
     fn words_that_are_not_ascii_are_written_by_number() {

@@ -1,5 +1,6 @@
 //! Elements: what a drawing is made of.
 
+use crate::metrics;
 use std::sync::Arc;
 
 /// A point on the sheet.
@@ -133,6 +134,26 @@ pub enum Anchoring {
     Middle,
     /// The right end of the base line.
     End,
+    /// The middle both ways, between the top of the first line's capitals and the last base line.
+    Center,
+}
+
+impl Anchoring {
+    /// Returns how far to the right of a text's position its first line begins, and how far below its position the
+    /// first base line is; both as the text is read, in the units of `size`.
+    pub fn start(self, text: &str, size: f64) -> (f64, f64) {
+        let width = metrics::text_width(text, size);
+        let more_lines = text.split('\n').count() as f64 - 1.0;
+        match self {
+            Self::Start => (0.0, 0.0),
+            Self::Middle => (-width / 2.0, 0.0),
+            Self::End => (-width, 0.0),
+            Self::Center => {
+                let down = (metrics::ASCENT - more_lines * metrics::LINE_HEIGHT) * size / 2.0;
+                (-width / 2.0, down)
+            }
+        }
+    }
 }
 
 /// How a text lies on the sheet.

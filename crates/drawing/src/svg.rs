@@ -222,7 +222,11 @@ fn write_element(
                 let turn = shortest(turn.to_degrees());
                 format!(r#" transform="rotate({turn} {x} {y})""#)
             };
-            write_text(out, (&x, &y), text, *anchoring, size, &format!("{width}{turned}{look}"));
+            // `y` runs down here, and what is turned is turned around its position
+            let sign = if vertical == Vertical::Up { -1.0 } else { 1.0 };
+            let line = shortest(sign * at.y + anchoring.start(text, size).1);
+            let look = format!("{width}{turned}{look}");
+            write_text(out, (&x, &line), text, *anchoring, size, &look);
         }
     }
 }
@@ -286,12 +290,8 @@ fn with_labels(around: Bounds, drawing: &Drawing, options: &SvgOptions<'_>) -> B
         Shape::Text { at, text, anchoring, placement: Placement::OnScreen(pixels), .. } => {
             let size = pixels / options.pixels_per_unit;
             let width = metrics::text_width(text, size);
-            let left = match anchoring {
-                Anchoring::Start => 0.0,
-                Anchoring::Middle => 0.5 * width,
-                Anchoring::End => width,
-            };
-            let corner = Point { x: at.x - left, y: at.y };
+            let (left, _) = anchoring.start(text, size);
+            let corner = Point { x: at.x + left, y: at.y };
             around.with(corner).with(Point { x: corner.x + width, y: at.y })
         }
         Shape::Text { .. }
@@ -316,7 +316,7 @@ fn write_text(
 ) {
     let anchor = match anchoring {
         Anchoring::Start => "",
-        Anchoring::Middle => r#" text-anchor="middle""#,
+        Anchoring::Middle | Anchoring::Center => r#" text-anchor="middle""#,
         Anchoring::End => r#" text-anchor="end""#,
     };
     let step = shortest(metrics::LINE_HEIGHT * size);
@@ -464,6 +464,19 @@ mod tests {
             "{out}"
         );
         assert!(!out.contains("scale("));
+    }
+    #[test]
+    fn words_in_the_middle_are_turned_around_it() {
+        let text = Shape::Text {
+            at: p(0.0, 5.0),
+            text: "A".into(),
+            anchoring: Anchoring::Center,
+            placement: Placement::OnSheet(10.0),
+            turn: FRAC_PI_2,
+        };
+        let out = drawn(Element::new(text), Vertical::Up);
+        assert!(out.contains(r#"y="-1.41"#), "{out}");
+        assert!(out.contains(r#"transform="rotate(-90 0 -5)""#), "{out}");
     }
     #[test]
     fn a_colour_is_no_way_into_the_markup() {

@@ -53,7 +53,7 @@ pub use fault::{Fault, FaultKind};
 pub use given::{Given, given_values};
 pub use lookup::Known;
 pub use picture::{Grip, Picture};
-pub use programs::{Context, Ended, Standing, Why};
+pub use programs::{Context, Ended, Entry, Standing, Why};
 pub use scene::{Moved, Scene};
 pub use verdict::Verdict;
 pub use write::Side;

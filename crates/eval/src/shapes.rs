@@ -311,7 +311,7 @@ impl<'a> Evaluator<'a> {
                 }
                 PictureMessage::Centered => {
                     if let Shape::Text { anchoring, .. } = &mut element.shape {
-                        *anchoring = Anchoring::Middle;
+                        *anchoring = Anchoring::Center;
                     }
                 }
             }

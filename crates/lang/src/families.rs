@@ -4,7 +4,7 @@ use crate::kinds::Kind;
 use crate::lower::Lowerer;
 use crate::scope::Scope;
 use base::{Diagnostic, FileId, Name, Place};
-use kernel::{ClassId, Term};
+use kernel::{ClassId, Part, Term};
 use std::collections::BTreeSet;
 use syntax::SyntaxKind;
 use syntax::ast::{self, AstNode, Member};
@@ -18,6 +18,8 @@ pub struct Family {
     pub doc: String,
     /// The program.
     pub program: ClassId,
+    /// The class of its rows: the program, or one below it with the columns that the family has besides.
+    pub row: ClassId,
     /// The name of the file with the table, where there is one.
     pub table: Option<String>,
     /// The rows that are written out.
@@ -74,19 +76,23 @@ fn lower_family(
         name: word.name(),
         doc: ast::doc_comment(family.syntax()).unwrap_or_default(),
         program,
+        row: program,
         table: None,
         rows: Vec::new(),
         rules: Vec::new(),
     };
-    for member in family.body().into_iter().flat_map(|b| b.members()) {
+    let members: Vec<Member> = family.body().into_iter().flat_map(|b| b.members()).collect();
+    made.row = row_class(l, file, &made, &members);
+    for member in members {
         match member {
+            Member::Part(part) if is_column(&part) => {}
             Member::Table(table) => made.table = table.file().map(|w| w.unquoted()),
             Member::Rows(rows) => {
                 made.rows.extend(rows.rows().filter_map(|row| lower_row(l, file, program, &row)));
             }
             Member::Constraint(constraint) => {
                 let Some(ast::Rule::Holds(rule)) = constraint.rule() else { continue };
-                let scope = Scope::of(file, program);
+                let scope = Scope::of(file, made.row);
                 let said = constraint.name().map_or_else(
                     || rule.syntax().text().to_string().trim().to_string(),
                     |name| name.text().to_string(),
@@ -96,12 +102,46 @@ fn lower_family(
             }
             Member::Error(_) => {}
             other => {
-                let message = "a family has a table, rows and rules for them".to_string();
+                let message = "a family has columns, a table, rows and rules for them".to_string();
                 l.error("not-a-row", file, other.span(), message);
             }
         }
     }
     Some(made)
+}
+
+/// Returns true for a part that says no more than its name and its class.
+fn is_column(part: &ast::Part) -> bool {
+    part.value().is_none() && part.definition().is_none() && part.body().is_none()
+}
+
+/// Returns the class of a family's rows: below the program where the family has columns that this does not ask for.
+fn row_class(l: &mut Lowerer<'_>, file: FileId, family: &Family, members: &[Member]) -> ClassId {
+    let columns = members.iter().filter_map(|member| match member {
+        Member::Part(part) if is_column(part) => Some(part),
+        _ => None,
+    });
+    let mut columns = columns.peekable();
+    let Some(first) = columns.peek() else { return family.program };
+    let origin = l.origin(file, syntax::span_of(first.syntax()));
+    let row = l.add_unnamed_class(&family.name, family.program, origin);
+    let scope = Scope::of(file, row);
+    for column in columns {
+        let Some(class) = column.class().and_then(|ty| l.class_of_type(file, &ty)) else {
+            continue;
+        };
+        let origin = l.origin(file, syntax::span_of(column.syntax()));
+        for word in column.names() {
+            if !l.is_new(&scope, &word) {
+                continue;
+            }
+            let (name, doc) = (word.name(), column.doc().unwrap_or_default());
+            let part =
+                Part { name, doc, class, count: None, range: None, is_layout: false, origin };
+            l.add_part(Place { file, span: word.span() }, row, part);
+        }
+    }
+    row
 }
 
 fn lower_row(

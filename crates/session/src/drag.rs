@@ -54,7 +54,16 @@ pub(crate) fn begin(open: &mut Open, paths: &[Path]) -> Result<(f64, f64), Refus
             press_computed(&state, &mut open.planner, term, path.clone())
         }
         Aim::Thing(thing) => press(&state, &mut open.planner, &[thing], path.clone()),
-        Aim::Term(term) => press_computed(&state, &mut open.planner, term, path.clone()),
+        Aim::Term(term) => {
+            let answer = state.evaluator(&state.values).at(path).ok();
+            match (answer.as_ref().and_then(numbers_of), path.0.split_last()) {
+                // what a program drew that is no place is held by what it is a part of
+                (None, Some((_, whole))) if !whole.is_empty() => {
+                    return begin(open, &[Path(whole.to_vec())]);
+                }
+                _ => press_computed(&state, &mut open.planner, term, path.clone()),
+            }
+        }
     };
     let drag =
         drag.map_err(|reason| words::refusal_for(&state, &reason, &plan::EditReport::default()))?;
@@ -70,7 +79,7 @@ fn begin_several(open: &mut Open, paths: &[Path]) -> Result<(f64, f64), Refusal>
     for path in paths {
         match apply::aim(&state, path)? {
             Aim::Thing(thing) if !places(&state.structure, &[thing]).is_empty() => {
-                things.push(thing)
+                things.push(thing);
             }
             Aim::Thing(_) | Aim::Term(_) => {
                 let message =

@@ -17,9 +17,10 @@ use crate::state::State;
 use crate::view::{FamilyRow, FamilyView, Refusal, RowFormats, RowOutcome, TableView};
 use crate::views::drawn::walk;
 use crate::words;
-use drawing::{Drawing, Vertical, dxf, svg};
+use base::Name;
+use drawing::{Drawing, Tag, Vertical, dxf, svg};
 use eval::{Answer, Context, Evaluator, Standing, Why};
-use kernel::{ClassId, ClassKind, DOCUMENT, Document, Literal, Primitive};
+use kernel::{ClassId, ClassKind, DOCUMENT, Document, Literal, Primitive, Term};
 use lang::{Family, Wanted};
 use std::collections::BTreeMap;
 use std::rc::Rc;
@@ -42,11 +43,13 @@ pub(crate) fn list(state: &State) -> Vec<FamilyView> {
 }
 
 /// Finds a program by its name, or by that of a family.
+///
+/// The class is that of its rows: the program, or what has the columns of the family besides.
 fn find<'s>(state: &'s State, name: &str) -> Result<(ClassId, Option<&'s Family>), Refusal> {
     let document = &state.lowered.document;
     let family = state.lowered.families.iter().find(|f| f.name == *name);
     if let Some(family) = family {
-        return Ok((family.program, Some(family)));
+        return Ok((family.row, Some(family)));
     }
     let program = document.class_named(name).filter(|&c| document.program(c).is_some());
     program.map(|program| (program, None)).ok_or_else(|| {
@@ -343,7 +346,6 @@ pub(crate) fn draw(
         return Ok(outcome);
     }
     let run = run_of((state, &evaluator), program, &row.values)?;
-    let elements = evaluator.elements(&Answer::Context(run.clone()));
     if let Some((ended, step, message)) = ended(&evaluator, family, &run) {
         outcome.outcome = ended.into();
         outcome.step = step;
@@ -351,7 +353,11 @@ pub(crate) fn draw(
         return Ok(outcome);
     }
     outcome.outcome = "drawn".into();
-    outcome.measures = measures(document, &Answer::Context(run));
+    let run = Answer::Context(run);
+    outcome.measures = measures(document, &run);
+    if !formats.svg && !formats.dxf {
+        return Ok(outcome);
+    }
     let vertical = match document.vertical {
         kernel::Vertical::Up => Vertical::Up,
         kernel::Vertical::Down => Vertical::Down,
@@ -365,14 +371,16 @@ pub(crate) fn draw(
         title: Some(&row.name),
         path: &|_| None,
     };
-    let drawing = Drawing { elements, vertical };
+    let mut drawing = Drawing { elements: evaluator.elements(&run), vertical };
     if formats.svg {
         outcome.svg = svg::write(&drawing, &options);
     }
     let millimetres_per_unit = state.lowered.millimetres_per_unit();
     let options = dxf::DxfOptions { millimetres_per_unit, ..dxf::DxfOptions::default() };
     if formats.dxf {
-        outcome.dxf = dxf::write(&drawing, &options);
+        let sets = tag_sets(&evaluator, &run, &mut drawing);
+        let set = |tag: Tag| sets.get(tag.0 as usize).cloned().flatten();
+        outcome.dxf = dxf::write_in_blocks(&drawing, &options, &set);
     }
     Ok(outcome)
 }
@@ -412,7 +420,57 @@ fn ended<'a>(
     }
     let rules = family.map_or(&[][..], |f| &f.rules);
     let broken = rules.iter().find(|(_, rule)| !evaluator.holds(rule, run).unwrap_or(false));
-    broken.map(|(said, _)| ("outside", said.clone(), format!("{said} is not met")))
+    broken.map(|(said, rule)| {
+        let values = values_in(evaluator, rule, run);
+        ("outside", said.clone(), format!("{said} is not met{values}"))
+    })
+}
+
+/// Says what the parameters and columns are that a rule speaks of: `; e is 3 mm, s is 4 mm`.
+fn values_in<'a>(evaluator: &Evaluator<'a>, rule: &'a Term, run: &Rc<Context<'a>>) -> String {
+    let mut names: Vec<&Name> = Vec::new();
+    let mut open = vec![rule];
+    while let Some(term) = open.pop() {
+        match term {
+            Term::Send { to, name, .. } if **to == Term::Me => {
+                if !names.contains(&name) {
+                    names.push(name);
+                }
+            }
+            other => open.extend(other.operands().into_iter().rev()),
+        }
+    }
+    let value = |name: &&Name| {
+        let value = evaluator.of_part(&Answer::Context(run.clone()), name).ok()?;
+        let value = crate::views::values::in_words(evaluator.document, &value)?;
+        Some(format!("{name} is {value}"))
+    };
+    let said: Vec<String> = names.iter().filter_map(value).collect();
+    if said.is_empty() { String::new() } else { format!("; {}", said.join(", ")) }
+}
+
+/// Gives what each step of a run drew a tag of its own; returns for each tag the name of the set that it is, if any: a
+/// loop, or a program that was called.
+fn tag_sets<'a>(
+    evaluator: &Evaluator<'a>,
+    run: &Answer<'a>,
+    drawing: &mut Drawing,
+) -> Vec<Option<String>> {
+    let Answer::Context(context) = run else { return Vec::new() };
+    let mut sets = vec![None];
+    drawing.elements.iter_mut().for_each(|element| element.tag = Tag(0));
+    let mut own = drawing.elements.iter_mut().peekable();
+    for entry in context.result() {
+        let tag = Tag(sets.len() as u32);
+        let is_set = matches!(entry.answer, Answer::List(_) | Answer::Context(_));
+        sets.push(is_set.then(|| entry.name.to_string()));
+        for drawn in evaluator.elements(&entry.answer) {
+            if let Some(element) = own.next_if(|element| element.shape == drawn.shape) {
+                element.tag = tag;
+            }
+        }
+    }
+    sets
 }
 
 /// Returns a literal as what an expression would be worth.

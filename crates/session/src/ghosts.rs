@@ -42,7 +42,7 @@ pub(crate) fn view(open: &mut Open, about: &Path) -> Result<Vec<Ghost>, Refusal>
             ghosts.push(Ghost {
                 label: label(&state, &ghost.kind, thing, &units, &values),
                 moves: units.iter().map(|t| told(&state, *t, &values)).collect(),
-                picture: views::picture::changed(&state, &values, &open.status),
+                picture: views::picture::changed(&state, &values),
                 command: Command::Set(picked),
             });
         }

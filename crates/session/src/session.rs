@@ -486,7 +486,9 @@ impl Session {
             millimetres_per_unit: self.document(id).state.lowered.millimetres_per_unit(),
             ..drawing::dxf::DxfOptions::default()
         };
-        drawing::dxf::write(&self.picture(id).drawing, &options)
+        let picture = self.picture(id);
+        let part = |tag: drawing::Tag| picture.drawn_by.get(tag.0 as usize).cloned().flatten();
+        drawing::dxf::write_in_blocks(&picture.drawing, &options, &part)
     }
     /// Says why some things have no picture, which is drawn without them; nothing is praise.
     pub fn undrawn(&self, id: DocumentId) -> Vec<String> {

@@ -206,8 +206,10 @@ pub enum Freedom {
 pub struct PictureView {
     /// What to paint.
     pub drawing: drawing::Drawing,
-    /// For every tag, the path of the thing that it pictures.
+    /// For every tag, the path of the thing that it pictures; of what a program drew, that of the entity.
     pub paths: Vec<String>,
+    /// For every tag, the path of the thing whose program drew it, where one did.
+    pub drawn_by: Vec<Option<String>>,
     /// For every tag, its thing's freedom.
     pub freedom: Vec<Option<Freedom>>,
     /// What a pointer can grip, in the order of picking: points first.
@@ -325,7 +327,7 @@ pub struct StructureRow {
 pub enum RowKind {
     /// The document or a part.
     Part,
-    /// A virtual part.
+    /// What a program drew.
     Virtual,
     /// A constraint.
     Constraint,
@@ -336,9 +338,9 @@ pub enum RowKind {
 }
 
 impl RowKind {
-    /// Returns true for a thing that is stored.
+    /// Returns true for what is stored or drawn, and for its parts.
     pub fn is_thing(self) -> bool {
-        self == Self::Part
+        matches!(self, Self::Part | Self::Virtual)
     }
     /// Returns true if the row's path leads to what it stands for; else it leads to the thing that says it.
     pub fn has_own_path(self) -> bool {

@@ -241,17 +241,18 @@ export function createPainter(canvas, onSize) {
               c.translate(-left, -top)
             }
             const lines = (words[list[i]] ?? "").split("\n")
+            const first = top + list[i + 7] * size
             lines.forEach((text, n) => {
               if (label) {
                 c.strokeStyle = colors[PAPER]
                 c.lineWidth = 3
                 c.setLineDash([])
-                c.strokeText(text, left, top + 1.25 * size * n)
+                c.strokeText(text, left, first + 1.2 * size * n)
               }
-              c.fillText(text, left, top + 1.25 * size * n, widest)
+              c.fillText(text, left, first + 1.2 * size * n, widest)
             })
             onSheet()
-            i += 7
+            i += 8
             break
           }
           case 7: {

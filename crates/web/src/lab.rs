@@ -111,7 +111,7 @@ pub struct Lab {
     /// What was copied last, and how often it was put down since.
     pub clip: RwSignal<Option<(Clip, u32)>>,
     /// The band that is drawn over what is to be selected, by its corners on the canvas: pressed, and now.
-    pub band: RwSignal<Option<((f64, f64), (f64, f64))>>,
+    pub band: RwSignal<Option<[(f64, f64); 2]>>,
     /// What the dock shows, where it is open.
     pub dock: RwSignal<Option<Tab>>,
     /// What a narrow page has pulled up.

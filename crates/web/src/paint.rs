@@ -11,7 +11,7 @@
 //! | 3, closed, n, x, y, … | a polyline of n corners |
 //! | 4, x, y, radius, start, sweep | an arc |
 //! | 5, sign, x, y, pixels | a point's `Sign` |
-//! | 6, word, x, y, anchoring, height, on sheet | words, by number |
+//! | 6, word, x, y, anchoring, height, width on the sheet, turn, drop of the first base line in heights | words, by number |
 //! | 7, x, y, dx, dy, pixels | an arrow from a point, so many pixels for each unit of its direction |
 //! | 8, x, y, a, b, turned, start, sweep | an arc of an ellipse |
 //! | 9, x, y | a ring begins here |
@@ -535,9 +535,10 @@ fn shape(list: &mut DisplayList, shape: &Shape) {
         Shape::Text { at, text, anchoring, placement, turn } => {
             let word = list.words.len() as f64;
             list.words.push(text.clone());
+            let (_, down) = anchoring.start(text, 1.0);
             let anchoring = match anchoring {
                 Anchoring::Start => 0.0,
-                Anchoring::Middle => 1.0,
+                Anchoring::Middle | Anchoring::Center => 1.0,
                 Anchoring::End => 2.0,
             };
             // words on the sheet are never wider than the measure that the document goes by
@@ -547,7 +548,7 @@ fn shape(list: &mut DisplayList, shape: &Shape) {
                 }
                 Placement::OnScreen(height) => (*height, 0.0),
             };
-            out.extend([6.0, word, at.x, at.y, anchoring, height, width, *turn]);
+            out.extend([6.0, word, at.x, at.y, anchoring, height, width, *turn, down]);
         }
     }
 }

@@ -109,7 +109,7 @@ pub fn Picture(
                     </div>
                 }
             })}
-            {move || lab.band.get().map(|(from, to)| {
+            {move || lab.band.get().map(|[from, to]| {
                 let (left, top) = (f64::min(from.0, to.0), f64::min(from.1, to.1));
                 view! {
                     <div class="band" class=("crossing", to.0 < from.0) style:left=format!("{left}px")
@@ -297,8 +297,8 @@ fn zoom_as_asked(lab: Lab, size: (f64, f64)) {
             // what is to be traced is in sight before it is drawn
             let traced = lab.traced.get_untracked();
             lab.view.set(lab.picture.with_untracked(|p| {
-                let is_empty = p.drawing.elements.is_empty();
-                fit(if is_empty { &traced } else { &p.drawing }, size, margin)
+                let is_traced = p.drawing.elements.is_empty() && !traced.elements.is_empty();
+                fit(if is_traced { &traced } else { &p.drawing }, size, margin)
             }));
         }
         Zoom::By(factor) => {

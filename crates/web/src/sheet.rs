@@ -156,13 +156,8 @@ pub fn bounds(drawing: &Drawing) -> Bounds {
                     drawing::Placement::OnSheet(height) => *height,
                     drawing::Placement::OnScreen(_) => 0.0,
                 };
-                let longest = text.lines().map(|l| l.chars().count()).max().unwrap_or(0);
-                let width = 0.6 * height * longest as f64;
-                let left = match anchoring {
-                    drawing::Anchoring::Start => at.x,
-                    drawing::Anchoring::Middle => at.x - width / 2.0,
-                    drawing::Anchoring::End => at.x - width,
-                };
+                let width = drawing::metrics::text_width(text, height);
+                let left = at.x + anchoring.start(text, height).0;
                 add(left, at.y - height);
                 add(left + width, at.y + height);
             }

@@ -93,7 +93,12 @@ async fn several_things_are_chosen_by_a_band_dragged_copied_and_deleted() {
     visit.until("window.__thinglab.state().selected === 'a'").await;
     assert_eq!(state(&visit).await["also"], json!(["b"]));
     // both go with the one that is held
-    drag(&visit, ((one.0 + grip(&now, "a.p2").0) / 2.0, one.1), ((one.0 + grip(&now, "a.p2").0) / 2.0 + 60.0, one.1)).await;
+    drag(
+        &visit,
+        ((one.0 + grip(&now, "a.p2").0) / 2.0, one.1),
+        ((one.0 + grip(&now, "a.p2").0) / 2.0 + 60.0, one.1),
+    )
+    .await;
     visit.until("window.__thinglab.state().status.undo === 'move a, b'").await;
     let moved = state(&visit).await;
     let by = grip(&moved, "b.p2").0 - other.0;
@@ -169,6 +174,9 @@ async fn the_circumcircle_of_a_triangle_is_drawn_by_the_pointer_alone_in_ten_act
     for corner in ["line.p2", "line2.p2"] {
         assert_eq!(grip(&after, corner), grip(&before, corner));
     }
-    assert_eq!((&after["status"]["satisfied"], &after["status"]["freedom"]), (&json!(true), &json!(6)));
+    assert_eq!(
+        (&after["status"]["satisfied"], &after["status"]["freedom"]),
+        (&json!(true), &json!(6))
+    );
     visit.picture("circumcircle").await;
 }

@@ -59,10 +59,12 @@ pub(crate) enum Figure {
     /// What the first ring surrounds, without what the others do.
     Surface(Vec<Vec<Corner>>),
     Dimension(Measured),
+    /// From the left end of its base line, which is turned to the left.
     Words {
         at: Point,
         words: String,
         size: f64,
+        turn: f64,
     },
 }
 
@@ -99,9 +101,6 @@ struct Entity<'t> {
 impl Entity<'_> {
     fn text(&self, code: i32) -> Option<&str> {
         self.values.iter().find(|(c, _)| *c == code).map(|(_, value)| *value)
-    }
-    fn is_set(&self, code: i32) -> bool {
-        self.number(code).is_some_and(|x| x != 0.0)
     }
     fn number(&self, code: i32) -> Option<f64> {
         self.text(code)?.trim().parse().ok().filter(|x: &f64| x.is_finite())
@@ -169,22 +168,28 @@ impl<'t> Drawing<'t> {
                 read.notes.push(format!("{} that does not lie flat on the sheet", entity.kind));
             } else if entity.kind == "INSERT" {
                 self.insert(entity, depth, read);
-                while all.next_if(|e| e.kind == "ATTRIB").is_some() {
-                    read.notes.push("ATTRIB, the words that an INSERT gives".into());
+                let before = read.found.len();
+                while let Some(words) = all.next_if(|e| e.kind == "ATTRIB") {
+                    words::given(words, scale, read);
                 }
                 all.next_if(|e| e.kind == "SEQEND");
+                set_layer(&mut read.found[before..], entity);
                 continue;
             } else if entity.kind == "DIMENSION" {
                 self.dimension(entity, read);
             } else {
                 figures(entity, scale, read);
             }
-            let line_type = entity.text(6).unwrap_or("ByLayer");
-            for found in &mut read.found[before..] {
-                found.layer = entity.text(8).unwrap_or("0").to_string();
-                found.line_type = line_type.to_string();
-            }
+            set_layer(&mut read.found[before..], entity);
         }
+    }
+}
+
+/// Says of what was found which layer it is on.
+fn set_layer(all: &mut [Found], entity: &Entity<'_>) {
+    for found in all {
+        found.layer = entity.text(8).unwrap_or("0").to_string();
+        found.line_type = entity.text(6).unwrap_or("ByLayer").to_string();
     }
 }
 
@@ -260,15 +265,7 @@ fn figures(entity: &Entity<'_>, scale: f64, read: &mut Read) {
         "CIRCLE" => circle(entity, scale),
         "ARC" => arc(entity, scale),
         "ELLIPSE" => ellipse(entity, scale),
-        "TEXT" => {
-            if entity.is_set(50) {
-                read.notes.push("that a TEXT is turned: it stands level".into());
-            }
-            if entity.is_set(72) || entity.is_set(73) {
-                read.notes.push("how a TEXT is aligned: it begins at its place".into());
-            }
-            words::line(entity, scale)
-        }
+        "TEXT" => words::line(entity, 73, scale, &mut read.notes),
         "MTEXT" => return words::lines(entity, scale, read),
         "SPLINE" => return spline::curves(entity, scale, read),
         "HATCH" => return hatch::surfaces(entity, scale, read),

@@ -1,48 +1,20 @@
 //! Dimensions: what is drawn of each is a block of its own, and the entity names it and what it measures.
 
 use super::Writer;
-use crate::element::{Dimension, DimensionKind, Element, Point, Shape};
+use super::blocks::Block;
+use crate::element::{Dimension, DimensionKind, Point, Shape};
 use base::number::{atan2, hypot};
-use std::collections::BTreeMap;
-use std::sync::Arc;
-
-/// A dimension, with everything that is drawn for it.
-pub(super) struct Gathered<'d> {
-    of: &'d Dimension,
-    pub(super) elements: Vec<&'d Element>,
-    /// The name of its block.
-    pub(super) name: String,
-    /// The handle of its block's record.
-    pub(super) record: u32,
-}
-
-/// Finds the dimensions of a drawing, in the order in which they are drawn.
-pub(super) fn gathered<'d>(elements: &[&'d Element]) -> Vec<Gathered<'d>> {
-    let mut all: Vec<Gathered<'d>> = Vec::new();
-    // the order of addresses is not looked at
-    let mut known: BTreeMap<*const Dimension, usize> = BTreeMap::new();
-    for element in elements {
-        let Some(of) = &element.style.dimension else { continue };
-        let at = *known.entry(Arc::as_ptr(of)).or_insert(all.len());
-        if at == all.len() {
-            let name = format!("*D{}", at + 1);
-            all.push(Gathered { of, elements: Vec::new(), name, record: 0 });
-        }
-        all[at].elements.push(element);
-    }
-    all
-}
 
 impl Writer {
     /// Writes a dimension's entity.
-    pub(super) fn dimension(&mut self, dimension: &Gathered<'_>) {
-        let Some(&first) = dimension.elements.first() else { return };
-        let points = &dimension.of.points;
-        let words = dimension.elements.iter().find_map(|e| match &e.shape {
+    pub(super) fn dimension(&mut self, of: &Dimension, block: &Block<'_>) {
+        let Some(&first) = block.elements.first() else { return };
+        let points = &of.points;
+        let words = block.elements.iter().find_map(|e| match &e.shape {
             Shape::Text { at, .. } => Some(*at),
             _ => None,
         });
-        let kind = dimension.of.kind;
+        let kind = of.kind;
         // what it is, that its block is its own, and that its words stand where they were put
         let (code, defining) = match kind {
             DimensionKind::Linear => (0, points[2]),
@@ -52,7 +24,7 @@ impl Writer {
             DimensionKind::Radius => (4, points[0]),
         };
         self.begin("DIMENSION", "AcDbDimension", first);
-        self.pair(2, &dimension.name);
+        self.pair(2, &block.name);
         self.at(10, defining);
         self.at(11, words.unwrap_or(defining));
         self.pair(70, code + 32 + 128);

@@ -98,7 +98,7 @@ fn styles_apply_to_whole_pictures() {
     let Shape::Polyline { points, closed: true } = &box_.shape else { panic!("a closed shape") };
     assert_eq!(points[2], Point { x: 2.0, y: 1.0 });
     let Shape::Text { anchoring, .. } = &words.shape else { panic!("words") };
-    assert_eq!(*anchoring, drawing::Anchoring::Middle);
+    assert_eq!(*anchoring, drawing::Anchoring::Center);
 }
 
 #[test]

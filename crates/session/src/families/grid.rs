@@ -68,8 +68,8 @@ pub(super) fn written(state: &State, class: ClassId, literal: &Literal) -> Strin
     match (&document.classes[class].kind, literal) {
         (ClassKind::Primitive(Primitive::Real(dimension)), Literal::Number(x)) => {
             let class = &document.classes[document.named_class(class)].name;
-            let quantity = lang::Quantity { dimension: *dimension, class, written: "" };
-            let shown = lang::show_quantity(*x, quantity, document);
+            let quantity = kernel::Quantity { dimension: *dimension, class, written: "" };
+            let shown = kernel::show_quantity(*x, quantity, document);
             words::with_unit(shown.exact, &shown.unit)
         }
         (ClassKind::Primitive(Primitive::Choice(of)), Literal::Number(x)) => {

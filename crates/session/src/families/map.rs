@@ -174,9 +174,9 @@ fn lattice(
     let (unit, per) = match document.classes[class].kind {
         ClassKind::Primitive(Primitive::Real(dimension)) => {
             let class = &document.classes[document.named_class(class)].name;
-            let quantity = lang::Quantity { dimension, class, written: &axis.from };
-            let unit = lang::show_quantity(to, quantity, document).unit;
-            let one = |x: f64| lang::in_unit(x, dimension, &unit, document);
+            let quantity = kernel::Quantity { dimension, class, written: &axis.from };
+            let unit = kernel::show_quantity(to, quantity, document).unit;
+            let one = |x: f64| kernel::in_unit(x, dimension, &unit, document);
             let values = numbers.iter().map(|&x| one(x)).collect();
             (unit, values)
         }

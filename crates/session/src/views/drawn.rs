@@ -2,8 +2,8 @@
 
 use crate::state::State;
 use crate::view::Grip;
-use eval::{Answer, Standing};
-use kernel::{Document, ThingId, Values};
+use eval::{Answer, Evaluator, Standing};
+use kernel::{Document, ThingId};
 use std::fmt::Write;
 
 /// So many places of what one program draws can be gripped.
@@ -55,13 +55,45 @@ pub(crate) fn walk<'a>(
     }
 }
 
+/// Returns the entities that the program of a thing drew, with their paths, in the order of drawing.
+pub(crate) fn entities<'a>(
+    state: &State,
+    evaluator: &Evaluator<'a>,
+    thing: ThingId,
+) -> Vec<(String, Answer<'a>)> {
+    /// So many are told apart; those beyond are the thing's.
+    const MOST: usize = 5000;
+    let document = &state.lowered.document;
+    let mut found = Vec::new();
+    let Ok(Some(run)) = evaluator.run(thing) else { return found };
+    let mut path = state.structure.path(document, thing).to_string();
+    let drawn = (&Answer::Context(run), Standing::Result);
+    walk(document, drawn, &mut path, &mut |answer, standing, path| {
+        if standing != Standing::Result || found.len() >= MOST {
+            return false;
+        }
+        match answer {
+            Answer::Made(_) | Answer::Thing(_) | Answer::Picture(_) => {
+                found.push((path.to_string(), answer.clone()));
+                false
+            }
+            Answer::Context(_) | Answer::List(_) => true,
+            Answer::Number(..)
+            | Answer::Bool(_)
+            | Answer::Option(..)
+            | Answer::Text(_)
+            | Answer::Function(_) => false,
+        }
+    });
+    found
+}
+
 /// Returns the grips of what the programs of a document's things draw, in order.
-pub(crate) fn grips(state: &State, values: &Values) -> Vec<Grip> {
+pub(crate) fn grips(state: &State, evaluator: &Evaluator<'_>) -> Vec<Grip> {
     let (document, structure) = (&state.lowered.document, &state.structure);
     if document.classes.iter().all(|(_, class)| class.program.is_none()) {
         return Vec::new();
     }
-    let evaluator = state.evaluator(values);
     let mut grips = Vec::new();
     for thing in structure.things.ids().filter(|&t| structure.merged[t] == t) {
         if document.program(structure.things[thing].class).is_none() || is_held(state, thing) {

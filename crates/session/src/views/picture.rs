@@ -24,7 +24,8 @@ pub(crate) struct Shown {
 impl Shown {
     /// Draws a state.
     pub(crate) fn of(state: &Rc<State>, values: &Values) -> Self {
-        let scene = state.evaluator(values).scene(DOCUMENT);
+        let evaluator = state.evaluator(values);
+        let scene = evaluator.scene(DOCUMENT);
         let structure = &state.structure;
         // what a view of the structure does not show, cannot be gripped
         let unseen = |part: &ThingId| {
@@ -38,7 +39,7 @@ impl Shown {
         };
         let grips = (0..).zip(&scene.picture.grips).filter(|(_, grip)| is_seen(grip));
         let grips = grips.map(|(at, _)| at).collect();
-        let drawn = drawn::grips(state, values);
+        let drawn = drawn::grips(state, &evaluator);
         let (state, values) = (state.clone(), values.clone());
         let (moved, reach) = (Moved::default(), Vec::new());
         Self { state, values, scene, grips, drawn, moved, reach }
@@ -54,12 +55,14 @@ impl Shown {
         if changed.is_empty() {
             return;
         }
-        match state.evaluator(values).renew(&mut self.scene, &changed) {
+        // a program that has been run for the scene is not run again for its grips
+        let evaluator = state.evaluator(values);
+        match evaluator.renew(&mut self.scene, &changed) {
             Some(moved) => {
                 self.set_apart(&moved);
                 self.moved.so_far.extend(moved);
                 self.values.clone_from(values);
-                let drawn = drawn::grips(state, values);
+                let drawn = drawn::grips(state, &evaluator);
                 if drawn.iter().map(|g| &g.path).ne(self.drawn.iter().map(|g| &g.path)) {
                     self.moved.made += 1;
                 }
@@ -113,12 +116,46 @@ impl Shown {
                 drawn: false,
             }
         };
-        PictureView {
+        let mut view = PictureView {
             drawing: made.drawing.clone(),
             paths: made.things.iter().map(|&t| path(t)).collect(),
+            drawn_by: vec![None; made.things.len()],
             freedom: made.things.iter().map(|&t| words::freedom_of(structure, status, t)).collect(),
             grips: self.grips.iter().map(grip).chain(self.drawn.iter().cloned()).collect(),
             made: self.moved.made,
+        };
+        self.tag_entities(&mut view);
+        view
+    }
+
+    /// Gives what programs drew tags of their own, entity by entity: they are drawn in the order of the run.
+    fn tag_entities(&self, view: &mut PictureView) {
+        let (document, structure) = (&self.state.lowered.document, &self.state.structure);
+        let evaluator = self.state.evaluator(&self.values);
+        for (tag, &thing) in self.scene.picture.things.iter().enumerate() {
+            if document.program(structure.things[thing].class).is_none() {
+                continue;
+            }
+            let is_own = |(_, element): &(usize, &drawing::Element)| element.tag.0 == tag as u32;
+            let all = view.drawing.elements.iter().enumerate().filter(is_own).map(|(at, _)| at);
+            let mut own = all.collect::<Vec<_>>().into_iter().peekable();
+            for (path, answer) in drawn::entities(&self.state, &evaluator, thing) {
+                let entity = drawing::Tag(view.paths.len() as u32);
+                let mut is_seen = false;
+                for drawn in evaluator.elements(&answer) {
+                    // what is drawn twice stands in the picture once
+                    let elements = &mut view.drawing.elements;
+                    if let Some(at) = own.next_if(|&at| elements[at].shape == drawn.shape) {
+                        elements[at].tag = entity;
+                        is_seen = true;
+                    }
+                }
+                if is_seen {
+                    view.paths.push(path);
+                    view.drawn_by.push(Some(view.paths[tag].clone()));
+                    view.freedom.push(view.freedom[tag]);
+                }
+            }
         }
     }
 
@@ -176,13 +213,10 @@ pub(crate) fn undrawn(state: &State, values: &Values) -> Vec<String> {
 }
 
 /// Returns the elements of a picture that look otherwise with these values than with those of the state.
-pub(crate) fn changed(
-    state: &Rc<State>,
-    values: &Values,
-    status: &plan::Status,
-) -> drawing::Drawing {
-    let now = picture(state, &state.values, status).drawing;
-    let mut made = picture(state, values, status).drawing;
+pub(crate) fn changed(state: &State, values: &Values) -> drawing::Drawing {
+    let drawn = |values: &Values| state.evaluator(values).picture(DOCUMENT).drawing;
+    let now = drawn(&state.values);
+    let mut made = drawn(values);
     made.elements.retain(|element| !now.elements.contains(element));
     made
 }

@@ -1,5 +1,7 @@
 //! The structure view: the tree of parts, constraints, merges and sides, as rows in pre-order.
 
+mod drawn;
+
 use crate::state::State;
 use crate::view::{Freedom, RowKind, StructureRow};
 use crate::words;
@@ -56,8 +58,13 @@ impl Maker<'_> {
             anchored: false,
             enabled: true,
             descendants: 0,
-            span: self.state.lowered.own_span(origin).map(|s| (s.start, s.end)),
+            span: self.span(origin),
         }
+    }
+
+    /// Returns where something is written, if it is in the document's own text.
+    fn span(&self, origin: OriginId) -> Option<(u32, u32)> {
+        self.state.lowered.own_span(origin).map(|s| (s.start, s.end))
     }
 
     fn thing(&mut self, thing: ThingId, depth: u32) {
@@ -105,6 +112,7 @@ impl Maker<'_> {
                     self.thing(part, depth + 1);
                 }
                 self.own(thing, depth + 1);
+                self.add_drawn(thing, depth + 1);
             }
             ClassKind::Composite
             | ClassKind::List(_)

@@ -4,7 +4,7 @@ use crate::state::State;
 use crate::view::ValueRow;
 use crate::views::drawn::walk;
 use crate::words;
-use base::{FileId, Name};
+use base::Name;
 use eval::{Answer, Evaluator, Standing};
 use indexmap::IndexMap;
 use kernel::builtin::{FUNCTIONS, Kind, PICTURE_MESSAGES, find};
@@ -151,10 +151,11 @@ pub(crate) fn in_words(document: &Document, answer: &Answer<'_>) -> Option<Strin
     Some(words::with_unit(text, &unit))
 }
 
-/// Returns true for what the text of a library gives.
-fn is_of_library(state: &State, slot: SlotId) -> bool {
-    let given = state.structure.given(slot);
-    given.is_some_and(|given| state.lowered.place(given.origin).file != FileId(0))
+/// Returns true for what belongs to a text that is used: a constant of a library, `constants.c`.
+fn is_of_library(state: &State, path: &str) -> bool {
+    let first = path.split('.').next().unwrap_or_default();
+    let mut used = state.lowered.files.iter().map(|(_, file)| file.name.as_str());
+    !first.is_empty() && used.any(|name| name.rsplit('.').next() == Some(first))
 }
 
 struct Maker<'a> {
@@ -193,7 +194,7 @@ impl Maker<'_> {
                 given: s.given.is_some(),
                 is_virtual: false,
                 anchored: s.anchored,
-                is_layout: s.is_layout || s.anchored && is_of_library(state, slot),
+                is_layout: s.is_layout || s.anchored && is_of_library(state, path),
                 freedom: words::freedom_of(structure, self.status, thing),
                 doc: words::doc_of(state, thing),
                 range: self.asked_range(thing),

@@ -68,3 +68,63 @@ fn a_value_that_follows_what_is_drawn_is_not_written() {
     let text = desk.session.text(desk.id).source;
     assert!(text.contains("b: Posts { length = 45 }\nfar: Length\n"), "{text}");
 }
+
+#[test]
+fn the_structure_shows_what_a_program_drew_step_by_step() {
+    let desk = Desk::of(&gallery("rings"));
+    let rows = desk.session.structure(desk.id);
+    let row = |path: &str| {
+        let found = rows.iter().position(|r| r.path == path);
+        &rows[found.unwrap_or_else(|| panic!("there is no row {path}"))]
+    };
+    assert_eq!(row("rings.column").detail, "6 turns");
+    assert_eq!(row("rings.column[2]").name, "[2]");
+    // a ring and a hole, each with its centre and radius
+    assert_eq!(row("rings.column[2]").descendants, 6);
+    assert_eq!(row("rings.column[2].ring").detail, "Circle");
+    assert_eq!(row("rings.column[2].ring.radius").value.as_deref(), Some("10 mm"));
+    assert_eq!(row("rings.column[0].ring.center").value.as_deref(), Some("(-40 mm, 40 mm)"));
+    assert_eq!(row("rings.floor").detail, "Axis, a guide");
+    // it leads to where the step is written
+    let text = desk.session.text(desk.id).source;
+    let (from, _) = row("rings.column[2].ring").span.expect("the step is in this text");
+    assert!(
+        text[from as usize..].starts_with("ring = Circle.tangent("),
+        "{}",
+        &text[from as usize..]
+    );
+    // and the picture tells the same apart
+    let picture = desk.session.picture(desk.id);
+    let tag = picture.paths.iter().position(|p| p == "rings.column[2].ring").expect("a tag");
+    assert_eq!(picture.drawn_by[tag].as_deref(), Some("rings"));
+    let own: Vec<_> = picture
+        .drawing
+        .elements
+        .iter()
+        .filter(|e| e.tag.0 == tag as u32)
+        .map(|e| &e.shape)
+        .collect();
+    assert!(matches!(own[..], [drawing::Shape::Circle { radius: 10.0, .. }]), "{own:?}");
+}
+
+#[test]
+fn a_long_run_is_cut_and_says_how_much_there_is_more() {
+    let text = "use geometry\nprogram Row(n: Integer = 340) {\n    posts = repeat n times with x = 0 {\n        post = Point(x, 0)\n        next x = x + 1\n    }\n}\nr: Row\n";
+    let desk = Desk::of(text);
+    let rows = desk.session.structure(desk.id);
+    let last = rows.last().expect("there are rows");
+    assert_eq!((last.name.as_str(), last.path.as_str()), ("… 240 more", "r.posts"));
+    assert!(rows.iter().any(|r| r.path == "r.posts[99].post"));
+}
+
+#[test]
+fn an_entity_without_a_place_is_dragged_by_the_thing_that_draws_it() {
+    let text = "use geometry\nprogram Disc(at: Point = (3, 4), size: Length = 10) {\n    rim = Circle(at, size)\n}\nd: Disc\n";
+    let mut desk = Desk::of(text);
+    let path = session::parse_path("d.rim").expect("a path");
+    let held = desk.session.press(desk.id, &path).expect("its program has a place");
+    assert_eq!(held, (3.0, 4.0));
+    desk.session.drag(desk.id, (13.0, 4.0));
+    desk.session.release(desk.id).expect("it can be kept");
+    assert_eq!(value(&desk, "d.at.x"), "13");
+}

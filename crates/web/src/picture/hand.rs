@@ -112,9 +112,18 @@ impl Hand {
     }
 
     fn pick(self, at: (f64, f64)) -> Option<String> {
+        self.pick_in(at, None)
+    }
+
+    /// Picks what a press chooses where something is chosen already.
+    fn pick_deeper(self, at: (f64, f64)) -> Option<String> {
+        self.pick_in(at, self.lab.selected.get_untracked().as_deref())
+    }
+
+    fn pick_in(self, at: (f64, f64), chosen: Option<&str>) -> Option<String> {
         let reach = if self.state.with_value(|s| s.touch) { REACH.1 } else { REACH.0 };
         let view = self.lab.view.get_untracked();
-        self.lab.picture.with_untracked(|picture| pick(picture, &view, at, reach))
+        self.lab.picture.with_untracked(|picture| pick(picture, &view, at, (reach, chosen)))
     }
 
     pub(super) fn down(self, e: &PointerEvent) {
@@ -157,7 +166,7 @@ impl Hand {
             self.pick(at).inspect(|path| self.lab.toggle_attacher(path));
             self.set_mode(Mode::Idle);
         } else if e.button() == 0 {
-            let picked = self.pick(at);
+            let picked = self.pick_deeper(at);
             let besides = e.ctrl_key() || e.meta_key() || e.shift_key();
             if besides {
                 if let Some(path) = &picked {
@@ -262,7 +271,7 @@ impl Hand {
             }
             Mode::Tool { .. } => {}
             Mode::Idle if self.lab.drafts() => self.lab.draft_hover(&self.pointer(at)),
-            Mode::Idle => self.lab.hover(self.pick(at)),
+            Mode::Idle => self.lab.hover(self.pick_deeper(at)),
             Mode::Pressed { path, start } => {
                 if distance(at, start) >= STIR {
                     self.begin_drag(&path, start);
@@ -273,7 +282,7 @@ impl Hand {
             Mode::Band { start } => self.lab.show_band(start, at),
             Mode::Select { start, .. } => {
                 if distance(start, at) >= STIR {
-                    self.lab.band.set(Some((start, at)));
+                    self.lab.band.set(Some([start, at]));
                 }
             }
             Mode::Pan { last } => {

@@ -1,15 +1,16 @@
 //! What lies under the pointer: grips first, then lines and curves.
 
 use crate::sheet::View;
-use drawing::{Anchoring, Placement, Point, Shape};
+use drawing::{Element, Placement, Point, Shape};
 use session::view::PictureView;
 
-/// Returns the path of what lies within `reach` pixels of a place on the screen.
+/// Returns the path of what lies within `reach` pixels of a place on the screen; of what a program drew, that which
+/// [`deeper`] says.
 pub(super) fn pick(
     picture: &PictureView,
     view: &View,
     at: (f64, f64),
-    reach: f64,
+    (reach, chosen): (f64, Option<&str>),
 ) -> Option<String> {
     let p = view.sheet_from_screen(at);
     let reach = reach / view.scale;
@@ -19,21 +20,53 @@ pub(super) fn pick(
     if let Some((_, grip)) = grip {
         return Some(grip.path.clone());
     }
-    if let Some((path, _)) = pick_word(picture, view, at) {
-        return Some(path);
+    let picked = |element: &Element| {
+        let tag = element.tag.0 as usize;
+        let path = picture.paths.get(tag)?;
+        Some(match picture.drawn_by.get(tag) {
+            Some(Some(whole)) => deeper(whole, path, chosen),
+            Some(None) | None => path.clone(),
+        })
+    };
+    if let Some(word) = word_at(picture, view, at) {
+        return picked(word);
     }
     let near = picture.drawing.elements.iter().map(|element| (from_element(p, element), element));
     let nearest = near.filter(|(d, _)| *d <= 0.6 * reach).min_by(|a, b| a.0.total_cmp(&b.0))?;
-    picture.paths.get(nearest.1.tag.0 as usize).cloned()
+    picked(nearest.1)
+}
+
+/// Returns what a pick chooses of what a program drew: at first the thing whose program it is; where that is chosen
+/// already, the entity; then its turn, the whole set, and so on outwards, to the thing again.
+pub(super) fn deeper(whole: &str, entity: &str, chosen: Option<&str>) -> String {
+    match chosen {
+        Some(chosen) if chosen == whole => entity.to_string(),
+        Some(chosen) if super::covers(whole, chosen) && super::covers(chosen, entity) => {
+            let end = chosen.rfind(['.', '[']).unwrap_or(0);
+            chosen[..end].to_string()
+        }
+        Some(chosen) if super::covers(whole, chosen) => entity.to_string(),
+        _ => whole.to_string(),
+    }
 }
 
 /// Returns the words at a place on the screen, and the path of the thing that they are of.
 pub(super) fn pick_word(
     picture: &PictureView,
     view: &View,
-    (x, y): (f64, f64),
+    at: (f64, f64),
 ) -> Option<(String, String)> {
-    let at = |element: &drawing::Element| {
+    let element = word_at(picture, view, at)?;
+    let path = picture.paths.get(element.tag.0 as usize)?;
+    match &element.shape {
+        Shape::Text { text, .. } => Some((path.clone(), text.clone())),
+        _ => None,
+    }
+}
+
+/// Returns the words at a place on the screen, those in front first.
+fn word_at<'p>(picture: &'p PictureView, view: &View, (x, y): (f64, f64)) -> Option<&'p Element> {
+    let at = |element: &Element| {
         let Shape::Text { at, text, anchoring, placement, turn } = &element.shape else {
             return false;
         };
@@ -50,20 +83,12 @@ pub(super) fn pick_word(
             Placement::OnScreen(height) => *height,
         };
         let width = drawing::metrics::text_width(text, height);
-        let left = match anchoring {
-            Anchoring::Start => left,
-            Anchoring::Middle => left - width / 2.0,
-            Anchoring::End => left - width,
-        };
+        let (ahead, down) = anchoring.start(text, height);
+        let (left, top) = (left + ahead, top + down);
         (left..=left + width + 8.0).contains(&x)
             && (top - 1.2 * height..=top + 0.6 * height).contains(&y)
     };
-    let element = picture.drawing.elements.iter().rev().find(|element| at(element))?;
-    let path = picture.paths.get(element.tag.0 as usize)?;
-    match &element.shape {
-        Shape::Text { text, .. } => Some((path.clone(), text.clone())),
-        _ => None,
-    }
+    picture.drawing.elements.iter().rev().find(|element| at(element))
 }
 
 fn distance(p: Point, q: Point) -> f64 {
@@ -79,7 +104,7 @@ fn from_segment(p: Point, a: Point, b: Point) -> f64 {
 }
 
 /// The distance of a point from an element; of a line without ends, from wherever it goes.
-fn from_element(p: Point, element: &drawing::Element) -> f64 {
+fn from_element(p: Point, element: &Element) -> f64 {
     match element.shape {
         Shape::Segment(a, b) if element.style.is_unbounded && a != b => {
             let (dx, dy) = (b.x - a.x, b.y - a.y);
@@ -171,9 +196,25 @@ mod tests {
             ..PictureView::default()
         };
         let view = View { scale: 2.0, ..View::default() };
-        let at = |x, y| pick(&picture, &view, (x, y), 10.0);
+        let at = |x, y| pick(&picture, &view, (x, y), (10.0, None));
         assert_eq!(at(6.0, 0.0), Some(String::from("line.p1")));
         assert_eq!(at(60.0, 5.0), Some(String::from("line")));
         assert_eq!(at(60.0, 15.0), None);
+    }
+    #[test]
+    fn picking_again_goes_in_and_outwards() {
+        let entity = "rings.column[2].ring";
+        let ways = [
+            (None, "rings"),
+            (Some("other"), "rings"),
+            (Some("rings"), entity),
+            (Some(entity), "rings.column[2]"),
+            (Some("rings.column[2]"), "rings.column"),
+            (Some("rings.column"), "rings"),
+            (Some("rings.column[1].ring"), entity),
+        ];
+        for (chosen, wanted) in ways {
+            assert_eq!(super::deeper("rings", entity, chosen), wanted, "{chosen:?}");
+        }
     }
 }

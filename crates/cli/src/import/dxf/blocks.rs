@@ -2,9 +2,10 @@
 
 use super::words::turned;
 use super::{Drawing, Entity, Figure, Read, What};
-use base::number::hypot;
+use base::number::{atan2, cos, hypot, sin};
 use drawing::{Corner, Point};
 use std::collections::BTreeMap;
+use std::f64::consts::TAU;
 
 /// So deep blocks may be inserted in one another.
 const DEEPEST: u32 = 16;
@@ -38,61 +39,115 @@ pub(super) fn blocks<'t>(pairs: &[(i32, &'t str)]) -> BTreeMap<&'t str, Block<'t
     all
 }
 
-/// How a block lies where it is inserted: about its base it is scaled, perhaps mirrored, turned and moved.
+/// How a block lies where it is inserted: about its base it is scaled, each way by itself, turned and moved.
 #[derive(Clone, Copy)]
 struct Placing {
     base: Point,
-    scale: f64,
-    is_mirrored: bool,
+    scale: (f64, f64),
     angle: f64,
     to: Point,
 }
 
 impl Placing {
+    fn is_mirrored(&self) -> bool {
+        (self.scale.0 < 0.0) != (self.scale.1 < 0.0)
+    }
+    /// Returns true where circles do not stay circles.
+    fn is_stretched(&self) -> bool {
+        let (x, y) = (self.scale.0.abs(), self.scale.1.abs());
+        (x - y).abs() > 1e-9 * x.max(y)
+    }
     fn way(&self, p: Point) -> Point {
-        let y = if self.is_mirrored { -p.y } else { p.y };
-        turned(Point { x: self.scale * p.x, y: self.scale * y }, self.angle)
+        turned(Point { x: self.scale.0 * p.x, y: self.scale.1 * p.y }, self.angle)
     }
     fn place(&self, p: Point) -> Point {
         let way = self.way(Point { x: p.x - self.base.x, y: p.y - self.base.y });
         Point { x: self.to.x + way.x, y: self.to.y + way.y }
     }
-    /// Places a figure; nothing where that makes it something else.
-    fn figure(&self, figure: &Figure) -> Option<Figure> {
-        let k = self.scale.abs();
-        let sign = if self.is_mirrored { -1.0 } else { 1.0 };
-        Some(match figure {
+    /// Places an ellipse, by the way from its centre to the end of a half axis, and how long the other is.
+    ///
+    /// Where its half axes go to is a pair of conjugate half diameters; its own half axes are found from these.
+    fn ellipse(
+        &self,
+        center: Point,
+        (major, across): (Point, f64),
+        sweep: Option<(f64, f64)>,
+    ) -> Figure {
+        let ratio = across / hypot(major.x, major.y);
+        let u = self.way(major);
+        let v = self.way(Point { x: -ratio * major.y, y: ratio * major.x });
+        let (skew, uneven) = (2.0 * dot(u, v), dot(u, u) - dot(v, v));
+        let shift = if skew.abs() <= 1e-14 * dot(u, u) { 0.0 } else { 0.5 * atan2(skew, uneven) };
+        let (c, s) = (cos(shift), sin(shift));
+        let axis = Point { x: c * u.x + s * v.x, y: c * u.y + s * v.y };
+        let other = Point { x: c * v.x - s * u.x, y: c * v.y - s * u.y };
+        let center = self.place(center);
+        Figure::Ellipse {
+            center,
+            end: Point { x: center.x + axis.x, y: center.y + axis.y },
+            across: hypot(other.x, other.y),
+            sweep: sweep.map(|(from, sweep)| match self.is_mirrored() {
+                true => (shift - from - sweep, sweep),
+                false => (from - shift, sweep),
+            }),
+        }
+    }
+    /// Places a figure.
+    ///
+    /// # Errors
+    /// Why it would be something else there.
+    fn figure(&self, figure: &Figure) -> Result<Figure, &'static str> {
+        let k = self.scale.0.abs();
+        let sign = if self.is_mirrored() { -1.0 } else { 1.0 };
+        Ok(match figure {
             Figure::Point(p) => Figure::Point(self.place(*p)),
             Figure::Line(p, q) => Figure::Line(self.place(*p), self.place(*q)),
+            Figure::Circle { center, radius } if self.is_stretched() => {
+                self.ellipse(*center, (Point { x: *radius, y: 0.0 }, *radius), None)
+            }
             Figure::Circle { center, radius } => {
                 Figure::Circle { center: self.place(*center), radius: k * radius }
             }
+            Figure::Arc { center, start, end, is_clockwise } if self.is_stretched() => {
+                let [from, to] = if *is_clockwise { [end, start] } else { [start, end] };
+                let angle = |p: &Point| atan2(p.y - center.y, p.x - center.x);
+                let (radius, from, to) = (apart(*center, *from), angle(from), angle(to));
+                let sweep = (from, if to > from { to - from } else { to - from + TAU });
+                self.ellipse(*center, (Point { x: radius, y: 0.0 }, radius), Some(sweep))
+            }
             Figure::Arc { center, start, end, is_clockwise } => {
                 let [center, start, end] = [center, start, end].map(|p| self.place(*p));
-                let is_clockwise = *is_clockwise != self.is_mirrored;
+                let is_clockwise = *is_clockwise != self.is_mirrored();
                 Figure::Arc { center, start, end, is_clockwise }
             }
-            Figure::Ellipse { center, end, across, sweep } => Figure::Ellipse {
-                center: self.place(*center),
-                end: self.place(*end),
-                across: k * across,
-                sweep: sweep.map(|(from, sweep)| match self.is_mirrored {
-                    true => (-from - sweep, sweep),
-                    false => (from, sweep),
-                }),
-            },
+            Figure::Ellipse { center, end, across, sweep } => {
+                let major = Point { x: end.x - center.x, y: end.y - center.y };
+                self.ellipse(*center, (major, *across), *sweep)
+            }
             Figure::Curves(poles) => Figure::Curves(poles.iter().map(|p| self.place(*p)).collect()),
+            Figure::Surface(rings)
+                if self.is_stretched() && rings.iter().flatten().any(|c| c.bulge != 0.0) =>
+            {
+                return Err("HATCH with arcs in a block that is stretched");
+            }
             Figure::Surface(rings) => {
                 let corner = |c: &Corner| Corner { at: self.place(c.at), bulge: sign * c.bulge };
                 Figure::Surface(rings.iter().map(|r| r.iter().map(corner).collect()).collect())
             }
-            Figure::Words { at, words, size } => {
-                Figure::Words { at: self.place(*at), words: words.clone(), size: k * size }
+            // words are read as they were, along where their line goes
+            Figure::Words { at, words, size, turn } => {
+                let along = self.way(Point { x: cos(*turn), y: sin(*turn) });
+                let (at, size) = (self.place(*at), self.scale.1.abs() * size);
+                let turn = atan2(along.y, along.x);
+                Figure::Words { at, words: words.clone(), size, turn }
+            }
+            Figure::Dimension(_) if self.is_stretched() => {
+                return Err("DIMENSION in a block that is stretched");
             }
             Figure::Dimension(measured) => {
                 let mut measured = measured.clone();
                 measured.size *= k;
-                let is_plain = self.angle == 0.0 && !self.is_mirrored && self.scale > 0.0;
+                let is_plain = self.angle == 0.0 && !self.is_mirrored() && self.scale.0 > 0.0;
                 match &mut measured.what {
                     What::Aligned { from, to, aside } => {
                         (*from, *to) = (self.place(*from), self.place(*to));
@@ -107,7 +162,9 @@ impl Placing {
                     What::Radius { .. }
                     | What::Angle { .. }
                     | What::Horizontal { .. }
-                    | What::Vertical { .. } => return None,
+                    | What::Vertical { .. } => {
+                        return Err("DIMENSION in a block that is turned");
+                    }
                 }
                 Figure::Dimension(measured)
             }
@@ -134,8 +191,8 @@ impl<'t> Drawing<'t> {
             return;
         }
         let (x, y) = (entity.number(41).unwrap_or(1.0), entity.number(42).unwrap_or(1.0));
-        if x == 0.0 || (x.abs() - y.abs()).abs() > 1e-9 * x.abs() {
-            read.notes.push("INSERT that stretches its block, which is not understood".into());
+        if x == 0.0 || y == 0.0 {
+            read.notes.push("INSERT that leaves nothing of its block".into());
             return;
         }
         let mut inner = Read::default();
@@ -150,16 +207,18 @@ impl<'t> Drawing<'t> {
                 let step = Point { x: column as f64 * apart(44), y: row as f64 * apart(45) };
                 let step = turned(step, angle);
                 let to = Point { x: to.x + step.x, y: to.y + step.y };
-                let is_mirrored = (x < 0.0) != (y < 0.0);
-                let placing = Placing { base, scale: x, is_mirrored, angle, to };
+                let placing = Placing { base, scale: (x, y), angle, to };
                 for figure in &inner.found {
                     if read.found.len() >= MOST || !self.is_room() {
                         read.notes.push(format!("what is beyond {MOST} figures"));
                         return;
                     }
-                    let Some(placed) = placing.figure(&figure.figure) else {
-                        read.notes.push("DIMENSION in a block that is turned".into());
-                        continue;
+                    let placed = match placing.figure(&figure.figure) {
+                        Ok(placed) => placed,
+                        Err(why) => {
+                            read.notes.push(why.into());
+                            continue;
+                        }
                     };
                     let mut figure = figure.clone();
                     figure.figure = placed;
@@ -167,8 +226,9 @@ impl<'t> Drawing<'t> {
                     if figure.layer == "0" {
                         figure.layer = entity.text(8).unwrap_or("0").to_string();
                     }
-                    if angle != 0.0 && matches!(figure.figure, Figure::Words { .. }) {
-                        read.notes.push("that a TEXT is turned: it stands level".into());
+                    let is_words = matches!(figure.figure, Figure::Words { .. });
+                    if is_words && (placing.is_mirrored() || placing.is_stretched()) {
+                        read.notes.push("that a TEXT is mirrored or stretched by its block".into());
                     }
                     read.found.push(figure);
                 }
@@ -183,6 +243,10 @@ impl Drawing<'_> {
         self.placed.set(self.placed.get() + 1);
         self.placed.get() <= MOST_PLACED
     }
+}
+
+fn dot(u: Point, v: Point) -> f64 {
+    u.x * v.x + u.y * v.y
 }
 
 /// Returns how far two points are apart.

@@ -89,7 +89,7 @@ fn round(is_across: bool, size: f64, at: impl Fn(i32) -> Option<Point>) -> Optio
     let wide = 1.5 * size + 0.5 * metrics::text_width(&says, size);
     let beyond = at(11).map(|words| {
         let x = words.x - if c >= 0.0 { wide } else { -wide } - center.x;
-        let y = words.y + 0.36 * size - center.y;
+        let y = words.y - center.y;
         c * x + s * y - radius
     });
     let beyond = beyond.filter(|b| *b > 0.0).unwrap_or(0.25 * radius);

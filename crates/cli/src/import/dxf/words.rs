@@ -1,16 +1,64 @@
 //! Words: lines of text, and paragraphs with the codes that their letters are set by.
 
 use super::{Entity, Figure, Read, found};
-use base::number::{cos, sin};
-use drawing::Point;
+use base::number::{atan2, cos, sin};
+use drawing::{Point, metrics};
 
 /// How far lines of a paragraph are apart, as a part of their height.
 const LEADING: f64 = 5.0 / 3.0;
 
-/// Reads a TEXT.
-pub(super) fn line(entity: &Entity<'_>, scale: f64) -> Option<Figure> {
-    let (at, size) = (entity.point(10, scale)?, scale * entity.number(40)?);
-    Some(Figure::Words { at, words: unescaped(entity.text(1)?), size })
+/// Reads a TEXT, or what is like one; `upright` is the code that says how it is aligned upright.
+pub(super) fn line(
+    entity: &Entity<'_>,
+    upright: i32,
+    scale: f64,
+    notes: &mut Vec<String>,
+) -> Option<Figure> {
+    let (start, size) = (entity.point(10, scale)?, scale * entity.number(40)?);
+    let words = unescaped(entity.text(1)?);
+    let turn = entity.number(50).unwrap_or(0.0).to_radians();
+    let aligned = |code| entity.number(code).map_or(0, |n| n as i64);
+    let (across, upright) = (aligned(72), aligned(upright));
+    if matches!(across, 3 | 5) {
+        notes
+            .push("how wide a TEXT is between two points: its letters are as wide as usual".into());
+    }
+    let at = match (across, upright) {
+        (0, 0) | (3 | 5, _) => start,
+        _ => {
+            let ahead = match across {
+                1 | 4 => -0.5 * metrics::text_width(&words, size),
+                2 => -metrics::text_width(&words, size),
+                _ => 0.0,
+            };
+            let up = match (across, upright) {
+                (4, _) | (_, 2) => -0.5 * metrics::ASCENT * size,
+                (_, 1) => metrics::DESCENT * size,
+                (_, 3) => -metrics::ASCENT * size,
+                _ => 0.0,
+            };
+            beside(entity.point(11, scale)?, Point { x: ahead, y: up }, turn)
+        }
+    };
+    Some(Figure::Words { at, words, size, turn })
+}
+
+/// Reads an ATTRIB, the words that an INSERT gives its block; those that are not seen are left out.
+pub(super) fn given(entity: &Entity<'_>, scale: f64, read: &mut Read) {
+    if entity.number(70).is_some_and(|flags| flags as i64 & 1 == 1) {
+        read.notes.push("ATTRIB that is not seen".into());
+        return;
+    }
+    match line(entity, 74, scale, &mut read.notes) {
+        Some(figure) => read.found.push(found(figure)),
+        None => read.notes.push("ATTRIB without all of its numbers".into()),
+    }
+}
+
+/// Returns the place that lies so far from another along words that are turned.
+fn beside(from: Point, way: Point, turn: f64) -> Point {
+    let way = turned(way, turn);
+    Point { x: from.x + way.x, y: from.y + way.y }
 }
 
 /// Reads an MTEXT: a note for each of its lines.
@@ -20,9 +68,11 @@ pub(super) fn lines(entity: &Entity<'_>, scale: f64, read: &mut Read) {
         return;
     };
     let size = scale * size;
-    if entity.is_set(50) || entity.is_set(21) || entity.number(11).is_some_and(|x| x != 1.0) {
-        read.notes.push("that an MTEXT is turned: it stands level".into());
-    }
+    // by the way of its lines, else by an angle
+    let turn = match (entity.number(11), entity.number(21)) {
+        (Some(x), Some(y)) => atan2(y, x),
+        _ => entity.number(50).unwrap_or(0.0).to_radians(),
+    };
     let parts = entity.values.iter().filter(|(code, _)| matches!(code, 1 | 3));
     let coded: String = parts.map(|(_, part)| *part).collect();
     let (words, is_set) = plain(&coded);
@@ -32,9 +82,6 @@ pub(super) fn lines(entity: &Entity<'_>, scale: f64, read: &mut Read) {
     let words: Vec<&str> = words.lines().collect();
     // which of its nine corners and middles its place is: along the top first
     let place = entity.number(71).map_or(0, |place| (place as i64 - 1).clamp(0, 8));
-    if place % 3 > 0 {
-        read.notes.push("how an MTEXT is aligned: its lines begin at its place".into());
-    }
     let rows = words.len() as f64 - 1.0;
     let first = match place / 3 {
         0 => -size,
@@ -42,8 +89,10 @@ pub(super) fn lines(entity: &Entity<'_>, scale: f64, read: &mut Read) {
         _ => rows * LEADING * size,
     };
     for (i, words) in words.into_iter().enumerate().filter(|(_, w)| !w.trim().is_empty()) {
-        let at = Point { x: at.x, y: at.y + first - LEADING * size * i as f64 };
-        read.found.push(found(Figure::Words { at, words: words.trim().to_string(), size }));
+        let words = words.trim().to_string();
+        let ahead = -0.5 * (place % 3) as f64 * metrics::text_width(&words, size);
+        let way = Point { x: ahead, y: first - LEADING * size * i as f64 };
+        read.found.push(found(Figure::Words { at: beside(at, way, turn), words, size, turn }));
     }
 }
 

@@ -1,0 +1,170 @@
+//! The rows of what a program drew: its steps, their turns and entities, and the values of these.
+
+use super::Maker;
+use crate::state::State;
+use crate::view::RowKind;
+use crate::views::values;
+use eval::{Answer, Context, Standing};
+use kernel::{ClassId, Message, OriginId, ThingId};
+
+/// So many rows the run of one program has; what is beyond is reached by its path.
+const MOST_ROWS: usize = 1000;
+/// So many elements of a list or turns of a loop have rows.
+const MOST_TURNS: usize = 100;
+
+/// Something that was drawn, and where it is.
+struct Place<'p> {
+    path: &'p str,
+    name: String,
+    depth: u32,
+    standing: Standing,
+    /// The message that answers it.
+    said: Option<&'p Message>,
+}
+
+impl<'m> Maker<'m> {
+    /// Adds the rows of what the program of a thing drew; nothing where it has none.
+    pub(super) fn add_drawn(&mut self, thing: ThingId, depth: u32) {
+        let state = self.state;
+        let evaluator = state.evaluator(self.values);
+        let Ok(Some(run)) = evaluator.run(thing) else { return };
+        let path = state.structure.path(&state.lowered.document, thing).to_string();
+        let most = self.rows.len() + MOST_ROWS;
+        self.steps(&run, &path, depth, most);
+    }
+
+    /// Adds the rows of the steps of a program or a turn.
+    fn steps(&mut self, context: &Context<'_>, path: &str, depth: u32, most: usize) {
+        let is_step =
+            |e: &&eval::Entry<'_>| !e.name.is_empty() && !matches!(e.standing, Standing::Carried);
+        let steps: Vec<&eval::Entry<'_>> = context.made.iter().filter(is_step).collect();
+        for (shown, entry) in steps.iter().enumerate() {
+            if self.rows.len() >= most {
+                return self.add_more(steps.len() - shown, path, depth);
+            }
+            let own = if path.is_empty() {
+                entry.name.to_string()
+            } else {
+                format!("{path}.{}", entry.name)
+            };
+            let said = self.message(context.class, &entry.name);
+            let place = Place {
+                path: &own,
+                name: entry.name.to_string(),
+                depth,
+                standing: entry.standing,
+                said,
+            };
+            self.entity(&entry.answer, &place, most);
+        }
+    }
+
+    /// Adds the row of what a step made, or a part of that, and those below it.
+    fn entity(&mut self, answer: &Answer<'_>, place: &Place<'_>, most: usize) {
+        let at = self.rows.len();
+        let origin = place.said.map(|message| message.origin);
+        let mut row = self.row(
+            place.path.into(),
+            place.depth,
+            RowKind::Virtual,
+            place.name.clone(),
+            OriginId(0),
+        );
+        row.span = origin.and_then(|origin| self.span(origin));
+        row.doc = place.said.map_or_else(String::new, |message| message.doc.clone());
+        row.value = self.in_words(answer);
+        let what = self.described(answer);
+        row.detail = match place.standing {
+            Standing::Result | Standing::Carried => what,
+            Standing::Guide => format!("{what}, a guide"),
+            Standing::Erased => format!("{what}, erased"),
+        };
+        let is_value = row.value.is_some();
+        self.rows.push(row);
+        let document = &self.state.lowered.document;
+        match answer {
+            _ if is_value => {}
+            Answer::Context(context) => self.steps(context, place.path, place.depth + 1, most),
+            Answer::List(items) => {
+                for (i, item) in items.iter().enumerate() {
+                    if i >= MOST_TURNS || self.rows.len() >= most {
+                        self.add_more(items.len() - i, place.path, place.depth + 1);
+                        break;
+                    }
+                    let (path, name) = (format!("{}[{i}]", place.path), format!("[{i}]"));
+                    let (depth, standing) = (place.depth + 1, Standing::Result);
+                    let turn = Place { path: &path, name, depth, standing, said: None };
+                    self.entity(item, &turn, most);
+                }
+            }
+            Answer::Made(made) => {
+                for (field, part) in document.layout(made.class).into_iter().zip(&made.fields) {
+                    let name = document.field_name(field).to_string();
+                    let path = format!("{}.{name}", place.path);
+                    let (depth, standing) = (place.depth + 1, Standing::Result);
+                    let part_of = Place { path: &path, name, depth, standing, said: None };
+                    self.entity(part, &part_of, most);
+                }
+            }
+            Answer::Number(..)
+            | Answer::Bool(_)
+            | Answer::Option(..)
+            | Answer::Text(_)
+            | Answer::Thing(_)
+            | Answer::Picture(_)
+            | Answer::Function(_) => {}
+        }
+        self.rows[at].descendants = (self.rows.len() - at - 1) as u32;
+    }
+
+    /// Adds the row that says how many more there are; it leads to what they are in.
+    fn add_more(&mut self, more: usize, path: &str, depth: u32) {
+        let name = format!("… {more} more");
+        let row = self.row(path.into(), depth, RowKind::Virtual, name, OriginId(0));
+        self.rows.push(row);
+    }
+
+    fn message(&self, class: ClassId, name: &base::Name) -> Option<&'m Message> {
+        let state: &'m State = self.state;
+        state.lowered.document.find_message(class, name, None).map(|(_, message)| message)
+    }
+
+    /// Returns a value, or a place, as a person reads it.
+    fn in_words(&self, answer: &Answer<'_>) -> Option<String> {
+        let document = &self.state.lowered.document;
+        match answer {
+            Answer::Made(made) if document.is_place(made.class) => {
+                let parts = made.fields.iter().map(|part| values::in_words(document, part));
+                Some(format!("({})", parts.collect::<Option<Vec<_>>>()?.join(", ")))
+            }
+            other => values::in_words(document, other),
+        }
+    }
+
+    /// Says what something is.
+    fn described(&self, answer: &Answer<'_>) -> String {
+        let document = &self.state.lowered.document;
+        let class = |class: ClassId| document.classes[document.named_class(class)].name.to_string();
+        match answer {
+            Answer::Made(made) => class(made.class),
+            Answer::Context(context) if document.program(context.class).is_some() => {
+                class(context.class)
+            }
+            Answer::Context(_) => "a turn".into(),
+            Answer::List(items) if items.iter().all(|i| matches!(i, Answer::Context(_))) => {
+                match items.len() {
+                    1 => "1 turn".into(),
+                    n => format!("{n} turns"),
+                }
+            }
+            Answer::List(items) => format!("a list of {}", items.len()),
+            Answer::Thing(thing) => crate::words::class_name(self.state, *thing),
+            Answer::Number(_, dimension) => dimension.named().unwrap_or("Real").into(),
+            Answer::Option(of, _) => class(*of),
+            other @ (Answer::Bool(_)
+            | Answer::Text(_)
+            | Answer::Picture(_)
+            | Answer::Function(_)) => other.kind().into(),
+        }
+    }
+}
