@@ -43,13 +43,11 @@ pub(crate) fn list(state: &State) -> Vec<FamilyView> {
 }
 
 /// Finds a program by its name, or by that of a family.
-///
-/// The class is that of its rows: the program, or what has the columns of the family besides.
 fn find<'s>(state: &'s State, name: &str) -> Result<(ClassId, Option<&'s Family>), Refusal> {
     let document = &state.lowered.document;
     let family = state.lowered.families.iter().find(|f| f.name == *name);
     if let Some(family) = family {
-        return Ok((family.row, Some(family)));
+        return Ok((family.program, Some(family)));
     }
     let program = document.class_named(name).filter(|&c| document.program(c).is_some());
     program.map(|program| (program, None)).ok_or_else(|| {
@@ -76,6 +74,11 @@ fn find<'s>(state: &'s State, name: &str) -> Result<(ClassId, Option<&'s Family>
     })
 }
 
+/// Returns the class of the rows: the program, or what has the columns of the family besides.
+fn class_of_rows(program: ClassId, family: Option<&Family>) -> ClassId {
+    family.map_or(program, |family| family.row)
+}
+
 /// Reads the rows of a family, or of a program with a table: CSV, `#` begins a comment, a header of names, each
 /// with its unit in brackets where it has one.
 ///
@@ -85,7 +88,7 @@ pub(crate) fn rows(state: &State, name: &str, table: Option<&str>) -> Result<Tab
     let (program, family) = find(state, name)?;
     let mut read = TableView::default();
     match (table, family) {
-        (Some(table), _) => read_table(state, program, table, &mut read)?,
+        (Some(table), _) => read_table(state, class_of_rows(program, family), table, &mut read)?,
         (None, Some(family)) => written_rows(state, family, &mut read)?,
         (None, None) => {
             return Err(words::refuse(without_table(state, program, name)));
@@ -105,10 +108,11 @@ pub(crate) fn differences(
     rows: &TableView,
     other: &str,
 ) -> Result<Vec<String>, Refusal> {
-    let (program, _) = find(state, name)?;
+    let (program, family) = find(state, name)?;
+    let class = class_of_rows(program, family);
     let document = &state.lowered.document;
     let evaluator = state.evaluator(&state.values);
-    let fields = document.layout(program);
+    let fields = document.layout(class);
     let shown = |parameter: &str, literal: &Literal| {
         let field = fields.iter().find(|&&f| *document.field_name(f) == *parameter);
         let class = field.map_or(document.root, |&f| document.field_class(f));
@@ -116,7 +120,7 @@ pub(crate) fn differences(
     };
     let other = {
         let mut read = TableView::default();
-        read_table(state, program, other, &mut read)?;
+        read_table(state, class, other, &mut read)?;
         read.rows
     };
     let value = |row: &'_ FamilyRow, parameter: &str| {
@@ -345,8 +349,9 @@ pub(crate) fn draw(
         outcome.message = fault.clone();
         return Ok(outcome);
     }
-    let run = run_of((state, &evaluator), program, &row.values)?;
-    if let Some((ended, step, message)) = ended(&evaluator, family, &run) {
+    let run = run_of((state, &evaluator), class_of_rows(program, family), &row.values)?;
+    let rules = family.map_or(&[][..], |family| &family.rules);
+    if let Some((ended, step, message)) = ended(&evaluator, rules, &run) {
         outcome.outcome = ended.into();
         outcome.step = step;
         outcome.message = message;
@@ -404,10 +409,10 @@ fn run_of<'a>(
     evaluator.run_with(program, values).map_err(|f| words::refuse(f.message))
 }
 
-/// Says why a run is no member of a family: what it is called, the step or the rule, and the words.
+/// Says why a run is no member of a family with these rules: what it is called, the step or the rule, and the words.
 fn ended<'a>(
     evaluator: &Evaluator<'a>,
-    family: Option<&'a Family>,
+    rules: impl IntoIterator<Item = &'a (String, Term)>,
     run: &Rc<Context<'a>>,
 ) -> Option<(&'static str, String, String)> {
     if let Some(ended) = &run.ended {
@@ -418,16 +423,15 @@ fn ended<'a>(
         };
         return Some((outcome, ended.step.clone(), ended.to_string()));
     }
-    let rules = family.map_or(&[][..], |f| &f.rules);
-    let broken = rules.iter().find(|(_, rule)| !evaluator.holds(rule, run).unwrap_or(false));
+    let broken = rules.into_iter().find(|(_, rule)| !evaluator.holds(rule, run).unwrap_or(false));
     broken.map(|(said, rule)| {
         let values = values_in(evaluator, rule, run);
         ("outside", said.clone(), format!("{said} is not met{values}"))
     })
 }
 
-/// Says what the parameters and columns are that a rule speaks of: `; e is 3 mm, s is 4 mm`.
-fn values_in<'a>(evaluator: &Evaluator<'a>, rule: &'a Term, run: &Rc<Context<'a>>) -> String {
+/// Returns the names of the parameters, columns and steps that a rule speaks of, in order.
+fn names_in(rule: &Term) -> Vec<&Name> {
     let mut names: Vec<&Name> = Vec::new();
     let mut open = vec![rule];
     while let Some(term) = open.pop() {
@@ -440,12 +444,17 @@ fn values_in<'a>(evaluator: &Evaluator<'a>, rule: &'a Term, run: &Rc<Context<'a>
             other => open.extend(other.operands().into_iter().rev()),
         }
     }
+    names
+}
+
+/// Says what the parameters and columns are that a rule speaks of: `; e is 3 mm, s is 4 mm`.
+fn values_in<'a>(evaluator: &Evaluator<'a>, rule: &'a Term, run: &Rc<Context<'a>>) -> String {
     let value = |name: &&Name| {
         let value = evaluator.of_part(&Answer::Context(run.clone()), name).ok()?;
         let value = crate::views::values::in_words(evaluator.document, &value)?;
         Some(format!("{name} is {value}"))
     };
-    let said: Vec<String> = names.iter().filter_map(value).collect();
+    let said: Vec<String> = names_in(rule).iter().filter_map(value).collect();
     if said.is_empty() { String::new() } else { format!("; {}", said.join(", ")) }
 }
 

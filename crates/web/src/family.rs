@@ -6,7 +6,10 @@
 use crate::lab::{Lab, Notice};
 use crate::{field, js, server, words};
 use leptos::prelude::*;
-use session::view::{FamilyGrid, FamilyRow, FamilyView, Refusal, RowFormats, RowOutcome, RowUse};
+use session::Session;
+use session::view::{
+    Change, DocumentId, FamilyGrid, FamilyRow, FamilyView, Refusal, RowFormats, RowOutcome, RowUse,
+};
 use wasm_bindgen::JsCast;
 use wasm_bindgen::closure::Closure;
 
@@ -42,8 +45,18 @@ pub struct Family {
 }
 
 impl Family {
+    /// Changes the document by an edit of the family that is shown, once what is pending has ended.
+    fn edit(
+        self,
+        change: impl FnOnce(&mut Session, DocumentId, &str) -> Result<Change, Refusal>,
+    ) -> bool {
+        self.lab.flush_text();
+        let name = self.name.get_untracked();
+        self.settle(self.lab.tell(|session, id| change(session, id, &name)))
+    }
+
     /// Takes up what came of an edit.
-    fn settle(self, outcome: Option<Result<session::view::Change, Refusal>>) -> bool {
+    fn settle(self, outcome: Option<Result<Change, Refusal>>) -> bool {
         match outcome {
             Some(Err(refusal)) => {
                 self.refused.set(Some(field::reason(&refusal)));
@@ -91,11 +104,11 @@ pub fn Families(
     let chosen_thing = RwSignal::new(String::new());
     let families = Memo::new(move |_| {
         lab.text.track();
-        lab.ask_of_shown(session::Session::families).unwrap_or_default()
+        lab.ask_of_shown(Session::families).unwrap_or_default()
     });
     let programs = Memo::new(move |_| {
         lab.text.track();
-        lab.ask_of_shown(session::Session::programs).unwrap_or_default()
+        lab.ask_of_shown(Session::programs).unwrap_or_default()
     });
     let choices = Memo::new(move |_| {
         let families = families.get();
@@ -262,6 +275,7 @@ fn Tools(family: Family, chosen: RwSignal<String>) -> impl IntoView {
     };
     let begin = move |_| {
         let program = grid.with_untracked(|grid| grid.program.clone());
+        lab.flush_text();
         match lab.tell(|session, id| session.begin_family(id, &program)) {
             Some(Ok((change, name))) => {
                 family.settle(Some(Ok(change)));
@@ -272,12 +286,11 @@ fn Tools(family: Family, chosen: RwSignal<String>) -> impl IntoView {
         }
     };
     let add = move |_| {
-        let (name, thing) = (name.get_untracked(), family.thing.get_untracked());
-        family.settle(lab.tell(|s, id| s.add_family_row(id, &name, thing.as_deref())));
+        let thing = family.thing.get_untracked();
+        family.edit(|session, id, name| session.add_family_row(id, name, thing.as_deref()));
     };
     let take = move |csv: &str| {
-        let name = name.get_untracked();
-        family.settle(lab.tell(|s, id| s.take_family_table(id, &name, csv)));
+        family.edit(|session, id, name| session.take_family_table(id, name, csv));
     };
     let load = move |_| {
         let took = Closure::once_into_js(move |_: String, text: String| take(&text));

@@ -2,7 +2,7 @@
 //!
 //! Each change is the text with other rows. Rows of a file are read alone: they are taken into the document first.
 
-use super::{find, literal, read_table, rows};
+use super::{class_of_rows, find, literal, read_table, rows};
 use crate::state::State;
 use crate::view::{FamilyGrid, FamilyRow, GridColumn, Refusal, TableView};
 use crate::words;
@@ -210,9 +210,18 @@ pub(super) fn node(text: &str, name: &str) -> Option<ast::Family> {
 /// # Errors
 /// A table that cannot be read, a cell that is no value.
 pub(super) fn lines_of(state: &State, grid: &FamilyGrid, csv: &str) -> Result<Vec<Line>, Refusal> {
-    let (program, _) = find(state, &grid.name)?;
+    let (program, family) = find(state, &grid.name)?;
     let mut read = TableView::default();
-    read_table(state, program, csv, &mut read)?;
+    read_table(state, class_of_rows(program, family), csv, &mut read)?;
+    // a row that is written out has no place for what the program does not ask for
+    let beside = |(name, _): &(String, Literal)| grid.columns.iter().all(|c| c.name != *name);
+    if let Some((name, _)) = read.rows.iter().find_map(|row| row.values.iter().find(|v| beside(v)))
+    {
+        let program = &grid.program;
+        return Err(words::refuse(format!(
+            "{name} is a column that {program} does not ask for: only a table can have it"
+        )));
+    }
     if let Some((row, fault)) = read.rows.iter().find_map(|r| Some((r, r.fault.as_ref()?))) {
         return Err(words::refuse(format!(
             "line {} of the table, {}: {fault}",

@@ -4,7 +4,6 @@ use super::grid::{self, Line};
 use super::{find, map};
 use crate::document::Open;
 use crate::drafting::retext;
-use crate::host::Beside;
 use crate::session::{Session, parse_path};
 use crate::state::State;
 use crate::view::{
@@ -388,8 +387,8 @@ impl Session {
         text: String,
         label: String,
     ) -> Result<Change, Refusal> {
-        let beside = Beside::of(&*self.host, &self.documents, id);
-        let open = &mut self.documents[id.0 as usize];
+        let (open, beside) = self.beside_others(id);
+        open.drag = None;
         let mut change = retext(open, &beside, text, label)?;
         if !change.edits.is_empty() {
             change.documents = self.reach(id);

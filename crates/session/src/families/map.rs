@@ -1,11 +1,12 @@
 //! The map of a program: over a lattice of values of two parameters, where it draws and why not elsewhere.
 
 use super::grid::{class_of, written};
-use super::{ended, find, literal, run_of};
+use super::{ended, find, literal, names_in, run_of};
 use crate::state::State;
 use crate::view::{FamilyAxis, FamilyMap, MapAxis, MapReason, Refusal};
 use crate::words;
-use kernel::{ClassId, ClassKind, Literal, Primitive};
+use base::Name;
+use kernel::{ClassId, ClassKind, Literal, Primitive, Term};
 
 /// So many values an axis has.
 const STEPS: usize = 32;
@@ -94,6 +95,15 @@ pub(crate) fn map(
     let (across_numbers, across_axis) = lattice(state, program, across)?;
     let (up_numbers, up_axis) = lattice(state, program, up)?;
     let evaluator = state.evaluator(&state.values);
+    // what a table says besides, no value of a parameter tells
+    let document = &state.lowered.document;
+    let of_program = |name: &&Name| {
+        class_of(state, program, name).is_some()
+            || document.find_message(program, name, None).is_some()
+    };
+    let rules = family.map_or(&[][..], |family| &family.rules).iter();
+    let rules: Vec<&(String, Term)> =
+        rules.filter(|(_, rule)| names_in(rule).iter().all(of_program)).collect();
     let others: Vec<(String, Literal)> = values
         .iter()
         .filter(|(name, _)| *name != across.parameter && *name != up.parameter)
@@ -106,14 +116,15 @@ pub(crate) fn map(
             row.push((across.parameter.clone(), Literal::Number(*x)));
             row.push((up.parameter.clone(), Literal::Number(*y)));
             let run = run_of((state, &evaluator), program, &row)?;
-            let why = ended(&evaluator, family, &run).map(|(outcome, step, message)| {
-                let is_it = |r: &MapReason| r.outcome == outcome && r.step == step;
-                made.reasons.iter().position(is_it).unwrap_or_else(|| {
-                    let outcome = outcome.into();
-                    made.reasons.push(MapReason { outcome, step, message });
-                    made.reasons.len() - 1
-                })
-            });
+            let why =
+                ended(&evaluator, rules.iter().copied(), &run).map(|(outcome, step, message)| {
+                    let is_it = |r: &MapReason| r.outcome == outcome && r.step == step;
+                    made.reasons.iter().position(is_it).unwrap_or_else(|| {
+                        let outcome = outcome.into();
+                        made.reasons.push(MapReason { outcome, step, message });
+                        made.reasons.len() - 1
+                    })
+                });
             made.places.push(why);
         }
     }

@@ -193,3 +193,38 @@ fn a_map_shows_where_a_program_draws() {
     assert_eq!(axes[0], axis("rim", "2 mm", "50 mm"));
     assert_eq!(axes[2].parameter, "spokes");
 }
+
+#[test]
+fn what_a_table_says_besides_the_parameters_stays_in_the_table() {
+    let text = DISCS.replace(
+        "    rows: (\"D10\", 10 mm, 2 mm)  (\"D30\", 30 mm)\n    constraint even: rim < 90 mm\n",
+        "    across: Length\n    table \"sold.csv\"\n    constraint even: rim < 90 mm\n    constraint across = 2 * rim\n",
+    );
+    let table = "name,rim [mm],across [mm]\nD10,10,20\nD30,30,61\n";
+    let mut desk = Desk::of(&text);
+    let (session, id) = (&mut desk.session, desk.id);
+    let grid = session.family_grid(id, "Sold", Some(table)).expect("there is one");
+    assert_eq!((grid.program.as_str(), grid.columns.len()), ("Disc", 3));
+    let drawn = |at: usize| {
+        let row = &grid.rows[at];
+        session.draw_row(id, "Sold", row, RowFormats::default()).expect("it is a row").message
+    };
+    assert_eq!(drawn(0), "");
+    assert_eq!(drawn(1), "across = 2 * rim is not met; across is 61 mm, rim is 30 mm");
+
+    // a row is used as that of any program
+    let set = session.use_family_row(id, ("Sold", &grid.rows[0]), &RowUse::Set("disc".into()));
+    assert_eq!(set.expect("the disc takes it").1, "disc");
+    // the map knows of rules for parameters alone
+    let axis = |parameter: &str, from: &str, to: &str| FamilyAxis {
+        parameter: parameter.into(),
+        from: from.into(),
+        to: to.into(),
+    };
+    let axes = [axis("rim", "10 mm", "80 mm"), axis("hole", "1 mm", "9 mm")];
+    let map = session.family_map(id, ("Sold", None), [&axes[0], &axes[1]]).expect("it is made");
+    assert!(map.places.iter().all(Option::is_none), "{:?}", map.reasons);
+    // and rows that are written out have no place for it
+    let refused = session.take_family_table(id, "Sold", table).expect_err("it cannot be said");
+    assert!(refused.message.starts_with("across is a column that Disc does not ask for"));
+}

@@ -61,7 +61,7 @@ pub fn Grid(
 /// One row.
 #[component]
 fn Row(family: Family, at: usize, row: FamilyRow) -> impl IntoView {
-    let Family { lab, name, grid, outcomes, thing, .. } = family;
+    let Family { grid, outcomes, thing, .. } = family;
     let is_own = grid.with_untracked(|grid| grid.is_own);
     let columns = grid.with_untracked(|grid| grid.columns.clone());
     let outcome = Memo::new(move |_| outcomes.with(|all| all.get(at).cloned()).unwrap_or_default());
@@ -70,9 +70,8 @@ fn Row(family: Family, at: usize, row: FamilyRow) -> impl IntoView {
     let mark = row_name.clone();
     let name_label = words::cell_of(words::ROW_NAME, &row_name);
     let set = move |column: Option<String>, typed: &str| {
-        let name = name.get_untracked();
         let cell = (at, column.as_deref());
-        family.settle(lab.tell(|s, id| s.set_family_cell(id, &name, cell, typed)))
+        family.edit(|session, id, name| session.set_family_cell(id, name, cell, typed))
     };
     let cell = move |(index, column): (usize, session::view::GridColumn)| {
         let value = grid.with_untracked(|grid| grid.cell(at, index).to_string());
@@ -88,8 +87,7 @@ fn Row(family: Family, at: usize, row: FamilyRow) -> impl IntoView {
         }
     };
     let delete = move |_| {
-        let name = name.get_untracked();
-        family.settle(lab.tell(|s, id| s.delete_family_row(id, &name, at)));
+        family.edit(|session, id, name| session.delete_family_row(id, name, at));
     };
     let is_bad = move || outcome.with(|o| o.outcome != "drawn");
     let said = move || {

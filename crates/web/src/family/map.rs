@@ -150,9 +150,7 @@ fn Chart(family: Family, map: FamilyMap) -> impl IntoView {
         let typed = map.with_value(|map| {
             vec![(map.across.parameter.clone(), place.across), (map.up.parameter.clone(), place.up)]
         });
-        let lab = family.lab;
-        lab.flush_text();
-        family.settle(lab.tell(|s, id| s.set_parameters(id, &thing, &typed)));
+        family.edit(|session, id, _| session.set_parameters(id, &thing, &typed));
     };
     let key = move |e: KeyboardEvent| {
         let (x, y) = read.get_untracked().unwrap_or((wide / 2, high / 2));
