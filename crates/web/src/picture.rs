@@ -9,9 +9,9 @@ use crate::lab::{Lab, Marked, Zoom, first_path};
 use crate::paint::{
     DisplayList, Mark, Part, arrows, caught, display_list, ghosts, grid, loci, preview,
 };
-use crate::sheet::{View, fit, fit_box};
+use crate::sheet::{View, bounds, fit_box};
 use crate::words;
-use drawing::{Point, Vertical};
+use drawing::{Drawing, Point, Vertical};
 use js_sys::Array;
 use leptos::ev::{KeyboardEvent, MouseEvent, PointerEvent, WheelEvent};
 use leptos::html::Canvas;
@@ -294,12 +294,17 @@ fn zoom_as_asked(lab: Lab, size: (f64, f64)) {
         }
         Zoom::Fit => {
             lab.fits.set_value(true);
-            // what is to be traced is in sight before it is drawn
-            let traced = lab.traced.get_untracked();
-            lab.view.set(lab.picture.with_untracked(|p| {
-                let is_traced = p.drawing.elements.is_empty() && !traced.elements.is_empty();
-                fit(if is_traced { &traced } else { &p.drawing }, size, margin)
-            }));
+            // what is to be traced is in sight as well
+            let all = lab.traced.with_untracked(|traced| {
+                let boxes = lab.picture.with_untracked(|p| {
+                    let drawn = [&p.drawing, traced].into_iter().filter(|d| !d.elements.is_empty());
+                    drawn.map(bounds).collect::<Vec<_>>()
+                });
+                boxes.into_iter().reduce(|a, b| a.with(b.least).with(b.most))
+            });
+            let vertical = lab.picture.with_untracked(|p| p.drawing.vertical);
+            let all = all.unwrap_or_else(|| bounds(&Drawing::default()));
+            lab.view.set(fit_box(all, vertical, size, margin));
         }
         Zoom::By(factor) => {
             lab.look_at(|view| view.zoomed(factor, (size.0 / 2.0, size.1 / 2.0)));

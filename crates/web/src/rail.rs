@@ -58,7 +58,8 @@ impl Lab {
                 self.notice.set(None);
                 self.hover(None);
                 self.tool.set(Some(String::from(class)));
-                self.show_tool(view);
+                // where it would lie is known once the pointer comes
+                self.show_tool(ToolView { preview: drawing::Drawing::default(), ..view });
             }
             Some(Err(refusal)) => {
                 self.drop_tool();
