@@ -124,13 +124,12 @@ impl Diagnostic {
 
 /// Returns the candidate nearest to `found` by edit distance, if one is near enough to be meant.
 ///
-/// Near enough: at most a third of the longer word's letters differ.
+/// Near enough: at most a third of the longer word's letters differ; of a single letter only the case.
 pub fn nearest<'a>(found: &str, candidates: impl IntoIterator<Item = &'a str>) -> Option<&'a str> {
     candidates
         .into_iter()
         .map(|c| (edit_distance(found, c), c))
         .filter(|(d, c)| d * 3 <= found.chars().count().max(c.chars().count()).max(3))
-        // a letter is not meant by another one
         .filter(|(d, c)| *d < found.chars().count() || c.eq_ignore_ascii_case(found))
         .min_by_key(|(d, _)| *d)
         .map(|(_, c)| c)

@@ -1,7 +1,7 @@
 //! How values are put to people: a number of base units in, six digits and an engineer's unit out.
 //!
-//! All that people read of numbers (tables, explanations, refusals, texts with values in them) comes from here, and can be typed
-//! back. The unit is the one that the value was written in, where it reads well; else that of its class,
+//! All that people read of numbers (tables, explanations, refusals, texts with values in them) comes from here, and
+//! can be typed back. The unit is the one that the value was written in, where it reads well; else that of its class,
 //! with a prefix by steps of a thousand. Angles are in degrees.
 
 use crate::Document;

@@ -21,7 +21,7 @@
 //! `rules`, `switches`, `kept`, `names`, `hints`, `paths`, `refine`, `terms`, `components`, `calls`, `kin`, `kinds`,
 //! `settle`, `restore`,
 //! `checks`, `lessons`, `views`,
-//! `numbers`, `write`, `uses`,
+//! `numbers`, `mixed`, `write`, `uses`,
 //! `edits`, `references`, `mentions`.
 mod bindings;
 mod calls;

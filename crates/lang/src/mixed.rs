@@ -8,7 +8,6 @@ use base::{Diagnostic, Place};
 use expr::dimension::Dimension;
 use kernel::{OriginId, Term};
 use syntax::ast::{AstNode, NumberExpr};
-use syntax::{SyntaxKind, WalkEvent};
 
 /// The code of the warning.
 const CODE: &str = "mixed-lengths";
@@ -17,12 +16,14 @@ impl Lowered {
     /// Returns a warning where the text gives bare lengths, others with a unit that is not the metre, and names no
     /// unit of its sheet.
     ///
-    /// Cost: a look at every node of the text.
+    /// Cost: a look at every node of the text, where it writes lengths.
     pub fn mixed_lengths(&self) -> Option<Diagnostic> {
-        if self.document.unit.is_some() {
+        if !self.document.writes_lengths {
             return None;
         }
-        let (number, si) = self.first_length()?;
+        let stated = crate::scale::stated(&self.effective_parse);
+        let (si, number) =
+            stated.into_iter().find_map(|number| Some((length(&number)?, number)))?;
         let bare = self.first_bare_length()?;
         let unit = number.unit()?;
         let (written, unit) = (number.syntax().text(), unit.text());
@@ -33,26 +34,6 @@ impl Lowered {
         Some(d.hint(format!(
             "say what a length without a unit is: `unit {unit}`, in a line of its own"
         )))
-    }
-
-    /// Returns the first length that the text states with a unit that is not the metre, and how many metres it is.
-    fn first_length(&self) -> Option<(NumberExpr, f64)> {
-        let root = self.effective_parse.syntax();
-        let mut walk = root.preorder();
-        while let Some(event) = walk.next() {
-            let WalkEvent::Enter(node) = event else { continue };
-            match node.kind() {
-                SyntaxKind::Check | SyntaxKind::Lesson | SyntaxKind::Within => walk.skip_subtree(),
-                SyntaxKind::NumberExpr => {
-                    let found = NumberExpr::cast(node).and_then(|n| Some((length(&n)?, n)));
-                    if let Some((si, number)) = found {
-                        return Some((number, si));
-                    }
-                }
-                _ => {}
-            }
-        }
-        None
     }
 
     /// Returns where the text first gives a length without a unit, if it does.

@@ -222,12 +222,7 @@ impl Lowerer<'_> {
         if !self.may_guess() || found.len() > LONGEST_WORD {
             return None;
         }
-        // of two single letters only the case may differ
-        let may_be = |n: &&str| match found.chars().nth(1) {
-            None => n.eq_ignore_ascii_case(found) || n.chars().nth(1).is_some(),
-            Some(_) => n.len() <= LONGEST_WORD,
-        };
-        base::diagnostic::nearest(found, names.into_iter().filter(may_be))
+        base::diagnostic::nearest(found, names.into_iter().filter(|n| n.len() <= LONGEST_WORD))
     }
 
     /// Says that a receiver has no part or message of this name, and which it has.

@@ -71,6 +71,11 @@ fn best(mut quantities: Vec<(f64, Dimension)>, has_unit: bool) -> Scale {
 
 /// Returns the sizes of the numbers with units that a text states, and what they measure.
 fn quantities(parse: &Parse) -> Vec<(f64, Dimension)> {
+    stated(parse).iter().filter_map(quantity).collect()
+}
+
+/// Returns the numbers that a text states, checks and tolerances apart.
+pub(crate) fn stated(parse: &Parse) -> Vec<NumberExpr> {
     let mut found = Vec::new();
     let root = parse.syntax();
     let mut walk = root.preorder();
@@ -81,7 +86,7 @@ fn quantities(parse: &Parse) -> Vec<(f64, Dimension)> {
                 walk.skip_subtree();
             }
             SyntaxKind::NumberExpr => {
-                found.extend(NumberExpr::cast(node).as_ref().and_then(quantity));
+                found.extend(NumberExpr::cast(node));
             }
             _ => {}
         }

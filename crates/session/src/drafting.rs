@@ -7,8 +7,8 @@
 //! Nothing is known of any construction: `catalogue` finds them in the classes in scope, `outcome` tries
 //! them in a copy of the text. So a construction that a library gains is a tool at once.
 //!
-//! Reading order: `catalogue`, `scene`, `typed`, `outcome`, `dialogue`, `older`, `hands`, `recording`, `blocks`, `operands`,
-//! `repeat`, `choice`, `demonstrating`, `measure`, `steps`, `visit`, `remove`, `visiting`, `text`.
+//! Reading order: `catalogue`, `scene`, `typed`, `outcome`, `dialogue`, `older`, `hands`, `recording`, `blocks`,
+//! `operands`, `repeat`, `choice`, `demonstrating`, `measure`, `steps`, `visit`, `remove`, `visiting`, `text`.
 mod blocks;
 mod catalogue;
 mod choice;

@@ -6,8 +6,7 @@ use crate::view::{Limit, ModeView};
 use crate::words;
 use base::number::Toward;
 use expr::Dimension;
-use kernel::Quantity;
-use kernel::{DOCUMENT, Primitive, SlotId, Term, ThingId, Value};
+use kernel::{DOCUMENT, Primitive, Quantity, SlotId, Term, ThingId, Value};
 use plan::{ActingKind, CourseChange, ModeChange, Source};
 
 /// How straight a place, the pointer and an anchored place lie for a reach: as a sine.

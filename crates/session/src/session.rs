@@ -79,7 +79,7 @@ impl Session {
         self.documents.get_mut(id.0 as usize).expect("a document id comes from this session's open")
     }
     /// Returns a document to be changed, and what stands beside it.
-    fn beside_others(&mut self, id: DocumentId) -> (&mut Open, Beside<'_>) {
+    pub(crate) fn beside_others(&mut self, id: DocumentId) -> (&mut Open, Beside<'_>) {
         let beside = Beside::of(&*self.host, &self.documents, id);
         let open = self.documents.get_mut(id.0 as usize);
         (open.expect("a document id comes from this session's open"), beside)
@@ -250,8 +250,7 @@ impl Session {
         self.release(id)?;
         let moved = self.document(id).done.len() > steps;
         let joined = self.apply(id, &command);
-        let beside = Beside::of(&*self.host, &self.documents, id);
-        let open = &mut self.documents[id.0 as usize];
+        let (open, beside) = self.beside_others(id);
         if moved && joined.is_err() {
             apply::apply(open, &beside, &Command::Undo)?;
             open.undone.clear();
@@ -283,8 +282,7 @@ impl Session {
     }
     /// The tool follows the pointer. Nothing of the document changes.
     pub fn tool_moved(&mut self, id: DocumentId, pointer: &Pointer) -> Option<ToolView> {
-        let beside = Beside::of(&*self.host, &self.documents, id);
-        let open = &mut self.documents[id.0 as usize];
+        let (open, beside) = self.beside_others(id);
         let state = open.state.clone();
         open.tool.as_mut().map(|tool| tool.moved(&state, pointer, &beside))
     }
@@ -293,8 +291,7 @@ impl Session {
     /// # Errors
     /// Why that cannot be; the tool stays where it was.
     pub fn tool_set(&mut self, id: DocumentId, pointer: &Pointer) -> Result<ToolView, Refusal> {
-        let beside = Beside::of(&*self.host, &self.documents, id);
-        let open = &mut self.documents[id.0 as usize];
+        let (open, beside) = self.beside_others(id);
         let state = open.state.clone();
         match open.tool.as_mut() {
             Some(tool) => tool.set(&state, pointer, &beside),

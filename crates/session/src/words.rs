@@ -8,10 +8,9 @@ use base::Diagnostic;
 use expr::Dimension;
 use indexmap::IndexSet;
 use kernel::{
-    ClassId, ClassKind, Command, ConstraintInstance, Document, Literal, Path, Primitive, SlotId,
-    Step, Structure, Term, ThingId, Value, Values,
+    ClassId, ClassKind, Command, ConstraintInstance, Document, Literal, Path, Primitive, Quantity,
+    Shown, SlotId, Step, Structure, Term, ThingId, Value, Values,
 };
-use kernel::{Quantity, Shown};
 use plan::{Acting, ActingKind, Decided, EditReport, NotDecided, RefusalReason, Source};
 use std::collections::BTreeSet;
 

@@ -6,7 +6,7 @@
 
 use crate::lab::{Lab, Zoom};
 use crate::values::{slider_range, whole_turn};
-use crate::{icons, sheet, words};
+use crate::{icons, js, sheet, words};
 use drawing::Bounds;
 use leptos::prelude::*;
 use session::view::ValueRow;
@@ -95,7 +95,7 @@ impl Lab {
         let playing = Playing { path, number: self.player.count.get_value() + 1 };
         self.player.count.set_value(playing.number);
         self.player.now.set(Some(playing.clone()));
-        request_animation_frame(move || frame(self, row, playing, course, now()));
+        request_animation_frame(move || frame(self, row, playing, course, js::now()));
     }
 
     /// Plays the number that is selected, or stops what is played.
@@ -145,7 +145,7 @@ fn frame(lab: Lab, row: usize, playing: Playing, mut course: Course, before: f64
         lab.player.now.set(None);
         return;
     }
-    let time = now();
+    let time = js::now();
     course.step((time - before).clamp(0.0, LONGEST_STEP) / THROUGH);
     lab.drag((course.at, 0.0));
     if let Some(before) = course.covered.filter(|_| lab.fits.get_value()) {
@@ -166,10 +166,6 @@ fn frame(lab: Lab, row: usize, playing: Playing, mut course: Course, before: f64
         course.turns = 0;
     }
     request_animation_frame(move || frame(lab, row, playing, course, time));
-}
-
-fn now() -> f64 {
-    window().performance().map_or(0.0, |performance| performance.now())
 }
 
 /// The button beside a slider.

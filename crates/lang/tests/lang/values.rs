@@ -1,8 +1,7 @@
 //! Values written into a text, and read from what a person types.
 
 use super::{load, lower, right};
-use kernel::{Literal, Path, Step};
-use kernel::{Quantity, Shown, show_quantity};
+use kernel::{Literal, Path, Quantity, Shown, Step, show_quantity};
 use lang::{Wanted, read_literal, write_values};
 
 fn place(x: f64, y: f64) -> Literal {

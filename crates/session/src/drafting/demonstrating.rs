@@ -3,7 +3,7 @@
 use super::hands::{home, prompt, turn_of};
 use super::view::{Ends, NewParameter, Prompt, Turn};
 use super::{blocks, choice, recording, repeat, scene};
-use crate::host::Beside;
+
 use crate::session::Session;
 use crate::view::{Change, DocumentId, Refusal};
 use crate::words;
@@ -14,8 +14,8 @@ impl Session {
     /// # Errors
     /// The name is none for a program, or something else is called so.
     pub fn record(&mut self, id: DocumentId, name: &str) -> Result<Change, Refusal> {
-        let beside = Beside::of(&*self.host, &self.documents, id);
-        let change = recording::begin(&mut self.documents[id.0 as usize], &beside, name)?;
+        let (open, beside) = self.beside_others(id);
+        let change = recording::begin(open, &beside, name)?;
         Ok(*self.with_reach(id, change))
     }
 
@@ -46,8 +46,8 @@ impl Session {
     /// # Errors
     /// Nothing is recorded, the name is none or taken.
     pub fn begin_loop(&mut self, id: DocumentId, name: &str) -> Result<Change, Refusal> {
-        let beside = Beside::of(&*self.host, &self.documents, id);
-        let change = repeat::begin(&mut self.documents[id.0 as usize], &beside, name)?;
+        let (open, beside) = self.beside_others(id);
+        let change = repeat::begin(open, &beside, name)?;
         Ok(*self.with_reach(id, change))
     }
 
@@ -60,8 +60,7 @@ impl Session {
         id: DocumentId,
         corners: ((f64, f64), (f64, f64)),
     ) -> Result<Change, Refusal> {
-        let beside = Beside::of(&*self.host, &self.documents, id);
-        let open = &mut self.documents[id.0 as usize];
+        let (open, beside) = self.beside_others(id);
         blocks::recorded(open)?;
         let set = scene::within(&open.state, &home(open), corners);
         let change = repeat::begin_each(open, &beside, ("", &set))?;
@@ -73,8 +72,7 @@ impl Session {
     /// # Errors
     /// No loop is open, or nothing is drawn in it.
     pub fn end_turn(&mut self, id: DocumentId, ends: Ends) -> Result<Turn, Refusal> {
-        let beside = Beside::of(&*self.host, &self.documents, id);
-        let open = &mut self.documents[id.0 as usize];
+        let (open, beside) = self.beside_others(id);
         let closed = repeat::end_turn(open, &beside, ends)?;
         let turn = turn_of(open, closed, String::new());
         Ok(self.reached(id, turn))
@@ -105,8 +103,7 @@ impl Session {
     /// # Errors
     /// No `if` is open; the values do not take the other branch.
     pub fn other_branch(&mut self, id: DocumentId, is_same: bool) -> Result<Change, Refusal> {
-        let beside = Beside::of(&*self.host, &self.documents, id);
-        let open = &mut self.documents[id.0 as usize];
+        let (open, beside) = self.beside_others(id);
         let change = choice::second(open, &beside, is_same)?;
         Ok(*self.with_reach(id, change))
     }
@@ -116,8 +113,8 @@ impl Session {
     /// # Errors
     /// No `if` is open.
     pub fn end_choice(&mut self, id: DocumentId) -> Result<Change, Refusal> {
-        let beside = Beside::of(&*self.host, &self.documents, id);
-        let change = choice::end(&mut self.documents[id.0 as usize], &beside)?;
+        let (open, beside) = self.beside_others(id);
+        let change = choice::end(open, &beside)?;
         Ok(*self.with_reach(id, change))
     }
 
@@ -130,8 +127,7 @@ impl Session {
         id: DocumentId,
         parameter: &NewParameter,
     ) -> Result<Change, Refusal> {
-        let beside = Beside::of(&*self.host, &self.documents, id);
-        let open = &mut self.documents[id.0 as usize];
+        let (open, beside) = self.beside_others(id);
         let change = recording::define(open, &beside, &home(open), parameter)?;
         Ok(*self.with_reach(id, change))
     }

@@ -221,8 +221,7 @@ impl Session {
 
     /// Returns what a pointer, with what is typed so far, would do for what is waited for.
     pub fn hover(&mut self, id: DocumentId, pointer: &Pointer, typed: &str) -> Hover {
-        let beside = Beside::of(&*self.host, &self.documents, id);
-        let open = &mut self.documents[id.0 as usize];
+        let (open, beside) = self.beside_others(id);
         let (state, home) = (open.state.clone(), home(open));
         if let Some(measuring) = &open.picking.measure {
             return found_hover(&state, &home, measuring.find(&state, &home, pointer));
@@ -249,8 +248,7 @@ impl Session {
     /// # Errors
     /// Nothing that fits lies there, or there is no such figure; what waits goes on waiting.
     pub fn point(&mut self, id: DocumentId, pointer: &Pointer) -> Result<Turn, Refusal> {
-        let beside = Beside::of(&*self.host, &self.documents, id);
-        let open = &mut self.documents[id.0 as usize];
+        let (open, beside) = self.beside_others(id);
         let turn = pointed(open, &beside, pointer)?;
         Ok(self.reached(id, turn))
     }
@@ -260,8 +258,7 @@ impl Session {
     /// # Errors
     /// It is none, or there is no such figure; what waits goes on waiting.
     pub fn enter(&mut self, id: DocumentId, typed: &str) -> Result<Turn, Refusal> {
-        let beside = Beside::of(&*self.host, &self.documents, id);
-        let open = &mut self.documents[id.0 as usize];
+        let (open, beside) = self.beside_others(id);
         let turn = entered(open, &beside, typed)?;
         Ok(self.reached(id, turn))
     }
@@ -271,8 +268,8 @@ impl Session {
     /// # Errors
     /// Nothing is asked, or the second turn would have no outcome.
     pub fn same(&mut self, id: DocumentId) -> Result<Turn, Refusal> {
-        let beside = Beside::of(&*self.host, &self.documents, id);
-        let turn = answered(&mut self.documents[id.0 as usize], &beside, (None, None))?;
+        let (open, beside) = self.beside_others(id);
+        let turn = answered(open, &beside, (None, None))?;
         Ok(self.reached(id, turn))
     }
 
@@ -334,8 +331,7 @@ impl Session {
     /// # Errors
     /// Nothing is asked, or it can be neither; then nothing has changed.
     pub fn take_older(&mut self, id: DocumentId, to: OlderUse) -> Result<Turn, Refusal> {
-        let beside = Beside::of(&*self.host, &self.documents, id);
-        let open = &mut self.documents[id.0 as usize];
+        let (open, beside) = self.beside_others(id);
         let none = || words::refuse("nothing outside of the program was picked".into());
         let older = open.picking.older.clone().ok_or_else(none)?;
         let home = home(open);

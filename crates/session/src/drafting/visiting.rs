@@ -3,7 +3,7 @@
 use super::hands::{home, replaced, turn_of};
 use super::view::{Go, StepsView, Turn};
 use super::{recording, remove, steps, visit};
-use crate::host::Beside;
+
 use crate::session::Session;
 use crate::view::{Change, DocumentId, Refusal};
 use crate::words;
@@ -14,8 +14,7 @@ impl Session {
     /// # Errors
     /// Nothing is recorded, a block is demonstrated; there is no such place.
     pub fn visit(&mut self, id: DocumentId, go: &Go) -> Result<(), Refusal> {
-        let beside = Beside::of(&*self.host, &self.documents, id);
-        let open = &mut self.documents[id.0 as usize];
+        let (open, beside) = self.beside_others(id);
         visit::go(open, &beside, go)?;
         if let Some(recording) = &mut open.recording {
             recording.replaces = None;
@@ -52,8 +51,7 @@ impl Session {
     /// # Errors
     /// Nothing is recorded, a block is demonstrated, there is no such step.
     pub fn begin_delete(&mut self, id: DocumentId, step: &str) -> Result<Turn, Refusal> {
-        let beside = Beside::of(&*self.host, &self.documents, id);
-        let open = &mut self.documents[id.0 as usize];
+        let (open, beside) = self.beside_others(id);
         let done = remove::begin(open, &beside, step)?;
         let turn = turn_of(open, done, String::new());
         Ok(self.reached(id, turn))
@@ -64,8 +62,7 @@ impl Session {
     /// # Errors
     /// Nothing is asked.
     pub fn delete_along(&mut self, id: DocumentId) -> Result<Turn, Refusal> {
-        let beside = Beside::of(&*self.host, &self.documents, id);
-        let open = &mut self.documents[id.0 as usize];
+        let (open, beside) = self.beside_others(id);
         let done = remove::along(open, &beside)?;
         let turn = turn_of(open, done, String::new());
         Ok(self.reached(id, turn))
@@ -105,8 +102,7 @@ impl Session {
         program: &str,
         step: &str,
     ) -> Result<Change, Refusal> {
-        let beside = Beside::of(&*self.host, &self.documents, id);
-        let open = &mut self.documents[id.0 as usize];
+        let (open, beside) = self.beside_others(id);
         let mut gone = steps::dependents(&open.state.text, program, step);
         gone.push(step.into());
         let text = steps::without(&open.state.text, program, &gone)?;
@@ -147,8 +143,7 @@ impl Session {
         (program, step): (&str, &str),
         formula: &str,
     ) -> Result<Change, Refusal> {
-        let beside = Beside::of(&*self.host, &self.documents, id);
-        let open = &mut self.documents[id.0 as usize];
+        let (open, beside) = self.beside_others(id);
         let change = replaced(open, &beside, (program, step), formula)?;
         Ok(*self.with_reach(id, change))
     }

@@ -9,9 +9,9 @@ use eval::{Answer, Evaluator, Standing};
 use indexmap::IndexMap;
 use kernel::builtin::{FUNCTIONS, Kind, PICTURE_MESSAGES, find};
 use kernel::{
-    ClassId, ClassKind, Document, Message, Path, Primitive, SlotId, Step, Term, ThingId, Values,
+    ClassId, ClassKind, Document, Message, Path, Primitive, Quantity, Shown, SlotId, Step, Term,
+    ThingId, Values,
 };
-use kernel::{Quantity, Shown};
 use std::collections::{BTreeMap, BTreeSet};
 use std::fmt::Write;
 use std::rc::Rc;

@@ -28,8 +28,7 @@ pub(super) fn of_member(p: &mut Parser<'_>) -> bool {
         || bare_equation(p)
         || held(p)
         || name_and_class(p)
-        || class_called(p)
-        || class_counted(p)
+        || class_and_brackets(p)
         || values_in_braces(p)
         || relation_in_words(p)
         || anchored_value(p)
@@ -219,16 +218,19 @@ fn name_and_class(p: &mut Parser<'_>) -> bool {
     true
 }
 
-/// `c: Circle(a, 5)`: a value that follows its class without `=`
-fn class_called(p: &mut Parser<'_>) -> bool {
-    let is_one = p.at(LParen)
+/// `c: Circle(a, 5)`, `q: Point[5]`: what follows a class without `=`
+fn class_and_brackets(p: &mut Parser<'_>) -> bool {
+    let is_one = matches!(p.current(), LParen | LBracket)
         && !p.begins_line(0)
         && p.behind(1) == Ident
         && p.behind(2) == Colon
         && p.behind(3) == Ident;
-    if is_one {
-        let at = p.pos();
-        let (name, class) = (p.text_between(at - 3, at - 3), p.text_between(at - 1, at - 1));
+    if !is_one {
+        return false;
+    }
+    let at = p.pos();
+    let (name, class) = (p.text_between(at - 3, at - 3), p.text_between(at - 1, at - 1));
+    let (said, fix) = if p.at(LParen) {
         let value = p.text_between(at, p.line_end());
         let said = (
             "expected-member",
@@ -236,22 +238,8 @@ fn class_called(p: &mut Parser<'_>) -> bool {
             format!("a value is given with `=`: `{name}: {class} = {class}{value}`"),
         );
         let start = p.span_at(at).start;
-        let fix = (Span::new(start, start), format!(" = {class}"));
-        p.report_mistake((at, at), said, Some(fix));
-    }
-    is_one
-}
-
-/// `q: Point[5]`
-fn class_counted(p: &mut Parser<'_>) -> bool {
-    let is_one = p.at(LBracket)
-        && !p.begins_line(0)
-        && p.behind(1) == Ident
-        && p.behind(2) == Colon
-        && p.behind(3) == Ident;
-    if is_one {
-        let at = p.pos();
-        let (name, class) = (p.text_between(at - 3, at - 3), p.text_between(at - 1, at - 1));
+        (said, Some((Span::new(start, start), format!(" = {class}"))))
+    } else {
         let count = if p.nth(1) == RBracket { String::new() } else { format!("{} ", p.word(1)) };
         let said = (
             "expected-member",
@@ -260,9 +248,10 @@ fn class_counted(p: &mut Parser<'_>) -> bool {
             ),
             format!("a list is written `{name}: List of {count}{class}`"),
         );
-        p.report_mistake((at, at), said, None);
-    }
-    is_one
+        (said, None)
+    };
+    p.report_mistake((at, at), said, fix);
+    true
 }
 
 /// `p: Point { 1, 2 }`

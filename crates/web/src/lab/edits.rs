@@ -296,7 +296,8 @@ impl Lab {
         self.pending_text.with_value(Option::is_some)
     }
 
-    /// Hands the session what was typed into the editor and not yet handed over.
+    /// Ends what is pending before something else is done: what is played stops, and what was typed into the editor is
+    /// handed to the session.
     pub fn flush_text(self) {
         self.stop_playing();
         let typed = self.pending_text.try_update_value(Option::take).flatten();
