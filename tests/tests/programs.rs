@@ -3,8 +3,8 @@
 
 use base::Dice;
 use bench::opened::Opened;
-use eval::Evaluator;
-use kernel::{Path, Step, Value, Values};
+use eval::{Answer, Context, Evaluator, Known};
+use kernel::{Path, Step, ThingId, Value, Values};
 use plan::{EditKind, Model, Target};
 use std::fmt::Write as _;
 
@@ -32,6 +32,20 @@ program Rec(u: Length = 9 mm, depth: Integer in 0..5 = 2) {
         out = inner.out + u
     }
 }
+";
+
+/// What every program ends with: what is carried changes its kind, steps are erased, sets are mirrored, lists gone
+/// through.
+const TAIL: &str = "rings = repeat with under = Axis.horizontal(y: 0 mm), r = a + 1 mm {
+        ring = Circle.tangent(under, Axis.vertical(x: 0 mm), radius: r)
+        guide hole = Circle.concentric(ring, radius: r / 2)
+        next under = -ring, r = r / 2
+    } until ring.radius < b
+    away = Line(Point(0 mm, a), Point(a, b))
+    erase away
+    mirrored = rings.mirrored(about: Axis.vertical(x: b))
+    row = for i in 1..n { at = Point(i * a, b) }
+    branch = if n in [2, 3] and a > b { one = Point.middle(row[0].at, row[1].at) } else { two = Line(row.last.at, away.p1) }
 ";
 
 /// A program in the making.
@@ -196,6 +210,7 @@ fn document(seed: u64) -> (String, Vec<String>) {
     let mut names = vec!["a".to_string(), "b".to_string()];
     let steps = 3 + made.dice.below(4) as u32;
     made.block(&mut names, 2, steps);
+    made.text += TAIL;
     let (a, b) = (made.dice.between(1.0, 25.0), made.dice.between(1.0, 25.0));
     let n = 1 + made.dice.below(4);
     let _ = writeln!(made.text, "}}\np: Any {{ a = {a} mm  b = {b} mm  n = {n} }}");
@@ -242,7 +257,7 @@ fn compare(
     let mut compared = 0;
     for (i, name) in names.iter().enumerate() {
         let drawn = match evaluator.at(&path(name)) {
-            Ok(eval::Answer::Number(x, _)) => x,
+            Ok(Answer::Number(x, _)) => x,
             other => panic!("{name}: {other:?}\n{text}"),
         };
         let slot = opened.slots(&format!("q{i}"))[0];
@@ -282,4 +297,72 @@ fn what_is_drawn_and_what_is_solved_have_the_same_bits() {
         compared > 3 * PROGRAMS as usize * LOOKED_AT && moved > 2 * PROGRAMS,
         "{compared} {moved}"
     );
+}
+
+/// Returns true if two answers are the same, every number to the bit.
+fn same(a: &Answer<'_>, b: &Answer<'_>) -> bool {
+    let all = |a: &[Answer<'_>], b: &[Answer<'_>]| {
+        a.len() == b.len() && a.iter().zip(b).all(|(a, b)| same(a, b))
+    };
+    match (a, b) {
+        (Answer::Number(x, dx), Answer::Number(y, dy)) => x.to_bits() == y.to_bits() && dx == dy,
+        (Answer::Bool(x), Answer::Bool(y)) => x == y,
+        (Answer::Option(x, i), Answer::Option(y, j)) => x == y && i == j,
+        (Answer::Text(x), Answer::Text(y)) => x == y,
+        (Answer::Thing(x), Answer::Thing(y)) => x == y,
+        (Answer::Made(x), Answer::Made(y)) => x.class == y.class && all(&x.fields, &y.fields),
+        (Answer::List(x), Answer::List(y)) => all(x, y),
+        (Answer::Picture(x), Answer::Picture(y)) => x == y,
+        (Answer::Context(x), Answer::Context(y)) => same_run(x, y),
+        _ => false,
+    }
+}
+
+fn same_run(a: &Context<'_>, b: &Context<'_>) -> bool {
+    let of = match (&a.of, &b.of) {
+        (Some(a), Some(b)) => same(a, b),
+        (None, None) => true,
+        _ => false,
+    };
+    let entries = || {
+        a.made.iter().zip(&b.made).all(|(a, b)| {
+            a.name == b.name && a.standing == b.standing && same(&a.answer, &b.answer)
+        })
+    };
+    of && a.class == b.class && a.ended == b.ended && a.made.len() == b.made.len() && entries()
+}
+
+#[test]
+fn what_was_drawn_is_drawn_again_as_the_interpreter_draws_it() {
+    /// So many times values change by little, and then by much.
+    const TIMES: usize = 12;
+    let (mut asked, mut replayed) = (0, 0);
+    for seed in 1..=3 * PROGRAMS {
+        let (text, _) = document(seed);
+        let opened = Opened::new(&text).unwrap_or_else(|why| panic!("{why}\n{text}"));
+        let model = opened.model();
+        let drawn: ThingId = opened.thing("p").expect("it has a program");
+        let (known, mut values, mut dice) =
+            (Known::default(), opened.given().clone(), Dice::new(seed));
+        for time in 0..TIMES {
+            let reference = Evaluator::new(model.document, model.structure, &values);
+            let again = Evaluator::knowing(model.document, model.structure, &values, &known);
+            let [a, b] =
+                [&reference, &again].map(|e| e.run(drawn).expect("a run").expect("a program"));
+            assert!(same_run(&a, &b), "{time}: {a:?}\n{b:?}\n{text}");
+            let [a, b] = [reference, again].map(|e| e.picture(drawn).drawing.elements);
+            assert_eq!(a, b, "{time}\n{text}");
+            let slot = opened.slots(["p.a", "p.b"][dice.below(2)])[0];
+            let x = if time % 4 == 3 {
+                dice.between(1.0, 30.0) * millimetre(model)
+            } else {
+                values.numbers[slot] * dice.between(0.99, 1.01)
+            };
+            values.put(slot, Value::Number(x));
+        }
+        let (all, again) = known.replays();
+        asked += all;
+        replayed += again;
+    }
+    assert!(2 * replayed > asked, "{replayed} of {asked}");
 }

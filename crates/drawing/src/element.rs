@@ -239,6 +239,53 @@ pub enum Shape {
     },
 }
 
+impl Shape {
+    /// Visits its numbers, in the order in which they are declared.
+    pub fn each_number(&mut self, visit: &mut impl FnMut(&mut f64)) {
+        let mut point = |p: &mut Point| {
+            visit(&mut p.x);
+            visit(&mut p.y);
+        };
+        match self {
+            Self::Dot(at) => point(at),
+            Self::Segment(p, q) => {
+                point(p);
+                point(q);
+            }
+            Self::Polyline { points, closed: _ } | Self::Spline(points) => {
+                points.iter_mut().for_each(point);
+            }
+            Self::Circle { center, radius } => {
+                point(center);
+                visit(radius);
+            }
+            Self::Arc { center, radius, start, sweep } => {
+                point(center);
+                [radius, start, sweep].into_iter().for_each(visit);
+            }
+            Self::Ellipse { center, major, ratio, start, sweep } => {
+                point(center);
+                point(major);
+                [ratio, start, sweep].into_iter().for_each(visit);
+            }
+            Self::Region(rings) => {
+                for corner in rings.iter_mut().flatten() {
+                    visit(&mut corner.at.x);
+                    visit(&mut corner.at.y);
+                    visit(&mut corner.bulge);
+                }
+            }
+            Self::Text { at, text: _, anchoring: _, placement, turn } => {
+                point(at);
+                match placement {
+                    Placement::OnSheet(height) | Placement::OnScreen(height) => visit(height),
+                }
+                visit(turn);
+            }
+        }
+    }
+}
+
 /// A shape with its style, its layer and the thing that it pictures.
 #[derive(Clone, PartialEq, Debug)]
 pub struct Element {

@@ -5,11 +5,9 @@ use crate::evaluator::{Evaluator, Given, Result};
 use crate::fault::Fault;
 use crate::measure;
 use crate::operate::finite;
+use crate::replay::{Binary, Unary};
 use base::Name;
-use base::number::{
-    acos, acosh, asin, asinh, atan, atan2, atanh, cbrt, cos, cosh, exp, joined, ln, log2, log10,
-    rounded, shortest, sin, sinh, sqrt, tan, tanh,
-};
+use base::number::{joined, rounded, shortest};
 use drawing::metrics;
 use expr::dimension::Dimension;
 use kernel::builtin::{
@@ -34,9 +32,12 @@ impl<'a> Evaluator<'a> {
             .ok_or_else(|| Fault::unknown(format!("there is no function `{name}`")))?;
         let arguments = in_place(builtin, arguments)?;
         if builtin.domain != Domain::All {
-            within_domain(builtin, self.number(&arguments[0])?.0)?;
+            within_domain(builtin, self.value_of(self.operand(&arguments[0])?.0))?;
         }
-        let plain = |f: fn(f64) -> f64| finite(f(self.number(&arguments[0])?.0), Dimension::NONE);
+        let plain = |operator| {
+            let (x, _) = self.operand(&arguments[0])?;
+            finite(self.unary_number(operator, x), Dimension::NONE)
+        };
         match builtin.function {
             Function::Sqrt => self.send_number(NumberMessage::Sqrt, &arguments[0], &[]),
             Function::Abs => self.send_number(NumberMessage::Abs, &arguments[0], &[]),
@@ -44,38 +45,41 @@ impl<'a> Evaluator<'a> {
             Function::Round => self.send_number(NumberMessage::Round, &arguments[0], &[]),
             Function::Ceil => self.send_number(NumberMessage::Ceil, &arguments[0], &[]),
             Function::Sign => self.send_number(NumberMessage::Sign, &arguments[0], &[]),
-            Function::Sin => plain(sin),
-            Function::Cos => plain(cos),
-            Function::Tan => plain(tan),
-            Function::Asin => plain(asin),
-            Function::Acos => plain(acos),
-            Function::Atan => plain(atan),
-            Function::Exp => plain(exp),
-            Function::Ln => plain(ln),
-            Function::Log10 => plain(log10),
-            Function::Log2 => plain(log2),
-            Function::Sinh => plain(sinh),
-            Function::Cosh => plain(cosh),
-            Function::Tanh => plain(tanh),
-            Function::Asinh => plain(asinh),
-            Function::Acosh => plain(acosh),
-            Function::Atanh => plain(atanh),
-            Function::Cbrt => plain(cbrt),
+            Function::Sin => plain(Unary::Sin),
+            Function::Cos => plain(Unary::Cos),
+            Function::Tan => plain(Unary::Tan),
+            Function::Asin => plain(Unary::Asin),
+            Function::Acos => plain(Unary::Acos),
+            Function::Atan => plain(Unary::Atan),
+            Function::Exp => plain(Unary::Exp),
+            Function::Ln => plain(Unary::Ln),
+            Function::Log10 => plain(Unary::Log10),
+            Function::Log2 => plain(Unary::Log2),
+            Function::Sinh => plain(Unary::Sinh),
+            Function::Cosh => plain(Unary::Cosh),
+            Function::Tanh => plain(Unary::Tanh),
+            Function::Asinh => plain(Unary::Asinh),
+            Function::Acosh => plain(Unary::Acosh),
+            Function::Atanh => plain(Unary::Atanh),
+            Function::Cbrt => plain(Unary::Cbrt),
             Function::Hypot => {
-                let ((x, dx), (y, dy)) = (self.number(&arguments[0])?, self.number(&arguments[1])?);
-                finite(sqrt(x * x + y * y), measure::common(dx, dy)?)
+                let ((x, dx), (y, dy)) =
+                    (self.operand(&arguments[0])?, self.operand(&arguments[1])?);
+                finite(self.binary_number(Binary::Hypot, x, y), measure::common(dx, dy)?)
             }
             Function::Clamp => {
-                let below = self.least(&[arguments[0].clone(), arguments[2].clone()], f64::min)?;
-                self.least(&[arguments[1].clone(), below], f64::max)
+                let below =
+                    self.least(&[arguments[0].clone(), arguments[2].clone()], Binary::Min)?;
+                self.least(&[arguments[1].clone(), below], Binary::Max)
             }
             Function::Atan2 => {
-                let ((y, dy), (x, dx)) = (self.number(&arguments[0])?, self.number(&arguments[1])?);
+                let ((y, dy), (x, dx)) =
+                    (self.operand(&arguments[0])?, self.operand(&arguments[1])?);
                 measure::common(dy, dx)?;
-                Ok(Answer::plain(atan2(y, x)))
+                Ok(Answer::plain(self.binary_number(Binary::Atan2, y, x)))
             }
-            Function::Min => self.least(&self.several(&arguments)?, f64::min),
-            Function::Max => self.least(&self.several(&arguments)?, f64::max),
+            Function::Min => self.least(&self.several(&arguments)?, Binary::Min),
+            Function::Max => self.least(&self.several(&arguments)?, Binary::Max),
             Function::Pi => Ok(Answer::plain(std::f64::consts::PI)),
             Function::AllDifferent => self.all_different(&self.several(&arguments)?),
             Function::Dot
@@ -106,7 +110,7 @@ impl<'a> Evaluator<'a> {
         match to {
             Answer::Number(..) => {
                 let builtin = self.known(NUMBER_MESSAGES, to, name)?;
-                within_domain(builtin, self.number(to)?.0)?;
+                within_domain(builtin, self.value_of(self.operand(to)?.0))?;
                 self.send_number(builtin.function, to, &in_place(builtin, arguments)?)
             }
             Answer::Text(text) => {
@@ -164,14 +168,17 @@ impl<'a> Evaluator<'a> {
         to: &Answer<'a>,
         arguments: &[Answer<'a>],
     ) -> Result<Answer<'a>> {
-        let (x, dimension) = self.number(to)?;
+        let (x, dimension) = self.operand(to)?;
+        let made = |operator, dimension| finite(self.unary_number(operator, x), dimension);
         match message {
             NumberMessage::Text => {
+                let (x, _) = self.number(to)?;
                 let digits = arguments.first().map(|d| self.digits(d)).transpose()?;
                 let x = x / self.document.scale.factor(dimension);
                 Ok(Answer::text(&number_text(x, digits)))
             }
             NumberMessage::Shown => {
+                let (x, _) = self.number(to)?;
                 let class = match arguments.first() {
                     Some(Answer::Text(class)) => &**class,
                     _ => "",
@@ -179,16 +186,14 @@ impl<'a> Evaluator<'a> {
                 let quantity = Quantity { dimension, class, written: "" };
                 Ok(Answer::text(&kernel::show_quantity(x, quantity, self.document).with_unit()))
             }
-            NumberMessage::Sqrt => finite(sqrt(x), measure::power(dimension, 0.5)),
-            NumberMessage::Abs => Ok(Answer::Number(x.abs(), dimension)),
-            NumberMessage::Ceil => Ok(Answer::Number(0.0 - (0.0 - x).floor(), dimension)),
-            NumberMessage::Floor => Ok(Answer::Number(x.floor(), dimension)),
-            NumberMessage::Round => Ok(Answer::Number(x.round(), dimension)),
-            NumberMessage::Sign => {
-                Ok(Answer::plain(f64::from(u8::from(x > 0.0)) - f64::from(u8::from(x < 0.0))))
-            }
-            NumberMessage::Min => self.least(&[to.clone(), arguments[0].clone()], f64::min),
-            NumberMessage::Max => self.least(&[to.clone(), arguments[0].clone()], f64::max),
+            NumberMessage::Sqrt => made(Unary::Sqrt, measure::power(dimension, 0.5)),
+            NumberMessage::Abs => made(Unary::Abs, dimension),
+            NumberMessage::Ceil => made(Unary::Ceil, dimension),
+            NumberMessage::Floor => made(Unary::Floor, dimension),
+            NumberMessage::Round => made(Unary::Round, dimension),
+            NumberMessage::Sign => made(Unary::Sign, Dimension::NONE),
+            NumberMessage::Min => self.least(&[to.clone(), arguments[0].clone()], Binary::Min),
+            NumberMessage::Max => self.least(&[to.clone(), arguments[0].clone()], Binary::Max),
         }
     }
 
@@ -244,11 +249,12 @@ impl<'a> Evaluator<'a> {
             ListMessage::Sum => {
                 let (mut terms, mut dimension) = (Vec::new(), Dimension::NONE);
                 for item in items.iter() {
-                    let (x, d) = self.number(item)?;
+                    let (x, d) = self.operand(item)?;
                     dimension = measure::common(dimension, d)?;
                     terms.push(x);
                 }
-                finite(joined(terms, |a, b| a + b).unwrap_or(0.0), dimension)
+                let add = |x, y| self.binary_number(Binary::Add, x, y);
+                finite(joined(terms, add).unwrap_or(0.0), dimension)
             }
             ListMessage::Count | ListMessage::Turns => Ok(Answer::plain(items.len() as f64)),
             ListMessage::Map => items
@@ -283,8 +289,8 @@ impl<'a> Evaluator<'a> {
                 }
                 Ok(Answer::Bool(false))
             }
-            ListMessage::Min => self.least(&items, f64::min),
-            ListMessage::Max => self.least(&items, f64::max),
+            ListMessage::Min => self.least(&items, Binary::Min),
+            ListMessage::Max => self.least(&items, Binary::Max),
             ListMessage::Zip => {
                 let others = self.items(&arguments[0])?;
                 Ok(Answer::List(pairs(&items, &others)))
@@ -335,12 +341,12 @@ impl<'a> Evaluator<'a> {
         Ok(arguments.to_vec())
     }
 
-    fn least(&self, items: &[Answer<'a>], of: fn(f64, f64) -> f64) -> Result<Answer<'a>> {
+    fn least(&self, items: &[Answer<'a>], of: Binary) -> Result<Answer<'a>> {
         let mut found: Option<(f64, Dimension)> = None;
         for item in items {
-            let (x, d) = self.number(item)?;
+            let (x, d) = self.operand(item)?;
             found = Some(match found {
-                Some((y, e)) => (of(y, x), measure::common(e, d)?),
+                Some((y, e)) => (self.binary_number(of, y, x), measure::common(e, d)?),
                 None => (x, d),
             });
         }

@@ -5,7 +5,7 @@ use crate::evaluator::{Evaluator, Given, Result};
 use crate::fault::Fault;
 use base::Name;
 use expr::dimension::Dimension;
-use geometry::{Bend, Construction, Figure, Made, Surface, combine, construct, offset};
+use geometry::{Bend, Construction, Figure, Made, Surface, combine, offset};
 use kernel::builtin::Making;
 use kernel::{ClassId, ClassKind, ThingId};
 use std::rc::Rc;
@@ -63,8 +63,9 @@ impl<'a> Evaluator<'a> {
                 thing => figures.push(self.figure(thing, nearest)?),
             }
         }
-        let built =
-            construct(what, &figures, &numbers).map_err(|why| self.no_such(class, why.words()))?;
+        let built = self
+            .constructed(what, &figures, &numbers)
+            .map_err(|why| self.no_such(class, why.words()))?;
         let place = |[x, y]: [f64; 2]| {
             Answer::List(Rc::from([x, y].map(|x| Answer::Number(x, Dimension::LENGTH))))
         };
@@ -165,7 +166,9 @@ impl<'a> Evaluator<'a> {
     fn ring(&self, corners: &Answer<'a>) -> Result<geometry::Ring> {
         let bend = |corner: &Answer<'a>| {
             let corner = self.bent(corner)?;
-            Ok(Bend { at: [corner.at.x, corner.at.y], bulge: corner.bulge })
+            let [x, y, bulge] = [corner.at.x, corner.at.y, corner.bulge].map(Answer::plain);
+            let number = |x: &Answer<'a>| self.number(x).map(|(x, _)| x);
+            Ok(Bend { at: [number(&x)?, number(&y)?], bulge: number(&bulge)? })
         };
         self.items(corners)?.iter().map(bend).collect()
     }
@@ -204,7 +207,7 @@ impl<'a> Evaluator<'a> {
             Some(Made::Circle) => {
                 let center = self.ask_of(of, &self.tables.center, nearest)?;
                 let radius = self.ask_of(of, &self.tables.radius, nearest)?;
-                let (radius, _) = self.number(&radius)?;
+                let (radius, _) = self.operand(&radius)?;
                 Ok(Figure::Circle { center: self.xy(&center, nearest)?, radius })
             }
             Some(Made::Arc) | None => {
@@ -225,7 +228,7 @@ impl<'a> Evaluator<'a> {
     fn xy(&self, of: &Answer<'a>, nearest: ThingId) -> Result<[f64; 2]> {
         let mut at = [0.0; 2];
         for (name, x) in [&self.tables.x, &self.tables.y].into_iter().zip(&mut at) {
-            (*x, _) = self.number(&self.ask_of(of, name, nearest)?)?;
+            (*x, _) = self.operand(&self.ask_of(of, name, nearest)?)?;
         }
         Ok(at)
     }

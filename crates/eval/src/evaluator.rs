@@ -6,8 +6,8 @@
 use crate::answer::{Answer, Closure, Frame};
 use crate::fault::{Fault, FaultKind};
 use crate::lookup::{Known, Tables};
-use crate::operate::unary;
 use crate::programs::Context;
+use crate::replay::Recording;
 use crate::sway::Compared;
 use base::Name;
 use expr::dimension::Dimension;
@@ -48,11 +48,11 @@ pub struct Evaluator<'a> {
     /// What is in their slots.
     pub values: &'a Values,
     pub(crate) tables: Rc<Tables>,
-    messages: Cell<u32>,
-    terms: Cell<u32>,
+    pub(crate) messages: Cell<u32>,
+    pub(crate) terms: Cell<u32>,
     pub(crate) fuel: Cell<u64>,
     /// How much fuel a question gets: half as much after each that ran out, so that all of them together end soon.
-    most: Cell<u64>,
+    pub(crate) most: Cell<u64>,
     /// What went wrong in parts whose siblings went on without them.
     pub(crate) faults: RefCell<Vec<Fault>>,
     /// The slots read since someone began to listen.
@@ -63,6 +63,8 @@ pub struct Evaluator<'a> {
     pub(crate) compared: RefCell<Compared>,
     /// What programs of things drew in this state; nothing while one is being run.
     pub(crate) runs: RefCell<BTreeMap<ThingId, Option<Rc<Context<'a>>>>>,
+    /// The run that is being noted.
+    pub(crate) recording: RefCell<Option<Recording>>,
     /// How many programs call each other just now.
     pub(crate) calls: Cell<u32>,
     /// How many blocks of programs run in one another just now.
@@ -72,13 +74,13 @@ pub struct Evaluator<'a> {
 }
 
 impl<'a> Evaluator<'a> {
-    /// Makes an evaluator for one state.
+    /// Makes an evaluator for one state. Of what programs draw it asks the interpreter alone: the reference.
     pub fn new(document: &'a Document, structure: &'a Structure, values: &'a Values) -> Self {
         Self::with_tables(document, structure, values, Rc::new(Tables::new(document)))
     }
 
-    /// Makes an evaluator for a state of things of which something was looked up before. `known` belongs to this document
-    /// and this structure.
+    /// Makes an evaluator for a state of things of which something was looked up before, and of
+    /// whose programs runs are known. `known` belongs to this document and this structure.
     pub fn knowing(
         document: &'a Document,
         structure: &'a Structure,
@@ -116,6 +118,7 @@ impl<'a> Evaluator<'a> {
             nudged: Cell::new(None),
             compared: RefCell::default(),
             runs: RefCell::default(),
+            recording: RefCell::default(),
             calls: Cell::new(0),
             blocks: Cell::new(0),
             entities: Cell::new(0),
@@ -255,7 +258,7 @@ impl<'a> Evaluator<'a> {
                 let index = self.term(index, frame)?;
                 self.element(&list, &index)
             }
-            Term::Unary(operator, operand) => unary(*operator, &self.term(operand, frame)?),
+            Term::Unary(operator, operand) => self.unary(*operator, &self.term(operand, frame)?),
             Term::Binary(operator, a, b) => {
                 let a = self.term(a, frame)?;
                 if let Some(decided) = self.decided(*operator, &a)? {
@@ -352,7 +355,8 @@ impl<'a> Evaluator<'a> {
 
     /// Reads a whole number.
     pub(crate) fn whole(&self, answer: &Answer<'a>) -> Result<i64> {
-        let (x, _) = self.number(answer)?;
+        let (x, _) = self.operand(answer)?;
+        let x = self.fixed_number(x);
         if x.fract() == 0.0 && x.abs() < 1e15 {
             Ok(x as i64)
         } else {
@@ -421,15 +425,18 @@ impl<'a> Evaluator<'a> {
         }
         let number = match self.nudged.get() {
             Some((nudged, number)) if nudged == slot => number,
-            Some(_) | None => self.values.numbers[slot],
+            Some(_) | None => self.slot_number(slot, self.values.numbers[slot]),
         };
         match self.structure.slots[slot].primitive {
             Primitive::Real(dimension) => Answer::Number(number, dimension),
             Primitive::Integer => Answer::plain(number),
-            Primitive::Bool => Answer::Bool(number != 0.0),
-            Primitive::Choice(of) => Answer::Option(of, number as u32),
+            Primitive::Bool => Answer::Bool(self.fixed_number(number) != 0.0),
+            Primitive::Choice(of) => Answer::Option(of, self.fixed_number(number) as u32),
             Primitive::Text | Primitive::Color => match self.values.texts.get(&slot) {
-                Some(text) => Answer::Text(text.clone()),
+                Some(text) => {
+                    self.slot_text(slot, text);
+                    Answer::Text(text.clone())
+                }
                 None => Answer::text(""),
             },
         }
@@ -476,10 +483,11 @@ impl<'a> Evaluator<'a> {
         }
     }
 
+    /// Reads a number as it is.
     pub(crate) fn number(&self, answer: &Answer<'a>) -> Result<(f64, Dimension)> {
-        match answer {
-            Answer::Number(x, dimension) => Ok((*x, *dimension)),
-            other => Err(Fault::wrong(format!("{} where a number is wanted", self.kind(other)))),
+        match self.operand(answer) {
+            Ok((x, _)) if x.is_nan() => Err(Fault::wrong("what is made of a number is no number")),
+            read => read,
         }
     }
 

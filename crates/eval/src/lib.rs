@@ -24,7 +24,7 @@
 //! the same bits; messages call each other at most [`DEEPEST_MESSAGES`] deep.
 //!
 //! Reading order: `answer`, `evaluator`, `lookup`, `operate`, `measure`, `send`, `make`, `compare`,
-//! `builtin`, `shapes`, `verdict`, `sway`, `write`, `given`, [`programs`], `picture`, `scene`, [`checker`].
+//! `builtin`, `shapes`, `verdict`, `sway`, `write`, `given`, [`programs`], `replay`, `picture`, `scene`, [`checker`].
 mod answer;
 mod builtin;
 pub mod checker;
@@ -40,6 +40,7 @@ mod measure;
 mod operate;
 mod picture;
 pub mod programs;
+mod replay;
 mod scene;
 mod send;
 mod shapes;

@@ -3,6 +3,7 @@
 use crate::answer::Answer;
 use crate::evaluator::{Evaluator, Result};
 use crate::fault::{Fault, FaultKind};
+use crate::replay::Routines;
 use base::{IdVec, Name};
 use geometry::Made;
 use kernel::{ClassId, ClassKind, ConstraintInstance, Document, Layout, Message, ThingId};
@@ -21,6 +22,8 @@ pub(crate) struct Tables {
     figures: RefCell<IdVec<ClassId, Option<Option<Made>>>>,
     constraints: RefCell<BTreeMap<(ThingId, Name), Option<ConstraintInstance>>>,
     all: RefCell<BTreeMap<ClassId, Rc<[ThingId]>>>,
+    /// What is known of runs of programs; nothing where the interpreter alone shall say what they draw.
+    pub(crate) routines: Option<Routines>,
     /// Names that the evaluator itself asks for.
     pub(crate) x: Name,
     pub(crate) y: Name,
@@ -37,8 +40,14 @@ pub(crate) struct Tables {
 pub struct Known(OnceCell<Rc<Tables>>);
 
 impl Known {
+    /// Returns how many runs of programs were asked for again, and how many of these went by what was noted.
+    pub fn replays(&self) -> (u32, u32) {
+        let routines = self.0.get().and_then(|tables| tables.routines.as_ref());
+        routines.map_or((0, 0), Routines::replays)
+    }
     pub(crate) fn tables(&self, document: &Document) -> Rc<Tables> {
-        self.0.get_or_init(|| Rc::new(Tables::new(document))).clone()
+        let tables = || Tables { routines: Some(Routines::default()), ..Tables::new(document) };
+        self.0.get_or_init(|| Rc::new(tables())).clone()
     }
 }
 
@@ -51,6 +60,7 @@ impl Tables {
             figures: RefCell::new(IdVec::filled(None, n)),
             constraints: RefCell::new(BTreeMap::new()),
             all: RefCell::new(BTreeMap::new()),
+            routines: None,
             x: Name::new("x"),
             y: Name::new("y"),
             picture: Name::new("picture"),

@@ -4,7 +4,7 @@ use crate::answer::Answer;
 use crate::evaluator::{Evaluator, Result};
 use crate::fault::{Fault, FaultKind};
 use crate::measure;
-use base::number::{close, pow};
+use crate::replay::{Binary, Unary, is_marked};
 use expr::dimension::Dimension;
 use kernel::{BinaryOperator, UnaryOperator};
 
@@ -47,16 +47,18 @@ impl<'a> Evaluator<'a> {
         b: &Answer<'a>,
     ) -> Result<Answer<'a>> {
         use BinaryOperator as B;
-        let numbers = || Ok::<_, Fault>((self.number(a)?, self.number(b)?));
+        let numbers = || Ok::<_, Fault>((self.operand(a)?, self.operand(b)?));
+        let made =
+            |operator, x, y, dimension| finite(self.binary_number(operator, x, y), dimension);
         let holds = match operator {
             B::Add => return self.sum(a, b),
             B::Subtract => {
                 let ((x, dx), (y, dy)) = numbers()?;
-                return finite(x - y, measure::common(dx, dy)?);
+                return made(Binary::Subtract, x, y, measure::common(dx, dy)?);
             }
             B::Multiply => {
                 let ((x, dx), (y, dy)) = numbers()?;
-                return finite(x * y, dx.times(dy));
+                return made(Binary::Multiply, x, y, dx.times(dy));
             }
             B::Divide => {
                 let ((x, dx), (y, dy)) = numbers()?;
@@ -64,7 +66,7 @@ impl<'a> Evaluator<'a> {
                     let x = base::number::shortest(x);
                     return Err(Fault::no_answer(format!("{x} divided by zero")));
                 }
-                return finite(x / y, dx.over(dy));
+                return made(Binary::Divide, x, y, dx.over(dy));
             }
             B::Remainder => {
                 let ((x, dx), (y, dy)) = numbers()?;
@@ -72,11 +74,12 @@ impl<'a> Evaluator<'a> {
                     let x = base::number::shortest(x);
                     return Err(Fault::no_answer(format!("{x} mod zero")));
                 }
-                return finite(x - y * (x / y).floor(), measure::common(dx, dy)?);
+                return made(Binary::Remainder, x, y, measure::common(dx, dy)?);
             }
             B::Power => {
                 let ((x, dx), (y, _)) = numbers()?;
-                return finite(power(x, y), measure::power(dx, y));
+                let y = if dx == Dimension::NONE { y } else { self.fixed_number(y) };
+                return made(Binary::Power, x, y, measure::power(dx, y));
             }
             // The left side did not decide, so that the right one does.
             B::And | B::Or => self.truth_of(b)?,
@@ -106,8 +109,8 @@ impl<'a> Evaluator<'a> {
             let message = "a text and a number are not joined: write `.text` after the number";
             return Err(Fault::wrong(message));
         }
-        let ((x, dx), (y, dy)) = (self.number(a)?, self.number(b)?);
-        finite(x + y, measure::common(dx, dy)?)
+        let ((x, dx), (y, dy)) = (self.operand(a)?, self.operand(b)?);
+        finite(self.binary_number(Binary::Add, x, y), measure::common(dx, dy)?)
     }
 
     /// Returns true if two values are equal: numbers to the rule tolerance, things part by part.
@@ -125,7 +128,7 @@ impl<'a> Evaluator<'a> {
         match (a, b) {
             (Answer::Number(x, dx), Answer::Number(y, dy)) => {
                 measure::common(*dx, *dy)?;
-                Ok(close(*x, *y))
+                Ok(self.are_close(*x, *y))
             }
             (Answer::Bool(x), Answer::Bool(y)) => Ok(x == y),
             (Answer::Option(of, x), Answer::Option(other, y)) if of == other => Ok(x == y),
@@ -142,10 +145,9 @@ impl<'a> Evaluator<'a> {
         if let (Answer::Text(a), Answer::Text(b)) = (a, b) {
             return Ok(a.cmp(b));
         }
-        let ((x, dx), (y, dy)) = (self.number(a)?, self.number(b)?);
+        let ((x, dx), (y, dy)) = (self.operand(a)?, self.operand(b)?);
         measure::common(dx, dy)?;
-        // Answers are finite, so that the order is total up to the sign of zero.
-        Ok((x + 0.0).total_cmp(&(y + 0.0)))
+        Ok(self.order_of(x, y))
     }
 
     /// Returns true if a list or set has an element: a thing by identity, a value by equality.
@@ -168,38 +170,31 @@ impl<'a> Evaluator<'a> {
         }
         Ok(false)
     }
-}
 
-/// Computes an operation on one value.
-pub(crate) fn unary<'a>(operator: UnaryOperator, operand: &Answer<'a>) -> Result<Answer<'a>> {
-    match (operator, operand) {
-        (UnaryOperator::Negate, Answer::Number(x, dimension)) => {
-            Ok(Answer::Number(0.0 - x, *dimension))
-        }
-        (UnaryOperator::Not, Answer::Bool(b)) => Ok(Answer::Bool(!b)),
-        (UnaryOperator::Negate, other) => {
-            Err(Fault::wrong(format!("{} where a number is wanted", other.kind())))
-        }
-        (UnaryOperator::Not, other) => {
-            Err(Fault::wrong(format!("{} where a truth value is wanted", other.kind())))
+    /// Computes an operation on one value.
+    pub(crate) fn unary(
+        &self,
+        operator: UnaryOperator,
+        operand: &Answer<'a>,
+    ) -> Result<Answer<'a>> {
+        match (operator, operand) {
+            (UnaryOperator::Negate, Answer::Number(x, dimension)) => {
+                Ok(Answer::Number(self.unary_number(Unary::Negate, *x), *dimension))
+            }
+            (UnaryOperator::Not, Answer::Bool(b)) => Ok(Answer::Bool(!b)),
+            (UnaryOperator::Negate, other) => {
+                Err(Fault::wrong(format!("{} where a number is wanted", other.kind())))
+            }
+            (UnaryOperator::Not, other) => {
+                Err(Fault::wrong(format!("{} where a truth value is wanted", other.kind())))
+            }
         }
     }
 }
 
-/// Computes a power; small whole exponents by multiplication, so that squares are exact.
-fn power(x: f64, y: f64) -> f64 {
-    if y == 2.0 {
-        x * x
-    } else if y == 1.0 {
-        x
-    } else {
-        pow(x, y)
-    }
-}
-
-/// Returns a number, if it is one.
+/// Returns a number, if it is one, or is marked as one.
 pub(crate) fn finite<'a>(value: f64, dimension: Dimension) -> Result<Answer<'a>> {
-    if value.is_finite() {
+    if value.is_finite() || is_marked(value) {
         Ok(Answer::Number(value, dimension))
     } else if value.is_nan() {
         Err(Fault::no_answer("a number that is not defined, as the square root of -1"))

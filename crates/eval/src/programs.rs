@@ -6,6 +6,7 @@
 use crate::answer::{Answer, Frame};
 use crate::evaluator::{Evaluator, Result};
 use crate::fault::{Fault, FaultKind};
+use crate::replay::{Asked, Row};
 use base::Name;
 use kernel::program::{Block, Carried, Program, Says, Step};
 use kernel::{Argument, ClassId, OriginId, Term, ThingId};
@@ -151,7 +152,9 @@ impl<'a> Evaluator<'a> {
             };
         }
         self.runs.borrow_mut().insert(thing, None);
-        let run = Rc::new(self.draw_program(program, class, Answer::Thing(thing), thing));
+        let run = self.drawn_again(Asked::Run(thing), &[], || {
+            self.draw_program(program, class, Answer::Thing(thing), thing)
+        })?;
         self.runs.borrow_mut().insert(thing, Some(run.clone()));
         if !is_plain {
             self.runs.borrow_mut().remove(&thing);
@@ -174,7 +177,25 @@ impl<'a> Evaluator<'a> {
         };
         let given: Vec<_> = values.into_iter().map(|(name, value)| (Some(name), value)).collect();
         let of = self.make(class, &given, kernel::DOCUMENT)?;
-        Ok(Rc::new(self.draw_program(program, class, of, kernel::DOCUMENT)))
+        let mut inputs = Vec::new();
+        let draw = || self.draw_program(program, class, self.marked(&of), kernel::DOCUMENT);
+        match Row::of(&of, &mut inputs) {
+            Some(row) => self.drawn_again(Asked::Row(class, row), &inputs, draw),
+            None => Ok(Rc::new(draw())),
+        }
+    }
+
+    /// Runs a program as it was run before, where it was; else as it is written.
+    fn drawn_again(
+        &self,
+        asked: Asked,
+        inputs: &[f64],
+        draw: impl Fn() -> Context<'a>,
+    ) -> Result<Rc<Context<'a>>> {
+        match self.replay(asked, inputs, || Ok(Answer::Context(Rc::new(draw()))))? {
+            Answer::Context(run) => Ok(run),
+            other => Err(Fault::wrong(format!("{} is not drawn", self.kind(&other)))),
+        }
     }
 
     /// Returns whether a rule that speaks of a program's parameters and steps is true of a run.

@@ -8,6 +8,7 @@ use crate::answer::Answer;
 use crate::evaluator::Evaluator;
 use crate::fault::Fault;
 use crate::picture::Picture;
+use crate::replay::Asked;
 use base::{IdVec, Name};
 use drawing::{Color, Drawing, Element, Point, Shape, Tag, Vertical};
 use kernel::{ClassKind, DOCUMENT, Message, SlotId, Term, ThingId};
@@ -261,7 +262,13 @@ impl Evaluator<'_> {
         self.faults.borrow_mut().clear();
         let to = Answer::Thing(thing);
         let (answer, reads) = self.listening(|| match computed {
-            None => self.send(&to, &self.tables.picture, Vec::new(), None, thing),
+            None => {
+                let look = || self.send(&to, &self.tables.picture, Vec::new(), None, thing);
+                match self.document.program(self.structure.things[thing].class) {
+                    Some(_) => self.replay(Asked::Look(thing), &[], look),
+                    None => look(),
+                }
+            }
             Some(name) => {
                 let made = self.send(&to, name, Vec::new(), None, thing)?;
                 self.join_pictures(&[made], thing)

@@ -3,6 +3,7 @@
 use crate::answer::Answer;
 use crate::evaluator::{Evaluator, Result};
 use crate::fault::Fault;
+use crate::replay::Unary;
 use base::Name;
 use drawing::{
     Anchoring, Color, Corner, Dimension, DimensionKind, Element, Layer, Line, Placement, Point,
@@ -29,29 +30,34 @@ impl<'a> Evaluator<'a> {
     ) -> Result<Answer<'a>> {
         let place = |i: usize| self.place(&arguments[i]);
         let number = |i: usize| self.number(&arguments[i]).map(|(x, _)| x);
+        let written = |i: usize| self.operand(&arguments[i]).map(|(x, _)| x);
+        let size = |i: usize| written(i).map(|x| self.unary_number(Unary::Abs, x));
         let shape = match function {
             Function::Dot if arguments.len() == 2 => {
-                Shape::Dot(Point { x: number(0)?, y: number(1)? })
+                Shape::Dot(Point { x: written(0)?, y: written(1)? })
             }
             Function::Dot => Shape::Dot(place(0)?),
             Function::Segment => Shape::Segment(place(0)?, place(1)?),
             Function::Polyline => self.corners(arguments, false)?,
             Function::Polygon => self.corners(arguments, true)?,
-            Function::Circle => Shape::Circle { center: place(0)?, radius: number(1)?.abs() },
+            Function::Circle => Shape::Circle { center: place(0)?, radius: size(1)? },
             Function::Arc => Shape::Arc {
                 center: place(0)?,
-                radius: number(1)?.abs(),
-                start: number(2)?,
-                sweep: number(3)?,
+                radius: size(1)?,
+                start: written(2)?,
+                sweep: written(3)?,
             },
             Function::Ellipse => {
-                let (center, end) = (place(0)?, place(1)?);
+                let (center, end) = (self.plain(place(0)?)?, self.plain(place(1)?)?);
                 let major = Point { x: end.x - center.x, y: end.y - center.y };
                 let from = if arguments.len() > 3 { number(3)? } else { 0.0 };
                 let sweep = if arguments.len() > 4 { number(4)? } else { TAU };
                 curve::ellipse(center, major, number(2)?, from, sweep)
             }
-            Function::Spline => Shape::Spline(spline::through(&self.places(arguments)?)),
+            Function::Spline => {
+                let places = self.places(arguments)?.into_iter().map(|p| self.plain(p));
+                Shape::Spline(spline::through(&places.collect::<Result<Vec<_>>>()?))
+            }
             Function::Bezier => {
                 let poles = self.places(arguments)?;
                 if poles.len() % 3 != 1 {
@@ -75,7 +81,7 @@ impl<'a> Evaluator<'a> {
                 Shape::Polyline { points: vec![a, b, c, d], closed: true }
             }
             Function::Label => self.words(arguments, Placement::OnScreen(LABEL_PIXELS))?,
-            Function::Text => self.words(arguments, Placement::OnSheet(number(2)?.abs()))?,
+            Function::Text => self.words(arguments, Placement::OnSheet(size(2)?))?,
             Function::Picture => return self.join_pictures(arguments, nearest),
             Function::Sqrt
             | Function::Cbrt
@@ -149,14 +155,14 @@ impl<'a> Evaluator<'a> {
             let bulge = match bends {
                 true => {
                     let nearest = corner.thing().unwrap_or(kernel::DOCUMENT);
-                    self.number(&self.send(corner, name, Vec::new(), None, nearest)?)?.0
+                    self.operand(&self.send(corner, name, Vec::new(), None, nearest)?)?.0
                 }
                 false => 0.0,
             };
             return Ok(Corner { at, bulge });
         }
         match &self.items(corner)?[..] {
-            [at, bulge] => Ok(Corner { at: self.place(at)?, bulge: self.number(bulge)?.0 }),
+            [at, bulge] => Ok(Corner { at: self.place(at)?, bulge: self.operand(bulge)?.0 }),
             _ => Err(Fault::wrong("a corner of a ring is a place, or (place, bulge)")),
         }
     }
@@ -191,7 +197,13 @@ impl<'a> Evaluator<'a> {
                 return Err(Fault::wrong(format!("{} where a place is wanted", self.kind(answer))));
             }
         };
-        Ok(Point { x: self.number(&x)?.0, y: self.number(&y)?.0 })
+        Ok(Point { x: self.operand(&x)?.0, y: self.operand(&y)?.0 })
+    }
+
+    /// Reads a place to compute with.
+    fn plain(&self, place: Point) -> Result<Point> {
+        [place.x, place.y].iter().try_for_each(|&x| self.number(&Answer::plain(x)).map(|_| ()))?;
+        Ok(place)
     }
 
     /// Makes several pictures, or lists of pictures, one.

@@ -111,6 +111,9 @@ impl<'a> Evaluator<'a> {
     ) -> Result<Answer<'a>> {
         let missing = || Fault::wrong(format!("there is no constraint `{name}` here"));
         let Answer::Thing(thing) = of else { return Err(missing()) };
+        if self.is_recording() {
+            return Err(Fault::wrong("what a constraint says is not noted"));
+        }
         let instance = self.constraint_named(*thing, name).ok_or_else(missing)?;
         let constraint =
             &self.document.classes[instance.class].constraints[instance.index as usize];

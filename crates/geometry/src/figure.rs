@@ -43,6 +43,23 @@ impl<N: Copy> Figure<N> {
             Self::Arc { center, start, end } => Self::Arc { center, start: end, end: start },
         }
     }
+    /// Returns the same figure of other numbers, made of its own in the order in which they are declared.
+    pub fn map<M>(self, mut of: impl FnMut(N) -> M) -> Figure<M> {
+        match self {
+            Self::Point(at) => Figure::Point(at.map(of)),
+            Self::Straight { from, to } => {
+                Figure::Straight { from: from.map(&mut of), to: to.map(of) }
+            }
+            Self::Circle { center, radius } => {
+                Figure::Circle { center: center.map(&mut of), radius: of(radius) }
+            }
+            Self::Arc { center, start, end } => Figure::Arc {
+                center: center.map(&mut of),
+                start: start.map(&mut of),
+                end: end.map(of),
+            },
+        }
+    }
     /// Returns its numbers, in the order in which they are declared.
     pub fn numbers(&self) -> Vec<N> {
         match *self {
