@@ -22,6 +22,8 @@ pub fn library(name: &str) -> Option<String> {
         "geometry" => include_str!("../../library/geometry.thing"),
         "circuits" => include_str!("../../library/circuits.thing"),
         "trusses" => include_str!("../../library/trusses.thing"),
+        "contours" => include_str!("../../library/contours.thing"),
+        "drafting" => include_str!("../../library/drafting.thing"),
         _ => return None,
     };
     Some(text.to_owned())

@@ -5,6 +5,7 @@ mod bombs;
 mod bounds;
 mod branches;
 mod displaced;
+mod families;
 mod frames;
 mod machine;
 mod mechanisms;

@@ -23,7 +23,7 @@ use std::fmt::Write as _;
 use std::fs;
 use std::path::{Path, PathBuf};
 
-struct Library(PathBuf);
+pub(crate) struct Library(pub(crate) PathBuf);
 
 impl Host for Library {
     fn read(&self, name: &str) -> Option<String> {
@@ -31,14 +31,14 @@ impl Host for Library {
     }
 }
 
-fn root() -> PathBuf {
+pub(crate) fn root() -> PathBuf {
     Path::new(env!("CARGO_MANIFEST_DIR"))
         .parent()
         .expect("tests stand in the project")
         .to_path_buf()
 }
 
-fn documents(folder: &str) -> Vec<PathBuf> {
+pub(crate) fn documents(folder: &str) -> Vec<PathBuf> {
     let mut found = Vec::new();
     let mut folders = vec![root().join(folder)];
     while let Some(folder) = folders.pop() {

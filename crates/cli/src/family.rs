@@ -227,7 +227,7 @@ impl Work<'_> {
             }
         }
         let measures: serde_json::Map<String, Value> =
-            outcome.measures.iter().map(|(path, x)| (path.clone(), json!(x))).collect();
+            outcome.measures.iter().map(|(path, x)| (path.to_string(), json!(x))).collect();
         let line = json!({
             "row": at,
             "name": row.name,

@@ -432,13 +432,11 @@ impl<'a> Evaluator<'a> {
             Primitive::Integer => Answer::plain(number),
             Primitive::Bool => Answer::Bool(self.fixed_number(number) != 0.0),
             Primitive::Choice(of) => Answer::Option(of, self.fixed_number(number) as u32),
-            Primitive::Text | Primitive::Color => match self.values.texts.get(&slot) {
-                Some(text) => {
-                    self.slot_text(slot, text);
-                    Answer::Text(text.clone())
-                }
-                None => Answer::text(""),
-            },
+            Primitive::Text | Primitive::Color => {
+                let text = self.values.texts.get(&slot);
+                self.slot_text(slot, text.map_or("", |text| text));
+                text.map_or_else(|| Answer::text(""), |text| Answer::Text(text.clone()))
+            }
         }
     }
 

@@ -55,6 +55,7 @@ pub use given::{Given, given_values};
 pub use lookup::Known;
 pub use picture::{Grip, Picture};
 pub use programs::{Context, Ended, Entry, Standing, Why};
+pub use replay::Measures;
 pub use scene::{Moved, Scene};
 pub use verdict::Verdict;
 pub use write::Side;

@@ -6,7 +6,7 @@
 use crate::answer::{Answer, Frame};
 use crate::evaluator::{Evaluator, Result};
 use crate::fault::{Fault, FaultKind};
-use crate::replay::{Asked, Row};
+use crate::replay::{Asked, Measures, Row};
 use base::Name;
 use kernel::program::{Block, Carried, Program, Says, Step};
 use kernel::{Argument, ClassId, OriginId, Term, ThingId};
@@ -152,7 +152,7 @@ impl<'a> Evaluator<'a> {
             };
         }
         self.runs.borrow_mut().insert(thing, None);
-        let run = self.drawn_again(Asked::Run(thing), &[], || {
+        let run = self.drawn_again(&Asked::Run(thing), &[], || {
             self.draw_program(program, class, Answer::Thing(thing), thing)
         })?;
         self.runs.borrow_mut().insert(thing, Some(run.clone()));
@@ -171,24 +171,58 @@ impl<'a> Evaluator<'a> {
         class: ClassId,
         values: Vec<(&'a Name, Answer<'a>)>,
     ) -> Result<Rc<Context<'a>>> {
+        let (program, of) = self.begin_with(class, values)?;
+        let mut inputs = Vec::new();
+        let draw = || self.draw_program(program, class, self.marked(&of), kernel::DOCUMENT);
+        match Row::of(&of, &mut inputs) {
+            Some(row) => self.drawn_again(&Asked::Row(class, row), &inputs, draw),
+            None => Ok(Rc::new(draw())),
+        }
+    }
+
+    /// Measures what a program draws for given values of its parameters. `measure` says what, and passes numbers on as
+    /// they are; nothing where it takes no measures of a run. `what` tells apart what is measured of one program.
+    ///
+    /// # Errors
+    /// A class that is no program, values that its parameters do not take.
+    pub fn measure_with(
+        &self,
+        what: &str,
+        class: ClassId,
+        values: Vec<(&'a Name, Answer<'a>)>,
+        measure: impl Fn(&Rc<Context<'a>>) -> Option<Measures>,
+    ) -> Result<Option<Measures>> {
+        let (program, of) = self.begin_with(class, values)?;
+        let mut inputs = Vec::new();
+        let measured = || {
+            self.begin();
+            let run = self.draw_program(program, class, self.marked(&of), kernel::DOCUMENT);
+            Ok(measure(&Rc::new(run)))
+        };
+        match Row::of(&of, &mut inputs) {
+            Some(row) => self.replay(&Asked::Measures(class, row.asked(what)), &inputs, measured),
+            None => measured(),
+        }
+    }
+
+    /// Begins a question about what a program draws; returns it, and that whose parameters it reads.
+    fn begin_with(
+        &self,
+        class: ClassId,
+        values: Vec<(&'a Name, Answer<'a>)>,
+    ) -> Result<(&'a Rc<Program>, Answer<'a>)> {
         self.begin();
         let Some(program) = self.document.program(class) else {
             return Err(Fault::wrong("a class that draws nothing"));
         };
         let given: Vec<_> = values.into_iter().map(|(name, value)| (Some(name), value)).collect();
-        let of = self.make(class, &given, kernel::DOCUMENT)?;
-        let mut inputs = Vec::new();
-        let draw = || self.draw_program(program, class, self.marked(&of), kernel::DOCUMENT);
-        match Row::of(&of, &mut inputs) {
-            Some(row) => self.drawn_again(Asked::Row(class, row), &inputs, draw),
-            None => Ok(Rc::new(draw())),
-        }
+        Ok((program, self.make(class, &given, kernel::DOCUMENT)?))
     }
 
     /// Runs a program as it was run before, where it was; else as it is written.
     fn drawn_again(
         &self,
-        asked: Asked,
+        asked: &Asked,
         inputs: &[f64],
         draw: impl Fn() -> Context<'a>,
     ) -> Result<Rc<Context<'a>>> {

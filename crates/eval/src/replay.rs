@@ -43,6 +43,8 @@ pub(crate) enum Asked {
     Look(ThingId),
     /// What a program draws for values of this form.
     Row(ClassId, Row),
+    /// What is measured of that.
+    Measures(ClassId, Row),
 }
 
 /// The form of a program's parameters: all but the numbers in them.
@@ -81,7 +83,7 @@ impl<'a> Evaluator<'a> {
         let known = self.tables.routines.as_ref()?.known.borrow();
         let is_of = |asked: &Asked| match asked {
             Asked::Run(thing) | Asked::Look(thing) => self.structure.things[*thing].class == class,
-            Asked::Row(of, _) => *of == class,
+            Asked::Row(of, _) | Asked::Measures(of, _) => *of == class,
         };
         known.iter().filter(|(asked, _)| is_of(asked)).find_map(|(_, r)| r.given_up.clone())
     }
@@ -93,28 +95,28 @@ impl<'a> Evaluator<'a> {
 
     /// Answers a question by what was noted of it; by the interpreter, `ask`, where nothing was. `inputs` are the
     /// numbers that it is about, where these do not stand in slots.
-    pub(crate) fn replay(
+    pub(crate) fn replay<T: Again>(
         &self,
-        asked: Asked,
+        asked: &Asked,
         inputs: &[f64],
-        ask: impl Fn() -> Result<Answer<'a>>,
-    ) -> Result<Answer<'a>> {
+        ask: impl Fn() -> Result<T>,
+    ) -> Result<T> {
         let Some(routines) = &self.tables.routines else { return ask() };
         if self.is_recording() || self.nudged.get().is_some() || self.calls.get() > 0 {
             return ask();
         }
         let input = |k: u32| match asked {
             Asked::Run(_) | Asked::Look(_) => self.values.numbers[SlotId(k)],
-            Asked::Row(..) => inputs[k as usize],
+            Asked::Row(..) | Asked::Measures(..) => inputs[k as usize],
         };
         let may_note = {
             let mut known = routines.known.borrow_mut();
-            let routine = match known.get_mut(&asked) {
+            let routine = match known.get_mut(asked) {
                 Some(routine) => routine,
                 None => known.entry(asked.clone()).or_default(),
             };
             let is_other = |(slot, text): &(SlotId, Arc<str>)| {
-                self.values.texts.get(slot).is_none_or(|now| now != text)
+                self.values.texts.get(slot).map_or("", |now| now) != &**text
             };
             if routine.texts.iter().any(is_other) {
                 *routine = Routine::default();
@@ -125,7 +127,7 @@ impl<'a> Evaluator<'a> {
                 let outcome = outcome.clone();
                 routine.replayed = routine.replayed.saturating_add(1);
                 self.spend(&outcome);
-                return Ok(outcome.form.answer(registers));
+                return Ok(T::again(&outcome.form, registers));
             }
             routine.may_note()
         };
@@ -134,9 +136,9 @@ impl<'a> Evaluator<'a> {
         }
         let failed = match self.noted(&ask) {
             Ok(noted) => {
-                let answer = noted.outcome.form.answer(&noted.recorder.registers);
+                let answer = T::again(&noted.outcome.form, &noted.recorder.registers);
                 let mut known = routines.known.borrow_mut();
-                if let Some(routine) = known.get_mut(&asked) {
+                if let Some(routine) = known.get_mut(asked) {
                     let is_new = |t: &(SlotId, Arc<str>)| !routine.texts.contains(t);
                     let texts: Vec<_> = noted.texts.into_iter().filter(is_new).collect();
                     routine.texts.extend(texts);
@@ -147,11 +149,14 @@ impl<'a> Evaluator<'a> {
             }
             Err(why) => why,
         };
+        let faults = self.faults.borrow().len();
         let answer = ask();
-        if let Some(routine) = routines.known.borrow_mut().get_mut(&asked) {
+        let is_whole = self.faults.borrow().len() <= faults
+            && answer.as_ref().is_ok_and(|answer| answer.why_ended().is_none());
+        if let Some(routine) = routines.known.borrow_mut().get_mut(asked) {
             routine.noted += 1;
             // a run that the interpreter ends early, too, says nothing of others
-            if answer.as_ref().is_ok_and(|answer| why_ended(answer).is_none()) {
+            if is_whole {
                 routine.given_up = Some(failed);
             }
         }
@@ -180,7 +185,7 @@ impl<'a> Evaluator<'a> {
     ///
     /// # Errors
     /// Why that cannot be noted. Nothing is changed then.
-    fn noted(&self, ask: &impl Fn() -> Result<Answer<'a>>) -> std::result::Result<Noted, String> {
+    fn noted<T: Again>(&self, ask: &impl Fn() -> Result<T>) -> std::result::Result<Noted, String> {
         let counters = [&self.messages, &self.terms, &self.calls, &self.blocks, &self.entities];
         let before = counters.map(std::cell::Cell::get);
         let fuel = self.fuel.get();
@@ -193,9 +198,10 @@ impl<'a> Evaluator<'a> {
         let recording = self.recording.take().unwrap_or_default();
         self.runs.replace(runs);
         let entities = self.entities.get();
-        let used = fuel - self.fuel.get();
+        // what is several questions has fuel for each
+        let used = fuel.saturating_sub(self.fuel.get());
         let made = answer.map_err(|fault| fault.message).and_then(|answer| {
-            if let Some(why) = why_ended(&answer) {
+            if let Some(why) = answer.why_ended() {
                 return Err(why);
             }
             if let Some(fault) = self.faults.borrow().get(faults) {
@@ -204,7 +210,7 @@ impl<'a> Evaluator<'a> {
             if recording.recorder.is_full() {
                 return Err("a run is too long to be noted".into());
             }
-            Form::of(&answer)
+            answer.form()
         });
         match made {
             Ok(form) => {
@@ -306,8 +312,8 @@ impl<'a> Evaluator<'a> {
     }
 
     /// Notes a text that is read from a slot, while a run is being noted.
-    pub(crate) fn slot_text(&self, slot: SlotId, text: &Arc<str>) {
-        self.recorder(|r| r.texts.push((slot, text.clone())));
+    pub(crate) fn slot_text(&self, slot: SlotId, text: &str) {
+        self.recorder(|r| r.texts.push((slot, Arc::from(text))));
     }
 
     /// Returns the same values, their numbers marked while a run is being noted.
@@ -330,11 +336,76 @@ struct Noted {
     outcome: Outcome,
 }
 
-/// Says why an answer is not whole.
-fn why_ended(answer: &Answer<'_>) -> Option<String> {
-    match answer {
-        Answer::Context(run) => run.ended.as_ref().map(ToString::to_string),
-        _ => None,
+/// What a question is answered with, and can be made again of other numbers.
+pub(crate) trait Again: Sized {
+    /// Says why it is not whole.
+    fn why_ended(&self) -> Option<String>;
+    /// Reads it, its numbers marked.
+    ///
+    /// # Errors
+    /// What cannot be made again, in words.
+    fn form(&self) -> std::result::Result<Form, String>;
+    /// Makes it of the numbers in registers.
+    fn again(form: &Form, registers: &[f64]) -> Self;
+}
+
+impl Again for Answer<'_> {
+    fn why_ended(&self) -> Option<String> {
+        match self {
+            Answer::Context(run) => run.ended.as_ref().map(ToString::to_string),
+            _ => None,
+        }
+    }
+    fn form(&self) -> std::result::Result<Form, String> {
+        Form::of(self)
+    }
+    fn again(form: &Form, registers: &[f64]) -> Self {
+        form.answer(registers)
+    }
+}
+
+/// Numbers, each with what it is called.
+#[derive(Clone, PartialEq, Debug, Default)]
+pub struct Measures {
+    names: Rc<[String]>,
+    numbers: Vec<f64>,
+}
+
+impl Measures {
+    /// Returns each name with its number, in order.
+    pub fn iter(&self) -> impl Iterator<Item = (&str, f64)> {
+        self.names.iter().map(String::as_str).zip(self.numbers.iter().copied())
+    }
+    /// Returns how many there are.
+    pub fn len(&self) -> usize {
+        self.numbers.len()
+    }
+    /// Returns true if there are none.
+    pub fn is_empty(&self) -> bool {
+        self.numbers.is_empty()
+    }
+}
+
+impl FromIterator<(String, f64)> for Measures {
+    fn from_iter<I: IntoIterator<Item = (String, f64)>>(all: I) -> Self {
+        let (names, numbers): (Vec<String>, Vec<f64>) = all.into_iter().unzip();
+        Self { names: names.into(), numbers }
+    }
+}
+
+impl Again for Option<Measures> {
+    fn why_ended(&self) -> Option<String> {
+        self.is_none().then(|| "nothing is measured".into())
+    }
+    fn form(&self) -> std::result::Result<Form, String> {
+        match self {
+            Some(Measures { names, numbers }) => Ok(Form::of_numbers(names.clone(), numbers)),
+            None => Err("nothing is measured".into()),
+        }
+    }
+    fn again(form: &Form, registers: &[f64]) -> Self {
+        let (names, numbers) = form.numbers(registers);
+        Some(Measures { names, numbers })
     }
 }
 
@@ -367,6 +438,12 @@ impl Row {
     pub(crate) fn of(answer: &Answer<'_>, inputs: &mut Vec<f64>) -> Option<Self> {
         let mut row = Self::default();
         row.read(answer, inputs).then_some(row)
+    }
+
+    /// Returns the same, asked for something.
+    pub(crate) fn asked(mut self, what: &str) -> Self {
+        self.texts.push(Arc::from(what));
+        self
     }
 
     fn read(&mut self, answer: &Answer<'_>, inputs: &mut Vec<f64>) -> bool {

@@ -73,8 +73,10 @@ impl Moved {
     }
     /// Adds another's.
     pub fn extend(&mut self, other: Moved) {
-        self.elements.extend(other.elements);
-        self.grips.extend(other.grips);
+        if !other.is_within(self) {
+            self.elements.extend(other.elements);
+            self.grips.extend(other.grips);
+        }
     }
     /// How many there are.
     pub fn len(&self) -> usize {
@@ -143,7 +145,8 @@ impl Evaluator<'_> {
         let mut moved = Moved::default();
         let stale: BTreeSet<u32> =
             changed.iter().flat_map(|&slot| &scene.readers[slot]).copied().collect();
-        let mut times: BTreeMap<u32, u32> = BTreeMap::new();
+        let mut times = vec![0; scene.times.len()];
+        let mut elements = Vec::new();
         for &number in &stale {
             self.begin();
             let source = &scene.sources[number as usize];
@@ -167,21 +170,22 @@ impl Evaluator<'_> {
                     return None;
                 }
                 element.tag = before.tag;
-                let times = times.entry(at).or_default();
+                let times = &mut times[at as usize];
                 *times += 1;
                 if *before != element {
                     if *times > 1 {
                         return None;
                     }
-                    moved.elements.insert(at);
+                    elements.push(at);
                     *before = element;
                 }
             }
         }
         // what several draw alike has to stay alike
-        if moved.elements.iter().any(|at| times.get(at) != Some(&scene.times[*at as usize])) {
+        if elements.iter().any(|&at| times[at as usize] != scene.times[at as usize]) {
             return None;
         }
+        moved.elements = elements.into_iter().collect();
         let grips = changed.iter().flat_map(|&slot| &scene.coordinates[slot]);
         for &at in grips {
             let number = |slot: SlotId| self.values.numbers[slot];
@@ -265,7 +269,7 @@ impl Evaluator<'_> {
             None => {
                 let look = || self.send(&to, &self.tables.picture, Vec::new(), None, thing);
                 match self.document.program(self.structure.things[thing].class) {
-                    Some(_) => self.replay(Asked::Look(thing), &[], look),
+                    Some(_) => self.replay(&Asked::Look(thing), &[], look),
                     None => look(),
                 }
             }

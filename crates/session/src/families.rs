@@ -19,7 +19,7 @@ use crate::views::drawn::walk;
 use crate::words;
 use base::Name;
 use drawing::{Drawing, Tag, Vertical, dxf, svg};
-use eval::{Answer, Context, Evaluator, Standing, Why};
+use eval::{Answer, Context, Evaluator, Measures, Standing, Why};
 use kernel::{ClassId, ClassKind, DOCUMENT, Document, Literal, Primitive, Term};
 use lang::{Family, Wanted};
 use std::collections::BTreeMap;
@@ -349,8 +349,21 @@ pub(crate) fn draw(
         outcome.message = fault.clone();
         return Ok(outcome);
     }
-    let run = run_of((state, &evaluator), class_of_rows(program, family), &row.values)?;
+    let class = class_of_rows(program, family);
     let rules = family.map_or(&[][..], |family| &family.rules);
+    if !formats.svg && !formats.dxf {
+        let values = values_of(state, class, &row.values);
+        let measured = evaluator.measure_with(name, class, values, |run| {
+            let is_member = ended(&evaluator, rules, run).is_none();
+            is_member.then(|| measures(document, &Answer::Context(run.clone())))
+        });
+        if let Some(measures) = measured.map_err(|f| words::refuse(f.message))? {
+            outcome.outcome = "drawn".into();
+            outcome.measures = measures;
+            return Ok(outcome);
+        }
+    }
+    let run = run_of((state, &evaluator), class, &row.values)?;
     if let Some((ended, step, message)) = ended(&evaluator, rules, &run) {
         outcome.outcome = ended.into();
         outcome.step = step;
@@ -360,9 +373,6 @@ pub(crate) fn draw(
     outcome.outcome = "drawn".into();
     let run = Answer::Context(run);
     outcome.measures = measures(document, &run);
-    if !formats.svg && !formats.dxf {
-        return Ok(outcome);
-    }
     let vertical = match document.vertical {
         kernel::Vertical::Up => Vertical::Up,
         kernel::Vertical::Down => Vertical::Down,
@@ -399,14 +409,23 @@ fn run_of<'a>(
     program: ClassId,
     values: &[(String, Literal)],
 ) -> Result<Rc<Context<'a>>, Refusal> {
+    let values = values_of(state, program, values);
+    evaluator.run_with(program, values).map_err(|f| words::refuse(f.message))
+}
+
+/// Returns the values of a row as those of a program's parameters.
+fn values_of<'a>(
+    state: &'a State,
+    program: ClassId,
+    values: &[(String, Literal)],
+) -> Vec<(&'a Name, Answer<'a>)> {
     let document = &state.lowered.document;
     let fields = document.layout(program);
     let value = |(name, literal): &(String, Literal)| {
         let field = *fields.iter().find(|&&f| *document.field_name(f) == **name)?;
         Some((document.field_name(field), answer(document, document.field_class(field), literal)))
     };
-    let values = values.iter().filter_map(value).collect();
-    evaluator.run_with(program, values).map_err(|f| words::refuse(f.message))
+    values.iter().filter_map(value).collect()
 }
 
 /// Says why a run is no member of a family with these rules: what it is called, the step or the rule, and the words.
@@ -509,7 +528,7 @@ fn answer<'d>(document: &Document, class: ClassId, literal: &Literal) -> Answer<
 }
 
 /// Collects the numbers of what was drawn, by their paths.
-fn measures(document: &Document, run: &Answer<'_>) -> Vec<(String, f64)> {
+fn measures(document: &Document, run: &Answer<'_>) -> Measures {
     let mut found = Vec::new();
     walk(document, (run, Standing::Result), &mut String::new(), &mut |answer, _, path| {
         let is_room = found.len() < MOST_MEASURES;
@@ -518,5 +537,5 @@ fn measures(document: &Document, run: &Answer<'_>) -> Vec<(String, f64)> {
         }
         is_room
     });
-    found
+    found.into_iter().collect()
 }

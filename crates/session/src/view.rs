@@ -637,9 +637,14 @@ pub struct RowOutcome {
     /// What was found and what was wanted.
     pub message: String,
     /// The numbers of what was drawn, by their paths.
-    pub measures: Vec<(String, f64)>,
+    #[serde(serialize_with = "pairs")]
+    pub measures: eval::Measures,
     /// The drawing at scale, as SVG, where that was asked for.
     pub svg: String,
     /// The drawing in millimetres, as DXF, where that was asked for.
     pub dxf: String,
+}
+
+fn pairs<S: serde::Serializer>(measures: &eval::Measures, to: S) -> Result<S::Ok, S::Error> {
+    to.collect_seq(measures.iter())
 }

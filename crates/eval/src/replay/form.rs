@@ -15,6 +15,8 @@ use std::sync::Arc;
 #[derive(Debug, Default)]
 pub(crate) struct Form {
     nodes: Vec<Node>,
+    /// What numbers are called, where they are all that it is made of.
+    names: Rc<[String]>,
 }
 
 #[derive(Debug)]
@@ -47,6 +49,25 @@ impl Form {
         let mut reading = Reading { form: Self::default(), known: BTreeMap::new() };
         reading.node(answer)?;
         Ok(reading.form)
+    }
+
+    /// Reads numbers that are marked, with what they are called.
+    pub(crate) fn of_numbers(names: Rc<[String]>, numbers: &[f64]) -> Self {
+        let node = |&x: &f64| match place_of(x) {
+            Some(place) => Node::Number(place, Dimension::NONE),
+            None => Node::Fixed(x, Dimension::NONE),
+        };
+        Self { nodes: numbers.iter().map(node).collect(), names }
+    }
+
+    /// Makes the numbers of those in registers, with what they are called.
+    pub(crate) fn numbers(&self, registers: &[f64]) -> (Rc<[String]>, Vec<f64>) {
+        let number = |node: &Node| match node {
+            Node::Number(place, _) => registers[*place as usize],
+            Node::Fixed(x, _) => *x,
+            _ => f64::NAN,
+        };
+        (self.names.clone(), self.nodes.iter().map(number).collect())
     }
 
     /// Makes the answer of the numbers in registers.

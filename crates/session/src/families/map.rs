@@ -1,11 +1,12 @@
 //! The map of a program: over a lattice of values of two parameters, where it draws and why not elsewhere.
 
 use super::grid::{class_of, written};
-use super::{ended, find, literal, names_in, run_of};
+use super::{ended, find, literal, names_in, run_of, values_of};
 use crate::state::State;
 use crate::view::{FamilyAxis, FamilyMap, MapAxis, MapReason, Refusal};
 use crate::words;
 use base::Name;
+use eval::Measures;
 use kernel::{ClassId, ClassKind, Literal, Primitive, Term};
 
 /// So many values an axis has.
@@ -110,11 +111,21 @@ pub(crate) fn map(
         .cloned()
         .collect();
     let mut made = FamilyMap { across: across_axis, up: up_axis, ..FamilyMap::default() };
+    let what = format!("map of {name}");
     for y in &up_numbers {
         for x in &across_numbers {
             let mut row = others.clone();
             row.push((across.parameter.clone(), Literal::Number(*x)));
             row.push((up.parameter.clone(), Literal::Number(*y)));
+            let values = values_of(state, program, &row);
+            let drawn = evaluator.measure_with(&what, program, values, |run| {
+                let is_in = ended(&evaluator, rules.iter().copied(), run).is_none();
+                is_in.then(Measures::default)
+            });
+            if drawn.map_err(|f| words::refuse(f.message))?.is_some() {
+                made.places.push(None);
+                continue;
+            }
             let run = run_of((state, &evaluator), program, &row)?;
             let why =
                 ended(&evaluator, rules.iter().copied(), &run).map(|(outcome, step, message)| {
