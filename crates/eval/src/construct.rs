@@ -5,7 +5,7 @@ use crate::evaluator::{Evaluator, Given, Result};
 use crate::fault::Fault;
 use base::Name;
 use expr::dimension::Dimension;
-use geometry::{Bend, Construction, Figure, Made, Surface, combine, offset};
+use geometry::{Bend, Combination, Construction, Figure, Made, Surface, combine, offset};
 use kernel::builtin::Making;
 use kernel::{ClassId, ClassKind, ThingId};
 use std::rc::Rc;
@@ -21,8 +21,8 @@ impl<'a> Evaluator<'a> {
     ) -> Result<Answer<'a>> {
         let combined = |how| match of {
             [first, second] => {
-                let (first, second) =
-                    (self.surfaces(first, nearest)?, self.surfaces(second, nearest)?);
+                let covered = |of| self.covered(of, class, nearest);
+                let (first, second) = (covered(first)?, covered(second)?);
                 self.burn_for(first.iter().chain(&second))?;
                 combine(how, &first, &second).map_err(|why| self.no_such(class, why.words()))
             }
@@ -30,7 +30,7 @@ impl<'a> Evaluator<'a> {
         };
         let widened = || match of {
             [region, distance] => {
-                let region = self.surfaces(region, nearest)?;
+                let region = self.covered(region, class, nearest)?;
                 self.burn_for(&region)?;
                 offset(&region, self.number(distance)?.0)
                     .map_err(|why| self.no_such(class, why.words()))
@@ -137,7 +137,26 @@ impl<'a> Evaluator<'a> {
         self.burn_several(1 + edges.saturating_mul(edges) / PAIRS)
     }
 
-    /// Reads what covers a part of the plane: a contour, a surface, a region, or a list of these.
+    /// Reads what covers a part of the plane; of several in a list, or drawn by a program, what they cover together.
+    fn covered(&self, of: &Answer<'a>, class: ClassId, nearest: ThingId) -> Result<Vec<Surface>> {
+        if !matches!(of, Answer::List(_) | Answer::Context(_)) {
+            return self.surfaces(of, nearest);
+        }
+        let mut all: Vec<Surface> = Vec::new();
+        for item in self.items(of)?.iter() {
+            let more = self.deeper(|| self.covered(item, class, nearest))?;
+            if all.is_empty() {
+                all = more;
+                continue;
+            }
+            self.burn_for(all.iter().chain(&more))?;
+            let joined = combine(Combination::Union, &all, &more);
+            all = joined.map_err(|why| self.no_such(class, why.words()))?;
+        }
+        Ok(all)
+    }
+
+    /// Reads what covers a part of the plane: a contour, a surface, a region, or a list of what does not overlap.
     fn surfaces(&self, of: &Answer<'a>, nearest: ThingId) -> Result<Vec<Surface>> {
         if let Answer::List(items) = of {
             let each = items.iter().map(|i| self.deeper(|| self.surfaces(i, nearest)));

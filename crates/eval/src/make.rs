@@ -136,6 +136,10 @@ impl<'a> Evaluator<'a> {
         nearest: ThingId,
     ) -> Result<Answer<'a>> {
         match (&answer, &self.document.classes[class].kind) {
+            // several stand where one of a class without parts is wanted: what covers together
+            (Answer::List(_), ClassKind::Composite) if self.layout(class).fields.is_empty() => {
+                Ok(answer)
+            }
             (Answer::List(items), ClassKind::Composite) => {
                 let arguments: Vec<Given<'a>> = items.iter().map(|a| (None, a.clone())).collect();
                 self.make(class, &arguments, nearest)

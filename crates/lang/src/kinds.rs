@@ -100,7 +100,12 @@ impl Kind {
             | (Self::List(element), Self::Tuple(items)) => {
                 items.iter().all(|item| item.fits(element, document))
             }
-            (Self::Thing(a), Self::Thing(b)) => are_alike(document, *a, *b),
+            (Self::Thing(a), Self::Thing(b)) => {
+                are_alike(document, *a, *b) || covers(document, *b) && is_drawn(document, *a)
+            }
+            (Self::List(element), Self::Thing(class)) if covers(document, *class) => {
+                element.fits(wanted, document)
+            }
             (Self::List(a), Self::List(b)) => a.fits(b, document),
             _ => self == wanted,
         }
@@ -230,4 +235,15 @@ pub(crate) fn measured(document: &Document, term: Term, kind: &Kind, wanted: &Ki
         }
         (term, _, _) => term,
     }
+}
+
+/// Returns true for a class whose things cover a part of the plane: several cover one together.
+fn covers(document: &Document, class: ClassId) -> bool {
+    document.find_message(class, "covered", None).is_some()
+}
+
+/// Returns true for a program, and for the turns of a block of one: what they draw may cover something.
+fn is_drawn(document: &Document, class: ClassId) -> bool {
+    let class = &document.classes[class];
+    class.program.is_some() || class.messages.iter().any(|m| matches!(m.answer, Term::Step(_)))
 }
