@@ -63,6 +63,8 @@ pub struct Evaluator<'a> {
     pub(crate) compared: RefCell<Compared>,
     /// What programs of things drew in this state; nothing while one is being run.
     pub(crate) runs: RefCell<BTreeMap<ThingId, Option<Rc<Context<'a>>>>>,
+    /// Of each program that is being drawn what its names stand for so far.
+    pub(crate) drawing: RefCell<Vec<Frame<'a>>>,
     /// The run that is being noted.
     pub(crate) recording: RefCell<Option<Recording>>,
     /// How many programs call each other just now.
@@ -118,6 +120,7 @@ impl<'a> Evaluator<'a> {
             nudged: Cell::new(None),
             compared: RefCell::default(),
             runs: RefCell::default(),
+            drawing: RefCell::default(),
             recording: RefCell::default(),
             calls: Cell::new(0),
             blocks: Cell::new(0),

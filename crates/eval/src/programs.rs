@@ -284,6 +284,7 @@ impl<'a> Evaluator<'a> {
         let given = self.fuel.get();
         self.calls.set(calls + 1);
         let frame = Frame::sent(of.clone(), nearest);
+        self.drawing.borrow_mut().push(frame.clone());
         let mut making = Making { frame, made: Vec::new(), erased: Vec::new() };
         let mut run = Run { evaluator: self, way: Vec::new() };
         let outcome = match calls < DEEPEST_CALLS {
@@ -299,6 +300,7 @@ impl<'a> Evaluator<'a> {
                 origin: self.document.classes[class].origin,
             }),
         };
+        self.drawing.borrow_mut().pop();
         self.calls.set(calls);
         if calls == 0 {
             self.fuel.set(fuel - (given - self.fuel.get()));
@@ -313,6 +315,9 @@ impl<'a> Evaluator<'a> {
         name: &Name,
         nearest: ThingId,
     ) -> Result<Answer<'a>> {
+        if let Some(made) = self.made_so_far(me, name) {
+            return made;
+        }
         let context = self.context(me, nearest)?;
         match (context.step(name), &context.ended) {
             (Some(answer), _) => Ok(answer.clone()),
@@ -321,6 +326,19 @@ impl<'a> Evaluator<'a> {
                 Err(Fault::no_answer(format!("`{name}` was not made: another branch ran")))
             }
         }
+    }
+
+    /// Returns what a step made, where the program that has it is being drawn and asks itself: by a message of its own.
+    fn made_so_far(&self, me: &Answer<'a>, name: &Name) -> Option<Result<Answer<'a>>> {
+        let drawing = self.drawing.borrow();
+        let frame = drawing.last()?;
+        let is_it = match (&frame.me, me) {
+            (Answer::Thing(a), Answer::Thing(b)) => a == b,
+            (Answer::Made(a), Answer::Made(b)) => Rc::ptr_eq(a, b),
+            _ => false,
+        };
+        let missing = || Fault::no_answer(format!("`{name}` is not made yet"));
+        is_it.then(|| frame.local(name).cloned().ok_or_else(missing))
     }
 
     /// Returns what a thing's program drew, as a list. That it ended early is noted.
@@ -463,6 +481,11 @@ impl<'a> Run<'_, 'a> {
     }
 
     fn step(&mut self, step: &'a Step, making: &mut Making<'a>) -> std::result::Result<(), Ended> {
+        if self.way.is_empty()
+            && let Some(so_far) = self.evaluator.drawing.borrow_mut().last_mut()
+        {
+            *so_far = making.frame.clone();
+        }
         let burnt = self.evaluator.burn();
         burnt.map_err(|fault| self.ended(step, &making.frame, None, fault))?;
         match &step.says {

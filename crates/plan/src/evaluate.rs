@@ -45,6 +45,8 @@ pub(crate) struct Opening<'a> {
     pub(crate) at: Option<&'a Values>,
     /// What programs of things draw, as far as the rule at hand asked; nothing while that is being found.
     pub(crate) drawn: BTreeMap<ThingId, Option<Rc<Drawn<'a>>>>,
+    /// Of each program that is being opened what its names stand for so far.
+    pub(crate) opened: Vec<Frame<'a>>,
     /// What was decided on the way.
     pub(crate) decisions: Vec<Decision>,
     /// True once a rule spoke of what a program draws.
@@ -77,6 +79,7 @@ impl<'a> Opening<'a> {
             arena: Arena::new(),
             at: None,
             drawn: BTreeMap::new(),
+            opened: Vec::new(),
             decisions: Vec::new(),
             meets_programs: false,
             depth: 0,
@@ -265,6 +268,7 @@ impl<'a> Opening<'a> {
         self.reach.begin(owner);
         self.arena = Arena::for_nodes(NODES);
         self.drawn.clear();
+        self.opened.clear();
         self.decisions.clear();
         self.terms = 0;
         self.depth = 0;

@@ -35,11 +35,23 @@ struct Making<'a> {
 impl<'a> Opening<'a> {
     /// Returns what a step of a thing's program makes.
     pub(crate) fn step(&mut self, me: &Meaning<'a>, name: &Name) -> Answer<'a> {
+        if let Some(made) = self.made_so_far(me, name) {
+            return Ok(made);
+        }
         let Some(drawn) = self.drawn_of(me)? else { return Ok(self.opaque([me])) };
         match drawn.step(name) {
             Some(meaning) => Ok(meaning.clone()),
             None if drawn.is_cut => Ok(self.opaque([me])),
             None => Err(self.missing_step(&drawn, name)),
+        }
+    }
+
+    /// Returns what a step makes, where the program that has it is being opened and asks itself: by a message of its own.
+    fn made_so_far(&self, me: &Meaning<'a>, name: &Name) -> Option<Meaning<'a>> {
+        let frame = self.opened.last()?;
+        match (&frame.me, me) {
+            (Meaning::Made(a), Meaning::Made(b)) if Rc::ptr_eq(a, b) => frame.local(name),
+            _ => None,
         }
     }
 
@@ -153,10 +165,12 @@ impl<'a> Opening<'a> {
         self.deeper(|opening| {
             let mut run = Run { of, way: Vec::new() };
             let frame = Frame::new(me.clone());
+            opening.opened.push(frame.clone());
             let mut making = Making { frame, made: Vec::new(), erased: Vec::new() };
             // what was drawn before a step without an outcome stands
             let ended = run.demands(opening, program, &making.frame);
             let ended = ended.and_then(|()| run.steps(opening, &program.body, &mut making));
+            opening.opened.pop();
             let drawn = Drawn { class, of: Some(me), made: making.made, is_cut: ended.is_err() };
             Ok(Some(Rc::new(drawn)))
         })
@@ -265,6 +279,11 @@ impl<'a> Run<'a> {
         step: &'a Step,
         making: &mut Making<'a>,
     ) -> Result<(), Trouble> {
+        if self.way.is_empty()
+            && let Some(so_far) = opening.opened.last_mut()
+        {
+            *so_far = making.frame.clone();
+        }
         opening.count_term()?;
         if opening.arena.len() > MOST_NODES {
             return Err(Trouble::not_yet(format!("more than {MOST_NODES} terms are one way")));
