@@ -59,6 +59,9 @@ pub(crate) fn table(out: &mut impl Write, filter: &str) -> std::io::Result<()> {
                 Ok(micros) => {
                     let (family, many) = (family.name, micros * MANY / 1e6);
                     writeln!(out, "{family:16} {micros:9.1} µs a row, {many:7.2} s for 10 000")?;
+                    if let Some(why) = session.why_interpreted(id, &family) {
+                        writeln!(out, "{:16} by the interpreter: {why}", "")?;
+                    }
                 }
                 Err(refusal) => writeln!(out, "{:16} {}", family.name, refusal.message)?,
             }

@@ -400,6 +400,15 @@ pub(crate) fn draw(
     Ok(outcome)
 }
 
+/// Says why runs of a program are not drawn again as they were drawn before.
+pub(crate) fn why_interpreted(state: &State, name: &str) -> Option<String> {
+    let (program, family) = find(state, name).ok()?;
+    let evaluator = state.evaluator(&state.values);
+    evaluator
+        .why_interpreted(class_of_rows(program, family))
+        .or_else(|| evaluator.why_interpreted(program))
+}
+
 /// Runs a program for values of its parameters; those that are not said are its own example's.
 ///
 /// # Errors

@@ -540,6 +540,10 @@ impl Session {
     ) -> Result<RowOutcome, Refusal> {
         crate::families::draw(&self.document(id).state, name, row, formats)
     }
+    /// Says why runs of a program, or of a family's, are not drawn again as they were drawn before, as far as is known.
+    pub fn why_interpreted(&self, id: DocumentId, name: &str) -> Option<String> {
+        crate::families::why_interpreted(&self.document(id).state, name)
+    }
     /// Says of which things there is nothing in the picture, as their classes have none; nothing if all are there.
     pub fn unpictured(&self, id: DocumentId) -> Option<String> {
         let paths = views::picture::unpictured(&self.document(id).state, &self.picture(id));
